@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse {
+
+/// The record of one trial of T steps. An episode that ended early has fewer steps than the task's horizon.
+struct Episode {
+  Matrix states;       // (T+1) × dx, measured: what policies and data sets see
+  Matrix true_states;  // (T+1) × dx, noise-free where the plant knows it, else the measured ones
+  Matrix actions;      // T × du
+  Vector rewards;      // T; rewards(t) is that of the state reached, t+1
+  double charged = 0;  // reward floor charged for the steps that an early end left out
+  bool ended = false;  // by a fall
+
+  Index steps() const { return actions.rows(); }
+  double total_reward() const { return rewards.sum() + charged; }
+};
+
+/// What the models learn from: one row per observed step.
+struct Dataset {
+  Matrix states;   // n × dx
+  Matrix actions;  // n × du
+  Matrix changes;  // n × dx, next state − state
+
+  Index size() const { return states.rows(); }
+  void append(const Episode& episode);
+};
+
+}  // namespace rehearse

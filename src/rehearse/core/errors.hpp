@@ -1,0 +1,31 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace rehearse {
+
+/// Wrong input. The message holds every violation found, one a line: the name, the value and the bound.
+class InvalidInput : public std::runtime_error {
+ public:
+  explicit InvalidInput(const std::string& violation);
+  explicit InvalidInput(const std::vector<std::string>& violations);
+};
+
+/// Collects violations, so that all of them are reported at once.
+class Violations {
+ public:
+  void add(std::string violation) { list_.push_back(std::move(violation)); }
+  void require(bool holds, const std::string& violation) {
+    if (!holds) add(violation);
+  }
+  const std::vector<std::string>& list() const { return list_; }
+  bool empty() const { return list_.empty(); }
+  void throw_if_any() const;
+
+ private:
+  std::vector<std::string> list_;
+};
+
+}  // namespace rehearse

@@ -1,0 +1,64 @@
+#include "rehearse/core/evaluator.hpp"
+
+#include <exception>
+#include <vector>
+
+#include <tbb/blocked_range.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace rehearse {
+namespace {
+
+class SerialEvaluator final : public Evaluator {
+ public:
+  void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
+    for (Index i = 0; i < results.cols(); ++i) task(i, results.col(i));
+  }
+  int concurrency() const override { return 1; }
+};
+
+class ThreadEvaluator final : public Evaluator {
+ public:
+  explicit ThreadEvaluator(int threads) : arena_(threads) {}
+
+  void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
+    std::vector<std::exception_ptr> failures(static_cast<std::size_t>(results.cols()));
+    arena_.execute([&] {
+      tbb::parallel_for(
+          tbb::blocked_range<Index>(0, results.cols(), 1),
+          [&](const tbb::blocked_range<Index>& range) {
+            for (Index i = range.begin(); i < range.end(); ++i) {
+              try {
+                task(i, results.col(i));
+              } catch (...) {
+                failures[static_cast<std::size_t>(i)] = std::current_exception();
+              }
+            }
+          },
+          tbb::simple_partitioner());
+    });
+    for (const std::exception_ptr& failure : failures)
+      if (failure) std::rethrow_exception(failure);
+  }
+  int concurrency() const override { return arena_.max_concurrency(); }
+
+ private:
+  mutable tbb::task_arena arena_;
+};
+
+}  // namespace
+
+const Evaluator& serial_evaluator() {
+  static const SerialEvaluator evaluator;
+  return evaluator;
+}
+
+std::unique_ptr<Evaluator> make_thread_evaluator(int threads) {
+  if (threads == 0) threads = tbb::info::default_concurrency();
+  if (threads == 1) return std::make_unique<SerialEvaluator>();
+  return std::make_unique<ThreadEvaluator>(threads);
+}
+
+}  // namespace rehearse

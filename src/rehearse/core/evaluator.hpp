@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse {
+
+/// Spreads independent tasks over threads (or MPI ranks). Handed in from outside; rooms never start threads themselves.
+/// The results of a task must depend on its number alone: then they are the same for any number of workers.
+class Evaluator {
+ public:
+  virtual ~Evaluator() = default;
+
+  /// Calls task(i, results.col(i)) once for each column i and returns when every column is filled, here and on every
+  /// rank. The first exception of a task (in order of i) is thrown again here. May be called from within a task.
+  virtual void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const = 0;
+
+  /// How many tasks run at once; must not decide results.
+  virtual int concurrency() const = 0;
+};
+
+/// One after the other, on the calling thread.
+const Evaluator& serial_evaluator();
+
+/// On `threads` threads (≥ 1) of oneTBB; 0 means all cores.
+std::unique_ptr<Evaluator> make_thread_evaluator(int threads);
+
+}  // namespace rehearse

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse {
+
+/// How far a long computation is. Rooms emit these; only apps print them.
+struct Progress {
+  std::string phase;         // "model", "search"
+  double done = 0;           // fraction of the phase, 0..1
+  double best = 0;           // best predicted return so far
+  Index rollouts = 0;        // imagined so far in this phase
+  double rollouts_per_s = 0;
+};
+
+/// Receives progress on the learner's own thread; may throw Interrupted to stop at a safe point. Empty: nobody listens.
+using ProgressSink = std::function<void(const Progress&)>;
+
+/// Thrown out of a learner when its user asked to stop; everything told so far is kept.
+struct Interrupted {};
+
+}  // namespace rehearse

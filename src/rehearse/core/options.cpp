@@ -1,0 +1,151 @@
+#include "rehearse/core/options.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse {
+namespace {
+
+std::string violation(const std::string& name, double value, const Bound& bound) {
+  const bool low_ok = bound.low_open ? value > bound.low : value >= bound.low;
+  if (low_ok && value <= bound.high) return {};  // NaN fails both
+  std::string line = fmt::format("{} = {}, must be ", name, to_text(value));
+  if (std::isfinite(bound.low) && std::isfinite(bound.high))
+    return line + fmt::format("between {} and {}", to_text(bound.low), to_text(bound.high));
+  if (std::isfinite(bound.high)) return line + fmt::format("≤ {}", to_text(bound.high));
+  if (std::isfinite(bound.low)) return line + fmt::format("{} {}", bound.low_open ? ">" : "≥", to_text(bound.low));
+  return line + "a number";
+}
+
+class Lister final : public FieldVisitor {
+ public:
+  std::vector<std::pair<std::string, std::string>> fields;
+
+ protected:
+  void visit(const std::string& name, double& value, Bound) override { fields.emplace_back(name, to_text(value)); }
+  void visit(const std::string& name, Index& value, Bound) override { fields.emplace_back(name, fmt::to_string(value)); }
+  void visit(const std::string& name, bool& value) override { fields.emplace_back(name, value ? "true" : "false"); }
+  void visit(const std::string& name, int& value, const std::vector<std::string>& names) override {
+    fields.emplace_back(name, names.at(static_cast<std::size_t>(value)));
+  }
+};
+
+class Checker final : public FieldVisitor {
+ public:
+  std::vector<std::string> violations;
+
+ protected:
+  void visit(const std::string& name, double& value, Bound bound) override { add(violation(name, value, bound)); }
+  void visit(const std::string& name, Index& value, Bound bound) override {
+    add(violation(name, static_cast<double>(value), bound));
+  }
+  void visit(const std::string&, bool&) override {}
+  void visit(const std::string&, int&, const std::vector<std::string>&) override {}
+
+ private:
+  void add(std::string line) {
+    if (!line.empty()) violations.push_back(std::move(line));
+  }
+};
+
+class Setter final : public FieldVisitor {
+ public:
+  Setter(std::string_view name, std::string_view text) : name_(name), text_(text) {}
+  bool found = false;
+
+ protected:
+  void visit(const std::string& name, double& value, Bound bound) override {
+    if (!match(name)) return;
+    double parsed = 0;
+    if (!from_text(text_, parsed)) wrong("a number");
+    check(violation(name, parsed, bound));
+    value = parsed;
+  }
+  void visit(const std::string& name, Index& value, Bound bound) override {
+    if (!match(name)) return;
+    Index parsed = 0;
+    const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), parsed);
+    if (error != std::errc{} || end != text_.data() + text_.size()) wrong("a whole number");
+    check(violation(name, static_cast<double>(parsed), bound));
+    value = parsed;
+  }
+  void visit(const std::string& name, bool& value) override {
+    if (!match(name)) return;
+    if (text_ != "true" && text_ != "false") wrong("true or false");
+    value = text_ == "true";
+  }
+  void visit(const std::string& name, int& value, const std::vector<std::string>& names) override {
+    if (!match(name)) return;
+    const auto found_name = std::find(names.begin(), names.end(), text_);
+    if (found_name == names.end()) wrong(fmt::format("one of {}", fmt::join(names, ", ")));
+    value = static_cast<int>(found_name - names.begin());
+  }
+
+ private:
+  bool match(const std::string& name) { return name == name_ && (found = true); }
+  void check(const std::string& line) const {
+    if (!line.empty()) throw InvalidInput(line);
+  }
+  [[noreturn]] void wrong(const std::string& expected) const {
+    throw InvalidInput(fmt::format("{} = {}, must be {}", name_, text_, expected));
+  }
+  std::string_view name_, text_;
+};
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> list_fields(const Fields& fields) {
+  Lister lister;
+  fields(lister);
+  return std::move(lister.fields);
+}
+
+bool set_field(const Fields& fields, std::string_view name, std::string_view text) {
+  Setter setter(name, text);
+  fields(setter);
+  return setter.found;
+}
+
+std::vector<std::string> field_violations(const Fields& fields) {
+  Checker checker;
+  fields(checker);
+  return std::move(checker.violations);
+}
+
+std::string closest(std::string_view name, const std::vector<std::string>& names) {
+  const auto best = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
+    return edit_distance(name, a) < edit_distance(name, b);
+  });
+  return best == names.end() ? std::string{} : *best;
+}
+
+std::string to_text(double value) { return fmt::format("{}", value); }
+
+bool from_text(std::string_view text, double& value) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+}  // namespace rehearse

@@ -1,0 +1,91 @@
+#pragma once
+// Options are plain structs that name their own fields, once, for everything that needs names: --set, spec.toml,
+// validation and help.
+//
+//   struct SubplexOptions {
+//     Index max_evaluations = 1000;  // Chatzilygeroudis 2018
+//     void fields(FieldVisitor& v) { v.integer("max_evaluations", max_evaluations, at_least(1)); }
+//   };
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse {
+
+/// The values a number may take.
+struct Bound {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;  // low itself is not allowed
+};
+inline Bound any_value() { return {}; }
+inline Bound at_least(double low) { return {.low = low}; }
+inline Bound above(double low) { return {.low = low, .low_open = true}; }
+inline Bound between(double low, double high) { return {.low = low, .high = high}; }
+
+/// Is shown the fields of an options struct, one after the other. Names are joined with dots by `group`.
+class FieldVisitor {
+ public:
+  virtual ~FieldVisitor() = default;
+
+  void number(std::string_view name, double& value, Bound bound = {}) { visit(full(name), value, bound); }
+  void integer(std::string_view name, Index& value, Bound bound = {}) { visit(full(name), value, bound); }
+  void boolean(std::string_view name, bool& value) { visit(full(name), value); }
+
+  /// An enumeration whose values 0, 1, … are called `names`.
+  template <class Enum>
+  void choice(std::string_view name, Enum& value, const std::vector<std::string>& names) {
+    int index = static_cast<int>(value);
+    visit(full(name), index, names);
+    value = static_cast<Enum>(index);
+  }
+
+  /// The fields of a nested options struct, as "name.field".
+  template <class Options>
+  void group(std::string_view name, Options& options) {
+    const std::string outer = prefix_;
+    prefix_ += std::string(name) + ".";
+    options.fields(*this);
+    prefix_ = outer;
+  }
+
+ protected:
+  virtual void visit(const std::string& name, double& value, Bound bound) = 0;
+  virtual void visit(const std::string& name, Index& value, Bound bound) = 0;
+  virtual void visit(const std::string& name, bool& value) = 0;
+  virtual void visit(const std::string& name, int& value, const std::vector<std::string>& names) = 0;
+
+ private:
+  std::string full(std::string_view name) const { return prefix_ + std::string(name); }
+  std::string prefix_;
+};
+
+/// Anything with fields: `[&](FieldVisitor& v) { v.group("search", search); }`.
+using Fields = std::function<void(FieldVisitor&)>;
+
+/// Every field with its value as text that `set_field` reads back exactly, in order of declaration.
+std::vector<std::pair<std::string, std::string>> list_fields(const Fields& fields);
+
+/// Sets one field from text. Returns false if there is no field of that name.
+/// Throws InvalidInput if the text is no such value or violates the bound ("cmaes.population = 0, must be ≥ 4").
+bool set_field(const Fields& fields, std::string_view name, std::string_view text);
+
+/// A line for every field that violates its bound.
+std::vector<std::string> field_violations(const Fields& fields);
+
+/// Of the names, those most like `name`, for "did you mean".
+std::string closest(std::string_view name, const std::vector<std::string>& names);
+
+/// The shortest text that reads back as the same double.
+std::string to_text(double value);
+
+/// Reads a whole text as a double. Returns false if it is not one.
+bool from_text(std::string_view text, double& value);
+
+}  // namespace rehearse

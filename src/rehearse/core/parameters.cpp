@@ -1,0 +1,92 @@
+#include "rehearse/core/parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/options.hpp"
+
+namespace rehearse {
+namespace {
+
+std::string violation(const Parameter& p, double value) {
+  if (!std::isfinite(value)) return fmt::format("{} = {}, must be finite", p.name, to_text(value));
+  if (p.kind == Parameter::Kind::continuous && (value < p.box.low || value > p.box.high))
+    return fmt::format("{} = {}, must be between {} and {}", p.name, to_text(value), to_text(p.box.low),
+                       to_text(p.box.high));
+  if (p.kind == Parameter::Kind::discrete && std::find(p.choices.begin(), p.choices.end(), value) == p.choices.end())
+    return fmt::format("{} = {}, must be one of {}", p.name, to_text(value), fmt::join(p.choices, ", "));
+  return {};
+}
+
+}  // namespace
+
+ParameterSpace::ParameterSpace(std::vector<Parameter> parameters) : parameters_(std::move(parameters)) {
+  Violations violations;
+  for (Index i = 0; i < size(); ++i) {
+    const Parameter& p = (*this)[i];
+    violations.require(!p.name.empty(), fmt::format("parameter {} has no name", i));
+    violations.require(find(p.name) == i, fmt::format("parameter {} appears twice", p.name));
+    if (p.kind == Parameter::Kind::continuous)
+      violations.require(std::isfinite(p.box.low) && std::isfinite(p.box.high) && p.box.low < p.box.high,
+                         fmt::format("parameter {} needs a finite box with low < high", p.name));
+    if (p.kind == Parameter::Kind::discrete)
+      violations.require(!p.choices.empty(), fmt::format("parameter {} has no choices", p.name));
+    const std::string line = violation(p, p.value);
+    violations.require(line.empty(), line);
+  }
+  violations.throw_if_any();
+}
+
+Vector ParameterSpace::values() const {
+  Vector phi(size());
+  for (Index i = 0; i < size(); ++i) phi(i) = (*this)[i].value;
+  return phi;
+}
+
+Index ParameterSpace::find(std::string_view name) const {
+  for (Index i = 0; i < size(); ++i)
+    if ((*this)[i].name == name) return i;
+  return -1;
+}
+
+std::vector<std::string> ParameterSpace::names() const {
+  std::vector<std::string> names;
+  for (const Parameter& p : parameters_) names.push_back(p.name);
+  return names;
+}
+
+std::vector<Index> ParameterSpace::of_kind(Parameter::Kind kind) const {
+  std::vector<Index> indices;
+  for (Index i = 0; i < size(); ++i)
+    if ((*this)[i].kind == kind) indices.push_back(i);
+  return indices;
+}
+
+bool ParameterSpace::has_tunable() const {
+  return std::any_of(parameters_.begin(), parameters_.end(), [](const Parameter& p) { return p.tunable(); });
+}
+
+void ParameterSpace::set_value(std::string_view name, double value) {
+  const Index i = find(name);
+  if (i < 0)
+    throw InvalidInput(fmt::format("unknown parameter '{}', did you mean '{}'? (known: {})", name,
+                                   closest(name, names()), fmt::join(names(), ", ")));
+  const std::string line = violation((*this)[i], value);
+  if (!line.empty()) throw InvalidInput(line);
+  parameters_[static_cast<std::size_t>(i)].value = value;
+}
+
+ParameterSpace ParameterSpace::fixed_at(const Vector& phi) const {
+  std::vector<Parameter> fixed = parameters_;
+  for (Index i = 0; i < size(); ++i) {
+    fixed[static_cast<std::size_t>(i)].kind = Parameter::Kind::fixed;
+    fixed[static_cast<std::size_t>(i)].value = phi(i);
+  }
+  return ParameterSpace(std::move(fixed));
+}
+
+}  // namespace rehearse

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/core/feature_map.hpp"
+#include "rehearse/core/types.hpp"
+
+namespace rehearse {
+
+struct StateVariable {
+  std::string name;
+  std::string unit;
+  StateKind kind = StateKind::plain;
+};
+
+struct ActionVariable {
+  std::string name;
+  std::string unit;
+  Interval bounds;
+};
+
+/// Immediate rewards of a batch of steps: states X and actions U (rows × dx, rows × du), the states reached, one
+/// reward a row. Must be callable from several threads and depend on its row alone.
+using Reward = std::function<void(const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& X_next,
+                                  VectorView rewards)>;
+
+/// What every room may know of a problem. A plain value.
+struct Task {
+  std::vector<StateVariable> states;
+  std::vector<ActionVariable> actions;
+  Vector start_mean;  // dx
+  Vector start_std;   // dx; an episode starts at N(start_mean, diag(start_std²))
+  double dt_s = 0;    // control step
+  Index horizon = 0;  // steps of an episode, T
+  Reward reward;
+  double reward_floor = 0;  // charged for every step that an early end or a failed simulation leaves out
+
+  std::function<bool(const ConstVectorView& state)> ended;  // a fall; empty: never. Any thread.
+  std::function<bool(const Episode&)> solved;               // empty: never known
+  std::function<Vector(const Episode&)> descriptor;         // for quality diversity; empty: none
+
+  Index state_size() const { return static_cast<Index>(states.size()); }
+  Index action_size() const { return static_cast<Index>(actions.size()); }
+  double episode_s() const { return static_cast<double>(horizon) * dt_s; }
+  FeatureMap feature_map() const;
+  std::vector<std::string> state_names() const;
+
+  /// A line for everything that is missing or contradicts itself.
+  std::vector<std::string> violations() const;
+};
+
+}  // namespace rehearse

@@ -1,0 +1,104 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rehearse/core/vector_math.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Highway's order matters: the functions come after the target.
+#include <hwy/contrib/math/math-inl.h>
+
+#include "rehearse/core/vector_math.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace rehearse {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<double>;
+
+/// out[i] = f(in[i]), the last vector padded with zeros.
+template <class F>
+HWY_INLINE void map(const double* in, double* out, Index n, F f) {
+  const D d;
+  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  Index i = 0;
+  for (; i + lanes <= n; i += lanes) hn::StoreU(f(d, hn::LoadU(d, in + i)), d, out + i);
+  if (i == n) return;
+  HWY_ALIGN double tail[HWY_MAX_BYTES / sizeof(double)] = {};
+  for (Index k = i; k < n; ++k) tail[k - i] = in[k];
+  hn::Store(f(d, hn::Load(d, tail)), d, tail);
+  for (Index k = i; k < n; ++k) out[k] = tail[k - i];
+}
+
+// Highway 1.0.3 turns exp(NaN) into 0 and is silent about what it does to the others.
+template <class V>
+HWY_INLINE V keep_nan(V in, V out) {
+  return hn::IfThenElse(hn::IsNaN(in), in, out);
+}
+
+void ExpKernel(const double* in, double* out, Index n) {
+  map(in, out, n, [](D d, auto x) HWY_ATTR { return keep_nan(x, hn::Exp(d, x)); });
+}
+void TanhKernel(const double* in, double* out, Index n) {
+  map(in, out, n, [](D d, auto x) HWY_ATTR { return keep_nan(x, hn::Tanh(d, x)); });
+}
+void SinKernel(const double* in, double* out, Index n) {
+  map(in, out, n, [](D d, auto x) HWY_ATTR { return keep_nan(x, hn::Sin(d, x)); });
+}
+void CosKernel(const double* in, double* out, Index n) {
+  map(in, out, n, [](D d, auto x) HWY_ATTR { return keep_nan(x, hn::Cos(d, x)); });
+}
+
+/// first[i] = sqrt(−2 log(1 − u1)) cos(2π u2), second with sin.
+void BoxMullerKernel(const double* u1, const double* u2, double* first, double* second, Index n) {
+  const D d;
+  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  HWY_ALIGN double buffer[4][HWY_MAX_BYTES / sizeof(double)] = {};
+  for (Index i = 0; i < n; i += lanes) {
+    const Index count = n - i < lanes ? n - i : lanes;
+    for (Index k = 0; k < count; ++k) buffer[0][k] = u1[i + k], buffer[1][k] = u2[i + k];
+    const auto one = hn::Set(d, 1.0);
+    const auto log_u = hn::Log(d, hn::Sub(one, hn::Load(d, buffer[0])));
+    const auto radius = hn::Sqrt(hn::Mul(hn::Set(d, -2.0), log_u));
+    const auto angle = hn::Mul(hn::Set(d, 6.283185307179586), hn::Load(d, buffer[1]));
+    hn::Store(hn::Mul(radius, hn::Cos(d, angle)), d, buffer[2]);
+    if (second) hn::Store(hn::Mul(radius, hn::Sin(d, angle)), d, buffer[3]);
+    for (Index k = 0; k < count; ++k) {
+      first[i + k] = buffer[2][k];
+      if (second) second[i + k] = buffer[3][k];
+    }
+  }
+}
+
+const char* TargetKernel() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rehearse
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rehearse {
+
+HWY_EXPORT(ExpKernel);
+HWY_EXPORT(TanhKernel);
+HWY_EXPORT(SinKernel);
+HWY_EXPORT(CosKernel);
+HWY_EXPORT(BoxMullerKernel);
+HWY_EXPORT(TargetKernel);
+
+void vector_exp(const double* in, double* out, Index n) { HWY_DYNAMIC_DISPATCH(ExpKernel)(in, out, n); }
+void vector_tanh(const double* in, double* out, Index n) { HWY_DYNAMIC_DISPATCH(TanhKernel)(in, out, n); }
+void vector_sin_cos(const double* in, double* sine, double* cosine, Index n) {
+  if (in == sine) {  // the cosine first, while its argument is still there
+    HWY_DYNAMIC_DISPATCH(CosKernel)(in, cosine, n);
+    HWY_DYNAMIC_DISPATCH(SinKernel)(in, sine, n);
+  } else {
+    HWY_DYNAMIC_DISPATCH(SinKernel)(in, sine, n);
+    HWY_DYNAMIC_DISPATCH(CosKernel)(in, cosine, n);
+  }
+}
+void box_muller(const double* uniform1, const double* uniform2, double* first, double* second, Index n) {
+  HWY_DYNAMIC_DISPATCH(BoxMullerKernel)(uniform1, uniform2, first, second, n);
+}
+std::string vector_target() { return HWY_DYNAMIC_DISPATCH(TargetKernel)(); }
+
+}  // namespace rehearse
+#endif

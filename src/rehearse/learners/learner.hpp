@@ -1,0 +1,77 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/core/evaluator.hpp"
+#include "rehearse/core/events.hpp"
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/task.hpp"
+#include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/policy/policy.hpp"
+#include "rehearse/prior/prior.hpp"
+
+namespace rehearse::learners {
+
+/// The policy to try next, and what the learner knew when it chose it. What does not apply is empty.
+struct Proposal {
+  Vector theta;
+  std::optional<double> predicted_return;
+  Index rollouts = 0;         // imagined to choose this policy
+  Index failed_rollouts = 0;  // of these, ended by a failed simulation
+  std::optional<double> log_evidence;  // of the data under the model
+  std::optional<Vector> phi;           // of the prior, in the order of its space
+  std::shared_ptr<const dynamics::DynamicsModel> model;  // that predicted the return; null before there is one
+  Index left_out_rows = 0;             // training rows whose prior mean was not finite
+  std::vector<std::string> notes;      // numerical failures survived, a line each
+  double model_s = 0;                  // time spent learning the model
+  double search_s = 0;                 // and searching the policy
+};
+
+/// Everything a learner is given. It never holds the plant.
+struct Setting {
+  Task task;
+  std::shared_ptr<const policy::Policy> policy;
+  std::optional<prior::Prior> prior;
+  std::uint64_t seed = 1;
+  std::shared_ptr<const Evaluator> evaluator;
+  ProgressSink progress;  // may be empty
+};
+
+/// Proposes policies and learns from the episodes they make.
+///
+/// Laws (checked by testing::check_learner): `ask` is idempotent: until the next `tell` it returns the same proposal.
+/// The same setting, options and episodes give the same bytes, whatever the evaluator. A learner that loaded what
+/// another saved, after being told the same episodes, goes on as that one would.
+class Learner {
+ public:
+  virtual ~Learner() = default;
+  virtual const Proposal& ask() = 0;
+  virtual void tell(const Episode& episode) = 0;
+
+  /// What is not in the episodes (warm starts); small. Called between `tell` and `ask`.
+  virtual nlohmann::json save() const = 0;
+  /// The episodes told so far, in order, and what `save` returned after the last of them.
+  virtual void load(const std::vector<Episode>& episodes, const nlohmann::json& state) = 0;
+};
+
+enum class PriorUse { none, required };
+
+/// A learner whose options can still be set: what a family's folder gives to the catalogue.
+class LearnerBuilder {
+ public:
+  virtual ~LearnerBuilder() = default;
+  virtual std::string name() const = 0;     // "gp-mi"
+  virtual std::string summary() const = 0;  // one line for `rehearse list`
+  virtual PriorUse prior_use() const = 0;
+  virtual bool chooses_priors() const = 0;  // `--prior a,b,c` is allowed
+  virtual void fields(FieldVisitor& v) = 0;
+  virtual std::unique_ptr<Learner> build(Setting setting) const = 0;  // throws InvalidInput
+};
+
+}  // namespace rehearse::learners

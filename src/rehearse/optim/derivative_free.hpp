@@ -1,0 +1,42 @@
+#pragma once
+// Local and exhaustive maximisers of a function without gradient, for the parameters of a simulator.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::optim {
+
+/// A value that is not finite marks x as infeasible.
+using ScalarObjective = std::function<double(const Vector& x)>;
+
+struct ScalarResult {
+  Vector x;  // the best point seen, inside the box
+  double value;
+  Index evaluations;
+  std::string stop;
+};
+
+/// Subplex (Rowan 1990) of NLopt, within a box.
+struct SubplexOptions {
+  Index max_evaluations = 1000;  // the authors' code
+  double x_tolerance = 1e-4;     // relative
+  double value_tolerance = 1e-4; // relative
+  double first_step = 0.1;       // as a fraction of the box's width
+  void fields(FieldVisitor& v) {
+    v.integer("max_evaluations", max_evaluations, at_least(1));
+    v.number("x_tolerance", x_tolerance, at_least(0));
+    v.number("value_tolerance", value_tolerance, at_least(0));
+    v.number("first_step", first_step, between(1e-6, 1));
+  }
+};
+ScalarResult maximise_subplex(const ScalarObjective& objective, const Vector& start, const std::vector<Interval>& box,
+                              const SubplexOptions& options);
+
+/// Every combination of the choices, the last varying fastest; ties go to the first.
+std::vector<Vector> combinations(const std::vector<std::vector<double>>& choices);
+
+}  // namespace rehearse::optim

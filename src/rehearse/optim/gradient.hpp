@@ -1,0 +1,51 @@
+#pragma once
+// Local maximisers that use a gradient.
+
+#include <functional>
+#include <string>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::optim {
+
+/// Value at x, and its gradient (same size as x). A value that is not finite marks x as infeasible.
+using Differentiable = std::function<double(const Vector& x, Vector& gradient)>;
+
+struct GradientResult {
+  Vector x;       // the best point seen
+  double value;   // there; not finite only if no point had a finite value
+  Index evaluations;
+  std::string stop;  // why: "converged", "max_evaluations", "no finite value"
+};
+
+/// Rprop with the improvements iRprop− (Igel and Hüsken 2003), the paper's kernel fit.
+struct RpropOptions {
+  Index max_evaluations = 300;  // the authors' code
+  double gradient_tolerance = 1e-4;
+  double first_step = 0.1;
+  double smallest_step = 1e-6;
+  double largest_step = 50;
+  void fields(FieldVisitor& v) {
+    v.integer("max_evaluations", max_evaluations, at_least(1));
+    v.number("gradient_tolerance", gradient_tolerance, at_least(0));
+    v.number("first_step", first_step, above(0));
+    v.number("smallest_step", smallest_step, above(0));
+    v.number("largest_step", largest_step, above(0));
+  }
+};
+GradientResult maximise_rprop(const Differentiable& objective, const Vector& start, const RpropOptions& options);
+
+/// L-BFGS of NLopt within a box (low, high: as start; may be infinite).
+struct LbfgsOptions {
+  Index max_evaluations = 200;
+  double relative_tolerance = 1e-8;  // of the value
+  void fields(FieldVisitor& v) {
+    v.integer("max_evaluations", max_evaluations, at_least(1));
+    v.number("relative_tolerance", relative_tolerance, at_least(0));
+  }
+};
+GradientResult maximise_lbfgs(const Differentiable& objective, const Vector& start, const Vector& low,
+                              const Vector& high, const LbfgsOptions& options);
+
+}  // namespace rehearse::optim

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::policy {
+
+/// Deterministic u = π(x; θ), u inside its bounds for every θ and x. Immutable; any thread.
+///
+/// A batch may hold a different θ in each row: candidates are compared in lockstep.
+class Policy {
+ public:
+  virtual ~Policy() = default;
+
+  virtual std::string name() const = 0;      // "mlp"
+  virtual Index parameters() const = 0;      // of θ
+  virtual Index actions() const = 0;         // du
+
+  /// Theta: n × parameters(), one policy a row; X: n × dx; t_s: time since the episode's start; U: n × du, written.
+  /// A row with a NaN state gets a NaN action.
+  virtual void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double t_s, MatrixView U) const = 0;
+};
+
+}  // namespace rehearse::policy

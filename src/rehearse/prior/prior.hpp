@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rehearse/core/parameters.hpp"
+#include "rehearse/system/simulator.hpp"
+
+namespace rehearse::prior {
+
+/// A simulator with a parameter space, used as the mean function of the dynamics' GPs. A value; any thread.
+struct Prior {
+  std::string name;
+  std::shared_ptr<const system::Simulator> simulator;
+  ParameterSpace space;  // the simulator's parameters, with the values to start from
+
+  /// Expected state changes (n × dx), contained: rows that fail are NaN. Returns how many failed.
+  Index mean(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const {
+    return system::change_contained(*simulator, X, U, phi, dX);
+  }
+};
+
+/// One prior whose discrete parameter `prior` (0, 1, …) chooses among several. Parameters of the same name are
+/// shared when they are tunable in the same box in each prior that has them; others are kept apart as NAME@PRIOR. The
+/// rest of a prior's parameters stay as it fixes them. Throws InvalidInput if fewer than two are given.
+Prior choice(const std::vector<Prior>& priors);
+
+}  // namespace rehearse::prior

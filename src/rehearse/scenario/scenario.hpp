@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/task.hpp"
+#include "rehearse/policy/policy.hpp"
+#include "rehearse/system/plant.hpp"
+#include "rehearse/system/simulator.hpp"
+
+namespace rehearse::scenario {
+
+/// A simulator with the values its parameters start from and which of them may be tuned.
+struct NamedPrior {
+  std::string name;
+  std::shared_ptr<const system::Simulator> simulator;
+  ParameterSpace parameters;  // the simulator's, with this prior's values
+};
+
+/// A task, a plant to do it on, guesses of the plant, and the policy to learn.
+struct Scenario {
+  std::string name;
+  Task task;
+  std::function<std::unique_ptr<system::Plant>()> make_plant;
+  std::vector<NamedPrior> priors;  // the first is the default
+  std::shared_ptr<const system::Simulator> oracle;  // the plant's own dynamics, for `--prior oracle`; may be null
+  std::shared_ptr<const policy::Policy> policy;
+};
+
+/// A scenario whose options can still be set: what a robot's folder gives to the catalogue.
+class ScenarioBuilder {
+ public:
+  virtual ~ScenarioBuilder() = default;
+  virtual std::string name() const = 0;
+  virtual std::string summary() const = 0;                 // one line for `rehearse list`
+  virtual std::vector<std::string> prior_names() const = 0;
+  virtual void fields(FieldVisitor& v) = 0;  // plant.NAME, noise, …
+  virtual Scenario build() const = 0;        // throws InvalidInput
+};
+
+}  // namespace rehearse::scenario

@@ -1,0 +1,42 @@
+#include "rehearse/system/simulator.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace rehearse::system {
+namespace {
+
+/// Beyond this a state change is no motion of a robot but a simulator that lost its way.
+constexpr double kLargestChange = 1e12;
+
+Index blank_failed_rows(MatrixView dX) {
+  Index failed = 0;
+  for (Index i = 0; i < dX.rows(); ++i) {
+    bool usable = true;
+    for (Index c = 0; c < dX.cols(); ++c) usable = usable && std::abs(dX(i, c)) < kLargestChange;  // false for NaN
+    if (usable) continue;
+    dX.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    ++failed;
+  }
+  return failed;
+}
+
+}  // namespace
+
+Index change_contained(const Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U,
+                       const Vector& phi, MatrixView dX) {
+  try {
+    simulator.change(X, U, phi, dX);
+  } catch (...) {
+    for (Index i = 0; i < X.rows(); ++i) {
+      try {
+        simulator.change(X.middleRows(i, 1), U.middleRows(i, 1), phi, dX.middleRows(i, 1));
+      } catch (...) {
+        dX.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+      }
+    }
+  }
+  return blank_failed_rows(dX);
+}
+
+}  // namespace rehearse::system

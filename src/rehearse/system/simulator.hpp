@@ -1,0 +1,28 @@
+#pragma once
+
+#include "rehearse/core/parameters.hpp"
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::system {
+
+/// A black box that maps states, actions and parameters to state changes over one control step, a batch at a time.
+///
+/// Laws (checked by testing::check_simulator): `change` may run concurrently; a row depends on that row alone; a row
+/// that cannot be simulated comes back as NaN, or the call throws, and then it is retried row by row.
+class Simulator {
+ public:
+  virtual ~Simulator() = default;
+
+  /// Names, units and boxes of φ; must not change.
+  virtual const ParameterSpace& parameters() const = 0;
+
+  /// X: n × dx, U: n × du, phi: values in the order of parameters(), dX: n × dx.
+  virtual void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const = 0;
+};
+
+/// Contains a hostile simulator: if the batch throws it is retried row by row, and rows that throw again, or are not
+/// finite, come back as NaN. Returns how many rows failed.
+Index change_contained(const Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U,
+                       const Vector& phi, MatrixView dX);
+
+}  // namespace rehearse::system
