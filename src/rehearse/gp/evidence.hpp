@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/types.hpp"
+#include "rehearse/gp/inputs.hpp"
+
+namespace rehearse::gp {
+
+/// Keep hyperparameters in range: smooth walls added to the log evidence (PILCO; the code of Chatzilygeroudis 2018).
+struct Penalties {
+  bool length = false;        // −Σ_d ((ln ℓ_d − ln std(x_d)) / ln length_limit)^30
+  double length_limit = 100;  // PILCO and the authors
+  bool snr = false;           // −((ln σ_f − ln σ_n) / ln snr_limit)^30
+  double snr_limit = 500;     // the authors; PILCO 1000
+  void fields(FieldVisitor& v) {
+    v.boolean("length", length);
+    v.number("length_limit", length_limit, {.low = 1, .low_open = true});
+    v.boolean("snr", snr);
+    v.number("snr_limit", snr_limit, {.low = 1, .low_open = true});
+  }
+};
+
+/// Buffers that evaluations reuse: none allocates after the first of the same size. Not shared between threads.
+class Workspace {
+ public:
+  double* matrix(Index n);               // n × n
+  double* block(int which, Index size);  // which: 0, 1, 2
+
+ private:
+  std::vector<double> matrix_, blocks_[3];
+};
+
+struct Evidence {
+  double value = 0;   // log p(y | X, θ) in nats; NaN if it could not be computed
+  double jitter = 0;  // × σ_f², what the ladder of cholesky.hpp added to the diagonal
+  bool ok() const;    // the value is finite
+};
+
+/// The log evidence of targets y (n) at flat log hyperparameters (D + 2; Rasmussen 2006, eq. 5.8) and, unless null,
+/// its gradient with respect to them (eq. 5.9). Nothing finite or not finite in `flat` or `y` throws: what cannot be
+/// computed has value and gradient NaN.
+Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVectorView& flat, Workspace& workspace,
+                  Vector* gradient = nullptr);
+
+/// The value of the penalties, ≤ 0; adds their gradient unless null.
+double penalty(const Inputs& inputs, const ConstVectorView& flat, const Penalties& penalties,
+               Vector* gradient = nullptr);
+
+}  // namespace rehearse::gp
