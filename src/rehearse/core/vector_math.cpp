@@ -40,11 +40,18 @@ void ExpKernel(const double* in, double* out, Index n) {
 void TanhKernel(const double* in, double* out, Index n) {
   map(in, out, n, [](D d, auto x) HWY_ATTR { return keep_nan(x, hn::Tanh(d, x)); });
 }
+
+// Highway's sine and cosine are valid up to 39 000 rad; an angle beyond is no angle but a simulation that lost its way.
+template <class V>
+HWY_INLINE V nan_outside(D d, V angle, V out) {
+  return hn::IfThenElse(hn::Lt(hn::Abs(angle), hn::Set(d, 39000.0)), out, hn::NaN(d));
+}
+
 void SinKernel(const double* in, double* out, Index n) {
-  map(in, out, n, [](D d, auto x) HWY_ATTR { return keep_nan(x, hn::Sin(d, x)); });
+  map(in, out, n, [](D d, auto x) HWY_ATTR { return nan_outside(d, x, hn::Sin(d, x)); });
 }
 void CosKernel(const double* in, double* out, Index n) {
-  map(in, out, n, [](D d, auto x) HWY_ATTR { return keep_nan(x, hn::Cos(d, x)); });
+  map(in, out, n, [](D d, auto x) HWY_ATTR { return nan_outside(d, x, hn::Cos(d, x)); });
 }
 
 /// first[i] = sqrt(−2 log(1 − u1)) cos(2π u2), second with sin.

@@ -10,6 +10,7 @@ namespace rehearse {
 
 void vector_exp(const double* in, double* out, Index n);
 void vector_tanh(const double* in, double* out, Index n);
+/// Beyond ± 39 000 rad the results are NaN.
 void vector_sin_cos(const double* in, double* sine, double* cosine, Index n);
 
 /// Two independent N(0, 1) from two uniforms in [0, 1) (Box and Muller 1958); `second` may be null.

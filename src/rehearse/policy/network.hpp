@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "rehearse/core/feature_map.hpp"
+#include "rehearse/policy/policy.hpp"
+#include "rehearse/policy/squash.hpp"
+
+namespace rehearse::policy {
+
+/// A perceptron with one hidden layer of tanh units (Chatzilygeroudis 2017, eq. 12). Inputs are the features divided
+/// by `scale`. θ: for each hidden unit its weights and bias, then for each output its weights and bias.
+struct MlpOptions {
+  FeatureMap features;
+  Vector scale;  // one a feature
+  Index hidden = 10;
+  Squash squash;
+};
+std::shared_ptr<const Policy> make_mlp(MlpOptions options);
+
+/// u = squash(W features/scale + b). θ: for each action its weights and bias.
+struct LinearOptions {
+  FeatureMap features;
+  Vector scale;
+  Squash squash;
+};
+std::shared_ptr<const Policy> make_linear(LinearOptions options);
+
+}  // namespace rehearse::policy

@@ -1,0 +1,17 @@
+#include "rehearse/policy/squash.hpp"
+
+#include "rehearse/core/vector_math.hpp"
+
+namespace rehearse::policy {
+
+void Squash::apply(MatrixView a) const {
+  for (Index c = 0; c < a.cols(); ++c) {
+    const Interval& bound = bounds[static_cast<std::size_t>(c)];
+    auto column = a.col(c);
+    column *= gain;
+    vector_tanh(column.data(), column.data(), column.size());
+    column = (bound.low + bound.high) / 2 + (bound.high - bound.low) / 2 * column.array();
+  }
+}
+
+}  // namespace rehearse::policy

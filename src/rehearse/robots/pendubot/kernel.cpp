@@ -1,0 +1,99 @@
+// The equations of the pendubot, written once for a single state and for as many as fit the vector registers.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rehearse/robots/pendubot/kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Highway's order matters: the functions come after the target.
+#include <hwy/contrib/math/math-inl.h>
+
+#include "rehearse/robots/pendubot/kernel.hpp"
+#include "rehearse/system/ode_kernel-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace rehearse::robots::pendubot {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+namespace ode = rehearse::system::HWY_NAMESPACE;
+
+constexpr double kGravity = 9.82;        // m/s²
+constexpr double kLargestAngle = 30000;  // rad; Highway's sine and cosine are valid up to 39 000
+
+/// Chatzilygeroudis 2018, section V: absolute angles counter-clockwise from upright. A θ̈ = b, A symmetric 2 × 2.
+template <class D>
+class Equations {
+ public:
+  using V = hn::Vec<D>;
+
+  HWY_INLINE Equations(D d, const Constants& c)
+      : a11_(hn::Set(d, c.l1 * c.l1 * (c.m1 / 4 + c.m2) + c.m1 * c.l1 * c.l1 / 12)),
+        a22_(hn::Set(d, c.l2 * c.l2 * c.m2 / 4 + c.m2 * c.l2 * c.l2 / 12)),
+        coupling_(hn::Set(d, 0.5 * c.m2 * c.l1 * c.l2)),
+        gravity1_(hn::Set(d, kGravity * c.l1 * (0.5 * c.m1 + c.m2))),
+        gravity2_(hn::Set(d, kGravity * 0.5 * c.m2 * c.l2)),
+        b1_(hn::Set(d, c.b1)),
+        b2_(hn::Set(d, c.b2)) {}
+
+  HWY_INLINE void operator()(D d, const V* x, V u, V* dxdt) const {
+    const V sin1 = hn::Sin(d, x[2]), cos1 = hn::Cos(d, x[2]), sin2 = hn::Sin(d, x[3]), cos2 = hn::Cos(d, x[3]);
+    const V sin12 = sin1 * cos2 - cos1 * sin2, cos12 = cos1 * cos2 + sin1 * sin2;
+    const V a12 = coupling_ * cos12;
+    const V swing = coupling_ * sin12;
+    const V rhs1 = gravity1_ * sin1 - swing * x[1] * x[1] + u - b1_ * x[0];
+    const V rhs2 = swing * x[0] * x[0] + gravity2_ * sin2 - b2_ * x[1];
+    const V inverse = hn::Set(d, 1.0) / (a11_ * a22_ - a12 * a12);
+    dxdt[0] = (a22_ * rhs1 - a12 * rhs2) * inverse;
+    dxdt[1] = (a11_ * rhs2 - a12 * rhs1) * inverse;
+    dxdt[2] = x[0];
+    dxdt[3] = x[1];
+  }
+
+ private:
+  V a11_, a22_, coupling_, gravity1_, gravity2_, b1_, b2_;
+};
+
+void DerivativeKernel(const double* x, double u, const Constants& constants, double* dxdt) {
+  const hn::CappedTag<double, 1> d;
+  using V = hn::Vec<decltype(d)>;
+  const Equations<hn::CappedTag<double, 1>> equations(d, constants);
+  V state[4], slope[4];
+  for (int i = 0; i < 4; ++i) state[i] = hn::LoadU(d, x + i);
+  equations(d, state, hn::Set(d, u), slope);
+  for (int i = 0; i < 4; ++i) hn::StoreU(slope[i], d, dxdt + i);
+}
+
+void ChangeKernel(const double* X, Index x_stride, const double* U, const Constants& constants, double dt_s,
+                  Index substeps, double* dX, Index dx_stride, Index rows) {
+  using D = hn::ScalableTag<double>;
+  const Equations<D> equations(D(), constants);
+  const auto step = [&](D d, hn::Vec<D>* x, const hn::Vec<D>* u) HWY_ATTR {
+    const auto rhs = [&](D d2, const hn::Vec<D>* state, hn::Vec<D>* slope) HWY_ATTR { equations(d2, state, u[0], slope); };
+    const auto limit = hn::Set(d, kLargestAngle);
+    ode::dopri5<4>(d, rhs, x, dt_s, substeps);
+    const auto valid = hn::And(hn::Lt(hn::Abs(x[2]), limit), hn::Lt(hn::Abs(x[3]), limit));
+    for (int i = 0; i < 4; ++i) x[i] = hn::IfThenElse(valid, x[i], hn::NaN(d));
+  };
+  ode::for_each_block<4, 1>(X, x_stride, U, 0, dX, dx_stride, rows, step);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rehearse::robots::pendubot
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rehearse::robots::pendubot {
+
+HWY_EXPORT(DerivativeKernel);
+HWY_EXPORT(ChangeKernel);
+
+void derivative(const double* x, double u, const Constants& constants, double* dxdt) {
+  HWY_DYNAMIC_DISPATCH(DerivativeKernel)(x, u, constants, dxdt);
+}
+
+void change(const double* X, Index x_stride, const double* U, const Constants& constants, double dt_s, Index substeps,
+            double* dX, Index dx_stride, Index rows) {
+  HWY_DYNAMIC_DISPATCH(ChangeKernel)(X, x_stride, U, constants, dt_s, substeps, dX, dx_stride, rows);
+}
+
+}  // namespace rehearse::robots::pendubot
+#endif

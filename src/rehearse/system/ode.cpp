@@ -1,0 +1,101 @@
+#include "rehearse/system/ode.hpp"
+
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+
+namespace rehearse::system {
+namespace {
+
+using State = std::vector<double>;
+using Stepper = boost::numeric::odeint::runge_kutta_dopri5<State>;
+
+auto rhs_of(const Ode& ode, const Vector& u, const Vector& phi) {
+  return [&ode, &u, &phi, x = Vector(), dxdt = Vector()](const State& state, State& change, double) mutable {
+    x = Vector::Map(state.data(), static_cast<Index>(state.size()));
+    dxdt.setZero(x.size());
+    ode(x, u, phi, dxdt);
+    Vector::Map(change.data(), x.size()) = dxdt;
+  };
+}
+
+State to_state(const Vector& x) { return {x.begin(), x.end()}; }
+
+class OdeSimulator final : public Simulator {
+ public:
+  OdeSimulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps)
+      : ode_(std::move(ode)), parameters_(std::move(parameters)), dt_s_(dt_s), substeps_(substeps) {}
+
+  const ParameterSpace& parameters() const override { return parameters_; }
+
+  void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
+    for (Index i = 0; i < X.rows(); ++i) {
+      const Vector u = U.row(i).transpose();
+      State state = to_state(X.row(i).transpose());
+      Stepper stepper;
+      const auto rhs = rhs_of(ode_, u, phi);
+      const double h = dt_s_ / static_cast<double>(substeps_);
+      for (Index s = 0; s < substeps_; ++s) stepper.do_step(rhs, state, static_cast<double>(s) * h, h);
+      dX.row(i) = Vector::Map(state.data(), X.cols()).transpose() - X.row(i);
+    }
+  }
+
+ private:
+  Ode ode_;
+  ParameterSpace parameters_;
+  double dt_s_;
+  Index substeps_;
+};
+
+class OdePlant final : public Plant {
+ public:
+  explicit OdePlant(OdePlantOptions options) : options_(std::move(options)) {}
+
+  Vector reset(Rng& rng) override {
+    x_ = options_.start_mean;
+    for (Index i = 0; i < x_.size(); ++i) x_(i) += options_.start_std(i) * rng.normal();
+    rng_ = rng;
+    return measured();
+  }
+
+  Vector step(const Vector& u) override {
+    x_ = integrate_adaptive(options_.ode, x_, u, options_.phi, options_.dt_s, options_.tolerance);
+    return measured();
+  }
+
+  Vector truth() const override { return x_; }
+
+ private:
+  Vector measured() {
+    Vector y = x_;
+    for (Index i = 0; i < options_.measurement_std.size(); ++i) y(i) += options_.measurement_std(i) * rng_->normal();
+    return y;
+  }
+
+  OdePlantOptions options_;
+  Vector x_;
+  std::optional<Rng> rng_;
+};
+
+}  // namespace
+
+Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, const Vector& phi, double duration_s,
+                          double tolerance) {
+  namespace odeint = boost::numeric::odeint;
+  State state = to_state(x);
+  odeint::integrate_adaptive(odeint::make_controlled<Stepper>(tolerance, tolerance), rhs_of(ode, u, phi), state, 0.0,
+                             duration_s, duration_s / 16);
+  return Vector::Map(state.data(), x.size());
+}
+
+std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps) {
+  return std::make_shared<OdeSimulator>(std::move(ode), std::move(parameters), dt_s, substeps);
+}
+
+std::unique_ptr<Plant> make_ode_plant(OdePlantOptions options) { return std::make_unique<OdePlant>(std::move(options)); }
+
+}  // namespace rehearse::system

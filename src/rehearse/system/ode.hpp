@@ -1,0 +1,37 @@
+#pragma once
+// Ordinary differential equations dx/dt = f(x, u; φ) as simulators and as plants.
+
+#include <functional>
+#include <memory>
+
+#include "rehearse/core/parameters.hpp"
+#include "rehearse/core/types.hpp"
+#include "rehearse/system/plant.hpp"
+#include "rehearse/system/simulator.hpp"
+
+namespace rehearse::system {
+
+/// dx/dt at state x (dx) under the constant action u (du), written to dxdt (dx). Any thread.
+using Ode = std::function<void(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt)>;
+
+/// The state after `duration_s`, by adaptive Dormand–Prince 5 with absolute and relative tolerance. Throws
+/// std::runtime_error if the step size vanishes.
+Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, const Vector& phi, double duration_s,
+                          double tolerance = 1e-12);
+
+/// A simulator of any equation, row by row with `substeps` fixed steps of Dormand–Prince 5. Built-in robots have
+/// vectorised ones; this needs no more than a lambda.
+std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps);
+
+/// A simulated robot: the equation under an adaptive integrator, with Gaussian start and measurements.
+struct OdePlantOptions {
+  Ode ode;
+  Vector phi;
+  double dt_s = 0;
+  Vector start_mean, start_std;  // dx
+  Vector measurement_std;        // dx; empty: none
+  double tolerance = 1e-12;
+};
+std::unique_ptr<Plant> make_ode_plant(OdePlantOptions options);
+
+}  // namespace rehearse::system
