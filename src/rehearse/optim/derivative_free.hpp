@@ -22,10 +22,10 @@ struct ScalarResult {
 
 /// Subplex (Rowan 1990) of NLopt, within a box.
 struct SubplexOptions {
-  Index max_evaluations = 1000;  // the authors' code
-  double x_tolerance = 1e-4;     // relative
-  double value_tolerance = 1e-4; // relative
-  double first_step = 0.1;       // as a fraction of the box's width
+  Index max_evaluations = 1000;   // the authors' code
+  double x_tolerance = 1e-4;      // relative
+  double value_tolerance = 1e-4;  // relative
+  double first_step = 0.1;        // as a fraction of the box's width
   void fields(FieldVisitor& v) {
     v.integer("max_evaluations", max_evaluations, at_least(1));
     v.number("x_tolerance", x_tolerance, at_least(0));

@@ -1,0 +1,301 @@
+#include "rehearse/optim/cmaes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::optim {
+namespace {
+
+constexpr double worst = -std::numeric_limits<double>::infinity();
+
+Index checked_population(const Vector& mean, double sigma, const std::vector<Interval>& box,
+                         const CmaesOptions& options) {
+  Violations violations;
+  CmaesOptions copy = options;
+  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("cmaes", copy); })) violations.add(line);
+  if (options.population > 0 && options.population < 4)
+    violations.add(fmt::format("cmaes.population = {}, must be ≥ 4 (or 0 for 4 + 3 ln n)", options.population));
+  if (!(sigma > 0 && std::isfinite(sigma))) violations.add(fmt::format("sigma = {}, must be > 0", to_text(sigma)));
+  for (const auto& line : box_violations(box, mean.size())) violations.add(line);
+  for (const auto& line : start_violations(mean, box)) violations.add(line);
+  violations.throw_if_any();
+  return options.population > 0 ? options.population : default_population(mean.size());
+}
+
+Index default_generations(Index n, Index population) {  // Hansen 2009 (BIPOP)
+  const double m = static_cast<double>(n) + 3;
+  return static_cast<Index>(100 + 50 * m * m / std::sqrt(static_cast<double>(population)));
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Is the median of the last 30 % of the `count` latest values no better than that of the first 30 %?
+bool not_improving(const std::vector<double>& history, std::size_t count) {
+  const auto part = static_cast<std::ptrdiff_t>(3 * count / 10);
+  const auto first = history.end() - static_cast<std::ptrdiff_t>(count);
+  return median({history.end() - part, history.end()}) <= median({first, first + part});
+}
+
+}  // namespace
+
+void CmaesOptions::fields(FieldVisitor& v) {
+  v.integer("population", population, at_least(0));
+  v.boolean("active", active);
+  v.boolean("elitism", elitism);
+  v.number("value_tolerance", value_tolerance, at_least(0));
+  v.number("step_tolerance", step_tolerance, at_least(0));
+  v.number("max_condition", max_condition, above(1));
+  v.number("max_growth", max_growth, above(1));
+  v.boolean("stagnation", stagnation);
+  v.integer("max_generations", max_generations, at_least(0));
+}
+
+std::string to_string(Stop stop) {
+  switch (stop) {
+    case Stop::none:
+      return "not stopped";
+    case Stop::value_tolerance:
+      return "recent values differ by less than value_tolerance";
+    case Stop::step_tolerance:
+      return "steps are smaller than step_tolerance";
+    case Stop::condition:
+      return "covariance is worse conditioned than max_condition";
+    case Stop::growth:
+      return "steps have grown by more than max_growth";
+    case Stop::stagnation:
+      return "neither best nor median value improves";
+    case Stop::no_effect:
+      return "steps are too small to change the mean";
+    case Stop::max_generations:
+      return "max_generations reached";
+  }
+  return "unknown";
+}
+
+Cmaes::Cmaes(const Vector& mean, double sigma, const std::vector<Interval>& box, const CmaesOptions& options,
+             const StreamKey& key)
+    : options_(options),
+      key_(key),
+      box_(box),
+      constants_(mean.size(), checked_population(mean, sigma, box, options), options.active),
+      covariance_(mean.size()),
+      mean_(box_.preimage(mean, mean)),
+      path_sigma_(Vector::Zero(mean.size())),
+      path_c_(Vector::Zero(mean.size())),
+      step_(mean.size()),
+      whitened_(mean.size()),
+      normals_(population(), mean.size()),
+      steps_(mean.size(), population()),
+      ranked_(mean.size(), population() + 1),
+      candidates_(mean.size(), population()),
+      order_(static_cast<std::size_t>(population())),
+      sigma_(sigma),
+      first_sigma_(sigma),
+      best_x_(mean),
+      best_value_(worst) {
+  if (options_.max_generations == 0) options_.max_generations = default_generations(mean.size(), population());
+}
+
+Vector Cmaes::mean() const {
+  Matrix m = mean_;
+  box_.into(m);
+  return m;
+}
+
+const Matrix& Cmaes::ask() {
+  if (asked_) return candidates_;
+  draw();
+  place_injected();
+  asked_ = true;
+  return candidates_;
+}
+
+void Cmaes::draw() {
+  std::vector<std::uint64_t> candidates(order_.size(), key_.candidate), members(order_.size());
+  std::iota(members.begin(), members.end(), key_.particle << 32);
+  fill_normals(key_, candidates.data(), members.data(), static_cast<std::uint64_t>(generation_), normals_);
+  covariance_.colour(normals_, steps_);
+  candidates_ = (sigma_ * steps_).colwise() + mean_;
+  box_.into(candidates_);
+}
+
+void Cmaes::inject(const Vector& x) { injected_.push_back(x); }
+
+void Cmaes::place_injected() {
+  elite_here_ = options_.elitism && best_value_ > worst;
+  if (elite_here_) injected_.insert(injected_.begin(), best_x_);
+  foreign_ = std::min(static_cast<Index>(injected_.size()), population());
+  const double n = static_cast<double>(dimension());
+  const double longest = std::sqrt(n) + 2 * n / (n + 2);  // Hansen 2011, eq. 4 and Table 1
+  for (Index j = 0; j < foreign_; ++j) {
+    const Vector& x = injected_[static_cast<std::size_t>(j)];
+    step_ = (box_.preimage(x, mean_) - mean_) / sigma_;
+    const double length = covariance_.length(step_);
+    steps_.col(j) = length > longest ? Vector(step_ * (longest / length)) : step_;
+    candidates_.col(j) = x;
+  }
+  injected_.clear();
+}
+
+void Cmaes::tell(const ConstVectorView& values) {
+  if (values.size() != population())
+    throw InvalidInput(fmt::format("values told = {}, must be {}", values.size(), population()));
+  ask();
+  rank(values);
+  keep_best(values);
+  move_mean();
+  adapt_step();
+  adapt_covariance();
+  keep_inside();
+  evaluations_ += population();
+  ++generation_;
+  renew_decomposition();
+  record(values);
+  if (stop_ == Stop::none) stop_ = find_stop(values);
+  asked_ = false;
+}
+
+double Cmaes::usable(const ConstVectorView& values, Index i) const {
+  return std::isfinite(values(i)) ? values(i) : worst;
+}
+
+void Cmaes::rank(const ConstVectorView& values) {
+  std::iota(order_.begin(), order_.end(), Index{0});
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](Index a, Index b) { return usable(values, a) > usable(values, b); });
+}
+
+void Cmaes::keep_best(const ConstVectorView& values) {
+  if (elite_here_) {
+    const double count = static_cast<double>(best_count_++);
+    best_value_ += (usable(values, 0) - best_value_) / (count + 1);
+    if (!std::isfinite(best_value_)) best_value_ = worst;
+  }
+  const Index first = order_.front() == 0 && elite_here_ ? order_[1] : order_.front();
+  if (!(usable(values, first) > best_value_)) return;
+  best_value_ = usable(values, first);
+  best_x_ = candidates_.col(first);
+  best_count_ = 1;
+}
+
+void Cmaes::move_mean() {
+  step_.setZero();
+  for (Index i = 0; i < constants_.parents; ++i)
+    step_ += constants_.weights(i) * steps_.col(order_[static_cast<std::size_t>(i)]);
+  mean_ += sigma_ * step_;
+}
+
+// Hansen 2016, eqs. 43 and 44; the change is bounded when there were foreign candidates, Hansen 2011, eq. 7.
+void Cmaes::adapt_step() {
+  const double c = constants_.c_sigma;
+  covariance_.whiten(step_, whitened_);
+  path_sigma_ = (1 - c) * path_sigma_ + std::sqrt(c * (2 - c) * constants_.mu_eff) * whitened_;
+  const double length = path_sigma_.norm(), n = static_cast<double>(dimension());
+  const double settled = 1 - std::pow(1 - c, 2 * static_cast<double>(generation_ + 1));
+  path_stalled_ = length / std::sqrt(settled) >= (1.4 + 2 / (n + 1)) * constants_.expected_norm;
+  const double change = c / constants_.d_sigma * (length / constants_.expected_norm - 1);
+  sigma_ *= std::exp(foreign_ > 0 ? std::min(change, 1.0) : change);
+}
+
+// Hansen 2016, eqs. 45 to 47.
+void Cmaes::adapt_covariance() {
+  const double c_c = constants_.c_c, c_1 = constants_.c_1, c_mu = constants_.c_mu;
+  const double n = static_cast<double>(dimension());
+  const Index parents = constants_.parents;
+  path_c_ *= 1 - c_c;
+  if (!path_stalled_) path_c_ += std::sqrt(c_c * (2 - c_c) * constants_.mu_eff) * step_;
+  for (Index i = 0; i < population(); ++i) {
+    const Index j = order_[static_cast<std::size_t>(i)];
+    double weight = constants_.weights(i);
+    if (weight < 0) {
+      const double length = j < foreign_ ? covariance_.length(steps_.col(j)) : normals_.row(j).norm();
+      weight *= n / (length * length + 1e-300);
+    }
+    ranked_.col(i < parents ? i : i + 1) = std::sqrt(c_mu * std::abs(weight)) * steps_.col(j);
+  }
+  ranked_.col(parents) = std::sqrt(c_1) * path_c_;
+  const double lost = path_stalled_ ? c_c * (2 - c_c) : 0;
+  const double decay = 1 + c_1 * lost - c_1 - c_mu * constants_.weights.sum();
+  covariance_.update(decay, ranked_.leftCols(parents + 1),
+                     ranked_.rightCols(options_.active ? population() - parents : 0));
+}
+
+// Not in every generation: it costs more than all the rest, and C changes slowly (Hansen 2016, appendix B.2, and the
+// gap of pycma, 0.5 / (n (c_1 + c_μ)) generations).
+void Cmaes::renew_decomposition() {
+  const double gap = 0.5 / (static_cast<double>(dimension()) * (constants_.c_1 + constants_.c_mu));
+  if (static_cast<double>(generation_ - decomposed_) < gap) return;
+  decomposed_ = generation_;
+  if (!covariance_.decompose()) stop_ = Stop::condition;
+}
+
+// The transformed space is periodic: a standard deviation beyond the box is as good as a uniform draw, and would grow
+// for ever along a coordinate that does not matter.
+void Cmaes::keep_inside() {
+  for (std::size_t k = 0; k < box_.box().size(); ++k) {
+    const Index i = static_cast<Index>(k);
+    const double width = box_.box()[k].high - box_.box()[k].low;
+    const double deviation = sigma_ * std::sqrt(covariance_.variance(i));
+    if (deviation > width) covariance_.scale(i, width / deviation);
+  }
+}
+
+void Cmaes::record(const ConstVectorView& values) {
+  best_history_.push_back(usable(values, order_.front()));
+  median_history_.push_back(usable(values, order_[order_.size() / 2]));
+}
+
+Stop Cmaes::find_stop(const ConstVectorView& values) const {
+  if (covariance_.condition() > options_.max_condition) return Stop::condition;
+  if (!(sigma_ * std::sqrt(covariance_.largest_eigenvalue()) < options_.max_growth * first_sigma_)) return Stop::growth;
+  if (values_settled(values)) return Stop::value_tolerance;
+  if (steps_vanished()) return Stop::step_tolerance;
+  if (without_effect()) return Stop::no_effect;
+  if (options_.stagnation && stagnated()) return Stop::stagnation;
+  return generation_ >= options_.max_generations ? Stop::max_generations : Stop::none;
+}
+
+bool Cmaes::values_settled(const ConstVectorView& values) const {
+  const auto window = static_cast<std::ptrdiff_t>(
+      10 + std::ceil(30 * static_cast<double>(dimension()) / static_cast<double>(population())));
+  if (std::ssize(best_history_) < window) return false;
+  const auto [low, high] = std::minmax_element(best_history_.end() - window, best_history_.end());
+  const double least = std::min(*low, usable(values, order_.back()));
+  if (*high == worst) return false;  // no finite value yet says nothing about where to go, but nothing is settled
+  return *high - least <= options_.value_tolerance;
+}
+
+bool Cmaes::steps_vanished() const {
+  const double tolerance = options_.step_tolerance * first_sigma_;
+  for (Index i = 0; i < dimension(); ++i)
+    if (sigma_ * std::max(std::sqrt(covariance_.variance(i)), std::abs(path_c_(i))) >= tolerance) return false;
+  return true;
+}
+
+bool Cmaes::without_effect() const {
+  const auto axis = covariance_.axis(generation_ % dimension());
+  if (((mean_ + 0.1 * sigma_ * axis).array() == mean_.array()).all()) return true;
+  for (Index i = 0; i < dimension(); ++i)
+    if (mean_(i) == mean_(i) + 0.2 * sigma_ * std::sqrt(covariance_.variance(i))) return true;
+  return false;
+}
+
+bool Cmaes::stagnated() const {
+  const double shortest = 120 + 30 * static_cast<double>(dimension()) / static_cast<double>(population());
+  const double count = std::clamp(0.2 * static_cast<double>(generation_), shortest, 20000.0);
+  if (static_cast<double>(generation_) < count || generation_ % 10 != 0) return false;
+  const auto length = static_cast<std::size_t>(count);
+  return not_improving(best_history_, length) && not_improving(median_history_, length);
+}
+
+}  // namespace rehearse::optim

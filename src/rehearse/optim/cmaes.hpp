@@ -1,0 +1,110 @@
+#pragma once
+// One descent of CMA-ES, to be asked for candidates and told their values.
+
+#include <string>
+#include <vector>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/random.hpp"
+#include "rehearse/core/types.hpp"
+#include "rehearse/optim/box_transform.hpp"
+#include "rehearse/optim/covariance.hpp"
+#include "rehearse/optim/strategy_constants.hpp"
+
+namespace rehearse::optim {
+
+/// Defaults of Hansen 2016 (tutorial, arXiv 1604.00772, appendix B.3) and Hansen 2009 (BIPOP).
+struct CmaesOptions {
+  Index population = 0;  // λ; 0: 4 + ⌊3 ln n⌋
+  bool active = true;    // negative weights for the worse half
+  bool elitism = false;  // the best point so far is evaluated again in every generation; its value is the mean of all
+                         // its evaluations, so that one lucky draw of a noisy objective does not stay
+  double value_tolerance = 1e-12;  // stop when recent best values and the generation differ by less
+  double step_tolerance = 1e-12;   // stop when all steps are below this fraction of the first σ
+  double max_condition = 1e14;     // stop when the covariance is conditioned worse
+  double max_growth = 1e4;         // stop when σ's largest axis has grown by more
+  bool stagnation = true;          // stop when neither best nor median improved over the last 20 % of generations
+  Index max_generations = 0;       // 0: 100 + 50 (n + 3)² / √λ
+  void fields(FieldVisitor& v);
+};
+
+/// Why a descent ended.
+enum class Stop { none, value_tolerance, step_tolerance, condition, growth, stagnation, no_effect, max_generations };
+std::string to_string(Stop stop);  // in words
+
+/// (μ/μ_w, λ)-CMA-ES with active covariance update (Hansen 2016), maximising. A value; not shared between threads.
+class Cmaes {
+ public:
+  /// Starts at `mean` with step size `sigma`. `box`: one interval a coordinate; empty: unbounded. Generation g draws
+  /// from (key, g) alone; key.particle < 2³². Throws InvalidInput with every violation.
+  Cmaes(const Vector& mean, double sigma, const std::vector<Interval>& box, const CmaesOptions& options,
+        const StreamKey& key);
+
+  /// The candidates of this generation, n × λ, one a column, inside the box; the same until `tell`.
+  const Matrix& ask();
+
+  /// Their values (λ). What is not finite is the worst.
+  void tell(const ConstVectorView& values);
+
+  /// Has x evaluated as one of the next generation, where it takes part like any other (Hansen 2011, Injecting
+  /// external solutions into CMA-ES). At most λ; later ones are dropped.
+  void inject(const Vector& x);
+
+  /// Multiplies σ, as uncertainty handling does.
+  void widen(double factor) { sigma_ *= factor; }
+
+  Stop stop() const { return stop_; }
+  const Vector& best_x() const { return best_x_; }   // n; the start as long as no value was finite
+  double best_value() const { return best_value_; }  // −∞ as long as no value was finite
+  Vector mean() const;                               // n, inside the box
+  double sigma() const { return sigma_; }
+  Index evaluations() const { return evaluations_; }
+  Index generation() const { return generation_; }
+  Index population() const { return constants_.weights.size(); }
+  Index dimension() const { return mean_.size(); }
+
+ private:
+  void draw();
+  void place_injected();
+  double usable(const ConstVectorView& values, Index i) const;
+  void rank(const ConstVectorView& values);
+  void keep_best(const ConstVectorView& values);
+  void move_mean();
+  void adapt_step();
+  void adapt_covariance();
+  void renew_decomposition();
+  void keep_inside();
+  void record(const ConstVectorView& values);
+  Stop find_stop(const ConstVectorView& values) const;
+  bool values_settled(const ConstVectorView& values) const;
+  bool stagnated() const;
+  bool steps_vanished() const;
+  bool without_effect() const;
+
+  CmaesOptions options_;
+  StreamKey key_;
+  BoxTransform box_;
+  StrategyConstants constants_;
+  Covariance covariance_;
+  Vector mean_;  // before the box transform, as all that follows up to candidates_
+  Vector path_sigma_, path_c_, step_, whitened_;
+  Matrix normals_;            // λ × n
+  Matrix steps_;              // n × λ, (x_i − mean) / σ
+  Matrix ranked_;             // n × (λ + 1): weighted steps, best first, and the path
+  Matrix candidates_;         // n × λ, inside the box
+  std::vector<Index> order_;  // best first
+  std::vector<Vector> injected_;
+  Index foreign_ = 0;  // the first so many candidates of this generation were injected
+  bool elite_here_ = false;
+  bool asked_ = false;
+  bool path_stalled_ = false;
+  double sigma_, first_sigma_;
+  Vector best_x_;
+  double best_value_;
+  Index best_count_ = 0;  // evaluations that best_value_ is the mean of
+  Index evaluations_ = 0, generation_ = 0, decomposed_ = 0;
+  std::vector<double> best_history_, median_history_;
+  Stop stop_ = Stop::none;
+};
+
+}  // namespace rehearse::optim

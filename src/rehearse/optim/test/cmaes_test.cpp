@@ -1,0 +1,155 @@
+#include "rehearse/optim/cmaes.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::optim {
+namespace {
+
+using Function = std::function<double(const Vector&)>;
+
+double sphere(const Vector& x) { return -x.squaredNorm(); }
+
+double ellipsoid(const Vector& x) {
+  double sum = 0;
+  for (Index i = 0; i < x.size(); ++i)
+    sum += std::pow(1e6, static_cast<double>(i) / static_cast<double>(x.size() - 1)) * x(i) * x(i);
+  return -sum;
+}
+
+double rosenbrock(const Vector& x) {
+  double sum = 0;
+  for (Index i = 0; i + 1 < x.size(); ++i) sum += 100 * std::pow(x(i) * x(i) - x(i + 1), 2) + std::pow(x(i) - 1, 2);
+  return -sum;
+}
+
+Cmaes& descend(Cmaes& search, const Function& f, double target) {
+  Vector values(search.population());
+  while (search.stop() == Stop::none && search.best_value() < target) {
+    const Matrix& X = search.ask();
+    for (Index j = 0; j < X.cols(); ++j) values(j) = f(X.col(j));
+    search.tell(values);
+  }
+  return search;
+}
+
+Index evaluations_to(const Function& f, double target, Index n, std::uint64_t seed, CmaesOptions options = {}) {
+  Cmaes search(Vector::Constant(n, 0.3), 0.5, {}, options, {.seed = seed, .purpose = Purpose::search});
+  descend(search, f, target);
+  EXPECT_GE(search.best_value(), target) << to_string(search.stop());
+  return search.evaluations();
+}
+
+// Budgets are twice what published implementations need in 10-D; 5 seeds a function.
+TEST(Cmaes, ConvergesInTheUsualNumberOfEvaluations) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    EXPECT_LT(evaluations_to(sphere, -1e-9, 10, seed), 4000);
+    EXPECT_LT(evaluations_to(ellipsoid, -1e-9, 10, seed), 12000);
+    EXPECT_LT(evaluations_to(rosenbrock, -1e-9, 10, seed), 20000);
+  }
+}
+
+TEST(Cmaes, ActiveUpdateIsFasterOnAnEllipsoid) {
+  Index with = 0, without = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    with += evaluations_to(ellipsoid, -1e-9, 20, seed);
+    without += evaluations_to(ellipsoid, -1e-9, 20, seed, {.active = false});
+  }
+  EXPECT_LT(with, without);
+}
+
+TEST(Cmaes, SameKeySameBytesAndAnotherKeyOthers) {
+  const auto run = [](std::uint64_t seed) {
+    Cmaes search(Vector::Ones(7), 0.5, {}, {.max_generations = 60}, {.seed = seed, .purpose = Purpose::search});
+    return descend(search, rosenbrock, 0).mean();
+  };
+  EXPECT_EQ(run(3), run(3));
+  EXPECT_NE(run(3), run(4));
+}
+
+TEST(Cmaes, AskIsIdempotent) {
+  Cmaes search(Vector::Ones(3), 0.5, {}, {}, {.purpose = Purpose::search});
+  const Matrix first = search.ask();
+  EXPECT_EQ(first, search.ask());
+}
+
+TEST(Cmaes, StaysInTheBoxAndFindsAnOptimumOnItsBound) {
+  const std::vector<Interval> box{{1, 5}, {-4, -0.5}, {-5, 5}, {-1e-3, 2}};
+  const Vector start{{5, -4, 3, 1}}, optimum{{1, -0.5, 0, 0}};
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Cmaes search(start, 2.5, box, {}, {.seed = seed, .purpose = Purpose::search});
+    descend(
+        search,
+        [&](const Vector& x) {
+          for (Index i = 0; i < 4; ++i) {
+            EXPECT_GE(x(i), box[static_cast<std::size_t>(i)].low);
+            EXPECT_LE(x(i), box[static_cast<std::size_t>(i)].high);
+          }
+          return sphere(x);
+        },
+        -optimum.squaredNorm() - 1e-10);
+    EXPECT_NEAR((search.best_x() - optimum).norm(), 0, 1e-4) << to_string(search.stop());
+  }
+}
+
+TEST(Cmaes, ToleratesValuesThatAreNotFinite) {
+  const auto f = [](const Vector& x) {
+    if (x(0) < 0.3) return std::numeric_limits<double>::quiet_NaN();
+    return x(1) > 1 ? std::numeric_limits<double>::infinity() : sphere(x);
+  };
+  Cmaes search(Vector::Constant(5, 0.9), 0.5, {}, {}, {.purpose = Purpose::search});
+  descend(search, f, -0.09 - 1e-6);
+  EXPECT_NEAR(search.best_value(), -0.09, 1e-5);
+}
+
+TEST(Cmaes, WithoutAnyFiniteValueItReturnsTheStart) {
+  Cmaes search(Vector::Ones(3), 0.5, {}, {.max_generations = 50}, {.purpose = Purpose::search});
+  descend(
+      search, [](const Vector&) { return std::nan(""); }, 0);
+  EXPECT_EQ(search.best_x(), Vector(Vector::Ones(3)));
+  EXPECT_EQ(search.stop(), Stop::max_generations);
+}
+
+TEST(Cmaes, AnInjectedPointIsEvaluatedAndHelps) {
+  Cmaes search(Vector::Constant(10, 2.0), 1.0, {}, {}, {.purpose = Purpose::search});
+  const Vector good = Vector::Constant(10, 0.01);
+  search.inject(good);
+  EXPECT_EQ(Vector(search.ask().col(0)), good);
+  descend(search, sphere, -1e-9);
+  EXPECT_GE(search.best_value(), -1e-9);
+}
+
+TEST(Cmaes, TheEliteIsEvaluatedAgain) {
+  Cmaes search(Vector::Zero(2), 1.0, {}, {.population = 4, .elitism = true}, {.purpose = Purpose::search});
+  search.ask();
+  search.tell(Vector{{1, 9, 2, 3}});
+  const Vector elite = search.best_x();
+  EXPECT_EQ(Vector(search.ask().col(0)), elite);
+  search.tell(Vector{{1, 2, 3, 4}});
+  EXPECT_EQ(search.best_x(), elite);
+  EXPECT_EQ(search.best_value(), 5);  // the mean of 9 and 1
+  search.ask();
+  search.tell(Vector{{-100, 2, 3, 4}});
+  EXPECT_NE(search.best_x(), elite);
+  EXPECT_EQ(search.best_value(), 4);
+}
+
+TEST(Cmaes, ReportsEveryViolation) {
+  try {
+    Cmaes search(Vector{{7, std::nan("")}}, -1, {{-5, 5}, {3, 2}}, {.population = 3, .value_tolerance = -1}, {});
+    FAIL();
+  } catch (const InvalidInput& error) {
+    const std::string text = error.what();
+    for (const char* name : {"cmaes.population = 3", "cmaes.value_tolerance = -1", "sigma = -1", "start[0] = 7",
+                             "start[1] = nan", "box[1]"})
+      EXPECT_NE(text.find(name), std::string::npos) << name << " in\n" << text;
+  }
+}
+
+}  // namespace
+}  // namespace rehearse::optim
