@@ -20,35 +20,39 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D>
 using Vec = hn::Vec<D>;
 
-/// out = x + h Σ_j a_j k_j over the first `stages` slopes.
-template <class D, int N>
-HWY_INLINE void combine(D d, const Vec<D>* x, const Vec<D> k[][N], const double* a, int stages, double h, Vec<D>* out) {
+/// out = x + h Σ_j a_j k_j over the first `Stages` slopes.
+template <int Stages, int N, class D>
+HWY_INLINE void combine(D d, const Vec<D>* x, const Vec<D> k[][N], const double* a, double h, Vec<D>* out) {
+  Vec<D> weights[Stages];
+  for (int j = 0; j < Stages; ++j) weights[j] = hn::Set(d, h * a[j]);
   for (int i = 0; i < N; ++i) {
-    Vec<D> sum = hn::Mul(hn::Set(d, a[0]), k[0][i]);
-    for (int j = 1; j < stages; ++j) sum = hn::MulAdd(hn::Set(d, a[j]), k[j][i], sum);
-    out[i] = hn::MulAdd(hn::Set(d, h), sum, x[i]);
+    out[i] = x[i];
+    for (int j = 0; j < Stages; ++j) out[i] = hn::MulAdd(weights[j], k[j][i], out[i]);
   }
 }
 
 /// `steps` steps of Dormand and Prince 1980, fifth order. rhs(d, x, dx) writes the N derivatives at x.
 template <int N, class D, class Rhs>
 HWY_INLINE void dopri5(D d, const Rhs& rhs, Vec<D>* x, double duration, Index steps) {
-  static constexpr double kA[6][6] = {{1.0 / 5},
-                                      {3.0 / 40, 9.0 / 40},
-                                      {44.0 / 45, -56.0 / 15, 32.0 / 9},
-                                      {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-                                      {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-                                      {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
+  static constexpr double kA2[] = {1.0 / 5}, kA3[] = {3.0 / 40, 9.0 / 40}, kA4[] = {44.0 / 45, -56.0 / 15, 32.0 / 9},
+                          kA5[] = {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+                          kA6[] = {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+                          kB[] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84};
   const double h = duration / static_cast<double>(steps);
   Vec<D> k[6][N], y[N];
   for (Index step = 0; step < steps; ++step) {
     rhs(d, x, k[0]);
-    for (int stage = 1; stage < 6; ++stage) {
-      combine<D, N>(d, x, k, kA[stage - 1], stage, h, y);
-      rhs(d, y, k[stage]);
-    }
-    combine<D, N>(d, x, k, kA[5], 6, h, y);
-    for (int i = 0; i < N; ++i) x[i] = y[i];
+    combine<1, N>(d, x, k, kA2, h, y);
+    rhs(d, y, k[1]);
+    combine<2, N>(d, x, k, kA3, h, y);
+    rhs(d, y, k[2]);
+    combine<3, N>(d, x, k, kA4, h, y);
+    rhs(d, y, k[3]);
+    combine<4, N>(d, x, k, kA5, h, y);
+    rhs(d, y, k[4]);
+    combine<5, N>(d, x, k, kA6, h, y);
+    rhs(d, y, k[5]);
+    combine<6, N>(d, x, k, kB, h, x);
   }
 }
 

@@ -20,10 +20,14 @@ constexpr double kGravity = 9.82;        // m/s²
 constexpr double kLargestAngle = 30000;  // rad; Highway's sine and cosine are valid up to 39 000
 
 /// Chatzilygeroudis 2018, section V: absolute angles counter-clockwise from upright. A θ̈ = b, A symmetric 2 × 2.
+///
+/// The state is extended by the sines and cosines of the angles, which obey their own equations (sin θ)' = cos θ θ̇:
+/// then a step costs no trigonometric function, and is several times faster.
 template <class D>
 class Equations {
  public:
   using V = hn::Vec<D>;
+  // x: θ̇1, θ̇2, θ1, θ2, sin θ1, cos θ1, sin θ2, cos θ2
 
   HWY_INLINE Equations(D d, const Constants& c)
       : a11_(hn::Set(d, c.l1 * c.l1 * (c.m1 / 4 + c.m2) + c.m1 * c.l1 * c.l1 / 12)),
@@ -32,46 +36,61 @@ class Equations {
         gravity1_(hn::Set(d, kGravity * c.l1 * (0.5 * c.m1 + c.m2))),
         gravity2_(hn::Set(d, kGravity * 0.5 * c.m2 * c.l2)),
         b1_(hn::Set(d, c.b1)),
-        b2_(hn::Set(d, c.b2)) {}
+        b2_(hn::Set(d, c.b2)),
+        one_(hn::Set(d, 1.0)) {}
 
-  HWY_INLINE void operator()(D d, const V* x, V u, V* dxdt) const {
-    const V sin1 = hn::Sin(d, x[2]), cos1 = hn::Cos(d, x[2]), sin2 = hn::Sin(d, x[3]), cos2 = hn::Cos(d, x[3]);
-    const V sin12 = sin1 * cos2 - cos1 * sin2, cos12 = cos1 * cos2 + sin1 * sin2;
-    const V a12 = coupling_ * cos12;
-    const V swing = coupling_ * sin12;
-    const V rhs1 = gravity1_ * sin1 - swing * x[1] * x[1] + u - b1_ * x[0];
-    const V rhs2 = swing * x[0] * x[0] + gravity2_ * sin2 - b2_ * x[1];
-    const V inverse = hn::Set(d, 1.0) / (a11_ * a22_ - a12 * a12);
-    dxdt[0] = (a22_ * rhs1 - a12 * rhs2) * inverse;
-    dxdt[1] = (a11_ * rhs2 - a12 * rhs1) * inverse;
+  static HWY_INLINE void extend(D d, V* x) {
+    x[4] = hn::Sin(d, x[2]);
+    x[5] = hn::Cos(d, x[2]);
+    x[6] = hn::Sin(d, x[3]);
+    x[7] = hn::Cos(d, x[3]);
+  }
+
+  HWY_INLINE void operator()(const V* x, V u, V* dxdt) const {
+    const V sin1 = x[4], cos1 = x[5], sin2 = x[6], cos2 = x[7];
+    const V sin12 = hn::NegMulAdd(cos1, sin2, sin1 * cos2), cos12 = hn::MulAdd(cos1, cos2, sin1 * sin2);
+    const V a12 = coupling_ * cos12, swing = coupling_ * sin12;
+    const V rhs1 = hn::MulAdd(gravity1_, sin1, u) - hn::MulAdd(swing, x[1] * x[1], b1_ * x[0]);
+    const V rhs2 = hn::MulAdd(swing, x[0] * x[0], gravity2_ * sin2) - b2_ * x[1];
+    const V inverse = one_ / hn::NegMulAdd(a12, a12, a11_ * a22_);
+    dxdt[0] = hn::NegMulAdd(a12, rhs2, a22_ * rhs1) * inverse;
+    dxdt[1] = hn::NegMulAdd(a12, rhs1, a11_ * rhs2) * inverse;
     dxdt[2] = x[0];
     dxdt[3] = x[1];
+    dxdt[4] = cos1 * x[0];
+    dxdt[5] = hn::Neg(sin1 * x[0]);
+    dxdt[6] = cos2 * x[1];
+    dxdt[7] = hn::Neg(sin2 * x[1]);
   }
 
  private:
-  V a11_, a22_, coupling_, gravity1_, gravity2_, b1_, b2_;
+  V a11_, a22_, coupling_, gravity1_, gravity2_, b1_, b2_, one_;
 };
 
 void DerivativeKernel(const double* x, double u, const Constants& constants, double* dxdt) {
   const hn::CappedTag<double, 1> d;
   using V = hn::Vec<decltype(d)>;
   const Equations<hn::CappedTag<double, 1>> equations(d, constants);
-  V state[4], slope[4];
+  V state[8], slope[8];
   for (int i = 0; i < 4; ++i) state[i] = hn::LoadU(d, x + i);
-  equations(d, state, hn::Set(d, u), slope);
+  equations.extend(d, state);
+  equations(state, hn::Set(d, u), slope);
   for (int i = 0; i < 4; ++i) hn::StoreU(slope[i], d, dxdt + i);
 }
 
 void ChangeKernel(const double* X, Index x_stride, const double* U, const Constants& constants, double dt_s,
                   Index substeps, double* dX, Index dx_stride, Index rows) {
   using D = hn::ScalableTag<double>;
+  using V = hn::Vec<D>;
   const Equations<D> equations(D(), constants);
-  const auto step = [&](D d, hn::Vec<D>* x, const hn::Vec<D>* u) HWY_ATTR {
-    const auto rhs = [&](D d2, const hn::Vec<D>* state, hn::Vec<D>* slope) HWY_ATTR { equations(d2, state, u[0], slope); };
+  const auto step = [&](D d, V* x, const V* u) HWY_ATTR {
+    const auto rhs = [&](D, const V* state, V* slope) HWY_ATTR { equations(state, u[0], slope); };
+    V extended[8] = {x[0], x[1], x[2], x[3]};
+    equations.extend(d, extended);
+    ode::dopri5<8>(d, rhs, extended, dt_s, substeps);
     const auto limit = hn::Set(d, kLargestAngle);
-    ode::dopri5<4>(d, rhs, x, dt_s, substeps);
-    const auto valid = hn::And(hn::Lt(hn::Abs(x[2]), limit), hn::Lt(hn::Abs(x[3]), limit));
-    for (int i = 0; i < 4; ++i) x[i] = hn::IfThenElse(valid, x[i], hn::NaN(d));
+    const auto valid = hn::And(hn::Lt(hn::Abs(extended[2]), limit), hn::Lt(hn::Abs(extended[3]), limit));
+    for (int i = 0; i < 4; ++i) x[i] = hn::IfThenElse(valid, extended[i], hn::NaN(d));
   };
   ode::for_each_block<4, 1>(X, x_stride, U, 0, dX, dx_stride, rows, step);
 }
