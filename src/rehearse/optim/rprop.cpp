@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/optim/gradient.hpp"
+
+namespace rehearse::optim {
+namespace {
+
+void check(const Vector& start, RpropOptions options) {
+  Violations violations;
+  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("rprop", options); })) violations.add(line);
+  violations.require(start.size() > 0 && start.allFinite(), "start has no coordinates or is not finite");
+  violations.require(options.smallest_step <= options.first_step && options.first_step <= options.largest_step,
+                     "rprop.first_step = " + to_text(options.first_step) +
+                         ", must be between rprop.smallest_step and rprop.largest_step");
+  violations.throw_if_any();
+}
+
+double sign(double x) { return static_cast<double>((x > 0) - (x < 0)); }
+
+/// The state of a search: where the last finite value was, its gradient and the step of each coordinate.
+struct Rprop {
+  const RpropOptions& options;
+  Vector x, gradient, steps;
+
+  void move(const Vector& next_x, Vector next_gradient) {  // Igel and Hüsken 2003, Table 1 (iRprop−), for a maximum
+    for (Index i = 0; i < x.size(); ++i) {
+      const double agreement = next_gradient(i) * gradient(i);
+      if (agreement > 0) steps(i) = std::min(1.2 * steps(i), options.largest_step);
+      if (agreement < 0) steps(i) = std::max(0.5 * steps(i), options.smallest_step);
+      if (agreement < 0) next_gradient(i) = 0;
+    }
+    x = next_x;
+    gradient = next_gradient;
+  }
+
+  void retreat() { steps = (0.5 * steps).cwiseMax(options.smallest_step); }
+  bool vanished() const { return (steps.array() <= options.smallest_step).all(); }
+  Vector next() const { return x + steps.cwiseProduct(gradient.unaryExpr(&sign)); }
+};
+
+}  // namespace
+
+GradientResult maximise_rprop(const Differentiable& objective, const Vector& start, const RpropOptions& options) {
+  check(start, options);
+  const Index n = start.size();
+  GradientResult best{start, std::numeric_limits<double>::quiet_NaN(), 0, "max_evaluations"};
+  Rprop search{options, start, Vector::Zero(n), Vector::Constant(n, options.first_step)};
+  Vector x = start, gradient = Vector::Zero(n);
+  while (best.evaluations < options.max_evaluations) {
+    const double value = objective(x, gradient);
+    ++best.evaluations;
+    const bool feasible = std::isfinite(value) && gradient.allFinite();
+    if (!feasible && !std::isfinite(best.value)) {
+      best.stop = "no finite value";
+      break;
+    }
+    if (feasible && !(value <= best.value)) {
+      best.x = x;
+      best.value = value;
+    }
+    if (feasible)
+      search.move(x, gradient);
+    else
+      search.retreat();
+    if (search.vanished() || (feasible && gradient.norm() < options.gradient_tolerance)) {
+      best.stop = "converged";
+      break;
+    }
+    x = search.next();
+  }
+  return best;
+}
+
+}  // namespace rehearse::optim

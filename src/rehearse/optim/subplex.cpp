@@ -1,0 +1,52 @@
+#include "rehearse/core/errors.hpp"
+#include "rehearse/optim/box_transform.hpp"
+#include "rehearse/optim/derivative_free.hpp"
+#include "rehearse/optim/nlopt_search.hpp"
+
+namespace rehearse::optim {
+namespace {
+
+void check(const Vector& start, const std::vector<Interval>& box, SubplexOptions options) {
+  Violations violations;
+  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("subplex", options); })) violations.add(line);
+  violations.require(!box.empty(), "box is empty, must have an interval for each coordinate");
+  for (const auto& line : box_violations(box, start.size())) violations.add(line);
+  for (const auto& line : start_violations(start, box)) violations.add(line);
+  violations.throw_if_any();
+}
+
+}  // namespace
+
+ScalarResult maximise_subplex(const ScalarObjective& objective, const Vector& start, const std::vector<Interval>& box,
+                              const SubplexOptions& options) {
+  check(start, box, options);
+  Vector low(start.size()), high(start.size());
+  for (Index i = 0; i < start.size(); ++i) {
+    low(i) = box[static_cast<std::size_t>(i)].low;
+    high(i) = box[static_cast<std::size_t>(i)].high;
+  }
+  NloptSearch search(
+      NLOPT_LN_SBPLX, [&](const Vector& x, Vector*) { return objective(x); }, low, high);
+  const Vector first = options.first_step * (high - low);
+  nlopt_set_initial_step(search.settings(), first.data());
+  nlopt_set_xtol_rel(search.settings(), options.x_tolerance);
+  nlopt_set_ftol_rel(search.settings(), options.value_tolerance);
+  search.maximise(start, options.max_evaluations);
+  return {search.best_x, search.best_value, search.evaluations, search.stop};
+}
+
+std::vector<Vector> combinations(const std::vector<std::vector<double>>& choices) {
+  std::vector<Vector> all{Vector(0)};
+  for (const auto& set : choices) {
+    std::vector<Vector> longer;
+    for (const Vector& head : all)
+      for (const double value : set) {
+        longer.emplace_back(head.size() + 1);
+        longer.back() << head, value;
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+}  // namespace rehearse::optim
