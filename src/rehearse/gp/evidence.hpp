@@ -25,11 +25,17 @@ struct Penalties {
 /// Buffers that evaluations reuse: none allocates after the first of the same size. Not shared between threads.
 class Workspace {
  public:
-  double* matrix(Index n);               // n × n
-  double* block(int which, Index size);  // which: 0, 1, 2
+  void resize(Index n, Index dimensions);
+
+  double* matrix() { return matrix_.data(); }    // padded(n) × n
+  double* scaled() { return scaled_.data(); }    // padded(n) × D, inputs / ℓ
+  double* weights() { return weights_.data(); }  // padded(n)
+  double* sums() { return sums_.data(); }        // 8 (D + 1)
+  Vector& factors() { return factors_; }         // D
 
  private:
-  std::vector<double> matrix_, blocks_[3];
+  std::vector<double> matrix_, scaled_, weights_, sums_;
+  Vector factors_;
 };
 
 struct Evidence {
@@ -39,8 +45,8 @@ struct Evidence {
 };
 
 /// The log evidence of targets y (n) at flat log hyperparameters (D + 2; Rasmussen 2006, eq. 5.8) and, unless null,
-/// its gradient with respect to them (eq. 5.9). Nothing finite or not finite in `flat` or `y` throws: what cannot be
-/// computed has value and gradient NaN.
+/// its gradient with respect to them (eq. 5.9). No value of `flat` or `y` throws: what cannot be computed has value and
+/// gradient NaN.
 Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVectorView& flat, Workspace& workspace,
                   Vector* gradient = nullptr);
 

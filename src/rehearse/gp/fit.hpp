@@ -2,29 +2,12 @@
 
 #include <string>
 
+#include "rehearse/gp/bounds.hpp"
 #include "rehearse/gp/evidence.hpp"
 #include "rehearse/gp/hyperparameters.hpp"
 #include "rehearse/optim/gradient.hpp"
 
 namespace rehearse::gp {
-
-/// Soft bounds: what the maximisers move is free, and the hyperparameters approach a bound without reaching past it.
-/// The floors are relative to `scale`, the standard deviation of the raw targets before the prior mean was
-/// subtracted: a perfect prior leaves residuals of zero, whose evidence would otherwise grow without end.
-struct Bounds {
-  double signal_floor = 1e-6;  // σ_f ≥ this × scale
-  double noise_floor = 1e-6;   // σ_n ≥ this × scale
-  double max_snr = 1e5;        // σ_f / σ_n ≤ this: beyond it double precision has no gradient
-  double min_length = 1e-3;    // ℓ_d ≥ this × std(x_d)
-  double max_length = 1e4;     // ℓ_d ≤ this × std(x_d); without it those of irrelevant inputs reach e^400
-  void fields(FieldVisitor& v) {
-    v.number("signal_floor", signal_floor, above(0));
-    v.number("noise_floor", noise_floor, above(0));
-    v.number("max_snr", max_snr, above(1));
-    v.number("min_length", min_length, above(0));
-    v.number("max_length", max_length, above(0));
-  }
-};
 
 enum class FitMethod { rprop, lbfgs };
 
@@ -47,7 +30,7 @@ struct Fit {
   enum class Status {
     improved,   // over the start
     unchanged,  // no point better than the start was found: it is returned
-    failed,     // the evidence could not be computed anywhere: the start is returned, log_evidence is NaN
+    failed,     // the evidence could not be computed anywhere: the start is returned as it was, log_evidence is NaN
   };
   Hyperparameters hyperparameters;
   double log_evidence = 0;  // nats, without penalties
@@ -58,12 +41,13 @@ struct Fit {
   Index evaluations = 0;
 };
 
-/// ℓ = std(x), σ_f = std(y), σ_n = std(y)/10 (PILCO), inside the bounds.
+/// ℓ = spread(x), σ_f = std(y), σ_n = σ_f/10 (PILCO), inside the bounds; σ_f at least a tenth of the
+/// root mean square of y, for targets that are little more than an offset.
 Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, double scale, const Bounds& bounds = {});
 
 /// Maximises the (penalised) log evidence of targets y (n) from `start`, which a warm start takes from an earlier fit.
-/// Never returns worse than the start moved inside the bounds; never throws on what numbers do. `scale` > 0: see
-/// Bounds; 0 or NaN counts as 1. Any thread; keeps one workspace per thread.
+/// Never returns worse than the start moved inside the bounds. Throws InvalidInput only if sizes do not agree. `scale`
+/// > 0: see Bounds. Any thread; the workspace is the thread's own.
 Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const Hyperparameters& start,
         const FitOptions& options = {});
 

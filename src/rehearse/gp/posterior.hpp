@@ -35,20 +35,23 @@ class Posterior {
   const Vector& log_evidences() const { return log_evidences_; }      // E, nats
   const Vector& jitters() const { return jitters_; }                  // E, of the ladder, × σ_f²
   const Inputs& inputs() const { return inputs_; }
-  auto weights(Index e) const { return alpha_.col(e); }  // n, α = K⁻¹y
 
-  /// n × n, lower: L⁻¹ with K/σ_f² = L Lᵀ, the strict upper triangle zero.
-  const Matrix& inverse_factor(Index e) const { return inverse_factors_[static_cast<std::size_t>(e)]; }
+  // For moment matching, with c the correlations (the covariance without σ_f²) and K/σ_f² = L Lᵀ:
+  auto weights(Index e) const {
+    return weights_.col(e).head(size());
+  }  // n, w = σ_f² K⁻¹y: the mean is Σ_i w_i c(x, x_i)
+  const Matrix& inverse_factor(Index e) const { return inverse_factors_[static_cast<std::size_t>(e)]; }  // n × n, L⁻¹
 
  private:
   void condition(Index e, const ConstVectorView& y);
 
   Inputs inputs_;
   std::vector<Hyperparameters> hyperparameters_;
-  std::vector<Matrix> scaled_;           // E of n × D: inputs / ℓ
-  std::vector<Matrix> inverse_factors_;  // E of n × n
-  Matrix alpha_;                         // n × E
-  Vector noise_variances_, log_evidences_, jitters_;
+  std::vector<Vector> factors_;          // E of D: from unit inputs to inputs / ℓ
+  std::vector<Matrix> scaled_;           // E of padded n × D: inputs / ℓ
+  std::vector<Matrix> inverse_factors_;  // E of n × n, strict upper triangle zero
+  Matrix weights_;                       // padded n × E
+  Vector signal_variances_, noise_variances_, log_evidences_, jitters_;
 };
 
 }  // namespace rehearse::gp

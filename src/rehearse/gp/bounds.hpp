@@ -1,0 +1,55 @@
+#pragma once
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/gp/hyperparameters.hpp"
+#include "rehearse/gp/inputs.hpp"
+
+namespace rehearse::gp {
+
+/// Where hyperparameters may be. The floors are relative to `scale`, the standard deviation of the raw targets before
+/// the prior mean was subtracted: a perfect prior leaves residuals of zero, whose evidence would otherwise grow
+/// without end.
+struct Bounds {
+  double signal_floor = 1e-6;  // σ_f ≥ this × scale
+  double noise_floor = 1e-6;   // σ_n ≥ this × scale
+  double max_snr = 1e5;        // σ_f / σ_n ≤ this: beyond it double precision has no gradient
+  double min_length = 1e-3;    // ℓ_d ≥ this × spread of x_d
+  double max_length = 1e4;     // ℓ_d ≤ this × spread of x_d; without it those of irrelevant inputs reach e^400
+  void fields(FieldVisitor& v) {
+    v.number("signal_floor", signal_floor, above(0));
+    v.number("noise_floor", noise_floor, above(0));
+    v.number("max_snr", max_snr, above(1));
+    v.number("min_length", min_length, above(0));
+    v.number("max_length", max_length, above(0));
+  }
+};
+
+/// The bounds as a smooth map from free variables u (D + 2) to flat log hyperparameters that cannot leave them:
+///
+///   ℓ_d² = min² + 1 / (1/max² + e^{−2u_d}),   σ_f² = floor² + e^{2u_D},   σ_n² = floor² + σ_f²/max_snr² + e^{2u_{D+1}}
+///
+/// Far from a bound it is the identity (ℓ in spreads, σ in scales), and at a bound the gradient vanishes: a maximiser
+/// without bounds stops there by itself. The noise reads as a sum of variances: floor, share of the signal, learned.
+class SoftBounds {
+ public:
+  /// `scale` of 0, or not finite, counts as 1.
+  SoftBounds(const Bounds& bounds, const Inputs& inputs, double scale);
+
+  Vector flat(const Vector& u) const;
+
+  /// A gradient with respect to the flat log hyperparameters becomes one with respect to u.
+  void to_free(const Vector& u, Vector& gradient) const;
+
+  /// The u of the flat log hyperparameters nearest to `flat`, a little inside the bounds so that they can be left.
+  Vector free(const Vector& flat) const;
+
+  /// `flat` moved to the bounds where it is outside.
+  Vector clamped(const Vector& flat) const;
+
+ private:
+  Bounds bounds_;
+  Vector log_spread_;  // D
+  double log_scale_;
+};
+
+}  // namespace rehearse::gp

@@ -1,0 +1,114 @@
+#include "rehearse/gp/evidence.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "rehearse/gp/blas.hpp"
+#include "rehearse/gp/cholesky.hpp"
+#include "rehearse/gp/kernel.hpp"
+
+namespace rehearse::gp {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLogTwoPi = 1.8378770664093454836;
+constexpr int kWallPower = 30;
+
+Evidence failure(Vector* gradient) {
+  if (gradient) gradient->setConstant(kNaN);
+  return {.value = kNaN, .jitter = kNaN};
+}
+
+/// (position / ln limit)^30 subtracted; its derivative with respect to the position returned.
+double wall(double position, double limit, double& value) {
+  const double t = position / std::log(limit);
+  value -= std::pow(t, kWallPower);
+  return -kWallPower * std::pow(t, kWallPower - 1) / std::log(limit);
+}
+
+/// b = (L Lᵀ)⁻¹ y / σ_f in place; returns y' b / σ_f = ‖L⁻¹ y‖² / σ_f².
+double solve(const double* factor, Index n, double* b) {
+  const int size = static_cast<int>(n), stride = static_cast<int>(padded(n)), one = 1;
+  dtrsv_("L", "N", "N", &size, factor, &stride, b, &one);
+  const double quadratic = Eigen::Map<const Vector>(b, n).squaredNorm();
+  dtrsv_("L", "T", "N", &size, factor, &stride, b, &one);
+  return quadratic;
+}
+
+double half_log_determinant(const double* factor, Index n) {
+  double sum = 0;
+  for (Index i = 0; i < n; ++i) sum += std::log(factor[i * (padded(n) + 1)]);
+  return sum;
+}
+
+/// The workspace holds the factor, b and the scaled inputs; K = σ_f² (C + (noise_ratio + jitter) I).
+bool differentiate(Index n, Index D, double noise_ratio, double jitter, Workspace& workspace, Vector& gradient) {
+  const int size = static_cast<int>(n), stride = static_cast<int>(padded(n));
+  int info = 0;
+  dpotri_("L", &size, workspace.matrix(), &stride, &info);
+  if (info != 0) return false;
+  double trace = 0;  // of b b' − (K/σ_f²)⁻¹
+  for (Index i = 0; i < n; ++i)
+    trace += workspace.weights()[i] * workspace.weights()[i] - workspace.matrix()[i * (padded(n) + 1)];
+  gradient_sums(workspace.scaled(), n, D, workspace.weights(), workspace.matrix(), workspace.sums());
+  gradient.head(D) = Eigen::Map<const Vector>(workspace.sums(), D);
+  gradient(D) = 2 * workspace.sums()[D] + (1 + jitter) * trace;
+  gradient(D + 1) = noise_ratio * trace;
+  return gradient.allFinite();
+}
+
+}  // namespace
+
+bool Evidence::ok() const { return std::isfinite(value); }
+
+void Workspace::resize(Index n, Index dimensions) {
+  const auto rows = static_cast<std::size_t>(padded(n)), columns = static_cast<std::size_t>(dimensions);
+  matrix_.resize(rows * static_cast<std::size_t>(n));
+  scaled_.resize(rows * columns);
+  weights_.resize(rows);
+  sums_.resize(8 * (columns + 1));
+  factors_.resize(dimensions);
+}
+
+Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVectorView& flat, Workspace& workspace,
+                  Vector* gradient) {
+  const Index n = inputs.size(), D = inputs.dimensions();
+  if (gradient) gradient->resize(D + 2);
+  workspace.resize(n, D);
+  workspace.factors() = inputs.half_range().array() * (-flat.head(D)).array().exp();
+  const double log_signal = flat(D), noise_ratio = std::exp(2 * (flat(D + 1) - log_signal));
+  const double inverse_signal = std::exp(-log_signal);
+  if (!workspace.factors().allFinite() || !std::isfinite(noise_ratio) || !std::isfinite(inverse_signal) ||
+      !y.allFinite())
+    return failure(gradient);
+
+  scale_inputs(inputs.unit().data(), n, D, workspace.factors().data(), workspace.scaled());
+  const double jitter = factorise(workspace.scaled(), n, D, noise_ratio, workspace.matrix());
+  if (std::isnan(jitter)) return failure(gradient);
+  Eigen::Map<Vector>(workspace.weights(), n) = y * inverse_signal;
+  Eigen::Map<Vector>(workspace.weights() + n, padded(n) - n).setZero();
+  const double quadratic = solve(workspace.matrix(), n, workspace.weights());
+  const double value = -quadratic / 2 - half_log_determinant(workspace.matrix(), n) -
+                       static_cast<double>(n) * (log_signal + kLogTwoPi / 2);
+  if (!std::isfinite(value)) return failure(gradient);
+  if (gradient && !differentiate(n, D, noise_ratio, jitter, workspace, *gradient)) return failure(gradient);
+  return {.value = value, .jitter = jitter};
+}
+
+double penalty(const Inputs& inputs, const ConstVectorView& flat, const Penalties& penalties, Vector* gradient) {
+  const Index D = inputs.dimensions();
+  double value = 0;
+  if (penalties.length) {
+    for (Index d = 0; d < D; ++d) {
+      const double slope = wall(flat(d) - std::log(inputs.spread()(d)), penalties.length_limit, value);
+      if (gradient) (*gradient)(d) += slope;
+    }
+  }
+  if (penalties.snr) {
+    const double slope = wall(flat(D) - flat(D + 1), penalties.snr_limit, value);
+    if (gradient) (*gradient)(D) += slope, (*gradient)(D + 1) -= slope;
+  }
+  return value;
+}
+
+}  // namespace rehearse::gp

@@ -1,0 +1,37 @@
+#include "rehearse/gp/hyperparameters.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace rehearse::gp {
+
+double Hyperparameters::signal_variance() const { return std::exp(2 * log_signal); }
+double Hyperparameters::noise_variance() const { return std::exp(2 * log_noise); }
+
+Vector Hyperparameters::flat() const {
+  Vector flat(inputs() + 2);
+  flat << log_lengths, log_signal, log_noise;
+  return flat;
+}
+
+Hyperparameters Hyperparameters::from_flat(const ConstVectorView& flat) {
+  const Index D = flat.size() - 2;
+  return {.log_lengths = flat.head(D), .log_signal = flat(D), .log_noise = flat(D + 1)};
+}
+
+std::vector<std::string> violations(const Hyperparameters& hyperparameters, Index inputs, const std::string& name) {
+  std::vector<std::string> list;
+  if (hyperparameters.inputs() != inputs)
+    list.push_back(fmt::format("{}.log_lengths has {} values, must be {}", name, hyperparameters.inputs(), inputs));
+  const auto require_finite = [&](const std::string& field, double value) {
+    if (!std::isfinite(value)) list.push_back(fmt::format("{}.{} = {}, must be finite", name, field, value));
+  };
+  for (Index d = 0; d < hyperparameters.inputs(); ++d)
+    require_finite(fmt::format("log_lengths[{}]", d), hyperparameters.log_lengths(d));
+  require_finite("log_signal", hyperparameters.log_signal);
+  require_finite("log_noise", hyperparameters.log_noise);
+  return list;
+}
+
+}  // namespace rehearse::gp

@@ -1,0 +1,46 @@
+#include "rehearse/gp/inputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::gp {
+namespace {
+
+/// Below this fraction of its magnitude, a column's variation is rounding.
+constexpr double kConstant = 1e-13;
+
+void require_finite(const ConstMatrixView& X) {
+  Violations wrong;
+  wrong.require(X.rows() > 0, "gp inputs have 0 rows, must be ≥ 1");
+  for (Index i = 0; i < X.rows(); ++i)
+    for (Index d = 0; d < X.cols(); ++d)
+      if (!std::isfinite(X(i, d))) wrong.add(fmt::format("gp inputs({}, {}) = {}, must be finite", i, d, X(i, d)));
+  wrong.throw_if_any();
+}
+
+double sample_deviation(const ConstVectorView& x) {
+  if (x.size() < 2) return 0;
+  return (x.array() - x.mean()).matrix().norm() / std::sqrt(static_cast<double>(x.size() - 1));
+}
+
+}  // namespace
+
+Inputs::Inputs(const ConstMatrixView& X) : unit_(X.rows(), X.cols()), center_(X.cols()), half_range_(X.cols()) {
+  require_finite(X);
+  spread_.resize(X.cols());
+  for (Index d = 0; d < X.cols(); ++d) {
+    const double low = X.col(d).minCoeff(), high = X.col(d).maxCoeff();
+    center_(d) = low / 2 + high / 2;
+    half_range_(d) = high / 2 - low / 2;
+    const bool constant = half_range_(d) <= kConstant * std::abs(center_(d));
+    if (constant) half_range_(d) = std::max(std::abs(center_(d)), 1.0);
+    unit_.col(d) = X.col(d).array() / half_range_(d) - center_(d) / half_range_(d);
+    spread_(d) = constant ? half_range_(d) : sample_deviation(unit_.col(d)) * half_range_(d);
+  }
+}
+
+}  // namespace rehearse::gp

@@ -1,0 +1,70 @@
+#include "rehearse/gp/bounds.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "naive.hpp"
+
+namespace rehearse::gp {
+namespace {
+
+const Inputs kInputs(50 * naive::normals(20, 3, 1));
+const SoftBounds kBounds({}, kInputs, 0.02);
+
+Vector flat(double length, double signal, double noise) {
+  Vector flat(5);
+  flat << (length * kInputs.spread()).array().log().matrix(), std::log(0.02 * signal), std::log(0.02 * noise);
+  return flat;
+}
+
+TEST(SoftBounds, IsTheIdentityFarFromThem) {
+  const Vector inside = flat(2, 1.5, 0.1);
+  EXPECT_LT((kBounds.flat(kBounds.free(inside)) - inside).norm(), 1e-12);
+  EXPECT_EQ(kBounds.clamped(inside), inside);
+  Vector gradient = Vector::Ones(5);
+  kBounds.to_free(kBounds.free(inside), gradient);
+  EXPECT_LT((gradient - Vector::Ones(5)).norm(), 1e-5);
+}
+
+TEST(SoftBounds, NothingLeavesThem) {
+  for (const double u : {-1e4, -400.0, -20.0, 0.0, 20.0, 300.0}) {
+    const Vector reached = kBounds.flat(Vector::Constant(5, u));
+    EXPECT_TRUE(reached.allFinite()) << u;
+    EXPECT_LT((kBounds.clamped(reached) - reached).norm(), 1e-12) << u;
+    Vector gradient = Vector::Ones(5);
+    kBounds.to_free(Vector::Constant(5, u), gradient);
+    EXPECT_TRUE(gradient.allFinite()) << u;
+    EXPECT_GE(gradient.minCoeff(), 0) << u;
+  }
+}
+
+TEST(SoftBounds, GradientAgreesWithFiniteDifferences) {
+  for (const double shift : {-16.0, -7.0, -1.0, 3.0, 9.0}) {
+    const Vector u = Vector::LinSpaced(5, shift, shift + 2);
+    const Vector weights = Vector::LinSpaced(5, 1, 2);
+    Vector gradient = weights;
+    kBounds.to_free(u, gradient);
+    for (Index k = 0; k < 5; ++k) {
+      const Vector step = 1e-5 * Vector::Unit(5, k);
+      const double slope = weights.dot(kBounds.flat(u + step) - kBounds.flat(u - step)) / 2e-5;
+      EXPECT_NEAR(gradient(k), slope, 1e-7) << shift << " " << k;
+    }
+  }
+}
+
+TEST(SoftBounds, StartsOutsideAreMovedInside) {
+  for (const Vector& outside : {flat(1e-9, 1e-9, 1e-9), flat(1e9, 1e9, 1e-9), flat(1e300, 1, 0)}) {
+    const Vector clamped = kBounds.clamped(outside), reached = kBounds.flat(kBounds.free(outside));
+    EXPECT_LT((reached - clamped).lpNorm<Eigen::Infinity>(), 0.02);
+  }
+}
+
+TEST(SoftBounds, AScaleOfZeroCountsAsOne) {
+  const Vector u = Vector::Zero(5);
+  for (const double scale : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(SoftBounds({}, kInputs, scale).flat(u), SoftBounds({}, kInputs, 1).flat(u));
+}
+
+}  // namespace
+}  // namespace rehearse::gp

@@ -1,0 +1,150 @@
+#include "rehearse/gp/evidence.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "naive.hpp"
+#include "reference.hpp"
+
+namespace rehearse::gp {
+namespace {
+
+TEST(Evidence, AgreesWithPilco) {
+  const auto reference = reference::load();
+  const Inputs inputs(reference::matrix(reference["inputs"]["X"]));
+  const Matrix Y = reference::matrix(reference["inputs"]["Y"]);
+  const Penalties penalties{.length = true, .length_limit = 100, .snr = true, .snr_limit = 1000};
+  Workspace workspace;
+  for (const auto& point : reference["outputs"]["evaluations"]) {
+    const Matrix flat = reference::matrix(point["loghyp"]), slopes = reference::matrix(point["dnlml"]),
+                 penalised_slopes = reference::matrix(point["hypcurb_df"]);
+    for (Index e = 0; e < Y.cols(); ++e) {
+      Vector gradient;
+      const double value = evidence(inputs, Y.col(e), flat.col(e), workspace, &gradient).value;
+      const double expected = -point["nlml"][static_cast<std::size_t>(e)].get<double>();
+      const double penalised = -point["hypcurb_f"][static_cast<std::size_t>(e)].get<double>();
+      EXPECT_NEAR(value, expected, 1e-8 * std::abs(expected)) << point["point"] << e;
+      EXPECT_LT((gradient + slopes.col(e)).lpNorm<Eigen::Infinity>(), 1e-8 * slopes.cwiseAbs().maxCoeff());
+      const double wall = penalty(inputs, flat.col(e), penalties, &gradient);
+      EXPECT_NEAR(value + wall, penalised, 1e-8 * std::abs(penalised)) << point["point"] << e;
+      EXPECT_LT((gradient + penalised_slopes.col(e)).lpNorm<Eigen::Infinity>(),
+                1e-8 * penalised_slopes.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+TEST(Evidence, AgreesWithTheBook) {
+  Workspace workspace;  // one for all sizes
+  for (const Index n : {1, 2, 17, 64, 150, 9}) {
+    for (const Index D : {1, 4, 7}) {
+      const Matrix X = 3 * naive::normals(n, D, 1).array() + 10;
+      const Hyperparameters theta = naive::hyperparameters(D, 2, 5, 0.3);
+      const Vector y = naive::draw(X, theta, 2);
+      const double value = evidence(Inputs(X), y, theta.flat(), workspace).value;
+      const double expected = naive::evidence(X, y, theta);
+      EXPECT_NEAR(value, expected, 1e-10 * (std::abs(expected) + 1)) << n << " " << D;
+    }
+  }
+}
+
+/// By central differences.
+Vector slopes(const Inputs& inputs, const Vector& y, const Vector& flat, const Penalties& penalties, double step) {
+  Workspace workspace;
+  Vector slopes(flat.size());
+  for (Index k = 0; k < flat.size(); ++k) {
+    double values[2];
+    for (const int side : {0, 1}) {
+      Vector moved = flat;
+      moved(k) += side ? step : -step;
+      values[side] = evidence(inputs, y, moved, workspace).value + penalty(inputs, moved, penalties);
+    }
+    slopes(k) = (values[1] - values[0]) / (2 * step);
+  }
+  return slopes;
+}
+
+TEST(Evidence, GradientAgreesWithFiniteDifferences) {
+  const Penalties penalties{.length = true, .length_limit = 3, .snr = true, .snr_limit = 20};
+  for (const Index n : {1, 12, 75}) {
+    const Matrix X = naive::normals(n, 6, 3);
+    const Hyperparameters theta = naive::hyperparameters(6, 1.5, 2, 0.2);
+    const Vector y = naive::draw(X, theta, 4);
+    const Inputs inputs(X);
+    Workspace workspace;
+    Vector gradient;
+    evidence(inputs, y, theta.flat(), workspace, &gradient);
+    penalty(inputs, theta.flat(), penalties, &gradient);
+    const Vector expected = slopes(inputs, y, theta.flat(), penalties, 1e-5);
+    EXPECT_LT((gradient - expected).norm(), 1e-7 * (1 + expected.norm())) << n;
+  }
+}
+
+TEST(Evidence, GradientIsUsableAtTheLargestSignalToNoiseRatio) {
+  const Matrix X = naive::normals(300, 3, 5);
+  Hyperparameters theta = naive::hyperparameters(3, 2, 1, 1e-5);  // the default max_snr of the fit
+  const Vector y = (X.rowwise().sum().array()).sin();
+  const Inputs inputs(X);
+  Workspace workspace;
+  Vector gradient;
+  EXPECT_EQ(evidence(inputs, y, theta.flat(), workspace, &gradient).jitter, 0);
+  const Vector expected = slopes(inputs, y, theta.flat(), {}, 1e-3);
+  EXPECT_LT((gradient - expected).norm(), 1e-3 * expected.norm());
+}
+
+TEST(Evidence, DoesNotDependOnTheUnits) {
+  const Matrix X = naive::normals(40, 2, 6);
+  const Hyperparameters theta = naive::hyperparameters(2, 1, 1, 0.1);
+  const Vector y = naive::draw(X, theta, 7);
+  Hyperparameters tiny = theta;
+  tiny.log_lengths.array() += std::log(1e100);
+  tiny.log_signal += std::log(1e-14), tiny.log_noise += std::log(1e-14);
+  Workspace workspace;
+  const double value = evidence(Inputs(X), y, theta.flat(), workspace).value;
+  const double other = evidence(Inputs(1e100 * X), 1e-14 * y, tiny.flat(), workspace).value;
+  EXPECT_NEAR(other - 40 * std::log(1e14), value, 1e-9);
+}
+
+TEST(Evidence, WhatCannotBeComputedIsNaNAndNothingCrashes) {
+  const Inputs inputs(naive::normals(10, 2, 8));
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  const Vector y = naive::normals(10, 1, 9);
+  Workspace workspace;
+  Vector gradient;
+  for (const double bad : {nan, inf, -inf, 1e6, -1e6}) {
+    for (Index k = 0; k < 4; ++k) {
+      Vector flat = Vector::Zero(4);
+      flat(k) = bad;
+      const Evidence result = evidence(inputs, y, flat, workspace, &gradient);
+      if (!result.ok()) {
+        EXPECT_TRUE(std::isnan(result.value));
+        EXPECT_TRUE(gradient.array().isNaN().all());
+      }
+    }
+    Vector bad_y = y;
+    bad_y(3) = bad;
+    EXPECT_EQ(evidence(inputs, bad_y, Vector::Zero(4), workspace, &gradient).ok(), std::isfinite(bad));
+  }
+}
+
+TEST(Evidence, DegenerateInputsAreFinite) {
+  Matrix X = naive::normals(30, 3, 10);
+  X.col(1).setConstant(4);
+  X.bottomRows(10) = X.topRows(10);
+  X.row(2) *= 1e150;
+  const Inputs inputs(X);
+  Workspace workspace;
+  Vector gradient;
+  for (const double noise : {1.0, 1e-3, 1e-12, 0.0}) {
+    Vector flat = Vector::Zero(5);
+    flat(4) = std::log(noise + 1e-300);
+    const Evidence result = evidence(inputs, Vector::Zero(30), flat, workspace, &gradient);
+    EXPECT_TRUE(result.ok()) << noise;
+    EXPECT_TRUE(gradient.allFinite()) << noise;
+    EXPECT_TRUE(std::isfinite(penalty(inputs, flat, {.length = true, .snr = true}, &gradient)));
+    EXPECT_EQ(gradient(1), penalty(inputs, flat, {}) + gradient(1));
+  }
+}
+
+}  // namespace
+}  // namespace rehearse::gp

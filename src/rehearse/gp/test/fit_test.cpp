@@ -1,0 +1,143 @@
+#include "rehearse/gp/fit.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "naive.hpp"
+#include "reference.hpp"
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::gp {
+namespace {
+
+FitOptions with(FitMethod method) {
+  FitOptions options;
+  options.method = method;
+  return options;
+}
+const FitMethod kMethods[] = {FitMethod::rprop, FitMethod::lbfgs};
+
+TEST(Fit, ReachesPilcosOptima) {
+  const auto reference = reference::load();
+  const Inputs inputs(reference::matrix(reference["inputs"]["X"]));
+  const Matrix Y = reference::matrix(reference["inputs"]["Y"]);
+  for (const FitMethod method : kMethods) {
+    FitOptions options = with(method);
+    options.penalties = {.length = true, .length_limit = 100, .snr = true, .snr_limit = 1000};
+    options.rprop.max_evaluations = options.lbfgs.max_evaluations = 1000;
+    for (Index e = 0; e < Y.cols(); ++e) {
+      const double scale = std::exp(default_start(inputs, Y.col(e), 1).log_signal);
+      const Fit result = fit(inputs, Y.col(e), scale, default_start(inputs, Y.col(e), scale), options);
+      const double expected = reference["trained"]["final_penalised_nlml"][static_cast<std::size_t>(e)];
+      EXPECT_LE(-(result.log_evidence + result.penalty), expected + 1e-2) << e << " " << result.stop;
+      EXPECT_EQ(result.status, Fit::Status::improved);
+    }
+  }
+}
+
+// n = 300, seed 1. The Fisher information of ln σ_n is about 2n, so its deviation is about 0.04, that of the others
+// larger; 0.4 is more than 4 deviations of each.
+TEST(Fit, RecoversHyperparametersAndMethodsAgree) {
+  const Matrix X = naive::normals(300, 3, 1);
+  const Hyperparameters truth = naive::hyperparameters(3, 0.8, 2, 0.1);
+  const Vector y = naive::draw(X, truth, 2);
+  const Inputs inputs(X);
+  double values[2];
+  for (const FitMethod method : kMethods) {
+    const Fit result = fit(inputs, y, 2, default_start(inputs, y, 2), with(method));
+    EXPECT_LT((result.hyperparameters.flat() - truth.flat()).lpNorm<Eigen::Infinity>(), 0.4);
+    EXPECT_NEAR(result.log_evidence, naive::evidence(X, y, result.hyperparameters), 1e-6);
+    EXPECT_GT(result.log_evidence, naive::evidence(X, y, truth));
+    values[method == FitMethod::lbfgs] = result.log_evidence;
+  }
+  EXPECT_NEAR(values[0], values[1], 1e-3);
+}
+
+TEST(Fit, WarmStartIsNeverMadeWorse) {
+  const Matrix X = naive::normals(60, 2, 3);
+  const Vector y = naive::draw(X, naive::hyperparameters(2, 1, 1, 0.1), 4);
+  const Inputs inputs(X);
+  Workspace workspace;
+  for (const FitMethod method : kMethods) {
+    for (const double length : {0.03, 1.0, 30.0, 1e5}) {
+      for (const double noise : {1e-7, 1e-3, 10.0}) {
+        const Hyperparameters start = naive::hyperparameters(2, length, 1, noise);
+        const Vector inside = SoftBounds({}, inputs, 1).clamped(start.flat());
+        const Fit result = fit(inputs, y, 1, start, with(method));
+        EXPECT_GE(result.log_evidence, evidence(inputs, y, inside, workspace).value) << length << " " << noise;
+      }
+    }
+    const Fit first = fit(inputs, y, 1, default_start(inputs, y, 1), with(method));
+    const Fit again = fit(inputs, y, 1, first.hyperparameters, with(method));
+    EXPECT_GE(again.log_evidence, first.log_evidence);
+    EXPECT_LT(again.log_evidence, first.log_evidence + 0.05);
+    EXPECT_LE(again.evaluations, first.evaluations);
+  }
+}
+
+TEST(Fit, PerfectPriorsHaveFiniteEvidence) {
+  const Inputs inputs(naive::normals(50, 3, 5));
+  for (const FitMethod method : kMethods) {
+    double previous = std::numeric_limits<double>::infinity();
+    for (const double residual : {0.0, 1e-14, 1e-9, 1e-6, 1e-3, 1.0}) {
+      const Vector y = residual * naive::normals(50, 1, 6);
+      const Fit result = fit(inputs, y, 1, default_start(inputs, y, 1), with(method));
+      ASSERT_TRUE(std::isfinite(result.log_evidence)) << residual;
+      EXPECT_LE(result.log_evidence, previous + 1) << residual;
+      EXPECT_GE(result.hyperparameters.log_signal, std::log(1e-6) - 1e-12);
+      EXPECT_GE(result.hyperparameters.log_noise, std::log(1e-6) - 1e-12);
+      previous = result.log_evidence;
+    }
+  }
+}
+
+TEST(Fit, LeavesAFloorWhenTheDataChange) {
+  const Inputs inputs(naive::normals(50, 2, 7));
+  const Vector zero = Vector::Zero(50), y = naive::normals(50, 1, 8);
+  for (const FitMethod method : kMethods) {
+    const Fit at_floor = fit(inputs, zero, 1, default_start(inputs, zero, 1), with(method));
+    const Fit cold = fit(inputs, y, 1, default_start(inputs, y, 1), with(method));
+    const Fit warm = fit(inputs, y, 1, at_floor.hyperparameters, with(method));
+    EXPECT_NEAR(warm.log_evidence, cold.log_evidence, 0.5);
+  }
+}
+
+TEST(Fit, DegenerateDataAreNoError) {
+  Matrix X = naive::normals(25, 3, 9);
+  X.col(0).setConstant(-3);
+  X.bottomRows(10) = X.topRows(10);
+  Matrix huge = X;
+  huge.row(4) *= 1e200;
+  for (const Matrix& data : {X, Matrix(X.topRows(1)), Matrix(Matrix::Zero(25, 3)), huge}) {
+    const Inputs inputs(data);
+    const Vector y = naive::normals(data.rows(), 1, 10);
+    for (const FitMethod method : kMethods) {
+      FitOptions options = with(method);
+      for (const bool penalised : {false, true}) {
+        options.penalties.length = options.penalties.snr = penalised;
+        const Fit result = fit(inputs, y, 1, default_start(inputs, y, 1), options);
+        EXPECT_NE(result.status, Fit::Status::failed);
+        EXPECT_TRUE(std::isfinite(result.log_evidence + result.penalty));
+        EXPECT_TRUE(result.hyperparameters.flat().allFinite());
+      }
+    }
+  }
+}
+
+TEST(Fit, FailureIsAStatusAndKeepsTheStart) {
+  const Inputs inputs(naive::normals(10, 2, 11));
+  const Hyperparameters start = naive::hyperparameters(2, 1, 1, 0.1);
+  Vector y = naive::normals(10, 1, 12);
+  y(0) = std::numeric_limits<double>::quiet_NaN();
+  for (const FitMethod method : kMethods) {
+    const Fit result = fit(inputs, y, 1, start, with(method));
+    EXPECT_EQ(result.status, Fit::Status::failed);
+    EXPECT_TRUE(std::isnan(result.log_evidence));
+    EXPECT_EQ(result.hyperparameters.flat(), start.flat());
+  }
+  EXPECT_THROW(fit(inputs, y.head(9), 1, start), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rehearse::gp

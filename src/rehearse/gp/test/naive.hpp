@@ -1,0 +1,56 @@
+#pragma once
+// The GP by the book, with Eigen and loops, and data to try it on.
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "rehearse/core/random.hpp"
+#include "rehearse/gp/hyperparameters.hpp"
+
+namespace rehearse::gp::naive {
+
+inline Matrix normals(Index rows, Index columns, std::uint64_t seed) {
+  Rng rng({.seed = seed});
+  Matrix X(rows, columns);
+  for (Index j = 0; j < columns; ++j)
+    for (Index i = 0; i < rows; ++i) X(i, j) = rng.normal();
+  return X;
+}
+
+inline Hyperparameters hyperparameters(Index dimensions, double length, double signal, double noise) {
+  return {.log_lengths = Vector::LinSpaced(dimensions, std::log(length), std::log(2 * length)),
+          .log_signal = std::log(signal),
+          .log_noise = std::log(noise)};
+}
+
+/// n × m covariances of the latent function.
+inline Matrix covariance(const Matrix& A, const Matrix& B, const Hyperparameters& theta) {
+  Matrix K(A.rows(), B.rows());
+  const Eigen::ArrayXd lengths = theta.lengths();
+  for (Index i = 0; i < A.rows(); ++i) {
+    for (Index j = 0; j < B.rows(); ++j) {
+      const Eigen::ArrayXd difference = (A.row(i) - B.row(j)).transpose().array() / lengths;
+      K(i, j) = theta.signal_variance() * std::exp(-0.5 * difference.square().sum());
+    }
+  }
+  return K;
+}
+
+inline Matrix noisy_covariance(const Matrix& X, const Hyperparameters& theta) {
+  return covariance(X, X, theta) + theta.noise_variance() * Matrix::Identity(X.rows(), X.rows());
+}
+
+inline double evidence(const Matrix& X, const Vector& y, const Hyperparameters& theta) {
+  const Eigen::LLT<Matrix> llt(noisy_covariance(X, theta));
+  const double half_log_determinant = llt.matrixLLT().diagonal().array().log().sum();
+  return -0.5 * y.dot(llt.solve(y)) - half_log_determinant - 0.5 * static_cast<double>(y.size()) * std::log(2 * M_PI);
+}
+
+/// A draw from the GP itself, noise included.
+inline Vector draw(const Matrix& X, const Hyperparameters& theta, std::uint64_t seed) {
+  return noisy_covariance(X, theta).llt().matrixL() * Vector(normals(X.rows(), 1, seed));
+}
+
+}  // namespace rehearse::gp::naive

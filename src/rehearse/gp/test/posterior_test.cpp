@@ -1,0 +1,188 @@
+#include "rehearse/gp/posterior.hpp"
+
+#include <limits>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "naive.hpp"
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::gp {
+namespace {
+
+struct Prediction {
+  Matrix mean, variance;
+};
+
+Prediction predict(const Posterior& posterior, const Matrix& F) {
+  Prediction p{Matrix(F.rows(), posterior.outputs()), Matrix(F.rows(), posterior.outputs())};
+  posterior.predict(F, p.mean, p.variance);
+  return p;
+}
+
+std::vector<Hyperparameters> three_outputs(Index D) {
+  return {naive::hyperparameters(D, 1, 2, 0.1), naive::hyperparameters(D, 3, 0.5, 0.01),
+          naive::hyperparameters(D, 0.3, 1, 1e-3)};
+}
+
+Posterior make(Index n, Index D) {
+  const Matrix X = naive::normals(n, D, 1);
+  return Posterior(Inputs(X), naive::normals(n, 3, 2), three_outputs(D));
+}
+
+TEST(Posterior, AgreesWithTheBook) {
+  for (const Index n : {1, 2, 40, 64, 130}) {
+    for (const Index D : {1, 7}) {
+      const Matrix X = naive::normals(n, D, 3).array() * 2 + 5, F = naive::normals(90, D, 4).array() * 2 + 5;
+      const std::vector<Hyperparameters> thetas = three_outputs(D);
+      Matrix Y(n, 3);
+      for (Index e = 0; e < 3; ++e) Y.col(e) = naive::draw(X, thetas[static_cast<std::size_t>(e)], 5);
+      const Posterior posterior(Inputs(X), Y, thetas);
+      const Prediction p = predict(posterior, F);
+      for (Index e = 0; e < 3; ++e) {
+        const Hyperparameters& theta = thetas[static_cast<std::size_t>(e)];
+        const Eigen::LLT<Matrix> llt(naive::noisy_covariance(X, theta));
+        const Matrix k = naive::covariance(X, F, theta);
+        const Vector mean = k.transpose() * llt.solve(Y.col(e));
+        const Vector explained = llt.matrixL().solve(k).colwise().squaredNorm();
+        const double tolerance = theta.log_noise < -6 ? 1e-8 : 1e-10;  // the condition grows with 1/σ_n²
+        EXPECT_LT((p.mean.col(e) - mean).norm(), tolerance * (1 + mean.norm())) << n << " " << D << " " << e;
+        EXPECT_LT((p.variance.col(e) - (theta.signal_variance() - explained.array()).matrix()).norm(), tolerance);
+        EXPECT_NEAR(posterior.log_evidences()(e), naive::evidence(X, Y.col(e), theta), 1e-7 * n);
+        EXPECT_DOUBLE_EQ(posterior.noise_variances()(e), theta.noise_variance());
+      }
+    }
+  }
+}
+
+TEST(Posterior, ExposesWhatMomentMatchingNeeds) {
+  const Matrix X = naive::normals(20, 2, 6), Y = naive::normals(20, 1, 7);
+  const Hyperparameters theta = naive::hyperparameters(2, 1, 2, 0.1);
+  const Posterior posterior(Inputs(X), Y, {theta});
+  const Matrix K = naive::noisy_covariance(X, theta), L = posterior.inverse_factor(0);
+  EXPECT_TRUE((L.transpose() * L).isApprox(4 * K.inverse(), 1e-9));
+  EXPECT_TRUE(Vector(posterior.weights(0)).isApprox(4 * K.llt().solve(Y), 1e-9));
+}
+
+TEST(Posterior, ARowIsTheSameToTheBitHoweverManyComeWithIt) {
+  for (const Index n : {5, 50, 200, 331}) {
+    const Posterior posterior = make(n, 7);
+    const Matrix F = naive::normals(200, 7, 8);
+    const Prediction all = predict(posterior, F);
+    Matrix means(200, 3);
+    posterior.predict_mean(F, means);
+    EXPECT_EQ(all.mean, means);
+    for (const auto& [first, count] :
+         {std::pair<Index, Index>{0, 1}, {3, 64}, {100, 1}, {63, 2}, {199, 1}, {17, 130}}) {
+      const Prediction some = predict(posterior, F.middleRows(first, count));
+      EXPECT_EQ(some.mean, all.mean.middleRows(first, count)) << n << " " << first;
+      EXPECT_EQ(some.variance, all.variance.middleRows(first, count)) << n << " " << first;
+      Matrix few(count, 3);
+      posterior.predict_mean(F.middleRows(first, count), few);
+      EXPECT_EQ(few, some.mean);
+    }
+  }
+}
+
+TEST(Posterior, TwoThreadsGiveTheSameBytes) {
+  const Posterior posterior = make(150, 5);
+  const Matrix F = naive::normals(500, 5, 9);
+  const Prediction expected = predict(posterior, F);
+  const auto repeat = [&](bool& same) {
+    same = true;
+    for (int k = 0; k < 20; ++k) {
+      const Prediction p = predict(posterior, F);
+      same = same && p.mean == expected.mean && p.variance == expected.variance;
+    }
+  };
+  bool same[2];
+  std::thread other(repeat, std::ref(same[1]));
+  repeat(same[0]);
+  other.join();
+  EXPECT_TRUE(same[0] && same[1]);
+}
+
+TEST(Posterior, OneThreadUsesManyPosteriorsInTurn) {
+  const Posterior small = make(9, 2), large = make(140, 6);
+  const Matrix few = naive::normals(3, 2, 10), many = naive::normals(100, 6, 11);
+  const Prediction first = predict(small, few);
+  predict(large, many);
+  const Prediction again = predict(small, few);
+  EXPECT_EQ(first.mean, again.mean);
+  EXPECT_EQ(first.variance, again.variance);
+}
+
+TEST(Posterior, MissingRowsStayAlone) {
+  const Posterior posterior = make(70, 4);
+  Matrix F = naive::normals(130, 4, 12);
+  const Prediction clean = predict(posterior, F);
+  F(7, 2) = F(129, 0) = std::numeric_limits<double>::quiet_NaN();
+  const Prediction p = predict(posterior, F);
+  Matrix means(130, 3);
+  posterior.predict_mean(F, means);
+  for (Index i = 0; i < 130; ++i) {
+    const bool missing = i == 7 || i == 129;
+    EXPECT_EQ(p.mean.row(i).array().isNaN().all(), missing) << i;
+    EXPECT_EQ(p.variance.row(i).array().isNaN().all(), missing) << i;
+    EXPECT_EQ(means.row(i).array().isNaN().all(), missing) << i;
+    if (missing) continue;
+    EXPECT_EQ(p.mean.row(i), clean.mean.row(i)) << i;
+    EXPECT_EQ(p.variance.row(i), clean.variance.row(i)) << i;
+  }
+}
+
+TEST(Posterior, FarFromTheDataIsThePrior) {
+  const Posterior posterior = make(30, 2);
+  Matrix F(4, 2);
+  const double inf = std::numeric_limits<double>::infinity();
+  F << 1e6, 0, 1e308, -1e308, inf, 0, -inf, inf;
+  const Prediction p = predict(posterior, F);
+  for (Index i = 0; i < 4; ++i) {
+    EXPECT_EQ(p.mean.row(i), Matrix(Matrix::Zero(1, 3)));
+    for (Index e = 0; e < 3; ++e)
+      EXPECT_DOUBLE_EQ(p.variance(i, e), posterior.hyperparameters()[static_cast<std::size_t>(e)].signal_variance());
+  }
+}
+
+TEST(Posterior, DegenerateTrainingDataNeverGiveNaN) {
+  Matrix X = naive::normals(40, 3, 13);
+  X.col(1).setConstant(2);
+  X.bottomRows(20) = X.topRows(20);
+  Matrix huge = X;
+  huge.row(5) *= 1e250;
+  const Matrix F = (Matrix(60, 3) << X.topRows(20), 1e3 * X.topRows(20), naive::normals(20, 3, 14)).finished();
+  for (const Matrix& data : {X, huge, Matrix(Matrix::Zero(40, 3)), Matrix(X.topRows(1))}) {
+    for (const double noise : {0.1, 1e-8, 1e-150}) {
+      const Matrix Y = Matrix::Zero(data.rows(), 1);
+      const Hyperparameters theta = naive::hyperparameters(3, 1, 1, noise);
+      const Prediction p = predict(Posterior(Inputs(data), Y, {theta}), F);
+      EXPECT_TRUE(p.mean.allFinite());
+      EXPECT_TRUE(p.variance.allFinite());
+      EXPECT_GE(p.variance.minCoeff(), 0);
+      EXPECT_LE(p.variance.maxCoeff(), 1);
+    }
+  }
+}
+
+TEST(Posterior, WritesIntoBlocks) {
+  const Posterior posterior = make(10, 2);
+  const Matrix F = naive::normals(12, 4, 15);
+  Matrix mean = Matrix::Zero(20, 5), variance = mean;
+  posterior.predict(F.rightCols(2), mean.block(3, 1, 12, 3), variance.block(3, 2, 12, 3));
+  const Prediction p = predict(posterior, F.rightCols(2));
+  EXPECT_EQ(mean.block(3, 1, 12, 3), p.mean);
+  EXPECT_EQ(variance.block(3, 2, 12, 3), p.variance);
+  EXPECT_TRUE(mean.col(0).isZero() && mean.topRows(3).isZero() && mean.bottomRows(5).isZero());
+}
+
+TEST(Posterior, WrongInputIsNamed) {
+  const Inputs inputs(naive::normals(10, 2, 16));
+  EXPECT_THROW(Posterior(inputs, Matrix::Zero(9, 1), {naive::hyperparameters(2, 1, 1, 1)}), InvalidInput);
+  EXPECT_THROW(Posterior(inputs, Matrix::Zero(10, 2), {naive::hyperparameters(2, 1, 1, 1)}), InvalidInput);
+  EXPECT_THROW(Posterior(inputs, Matrix::Zero(10, 1), {naive::hyperparameters(3, 1, 1, 1)}), InvalidInput);
+  EXPECT_THROW(Posterior(inputs, Matrix::Zero(10, 1), {naive::hyperparameters(2, 1, 1e-200, 1e200)}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rehearse::gp
