@@ -16,6 +16,9 @@ class SerialEvaluator final : public Evaluator {
   void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
     for (Index i = 0; i < results.cols(); ++i) task(i, results.col(i));
   }
+  void for_each(Index n, const std::function<void(Index)>& task) const override {
+    for (Index i = 0; i < n; ++i) task(i);
+  }
   int concurrency() const override { return 1; }
 };
 
@@ -24,24 +27,26 @@ class ThreadEvaluator final : public Evaluator {
   explicit ThreadEvaluator(int threads) : arena_(threads) {}
 
   void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
-    std::vector<std::exception_ptr> failures(static_cast<std::size_t>(results.cols()));
-    arena_.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<Index>(0, results.cols(), 1),
-          [&](const tbb::blocked_range<Index>& range) {
-            for (Index i = range.begin(); i < range.end(); ++i) {
-              try {
-                task(i, results.col(i));
-              } catch (...) {
-                failures[static_cast<std::size_t>(i)] = std::current_exception();
-              }
-            }
-          },
-          tbb::simple_partitioner());
-    });
+    for_each(results.cols(), [&](Index i) { task(i, results.col(i)); });
+  }
+
+  void for_each(Index n, const std::function<void(Index)>& task) const override {
+    std::vector<std::exception_ptr> failures(static_cast<std::size_t>(n));
+    const auto guarded = [&](Index i) {
+      try {
+        task(i);
+      } catch (...) {
+        failures[static_cast<std::size_t>(i)] = std::current_exception();
+      }
+    };
+    const auto run = [&](const tbb::blocked_range<Index>& range) {
+      for (Index i = range.begin(); i < range.end(); ++i) guarded(i);
+    };
+    arena_.execute([&] { tbb::parallel_for(tbb::blocked_range<Index>(0, n, 1), run, tbb::simple_partitioner()); });
     for (const std::exception_ptr& failure : failures)
       if (failure) std::rethrow_exception(failure);
   }
+
   int concurrency() const override { return arena_.max_concurrency(); }
 
  private:

@@ -17,6 +17,10 @@ class Evaluator {
   /// rank. The first exception of a task (in order of i) is thrown again here. May be called from within a task.
   virtual void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const = 0;
 
+  /// Calls task(i) once for each i in 0..n−1 on the threads of this process alone: for tasks that change state kept
+  /// here, which every rank must do for itself. Exceptions as above.
+  virtual void for_each(Index n, const std::function<void(Index)>& task) const = 0;
+
   /// How many tasks run at once; must not decide results.
   virtual int concurrency() const = 0;
 };

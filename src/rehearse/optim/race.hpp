@@ -1,10 +1,12 @@
 #pragma once
-// Many short descents that compete: in each round the better ones go on and the others stop (successive halving,
-// Karnin 2013). On a function with several families of solutions this finds the better family with fewer
-// evaluations than restarts one after the other, and its generations make large batches.
+// Many short descents of CMA-ES that compete: after each round the better ones go on and the others stop (successive
+// halving; Jamieson and Talwalkar 2016). Where a function has several families of solutions this finds the better
+// one with fewer evaluations than restarts one after the other, and its generations make large batches.
 
+#include <string>
 #include <vector>
 
+#include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/optim/cmaes.hpp"
@@ -13,25 +15,34 @@
 namespace rehearse::optim {
 
 struct RaceOptions {
-  Index descents = 16;       // that start; the first from the given start, the others uniform in the box
-  double survivors = 0.5;    // fraction that goes on to the next round
-  Index rounds = 4;          // of equal numbers of evaluations; in the last one `finalists` are left
-  Index max_evaluations = 200000;
-  double sigma = 1;          // first step size of a descent
-  double start_sigma = 0.5;  // of the descent from the given start
-  Index population = 34;
-  CmaesOptions cmaes;
+  Index max_evaluations = 200000;  // of the objective, re-evaluations included
+  Index descents = 16;             // that start
+  Index rounds = 4;                // of about equal numbers of evaluations
+  double survivors = 0.5;          // fraction of the descents that goes on after each round
+  double sigma = 1;                // first step size of descents from random points
+  double start_sigma = 0.5;        // and of those from given starts
+  Index judgements = 16;           // evaluations of a descent's best point and mean when a round ends
+  CmaesOptions cmaes{.population = 17};
   void fields(FieldVisitor& v);
 };
 
-/// One descent's end.
+/// A point that a descent ended with: the better of its best point and its mean.
 struct Contender {
-  Vector x;          // its best point
-  double value = 0;  // the best value seen there
-  Vector mean;       // where its search distribution is
-  Index evaluations = 0;
-  Index round = 0;   // the last round it took part in
-  Stop stop = Stop::none;
+  Vector x;
+  double value = 0;  // mean of the judgements
+  Index round = 0;   // the last round its descent took part in
+  std::string stop;  // why its descent ended
 };
+
+struct RaceResult {
+  std::vector<Contender> contenders;  // one a descent, best value first
+  Index evaluations = 0;
+};
+
+/// Maximises within the box. The first descents begin at the given starts (at most all of them), the others uniformly
+/// in the box. Results depend on the key, never on the evaluator. Throws InvalidInput.
+RaceResult race(const BatchObjective& objective, const std::vector<Vector>& starts, const std::vector<Interval>& box,
+                const RaceOptions& options, const StreamKey& key, const Evaluator& evaluator,
+                const SearchListener& listener = {});
 
 }  // namespace rehearse::optim

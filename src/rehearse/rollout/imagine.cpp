@@ -8,11 +8,22 @@ namespace {
 
 constexpr Index kChunk = 128;  // rows; fixed, so that results do not depend on the number of threads
 
+/// Memory of a chunk, kept by each thread from one to the next: fresh pages cost more than a step of a cheap model.
+struct Buffers {
+  Matrix Theta, X, next, variance, noise, U;
+  Vector reward, returns;
+};
+
+Buffers& buffers_of_this_thread() {
+  thread_local Buffers buffers;
+  return buffers;
+}
+
 /// The rollouts [first, first + rows) of a batch; rollout r is particle r % particles of candidate r / particles.
 class Chunk {
  public:
   Chunk(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task, const StreamKey& key,
-        const ImagineOptions& options, Index rows)
+        const ImagineOptions& options, Index rows, Buffers& buffers)
       : model_(model),
         policy_(policy),
         task_(task),
@@ -21,14 +32,20 @@ class Chunk {
         candidates_(static_cast<std::size_t>(rows)),
         particles_(static_cast<std::size_t>(rows)),
         alive_(static_cast<std::size_t>(rows), true),
-        Theta_(rows, policy.parameters()),
-        X_(rows, task.state_size()),
-        next_(rows, task.state_size()),
-        variance_(rows, task.state_size()),
-        noise_(rows, task.state_size()),
-        U_(rows, task.action_size()),
-        reward_(rows),
-        returns_(Vector::Zero(rows)) {}
+        Theta_(buffers.Theta),
+        X_(buffers.X),
+        next_(buffers.next),
+        variance_(buffers.variance),
+        noise_(buffers.noise),
+        U_(buffers.U),
+        reward_(buffers.reward),
+        returns_(buffers.returns) {
+    Theta_.resize(rows, policy.parameters());
+    for (Matrix* states : {&X_, &next_, &variance_, &noise_}) states->resize(rows, task.state_size());
+    U_.resize(rows, task.action_size());
+    reward_.resize(rows);
+    returns_.setZero(rows);
+  }
 
   void set_row(Index row, const ConstVectorView& theta, std::uint64_t candidate, std::uint64_t particle) {
     Theta_.row(row) = theta.transpose();
@@ -95,8 +112,8 @@ class Chunk {
   ImagineOptions options_;
   std::vector<std::uint64_t> candidates_, particles_;
   std::vector<char> alive_;
-  Matrix Theta_, X_, next_, variance_, noise_, U_;
-  Vector reward_, returns_;
+  Matrix &Theta_, &X_, &next_, &variance_, &noise_, &U_;
+  Vector &reward_, &returns_;
   Index failed_ = 0;
 };
 
@@ -110,7 +127,7 @@ Imagined imagine(const dynamics::DynamicsModel& model, const policy::Policy& pol
   Matrix results(kChunk + 1, chunks);  // returns, and how many failed
   const auto task_of_chunk = [&](Index c, VectorView result) {
     const Index first = c * kChunk, rows = std::min(kChunk, total - first);
-    Chunk chunk(model, policy, task, key, options, rows);
+    Chunk chunk(model, policy, task, key, options, rows, buffers_of_this_thread());
     for (Index row = 0; row < rows; ++row) {
       const Index candidate = (first + row) / particles, particle = (first + row) % particles;
       chunk.set_row(row, Theta.col(candidate), first_candidate + static_cast<std::uint64_t>(candidate),
@@ -134,7 +151,8 @@ Imagined imagine(const dynamics::DynamicsModel& model, const policy::Policy& pol
 
 Recorded imagine_recorded(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
                           const Vector& theta, Index particles, const StreamKey& key, const ImagineOptions& options) {
-  Chunk chunk(model, policy, task, key, options, particles);
+  Buffers buffers;
+  Chunk chunk(model, policy, task, key, options, particles, buffers);
   for (Index p = 0; p < particles; ++p) chunk.set_row(p, theta, 0, static_cast<std::uint64_t>(p));
   chunk.start();
   Recorded recorded;

@@ -1,0 +1,22 @@
+#include "rehearse/dynamics/gp_model.hpp"
+
+namespace rehearse::dynamics {
+
+void gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U, MatrixView F) {
+  features.apply(X, F.leftCols(features.features()));
+  F.rightCols(U.cols()) = U;
+}
+
+void GpModel::predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const {
+  thread_local Matrix inputs, prior_mean;
+  inputs.resize(X.rows(), features_.features() + U.cols());
+  gp_inputs(features_, X, U, inputs);
+  posterior_.predict(inputs, mean, variance);
+  if (variance_ == PredictedVariance::noisy) variance.rowwise() += posterior_.noise_variances().transpose();
+  if (!mean_) return;
+  prior_mean.resize(X.rows(), X.cols());
+  mean_->prior.mean(X, U, mean_->phi, prior_mean);
+  mean += prior_mean;
+}
+
+}  // namespace rehearse::dynamics

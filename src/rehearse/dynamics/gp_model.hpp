@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+
+#include "rehearse/core/feature_map.hpp"
+#include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/gp/posterior.hpp"
+#include "rehearse/prior/prior.hpp"
+
+namespace rehearse::dynamics {
+
+enum class PredictedVariance {
+  latent,  // of the latent function (Chatzilygeroudis 2018, eq. 4)
+  noisy,   // plus the learned noise (the authors' code)
+};
+
+/// A prior at fixed parameters as the mean function of GPs. Empty: zero mean.
+struct Mean {
+  prior::Prior prior;
+  Vector phi;
+};
+
+/// The GP inputs of a batch: features of the states, then actions (n × (features + du)).
+void gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U, MatrixView F);
+
+/// State changes = prior mean + independent GPs.
+class GpModel final : public DynamicsModel {
+ public:
+  GpModel(FeatureMap features, std::optional<Mean> mean, gp::Posterior posterior, PredictedVariance variance)
+      : features_(std::move(features)), mean_(std::move(mean)), posterior_(std::move(posterior)), variance_(variance) {}
+
+  void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override;
+
+  const gp::Posterior& posterior() const { return posterior_; }
+
+ private:
+  FeatureMap features_;
+  std::optional<Mean> mean_;
+  gp::Posterior posterior_;
+  PredictedVariance variance_;
+};
+
+}  // namespace rehearse::dynamics

@@ -1,0 +1,146 @@
+#include "rehearse/dynamics/learn.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/dynamics/identification.hpp"
+#include "rehearse/dynamics/residuals.hpp"
+#include "rehearse/dynamics/simulator_model.hpp"
+
+namespace rehearse::dynamics {
+namespace {
+
+struct Kernels {
+  std::vector<gp::Hyperparameters> fitted;
+  Vector log_evidences;
+  std::vector<std::string> notes;
+};
+
+std::vector<gp::Hyperparameters> starts(const Residuals::Rows& rows, const Vector& scale,
+                                        const std::vector<gp::Hyperparameters>& warm, const gp::Bounds& bounds) {
+  if (!warm.empty()) return warm;
+  std::vector<gp::Hyperparameters> kernels;
+  for (Index e = 0; e < scale.size(); ++e)
+    kernels.push_back(gp::default_start(*rows.inputs, rows.targets.col(e), scale(e), bounds));
+  return kernels;
+}
+
+/// Fits the kernel of every output, in parallel.
+Kernels fit_kernels(const Residuals::Rows& rows, const Vector& scale, const std::vector<gp::Hyperparameters>& start,
+                    const gp::FitOptions& options, const Evaluator& evaluator) {
+  const Index outputs = scale.size(), size = start.front().flat().size();
+  Matrix results(size + 2, outputs);  // kernel, log evidence, whether it failed
+  evaluator.evaluate(
+      [&](Index e, VectorView result) {
+        const gp::Fit fit = gp::fit(*rows.inputs, rows.targets.col(e), scale(e), start[static_cast<std::size_t>(e)],
+                                    options);
+        result.head(size) = fit.hyperparameters.flat();
+        result(size) = fit.log_evidence;
+        result(size + 1) = fit.status == gp::Fit::Status::failed;
+      },
+      results);
+  Kernels kernels{.log_evidences = results.row(size).transpose()};
+  for (Index e = 0; e < outputs; ++e) {
+    kernels.fitted.push_back(gp::Hyperparameters::from_flat(results.col(e).head(size)));
+    if (results(size + 1, e) != 0) kernels.notes.push_back(fmt::format("the kernel of output {} could not be fitted", e));
+  }
+  return kernels;
+}
+
+void require_rows(const Residuals::Rows& rows) {
+  if (!rows.inputs) throw InvalidInput("no row of the data set has a finite prior mean: nothing to learn from");
+}
+
+/// GPs around the prior at φ (null: around zero), their kernels fitted from `warm`.
+Learned learn_gps(const Residuals& residuals, const FeatureMap& features, const prior::Prior* prior, const Vector& phi,
+                  const GpOptions& options, const std::vector<gp::Hyperparameters>& warm, const Evaluator& evaluator) {
+  const Residuals::Rows rows = residuals.at(prior, phi);
+  require_rows(rows);
+  Kernels kernels = fit_kernels(rows, residuals.scale(), starts(rows, residuals.scale(), warm, options.fit.bounds),
+                                options.fit, evaluator);
+  std::optional<Mean> mean;
+  if (prior) mean = Mean{*prior, phi};
+  Learned learned;
+  learned.model = std::make_shared<GpModel>(features, mean, gp::Posterior(*rows.inputs, rows.targets, kernels.fitted),
+                                            options.variance);
+  learned.state.kernels = std::move(kernels.fitted);
+  if (prior) learned.state.phi = phi;
+  learned.log_evidence = kernels.log_evidences.sum();
+  learned.left_out_rows = rows.left_out;
+  learned.notes = std::move(kernels.notes);
+  return learned;
+}
+
+Learned learn_kind(const ZeroMean& kind, const Residuals& residuals, const FeatureMap& features, const prior::Prior*,
+                   const WarmStart& start, const Evaluator& evaluator) {
+  return learn_gps(residuals, features, nullptr, {}, kind.gp, start.kernels, evaluator);
+}
+
+Learned learn_kind(const FixedPrior& kind, const Residuals& residuals, const FeatureMap& features,
+                   const prior::Prior* prior, const WarmStart& start, const Evaluator& evaluator) {
+  return learn_gps(residuals, features, prior, prior->space.values(), kind.gp, start.kernels, evaluator);
+}
+
+/// Algorithm 2: for each φ, every kernel is fitted again, from where the best φ so far had it.
+Learned learn_kind(const GpMi& kind, const Residuals& residuals, const FeatureMap& features, const prior::Prior* prior,
+                   const WarmStart& start, const Evaluator& evaluator) {
+  std::vector<gp::Hyperparameters> best_kernels = start.kernels;
+  double best = -std::numeric_limits<double>::infinity();
+  const auto objective = [&](const Vector& phi) {
+    const Residuals::Rows rows = residuals.at(prior, phi);
+    if (!rows.inputs) return -std::numeric_limits<double>::infinity();
+    Kernels kernels = fit_kernels(rows, residuals.scale(),
+                                  starts(rows, residuals.scale(), best_kernels, kind.gp.fit.bounds), kind.gp.fit,
+                                  evaluator);
+    // A φ at which rows fail must not win by having fewer of them to explain.
+    const double share = static_cast<double>(residuals.size()) / static_cast<double>(rows.targets.rows());
+    const double score = score_of(kernels.log_evidences, kind.score) * share;
+    if (score > best) best = score, best_kernels = std::move(kernels.fitted);
+    return score;
+  };
+  const Identified identified = identify(prior->space, start.phi, objective, kind.subplex);
+  Learned learned = learn_gps(residuals, features, prior, identified.phi, kind.gp, best_kernels, evaluator);
+  learned.evaluations = identified.evaluations;
+  return learned;
+}
+
+Learned learn_kind(const Mi& kind, const Residuals& residuals, const FeatureMap&, const prior::Prior* prior,
+                   const WarmStart& start, const Evaluator&) {
+  const auto objective = [&](const Vector& phi) {
+    const Residuals::Rows rows = residuals.at(prior, phi);
+    return rows.inputs ? -rows.targets.squaredNorm() / static_cast<double>(rows.targets.rows())
+                       : -std::numeric_limits<double>::infinity();
+  };
+  const Identified identified = identify(prior->space, start.phi, objective, kind.subplex);
+  Learned learned;
+  learned.model = std::make_shared<SimulatorModel>(*prior, identified.phi);
+  learned.state.phi = identified.phi;
+  learned.evaluations = identified.evaluations;
+  learned.left_out_rows = residuals.at(prior, identified.phi).left_out;
+  return learned;
+}
+
+}  // namespace
+
+double score_of(const Vector& log_likelihoods, Score score) {
+  if (!log_likelihoods.allFinite()) return -std::numeric_limits<double>::infinity();
+  if (score == Score::product) return log_likelihoods.sum();
+  // The harmonic mean n / Σ 1/p_i; log Σ exp in both cases, of log p_i or of −log p_i.
+  const double sign = score == Score::sum ? 1 : -1;
+  const double largest = (sign * log_likelihoods).maxCoeff();
+  const double log_sum = largest + std::log((sign * log_likelihoods.array() - largest).exp().sum());
+  return score == Score::sum ? log_sum : std::log(static_cast<double>(log_likelihoods.size())) - log_sum;
+}
+
+Learned learn(const Dataset& data, const FeatureMap& features, const prior::Prior* prior, const Kind& kind,
+              const WarmStart& start, const Evaluator& evaluator) {
+  if (!prior && !std::holds_alternative<ZeroMean>(kind)) throw InvalidInput("this dynamics model needs a prior");
+  if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
+  const Residuals residuals(data, features);
+  return std::visit([&](const auto& k) { return learn_kind(k, residuals, features, prior, start, evaluator); }, kind);
+}
+
+}  // namespace rehearse::dynamics

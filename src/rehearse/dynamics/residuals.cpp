@@ -1,0 +1,49 @@
+#include "rehearse/dynamics/residuals.hpp"
+
+#include <cmath>
+
+#include "rehearse/dynamics/gp_model.hpp"
+
+namespace rehearse::dynamics {
+namespace {
+
+Matrix inputs_of(const Dataset& data, const FeatureMap& features) {
+  Matrix F(data.size(), features.features() + data.actions.cols());
+  gp_inputs(features, data.states, data.actions, F);
+  return F;
+}
+
+Vector standard_deviations(const Matrix& Y) {
+  const Matrix centred = Y.rowwise() - Y.colwise().mean();
+  return (centred.colwise().squaredNorm().transpose() / std::max<double>(1, static_cast<double>(Y.rows() - 1)))
+      .cwiseSqrt();
+}
+
+std::vector<Index> finite_rows(const Matrix& Y) {
+  std::vector<Index> rows;
+  for (Index i = 0; i < Y.rows(); ++i)
+    if (Y.row(i).allFinite()) rows.push_back(i);
+  return rows;
+}
+
+}  // namespace
+
+Residuals::Residuals(const Dataset& data, const FeatureMap& features)
+    : data_(data),
+      inputs_(inputs_of(data, features)),
+      all_(data.size() == 0 ? nullptr : std::make_shared<gp::Inputs>(inputs_)),
+      scale_(standard_deviations(data.changes)) {}
+
+Residuals::Rows Residuals::at(const prior::Prior* prior, const Vector& phi) const {
+  if (!prior) return {all_, data_.changes, 0};
+  Matrix mean(data_.size(), data_.states.cols());
+  const Index failed = prior->mean(data_.states, data_.actions, phi, mean);
+  const Matrix targets = data_.changes - mean;
+  if (failed == 0) return {all_, targets, 0};
+  const std::vector<Index> rows = finite_rows(targets);
+  if (rows.empty()) return {nullptr, {}, size()};
+  return {std::make_shared<gp::Inputs>(Matrix(inputs_(rows, Eigen::all))), targets(rows, Eigen::all),
+          size() - static_cast<Index>(rows.size())};
+}
+
+}  // namespace rehearse::dynamics

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/core/feature_map.hpp"
+#include "rehearse/gp/inputs.hpp"
+#include "rehearse/prior/prior.hpp"
+
+#include <memory>
+
+namespace rehearse::dynamics {
+
+/// What the GPs are trained on: inputs, and targets minus the prior mean. Rows whose prior mean is not finite are left
+/// out. Const methods may run concurrently.
+class Residuals {
+ public:
+  Residuals(const Dataset& data, const FeatureMap& features);
+
+  struct Rows {
+    std::shared_ptr<const gp::Inputs> inputs;  // null if no row is left
+    Matrix targets;                            // rows × dx
+    Index left_out = 0;
+  };
+  /// Without a prior (null): the state changes themselves.
+  Rows at(const prior::Prior* prior, const Vector& phi) const;
+
+  const Vector& scale() const { return scale_; }  // dx, standard deviation of the raw changes
+  Index size() const { return data_.size(); }
+
+ private:
+  const Dataset& data_;
+  Matrix inputs_;
+  std::shared_ptr<const gp::Inputs> all_;
+  Vector scale_;
+};
+
+}  // namespace rehearse::dynamics

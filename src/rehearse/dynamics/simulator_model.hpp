@@ -1,0 +1,25 @@
+#pragma once
+
+#include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/prior/prior.hpp"
+
+namespace rehearse::dynamics {
+
+/// A prior taken at its word: its mean, and everywhere the same variance (0: no doubt).
+class SimulatorModel final : public DynamicsModel {
+ public:
+  SimulatorModel(prior::Prior prior, Vector phi, double variance = 0)
+      : prior_(std::move(prior)), phi_(std::move(phi)), variance_(variance) {}
+
+  void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override {
+    prior_.mean(X, U, phi_, mean);
+    variance.setConstant(variance_);
+  }
+
+ private:
+  prior::Prior prior_;
+  Vector phi_;
+  double variance_;
+};
+
+}  // namespace rehearse::dynamics

@@ -1,0 +1,214 @@
+#include "rehearse/learners/black_drops/black_drops.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/dynamics/simulator_model.hpp"
+
+namespace rehearse::learners::black_drops {
+namespace {
+
+using nlohmann::json;
+
+template <class F>
+double seconds(F&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+json to_json(const Vector& v) { return std::vector<double>(v.begin(), v.end()); }
+
+Vector to_vector(const json& j) {
+  const auto values = j.get<std::vector<double>>();
+  return Vector::Map(values.data(), static_cast<Index>(values.size()));
+}
+
+std::vector<Vector> to_vectors(const json& j) {
+  std::vector<Vector> vectors;
+  for (const json& element : j) vectors.push_back(to_vector(element));
+  return vectors;
+}
+
+class BlackDrops final : public Learner {
+ public:
+  BlackDrops(Setting setting, Options options)
+      : setting_(std::move(setting)), options_(std::move(options)), features_(setting_.task.feature_map()) {}
+
+  const Proposal& ask() override {
+    if (!proposal_) proposal_ = propose();
+    return *proposal_;
+  }
+
+  void tell(const Episode& episode) override {
+    const Proposal& asked = ask();
+    policies_.push_back(asked.theta);
+    add(episode);
+    proposal_.reset();
+  }
+
+  json save() const override {
+    json kernels = json::array(), policies = json::array(), carried = json::array();
+    for (const auto& kernel : state_.kernels) kernels.push_back(to_json(kernel.flat()));
+    for (const Vector& theta : policies_) policies.push_back(to_json(theta));
+    for (const Vector& theta : carried_) carried.push_back(to_json(theta));
+    return {{"kernels", kernels},
+            {"phi", state_.phi ? to_json(*state_.phi) : json()},
+            {"policies", policies},
+            {"carried", carried}};
+  }
+
+  void load(const std::vector<Episode>& episodes, const json& state) override {
+    data_ = {};
+    returns_.clear();
+    proposal_.reset();
+    for (const Episode& episode : episodes) add(episode);
+    policies_ = to_vectors(state.at("policies"));
+    carried_ = to_vectors(state.at("carried"));
+    state_ = {};
+    for (const Vector& flat : to_vectors(state.at("kernels")))
+      state_.kernels.push_back(gp::Hyperparameters::from_flat(flat));
+    if (!state.at("phi").is_null()) state_.phi = to_vector(state.at("phi"));
+    if (policies_.size() != episodes.size()) throw InvalidInput("the learner's state does not fit the episodes");
+  }
+
+ private:
+  void add(const Episode& episode) {
+    data_.append(episode);
+    returns_.push_back(episode.total_reward());
+  }
+
+  std::uint64_t trial() const { return returns_.size() + 1; }
+
+  Proposal propose() {
+    Proposal proposal;
+    if (returns_.empty() && !setting_.prior) {
+      proposal.theta = random_policy(*setting_.policy, options_.search, setting_.seed, trial());
+      return proposal;
+    }
+    proposal.model_s = seconds([&] { learn_model(proposal); });
+    proposal.search_s = seconds([&] { search(proposal); });
+    return proposal;
+  }
+
+  void learn_model(Proposal& proposal) {
+    if (setting_.progress) setting_.progress({.phase = "model"});
+    if (returns_.empty()) {
+      proposal.phi = setting_.prior->space.values();
+      proposal.model =
+          std::make_shared<dynamics::SimulatorModel>(*setting_.prior, *proposal.phi, options_.prior_variance);
+      return;
+    }
+    dynamics::Learned learned =
+        dynamics::learn(data_, features_, setting_.prior ? &*setting_.prior : nullptr, options_.model, state_,
+                        *setting_.evaluator);
+    proposal.model = learned.model;
+    proposal.phi = learned.state.phi;
+    proposal.log_evidence = learned.log_evidence;
+    proposal.left_out_rows = learned.left_out_rows;
+    proposal.notes = std::move(learned.notes);
+    state_ = std::move(learned.state);
+  }
+
+  void search(Proposal& proposal) {
+    const SearchProblem problem{*proposal.model, *setting_.policy, setting_.task, *setting_.evaluator,
+                                setting_.progress};
+    std::vector<Vector> starts = known_policies();
+    const Index searches = returns_.empty() ? options_.prior_searches : 1;
+    for (Index i = 0; i < searches; ++i) {
+      // The searches of a trial differ in their streams.
+      const std::uint64_t stream = trial() + (static_cast<std::uint64_t>(i) << 24);
+      SearchResult found = search_policy(problem, starts, options_.search, setting_.seed, stream);
+      starts = {found.theta};
+      proposal.theta = std::move(found.theta);
+      proposal.predicted_return = found.predicted_return;
+      proposal.rollouts += found.rollouts;
+      proposal.failed_rollouts += found.failed_rollouts;
+      carried_ = std::move(found.runners_up);
+      if (static_cast<Index>(carried_.size()) > options_.carried) carried_.resize(static_cast<std::size_t>(options_.carried));
+    }
+  }
+
+  /// Where descents start: the best policy observed, and good ones of the last search.
+  std::vector<Vector> known_policies() const {
+    std::vector<Vector> starts;
+    if (options_.start_from_best && !returns_.empty()) {
+      const auto best = std::max_element(returns_.begin(), returns_.end()) - returns_.begin();
+      starts.push_back(policies_[static_cast<std::size_t>(best)]);
+    }
+    starts.insert(starts.end(), carried_.begin(), carried_.end());
+    return starts;
+  }
+
+  Setting setting_;
+  Options options_;
+  FeatureMap features_;
+  Dataset data_;
+  std::vector<double> returns_;
+  std::vector<Vector> policies_, carried_;
+  dynamics::WarmStart state_;
+  std::optional<Proposal> proposal_;
+};
+
+class Builder final : public LearnerBuilder {
+ public:
+  Builder(std::string name, std::string summary, dynamics::Kind model)
+      : name_(std::move(name)), summary_(std::move(summary)) {
+    options_.model = std::move(model);
+  }
+  std::string name() const override { return name_; }
+  std::string summary() const override { return summary_; }
+  PriorUse prior_use() const override {
+    return std::holds_alternative<dynamics::ZeroMean>(options_.model) ? PriorUse::none : PriorUse::required;
+  }
+  bool chooses_priors() const override {
+    return std::holds_alternative<dynamics::GpMi>(options_.model) || std::holds_alternative<dynamics::Mi>(options_.model);
+  }
+  void fields(FieldVisitor& v) override { options_.fields(v); }
+  std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }
+
+ private:
+  std::string name_, summary_;
+  Options options_;
+};
+
+}  // namespace
+
+void Options::fields(FieldVisitor& v) {
+  std::visit([&](auto& kind) { v.group("model", kind); }, model);
+  v.group("search", search);
+  v.boolean("start_from_best", start_from_best);
+  v.integer("carried", carried, at_least(0));
+  v.integer("prior_searches", prior_searches, at_least(1));
+  v.number("prior_variance", prior_variance, at_least(0));
+}
+
+std::unique_ptr<Learner> make(Setting setting, Options options) {
+  Violations violations;
+  for (const auto& line : field_violations([&](FieldVisitor& v) { options.fields(v); })) violations.add(line);
+  for (const auto& line : setting.task.violations()) violations.add(line);
+  const bool needs_prior = !std::holds_alternative<dynamics::ZeroMean>(options.model);
+  violations.require(!needs_prior || setting.prior, "this learner needs a prior");
+  violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
+  violations.throw_if_any();
+  if (!needs_prior) setting.prior.reset();
+  if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
+  return std::make_unique<BlackDrops>(std::move(setting), std::move(options));
+}
+
+std::vector<std::unique_ptr<LearnerBuilder>> builders() {
+  std::vector<std::unique_ptr<LearnerBuilder>> all;
+  const auto add = [&](const char* name, const char* summary, dynamics::Kind kind) {
+    all.push_back(std::make_unique<Builder>(name, summary, std::move(kind)));
+  };
+  add("black-drops", "GPs from data alone; the first trial is a random policy", dynamics::ZeroMean{});
+  add("black-drops-prior", "GPs around the prior as it is given", dynamics::FixedPrior{});
+  add("gp-mi", "GPs around the prior, its parameters identified together with the GPs", dynamics::GpMi{});
+  add("mi", "the prior's parameters identified from data, no GP", dynamics::Mi{});
+  return all;
+}
+
+}  // namespace rehearse::learners::black_drops

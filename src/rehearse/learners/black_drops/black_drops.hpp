@@ -1,0 +1,31 @@
+#pragma once
+// Black-DROPS and its descendants: learn a dynamics model, search the policy in it by black-box optimisation, try it
+// (Chatzilygeroudis 2017; Chatzilygeroudis 2018, Algorithm 1). The four learners differ in their model alone.
+
+#include <memory>
+#include <vector>
+
+#include "rehearse/dynamics/learn.hpp"
+#include "rehearse/learners/black_drops/policy_search.hpp"
+#include "rehearse/learners/learner.hpp"
+
+namespace rehearse::learners::black_drops {
+
+struct Options {
+  dynamics::Kind model = dynamics::GpMi{};
+  SearchOptions search;
+  bool start_from_best = true;  // one descent starts from the best policy observed; the authors' code
+  Index carried = 3;            // and so many from the best other policies of the search before
+  Index prior_searches = 1;     // searches on the prior before the first trial, each from the best of the one before
+                                // (the authors' code: 2)
+  double prior_variance = 0;    // predicted before there are data (the authors' code: 1)
+  void fields(FieldVisitor& v);
+};
+
+/// Throws InvalidInput if an option is out of bounds, or a prior is needed and missing.
+std::unique_ptr<Learner> make(Setting setting, Options options);
+
+/// black-drops, black-drops-prior, gp-mi and mi.
+std::vector<std::unique_ptr<LearnerBuilder>> builders();
+
+}  // namespace rehearse::learners::black_drops

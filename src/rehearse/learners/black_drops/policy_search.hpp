@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rehearse/core/evaluator.hpp"
+#include "rehearse/core/events.hpp"
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/task.hpp"
+#include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/optim/race.hpp"
+#include "rehearse/policy/policy.hpp"
+#include "rehearse/rollout/imagine.hpp"
+
+namespace rehearse::learners::black_drops {
+
+/// Each rollout is one noisy measurement of the expected return, which CMA-ES maximises (Chatzilygeroudis 2017).
+struct SearchOptions {
+  double box = 5;       // θ in [−box, box]; the authors' code
+  Index particles = 1;  // rollouts of one evaluation; the paper: 1
+  rollout::ImagineOptions imagine;
+  optim::RaceOptions race;
+  Index finalists = 4;    // best contenders that are compared once more
+  Index selection = 100;  // rollouts of each of them; their mean is the predicted return
+  void fields(FieldVisitor& v);
+};
+
+struct SearchResult {
+  Vector theta;
+  double predicted_return = 0;
+  std::vector<Vector> runners_up;  // other good policies, best first
+  Index rollouts = 0;
+  Index failed_rollouts = 0;
+};
+
+/// What a search needs to know.
+struct SearchProblem {
+  const dynamics::DynamicsModel& model;
+  const policy::Policy& policy;
+  const Task& task;
+  const Evaluator& evaluator;
+  const ProgressSink& progress;
+};
+
+/// The policy of the highest expected return in the model. The first descents begin at `starts`. Random numbers come
+/// from (seed, trial) alone.
+SearchResult search_policy(const SearchProblem& problem, const std::vector<Vector>& starts,
+                           const SearchOptions& options, std::uint64_t seed, std::uint64_t trial);
+
+/// θ uniform in the box.
+Vector random_policy(const policy::Policy& policy, const SearchOptions& options, std::uint64_t seed,
+                     std::uint64_t trial);
+
+}  // namespace rehearse::learners::black_drops

@@ -1,0 +1,162 @@
+#include "rehearse/optim/race.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::optim {
+namespace {
+
+struct Runner {
+  Cmaes descent;
+  Contender contender;
+};
+
+class Race {
+ public:
+  Race(const BatchObjective& objective, const std::vector<Vector>& starts, const std::vector<Interval>& box,
+       const RaceOptions& options, const StreamKey& key, const Evaluator& evaluator, const SearchListener& listener)
+      : objective_(objective), options_(options), evaluator_(evaluator), listener_(listener) {
+    for (Index i = 0; i < options.descents; ++i) {
+      StreamKey own = key;
+      own.particle = static_cast<std::uint64_t>(i) + 1;  // particle 0 draws the starting points
+      const bool given = i < static_cast<Index>(starts.size());
+      runners_.push_back({Cmaes(given ? starts[static_cast<std::size_t>(i)] : random_point(box, key, i),
+                                given ? options.start_sigma : options.sigma, box, options.cmaes, own),
+                          {}});
+    }
+  }
+
+  RaceResult run() {
+    for (Index round = 0; round < options_.rounds; ++round) {
+      const Index end = options_.max_evaluations * (round + 1) / options_.rounds;
+      run_round(end);
+      judge(round);
+      retire(round);
+    }
+    for (const Runner& runner : runners_) ended_.push_back(runner.contender);
+    std::stable_sort(ended_.begin(), ended_.end(), better<Contender>);
+    return {std::move(ended_), evaluations_};
+  }
+
+ private:
+  template <class T>
+  static bool better(const T& a, const T& b) {
+    return a.value > b.value;
+  }
+
+  static Vector random_point(const std::vector<Interval>& box, const StreamKey& key, Index descent) {
+    StreamKey own = key;
+    own.particle = 0;
+    own.candidate = static_cast<std::uint64_t>(descent);
+    Rng rng(own);
+    Vector x(static_cast<Index>(box.size()));
+    for (std::size_t i = 0; i < box.size(); ++i) x(static_cast<Index>(i)) = rng.uniform(box[i].low, box[i].high);
+    return x;
+  }
+
+  /// One generation of every descent at a time, until the judging at the round's end would exceed `end` evaluations.
+  void run_round(Index end) {
+    while (true) {
+      std::vector<Cmaes*> live;
+      for (Runner& runner : runners_)
+        if (runner.descent.stop() == Stop::none) live.push_back(&runner.descent);
+      const Index population = runners_.front().descent.population();
+      const Index batch = population * static_cast<Index>(live.size());
+      if (batch == 0 || evaluations_ + batch + judging_cost() > end) return;
+      generation(live, population, batch);
+    }
+  }
+
+  void generation(const std::vector<Cmaes*>& live, Index population, Index batch) {
+    candidates_.resize(live.front()->dimension(), batch);
+    const auto count = static_cast<Index>(live.size());
+    evaluator_.for_each(count, [&](Index i) {
+      candidates_.middleCols(i * population, population) = live[static_cast<std::size_t>(i)]->ask();
+    });
+    evaluate(1);
+    evaluator_.for_each(
+        count, [&](Index i) { live[static_cast<std::size_t>(i)]->tell(values_.segment(i * population, population)); });
+    if (!listener_) return;
+    for (const Cmaes* descent : live) best_ = std::max(best_, descent->best_value());
+    listener_(evaluations_, best_);
+  }
+
+  void evaluate(Index samples) {
+    values_.resize(candidates_.cols());
+    objective_(candidates_, next_candidate_, samples, values_);
+    next_candidate_ += static_cast<std::uint64_t>(candidates_.cols());
+    evaluations_ += candidates_.cols() * samples;
+  }
+
+  Index judging_cost() const { return 2 * options_.judgements * static_cast<Index>(runners_.size()); }
+
+  /// The best value of a noisy objective is a lucky one: best point and mean are evaluated again, many times.
+  void judge(Index round) {
+    const auto n = static_cast<Index>(runners_.size());
+    candidates_.resize(runners_.front().descent.dimension(), 2 * n);
+    for (Index i = 0; i < n; ++i) {
+      candidates_.col(2 * i) = runners_[static_cast<std::size_t>(i)].descent.best_x();
+      candidates_.col(2 * i + 1) = runners_[static_cast<std::size_t>(i)].descent.mean();
+    }
+    evaluate(options_.judgements);
+    values_ = values_.array().isNaN().select(-std::numeric_limits<double>::infinity(), values_);
+    for (Index i = 0; i < n; ++i) {
+      const Index j = values_(2 * i + 1) > values_(2 * i) ? 2 * i + 1 : 2 * i;
+      Runner& runner = runners_[static_cast<std::size_t>(i)];
+      runner.contender = {candidates_.col(j), values_(j), round, to_string(runner.descent.stop())};
+    }
+  }
+
+  void retire(Index round) {
+    std::stable_sort(runners_.begin(), runners_.end(),
+                     [](const Runner& a, const Runner& b) { return better(a.contender, b.contender); });
+    if (round + 1 == options_.rounds) return;
+    const double kept = std::ceil(static_cast<double>(runners_.size()) * options_.survivors);
+    while (static_cast<double>(runners_.size()) > std::max(1.0, kept)) {
+      ended_.push_back(std::move(runners_.back().contender));
+      ended_.back().stop = "others were better after round " + std::to_string(round + 1);
+      runners_.pop_back();
+    }
+  }
+
+  const BatchObjective& objective_;
+  const RaceOptions& options_;
+  const Evaluator& evaluator_;
+  const SearchListener& listener_;
+  std::vector<Runner> runners_;
+  std::vector<Contender> ended_;
+  Matrix candidates_;
+  Vector values_;
+  std::uint64_t next_candidate_ = 0;
+  Index evaluations_ = 0;
+  double best_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+void RaceOptions::fields(FieldVisitor& v) {
+  v.integer("max_evaluations", max_evaluations, at_least(1));
+  v.integer("descents", descents, at_least(1));
+  v.integer("rounds", rounds, at_least(1));
+  v.number("survivors", survivors, between(0, 1));
+  v.number("sigma", sigma, above(0));
+  v.number("start_sigma", start_sigma, above(0));
+  v.integer("judgements", judgements, at_least(1));
+  v.group("cmaes", cmaes);
+}
+
+RaceResult race(const BatchObjective& objective, const std::vector<Vector>& starts, const std::vector<Interval>& box,
+                const RaceOptions& options, const StreamKey& key, const Evaluator& evaluator,
+                const SearchListener& listener) {
+  RaceOptions copy = options;
+  Violations violations;
+  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("race", copy); })) violations.add(line);
+  violations.require(!box.empty(), "race needs a box");
+  violations.throw_if_any();
+  return Race(objective, starts, box, options, key, evaluator, listener).run();
+}
+
+}  // namespace rehearse::optim
