@@ -90,11 +90,11 @@ Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const Hype
   thread_local Workspace workspace;
   Objective objective(inputs, y, options.penalties, workspace);
   const SoftBounds bounds(options.bounds, inputs, scale);
-  const Vector inside = bounds.clamped(start.flat()), u = bounds.free(inside);
-  // At a bound the free variables begin a little inside: the bound itself is then tried apart.
-  const bool at_bound = (bounds.flat(u) - inside).cwiseAbs().maxCoeff() > 1e-9;
-  if (at_bound) objective(inside, nullptr);
-  const std::string stop = maximise(objective, bounds, u, options);
+  const Vector inside = bounds.clamped(start.flat());
+  objective(inside, nullptr);
+  objective(default_start(inputs, y, scale, options.bounds).flat(), nullptr);
+  const Vector begin = objective.best().evidence.ok() ? objective.best().flat : inside;
+  const std::string stop = maximise(objective, bounds, bounds.free(begin), options);
 
   const Point& best = objective.best();
   if (!best.evidence.ok()) return failure(start, stop, objective.evaluations());

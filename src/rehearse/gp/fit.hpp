@@ -45,9 +45,10 @@ struct Fit {
 /// root mean square of y, for targets that are little more than an offset.
 Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, double scale, const Bounds& bounds = {});
 
-/// Maximises the (penalised) log evidence of targets y (n) from `start`, which a warm start takes from an earlier fit.
-/// Never returns worse than the start moved inside the bounds. Throws InvalidInput only if sizes do not agree. `scale`
-/// > 0: see Bounds. Any thread; the workspace is the thread's own.
+/// Maximises the (penalised) log evidence of targets y (n) from `start`, which a warm start takes from an earlier fit,
+/// or from the default start where that is better: data may have changed so much that a warm start is hopeless. Never
+/// returns worse than the start moved inside the bounds. `scale` > 0: see Bounds. Throws InvalidInput only if sizes do
+/// not agree. Any thread; the workspace is the thread's own.
 Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const Hyperparameters& start,
         const FitOptions& options = {});
 

