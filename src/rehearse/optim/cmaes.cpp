@@ -28,6 +28,8 @@ Index checked_population(const Vector& mean, double sigma, const std::vector<Int
   return options.population > 0 ? options.population : default_population(mean.size());
 }
 
+double usable(const ConstVectorView& values, Index i) { return std::isfinite(values(i)) ? values(i) : worst; }
+
 Index default_generations(Index n, Index population) {  // Hansen 2009 (BIPOP)
   const double m = static_cast<double>(n) + 3;
   return static_cast<Index>(100 + 50 * m * m / std::sqrt(static_cast<double>(population)));
@@ -147,11 +149,14 @@ void Cmaes::place_injected() {
   injected_.clear();
 }
 
-void Cmaes::tell(const ConstVectorView& values) {
-  if (values.size() != population())
+void Cmaes::tell(const ConstVectorView& values, const std::vector<Index>& order) {
+  if (values.size() != population() || (!order.empty() && order.size() != order_.size()))
     throw InvalidInput(fmt::format("values told = {}, must be {}", values.size(), population()));
   ask();
-  rank(values);
+  if (order.empty())
+    rank(values);
+  else
+    order_ = order;
   keep_best(values);
   move_mean();
   adapt_step();
@@ -165,10 +170,6 @@ void Cmaes::tell(const ConstVectorView& values) {
   asked_ = false;
 }
 
-double Cmaes::usable(const ConstVectorView& values, Index i) const {
-  return std::isfinite(values(i)) ? values(i) : worst;
-}
-
 void Cmaes::rank(const ConstVectorView& values) {
   std::iota(order_.begin(), order_.end(), Index{0});
   std::stable_sort(order_.begin(), order_.end(),
@@ -177,15 +178,15 @@ void Cmaes::rank(const ConstVectorView& values) {
 
 void Cmaes::keep_best(const ConstVectorView& values) {
   if (elite_here_) {
-    const double count = static_cast<double>(best_count_++);
-    best_value_ += (usable(values, 0) - best_value_) / (count + 1);
+    best_value_ += (usable(values, 0) - best_value_) / static_cast<double>(++best_count_);
     if (!std::isfinite(best_value_)) best_value_ = worst;
   }
-  const Index first = order_.front() == 0 && elite_here_ ? order_[1] : order_.front();
-  if (!(usable(values, first) > best_value_)) return;
-  best_value_ = usable(values, first);
-  best_x_ = candidates_.col(first);
-  best_count_ = 1;
+  for (Index i = elite_here_ ? 1 : 0; i < population(); ++i) {
+    if (!(usable(values, i) > best_value_)) continue;
+    best_value_ = usable(values, i);
+    best_x_ = candidates_.col(i);
+    best_count_ = 1;
+  }
 }
 
 void Cmaes::move_mean() {

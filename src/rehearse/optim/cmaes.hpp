@@ -43,8 +43,9 @@ class Cmaes {
   /// The candidates of this generation, n × λ, one a column, inside the box; the same until `tell`.
   const Matrix& ask();
 
-  /// Their values (λ). What is not finite is the worst.
-  void tell(const ConstVectorView& values);
+  /// Their values (λ). What is not finite is the worst. `order`: the candidates from best to worst, where it is known
+  /// better than from the values (uncertainty handling); empty: by value, ties to the first.
+  void tell(const ConstVectorView& values, const std::vector<Index>& order = {});
 
   /// Has x evaluated as one of the next generation, where it takes part like any other (Hansen 2011, Injecting
   /// external solutions into CMA-ES). At most λ; later ones are dropped.
@@ -66,7 +67,6 @@ class Cmaes {
  private:
   void draw();
   void place_injected();
-  double usable(const ConstVectorView& values, Index i) const;
   void rank(const ConstVectorView& values);
   void keep_best(const ConstVectorView& values);
   void move_mean();

@@ -1,0 +1,268 @@
+#include "rehearse/optim/restarts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::optim {
+namespace {
+
+constexpr double worst = -std::numeric_limits<double>::infinity();
+
+/// Evaluations kept back for the choice at the end.
+Index reserved(const SearchOptions& options) { return 2 * options.candidates * options.final_samples; }
+
+void check(const Vector& start, const std::vector<Interval>& box, SearchOptions options) {
+  Violations violations;
+  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("search", options); })) violations.add(line);
+  const Index population = options.cmaes.population;
+  if (population > 0 && population < 4)
+    violations.add(fmt::format("search.cmaes.population = {}, must be ≥ 4 (or 0 for 4 + 3 ln n)", population));
+  if (reserved(options) >= options.max_evaluations)
+    violations.add(fmt::format("search.max_evaluations = {}, must be > 2 candidates × final_samples = {}",
+                               options.max_evaluations, reserved(options)));
+  violations.require(!box.empty(), "box is empty, must have an interval for each coordinate");
+  for (const auto& line : box_violations(box, start.size())) violations.add(line);
+  for (const auto& line : start_violations(start, box)) violations.add(line);
+  violations.throw_if_any();
+}
+
+/// How the next descent starts.
+struct Plan {
+  Index population;
+  double step;
+  Index max_evaluations;
+  bool large;
+};
+
+/// Keeps the `count` highest, best first; of equals the earlier.
+void keep(std::vector<Candidate>& list, Candidate candidate, Index count) {
+  const auto place =
+      std::find_if(list.begin(), list.end(), [&](const Candidate& other) { return other.value < candidate.value; });
+  list.insert(place, std::move(candidate));
+  if (static_cast<Index>(list.size()) > count) list.pop_back();
+}
+
+class Search {
+ public:
+  Search(const BatchObjective& objective, const Vector& start, const std::vector<Interval>& box,
+         const SearchOptions& options, const StreamKey& key, const SearchListener& listener);
+  SearchResult run();
+
+ private:
+  Rng random() const;
+  bool next(Plan& plan);
+  Plan small_descent(Rng& rng) const;
+  void descend(const Plan& plan);
+  void generation(Cmaes& cmaes, UncertaintyHandler& noise);
+  std::string stop_of(const Cmaes& cmaes, const UncertaintyHandler& noise, Index used, const Plan& plan);
+  void finish(const Cmaes& cmaes, const UncertaintyHandler& noise, Descent& descent);
+  void choose();
+  void evaluate(const ConstMatrixView& X, Index samples, VectorView values);
+  Vector start_of(Index descent) const;
+  Vector scaled(const Vector& unit) const { return low_ + width_.cwiseProduct(unit); }
+  Index left() const { return options_.max_evaluations - reserved(options_) - result_.evaluations; }
+
+  const BatchObjective& objective_;
+  const SearchOptions& options_;
+  const SearchListener& listener_;
+  StreamKey key_;
+  Vector start_, low_, width_;
+  std::vector<Interval> unit_box_;
+  Index smallest_;               // population
+  Index doublings_ = 0;          // of the large descents so far
+  Index last_large_ = 0;         // evaluations of the last large descent
+  Index large_ = 0, small_ = 0;  // evaluations of both regimes
+  std::uint64_t numbered_ = 0;   // candidates so far
+  double best_ = worst;
+  Matrix scaled_;
+  Vector values_, again_;
+  std::vector<Candidate> bests_, means_;
+  SearchResult result_;
+};
+
+Search::Search(const BatchObjective& objective, const Vector& start, const std::vector<Interval>& box,
+               const SearchOptions& options, const StreamKey& key, const SearchListener& listener)
+    : objective_(objective),
+      options_(options),
+      listener_(listener),
+      key_(key),
+      start_(start),
+      low_(start.size()),
+      width_(start.size()),
+      unit_box_(box.size(), Interval{0, 1}),
+      smallest_(options.cmaes.population > 0 ? options.cmaes.population : default_population(start.size())) {
+  for (Index i = 0; i < start.size(); ++i) {
+    const Interval& b = box[static_cast<std::size_t>(i)];
+    low_(i) = b.low;
+    width_(i) = b.high - b.low;
+  }
+  result_.x = start;
+  result_.value = worst;
+}
+
+SearchResult Search::run() {
+  Plan plan{smallest_, options_.start_step > 0 ? options_.start_step : options_.step, options_.max_evaluations, false};
+  do descend(plan);
+  while (next(plan));
+  choose();
+  return std::move(result_);
+}
+
+/// For what concerns descent number d as a whole: the counter differs from those of its generations.
+Rng Search::random() const {
+  StreamKey key = key_;
+  key.candidate = result_.descents.size();
+  key.particle = 0;
+  return Rng(key);
+}
+
+// Hansen 2009: the regime that used fewer evaluations goes next, the large one first.
+bool Search::next(Plan& plan) {
+  const Descent& last = result_.descents.back();
+  if (plan.large) last_large_ = last.evaluations;
+  if (result_.descents.size() > 1) (plan.large ? large_ : small_) += last.evaluations;
+  if (!result_.stop.empty()) return false;
+  if (options_.strategy == Strategy::single) result_.stop = last.stop;
+  if (options_.strategy == Strategy::bipop && small_ < large_) {
+    Rng rng = random();
+    plan = small_descent(rng);
+  } else {
+    if (doublings_ == options_.max_doublings && result_.stop.empty()) result_.stop = "max_doublings reached";
+    plan = {smallest_ << ++doublings_, options_.step, options_.max_evaluations, true};
+  }
+  if (left() < plan.population && result_.stop.empty()) result_.stop = "max_evaluations reached";
+  return result_.stop.empty();
+}
+
+// Hansen 2009: λ_s = ⌊λ (½ λ_l / λ)^(U²)⌋, σ_s = σ 10^(−2U), at most half of the evaluations of the last large one.
+Plan Search::small_descent(Rng& rng) const {
+  const double exponent = std::pow(rng.uniform(), 2), ratio = std::ldexp(0.5, static_cast<int>(doublings_));
+  const double population = std::floor(static_cast<double>(smallest_) * std::pow(ratio, exponent));
+  return {static_cast<Index>(population), options_.step * std::pow(10, -2 * rng.uniform()),
+          std::max(last_large_ / 2, Index{1}), false};
+}
+
+Vector Search::start_of(Index descent) const {
+  Vector unit = (start_ - low_).cwiseQuotient(width_).cwiseMax(0).cwiseMin(1);
+  if (descent == 0) return unit;
+  StreamKey key = key_;
+  key.candidate = static_cast<std::uint64_t>(descent);
+  key.particle = 1;
+  Rng rng(key);
+  for (double& u : unit) u = rng.uniform();
+  return unit;
+}
+
+void Search::descend(const Plan& plan) {
+  const Index number = static_cast<Index>(result_.descents.size());
+  CmaesOptions cmaes_options = options_.cmaes;
+  cmaes_options.population = plan.population;
+  StreamKey key = key_;
+  key.candidate = static_cast<std::uint64_t>(number);
+  key.particle = 0;
+  Cmaes cmaes(start_of(number), plan.step, unit_box_, cmaes_options, key);
+  UncertaintyHandler noise(options_.uncertainty, cmaes.dimension(), plan.population);
+  values_.resize(plan.population);
+  const Index before = result_.evaluations;
+  Descent descent{.population = plan.population, .step = plan.step};
+  while ((descent.stop = stop_of(cmaes, noise, result_.evaluations - before, plan)).empty()) generation(cmaes, noise);
+  finish(cmaes, noise, descent);
+  descent.evaluations = result_.evaluations - before;
+  result_.descents.push_back(descent);
+}
+
+/// Empty: goes on. Also says when the whole search must stop.
+std::string Search::stop_of(const Cmaes& cmaes, const UncertaintyHandler& noise, Index used, const Plan& plan) {
+  if (best_ >= options_.target)
+    result_.stop = "target reached";
+  else if (noise.generation_cost() > left())
+    result_.stop = "max_evaluations reached";
+  if (!result_.stop.empty()) return result_.stop;
+  if (cmaes.stop() != Stop::none) return to_string(cmaes.stop());
+  return used >= plan.max_evaluations ? "its share of the evaluations is used" : "";
+}
+
+void Search::generation(Cmaes& cmaes, UncertaintyHandler& noise) {
+  const Matrix& X = cmaes.ask();
+  const Index samples = noise.samples(), twice = noise.reevaluations();
+  evaluate(X, samples, values_);
+  if (twice == 0) {
+    cmaes.tell(values_);
+  } else {
+    again_.resize(twice);
+    evaluate(X.leftCols(twice), samples, again_);
+    const std::vector<Index> order = noise.rank(values_, again_);
+    cmaes.tell(values_, order);
+    cmaes.widen(noise.sigma_factor());
+  }
+  best_ = std::max(best_, cmaes.best_value());
+  if (listener_) listener_(result_.evaluations, best_);
+}
+
+void Search::evaluate(const ConstMatrixView& X, Index samples, VectorView values) {
+  scaled_.resize(X.rows(), X.cols());
+  scaled_ = (width_.asDiagonal() * X).colwise() + low_;
+  objective_(scaled_, numbered_, samples, values);
+  numbered_ += static_cast<std::uint64_t>(X.cols());
+  result_.evaluations += samples * X.cols();
+}
+
+void Search::finish(const Cmaes& cmaes, const UncertaintyHandler& noise, Descent& descent) {
+  const Index number = static_cast<Index>(result_.descents.size());
+  Vector mean_value = Vector::Constant(1, worst);
+  const Vector mean = cmaes.mean();
+  if (left() >= noise.samples()) evaluate(mean, noise.samples(), mean_value);
+  if (!std::isfinite(mean_value(0))) mean_value(0) = worst;
+  best_ = std::max(best_, mean_value(0));
+  keep(bests_, {scaled(cmaes.best_x()), cmaes.best_value(), number, false}, options_.candidates);
+  keep(means_, {scaled(mean), mean_value(0), number, true}, options_.candidates);
+  descent.generations = cmaes.generation();
+  descent.best_value = cmaes.best_value();
+  descent.mean_value = mean_value(0);
+}
+
+void Search::choose() {
+  auto& all = result_.candidates;
+  all = bests_;
+  all.insert(all.end(), means_.begin(), means_.end());
+  if (options_.final_samples > 0) {
+    Matrix X(low_.size(), static_cast<Index>(all.size()));
+    Vector values(X.cols());
+    for (Index j = 0; j < X.cols(); ++j) X.col(j) = all[static_cast<std::size_t>(j)].x;
+    objective_(X, numbered_, options_.final_samples, values);
+    result_.evaluations += options_.final_samples * X.cols();
+    for (Index j = 0; j < X.cols(); ++j)
+      all[static_cast<std::size_t>(j)].value = std::isfinite(values(j)) ? values(j) : worst;
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value > b.value; });
+  if (!(all.front().value > worst)) return;
+  result_.x = all.front().x;
+  result_.value = all.front().value;
+}
+
+}  // namespace
+
+void SearchOptions::fields(FieldVisitor& v) {
+  v.choice("strategy", strategy, {"single", "ipop", "bipop"});
+  v.integer("max_evaluations", max_evaluations, at_least(1));
+  v.number("step", step, between(1e-6, 10));
+  v.number("start_step", start_step, between(0, 10));
+  v.integer("max_doublings", max_doublings, between(0, 30));
+  v.number("target", target);
+  v.integer("candidates", candidates, at_least(1));
+  v.integer("final_samples", final_samples, at_least(0));
+  v.group("cmaes", cmaes);
+  v.group("uncertainty", uncertainty);
+}
+
+SearchResult maximise(const BatchObjective& objective, const Vector& start, const std::vector<Interval>& box,
+                      const SearchOptions& options, const StreamKey& key, const SearchListener& listener) {
+  check(start, box, options);
+  return Search(objective, start, box, options, key, listener).run();
+}
+
+}  // namespace rehearse::optim

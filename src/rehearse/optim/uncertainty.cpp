@@ -1,0 +1,126 @@
+#include "rehearse/optim/uncertainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace rehearse::optim {
+namespace {
+
+double usable(double value) { return std::isfinite(value) ? value : -std::numeric_limits<double>::infinity(); }
+
+/// Ranks of both evaluations of every candidate among all 2λ, 1 the best. A candidate that was evaluated once stands
+/// for both.
+struct JointRanks {
+  std::vector<double> first, second;
+
+  JointRanks(const ConstVectorView& values, const ConstVectorView& again) {
+    const auto n = static_cast<std::size_t>(values.size()), twice = static_cast<std::size_t>(again.size());
+    std::vector<double> all(2 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      all[2 * i] = usable(values(static_cast<Index>(i)));
+      all[2 * i + 1] = i < twice ? usable(again(static_cast<Index>(i))) : all[2 * i];
+    }
+    std::vector<std::size_t> order(2 * n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all[a] > all[b]; });
+    first.resize(n);
+    second.resize(n);
+    for (std::size_t r = 0; r < 2 * n; ++r)
+      (order[r] % 2 == 0 ? first : second)[order[r] / 2] = static_cast<double>(r + 1);
+  }
+
+  double sum(std::size_t i) const { return first[i] + second[i]; }
+
+  /// Ranks that lie between the two evaluations of i, Δ_i of Hansen 2009, eq. 1.
+  double change(std::size_t i) const { return std::abs(second[i] - first[i]) - 1; }
+};
+
+/// θ times the median change of a value of rank R under pure noise, Hansen 2009, eq. 2.
+double limit(double R, double theta, std::size_t population) {
+  std::vector<double> changes;
+  for (std::size_t k = 1; k < 2 * population; ++k) changes.push_back(std::abs(static_cast<double>(k) - R));
+  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
+  std::nth_element(changes.begin(), middle, changes.end());
+  return theta * *middle;
+}
+
+/// s of Hansen 2009, eq. 3, for the `count` candidates evaluated twice.
+double measure(const JointRanks& ranks, std::size_t count, double theta) {
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double a = ranks.first[i], b = ranks.second[i];
+    sum += 2 * ranks.change(i) - limit(b - (b > a), theta, ranks.first.size()) -
+           limit(a - (a > b), theta, ranks.first.size());
+  }
+  return sum / static_cast<double>(count);
+}
+
+/// By the sum of ranks; then the steadier candidate first (one evaluated once counts as average); then by value.
+std::vector<Index> order_of(const JointRanks& ranks, std::size_t count, const ConstVectorView& values) {
+  double mean_change = 0;
+  for (std::size_t i = 0; i < count; ++i) mean_change += ranks.change(i) / static_cast<double>(count);
+  const auto change = [&](std::size_t i) { return i < count ? ranks.change(i) : mean_change; };
+  std::vector<Index> order(ranks.first.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    if (ranks.sum(i) != ranks.sum(j)) return ranks.sum(i) < ranks.sum(j);
+    if (change(i) != change(j)) return change(i) < change(j);
+    return usable(values(a)) > usable(values(b));
+  });
+  return order;
+}
+
+}  // namespace
+
+void UncertaintyOptions::fields(FieldVisitor& v) {
+  v.boolean("enabled", enabled);
+  v.number("reevaluated", reevaluated, between(0.01, 1));
+  v.number("tolerance", tolerance, between(0, 1));
+  v.number("smoothing", smoothing, between(0.01, 1));
+  v.integer("max_samples", max_samples, at_least(1));
+  v.number("samples_growth", samples_growth, at_least(0));
+  v.number("samples_decay", samples_decay, between(0, 1));
+  v.number("sigma_growth", sigma_growth, at_least(0));
+}
+
+UncertaintyHandler::UncertaintyHandler(const UncertaintyOptions& options, Index dimension, Index population)
+    : options_(options), population_(population), carried_(options.reevaluated * static_cast<double>(population)) {
+  const double growth = 1 + 2 / (static_cast<double>(dimension) + 10);
+  if (options_.samples_growth == 0) options_.samples_growth = growth;
+  if (options_.sigma_growth == 0) options_.sigma_growth = growth;
+}
+
+Index UncertaintyHandler::samples() const { return options_.enabled ? std::lround(real_samples_) : 1; }
+
+Index UncertaintyHandler::reevaluations() const {
+  return options_.enabled ? std::clamp(static_cast<Index>(carried_), Index{1}, population_) : 0;
+}
+
+Index UncertaintyHandler::generation_cost() const { return (population_ + reevaluations()) * samples(); }
+
+std::vector<Index> UncertaintyHandler::rank(VectorView values, const ConstVectorView& again) {
+  const auto count = static_cast<std::size_t>(again.size());
+  const JointRanks ranks(values, again);
+  uncertainty_ += options_.smoothing * (measure(ranks, count, options_.tolerance) - uncertainty_);
+  values.head(again.size()) = (values.head(again.size()) + again) / 2;
+  treat();
+  const double fraction = options_.reevaluated * static_cast<double>(population_);
+  carried_ += fraction - static_cast<double>(again.size());
+  carried_ = std::max(carried_, 0.0);
+  return order_of(ranks, count, values);
+}
+
+// Hansen 2009, section III.C: first more evaluations, then larger steps.
+void UncertaintyHandler::treat() {
+  const double most = static_cast<double>(options_.max_samples), growth = options_.samples_growth;
+  sigma_factor_ = uncertainty_ > 0 && real_samples_ >= most ? options_.sigma_growth : 1;
+  if (uncertainty_ > 0)
+    real_samples_ = std::min(real_samples_ * growth, most);
+  else
+    real_samples_ = std::max(real_samples_ * std::pow(growth, -options_.samples_decay), 1.0);
+}
+
+}  // namespace rehearse::optim
