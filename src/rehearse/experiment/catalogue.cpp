@@ -1,0 +1,57 @@
+#include "rehearse/experiment/catalogue.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rehearse/core/options.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+template <class Builder>
+std::unique_ptr<Builder> named(std::vector<std::unique_ptr<Builder>> builders, const std::string& name) {
+  for (auto& builder : builders)
+    if (builder->name() == name) return std::move(builder);
+  return nullptr;
+}
+
+template <class Builder>
+std::vector<std::string> names_of(const std::vector<std::unique_ptr<Builder>>& builders) {
+  std::vector<std::string> names;
+  for (const auto& builder : builders) names.push_back(builder->name());
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<scenario::ScenarioBuilder>> Catalogue::scenario_builders() const {
+  std::vector<std::unique_ptr<scenario::ScenarioBuilder>> builders;
+  for (const auto& make : scenarios) builders.push_back(make());
+  return builders;
+}
+
+std::vector<std::unique_ptr<learners::LearnerBuilder>> Catalogue::learner_builders() const {
+  std::vector<std::unique_ptr<learners::LearnerBuilder>> builders;
+  for (const auto& make_family : learner_families)
+    for (auto& builder : make_family()) builders.push_back(std::move(builder));
+  return builders;
+}
+
+std::unique_ptr<scenario::ScenarioBuilder> Catalogue::scenario(const std::string& name) const {
+  return named(scenario_builders(), name);
+}
+
+std::unique_ptr<learners::LearnerBuilder> Catalogue::learner(const std::string& name) const {
+  return named(learner_builders(), name);
+}
+
+std::string Catalogue::why_missing(const std::string& kind, const std::string& name) const {
+  for (const NotBuilt& missing : not_built)
+    if (missing.name == name) return fmt::format("{} '{}' is not built: {}", kind, name, missing.reason);
+  const auto known = kind == "scenario" ? names_of(scenario_builders()) : names_of(learner_builders());
+  if (name.empty()) return fmt::format("no {} is named (known: {})", kind, fmt::join(known, ", "));
+  return fmt::format("unknown {} '{}', did you mean '{}'? (known: {})", kind, name, closest(name, known),
+                     fmt::join(known, ", "));
+}
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rehearse/learners/learner.hpp"
+#include "rehearse/scenario/scenario.hpp"
+
+namespace rehearse::experiment {
+
+/// A robot or a learner that this build leaves out.
+struct NotBuilt {
+  std::string name;
+  std::string reason;  // "DART 6.12 was not found"
+};
+
+/// What there is to choose from. apps generates one from the folders of robots and learners; a program with a robot of
+/// its own makes one by hand. A value; every call makes new builders, because their options can be set.
+struct Catalogue {
+  std::vector<std::function<std::unique_ptr<scenario::ScenarioBuilder>()>> scenarios;
+  std::vector<std::function<std::vector<std::unique_ptr<learners::LearnerBuilder>>()>> learner_families;
+  std::vector<NotBuilt> not_built;
+
+  std::vector<std::unique_ptr<scenario::ScenarioBuilder>> scenario_builders() const;
+  std::vector<std::unique_ptr<learners::LearnerBuilder>> learner_builders() const;
+
+  /// Null if there is none of that name.
+  std::unique_ptr<scenario::ScenarioBuilder> scenario(const std::string& name) const;
+  std::unique_ptr<learners::LearnerBuilder> learner(const std::string& name) const;
+
+  /// One line that says why there is no `kind` ("scenario", "learner") of that name, and what is closest to it.
+  std::string why_missing(const std::string& kind, const std::string& name) const;
+};
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace rehearse::experiment {
+
+/// A whole file. Throws InvalidInput if it cannot be read.
+std::string read_file(const std::filesystem::path& path);
+
+enum class Durability {
+  process,  // survives the process: whenever it is killed, the file holds its old bytes or the new ones
+  power,    // and a power failure, at the price of waiting for the disk
+};
+
+/// Replaces a file in one step. Throws std::runtime_error (a full disk).
+void write_file(const std::filesystem::path& path, std::string_view bytes, Durability durability = Durability::process);
+
+/// Renames a folder unless something of that name exists; then returns false.
+bool rename_new(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// 64 bits that tell accidental changes (FNV-1a).
+std::uint64_t checksum(std::string_view bytes);
+
+/// Held by the one process that may write a folder; given back when it dies, however it dies. Movable.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);  // throws InvalidInput if another process holds it
+  ~FolderLock();
+  FolderLock(FolderLock&& other) noexcept;
+  FolderLock& operator=(FolderLock&&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,104 @@
+#include "rehearse/experiment/forecast.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace rehearse::experiment {
+namespace {
+
+std::vector<Index> horizons_up_to(Index steps) {
+  std::vector<Index> horizons;
+  for (Index decade = 1; decade <= steps; decade *= 10)
+    for (Index factor : {1, 2, 5})
+      if (factor * decade <= steps) horizons.push_back(factor * decade);
+  return horizons;
+}
+
+/// A turn more or less is the same angle.
+void wrap_angles(const Task& task, Matrix& differences) {
+  for (Index s = 0; s < task.state_size(); ++s)
+    if (task.states[static_cast<std::size_t>(s)].kind == StateKind::angle)
+      differences.col(s) =
+          differences.col(s).unaryExpr([](double d) { return std::remainder(d, 2 * std::numbers::pi); });
+}
+
+/// What has failed is NaN and no input for a model: a state of the episode stands in.
+Matrix known_states(const Matrix& predicted, const Episode& episode) {
+  Matrix states = predicted;
+  for (Index i = 0; i < states.rows(); ++i)
+    if (!states.row(i).allFinite()) states.row(i) = episode.states.row(i);
+  return states;
+}
+
+/// predicted (n × dx): where the predictions that started n steps in a row arrived, one horizon later.
+ForecastError compare(const Task& task, const Episode& episode, Index horizon, const Matrix& predicted) {
+  Matrix differences = predicted - episode.states.middleRows(horizon, predicted.rows());
+  wrap_angles(task, differences);
+  ForecastError error{horizon, 0, 0, Vector::Zero(predicted.cols())};
+  for (Index i = 0; i < differences.rows(); ++i) {
+    if (!differences.row(i).allFinite()) {
+      ++error.failed;
+      continue;
+    }
+    ++error.compared;
+    error.rms += differences.row(i).cwiseAbs2().transpose();
+  }
+  error.rms = (error.rms / static_cast<double>(error.compared)).cwiseSqrt();  // 0/0 is NaN, as promised
+  return error;
+}
+
+std::vector<double> sorted_finite(const Matrix& states, Index column) {
+  std::vector<double> values;
+  for (double value : states.col(column))
+    if (std::isfinite(value)) values.push_back(value);
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+double quantile(const std::vector<double>& sorted, double fraction) {
+  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double position = fraction * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return std::lerp(sorted[below], sorted[above], position - static_cast<double>(below));
+}
+
+}  // namespace
+
+std::vector<ForecastError> forecast_errors(const dynamics::DynamicsModel& model, const Task& task,
+                                           const Episode& episode) {
+  const std::vector<Index> horizons = horizons_up_to(episode.steps());
+  std::vector<ForecastError> errors;
+  Matrix predicted = episode.states.topRows(episode.steps()), mean, variance;
+  for (Index step = 1; step <= episode.steps(); ++step) {  // row t started at step t and has come to t + step
+    const Index rows = episode.steps() - step + 1;
+    predicted.conservativeResize(rows, Eigen::NoChange);
+    mean.resize(rows, predicted.cols());
+    variance.resize(rows, predicted.cols());
+    model.predict(known_states(predicted, episode), episode.actions.middleRows(step - 1, rows), mean, variance);
+    predicted += mean;  // what has failed stays NaN
+    if (std::find(horizons.begin(), horizons.end(), step) != horizons.end())
+      errors.push_back(compare(task, episode, step, predicted));
+  }
+  return errors;
+}
+
+Vector mean_of_finite(const Matrix& states) {
+  Vector means(states.cols());
+  for (Index s = 0; s < states.cols(); ++s) {
+    const std::vector<double> values = sorted_finite(states, s);
+    means(s) = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  }
+  return means;
+}
+
+Vector quantiles(const Matrix& states, double fraction) {
+  Vector found(states.cols());
+  for (Index s = 0; s < states.cols(); ++s) found(s) = quantile(sorted_finite(states, s), fraction);
+  return found;
+}
+
+}  // namespace rehearse::experiment

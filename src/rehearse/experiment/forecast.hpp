@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "rehearse/core/task.hpp"
+#include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/experiment/record.hpp"
+
+namespace rehearse::experiment {
+
+/// Errors over 1, 2, 5, 10, 20, 50, … steps, as far as the episode goes.
+std::vector<ForecastError> forecast_errors(const dynamics::DynamicsModel& model, const Task& task,
+                                           const Episode& episode);
+
+/// Statistics of every state over particles (n × dx), of the values that are finite; NaN if there are none. A quantile
+/// is interpolated between the two nearest values.
+Vector mean_of_finite(const Matrix& states);
+Vector quantiles(const Matrix& states, double fraction);
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/prior/prior.hpp"
+#include "rehearse/scenario/scenario.hpp"
+
+namespace rehearse::experiment {
+
+inline constexpr const char* kOracle = "oracle";
+
+/// "a,b,c" → its names; empty text: none.
+std::vector<std::string> split_names(const std::string& text);
+
+/// "unknown option 'x', did you mean 'y'?"
+std::string unknown_option(const std::string& key, const std::vector<std::string>& known);
+
+/// The priors that a spec names, with the values that their parameters start from.
+class ChosenPriors {
+ public:
+  /// Unknown names become violations.
+  ChosenPriors(const scenario::Scenario& scenario, const std::vector<std::string>& names, Violations& violations);
+
+  /// key: NAME sets it in every prior that has it, PRIOR.NAME in one.
+  void set(const std::string& key, const std::string& text, Violations& violations);
+
+  /// Every value that can be set, as `prior.KEY` and text.
+  std::vector<std::pair<std::string, std::string>> values() const;
+
+  /// Nothing, the one prior, or their choice.
+  std::optional<prior::Prior> prior() const;
+
+ private:
+  std::vector<scenario::NamedPrior*> having(const std::string& key, std::string& parameter);
+  std::vector<std::string> keys() const;
+
+  std::vector<scenario::NamedPrior> priors_;
+};
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/episode.hpp"
+
+namespace rehearse::experiment {
+
+/// How far a model's mean prediction, continued over `horizon` steps from every state of an episode under the actions
+/// that were taken, ended from the states that were measured.
+struct ForecastError {
+  Index horizon = 0;   // steps
+  Index compared = 0;  // pairs of states
+  Index failed = 0;    // pairs left out because the prediction was not finite
+  Vector rms;          // dx, root mean square over the pairs; NaN if there are none
+};
+
+/// What is kept of one trial beside its episode. What does not apply is empty.
+struct TrialRecord {
+  Index trial = 0;
+  double interaction_s = 0;  // on the plant, up to the end of this trial
+  double total_reward = 0;   // trials.csv calls it `return`
+  std::optional<bool> solved;
+  std::optional<double> predicted_return;
+  Index rollouts = 0;
+  Index failed_rollouts = 0;
+  std::optional<double> log_evidence;
+  std::vector<double> phi;  // of the tunable parameters
+  Vector theta;
+  std::vector<ForecastError> forecast;
+  Index left_out_rows = 0;
+  std::vector<std::string> notes;
+  double model_s = 0;
+  double search_s = 0;
+};
+
+/// A run so far: enough to continue it as if nothing had happened.
+struct History {
+  std::vector<TrialRecord> trials;
+  std::vector<Episode> episodes;  // of these trials
+  Index told = 0;                 // how many of them the learner has been told: all but perhaps the last
+  nlohmann::json learner;         // what it saved after the last it was told
+
+  Index done() const { return static_cast<Index>(trials.size()); }
+};
+
+/// Of so many control steps; to the nanosecond, so that 3 × 0.05 is 0.15.
+double seconds(Index steps, double dt_s);
+
+/// The trial with the highest return, the first of equals. There must be one.
+const TrialRecord& best_trial(const std::vector<TrialRecord>& trials);
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,242 @@
+#include "rehearse/experiment/run.hpp"
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/forecast.hpp"
+#include "rehearse/experiment/run_folder.hpp"
+#include "rehearse/experiment/tables.hpp"
+#include "rehearse/rollout/execute.hpp"
+#include "rehearse/rollout/imagine.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+constexpr Index kPredictionParticles = 100;
+
+/// Everything of a run but its folder: makes the learner and the plant, so that wrong input is found first.
+class Participants {
+ public:
+  Participants(Resolved resolved, const RunOptions& options)
+      : options_(options), resolved_(std::move(resolved)), learner_(resolved_.learner->build(setting())) {}
+  Participants(const Participants&) = delete;  // the learner's progress points here
+  Participants& operator=(const Participants&) = delete;
+
+  const RunOptions& options() const { return options_; }
+  const Resolved& resolved() const { return resolved_; }
+  const Task& task() const { return resolved_.scenario.task; }
+  const policy::Policy& policy() const { return *resolved_.scenario.policy; }
+  learners::Learner& learner() const { return *learner_; }
+
+  /// Connected when it is first needed.
+  system::Plant& plant() {
+    if (!plant_) plant_ = resolved_.scenario.make_plant();
+    return *plant_;
+  }
+
+  void stop_if_asked() const {
+    if (options_.stop && options_.stop()) throw Interrupted{};
+  }
+
+  /// Which trial progress is about.
+  void begin_trial(Index trial) { trial_ = trial; }
+
+ private:
+  learners::Setting setting() {
+    const auto serial = std::shared_ptr<const Evaluator>(&serial_evaluator(), [](const Evaluator*) {});
+    return {.task = task(),
+            .policy = resolved_.scenario.policy,
+            .prior = resolved_.prior,
+            .seed = static_cast<std::uint64_t>(resolved_.spec.seed),
+            .evaluator = options_.evaluator ? options_.evaluator : serial,
+            .progress = [this](const Progress& progress) { report(progress); }};
+  }
+
+  void report(const Progress& progress) const {
+    stop_if_asked();
+    if (options_.listener) options_.listener->progress(trial_, progress);
+  }
+
+  RunOptions options_;
+  Resolved resolved_;
+  std::unique_ptr<learners::Learner> learner_;
+  std::unique_ptr<system::Plant> plant_;
+  Index trial_ = 1;
+};
+
+/// The value of `step`; any failure but the user's stop says in which trial and who.
+template <class Step>
+auto named_failure(Index trial, const char* who, Step step) -> decltype(step()) {
+  try {
+    return step();
+  } catch (const std::exception& error) {
+    throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()));
+  }
+}
+
+/// ask → execute → tell, and the folder.
+class Run {
+ public:
+  Run(Participants& participants, RunFolder& folder, History history)
+      : with_(participants), folder_(folder), history_(std::move(history)) {}
+
+  RunResult finish() {
+    if (with_.options().listener) with_.options().listener->started(folder_.spec(), history_.done());
+    folder_.write_tables(history_, with_.resolved());
+    if (!complete()) catch_up();
+    while (!complete()) one_trial(history_.done() + 1);
+    folder_.mark_done(true);
+    return result();
+  }
+
+ private:
+  bool complete() const { return history_.done() >= folder_.spec().trials; }
+
+  /// Brings a new learner to where the history ends.
+  void catch_up() {
+    const auto told = history_.episodes.begin() + history_.told;
+    if (history_.told > 0)
+      named_failure(history_.told, "learner", [&] {
+        with_.learner().load({history_.episodes.begin(), told}, history_.learner);
+      });
+    if (history_.told == history_.done()) return;
+    if (ask(history_.done()).theta != history_.trials.back().theta)  // it may learn from what it proposed, too
+      throw RunFailed(fmt::format("trial {}: the learner no longer proposes what it did", history_.done()));
+    tell_last();
+  }
+
+  const learners::Proposal& ask(Index trial) {
+    with_.begin_trial(trial);
+    with_.stop_if_asked();
+    const auto& proposal =
+        named_failure(trial, "learner", [&]() -> const learners::Proposal& { return checked(with_.learner().ask()); });
+    with_.stop_if_asked();
+    return proposal;
+  }
+
+  void tell_last() {
+    named_failure(history_.done(), "learner", [&] {
+      with_.learner().tell(history_.episodes.back());
+      history_.learner = with_.learner().save();
+    });
+    ++history_.told;
+    folder_.write_checkpoint(history_);
+  }
+
+  void one_trial(Index trial) {
+    const learners::Proposal& proposal = ask(trial);
+    if (proposal.model) predict(trial, proposal);
+    const Episode episode = named_failure(trial, "plant", [&] {
+      return rollout::execute(with_.plant(), with_.policy(), proposal.theta, with_.task(),
+                              Rng({.seed = seed(), .trial = number(trial), .purpose = Purpose::start_state}));
+    });
+    keep(record(trial, proposal, episode), episode);
+  }
+
+  const learners::Proposal& checked(const learners::Proposal& proposal) const {
+    const Index size = proposal.theta.size(), wanted = with_.policy().parameters();
+    if (size != wanted || !proposal.theta.allFinite())
+      throw std::runtime_error(fmt::format("it proposed {} parameters, the policy has {} finite ones", size, wanted));
+    return proposal;
+  }
+
+  void predict(Index trial, const learners::Proposal& proposal) const {
+    const StreamKey key{.seed = seed(), .trial = number(trial), .purpose = Purpose::prediction};
+    const rollout::ImagineOptions unclipped{.noise_clip = 0};
+    const auto recorded = rollout::imagine_recorded(*proposal.model, with_.policy(), with_.task(), proposal.theta,
+                                                    kPredictionParticles, key, unclipped);
+    folder_.write_prediction(trial, prediction_csv(with_.task(), recorded));
+  }
+
+  TrialRecord record(Index trial, const learners::Proposal& proposal, const Episode& episode) const {
+    const Task& task = with_.task();
+    TrialRecord record{.trial = trial,
+                       .interaction_s = interaction_s(episode),
+                       .total_reward = episode.total_reward(),
+                       .predicted_return = proposal.predicted_return,
+                       .rollouts = proposal.rollouts,
+                       .failed_rollouts = proposal.failed_rollouts,
+                       .log_evidence = proposal.log_evidence,
+                       .phi = tunable_values(proposal),
+                       .theta = proposal.theta,
+                       .left_out_rows = proposal.left_out_rows,
+                       .notes = proposal.notes,
+                       .model_s = proposal.model_s,
+                       .search_s = proposal.search_s};
+    if (task.solved) record.solved = task.solved(episode);
+    if (proposal.model) record.forecast = forecast_errors(*proposal.model, task, episode);
+    return record;
+  }
+
+  double interaction_s(const Episode& latest) const {
+    Index steps = latest.steps();
+    for (const Episode& episode : history_.episodes) steps += episode.steps();
+    return seconds(steps, with_.task().dt_s);
+  }
+
+  std::vector<double> tunable_values(const learners::Proposal& proposal) const {
+    std::vector<double> values;
+    if (!proposal.phi || !with_.resolved().prior) return values;
+    const ParameterSpace& space = with_.resolved().prior->space;
+    for (Index i = 0; i < space.size() && i < proposal.phi->size(); ++i)
+      if (space[i].tunable()) values.push_back((*proposal.phi)(i));
+    return values;
+  }
+
+  /// The episode is on the disk before the learner is told of it, because a robot does not repeat it.
+  void keep(TrialRecord record, const Episode& episode) {
+    folder_.write_trajectory(record.trial, trajectory_csv(with_.task(), episode));
+    history_.trials.push_back(std::move(record));
+    history_.episodes.push_back(episode);
+    folder_.write_checkpoint(history_);
+    folder_.write_tables(history_, with_.resolved());
+    tell_last();
+    if (with_.options().listener) with_.options().listener->trial_done(history_.trials.back());
+  }
+
+  RunResult result() const {
+    RunResult result{.folder = folder_.path(), .trials = history_.done()};
+    result.best_return = best_trial(history_.trials).total_reward;
+    for (const TrialRecord& trial : history_.trials)
+      if (!result.solved_at && trial.solved.value_or(false)) result.solved_at = trial.trial;
+    return result;
+  }
+
+  std::uint64_t seed() const { return number(folder_.spec().seed); }
+  static std::uint64_t number(Index index) { return static_cast<std::uint64_t>(index); }
+
+  Participants& with_;
+  RunFolder& folder_;
+  History history_;
+};
+
+void check_trials(const RunFolder& folder, Index trials, Index done) {
+  Spec spec = folder.spec();
+  spec.trials = trials;
+  Violations violations;
+  for (const auto& line : field_violations([&](FieldVisitor& v) { spec.fields(v); })) violations.add(line);
+  violations.require(trials >= done,
+                     fmt::format("trials = {}, but {} trials of {} are done", trials, done, folder.path().string()));
+  violations.throw_if_any();
+}
+
+}  // namespace
+
+RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::filesystem::path& path,
+                    const RunOptions& options) {
+  Participants participants(resolve(catalogue, spec), options);
+  RunFolder folder = RunFolder::create(path, participants.resolved().spec);
+  return Run(participants, folder, {}).finish();
+}
+
+RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& path, std::optional<Index> trials,
+                     const RunOptions& options) {
+  RunFolder folder = RunFolder::open(path);
+  History history = folder.load();
+  if (trials) check_trials(folder, *trials, history.done());
+  Participants participants(resolve(catalogue, folder.spec()), options);
+  if (trials) folder.change_trials(*trials);
+  return Run(participants, folder, std::move(history)).finish();
+}
+
+}  // namespace rehearse::experiment

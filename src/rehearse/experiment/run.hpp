@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "rehearse/core/evaluator.hpp"
+#include "rehearse/core/events.hpp"
+#include "rehearse/experiment/record.hpp"
+#include "rehearse/experiment/spec.hpp"
+
+namespace rehearse::experiment {
+
+/// Hears how a run goes, on the thread that runs it.
+class RunListener {
+ public:
+  virtual ~RunListener() = default;
+  virtual void started(const Spec& /*complete*/, Index /*trials done before*/) {}
+  virtual void progress(Index /*trial*/, const Progress&) {}
+  virtual void trial_done(const TrialRecord&) {}
+};
+
+/// What does not decide results.
+struct RunOptions {
+  std::shared_ptr<const Evaluator> evaluator;  // null: serial
+  RunListener* listener = nullptr;             // null: nobody listens
+  std::function<bool()> stop;                  // polled; once true, the run ends with Interrupted and can be resumed
+};
+
+struct RunResult {
+  std::filesystem::path folder;
+  Index trials = 0;
+  std::optional<Index> solved_at;  // the first trial that solved the task
+  double best_return = 0;
+};
+
+/// The plant or the learner failed in a trial. What was done before is kept, and the run can be resumed.
+class RunFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Runs a spec in a new folder. Throws InvalidInput before the folder exists, then RunFailed or Interrupted.
+RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::filesystem::path& folder,
+                    const RunOptions& options);
+
+/// Continues the run in a folder, up to `trials` in all if given. Throws the same.
+RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& folder, std::optional<Index> trials,
+                     const RunOptions& options);
+
+}  // namespace rehearse::experiment

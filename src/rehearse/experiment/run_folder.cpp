@@ -1,0 +1,112 @@
+#include "rehearse/experiment/run_folder.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/checkpoint.hpp"
+#include "rehearse/experiment/spec_file.hpp"
+#include "rehearse/experiment/tables.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kSpec = "spec.toml", *kCheckpoint = "checkpoint", *kDone = "done";
+
+fs::path trial_file(const fs::path& folder, Index trial) { return folder / fmt::format("trial-{:03}.csv", trial); }
+
+fs::path without_slash(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
+
+/// A folder beside `path`, on the same file system, that is renamed once it is complete.
+fs::path make_unborn(const fs::path& path) {
+  const fs::path unborn = path.parent_path() / fmt::format(".{}.{}", path.filename().string(), ::getpid());
+  try {
+    fs::remove_all(unborn);
+    fs::create_directories(unborn / "trajectories");
+    fs::create_directories(unborn / "predictions");
+  } catch (const fs::filesystem_error& error) {
+    throw InvalidInput(fmt::format("cannot create {}: {}", path.string(), error.code().message()));
+  }
+  return unborn;
+}
+
+std::string already_exists(const fs::path& path) {
+  return fmt::format("{} already exists and is never overwritten; name another folder, or continue a run with `resume`",
+                     path.string());
+}
+
+}  // namespace
+
+RunFolder::RunFolder(fs::path path, Spec spec, FolderLock lock)
+    : path_(std::move(path)), spec_(std::move(spec)), lock_(std::move(lock)) {}
+
+RunFolder RunFolder::create(const fs::path& given, const Spec& spec) {
+  const fs::path path = without_slash(given);
+  if (fs::exists(fs::symlink_status(path))) throw InvalidInput(already_exists(path));
+  const fs::path unborn = make_unborn(path);
+  FolderLock lock(unborn);
+  write_file(unborn / kSpec, to_toml(spec), Durability::power);
+  write_file(unborn / kCheckpoint, to_checkpoint({}, fingerprint(spec)), Durability::power);
+  if (!rename_new(unborn, path)) {
+    fs::remove_all(unborn);
+    throw InvalidInput(already_exists(path));
+  }
+  return {path, spec, std::move(lock)};
+}
+
+RunFolder RunFolder::open(const fs::path& given) {
+  const fs::path path = without_slash(given);
+  if (!fs::is_directory(path)) throw InvalidInput(fmt::format("{} is not a folder", path.string()));
+  for (const char* file : {kSpec, kCheckpoint})
+    if (!fs::exists(path / file))
+      throw InvalidInput(fmt::format("{} is not a run folder: it has no {}", path.string(), file));
+  FolderLock lock(path);
+  const fs::path spec = path / kSpec;
+  return {path, from_toml(read_file(spec), spec.string()), std::move(lock)};
+}
+
+void RunFolder::change_trials(Index trials) {
+  if (trials == spec_.trials) return;
+  spec_.trials = trials;
+  mark_done(false);
+  write_file(path_ / kSpec, to_toml(spec_), Durability::power);
+}
+
+History RunFolder::load() const {
+  try {
+    return from_checkpoint(read_file(path_ / kCheckpoint), fingerprint(spec_));
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(fmt::format("{}: {}", path_.string(), error.what()));
+  }
+}
+
+void RunFolder::write_checkpoint(const History& history) const {
+  write_file(path_ / kCheckpoint, to_checkpoint(history, fingerprint(spec_)), Durability::power);
+}
+
+void RunFolder::write_tables(const History& history, const Resolved& resolved) const {
+  write_file(path_ / "trials.csv", trials_csv(history.trials, tunable_names(resolved.prior)));
+  write_file(path_ / "timings.csv", timings_csv(history.trials));
+  write_file(path_ / "errors.csv", errors_csv(history.trials, resolved.scenario.task));
+  write_file(path_ / "notes.csv", notes_csv(history.trials));
+  write_file(path_ / "policy.json", policies_json(history.trials, resolved));
+}
+
+void RunFolder::write_prediction(Index trial, const std::string& csv) const {
+  write_file(trial_file(path_ / "predictions", trial), csv);
+}
+
+void RunFolder::write_trajectory(Index trial, const std::string& csv) const {
+  write_file(trial_file(path_ / "trajectories", trial), csv);
+}
+
+void RunFolder::mark_done(bool done) const {
+  if (done)
+    write_file(path_ / kDone, fmt::format("{} trials\n", spec_.trials));
+  else
+    fs::remove(path_ / kDone);
+}
+
+}  // namespace rehearse::experiment

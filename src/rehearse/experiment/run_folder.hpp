@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "rehearse/experiment/files.hpp"
+#include "rehearse/experiment/record.hpp"
+#include "rehearse/experiment/spec.hpp"
+
+namespace rehearse::experiment {
+
+/// The folder of one run, locked while this lives. The checkpoint is the truth and each file is replaced in one step:
+/// after a kill at any instant, `load` and `write_tables` bring the rest up to date.
+class RunFolder {
+ public:
+  /// A new folder with a complete spec and no trial. It appears in one step, or not at all.
+  /// Throws InvalidInput if there is anything of that name.
+  static RunFolder create(const std::filesystem::path& path, const Spec& spec);
+
+  /// Throws InvalidInput if it is no run folder, cannot be read, or is in use.
+  static RunFolder open(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  const Spec& spec() const { return spec_; }
+  void change_trials(Index trials);
+
+  /// Throws InvalidInput if the checkpoint is truncated, damaged, or does not belong to spec.toml.
+  History load() const;
+
+  void write_checkpoint(const History& history) const;
+
+  /// Every table that follows from the history.
+  void write_tables(const History& history, const Resolved& resolved) const;
+
+  /// What the model expects of a trial, and what happened.
+  void write_prediction(Index trial, const std::string& csv) const;
+  void write_trajectory(Index trial, const std::string& csv) const;
+
+  /// Marks the run as complete, or as not.
+  void mark_done(bool done) const;
+
+ private:
+  RunFolder(std::filesystem::path path, Spec spec, FolderLock lock);
+
+  std::filesystem::path path_;
+  Spec spec_;
+  FolderLock lock_;
+};
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,140 @@
+#include "rehearse/experiment/spec.hpp"
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/priors.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+constexpr std::string_view kScenario = "scenario.", kLearner = "learner.", kPrior = "prior.";
+
+template <class Builder>
+Fields fields_of(Builder& builder) {
+  return [&builder](FieldVisitor& v) { builder.fields(v); };
+}
+
+/// Resolves one spec, collecting what is wrong with it as far as it can be known.
+class Resolver {
+ public:
+  Resolver(const Catalogue& catalogue, const Spec& spec)
+      : spec_(spec),
+        scenario_builder_(catalogue.scenario(spec.scenario)),
+        learner_builder_(catalogue.learner(spec.learner)) {
+    for (const auto& line : field_violations([this](FieldVisitor& v) { spec_.fields(v); })) violations_.add(line);
+    if (!scenario_builder_) violations_.add(catalogue.why_missing("scenario", spec.scenario));
+    if (!learner_builder_) violations_.add(catalogue.why_missing("learner", spec.learner));
+    if (!scenario_builder_ || !learner_builder_) violations_.throw_if_any();
+  }
+
+  Resolved resolve() {
+    for (const auto& [key, text] : spec_.options) set_option(key, text);
+    const std::vector<std::string> names = prior_names();
+    const auto scenario = contained([&] { return scenario_builder_->build(); });
+    if (!scenario) violations_.throw_if_any();
+    for (const std::string& line : scenario->task.violations()) violations_.add(line);
+
+    ChosenPriors priors(*scenario, names, violations_);
+    set_prior_values(priors);
+    auto prior = contained([&] { return priors.prior(); });
+    violations_.throw_if_any();
+    complete(names, priors);
+    return {spec_, *scenario, std::move(*prior), std::move(learner_builder_)};
+  }
+
+ private:
+  /// What `make` returns, or nothing when it finds its input invalid.
+  template <class Make>
+  auto contained(Make make) -> std::optional<decltype(make())> {
+    try {
+      return make();
+    } catch (const InvalidInput& error) {
+      violations_.add(error.what());
+      return std::nullopt;
+    }
+  }
+
+  template <class Builder>
+  bool set_field_of(Builder& builder, std::string_view key, const std::string& text) {
+    return contained([&] { return set_field(fields_of(builder), key, text); }).value_or(true);
+  }
+
+  void set_option(const std::string& key, const std::string& text) {
+    const std::string_view name = key;
+    if (set_field_of(*scenario_builder_, key, text) || set_field_of(*learner_builder_, key, text)) return;
+    if (name.starts_with(kPrior)) return;  // once the scenario is built
+    if (name.starts_with(kScenario) && set_field_of(*scenario_builder_, name.substr(kScenario.size()), text)) return;
+    if (name.starts_with(kLearner) && set_field_of(*learner_builder_, name.substr(kLearner.size()), text)) return;
+    violations_.add(unknown_option(key, known_options()));
+  }
+
+  std::vector<std::string> known_options() const {
+    std::vector<std::string> known;
+    for (const auto& [name, text] : list_fields(fields_of(*scenario_builder_))) known.push_back(name);
+    for (const auto& [name, text] : list_fields(fields_of(*learner_builder_))) known.push_back(name);
+    return known;
+  }
+
+  std::vector<std::string> prior_names() {
+    const std::vector<std::string> named = split_names(spec_.prior);
+    const std::string learner = learner_builder_->name();
+    if (learner_builder_->prior_use() == learners::PriorUse::none) {
+      violations_.require(named.empty(),
+                          fmt::format("learner {} takes no prior, but '{}' is given", learner, spec_.prior));
+      return {};
+    }
+    violations_.require(
+        named.size() < 2 || learner_builder_->chooses_priors(),
+        fmt::format("learner {} takes one prior, but '{}' names {}", learner, spec_.prior, named.size()));
+    if (!named.empty()) return named;
+    const std::vector<std::string> known = scenario_builder_->prior_names();
+    violations_.require(!known.empty(), fmt::format("learner {} needs a prior, but scenario {} has none", learner,
+                                                    scenario_builder_->name()));
+    return known.empty() ? known : std::vector{known.front()};
+  }
+
+  void set_prior_values(ChosenPriors& priors) {
+    for (const auto& [key, text] : spec_.options) {
+      if (!key.starts_with(kPrior) || is_field(key)) continue;
+      if (learner_builder_->prior_use() == learners::PriorUse::none)
+        violations_.add(fmt::format("{} = {}, but learner {} takes no prior", key, text, learner_builder_->name()));
+      else
+        priors.set(key.substr(kPrior.size()), text, violations_);
+    }
+  }
+
+  bool is_field(const std::string& key) const {
+    for (const std::string& name : known_options())
+      if (name == key) return true;
+    return false;
+  }
+
+  void complete(const std::vector<std::string>& names, const ChosenPriors& priors) {
+    spec_.prior.clear();
+    for (const std::string& name : names) spec_.prior += (spec_.prior.empty() ? "" : ",") + name;
+    spec_.options.clear();
+    add_options(kScenario, list_fields(fields_of(*scenario_builder_)));
+    add_options(kLearner, list_fields(fields_of(*learner_builder_)));
+    add_options("", priors.values());
+  }
+
+  void add_options(std::string_view prefix, const std::vector<std::pair<std::string, std::string>>& fields) {
+    for (const auto& [name, text] : fields) spec_.options.emplace_back(std::string(prefix) + name, text);
+  }
+
+  Spec spec_;
+  Violations violations_;
+  std::unique_ptr<scenario::ScenarioBuilder> scenario_builder_;
+  std::unique_ptr<learners::LearnerBuilder> learner_builder_;
+};
+
+}  // namespace
+
+Resolved resolve(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec).resolve(); }
+
+std::string run_name(const Spec& spec) {
+  return fmt::format("{}-{}-{}-{}", spec.scenario, spec.learner, spec.prior.empty() ? "none" : spec.prior, spec.seed);
+}
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/experiment/catalogue.hpp"
+#include "rehearse/prior/prior.hpp"
+
+namespace rehearse::experiment {
+
+/// What a run is asked to be: everything that decides its results, and nothing else.
+struct Spec {
+  std::string scenario;
+  std::string learner;
+  std::string prior;  // a name, several as "a,b,c", "oracle" (the plant's own dynamics), or empty: the default
+  Index trials = 10;
+  Index seed = 1;
+
+  /// Key and value as text. A key is a field of the scenario, else one of the learner (`scenario.KEY` and
+  /// `learner.KEY` say which), or a parameter's starting value, `prior.NAME` (`prior.PRIOR.NAME` in one of several).
+  std::vector<std::pair<std::string, std::string>> options;
+
+  void fields(FieldVisitor& v) {
+    v.integer("trials", trials, between(1, 1e6));
+    v.integer("seed", seed, between(0, 9007199254740992.0));  // 2^53: survives every file format
+  }
+};
+
+/// A spec with everything it names.
+struct Resolved {
+  Spec spec;  // complete: the prior named and every option listed with its value
+  scenario::Scenario scenario;
+  std::optional<prior::Prior> prior;
+  std::shared_ptr<const learners::LearnerBuilder> learner;
+};
+
+/// Throws InvalidInput with a line for everything that is wrong.
+Resolved resolve(const Catalogue& catalogue, const Spec& spec);
+
+/// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec; PRIOR is "none" for a learner that takes none.
+std::string run_name(const Spec& spec);
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,152 @@
+#include "rehearse/experiment/tables.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "rehearse/experiment/csv.hpp"
+#include "rehearse/experiment/forecast.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+using Row = std::vector<std::string>;
+
+std::string titled(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+}
+
+/// One column per state, `format` applied to its name.
+void add_states(Row& header, const Task& task, const std::string& format) {
+  for (const StateVariable& state : task.states)
+    header.push_back(titled(fmt::format(fmt::runtime(format), state.name), state.unit));
+}
+
+template <class RowOfMatrix>
+void add_numbers(Row& row, const RowOfMatrix& numbers) {
+  for (Index i = 0; i < numbers.size(); ++i) row.push_back(Csv::cell(double{numbers(i)}));
+}
+
+std::optional<Index> as_number(const std::optional<bool>& flag) {
+  return flag ? std::optional<Index>(*flag ? 1 : 0) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> tunable_names(const std::optional<prior::Prior>& prior) {
+  std::vector<std::string> names;
+  if (!prior) return names;
+  for (const Parameter& parameter : prior->space.all())
+    if (parameter.tunable()) names.push_back(parameter.name);
+  return names;
+}
+
+std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector<std::string>& phi_names) {
+  Row header = {"trial",    "interaction_s",   "return",      "solved", "predicted_return",
+                "rollouts", "failed_rollouts", "log_evidence"};
+  for (const std::string& name : phi_names) header.push_back("phi." + name);
+  Csv csv(header);
+  for (const TrialRecord& t : trials) {
+    Row row = {Csv::cell(t.trial),
+               Csv::cell(t.interaction_s),
+               Csv::cell(t.total_reward),
+               Csv::cell(as_number(t.solved)),
+               Csv::cell(t.predicted_return),
+               Csv::cell(t.rollouts),
+               Csv::cell(t.failed_rollouts),
+               Csv::cell(t.log_evidence)};
+    for (double value : t.phi) row.push_back(Csv::cell(value));
+    row.resize(header.size());
+    csv.row(row);
+  }
+  return csv.text();
+}
+
+std::string timings_csv(const std::vector<TrialRecord>& trials) {
+  Csv csv({"trial", "model_s", "search_s", "rollouts_per_s"});
+  for (const TrialRecord& t : trials) {
+    const double per_s = t.search_s > 0 ? static_cast<double>(t.rollouts) / t.search_s : std::nan("");
+    csv.row({Csv::cell(t.trial), Csv::cell(t.model_s), Csv::cell(t.search_s), Csv::cell(per_s)});
+  }
+  return csv.text();
+}
+
+std::string errors_csv(const std::vector<TrialRecord>& trials, const Task& task) {
+  Row header = {"trial", "horizon", "compared", "failed"};
+  add_states(header, task, "rms {}");
+  Csv csv(header);
+  for (const TrialRecord& t : trials)
+    for (const ForecastError& error : t.forecast) {
+      Row row = {Csv::cell(t.trial), Csv::cell(error.horizon), Csv::cell(error.compared), Csv::cell(error.failed)};
+      add_numbers(row, error.rms);
+      csv.row(row);
+    }
+  return csv.text();
+}
+
+std::string notes_csv(const std::vector<TrialRecord>& trials) {
+  Csv csv({"trial", "note"});
+  for (const TrialRecord& t : trials) {
+    for (const std::string& note : t.notes) csv.row({Csv::cell(t.trial), note});
+    if (t.left_out_rows > 0)
+      csv.row({Csv::cell(t.trial),
+               fmt::format("{} training rows left out: the prior's prediction was not finite", t.left_out_rows)});
+  }
+  return csv.text();
+}
+
+std::string policies_json(const std::vector<TrialRecord>& trials, const Resolved& resolved) {
+  const auto entry = [](const TrialRecord& t) {
+    return nlohmann::ordered_json{
+        {"trial", t.trial}, {"return", t.total_reward}, {"theta", std::vector<double>(t.theta.begin(), t.theta.end())}};
+  };
+  nlohmann::ordered_json all = {{"format", 1},
+                                {"scenario", resolved.spec.scenario},
+                                {"learner", resolved.spec.learner},
+                                {"policy", resolved.scenario.policy->name()}};
+  if (!trials.empty()) all["best"] = entry(best_trial(trials));
+  all["trials"] = nlohmann::ordered_json::array();
+  for (const TrialRecord& t : trials) all["trials"].push_back(entry(t));
+  return all.dump(1) + "\n";
+}
+
+std::string trajectory_csv(const Task& task, const Episode& episode) {
+  Row header = {"time [s]"};
+  add_states(header, task, "{}");
+  add_states(header, task, "true {}");
+  for (const ActionVariable& action : task.actions) header.push_back(titled(action.name, action.unit));
+  header.push_back("reward");
+  Csv csv(header);
+  for (Index t = 0; t <= episode.steps(); ++t) {
+    Row row = {Csv::cell(seconds(static_cast<Index>(t), task.dt_s))};
+    add_numbers(row, episode.states.row(t));
+    add_numbers(row, episode.true_states.row(t));
+    if (t < episode.steps())
+      add_numbers(row, episode.actions.row(t));
+    else
+      row.resize(row.size() + task.actions.size());
+    row.push_back(t > 0 ? Csv::cell(episode.rewards(t - 1)) : "");
+    csv.row(row);
+  }
+  return csv.text();
+}
+
+std::string prediction_csv(const Task& task, const rollout::Recorded& recorded) {
+  constexpr std::array<double, 5> kFractions = {0.05, 0.25, 0.5, 0.75, 0.95};
+  Row header = {"time [s]", "particles"};
+  for (const std::string format : {"{} mean", "{} 5%", "{} 25%", "{} 50%", "{} 75%", "{} 95%"})
+    add_states(header, task, format);
+  Csv csv(header);
+  for (std::size_t t = 0; t < recorded.states.size(); ++t) {
+    const Matrix& states = recorded.states[t];
+    const Index going = (states.col(0).array() == states.col(0).array()).count();  // the others are NaN
+    Row row = {Csv::cell(seconds(static_cast<Index>(t), task.dt_s)), Csv::cell(going)};
+    add_numbers(row, mean_of_finite(states));
+    for (double fraction : kFractions) add_numbers(row, quantiles(states, fraction));
+    csv.row(row);
+  }
+  return csv.text();
+}
+
+}  // namespace rehearse::experiment

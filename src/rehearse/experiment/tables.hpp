@@ -1,0 +1,35 @@
+#pragma once
+// The text of the files in a run folder. Numbers are written so that they read back exactly; what does not apply is
+// empty. Nothing here touches a disk.
+
+#include <string>
+#include <vector>
+
+#include "rehearse/core/task.hpp"
+#include "rehearse/experiment/record.hpp"
+#include "rehearse/experiment/spec.hpp"
+#include "rehearse/rollout/imagine.hpp"
+
+namespace rehearse::experiment {
+
+/// Names of the tunable parameters of a prior; empty without one.
+std::vector<std::string> tunable_names(const std::optional<prior::Prior>& prior);
+
+std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector<std::string>& phi_names);
+std::string timings_csv(const std::vector<TrialRecord>& trials);
+
+/// Forecast errors: one row per trial and horizon.
+std::string errors_csv(const std::vector<TrialRecord>& trials, const Task& task);
+
+/// What went wrong and was survived: one row per note.
+std::string notes_csv(const std::vector<TrialRecord>& trials);
+
+/// The best observed policy and each trial's.
+std::string policies_json(const std::vector<TrialRecord>& trials, const Resolved& resolved);
+
+std::string trajectory_csv(const Task& task, const Episode& episode);
+
+/// Mean and quantiles of every state by step.
+std::string prediction_csv(const Task& task, const rollout::Recorded& recorded);
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,81 @@
+#include "rehearse/experiment/checkpoint.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "fake.hpp"
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+History history_of_one() {
+  History history;
+  history.trials.push_back({.trial = 1,
+                            .interaction_s = 0.1 + 0.2,
+                            .total_reward = -0.0,
+                            .solved = false,
+                            .rollouts = 5,
+                            .log_evidence = -std::numeric_limits<double>::infinity(),
+                            .phi = {1.0 / 3, std::nan("")},
+                            .theta = Vector::Constant(3, 5e-324),
+                            .forecast = {{.horizon = 2, .compared = 3, .failed = 1, .rms = Vector::Constant(1, 0.1)}},
+                            .notes = {"ünïcode"}});
+  Episode episode;
+  episode.states = Matrix::Random(3, 2);
+  episode.true_states = Matrix::Random(3, 2);
+  episode.actions = Matrix::Random(2, 1);
+  episode.rewards = Vector::Random(2);
+  episode.charged = -7;
+  episode.ended = true;
+  history.episodes.push_back(episode);
+  history.told = 1;
+  history.learner = {{"warm", 0.1}};
+  return history;
+}
+
+std::string complaint(const std::string& bytes, std::uint64_t spec = 42) {
+  return fake::message_of<InvalidInput>([&] { from_checkpoint(bytes, spec); });
+}
+
+TEST(Checkpoint, KeepsEveryBit) {
+  const History history = history_of_one(), back = from_checkpoint(to_checkpoint(history, 42), 42);
+  ASSERT_EQ(back.done(), 1);
+  const TrialRecord &a = history.trials[0], &b = back.trials[0];
+  EXPECT_EQ(b.interaction_s, a.interaction_s);
+  EXPECT_TRUE(std::signbit(b.total_reward));
+  EXPECT_EQ(b.solved, a.solved);
+  EXPECT_FALSE(b.predicted_return.has_value());
+  EXPECT_EQ(b.log_evidence, a.log_evidence);
+  EXPECT_EQ(b.phi[0], a.phi[0]);
+  EXPECT_TRUE(std::isnan(b.phi[1]));
+  EXPECT_EQ(b.theta, a.theta);
+  EXPECT_EQ(b.forecast[0].rms, a.forecast[0].rms);
+  EXPECT_EQ(b.notes, a.notes);
+  EXPECT_EQ(back.episodes[0].states, history.episodes[0].states);
+  EXPECT_EQ(back.episodes[0].rewards, history.episodes[0].rewards);
+  EXPECT_EQ(back.episodes[0].charged, -7);
+  EXPECT_TRUE(back.episodes[0].ended);
+  EXPECT_EQ(back.learner, history.learner);
+  EXPECT_EQ(to_checkpoint(back, 42), to_checkpoint(history, 42));
+}
+
+TEST(Checkpoint, EveryTruncationIsRefused) {
+  const std::string bytes = to_checkpoint(history_of_one(), 42);
+  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_NE(complaint(bytes.substr(0, size)), "") << size;
+  EXPECT_EQ(complaint(bytes.substr(0, bytes.size() - 1)), "the checkpoint is truncated or damaged");
+}
+
+TEST(Checkpoint, DamageAnotherVersionAndAnotherSpecAreRefused) {
+  std::string bytes = to_checkpoint(history_of_one(), 42);
+  EXPECT_NE(complaint(bytes, 43).find("belongs to another spec.toml"), std::string::npos);
+  EXPECT_NE(complaint("rehearse-checkpoint 2 0 0\n").find("another version"), std::string::npos);
+  bytes[bytes.size() / 2] ^= 1;
+  EXPECT_EQ(complaint(bytes), "the checkpoint is truncated or damaged");
+  EXPECT_EQ(complaint("hello"), "the checkpoint is truncated or not one of Rehearse");
+}
+
+}  // namespace
+}  // namespace rehearse::experiment

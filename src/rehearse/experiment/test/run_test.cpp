@@ -1,0 +1,242 @@
+#include "rehearse/experiment/run.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "fake.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/files.hpp"
+#include "rehearse/experiment/run_folder.hpp"
+#include "rehearse/experiment/spec_file.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+Spec line_spec(Index trials, const std::string& learner = "echo") {
+  return {.scenario = "line", .learner = learner, .trials = trials, .seed = 3};
+}
+
+std::vector<std::string> lines_of(const fs::path& path) {
+  std::istringstream text(read_file(path));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Bytes of everything in a run folder that must not depend on how the run came about.
+std::string results_of(const fs::path& folder) {
+  std::string bytes;
+  for (const std::string name : {"spec.toml", "trials.csv", "errors.csv", "notes.csv", "policy.json", "done"})
+    bytes += name + "\n" + read_file(folder / name);
+  for (const std::string name : {"trajectories/trial-001.csv", "predictions/trial-003.csv"})
+    bytes += name + "\n" + read_file(folder / name);
+  return bytes;
+}
+
+TEST(Run, FolderHoldsWhatTheContractSays) {
+  const fs::path folder = fake::test_folder() / "run";
+  const RunResult result = start_run(fake::catalogue(), line_spec(3), folder, {});
+  EXPECT_EQ(result.trials, 3);
+
+  const auto trials = lines_of(folder / "trials.csv");
+  ASSERT_EQ(trials.size(), 4u);
+  EXPECT_EQ(trials[0],
+            "trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence,phi.gain");
+  EXPECT_TRUE(trials[1].starts_with("1,1.2,")) << trials[1];
+  EXPECT_NE(trials[1].find(",100,0,,1.2"), std::string::npos) << trials[1];  // no evidence before data
+
+  EXPECT_EQ(lines_of(folder / "timings.csv")[0], "trial,model_s,search_s,rollouts_per_s");
+  const auto trajectory = lines_of(folder / "trajectories/trial-002.csv");
+  EXPECT_EQ(trajectory[0], "time [s],x [m],true x [m],v [m/s],reward");
+  EXPECT_EQ(trajectory.size(), 14u);
+  EXPECT_TRUE(trajectory[1].starts_with("0,") && trajectory[1].ends_with(","));
+  const auto prediction = lines_of(folder / "predictions/trial-002.csv");
+  EXPECT_EQ(prediction[0], "time [s],particles,x mean [m],x 5% [m],x 25% [m],x 50% [m],x 75% [m],x 95% [m]");
+  EXPECT_EQ(prediction.size(), 14u);
+  EXPECT_EQ(lines_of(folder / "errors.csv")[0], "trial,horizon,compared,failed,rms x [m]");
+  EXPECT_EQ(lines_of(folder / "errors.csv").size(), 1u + 3 * 4);
+  EXPECT_EQ(lines_of(folder / "notes.csv")[1], "1,\"a note, with a comma\"");
+
+  const auto policies = nlohmann::json::parse(read_file(folder / "policy.json"));
+  EXPECT_EQ(policies["trials"].size(), 3u);
+  EXPECT_EQ(policies["best"]["return"].get<double>(), result.best_return);
+  EXPECT_EQ(policies["best"]["theta"].size(), 2u);
+  EXPECT_TRUE(fs::exists(folder / "done"));
+}
+
+TEST(Run, LearnerWithoutPriorHasNoModelColumns) {
+  const fs::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(2, "echo-alone"), folder, {});
+  const auto trials = lines_of(folder / "trials.csv");
+  EXPECT_EQ(trials[0], "trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence");
+  EXPECT_TRUE(trials[1].ends_with(",,100,0,")) << trials[1];
+  EXPECT_TRUE(fs::is_empty(folder / "predictions"));
+}
+
+TEST(Run, FewerTrialsAreAPrefixOfMore) {
+  const fs::path folder = fake::test_folder();
+  start_run(fake::catalogue(), line_spec(5), folder / "five", {});
+  start_run(fake::catalogue(), line_spec(10), folder / "ten", {});
+  EXPECT_TRUE(read_file(folder / "ten/trials.csv").starts_with(read_file(folder / "five/trials.csv")));
+}
+
+TEST(Run, SpecOfAFolderGivesTheSameRun) {
+  const fs::path folder = fake::test_folder();
+  start_run(fake::catalogue(), line_spec(4), folder / "first", {});
+  start_run(fake::catalogue(), from_toml(read_file(folder / "first/spec.toml"), ""), folder / "second", {});
+  EXPECT_EQ(results_of(folder / "first"), results_of(folder / "second"));
+}
+
+TEST(Run, AnExistingFolderIsNeverOverwritten) {
+  const fs::path folder = fake::test_folder();
+  start_run(fake::catalogue(), line_spec(1), folder / "run", {});
+  fs::create_directory(folder / "empty");
+  std::ofstream(folder / "file") << "mine";
+  for (const std::string name : {"run", "run/", "empty", "file"}) {
+    const auto message =
+        fake::message_of<InvalidInput>([&] { start_run(fake::catalogue(), line_spec(1), folder / name, {}); });
+    EXPECT_NE(message.find("already exists"), std::string::npos) << name;
+  }
+  EXPECT_EQ(read_file(folder / "file"), "mine");
+}
+
+TEST(Run, WrongInputLeavesNoFolder) {
+  const fs::path folder = fake::test_folder();
+  EXPECT_THROW(start_run(fake::catalogue(), line_spec(0), folder / "a/b", {}), InvalidInput);
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST(Resume, AfterAStopAnywhereGivesTheSameBytes) {
+  const fs::path folder = fake::test_folder();
+  start_run(fake::catalogue(), line_spec(4), folder / "whole", {});
+  const std::string expected = results_of(folder / "whole");
+  bool stopped = true;
+  Index stops = 0;
+  for (; stopped; ++stops) {
+    const fs::path run = folder / ("stopped-" + std::to_string(stops));
+    Index polls = 0;
+    stopped = false;
+    try {
+      start_run(fake::catalogue(), line_spec(4), run, {.stop = [&] { return polls++ == stops; }});
+    } catch (const Interrupted&) {
+      stopped = true;
+      EXPECT_FALSE(fs::exists(run / "done"));
+      resume_run(fake::catalogue(), run, {}, {});
+    }
+    EXPECT_EQ(results_of(run), expected) << stops;
+  }
+  EXPECT_GE(stops, 12);
+}
+
+/// Runs in a process of its own that kills itself; true if it did.
+bool run_killed(const fs::path& folder, fake::Killer killer) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    start_run(fake::catalogue(killer), line_spec(4), folder, {});
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+}
+
+TEST(Resume, AfterAKillGivesTheSameBytes) {
+  using Place = fake::Killer::Place;
+  const fs::path folder = fake::test_folder();
+  start_run(fake::catalogue(), line_spec(4), folder / "whole", {});
+  const std::string expected = results_of(folder / "whole");
+  for (Place place : {Place::ask, Place::tell, Place::save})
+    for (Index call = 0; call < 4; ++call) {
+      const fs::path run = folder / ("killed-" + std::to_string(static_cast<int>(place)) + std::to_string(call));
+      if (!run_killed(run, {place, call})) {
+        EXPECT_TRUE(place == Place::save && call == 0);  // nothing to save before the first trial
+        continue;
+      }
+      resume_run(fake::catalogue(), run, {}, {});
+      EXPECT_EQ(results_of(run), expected) << static_cast<int>(place) << " " << call;
+    }
+}
+
+TEST(Resume, ExtendsARunAndNeverShrinksIt) {
+  const fs::path folder = fake::test_folder();
+  start_run(fake::catalogue(), line_spec(6), folder / "six", {});
+  start_run(fake::catalogue(), line_spec(2), folder / "two", {});
+  EXPECT_EQ(resume_run(fake::catalogue(), folder / "two", {}, {}).trials, 2);
+  EXPECT_EQ(resume_run(fake::catalogue(), folder / "two", 6, {}).trials, 6);
+  EXPECT_EQ(results_of(folder / "six"), results_of(folder / "two"));
+  const auto message = fake::message_of<InvalidInput>([&] { resume_run(fake::catalogue(), folder / "two", 5, {}); });
+  EXPECT_NE(message.find("trials = 5, but 6 trials of"), std::string::npos) << message;
+}
+
+TEST(Resume, RefusesWhatIsNoRunFolder) {
+  const fs::path folder = fake::test_folder();
+  const auto complaint = [&](const std::string& name) {
+    return fake::message_of<InvalidInput>([&] { resume_run(fake::catalogue(), folder / name, {}, {}); });
+  };
+  EXPECT_NE(complaint("nothing").find("nothing is not a folder"), std::string::npos);
+  fs::create_directory(folder / "empty");
+  EXPECT_NE(complaint("empty").find("is not a run folder: it has no spec.toml"), std::string::npos);
+  EXPECT_TRUE(fs::is_empty(folder / "empty"));
+
+  start_run(fake::catalogue(), line_spec(2), folder / "run", {});
+  const std::string spec = read_file(folder / "run/spec.toml"), checkpoint = read_file(folder / "run/checkpoint");
+  write_file(folder / "run/checkpoint", checkpoint.substr(0, checkpoint.size() / 2));
+  EXPECT_NE(complaint("run").find("the checkpoint is truncated or damaged"), std::string::npos);
+  write_file(folder / "run/checkpoint", checkpoint);
+  write_file(folder / "run/spec.toml", spec.substr(0, spec.size() / 2) + "= =");
+  EXPECT_NE(complaint("run").find("spec.toml: line "), std::string::npos);
+  write_file(folder / "run/spec.toml", spec + "# harmless\n");
+  EXPECT_EQ(complaint("run"), "");
+  write_file(folder / "run/spec.toml", std::string(spec).replace(spec.find("seed = 3"), 8, "seed = 4"));
+  EXPECT_NE(complaint("run").find("belongs to another spec.toml"), std::string::npos);
+}
+
+TEST(Resume, OneProcessAtATime) {
+  const fs::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(1), folder, {});
+  const FolderLock lock(folder);
+  EXPECT_NE(fake::message_of<InvalidInput>([&] { resume_run(fake::catalogue(), folder, 2, {}); }).find("in use"),
+            std::string::npos);
+}
+
+TEST(Run, AFailingPlantKeepsWhatWasDone) {
+  const fs::path folder = fake::test_folder() / "run";
+  Spec spec = line_spec(8);
+  spec.options = {{"breaks", "true"}};
+  const auto message = fake::message_of<RunFailed>([&] { start_run(fake::catalogue(), spec, folder, {}); });
+  EXPECT_NE(message.find("the plant failed: the wheel came off"), std::string::npos) << message;
+  const auto kept = lines_of(folder / "trials.csv").size();
+  EXPECT_LT(kept, 9u);
+  EXPECT_EQ(fake::message_of<RunFailed>([&] { resume_run(fake::catalogue(), folder, {}, {}); }), message);
+  EXPECT_EQ(lines_of(folder / "trials.csv").size(), kept);
+}
+
+class Counter final : public RunListener {
+ public:
+  Index before = -1, progressed = 0, last = 0;
+  void started(const Spec&, Index done) override { before = done; }
+  void progress(Index, const Progress&) override { ++progressed; }
+  void trial_done(const TrialRecord& record) override { last = record.trial; }
+};
+
+TEST(Run, TellsItsListener) {
+  const fs::path folder = fake::test_folder() / "run";
+  Counter first, second;
+  start_run(fake::catalogue(), line_spec(2), folder, {.listener = &first});
+  EXPECT_EQ(first.before, 0);
+  EXPECT_EQ(first.progressed, 2);
+  EXPECT_EQ(first.last, 2);
+  resume_run(fake::catalogue(), folder, 3, {.listener = &second});
+  EXPECT_EQ(second.before, 2);
+  EXPECT_EQ(second.last, 3);
+}
+
+}  // namespace
+}  // namespace rehearse::experiment

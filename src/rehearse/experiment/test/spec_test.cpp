@@ -1,0 +1,119 @@
+#include "rehearse/experiment/spec.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fake.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/spec_file.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+using Options = std::vector<std::pair<std::string, std::string>>;
+
+Spec spec_of(const std::string& learner, const std::string& prior, const Options& options = {}) {
+  return {.scenario = "line", .learner = learner, .prior = prior, .options = options};
+}
+
+std::string complaint(const Spec& spec) {
+  return fake::message_of<InvalidInput>([&] { resolve(fake::catalogue(), spec); });
+}
+
+TEST(Spec, LearnerTakesTheScenariosFirstPriorByDefault) {
+  const Resolved resolved = resolve(fake::catalogue(), spec_of("echo", ""));
+  EXPECT_EQ(resolved.spec.prior, "near");
+  EXPECT_EQ(resolved.prior->space[0].value, 1.2);
+}
+
+TEST(Spec, IsCompleteOnceResolved) {
+  const Spec spec = resolve(fake::catalogue(), spec_of("echo", "far", {{"noise", "0.5"}, {"prior.gain", "2"}})).spec;
+  const Options expected = {{"scenario.plant.gain", "1"},   {"scenario.noise", "0.5"}, {"scenario.breaks", "false"},
+                            {"learner.search.step", "0.4"}, {"prior.gain", "2"},       {"prior.drift", "0"}};
+  EXPECT_EQ(spec.options, expected);
+}
+
+TEST(Spec, OptionsReachScenarioLearnerAndPrior) {
+  const Resolved resolved =
+      resolve(fake::catalogue(),
+              spec_of("echo", "near", {{"search.step", "2"}, {"scenario.noise", "0"}, {"prior.drift", "1"}}));
+  EXPECT_EQ(resolved.spec.options[1].second, "0");
+  EXPECT_EQ(resolved.spec.options[3].second, "2");
+  EXPECT_EQ(resolved.prior->space[1].value, 1);
+}
+
+TEST(Spec, OracleIsFixedAndCannotBeChanged) {
+  const Resolved resolved = resolve(fake::catalogue(), spec_of("echo", "oracle"));
+  EXPECT_FALSE(resolved.prior->space.has_tunable());
+  EXPECT_EQ(complaint(spec_of("echo", "oracle", {{"prior.gain", "2"}})),
+            "prior.gain: the oracle is the plant's own dynamics, set plant.gain instead");
+}
+
+TEST(Spec, SeveralPriorsAreOneChoice) {
+  const Resolved resolved = resolve(fake::catalogue(), spec_of("echo", "near,far", {{"prior.far.gain", "3.5"}}));
+  EXPECT_EQ(resolved.spec.prior, "near,far");
+  EXPECT_GE(resolved.prior->space.find("prior"), 0);
+  EXPECT_EQ(resolved.spec.options[4], (std::pair<std::string, std::string>{"prior.near.gain", "1.2"}));
+  EXPECT_EQ(resolved.spec.options[6], (std::pair<std::string, std::string>{"prior.far.gain", "3.5"}));
+}
+
+TEST(Spec, SaysWhatIsWrong) {
+  EXPECT_EQ(complaint({.scenario = "lime", .learner = "eco"}),
+            "unknown scenario 'lime', did you mean 'line'? (known: line)\n"
+            "unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)");
+  EXPECT_EQ(complaint({.scenario = "hexapod", .learner = "echo"}),
+            "scenario 'hexapod' is not built: DART 6.12 was not found");
+  EXPECT_EQ(complaint({.scenario = "line"}), "no learner is named (known: echo, echo-alone)");
+  EXPECT_EQ(complaint(spec_of("echo", "nera")),
+            "unknown prior 'nera' of scenario line, did you mean 'near'? (known: near, far, oracle)");
+  EXPECT_EQ(complaint(spec_of("echo", "near,near")), "prior 'near' is named twice");
+  EXPECT_EQ(complaint(spec_of("echo-alone", "near")), "learner echo-alone takes no prior, but 'near' is given");
+  EXPECT_EQ(complaint(spec_of("echo", "", {{"serch.step", "1"}})),
+            "unknown option 'serch.step', did you mean 'search.step'?");
+  EXPECT_EQ(complaint(spec_of("echo", "", {{"prior.gian", "1"}})),
+            "unknown option 'prior.gian', did you mean 'prior.gain'?");
+  EXPECT_EQ(complaint(spec_of("echo", "", {{"prior.gain", "9"}})), "prior near: gain = 9, must be between 0.1 and 4");
+}
+
+TEST(Spec, NamesAllViolationsAtOnce) {
+  Spec spec = spec_of("echo", "", {{"noise", "-1"}, {"search.step", "fast"}, {"colour", "red"}});
+  spec.trials = -3;
+  EXPECT_EQ(complaint(spec),
+            "trials = -3, must be between 1 and 1000000\n"
+            "noise = -1, must be ≥ 0\n"
+            "search.step = fast, must be a number\n"
+            "unknown option 'colour', did you mean 'noise'?");
+}
+
+TEST(SpecFile, ComesBackAsItWas) {
+  for (const std::string prior : {"near", "near,far", "oracle"}) {
+    const Spec spec = resolve(fake::catalogue(), spec_of("echo", prior, {{"noise", "1e-05"}})).spec;
+    const Spec back = from_toml(to_toml(spec), "spec.toml");
+    EXPECT_EQ(fingerprint(back), fingerprint(spec));
+    EXPECT_EQ(to_toml(resolve(fake::catalogue(), back).spec), to_toml(spec));
+  }
+}
+
+TEST(SpecFile, KeepsTextThatLooksLikeSomethingElse) {
+  const Options options = {{"learner.a", "-0"},   {"learner.b", "inf"},          {"learner.c", "1e+20"},
+                           {"learner.d", "true"}, {"learner.e.f", "say \"no\""}, {"learner.odd key@b", "1_000"},
+                           {"learner.g", "0x10"}, {"learner.h", "0.1"},          {"learner.i", ""}};
+  const Spec back = from_toml(to_toml({.scenario = "line", .learner = "echo", .options = options}), "spec.toml");
+  for (const auto& option : options)
+    EXPECT_NE(std::find(back.options.begin(), back.options.end(), option), back.options.end()) << option.first;
+  EXPECT_EQ(back.options.size(), options.size());
+}
+
+TEST(SpecFile, SaysWhereItIsWrong) {
+  const auto complaint_about = [](const std::string& text) {
+    return fake::message_of<InvalidInput>([&] { from_toml(text, "x.toml"); });
+  };
+  EXPECT_TRUE(complaint_about("format = 1\n[run\n").starts_with("x.toml: line 2: "));
+  EXPECT_EQ(complaint_about("a = 1\n"), "x.toml: not a spec: it needs `format` and [run]");
+  EXPECT_EQ(complaint_about("format = 7\n[run]\n"),
+            "x.toml: format 7 is that of another version of Rehearse, this one reads 1");
+  EXPECT_EQ(complaint_about("format = 1\n[run]\ntrails = 3\n"), "x.toml: line 3: unknown key 'trails' in [run]");
+  EXPECT_EQ(complaint_about("format = 1\n[run]\ntrials = 0\n"), "x.toml: trials = 0, must be between 1 and 1000000");
+}
+
+}  // namespace
+}  // namespace rehearse::experiment
