@@ -60,6 +60,7 @@ void CmaesOptions::fields(FieldVisitor& v) {
   v.number("max_growth", max_growth, above(1));
   v.boolean("stagnation", stagnation);
   v.integer("max_generations", max_generations, at_least(0));
+  v.integer("eigen_up_to", eigen_up_to, at_least(0));
 }
 
 std::string to_string(Stop stop) {
@@ -90,7 +91,7 @@ Cmaes::Cmaes(const Vector& mean, double sigma, const std::vector<Interval>& box,
       key_(key),
       box_(box),
       constants_(mean.size(), checked_population(mean, sigma, box, options), options.active),
-      covariance_(mean.size()),
+      covariance_(mean.size(), mean.size() <= options.eigen_up_to ? Root::eigen : Root::cholesky),
       mean_(box_.preimage(mean, mean)),
       path_sigma_(Vector::Zero(mean.size())),
       path_c_(Vector::Zero(mean.size())),

@@ -1,5 +1,5 @@
 #pragma once
-// The covariance matrix C of a search distribution and its symmetric square root.
+// The covariance matrix C of a search distribution and a square root A of it, C = A Aᵀ.
 
 #include <vector>
 
@@ -7,10 +7,15 @@
 
 namespace rehearse::optim {
 
-/// C (n × n) = B D² Bᵀ. Updates are cheap (rank k) and do not touch the decomposition; `decompose` renews it.
+enum class Root {
+  eigen,     // A = B D with C = B D² Bᵀ, as in Hansen 2016
+  cholesky,  // A lower triangular: some 20 times cheaper. The search behaves the same (Krause 2016)
+};
+
+/// Updates are cheap (rank k) and do not touch the root; `decompose` renews it.
 class Covariance {
  public:
-  explicit Covariance(Index n);
+  explicit Covariance(Index n, Root root = Root::eigen);
 
   Index size() const { return C_.rows(); }
   double variance(Index i) const { return C_(i, i); }
@@ -21,24 +26,28 @@ class Covariance {
   /// Scales coordinate i by `factor`: C_ij and C_ji by factor, C_ii by factor².
   void scale(Index i, double factor);
 
-  /// Returns false if C has an eigenvalue that is not above zero; the old decomposition stays then.
+  /// Returns false if C is not positive definite; the old root stays then.
   bool decompose();
 
   // The following use C as it was at the last `decompose`.
-  void colour(const ConstMatrixView& Z, MatrixView Y) const;  // Y (n × k) = B D Zᵀ, Z: k × n
-  void whiten(const ConstVectorView& y, VectorView z) const;  // z = C^(−1/2) y = B D⁻¹ Bᵀ y
-  double length(const ConstVectorView& y) const;              // ‖C^(−1/2) y‖
-  auto axis(Index i) const { return BD_.col(i); }             // d_i b_i
-  double condition() const { return eigenvalues_(size() - 1) / eigenvalues_(0); }
-  double largest_eigenvalue() const { return eigenvalues_(size() - 1); }
+  void colour(const ConstMatrixView& Z, MatrixView Y) const;  // Y (n × k) = A Zᵀ, Z: k × n
+  void whiten(const ConstVectorView& y, VectorView z) const;  // z = C^(−1/2) y; with a Cholesky factor A⁻¹ y
+  double length(const ConstVectorView& y) const;              // ‖A⁻¹ y‖, the same for every root
+  auto axis(Index i) const { return A_.col(i); }
+  double condition() const;           // with a Cholesky factor a lower bound
+  double largest_eigenvalue() const;  // with a Cholesky factor a lower bound
 
  private:
-  Matrix C_;            // lower triangle
+  bool decompose_eigen();
+  bool decompose_cholesky();
+
+  Root root_;
+  Matrix C_;  // lower triangle
+  Matrix A_;
   Matrix B_;            // eigenvectors, one a column
-  Matrix BD_;           // scaled by the square roots of the eigenvalues
   Vector eigenvalues_;  // ascending
   mutable Vector projected_;
-  Matrix vectors_;  // the next B_
+  Matrix next_;  // A_ or B_ in the making
   Vector values_;
   std::vector<double> work_;
   std::vector<int> iwork_;
