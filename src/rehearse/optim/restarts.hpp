@@ -26,8 +26,8 @@ struct SearchOptions {
   double target = std::numeric_limits<double>::infinity();  // stop at this value
   Index candidates = 4;     // of the best points, and as many of the means, go into the result
   Index final_samples = 0;  // evaluations of each of these at the end, to choose by; 0: chosen as they were seen
-  CmaesOptions cmaes;       // its population is the smallest; its step tolerance a fraction of `step`
-  UncertaintyOptions uncertainty;
+  CmaesOptions cmaes{};     // its population is the smallest; its step tolerance a fraction of `step`
+  UncertaintyOptions uncertainty{};
   void fields(FieldVisitor& v);
 };
 
