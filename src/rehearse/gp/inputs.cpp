@@ -10,8 +10,9 @@
 namespace rehearse::gp {
 namespace {
 
-/// Below this fraction of its magnitude, a column's variation is rounding.
-constexpr double kConstant = 1e-13;
+/// Below this fraction of its magnitude, a column's variation is rounding; below the second number its inverse
+/// overflows.
+constexpr double kConstant = 1e-13, kSmallest = 1e-300;
 
 void require_finite(const ConstMatrixView& X) {
   Violations wrong;
@@ -36,9 +37,9 @@ Inputs::Inputs(const ConstMatrixView& X) : unit_(X.rows(), X.cols()), center_(X.
     const double low = X.col(d).minCoeff(), high = X.col(d).maxCoeff();
     center_(d) = low / 2 + high / 2;
     half_range_(d) = high / 2 - low / 2;
-    const bool constant = half_range_(d) <= kConstant * std::abs(center_(d));
+    const bool constant = half_range_(d) <= std::max(kConstant * std::abs(center_(d)), kSmallest);
     if (constant) half_range_(d) = std::max(std::abs(center_(d)), 1.0);
-    unit_.col(d) = X.col(d).array() / half_range_(d) - center_(d) / half_range_(d);
+    unit_.col(d) = (X.col(d).array() - center_(d)) * (1 / half_range_(d));
     spread_(d) = constant ? half_range_(d) : sample_deviation(unit_.col(d)) * half_range_(d);
   }
 }

@@ -3,8 +3,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Highway's order matters: the functions come after the target.
-#include <hwy/contrib/math/math-inl.h>
-
+#include "rehearse/gp/correlation-inl.hpp"
 #include "rehearse/gp/kernel.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -12,18 +11,7 @@ namespace rehearse::gp {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::CappedTag<double, 8>;
-using V = hn::Vec<Tag>;
-constexpr Tag kTag;
-
 HWY_INLINE Size lanes() { return static_cast<Size>(hn::Lanes(kTag)); }
-
-/// exp(−½ squared distance), 0 where far; `squared` may be infinite.
-HWY_INLINE V correlation(V squared) {
-  const V cut = hn::Set(kTag, -80.0);
-  const V x = hn::Mul(hn::Set(kTag, -0.5), squared);
-  return hn::IfThenElseZero(hn::Gt(x, cut), hn::Exp(kTag, hn::Max(x, cut)));
-}
 
 /// Correlations of kVectors vectors of training points with point q, whose coordinates are `q_stride` apart.
 template <int kVectors>
@@ -100,68 +88,6 @@ void GradientSumsKernel(const double* scaled, Size n, Size dimensions, const dou
   for (Size d = 0; d <= dimensions; ++d) sums[d] = hn::GetLane(hn::SumOfLanes(kTag, hn::LoadU(kTag, sums + 8 * d)));
 }
 
-/// Four queries against kVectors vectors of training points.
-template <int kVectors>
-HWY_INLINE void correlate_block(const double* rows, Size stride, Size dimensions, const double* weights,
-                                const double* queries, double* columns, V* means) {
-  V squared[4][kVectors];
-  for (int q = 0; q < 4; ++q)
-    for (int k = 0; k < kVectors; ++k) squared[q][k] = hn::Zero(kTag);
-  for (Size d = 0; d < dimensions; ++d) {
-    V row[kVectors];
-    for (int k = 0; k < kVectors; ++k) row[k] = hn::LoadU(kTag, rows + d * stride + k * lanes());
-    for (int q = 0; q < 4; ++q) {
-      const V center = hn::Set(kTag, queries[q * dimensions + d]);
-      for (int k = 0; k < kVectors; ++k) {
-        const V difference = hn::Sub(row[k], center);
-        squared[q][k] = hn::MulAdd(difference, difference, squared[q][k]);
-      }
-    }
-  }
-  for (int q = 0; q < 4; ++q) {
-    for (int k = 0; k < kVectors; ++k) {
-      const V c = correlation(squared[q][k]);
-      means[q] = hn::MulAdd(c, hn::LoadU(kTag, weights + k * lanes()), means[q]);
-      if (columns) hn::StoreU(c, kTag, columns + q * stride + k * lanes());
-    }
-  }
-}
-
-void CorrelateKernel(const double* scaled, Size n, Size dimensions, const double* weights, const double* queries,
-                     Size count, double* columns, double* means) {
-  const Size stride = padded(n);
-  for (Size q = 0; q < count; q += 4) {
-    const double* query = queries + q * dimensions;
-    double* column = columns ? columns + q * stride : nullptr;
-    V sums[4] = {hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
-    Size i = 0;
-    for (; i + 2 * lanes() <= stride; i += 2 * lanes())
-      correlate_block<2>(scaled + i, stride, dimensions, weights + i, query, column ? column + i : nullptr, sums);
-    for (; i < stride; i += lanes())
-      correlate_block<1>(scaled + i, stride, dimensions, weights + i, query, column ? column + i : nullptr, sums);
-    for (int k = 0; k < 4; ++k) means[q + k] = hn::GetLane(hn::SumOfLanes(kTag, sums[k]));
-  }
-}
-
-void SquaredNormsKernel(const double* columns, Size n, Size count, double* norms) {
-  const Size stride = padded(n);
-  for (Size q = 0; q < count; ++q) {
-    const double* column = columns + q * stride;
-    V even = hn::Zero(kTag), odd = hn::Zero(kTag);
-    Size i = 0;
-    for (; i + 2 * lanes() <= stride; i += 2 * lanes()) {
-      const V first = hn::LoadU(kTag, column + i), second = hn::LoadU(kTag, column + i + lanes());
-      even = hn::MulAdd(first, first, even);
-      odd = hn::MulAdd(second, second, odd);
-    }
-    for (; i < stride; i += lanes()) {
-      const V last = hn::LoadU(kTag, column + i);
-      even = hn::MulAdd(last, last, even);
-    }
-    norms[q] = hn::GetLane(hn::SumOfLanes(kTag, hn::Add(even, odd)));
-  }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace rehearse::gp
 HWY_AFTER_NAMESPACE();
@@ -171,8 +97,6 @@ namespace rehearse::gp {
 
 HWY_EXPORT(CorrelationMatrixKernel);
 HWY_EXPORT(GradientSumsKernel);
-HWY_EXPORT(CorrelateKernel);
-HWY_EXPORT(SquaredNormsKernel);
 
 void scale_inputs(const double* unit, Size n, Size dimensions, const double* factors, double* scaled) {
   constexpr double kFarAway = 1e100;
@@ -188,13 +112,6 @@ void correlation_matrix(const double* scaled, Size n, Size dimensions, double di
 void gradient_sums(const double* scaled, Size n, Size dimensions, const double* b, const double* inverse,
                    double* sums) {
   HWY_DYNAMIC_DISPATCH(GradientSumsKernel)(scaled, n, dimensions, b, inverse, sums);
-}
-void correlate(const double* scaled, Size n, Size dimensions, const double* weights, const double* queries, Size count,
-               double* columns, double* means) {
-  HWY_DYNAMIC_DISPATCH(CorrelateKernel)(scaled, n, dimensions, weights, queries, count, columns, means);
-}
-void squared_norms(const double* columns, Size n, Size count, double* norms) {
-  HWY_DYNAMIC_DISPATCH(SquaredNormsKernel)(columns, n, count, norms);
 }
 
 }  // namespace rehearse::gp

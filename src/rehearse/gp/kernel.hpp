@@ -28,12 +28,4 @@ void correlation_matrix(const double* scaled, Size n, Size dimensions, double di
 /// sums: 8 (D + 1), the rest of it scratch.
 void gradient_sums(const double* scaled, Size n, Size dimensions, const double* b, const double* inverse, double* sums);
 
-/// Scaled queries (count × D, row by row, count a multiple of 4) against all training points: column q of `columns`
-/// (padded(n) × count; null: not wanted) receives the correlations, means[q] = Σ_i c_qi weights_i.
-void correlate(const double* scaled, Size n, Size dimensions, const double* weights, const double* queries, Size count,
-               double* columns, double* means);
-
-/// norms[q] = Σ_i columns(i, q)², for padded(n) × count.
-void squared_norms(const double* columns, Size n, Size count, double* norms);
-
 }  // namespace rehearse::gp

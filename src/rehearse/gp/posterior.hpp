@@ -7,14 +7,13 @@
 
 namespace rehearse::gp {
 
+class Workspace;
+
 /// E independent GPs conditioned on the same inputs (Rasmussen 2006, eqs 2.25 and 2.26), made for batches. Immutable;
-/// const methods may run concurrently and give the same bits on any thread: rows are predicted in chunks of a fixed
-/// size, so a row's result does not depend on how many come with it. No allocation after a thread's first call.
+/// const methods may run concurrently. A row's result has the same bits on any thread and whatever rows come with it.
+/// No allocation after a thread's first call.
 class Posterior {
  public:
-  /// Rows of K* in one triangular product; the last chunk is padded.
-  static constexpr Index kChunk = 64;
-
   /// Y: n × E targets; one set of hyperparameters per output. Throws InvalidInput on wrong sizes or values that are
   /// not finite. The jitter ladder of cholesky.hpp applies.
   Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperparameters> hyperparameters);
@@ -37,22 +36,19 @@ class Posterior {
   const Inputs& inputs() const { return inputs_; }
 
   // For moment matching, with c the correlations (the covariance without σ_f²) and K/σ_f² = L Lᵀ:
-  auto weights(Index e) const {
-    return weights_.col(e).head(size());
-  }                                     // n, w = σ_f² K⁻¹y: the mean is Σ_i w_i c(x, x_i)
-  auto inverse_factor(Index e) const {  // n × n, L⁻¹
-    return inverse_factors_[static_cast<std::size_t>(e)].topLeftCorner(size(), size());
-  }
+  auto weights(Index e) const { return weights_.col(e); }  // n, w = σ_f² K⁻¹y: the mean is Σ_i w_i c(x, x_i)
+  Matrix inverse_factor(Index e) const;                    // n × n, L⁻¹, lower; a copy
 
  private:
-  void condition(Index e, const ConstVectorView& y);
+  void condition(Index e, const ConstVectorView& y, Workspace& workspace);
+  const double* points(Index e) const { return points_.col(e * size()).data(); }
 
   Inputs inputs_;
   std::vector<Hyperparameters> hyperparameters_;
-  std::vector<Vector> factors_;          // E of D: from unit inputs to inputs / ℓ
-  std::vector<Matrix> scaled_;           // E of padded n × D: inputs / ℓ
-  std::vector<Matrix> inverse_factors_;  // E of padded n × padded n, zero above and in the padding
-  Matrix weights_;                       // padded n × E
+  Matrix factors_;          // D × E, from unit inputs to inputs / ℓ
+  Matrix points_;           // D × nE: inputs / ℓ, one a column
+  Matrix weights_;          // n × E
+  Matrix inverse_factors_;  // packed_size(n) × E: L⁻¹, see prediction_kernel.hpp
   Vector signal_variances_, noise_variances_, log_evidences_, jitters_;
 };
 

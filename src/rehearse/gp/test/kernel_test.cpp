@@ -60,36 +60,5 @@ TEST(Kernel, GradientSums) {
   }
 }
 
-TEST(Kernel, CorrelateAndNorms) {
-  for (const Index n : {1, 8, 15, 24, 130}) {
-    const Index D = 4, count = 12;
-    const Matrix X = naive::normals(n, D, 5), Q = naive::normals(count, D, 6);
-    Vector w = Vector::Zero(padded(n)), means(count), norms(count);
-    w.head(n) = naive::normals(n, 1, 7);
-    Matrix columns(padded(n), count);
-    const Matrix by_rows = Q.transpose();
-    correlate(scaled(X).data(), n, D, w.data(), by_rows.data(), count, columns.data(), means.data());
-    squared_norms(columns.data(), n, count, norms.data());
-    const Matrix expected = correlations(X, Q);
-    EXPECT_TRUE(columns.topRows(n).isApprox(expected, 1e-14)) << n;
-    EXPECT_LT((means - expected.transpose() * w.head(n)).norm(), 1e-13);
-    EXPECT_TRUE(norms.isApprox(expected.colwise().squaredNorm().transpose(), 1e-13));
-    Vector means_only(count);
-    correlate(scaled(X).data(), n, D, w.data(), by_rows.data(), count, nullptr, means_only.data());
-    EXPECT_EQ(means, means_only);
-  }
-}
-
-TEST(Kernel, FarPointsHaveNoCorrelationRatherThanASubnormalOne) {
-  Matrix X(1, 1), Q(4, 1);
-  X << 0;
-  Q << 12, 13, 1e200, std::numeric_limits<double>::infinity();
-  const Vector w = Vector::Ones(padded(1));
-  Vector means(4);
-  correlate(scaled(X).data(), 1, 1, w.data(), Q.data(), 4, nullptr, means.data());
-  EXPECT_DOUBLE_EQ(means(0), std::exp(-72));
-  EXPECT_EQ(means.tail(3), Vector(Vector::Zero(3)));
-}
-
 }  // namespace
 }  // namespace rehearse::gp

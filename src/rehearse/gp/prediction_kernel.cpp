@@ -1,0 +1,142 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rehearse/gp/prediction_kernel.cpp"
+#include <type_traits>
+
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Highway's order matters: the functions come after the target.
+#include "rehearse/gp/correlation-inl.hpp"
+#include "rehearse/gp/prediction_kernel.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace rehearse::gp {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Vectors of queries taken together: with kPanel rows they fill the registers, 24 of 32 with AVX-512, 12 of 16 before.
+constexpr int kVectors = hn::MaxLanes(Tag()) == 8 ? 4 : 2;
+
+HWY_INLINE Size lanes() { return static_cast<Size>(hn::Lanes(kTag)); }
+
+/// Calls group<vectors>(q) for groups that cover the queries 0 … rows − 1.
+template <class Wide, class Narrow>
+HWY_INLINE void for_each_group(Size rows, Wide wide, Narrow narrow) {
+  Size q = 0;
+  for (; rows - q > lanes(); q += kVectors * lanes()) wide(q);
+  if (q < rows) narrow(q);
+}
+
+/// Correlations of kCount training points with kWidth vectors of queries.
+template <int kCount, int kWidth>
+HWY_INLINE void correlate_points(const double* points, Size dimensions, const double* weights, const double* queries,
+                                 double* columns, V* means) {
+  V squared[kCount][kWidth];
+  for (int i = 0; i < kCount; ++i)
+    for (int v = 0; v < kWidth; ++v) squared[i][v] = hn::Zero(kTag);
+  for (Size d = 0; d < dimensions; ++d) {
+    for (int i = 0; i < kCount; ++i) {
+      const V point = constant(points[i * dimensions + d]);
+      for (int v = 0; v < kWidth; ++v) {
+        const V difference = hn::Sub(hn::LoadU(kTag, queries + d * kChunk + v * lanes()), point);
+        squared[i][v] = hn::MulAdd(difference, difference, squared[i][v]);
+      }
+    }
+  }
+  for (int i = 0; i < kCount; ++i) {
+    for (int v = 0; v < kWidth; ++v) {
+      const V c = correlation(squared[i][v]);
+      means[v] = hn::MulAdd(c, constant(weights[i]), means[v]);
+      if (columns) hn::StoreU(c, kTag, columns + (i * kWidth + v) * lanes());
+    }
+  }
+}
+
+template <int kWidth>
+HWY_INLINE void correlate_group(const double* points, Size n, Size dimensions, const double* weights,
+                                const double* queries, double* columns, double* means) {
+  V sums[kWidth];
+  for (int v = 0; v < kWidth; ++v) sums[v] = hn::Zero(kTag);
+  Size i = 0;
+  for (; i + 2 <= n; i += 2)
+    correlate_points<2, kWidth>(points + i * dimensions, dimensions, weights + i, queries,
+                                columns ? columns + i * kWidth * lanes() : nullptr, sums);
+  if (i < n)
+    correlate_points<1, kWidth>(points + i * dimensions, dimensions, weights + i, queries,
+                                columns ? columns + i * kWidth * lanes() : nullptr, sums);
+  for (int v = 0; v < kWidth; ++v) hn::StoreU(sums[v], kTag, means + v * lanes());
+}
+
+void CorrelateKernel(const double* points, Size n, Size dimensions, const double* weights, const double* queries,
+                     Size rows, double* columns, double* means) {
+  const auto group = [=](auto width, Size q) HWY_ATTR {
+    correlate_group<width>(points, n, dimensions, weights, queries + q, columns ? columns + q * n : nullptr, means + q);
+  };
+  for_each_group(
+      rows, [&](Size q) HWY_ATTR { group(std::integral_constant<int, kVectors>(), q); },
+      [&](Size q) HWY_ATTR { group(std::integral_constant<int, 1>(), q); });
+}
+
+/// Adds to norms the squares of one panel's rows times kWidth vectors of columns, of which `length` entries count.
+template <int kWidth>
+HWY_INLINE void add_panel(const double* panel, Size length, const double* columns, double* norms) {
+  V products[kPanel][kWidth];
+  for (int r = 0; r < kPanel; ++r)
+    for (int v = 0; v < kWidth; ++v) products[r][v] = hn::Zero(kTag);
+  for (Size k = 0; k < length; ++k) {
+    V column[kWidth];
+    for (int v = 0; v < kWidth; ++v) column[v] = hn::LoadU(kTag, columns + (k * kWidth + v) * lanes());
+    for (int r = 0; r < kPanel; ++r) {
+      const V entry = constant(panel[k * kPanel + r]);
+      for (int v = 0; v < kWidth; ++v) products[r][v] = hn::MulAdd(entry, column[v], products[r][v]);
+    }
+  }
+  for (int v = 0; v < kWidth; ++v) {
+    V norm = hn::LoadU(kTag, norms + v * lanes());
+    for (int r = 0; r < kPanel; ++r) norm = hn::MulAdd(products[r][v], products[r][v], norm);
+    hn::StoreU(norm, kTag, norms + v * lanes());
+  }
+}
+
+void TriangularNormsKernel(const double* packed, Size n, const double* columns, Size rows, double* norms) {
+  for (Size q = 0; q < kChunk; ++q) norms[q] = 0;
+  for (Size first = 0; first < n; first += kPanel) {
+    const Size length = first + kPanel < n ? first + kPanel : n;
+    for_each_group(
+        rows, [&](Size q) HWY_ATTR { add_panel<kVectors>(packed, length, columns + q * n, norms + q); },
+        [&](Size q) HWY_ATTR { add_panel<1>(packed, length, columns + q * n, norms + q); });
+    packed += kPanel * (first + kPanel);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rehearse::gp
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rehearse::gp {
+
+HWY_EXPORT(CorrelateKernel);
+HWY_EXPORT(TriangularNormsKernel);
+
+void correlate(const double* points, Size n, Size dimensions, const double* weights, const double* queries, Size rows,
+               double* columns, double* means) {
+  HWY_DYNAMIC_DISPATCH(CorrelateKernel)(points, n, dimensions, weights, queries, rows, columns, means);
+}
+void triangular_norms(const double* packed, Size n, const double* columns, Size rows, double* norms) {
+  HWY_DYNAMIC_DISPATCH(TriangularNormsKernel)(packed, n, columns, rows, norms);
+}
+
+void pack_lower(const double* matrix, Size stride, Size n, double* packed) {
+  for (Size first = 0; first < n; first += kPanel)
+    for (Size k = 0; k < first + kPanel; ++k)
+      for (Size row = first; row < first + kPanel; ++row)
+        *packed++ = row < n && k <= row ? matrix[k * stride + row] : 0;
+}
+
+double packed_entry(const double* packed, Size row, Size column) {
+  const Size panel = row / kPanel;
+  return packed[kPanel * kPanel * panel * (panel + 1) / 2 + column * kPanel + row % kPanel];
+}
+
+}  // namespace rehearse::gp
+#endif

@@ -1,0 +1,33 @@
+#pragma once
+// The loops of a prediction, vectorised over the rows to predict, so that each row goes through the same operations
+// whatever its place among them and however many there are. Rules as in kernel.hpp.
+
+#include "rehearse/gp/kernel.hpp"
+
+namespace rehearse::gp {
+
+/// Rows predicted together: many, so that L⁻¹ is read seldom from memory, but few enough that their correlations with
+/// 1000 training points stay in a second-level cache of 2 MiB.
+constexpr Size kChunk = 128;
+
+/// Correlations of `rows` ≤ kChunk queries (D × kChunk, row by row; what is past the rows must be finite) with n
+/// training points (n × D, row by row): means[q] = Σ_i c_qi weights_i. Unless null, `columns` (n × kChunk) receives
+/// them as `triangular_norms` reads them; means: kChunk.
+void correlate(const double* points, Size n, Size dimensions, const double* weights, const double* queries, Size rows,
+               double* columns, double* means);
+
+/// Rows of a lower triangular matrix that are multiplied together, interleaved.
+constexpr Size kPanel = 6;
+constexpr Size packed_size(Size n) {
+  const Size panels = (n + kPanel - 1) / kPanel;
+  return kPanel * kPanel * panels * (panels + 1) / 2;
+}
+
+/// packed (packed_size(n)) from the lower triangle of an n × n matrix with this stride, and back again.
+void pack_lower(const double* matrix, Size stride, Size n, double* packed);
+double packed_entry(const double* packed, Size row, Size column);
+
+/// norms[q] = ‖L c_q‖² for the first `rows` columns that `correlate` wrote; norms: kChunk.
+void triangular_norms(const double* packed, Size n, const double* columns, Size rows, double* norms);
+
+}  // namespace rehearse::gp

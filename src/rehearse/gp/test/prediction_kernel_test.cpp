@@ -1,0 +1,85 @@
+#include "rehearse/gp/prediction_kernel.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "naive.hpp"
+
+namespace rehearse::gp {
+namespace {
+
+Matrix correlations(const Matrix& A, const Matrix& B) {
+  return naive::covariance(A, B, {.log_lengths = Vector::Zero(A.cols()), .log_signal = 0, .log_noise = 0});
+}
+
+/// Queries as the kernel wants them, column-major here: kChunk × D.
+Matrix padded_queries(const Matrix& Q) {
+  Matrix padded = Matrix::Zero(kChunk, Q.cols());
+  padded.topRows(Q.rows()) = Q;
+  return padded;
+}
+
+Matrix pack(const Matrix& L) {
+  Matrix packed(packed_size(L.rows()), 1);
+  pack_lower(L.data(), L.rows(), L.rows(), packed.data());
+  return packed;
+}
+
+TEST(PredictionKernel, MeansAndNorms) {
+  for (const Index n : {1, 2, 6, 7, 33, 130}) {
+    for (const Index rows : {1, 8, 9, 33, 64}) {
+      const Index D = 4;
+      const Matrix X = naive::normals(n, D, 5), Q = naive::normals(rows, D, 6), points = X.transpose();
+      const Matrix L = naive::normals(n, n, 7).triangularView<Eigen::Lower>();
+      const Vector w = naive::normals(n, 1, 8);
+      Vector means(kChunk), norms(kChunk), means_only(kChunk);
+      Matrix columns(n, kChunk);
+      const Matrix queries = padded_queries(Q), packed = pack(L), expected = correlations(X, Q);
+      correlate(points.data(), n, D, w.data(), queries.data(), rows, columns.data(), means.data());
+      triangular_norms(packed.data(), n, columns.data(), rows, norms.data());
+      EXPECT_LT((means.head(rows) - expected.transpose() * w).norm(), 1e-13 * (1 + w.norm()));
+      const Vector expected_norms = (L * expected).colwise().squaredNorm();
+      EXPECT_TRUE(norms.head(rows).isApprox(expected_norms, 1e-13)) << n << " " << rows;
+      correlate(points.data(), n, D, w.data(), queries.data(), rows, nullptr, means_only.data());
+      EXPECT_EQ(means.head(rows), means_only.head(rows));
+    }
+  }
+}
+
+TEST(PredictionKernel, PackedAndBack) {
+  for (const Index n : {1, 5, 6, 7, 40}) {
+    const Matrix L = naive::normals(n, n, 1), packed = pack(L);
+    for (Index j = 0; j < n; ++j)
+      for (Index i = j; i < n; ++i) ASSERT_EQ(packed_entry(packed.data(), i, j), L(i, j)) << n;
+  }
+}
+
+// Every exponent from 0 to −80, against the library's exp: the relative error stays below 2 units of the last place.
+TEST(PredictionKernel, CorrelationsAreExactToTheLastDigits) {
+  const double origin = 0, one = 1;
+  double worst = 0;
+  for (Index block = 0; block < 2000; ++block) {
+    Vector queries(kChunk), means(kChunk);
+    for (Index q = 0; q < kChunk; ++q)
+      queries(q) = std::sqrt(160.0 * static_cast<double>(block * kChunk + q) / (2000.0 * kChunk));
+    correlate(&origin, 1, 1, &one, queries.data(), kChunk, nullptr, means.data());
+    for (Index q = 0; q < kChunk; ++q) {
+      const double expected = std::exp(-0.5 * queries(q) * queries(q));
+      worst = std::max(worst, std::abs(means(q) - expected) / expected);
+    }
+  }
+  EXPECT_LT(worst, 4.5e-16);
+}
+
+TEST(PredictionKernel, FarPointsHaveNoCorrelationRatherThanASubnormalOne) {
+  const double origin = 0, one = 1;
+  Vector queries = Vector::Zero(kChunk), means(kChunk);
+  queries.head(4) << 12, 13, 1e200, std::numeric_limits<double>::infinity();
+  correlate(&origin, 1, 1, &one, queries.data(), 4, nullptr, means.data());
+  EXPECT_DOUBLE_EQ(means(0), std::exp(-72));
+  EXPECT_EQ(means.segment(1, 3), Vector(Vector::Zero(3)));
+}
+
+}  // namespace
+}  // namespace rehearse::gp
