@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 namespace rehearse::experiment {
 namespace {
@@ -58,6 +57,14 @@ std::vector<double> sorted_finite(const Matrix& states, Index column) {
   return values;
 }
 
+/// From the first value on, so that the mean of equal values is that value.
+double mean(const std::vector<double>& values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0;
+  for (double value : values) sum += value - values.front();
+  return values.front() + sum / static_cast<double>(values.size());
+}
+
 double quantile(const std::vector<double>& sorted, double fraction) {
   if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
   const double position = fraction * static_cast<double>(sorted.size() - 1);
@@ -88,10 +95,7 @@ std::vector<ForecastError> forecast_errors(const dynamics::DynamicsModel& model,
 
 Vector mean_of_finite(const Matrix& states) {
   Vector means(states.cols());
-  for (Index s = 0; s < states.cols(); ++s) {
-    const std::vector<double> values = sorted_finite(states, s);
-    means(s) = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  }
+  for (Index s = 0; s < states.cols(); ++s) means(s) = mean(sorted_finite(states, s));
   return means;
 }
 

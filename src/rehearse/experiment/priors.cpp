@@ -93,6 +93,7 @@ std::vector<scenario::NamedPrior*> ChosenPriors::having(const std::string& key, 
 }
 
 void ChosenPriors::set(const std::string& key, const std::string& text, Violations& violations) {
+  if (priors_.empty()) return;  // their names were wrong, which has been said
   std::string parameter;
   const auto targets = having(key, parameter);
   if (targets.empty()) {

@@ -81,7 +81,7 @@ class Run {
       : with_(participants), folder_(folder), history_(std::move(history)) {}
 
   RunResult finish() {
-    if (with_.options().listener) with_.options().listener->started(folder_.spec(), history_.done());
+    if (with_.options().listener) with_.options().listener->started(with_.resolved(), folder_.path(), history_.done());
     folder_.write_tables(history_, with_.resolved());
     if (!complete()) catch_up();
     while (!complete()) one_trial(history_.done() + 1);
@@ -210,14 +210,17 @@ class Run {
   History history_;
 };
 
-void check_trials(const RunFolder& folder, Index trials, Index done) {
+/// The folder's spec, for another number of trials if given.
+Spec extended_spec(const RunFolder& folder, std::optional<Index> trials, Index done) {
   Spec spec = folder.spec();
-  spec.trials = trials;
+  if (!trials) return spec;
+  spec.trials = *trials;
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { spec.fields(v); })) violations.add(line);
-  violations.require(trials >= done,
-                     fmt::format("trials = {}, but {} trials of {} are done", trials, done, folder.path().string()));
+  violations.require(*trials >= done,
+                     fmt::format("trials = {}, but {} trials of {} are done", *trials, done, folder.path().string()));
   violations.throw_if_any();
+  return spec;
 }
 
 }  // namespace
@@ -233,9 +236,9 @@ RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& pa
                      const RunOptions& options) {
   RunFolder folder = RunFolder::open(path);
   History history = folder.load();
-  if (trials) check_trials(folder, *trials, history.done());
-  Participants participants(resolve(catalogue, folder.spec()), options);
-  if (trials) folder.change_trials(*trials);
+  const Spec spec = extended_spec(folder, trials, history.done());
+  Participants participants(resolve(catalogue, spec), options);
+  folder.change_trials(spec.trials);
   return Run(participants, folder, std::move(history)).finish();
 }
 

@@ -17,7 +17,7 @@ namespace rehearse::experiment {
 class RunListener {
  public:
   virtual ~RunListener() = default;
-  virtual void started(const Spec& /*complete*/, Index /*trials done before*/) {}
+  virtual void started(const Resolved&, const std::filesystem::path& /*folder*/, Index /*trials done before*/) {}
   virtual void progress(Index /*trial*/, const Progress&) {}
   virtual void trial_done(const TrialRecord&) {}
 };

@@ -221,7 +221,7 @@ TEST(Run, AFailingPlantKeepsWhatWasDone) {
 class Counter final : public RunListener {
  public:
   Index before = -1, progressed = 0, last = 0;
-  void started(const Spec&, Index done) override { before = done; }
+  void started(const Resolved&, const fs::path&, Index done) override { before = done; }
   void progress(Index, const Progress&) override { ++progressed; }
   void trial_done(const TrialRecord& record) override { last = record.trial; }
 };

@@ -1,0 +1,34 @@
+#pragma once
+// The commands, each with its arguments as they were typed. They return the exit code; wrong input throws InvalidInput.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rehearse/experiment/catalogue.hpp"
+
+namespace rehearse::apps {
+
+enum ExitCode { kSuccess = 0, kFailed = 1, kWrongInput = 2 };  // and 128 + signal when interrupted
+
+struct ListArguments {
+  bool json = false;
+  bool options = false;
+};
+
+struct LearnArguments {
+  std::string scenario;  // a name, or a spec.toml
+  std::optional<std::string> learner, prior, trials, seed, threads, out;
+  std::vector<std::string> set;
+};
+
+struct ResumeArguments {
+  std::string folder;
+  std::optional<std::string> trials, threads;
+};
+
+int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);
+int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments);
+int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments);
+
+}  // namespace rehearse::apps

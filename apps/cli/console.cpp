@@ -1,0 +1,104 @@
+#include "apps/cli/console.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "rehearse/experiment/tables.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+std::size_t terminal_width() {
+  winsize size{};
+  return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
+}
+
+std::string verdict(const std::optional<bool>& solved) { return !solved ? "" : *solved ? "  solved" : "  not solved"; }
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  if (seconds < 99.5) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 99.5 * 60) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+Console::Console() : terminal_(::isatty(STDOUT_FILENO) == 1) {}
+
+void Console::started(const experiment::Resolved& resolved, const std::filesystem::path& folder, Index done) {
+  const experiment::Spec& spec = resolved.spec;
+  trials_ = spec.trials;
+  done_ = done_before_ = done;
+  phi_names_ = experiment::tunable_names(resolved.prior);
+  begin_ = trial_begin_ = phase_begin_ = Clock::now();
+  const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
+  print(fmt::format("{} learned by {}{}, seed {}: {} trials of {} s in {}", spec.scenario, spec.learner, prior,
+                    spec.seed, spec.trials, resolved.scenario.task.episode_s(), folder.string()));
+  if (done > 0) print(fmt::format("continuing after trial {}", done));
+}
+
+void Console::progress(Index trial, const Progress& progress) {
+  if (!terminal_) return;
+  const auto now = Clock::now();
+  if (progress.phase != phase_) phase_begin_ = now;
+  phase_ = progress.phase;
+  if (now - last_shown_ < std::chrono::milliseconds(100)) return;
+  last_shown_ = now;
+  std::string line = fmt::format("trial {}/{}  {} {:.0f} %", trial, trials_, progress.phase, 100 * progress.done);
+  if (progress.rollouts > 0)
+    line += fmt::format("  best predicted return {:.3f}  {:.0f} rollouts/s", progress.best, progress.rollouts_per_s);
+  line += time_left(progress);
+  fmt::print("\r\033[K{}", line.substr(0, terminal_width()));
+  std::fflush(stdout);
+  line_shown_ = true;
+}
+
+/// Trials are taken to last as long as those before; before there are any, only the phase is known.
+std::string Console::time_left(const Progress& progress) const {
+  const auto now = Clock::now();
+  const double in_phase = Seconds(now - phase_begin_).count(), in_trial = Seconds(now - trial_begin_).count();
+  if (done_ > done_before_) {
+    const double per_trial = Seconds(trial_begin_ - begin_).count() / static_cast<double>(done_ - done_before_);
+    const double rest = static_cast<double>(trials_ - done_ - 1) * per_trial + std::max(0.0, per_trial - in_trial);
+    return fmt::format("  about {} left", duration_text(rest));
+  }
+  if (progress.done < 0.02) return "";
+  return fmt::format("  about {} left of {}", duration_text(in_phase * (1 / progress.done - 1)), progress.phase);
+}
+
+void Console::trial_done(const experiment::TrialRecord& record) {
+  done_ = record.trial;
+  trial_begin_ = phase_begin_ = Clock::now();
+  std::string line = fmt::format("trial {:>2}/{}  return {:8.3f}", record.trial, trials_, record.total_reward);
+  if (record.predicted_return) line += fmt::format("  predicted {:8.3f}", *record.predicted_return);
+  line += verdict(record.solved);
+  for (std::size_t i = 0; i < std::min(phi_names_.size(), record.phi.size()); ++i)
+    line += fmt::format("  {} {:.4g}", phi_names_[i], record.phi[i]);
+  print(line);
+}
+
+void Console::finished(const experiment::RunResult& result) {
+  const std::string solved = result.solved_at ? fmt::format("solved at trial {}", *result.solved_at)
+                                              : fmt::format("not solved in {} trials", result.trials);
+  print(fmt::format("{}, best return {:.3f}, in {}", solved, result.best_return, result.folder.string()));
+}
+
+void Console::print(const std::string& line) {
+  clear_line();
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
+void Console::clear_line() {
+  if (line_shown_) fmt::print("\r\033[K");
+  std::fflush(stdout);
+  line_shown_ = false;
+}
+
+}  // namespace rehearse::apps

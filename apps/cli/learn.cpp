@@ -1,0 +1,143 @@
+#include <csignal>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "apps/cli/commands.hpp"
+#include "apps/cli/console.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/files.hpp"
+#include "rehearse/experiment/run.hpp"
+#include "rehearse/experiment/spec_file.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+using experiment::Catalogue, experiment::RunOptions, experiment::RunResult, experiment::Spec;
+
+volatile std::sig_atomic_t caught_signal = 0;
+
+/// The first signal stops the run where it can be resumed; a second one ends the process as usual.
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int signal) { caught_signal = signal; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+void set_text(const Fields& fields, const std::string& name, const std::optional<std::string>& text,
+              Violations& violations) {
+  if (!text) return;
+  try {
+    set_field(fields, name, *text);
+  } catch (const InvalidInput& error) {
+    violations.add(fmt::format("--{}", error.what()));
+  }
+}
+
+Index threads_of(const std::optional<std::string>& text, Violations& violations) {
+  Index threads = 0;  // all cores
+  set_text([&](FieldVisitor& v) { v.integer("threads", threads, between(1, 1024)); }, "threads", text, violations);
+  return threads;
+}
+
+void set_numbers(Spec& spec, const std::optional<std::string>& trials, const std::optional<std::string>& seed,
+                 Violations& violations) {
+  const Fields fields = [&](FieldVisitor& v) { spec.fields(v); };
+  set_text(fields, "trials", trials, violations);
+  set_text(fields, "seed", seed, violations);
+}
+
+void add_options(Spec& spec, const std::vector<std::string>& settings, Violations& violations) {
+  for (const std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == 0 || equals == std::string::npos)
+      violations.add(fmt::format("--set {}: must be KEY=VALUE", setting));
+    else
+      spec.options.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+}
+
+Spec named_spec(const LearnArguments& arguments, Violations& violations) {
+  Spec spec;
+  if (arguments.scenario.ends_with(".toml")) {
+    spec = experiment::from_toml(experiment::read_file(arguments.scenario), arguments.scenario);
+    const auto given = [&](const char* option) {
+      return fmt::format("{} cannot be given with {}, which says it already", option, arguments.scenario);
+    };
+    violations.require(!arguments.learner, given("--learner"));
+    violations.require(!arguments.prior, given("--prior"));
+    return spec;
+  }
+  spec.scenario = arguments.scenario;
+  spec.learner = arguments.learner.value_or("");
+  spec.prior = arguments.prior.value_or("");
+  violations.require(!arguments.prior || !arguments.prior->empty(), "--prior names none");
+  return spec;
+}
+
+/// Complete, so that the default folder can be named after it.
+Spec resolved_spec(const Catalogue& catalogue, const Spec& spec, Violations& violations) {
+  try {
+    return experiment::resolve(catalogue, spec).spec;
+  } catch (const InvalidInput& error) {
+    violations.add(error.what());
+    return spec;
+  }
+}
+
+/// Runs with signals caught and the console listening.
+template <class Start>
+int run_on_console(const std::filesystem::path& folder, Index threads, Start start) {
+  Console console;
+  catch_signals();
+  const RunOptions options{.evaluator = make_thread_evaluator(static_cast<int>(threads)),
+                           .listener = &console,
+                           .stop = [] { return caught_signal != 0; }};
+  try {
+    console.finished(start(options));
+    return kSuccess;
+  } catch (const Interrupted&) {
+    console.clear_line();
+    fmt::print(stderr, "rehearse: interrupted after {} trials; to continue: rehearse resume {}\n",
+               console.trials_done(), folder.string());
+    return 128 + caught_signal;
+  } catch (const experiment::RunFailed& error) {
+    console.clear_line();
+    fmt::print(stderr, "rehearse: {}\nrehearse: what was done is kept; to try again: rehearse resume {}\n",
+               error.what(), folder.string());
+    return kFailed;
+  }
+}
+
+}  // namespace
+
+int learn(const Catalogue& catalogue, const LearnArguments& arguments) {
+  Violations violations;
+  Spec spec = named_spec(arguments, violations);
+  set_numbers(spec, arguments.trials, arguments.seed, violations);
+  const Index threads = threads_of(arguments.threads, violations);
+  add_options(spec, arguments.set, violations);
+  violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
+  spec = resolved_spec(catalogue, spec, violations);
+  violations.throw_if_any();
+  const std::filesystem::path folder = arguments.out.value_or("runs/" + experiment::run_name(spec));
+  return run_on_console(folder, threads, [&](const RunOptions& options) {
+    return experiment::start_run(catalogue, spec, folder, options);
+  });
+}
+
+int resume(const Catalogue& catalogue, const ResumeArguments& arguments) {
+  Violations violations;
+  Spec numbers;
+  set_numbers(numbers, arguments.trials, {}, violations);
+  const Index threads = threads_of(arguments.threads, violations);
+  violations.throw_if_any();
+  const auto trials = arguments.trials ? std::optional<Index>(numbers.trials) : std::nullopt;
+  return run_on_console(arguments.folder, threads, [&](const RunOptions& options) {
+    return experiment::resume_run(catalogue, arguments.folder, trials, options);
+  });
+}
+
+}  // namespace rehearse::apps

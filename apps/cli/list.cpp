@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/commands.hpp"
+#include "rehearse/core/options.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Builder>
+std::vector<std::pair<std::string, std::string>> options_of(Builder& builder) {
+  return list_fields([&](FieldVisitor& v) { builder.fields(v); });
+}
+
+template <class Builder>
+Json described(Builder& builder) {
+  Json options = Json::object();
+  for (const auto& [name, text] : options_of(builder)) options[name] = text;
+  return {{"name", builder.name()}, {"summary", builder.summary()}, {"options", options}};
+}
+
+Json as_json(const experiment::Catalogue& catalogue) {
+  Json all = {{"scenarios", Json::array()}, {"learners", Json::array()}, {"not_built", Json::array()}};
+  for (const auto& builder : catalogue.scenario_builders()) {
+    all["scenarios"].push_back(described(*builder));
+    all["scenarios"].back()["priors"] = builder->prior_names();
+  }
+  for (const auto& builder : catalogue.learner_builders()) {
+    all["learners"].push_back(described(*builder));
+    all["learners"].back()["takes_prior"] = builder->prior_use() != learners::PriorUse::none;
+    all["learners"].back()["chooses_priors"] = builder->chooses_priors();
+  }
+  for (const auto& missing : catalogue.not_built)
+    all["not_built"].push_back({{"name", missing.name}, {"reason", missing.reason}});
+  return all;
+}
+
+template <class Builder>
+void print_entry(Builder& builder, const std::string& remark, bool with_options) {
+  fmt::print("  {:<18} {}\n", builder.name(), builder.summary());
+  fmt::print("  {:<18} {}\n", "", remark);
+  if (!with_options) return;
+  for (const auto& [name, text] : options_of(builder)) fmt::print("  {:<18}   {} = {}\n", "", name, text);
+}
+
+std::string prior_remark(const learners::LearnerBuilder& builder) {
+  if (builder.prior_use() == learners::PriorUse::none) return "takes no prior";
+  return builder.chooses_priors() ? "takes a prior, or several to choose among: --prior a,b,c" : "takes a prior";
+}
+
+void print(const experiment::Catalogue& catalogue, bool with_options) {
+  fmt::print("Scenarios\n");
+  for (const auto& builder : catalogue.scenario_builders())
+    print_entry(*builder,
+                fmt::format("priors: {}; or oracle, the plant's own dynamics", fmt::join(builder->prior_names(), ", ")),
+                with_options);
+  fmt::print("\nLearners\n");
+  for (const auto& builder : catalogue.learner_builders()) print_entry(*builder, prior_remark(*builder), with_options);
+  if (!catalogue.not_built.empty()) fmt::print("\nNot built\n");
+  for (const auto& missing : catalogue.not_built) fmt::print("  {:<18} {}\n", missing.name, missing.reason);
+  if (!with_options) fmt::print("\nOptions for --set, with their defaults: rehearse list --options\n");
+}
+
+}  // namespace
+
+int list(const experiment::Catalogue& catalogue, const ListArguments& arguments) {
+  if (arguments.json)
+    fmt::print("{}\n", as_json(catalogue).dump(2));
+  else
+    print(catalogue, arguments.options);
+  return kSuccess;
+}
+
+}  // namespace rehearse::apps

@@ -1,0 +1,139 @@
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "apps/catalogue.hpp"
+#include "apps/cli/commands.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/options.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+constexpr const char* kAbout = R"(Learn a robot's policy in a handful of trials.
+
+A learner optimises a policy on a guess of the robot's dynamics (the prior), tries
+it on the robot once, corrects its model from what happened, and repeats.)";
+
+constexpr const char* kExample = R"(Example: swing up the pendubot in 10 trials, starting from a wrong simulator:
+  rehearse learn pendubot --learner gp-mi --prior misleading --out runs/demo
+Then continue it to 15 trials:
+  rehearse resume runs/demo --trials 15
+What there is to learn, and with what:
+  rehearse list)";
+
+constexpr const char* kLearnExample = R"(Examples:
+  rehearse learn pendubot --learner gp-mi --prior misleading --trials 10 --seed 1
+  rehearse learn pendubot --learner gp-mi --set plant.b1=0.2 --set prior.l2=0.3
+  rehearse learn runs/demo/spec.toml --out runs/again
+
+The folder holds one row a trial in trials.csv, the trajectories, the model's predictions,
+the policies, and spec.toml, which gives the same trials.csv when it is run again.
+Ctrl-C stops the run; `rehearse resume` continues it.)";
+
+template <class Command, class T>
+CLI::Option* add(Command* command, const std::string& name, T& value, const std::string& help, const char* type) {
+  return command->add_option(name, value, help)->type_name(type);
+}
+
+CLI::App* add_list(CLI::App& app, ListArguments& arguments) {
+  CLI::App* command = app.add_subcommand("list", "Show the scenarios, their priors, and the learners");
+  command->add_flag("--json", arguments.json, "As JSON, with all options");
+  command->add_flag("--options", arguments.options, "With all options that --set can change, and their defaults");
+  return command;
+}
+
+CLI::App* add_learn(CLI::App& app, LearnArguments& arguments) {
+  CLI::App* command = app.add_subcommand("learn", "Learn a policy for a scenario");
+  add(command, "SCENARIO", arguments.scenario, "A scenario of `rehearse list`, or the spec.toml of a run to repeat", "")
+      ->required();
+  add(command, "--learner", arguments.learner, "The learner, one of `rehearse list`", "NAME");
+  add(command, "--prior", arguments.prior,
+      "The guess to start from: one of the scenario's, several as a,b,c for a learner that can choose, or `oracle`, "
+      "the plant's own dynamics. Default: the scenario's first",
+      "NAME");
+  add(command, "--trials", arguments.trials, "How often the plant may be used. Default: 10", "N");
+  add(command, "--seed", arguments.seed, "Of all random numbers: the same seed gives the same run. Default: 1", "S");
+  add(command, "--threads", arguments.threads,
+      "Threads to compute with; results do not depend on it. Default: all cores", "K");
+  add(command, "--out", arguments.out,
+      "The run folder, which must not exist. Default: runs/SCENARIO-LEARNER-PRIOR-SEED", "DIR");
+  add(command, "--set", arguments.set, "Set an option of `rehearse list --options`; may be repeated", "KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->footer(kLearnExample);
+  return command;
+}
+
+CLI::App* add_resume(CLI::App& app, ResumeArguments& arguments) {
+  CLI::App* command = app.add_subcommand("resume", "Continue a run that was interrupted, or extend it");
+  add(command, "DIR", arguments.folder, "The run folder", "")->required();
+  add(command, "--trials", arguments.trials, "Trials in all, those done included. Default: as many as were asked for",
+      "N");
+  add(command, "--threads", arguments.threads, "Threads to compute with. Default: all cores", "K");
+  return command;
+}
+
+/// CLI11 speaks of what it did not expect; we know what was meant.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(command->get_name());
+  if (argc < 2)
+    throw InvalidInput(fmt::format("a command is missing ({}); see rehearse --help", fmt::join(known, ", ")));
+  const std::string given = argv[1];
+  if (given.starts_with('-') || std::find(known.begin(), known.end(), given) != known.end()) return;
+  throw InvalidInput(fmt::format("unknown command '{}', did you mean '{}'? (known: {})", given, closest(given, known),
+                                 fmt::join(known, ", ")));
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(kAbout, "rehearse");
+  app.footer(kExample);
+  app.set_version_flag("--version", "rehearse " REHEARSE_VERSION, "Show the version");
+  app.require_subcommand(1);
+  ListArguments list_arguments;
+  LearnArguments learn_arguments;
+  ResumeArguments resume_arguments;
+  const CLI::App* list_command = add_list(app, list_arguments);
+  const CLI::App* learn_command = add_learn(app, learn_arguments);
+  add_resume(app, resume_arguments);
+  check_command(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    throw InvalidInput(error.what());
+  }
+  if (list_command->parsed()) return list(catalogue(), list_arguments);
+  if (learn_command->parsed()) return learn(catalogue(), learn_arguments);
+  return resume(catalogue(), resume_arguments);
+}
+
+/// One line on standard error for each line of the message.
+void complain(const char* message) {
+  std::string_view rest = message;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    fmt::print(stderr, "rehearse: {}\n", rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+}
+
+}  // namespace
+}  // namespace rehearse::apps
+
+int main(int argc, char** argv) {
+  using namespace rehearse;
+  try {
+    return apps::run(argc, argv);
+  } catch (const InvalidInput& error) {
+    apps::complain(error.what());
+    return apps::kWrongInput;
+  } catch (const std::exception& error) {
+    apps::complain(error.what());
+    return apps::kFailed;
+  }
+}
