@@ -9,9 +9,9 @@ namespace rehearse::gp {
 /// about n·1e-16, so the second rung is enough for n up to some 10⁵ and the others are a reserve.
 inline constexpr double kJitterLadder[] = {0, 1e-10, 1e-8, 1e-6, 1e-4};
 
-/// Lower Cholesky factor of C + (noise_ratio + jitter)·I into `matrix`, with C the correlations of the scaled inputs
-/// and noise_ratio = σ_n²/σ_f², finite. Both arrays are laid out as kernel.hpp says; above the diagonal and in the
-/// padding `matrix` is undefined. Returns the jitter used, or NaN if no rung was enough. No allocation.
-double factorise(const double* scaled, Index n, Index dimensions, double noise_ratio, double* matrix);
+/// Cholesky factor of C + (noise_ratio + jitter)·I into `tiles` (tiles.hpp), with C the correlations of the scaled
+/// inputs (kernel.hpp) and noise_ratio = σ_n²/σ_f². Returns the jitter used, or NaN if no rung was enough.
+/// No allocation.
+double factorise(const double* scaled, Index n, Index dimensions, double noise_ratio, double* tiles);
 
 }  // namespace rehearse::gp

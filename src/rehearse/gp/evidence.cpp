@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "rehearse/gp/blas.hpp"
 #include "rehearse/gp/cholesky.hpp"
 #include "rehearse/gp/kernel.hpp"
 
@@ -27,30 +26,27 @@ double wall(double position, double limit, double& value) {
 }
 
 /// b = (L Lᵀ)⁻¹ y / σ_f in place; returns y' b / σ_f = ‖L⁻¹ y‖² / σ_f².
-double solve(const double* factor, Index n, double* b) {
-  const int size = static_cast<int>(n), stride = static_cast<int>(padded(n)), one = 1;
-  dtrsv_("L", "N", "N", &size, factor, &stride, b, &one);
+double solve(Index n, const double* tiles, double* b) {
+  tiles_solve(n, tiles, b);
   const double quadratic = Eigen::Map<const Vector>(b, n).squaredNorm();
-  dtrsv_("L", "T", "N", &size, factor, &stride, b, &one);
+  tiles_solve_transposed(n, tiles, b);
   return quadratic;
 }
 
-double half_log_determinant(const double* factor, Index n) {
+double half_log_determinant(Index n, const double* tiles) {
   double sum = 0;
-  for (Index i = 0; i < n; ++i) sum += std::log(factor[i * (padded(n) + 1)]);
+  for (Index i = 0; i < n; ++i) sum += std::log(tiles[entry_offset(i, i)]);
   return sum;
 }
 
 /// The workspace holds the factor, b and the scaled inputs; K = σ_f² (C + (noise_ratio + jitter) I).
 bool differentiate(Index n, Index D, double noise_ratio, double jitter, Workspace& workspace, Vector& gradient) {
-  const int size = static_cast<int>(n), stride = static_cast<int>(padded(n));
-  int info = 0;
-  dpotri_("L", &size, workspace.matrix(), &stride, &info);
-  if (info != 0) return false;
+  tiles_invert_factor(n, workspace.tiles());
+  tiles_multiply_inverse(n, workspace.tiles());
+  const double* b = workspace.weights();
   double trace = 0;  // of b b' − (K/σ_f²)⁻¹
-  for (Index i = 0; i < n; ++i)
-    trace += workspace.weights()[i] * workspace.weights()[i] - workspace.matrix()[i * (padded(n) + 1)];
-  gradient_sums(workspace.scaled(), n, D, workspace.weights(), workspace.matrix(), workspace.sums());
+  for (Index i = 0; i < n; ++i) trace += b[i] * b[i] - workspace.tiles()[entry_offset(i, i)];
+  gradient_sums(workspace.scaled(), n, D, b, workspace.tiles(), workspace.sums());
   gradient.head(D) = Eigen::Map<const Vector>(workspace.sums(), D);
   gradient(D) = 2 * workspace.sums()[D] + (1 + jitter) * trace;
   gradient(D + 1) = noise_ratio * trace;
@@ -63,7 +59,7 @@ bool Evidence::ok() const { return std::isfinite(value); }
 
 void Workspace::resize(Index n, Index dimensions) {
   const auto rows = static_cast<std::size_t>(padded(n)), columns = static_cast<std::size_t>(dimensions);
-  matrix_.resize(rows * static_cast<std::size_t>(n));
+  tiles_.resize(static_cast<std::size_t>(tiles_size(n)));
   scaled_.resize(rows * columns);
   weights_.resize(rows);
   sums_.resize(8 * (columns + 1));
@@ -83,12 +79,12 @@ Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVec
     return failure(gradient);
 
   scale_inputs(inputs.unit().data(), n, D, workspace.factors().data(), workspace.scaled());
-  const double jitter = factorise(workspace.scaled(), n, D, noise_ratio, workspace.matrix());
+  const double jitter = factorise(workspace.scaled(), n, D, noise_ratio, workspace.tiles());
   if (std::isnan(jitter)) return failure(gradient);
   Eigen::Map<Vector>(workspace.weights(), n) = y * inverse_signal;
   Eigen::Map<Vector>(workspace.weights() + n, padded(n) - n).setZero();
-  const double quadratic = solve(workspace.matrix(), n, workspace.weights());
-  const double value = -quadratic / 2 - half_log_determinant(workspace.matrix(), n) -
+  const double quadratic = solve(n, workspace.tiles(), workspace.weights());
+  const double value = -quadratic / 2 - half_log_determinant(n, workspace.tiles()) -
                        static_cast<double>(n) * (log_signal + kLogTwoPi / 2);
   if (!std::isfinite(value)) return failure(gradient);
   if (gradient && !differentiate(n, D, noise_ratio, jitter, workspace, *gradient)) return failure(gradient);

@@ -27,14 +27,14 @@ class Workspace {
  public:
   void resize(Index n, Index dimensions);
 
-  double* matrix() { return matrix_.data(); }    // padded(n) × n
-  double* scaled() { return scaled_.data(); }    // padded(n) × D, inputs / ℓ
+  double* tiles() { return tiles_.data(); }      // n × n, lower, see tiles.hpp
+  double* scaled() { return scaled_.data(); }    // inputs / ℓ, see kernel.hpp
   double* weights() { return weights_.data(); }  // padded(n)
   double* sums() { return sums_.data(); }        // 8 (D + 1)
   Vector& factors() { return factors_; }         // D
 
  private:
-  std::vector<double> matrix_, scaled_, weights_, sums_;
+  std::vector<double> tiles_, scaled_, weights_, sums_;
   Vector factors_;
 };
 

@@ -1,5 +1,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rehearse/gp/kernel.cpp"
+#include <algorithm>
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Highway's order matters: the functions come after the target.
@@ -11,62 +13,59 @@ namespace rehearse::gp {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+constexpr int kStrip = 4;  // vectors of rows taken together
+
 HWY_INLINE Size lanes() { return static_cast<Size>(hn::Lanes(kTag)); }
 
-/// Correlations of kVectors vectors of training points with point q, whose coordinates are `q_stride` apart.
-template <int kVectors>
-HWY_INLINE void correlations(const double* rows, Size stride, Size dimensions, const double* q, Size q_stride, V* out) {
-  V squared[kVectors];
-  for (int k = 0; k < kVectors; ++k) squared[k] = hn::Zero(kTag);
+/// Correlations of kHeight vectors of points with one point; coordinates are kTile apart.
+template <int kHeight>
+HWY_INLINE void correlations(const double* rows, const double* point, Size dimensions, V* out) {
+  V squared[kHeight];
+  for (int v = 0; v < kHeight; ++v) squared[v] = hn::Zero(kTag);
   for (Size d = 0; d < dimensions; ++d) {
-    const V center = hn::Set(kTag, q[d * q_stride]);
-    for (int k = 0; k < kVectors; ++k) {
-      const V difference = hn::Sub(hn::LoadU(kTag, rows + d * stride + k * lanes()), center);
-      squared[k] = hn::MulAdd(difference, difference, squared[k]);
+    const V center = constant(point[d * kTile]);
+    for (int v = 0; v < kHeight; ++v) {
+      const V difference = hn::Sub(hn::LoadU(kTag, rows + d * kTile + v * lanes()), center);
+      squared[v] = hn::MulAdd(difference, difference, squared[v]);
     }
   }
-  for (int k = 0; k < kVectors; ++k) out[k] = correlation(squared[k]);
+  for (int v = 0; v < kHeight; ++v) out[v] = correlation(squared[v]);
 }
 
-template <int kVectors>
-HWY_INLINE void store_correlations(const double* rows, Size stride, Size dimensions, const double* q, double* out) {
-  V c[kVectors];
-  correlations<kVectors>(rows, stride, dimensions, q, stride, c);
-  for (int k = 0; k < kVectors; ++k) hn::StoreU(c[k], kTag, out + k * lanes());
-}
-
-void CorrelationMatrixKernel(const double* scaled, Size n, Size dimensions, double diagonal, double* matrix) {
-  const Size stride = padded(n);
-  for (Size j = 0; j < n; ++j) {
-    double* column = matrix + j * stride;
-    Size i = j / 8 * 8;
-    for (; i + 4 * lanes() <= stride; i += 4 * lanes())
-      store_correlations<4>(scaled + i, stride, dimensions, scaled + j, column + i);
-    for (; i < stride; i += lanes()) store_correlations<1>(scaled + i, stride, dimensions, scaled + j, column + i);
-    column[j] = diagonal;
+void CorrelationMatrixKernel(const double* scaled, Size n, Size dimensions, double diagonal, double* tiles) {
+  for (Size i = 0; i < tile_count(n); ++i) {
+    const double* rows = scaled + i * kTile * dimensions;
+    for (Size k = 0; k < (i + 1) * kTile; ++k) {
+      const Size j = k / kTile, c = k % kTile;
+      double* column = tiles + tile_offset(i, j) + c * kTile;
+      for (Size r = 0; r < kTile; r += kStrip * lanes()) {
+        V out[kStrip];
+        correlations<kStrip>(rows + r, scaled + j * kTile * dimensions + c, dimensions, out);
+        for (int v = 0; v < kStrip; ++v) hn::StoreU(out[v], kTag, column + r + v * lanes());
+      }
+      if (i == j) column[c] = diagonal;
+    }
   }
 }
 
-/// What column j and the rows i, i + 1, … of kVectors vectors add to the sums; `first`: only rows above j count.
-template <int kVectors, bool kMasked>
-HWY_INLINE void add_to_sums(const double* scaled, Size stride, Size dimensions, const double* b, const double* inverse,
-                            Size i, Size j, double* sums) {
-  V w[kVectors];
-  correlations<kVectors>(scaled + i, stride, dimensions, scaled + j, stride, w);
-  V total = hn::Zero(kTag);
-  for (int k = 0; k < kVectors; ++k) {
-    const Size row = i + k * lanes();
-    const V bb = hn::Mul(hn::LoadU(kTag, b + row), hn::Set(kTag, b[j]));
-    w[k] = hn::Mul(w[k], hn::Sub(bb, hn::LoadU(kTag, inverse + j * stride + row)));
-    if (kMasked && row <= j) w[k] = hn::IfThenZeroElse(hn::FirstN(kTag, static_cast<size_t>(j + 1 - row)), w[k]);
-    total = hn::Add(total, w[k]);
+/// What kHeight vectors of rows of column c of a tile add to the sums. kDiagonal: only the rows below c count, of which
+/// the first vector begins at row r.
+template <int kHeight, bool kDiagonal>
+HWY_INLINE void add_to_sums(const double* rows, const double* point, Size dimensions, const double* b, double b_column,
+                            const double* inverse, Size r, Size c, double* sums) {
+  V w[kHeight], total = hn::Zero(kTag);
+  correlations<kHeight>(rows, point, dimensions, w);
+  for (int v = 0; v < kHeight; ++v) {
+    const V bb = hn::Mul(hn::LoadU(kTag, b + v * lanes()), constant(b_column));
+    w[v] = hn::Mul(w[v], hn::Sub(bb, hn::LoadU(kTag, inverse + v * lanes())));
+    if (kDiagonal && r <= c) w[v] = hn::IfThenZeroElse(hn::FirstN(kTag, static_cast<size_t>(c + 1 - r)), w[v]);
+    total = hn::Add(total, w[v]);
   }
   for (Size d = 0; d < dimensions; ++d) {
-    const V center = hn::Set(kTag, scaled[d * stride + j]);
     V sum = hn::LoadU(kTag, sums + 8 * d);
-    for (int k = 0; k < kVectors; ++k) {
-      const V difference = hn::Sub(hn::LoadU(kTag, scaled + d * stride + i + k * lanes()), center);
-      sum = hn::MulAdd(hn::Mul(w[k], difference), difference, sum);
+    for (int v = 0; v < kHeight; ++v) {
+      const V difference = hn::Sub(hn::LoadU(kTag, rows + d * kTile + v * lanes()), constant(point[d * kTile]));
+      sum = hn::MulAdd(hn::Mul(w[v], difference), difference, sum);
     }
     hn::StoreU(sum, kTag, sums + 8 * d);
   }
@@ -76,14 +75,22 @@ HWY_INLINE void add_to_sums(const double* scaled, Size stride, Size dimensions, 
 
 void GradientSumsKernel(const double* scaled, Size n, Size dimensions, const double* b, const double* inverse,
                         double* sums) {
-  const Size stride = padded(n);
-  for (Size k = 0; k < 8 * (dimensions + 1); ++k) sums[k] = 0;
-  for (Size j = 0; j < n; ++j) {
-    Size i = j / 8 * 8;
-    for (; i <= j; i += lanes()) add_to_sums<1, true>(scaled, stride, dimensions, b, inverse, i, j, sums);
-    for (; i + 4 * lanes() <= stride; i += 4 * lanes())
-      add_to_sums<4, false>(scaled, stride, dimensions, b, inverse, i, j, sums);
-    for (; i < stride; i += lanes()) add_to_sums<1, false>(scaled, stride, dimensions, b, inverse, i, j, sums);
+  std::fill(sums, sums + 8 * (dimensions + 1), 0.0);
+  for (Size i = 0; i < tile_count(n); ++i) {
+    const double* rows = scaled + i * kTile * dimensions;
+    const double* bi = b + i * kTile;
+    for (Size k = 0; k < std::min(n, (i + 1) * kTile); ++k) {
+      const Size j = k / kTile, c = k % kTile;
+      const double* point = scaled + j * kTile * dimensions + c;
+      const double* column = inverse + tile_offset(i, j) + c * kTile;
+      if (i > j) {
+        for (Size r = 0; r < kTile; r += kStrip * lanes())
+          add_to_sums<kStrip, false>(rows + r, point, dimensions, bi + r, b[k], column + r, r, c, sums);
+      } else {
+        for (Size r = c / lanes() * lanes(); r < kTile; r += lanes())
+          add_to_sums<1, true>(rows + r, point, dimensions, bi + r, b[k], column + r, r, c, sums);
+      }
+    }
   }
   for (Size d = 0; d <= dimensions; ++d) sums[d] = hn::GetLane(hn::SumOfLanes(kTag, hn::LoadU(kTag, sums + 8 * d)));
 }
@@ -100,14 +107,12 @@ HWY_EXPORT(GradientSumsKernel);
 
 void scale_inputs(const double* unit, Size n, Size dimensions, const double* factors, double* scaled) {
   constexpr double kFarAway = 1e100;
-  const Size stride = padded(n);
-  for (Size d = 0; d < dimensions; ++d) {
-    for (Size i = 0; i < n; ++i) scaled[d * stride + i] = unit[d * n + i] * factors[d];
-    for (Size i = n; i < stride; ++i) scaled[d * stride + i] = kFarAway;
-  }
+  for (Size i = 0; i < padded(n); ++i)
+    for (Size d = 0; d < dimensions; ++d)
+      scaled[(i / kTile * dimensions + d) * kTile + i % kTile] = i < n ? unit[d * n + i] * factors[d] : kFarAway;
 }
-void correlation_matrix(const double* scaled, Size n, Size dimensions, double diagonal, double* matrix) {
-  HWY_DYNAMIC_DISPATCH(CorrelationMatrixKernel)(scaled, n, dimensions, diagonal, matrix);
+void correlation_matrix(const double* scaled, Size n, Size dimensions, double diagonal, double* tiles) {
+  HWY_DYNAMIC_DISPATCH(CorrelationMatrixKernel)(scaled, n, dimensions, diagonal, tiles);
 }
 void gradient_sums(const double* scaled, Size n, Size dimensions, const double* b, const double* inverse,
                    double* sums) {

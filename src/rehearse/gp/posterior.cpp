@@ -7,10 +7,9 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/gp/blas.hpp"
-#include "rehearse/gp/cholesky.hpp"
 #include "rehearse/gp/evidence.hpp"
 #include "rehearse/gp/prediction_kernel.hpp"
+#include "rehearse/gp/tiles.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -110,10 +109,8 @@ void Posterior::condition(Index e, const ConstVectorView& y, Workspace& workspac
   points_.middleCols(e * n, n) = (inputs_.unit() * workspace.factors().asDiagonal()).transpose();
   weights_.col(e) = Eigen::Map<const Vector>(workspace.weights(), n) * std::exp(theta.log_signal);
 
-  const int size = static_cast<int>(n), stride = static_cast<int>(padded(n));
-  int info = 0;
-  dtrtri_("L", "N", &size, workspace.matrix(), &stride, &info);
-  pack_lower(workspace.matrix(), stride, n, inverse_factors_.col(e).data());
+  tiles_invert_factor(n, workspace.tiles());
+  pack_inverse_factor(workspace.tiles(), n, inverse_factors_.col(e).data());
 }
 
 void Posterior::predict(const ConstMatrixView& F, MatrixView mean, MatrixView variance) const {

@@ -126,11 +126,11 @@ void triangular_norms(const double* packed, Size n, const double* columns, Size 
   HWY_DYNAMIC_DISPATCH(TriangularNormsKernel)(packed, n, columns, rows, norms);
 }
 
-void pack_lower(const double* matrix, Size stride, Size n, double* packed) {
+void pack_inverse_factor(const double* tiles, Size n, double* packed) {
   for (Size first = 0; first < n; first += kPanel)
     for (Size k = 0; k < first + kPanel; ++k)
       for (Size row = first; row < first + kPanel; ++row)
-        *packed++ = row < n && k <= row ? matrix[k * stride + row] : 0;
+        *packed++ = row < n && k <= row ? tiles[transposed_offset(row, k)] : 0;
 }
 
 double packed_entry(const double* packed, Size row, Size column) {

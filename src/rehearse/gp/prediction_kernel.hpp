@@ -1,8 +1,9 @@
 #pragma once
-// The loops of a prediction, vectorised over the rows to predict, so that each row goes through the same operations
-// whatever its place among them and however many there are. Rules as in kernel.hpp.
+// The loops of a prediction (correlations as in kernel.hpp), vectorised over the rows to predict, so that each row goes
+// through the same operations whatever its place among them and however many there are. Raw pointers; may run
+// concurrently.
 
-#include "rehearse/gp/kernel.hpp"
+#include "rehearse/gp/tiles.hpp"
 
 namespace rehearse::gp {
 
@@ -23,8 +24,8 @@ constexpr Size packed_size(Size n) {
   return kPanel * kPanel * panels * (panels + 1) / 2;
 }
 
-/// packed (packed_size(n)) from the lower triangle of an n × n matrix with this stride, and back again.
-void pack_lower(const double* matrix, Size stride, Size n, double* packed);
+/// packed (packed_size(n)) from what tiles_invert_factor left, and back again.
+void pack_inverse_factor(const double* tiles, Size n, double* packed);
 double packed_entry(const double* packed, Size row, Size column);
 
 /// norms[q] = ‖L c_q‖² for the first `rows` columns that `correlate` wrote; norms: kChunk.

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "naive.hpp"
 #include "rehearse/gp/kernel.hpp"
+#include "tile_tools.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -15,11 +15,12 @@ struct Result {
 
 Result factorise(const Matrix& X, double noise_ratio) {
   const Index n = X.rows();
-  Matrix S(padded(n), X.cols()), A(padded(n), n);
+  std::vector<double> scaled(static_cast<std::size_t>(padded(n) * X.cols())),
+      tiles(static_cast<std::size_t>(tiles_size(n)));
   const Vector ones = Vector::Ones(X.cols());
-  scale_inputs(X.data(), n, X.cols(), ones.data(), S.data());
-  const double jitter = gp::factorise(S.data(), n, X.cols(), noise_ratio, A.data());
-  return {jitter, A.topRows(n).triangularView<Eigen::Lower>()};
+  scale_inputs(X.data(), n, X.cols(), ones.data(), scaled.data());
+  const double jitter = gp::factorise(scaled.data(), n, X.cols(), noise_ratio, tiles.data());
+  return {jitter, lower_from_tiles(n, tiles)};
 }
 
 TEST(Cholesky, NeedsNoJitterWithNoise) {

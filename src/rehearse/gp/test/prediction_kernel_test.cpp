@@ -20,9 +20,13 @@ Matrix padded_queries(const Matrix& Q) {
   return padded;
 }
 
+/// L as an inverse factor.
 Matrix pack(const Matrix& L) {
+  std::vector<double> tiles(static_cast<std::size_t>(tiles_size(L.rows())));
+  for (Index j = 0; j < L.rows(); ++j)
+    for (Index i = j; i < L.rows(); ++i) tiles[static_cast<std::size_t>(transposed_offset(i, j))] = L(i, j);
   Matrix packed(packed_size(L.rows()), 1);
-  pack_lower(L.data(), L.rows(), L.rows(), packed.data());
+  pack_inverse_factor(tiles.data(), L.rows(), packed.data());
   return packed;
 }
 
