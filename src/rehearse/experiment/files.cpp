@@ -1,11 +1,13 @@
 #include "rehearse/experiment/files.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -96,7 +98,10 @@ std::uint64_t checksum(std::string_view bytes) {
 FolderLock::FolderLock(const std::filesystem::path& folder)
     : file_(::open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
   if (file_ < 0) throw InvalidInput(fmt::format("cannot write in {}: {}", folder.string(), std::strerror(errno)));
-  if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+  for (int attempt = 0; attempt < 40; ++attempt) {  // a process that was just killed may take a moment to go
+    if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
   ::close(file_);
   throw InvalidInput(fmt::format("{} is in use by another process", folder.string()));
 }

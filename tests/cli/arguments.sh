@@ -1,0 +1,114 @@
+#!/usr/bin/env bash
+# arguments.sh PROGRAM: what the command line accepts and refuses, with which exit code and words.
+set -u
+program=$(realpath "$1")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# expect CODE PATTERN LINES ARGS…: the exit code, a pattern that standard error must hold (stdout for code 0), and how
+# many lines there must be (- for any).
+expect() {
+  local code=$1 pattern=$2 lines=$3
+  shift 3
+  "$program" "$@" >stdout 2>stderr
+  local got=$? stream=stderr
+  [ "$code" = 0 ] && stream=stdout
+  [ $got = "$code" ] || fail "'$*' exits with $got, must be $code: $(cat stderr)"
+  grep -qF -- "$pattern" $stream || fail "'$*' does not say '$pattern' but: $(cat $stream)"
+  [ "$lines" = - ] || [ "$(wc -l <$stream)" = "$lines" ] || fail "'$*' says $(wc -l <$stream) lines: $(cat $stream)"
+}
+
+quick=(--trials 1 --set search.race.max_evaluations=100 --set search.race.descents=1 --set search.selection=2)
+
+expect 0 "rehearse " 1 --version
+expect 0 "Example" - --help
+expect 0 "--prior" - learn --help
+expect 0 "misleading" - list
+expect 0 '"takes_prior": true' - list --json
+expect 0 "search.race.max_evaluations = " - list --options
+
+expect 2 "a command is missing (list, learn, resume)" 1
+expect 2 "unknown command 'lern', did you mean 'learn'?" 1 lern
+expect 2 "--colour" 1 list --colour
+expect 2 "SCENARIO is required" 1 learn
+expect 2 "DIR is required" 1 resume
+
+expect 2 "no learner is named (known: " 1 learn pendubot
+expect 2 "unknown scenario 'pendubott', did you mean 'pendubot'?" 1 learn pendubott --learner gp-mi
+expect 2 "unknown learner 'gpmi', did you mean 'gp-mi'?" 1 learn pendubot --learner gpmi
+expect 2 "unknown prior 'usful' of scenario pendubot, did you mean 'useful'?" 1 learn pendubot --learner gp-mi --prior usful
+expect 2 "takes no prior, but 'useful' is given" 1 learn pendubot --learner black-drops --prior useful
+expect 2 "takes one prior, but 'useful,partial' names 2" 1 learn pendubot --learner black-drops-prior --prior useful,partial
+expect 2 "prior 'useful' is named twice" 1 learn pendubot --learner gp-mi --prior useful,useful
+expect 2 "unknown prior ''" 1 learn pendubot --learner gp-mi --prior useful,
+expect 2 "--trials = -3, must be between 1 and" 1 learn pendubot --learner gp-mi --trials -3
+expect 2 "--trials = 0, must be between 1 and" 1 learn pendubot --learner gp-mi --trials 0
+expect 2 "--trials = ten, must be a whole number" 1 learn pendubot --learner gp-mi --trials ten
+expect 2 "--trials = 2.5, must be a whole number" 1 learn pendubot --learner gp-mi --trials=2.5
+expect 2 "--seed = -1, must be between 0 and" 1 learn pendubot --learner gp-mi --seed -1
+expect 2 "--threads = 0, must be between 1 and" 1 learn pendubot --learner gp-mi --threads 0
+expect 2 "--threads = -2, must be between 1 and" 1 learn pendubot --learner gp-mi --threads -2
+expect 2 "--trials" 1 learn pendubot --learner gp-mi --trials
+expect 2 "--set plant.b1: must be KEY=VALUE" 1 learn pendubot --learner gp-mi --set plant.b1
+expect 2 "unknown option 'plant.b3', did you mean 'plant.b" 1 learn pendubot --learner gp-mi --set plant.b3=1
+expect 2 "unknown option 'prior.l9', did you mean 'prior.l" 1 learn pendubot --learner gp-mi --set prior.l9=1
+expect 2 "plant.m1 = heavy, must be a number" 1 learn pendubot --learner gp-mi --set plant.m1=heavy
+expect 2 "plant.m1 = -1, must be > 0" 1 learn pendubot --learner gp-mi --set plant.m1=-1
+expect 2 "l2 = 99, must be between" 1 learn pendubot --learner gp-mi --set prior.l2=99
+expect 2 "--seed = x" 4 learn pendubot --learner gp-mi --seed x --trials -1 --set colour=red --prior usful
+expect 2 "cannot read nothing.toml" 1 learn nothing.toml
+echo 'not = [toml' >broken.toml
+expect 2 "broken.toml: line" 1 learn broken.toml
+[ -e runs ] && fail "wrong arguments leave a folder"
+
+expect 0 "best return" 3 learn pendubot --learner gp-mi "${quick[@]}"
+run=runs/pendubot-gp-mi-useful-1
+[ -f $run/done ] || fail "the default folder is not $run"
+header=trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence,phi.m1,phi.m2,phi.l1,phi.l2
+[ "$(head -1 $run/trials.csv)" = $header ] || fail "trials.csv begins with $(head -1 $run/trials.csv)"
+
+before=$(cat $run/* 2>/dev/null | cksum)
+expect 2 "already exists and is never overwritten" 1 learn pendubot --learner gp-mi "${quick[@]}"
+expect 2 "already exists and is never overwritten" 1 learn pendubot --learner gp-mi "${quick[@]}" --out $run/
+expect 2 "already exists and is never overwritten" 1 learn $run/spec.toml
+expect 2 "says it already" 1 learn $run/spec.toml --learner mi --out other
+[ "$before" = "$(cat $run/* 2>/dev/null | cksum)" ] || fail "a refused run changed the folder"
+expect 0 "best return" 3 learn $run/spec.toml --out again
+cmp $run/trials.csv again/trials.csv || fail "spec.toml gives another trials.csv"
+
+expect 0 "best return" - resume $run
+expect 2 "nothing is not a folder" 1 resume nothing
+expect 2 "is not a run folder" 1 resume runs
+expect 2 "--trials = -1" 1 resume $run --trials -1
+expect 0 "best return" - resume again --trials 2
+expect 2 "trials = 1, but 2 trials of again are done" 1 resume again --trials 1
+truncate -s -1 again/checkpoint
+expect 2 "the checkpoint is truncated or damaged" 1 resume again
+: >again/checkpoint
+expect 2 "the checkpoint is truncated" 1 resume again
+head -c 300 $run/spec.toml >again/spec.toml
+cp $run/checkpoint again/checkpoint
+expect 2 "again" 1 resume again
+rm again/spec.toml
+expect 2 "it has no spec.toml" 1 resume again
+
+# Ctrl-C: 130, and the run can be resumed.
+"$program" learn pendubot --learner gp-mi --trials 2 --out stopped >stdout 2>stderr &
+process=$!
+until [ -d stopped ] || ! kill -0 $process 2>/dev/null; do sleep 0.05; done
+kill -INT $process
+wait $process
+code=$?
+[ $code = 130 ] || fail "an interrupted run exits with $code: $(cat stderr)"
+grep -q "to continue: rehearse resume stopped" stderr || fail "an interrupted run says: $(cat stderr)"
+expect 2 "trials = 0" 1 resume stopped --trials 0
+
+[ $failures = 0 ] && echo "all as expected"
+exit $((failures > 0))
