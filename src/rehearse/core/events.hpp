@@ -9,10 +9,10 @@ namespace rehearse {
 
 /// How far a long computation is. Rooms emit these; only apps print them.
 struct Progress {
-  std::string phase;         // "model", "search"
-  double done = 0;           // fraction of the phase, 0..1
-  double best = 0;           // best predicted return so far
-  Index rollouts = 0;        // imagined so far in this phase
+  std::string phase;   // "model", "search"
+  double done = 0;     // fraction of the phase, 0..1
+  double best = 0;     // best predicted return so far
+  Index rollouts = 0;  // imagined so far in this phase
   double rollouts_per_s = 0;
 };
 

@@ -30,7 +30,9 @@ class Lister final : public FieldVisitor {
 
  protected:
   void visit(const std::string& name, double& value, Bound) override { fields.emplace_back(name, to_text(value)); }
-  void visit(const std::string& name, Index& value, Bound) override { fields.emplace_back(name, fmt::to_string(value)); }
+  void visit(const std::string& name, Index& value, Bound) override {
+    fields.emplace_back(name, fmt::to_string(value));
+  }
   void visit(const std::string& name, bool& value) override { fields.emplace_back(name, value ? "true" : "false"); }
   void visit(const std::string& name, int& value, const std::vector<std::string>& names) override {
     fields.emplace_back(name, names.at(static_cast<std::size_t>(value)));

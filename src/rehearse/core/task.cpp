@@ -25,9 +25,9 @@ std::vector<std::string> Task::violations() const {
   found.require(!states.empty(), "task has no states");
   found.require(!actions.empty(), "task has no actions");
   for (const ActionVariable& action : actions)
-    found.require(std::isfinite(action.bounds.low) && std::isfinite(action.bounds.high) &&
-                      action.bounds.low < action.bounds.high,
-                  fmt::format("action {}: bounds must be finite with low < high", action.name));
+    found.require(
+        std::isfinite(action.bounds.low) && std::isfinite(action.bounds.high) && action.bounds.low < action.bounds.high,
+        fmt::format("action {}: bounds must be finite with low < high", action.name));
   found.require(start_mean.size() == state_size() && start_mean.allFinite(),
                 fmt::format("start_mean has {} entries, must have {} finite ones", start_mean.size(), state_size()));
   found.require(start_std.size() == state_size() && start_std.allFinite() && (start_std.array() >= 0).all(),

@@ -11,7 +11,8 @@ class DynamicsModel {
 
   /// X: n × dx, U: n × du; mean, variance: n × dx, written. A row depends on that row alone up to rounding; a row
   /// that cannot be predicted is NaN in the mean. Variances are ≥ 0.
-  virtual void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const = 0;
+  virtual void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
+                       MatrixView variance) const = 0;
 };
 
 }  // namespace rehearse::dynamics

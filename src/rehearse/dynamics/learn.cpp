@@ -13,6 +13,8 @@
 namespace rehearse::dynamics {
 namespace {
 
+constexpr double kWorst = -std::numeric_limits<double>::infinity();
+
 struct Kernels {
   std::vector<gp::Hyperparameters> fitted;
   Vector log_evidences;
@@ -35,8 +37,8 @@ Kernels fit_kernels(const Residuals::Rows& rows, const Vector& scale, const std:
   Matrix results(size + 2, outputs);  // kernel, log evidence, whether it failed
   evaluator.evaluate(
       [&](Index e, VectorView result) {
-        const gp::Fit fit = gp::fit(*rows.inputs, rows.targets.col(e), scale(e), start[static_cast<std::size_t>(e)],
-                                    options);
+        const gp::Fit fit =
+            gp::fit(*rows.inputs, rows.targets.col(e), scale(e), start[static_cast<std::size_t>(e)], options);
         result.head(size) = fit.hyperparameters.flat();
         result(size) = fit.log_evidence;
         result(size + 1) = fit.status == gp::Fit::Status::failed;
@@ -45,7 +47,8 @@ Kernels fit_kernels(const Residuals::Rows& rows, const Vector& scale, const std:
   Kernels kernels{.log_evidences = results.row(size).transpose()};
   for (Index e = 0; e < outputs; ++e) {
     kernels.fitted.push_back(gp::Hyperparameters::from_flat(results.col(e).head(size)));
-    if (results(size + 1, e) != 0) kernels.notes.push_back(fmt::format("the kernel of output {} could not be fitted", e));
+    if (results(size + 1, e) != 0)
+      kernels.notes.push_back(fmt::format("the kernel of output {} could not be fitted", e));
   }
   return kernels;
 }
@@ -84,37 +87,65 @@ Learned learn_kind(const FixedPrior& kind, const Residuals& residuals, const Fea
   return learn_gps(residuals, features, prior, prior->space.values(), kind.gp, start.kernels, evaluator);
 }
 
-/// Algorithm 2: for each φ, every kernel is fitted again, from where the best φ so far had it.
+/// The φ of the least mean squared one-step error.
+Identified least_squares(const Mi& kind, const Residuals& residuals, const prior::Prior& prior,
+                         const std::optional<Vector>& start) {
+  const auto objective = [&](const Vector& phi) {
+    const Residuals::Rows rows = residuals.at(&prior, phi);
+    return rows.inputs ? -rows.targets.squaredNorm() / static_cast<double>(rows.targets.rows()) : kWorst;
+  };
+  return identify(prior.space, start, objective, kind.subplex);
+}
+
+/// The score of a φ: every kernel is fitted again, from where the best φ so far had it.
+class EvidenceOfPhi {
+ public:
+  EvidenceOfPhi(const GpMi& kind, const Residuals& residuals, const prior::Prior& prior,
+                std::vector<gp::Hyperparameters> kernels, const Evaluator& evaluator)
+      : kind_(kind), residuals_(residuals), prior_(prior), kernels_(std::move(kernels)), evaluator_(evaluator) {}
+
+  double operator()(const Vector& phi) {
+    const Residuals::Rows rows = residuals_.at(&prior_, phi);
+    if (!rows.inputs) return kWorst;
+    Kernels kernels =
+        fit_kernels(rows, residuals_.scale(), starts(rows, residuals_.scale(), kernels_, kind_.gp.fit.bounds),
+                    kind_.gp.fit, evaluator_);
+    // A φ at which rows fail must not win by having fewer of them to explain.
+    const double share = static_cast<double>(residuals_.size()) / static_cast<double>(rows.targets.rows());
+    const double score = score_of(kernels.log_evidences, kind_.score) * share;
+    if (score > best_) best_ = score, kernels_ = std::move(kernels.fitted);
+    return score;
+  }
+
+  const std::vector<gp::Hyperparameters>& kernels() const { return kernels_; }
+
+ private:
+  const GpMi& kind_;
+  const Residuals& residuals_;
+  const prior::Prior& prior_;
+  std::vector<gp::Hyperparameters> kernels_;
+  const Evaluator& evaluator_;
+  double best_ = kWorst;
+};
+
+/// Chatzilygeroudis 2018, Algorithm 2.
 Learned learn_kind(const GpMi& kind, const Residuals& residuals, const FeatureMap& features, const prior::Prior* prior,
                    const WarmStart& start, const Evaluator& evaluator) {
-  std::vector<gp::Hyperparameters> best_kernels = start.kernels;
-  double best = -std::numeric_limits<double>::infinity();
-  const auto objective = [&](const Vector& phi) {
-    const Residuals::Rows rows = residuals.at(prior, phi);
-    if (!rows.inputs) return -std::numeric_limits<double>::infinity();
-    Kernels kernels = fit_kernels(rows, residuals.scale(),
-                                  starts(rows, residuals.scale(), best_kernels, kind.gp.fit.bounds), kind.gp.fit,
-                                  evaluator);
-    // A φ at which rows fail must not win by having fewer of them to explain.
-    const double share = static_cast<double>(residuals.size()) / static_cast<double>(rows.targets.rows());
-    const double score = score_of(kernels.log_evidences, kind.score) * share;
-    if (score > best) best = score, best_kernels = std::move(kernels.fitted);
-    return score;
-  };
-  const Identified identified = identify(prior->space, start.phi, objective, kind.subplex);
-  Learned learned = learn_gps(residuals, features, prior, identified.phi, kind.gp, best_kernels, evaluator);
+  EvidenceOfPhi score(kind, residuals, *prior, start.kernels, evaluator);
+  Vector from = start.phi.value_or(prior->space.values());
+  if (kind.least_squares_start && prior->space.has_tunable()) {
+    const Vector other = least_squares(kind.least_squares, residuals, *prior, from).phi;
+    if (score(other) > score(from)) from = other;
+  }
+  const Identified identified = identify(prior->space, from, std::ref(score), kind.subplex);
+  Learned learned = learn_gps(residuals, features, prior, identified.phi, kind.gp, score.kernels(), evaluator);
   learned.evaluations = identified.evaluations;
   return learned;
 }
 
 Learned learn_kind(const Mi& kind, const Residuals& residuals, const FeatureMap&, const prior::Prior* prior,
                    const WarmStart& start, const Evaluator&) {
-  const auto objective = [&](const Vector& phi) {
-    const Residuals::Rows rows = residuals.at(prior, phi);
-    return rows.inputs ? -rows.targets.squaredNorm() / static_cast<double>(rows.targets.rows())
-                       : -std::numeric_limits<double>::infinity();
-  };
-  const Identified identified = identify(prior->space, start.phi, objective, kind.subplex);
+  const Identified identified = least_squares(kind, residuals, *prior, start.phi);
   Learned learned;
   learned.model = std::make_shared<SimulatorModel>(*prior, identified.phi);
   learned.state.phi = identified.phi;
@@ -126,7 +157,7 @@ Learned learn_kind(const Mi& kind, const Residuals& residuals, const FeatureMap&
 }  // namespace
 
 double score_of(const Vector& log_likelihoods, Score score) {
-  if (!log_likelihoods.allFinite()) return -std::numeric_limits<double>::infinity();
+  if (!log_likelihoods.allFinite()) return kWorst;
   if (score == Score::product) return log_likelihoods.sum();
   // The harmonic mean n / Σ 1/p_i; log Σ exp in both cases, of log p_i or of −log p_i.
   const double sign = score == Score::sum ? 1 : -1;

@@ -43,22 +43,29 @@ struct FixedPrior {
   void fields(FieldVisitor& v) { v.group("gp", gp); }
 };
 
+/// The prior's parameters alone, by the squared one-step error; variance 0.
+struct Mi {
+  // The authors' code: 2000 evaluations, tolerances 1e-6, not repeated.
+  optim::SubplexOptions subplex{.max_evaluations = 4000, .x_tolerance = 1e-6, .value_tolerance = 1e-6, .repeat = true};
+  void fields(FieldVisitor& v) { v.group("subplex", subplex); }
+};
+
 /// The prior's parameters and the GPs' kernels learned together (Chatzilygeroudis 2018, Algorithm 2).
 struct GpMi {
   GpOptions gp;
   Score score = Score::sum;
   optim::SubplexOptions subplex;
+  bool least_squares_start = true;  // start from MI's φ where its score is better than that of the last φ: along
+                                    // valleys of the score (m up, l down) the local search alone stops far from the end
+  Mi least_squares;
+  GpMi() { gp.fit.method = gp::FitMethod::lbfgs; }  // as good as Rprop here, with a third of the evaluations
   void fields(FieldVisitor& v) {
     v.group("gp", gp);
     v.choice("score", score, {"sum", "product", "harmonic"});
     v.group("subplex", subplex);
+    v.boolean("least_squares_start", least_squares_start);
+    v.group("least_squares", least_squares);
   }
-};
-
-/// The prior's parameters alone, by the squared one-step error; variance 0.
-struct Mi {
-  optim::SubplexOptions subplex{.max_evaluations = 2000, .x_tolerance = 1e-6, .value_tolerance = 1e-6};
-  void fields(FieldVisitor& v) { v.group("subplex", subplex); }
 };
 
 using Kind = std::variant<ZeroMean, FixedPrior, GpMi, Mi>;

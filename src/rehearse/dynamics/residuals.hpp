@@ -1,11 +1,11 @@
 #pragma once
 
+#include <memory>
+
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/feature_map.hpp"
 #include "rehearse/gp/inputs.hpp"
 #include "rehearse/prior/prior.hpp"
-
-#include <memory>
 
 namespace rehearse::dynamics {
 

@@ -11,7 +11,8 @@ class SimulatorModel final : public DynamicsModel {
   SimulatorModel(prior::Prior prior, Vector phi, double variance = 0)
       : prior_(std::move(prior)), phi_(std::move(phi)), variance_(variance) {}
 
-  void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override {
+  void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
+               MatrixView variance) const override {
     prior_.mean(X, U, phi_, mean);
     variance.setConstant(variance_);
   }

@@ -26,11 +26,14 @@ struct SubplexOptions {
   double x_tolerance = 1e-4;      // relative
   double value_tolerance = 1e-4;  // relative
   double first_step = 0.1;        // as a fraction of the box's width
+  bool repeat = false;            // begin again at the result until that improves it by less than value_tolerance: in a
+                                  // curved valley one search stops early
   void fields(FieldVisitor& v) {
     v.integer("max_evaluations", max_evaluations, at_least(1));
     v.number("x_tolerance", x_tolerance, at_least(0));
     v.number("value_tolerance", value_tolerance, at_least(0));
     v.number("first_step", first_step, between(1e-6, 1));
+    v.boolean("repeat", repeat);
   }
 };
 ScalarResult maximise_subplex(const ScalarObjective& objective, const Vector& start, const std::vector<Interval>& box,

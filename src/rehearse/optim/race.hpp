@@ -16,8 +16,8 @@ namespace rehearse::optim {
 
 struct RaceOptions {
   Index max_evaluations = 200000;  // of the objective, re-evaluations included
-  Index descents = 16;             // that start
-  Index rounds = 4;                // of about equal numbers of evaluations
+  Index descents = 32;             // that start
+  Index rounds = 5;                // of about equal numbers of evaluations
   double survivors = 0.5;          // fraction of the descents that goes on after each round
   double sigma = 1;                // first step size of descents from random points
   double start_sigma = 0.5;        // and of those from given starts

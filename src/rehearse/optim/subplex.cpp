@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "rehearse/core/errors.hpp"
 #include "rehearse/optim/box_transform.hpp"
 #include "rehearse/optim/derivative_free.hpp"
@@ -15,11 +17,8 @@ void check(const Vector& start, const std::vector<Interval>& box, SubplexOptions
   violations.throw_if_any();
 }
 
-}  // namespace
-
-ScalarResult maximise_subplex(const ScalarObjective& objective, const Vector& start, const std::vector<Interval>& box,
-                              const SubplexOptions& options) {
-  check(start, box, options);
+ScalarResult search_once(const ScalarObjective& objective, const Vector& start, const std::vector<Interval>& box,
+                         const SubplexOptions& options, Index max_evaluations) {
   Vector low(start.size()), high(start.size());
   for (Index i = 0; i < start.size(); ++i) {
     low(i) = box[static_cast<std::size_t>(i)].low;
@@ -31,8 +30,24 @@ ScalarResult maximise_subplex(const ScalarObjective& objective, const Vector& st
   nlopt_set_initial_step(search.settings(), first.data());
   nlopt_set_xtol_rel(search.settings(), options.x_tolerance);
   nlopt_set_ftol_rel(search.settings(), options.value_tolerance);
-  search.maximise(start, options.max_evaluations);
+  search.maximise(start, max_evaluations);
   return {search.best_x, search.best_value, search.evaluations, search.stop};
+}
+
+}  // namespace
+
+ScalarResult maximise_subplex(const ScalarObjective& objective, const Vector& start, const std::vector<Interval>& box,
+                              const SubplexOptions& options) {
+  check(start, box, options);
+  ScalarResult best = search_once(objective, start, box, options, options.max_evaluations);
+  while (options.repeat && best.evaluations < options.max_evaluations) {
+    ScalarResult next = search_once(objective, best.x, box, options, options.max_evaluations - best.evaluations);
+    next.evaluations += best.evaluations;
+    const bool settled = !(next.value - best.value > options.value_tolerance * std::abs(best.value));
+    best = std::move(next);
+    if (settled) break;
+  }
+  return best;
 }
 
 std::vector<Vector> combinations(const std::vector<std::vector<double>>& choices) {

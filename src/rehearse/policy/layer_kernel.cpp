@@ -27,13 +27,12 @@ void LayerKernel(const double* weights, Index weight_stride, const double* in, I
                  double* out, Index out_stride, Index outputs, Index rows, bool tanh) {
   const D d;
   const auto lanes = static_cast<Index>(hn::Lanes(d));
-  const auto activate = [&](auto a) HWY_ATTR {
-    return tanh ? hn::IfThenElse(hn::IsNaN(a), a, hn::Tanh(d, a)) : a;
-  };
+  const auto activate = [&](auto a) HWY_ATTR { return tanh ? hn::IfThenElse(hn::IsNaN(a), a, hn::Tanh(d, a)) : a; };
   Index row = 0;
   for (; row + lanes <= rows; row += lanes)
     for (Index o = 0; o < outputs; ++o) {
-      const auto a = unit(d, weights + o * (inputs + 1) * weight_stride + row, weight_stride, in + row, in_stride, inputs);
+      const auto a =
+          unit(d, weights + o * (inputs + 1) * weight_stride + row, weight_stride, in + row, in_stride, inputs);
       hn::StoreU(activate(a), d, out + o * out_stride + row);
     }
   HWY_ALIGN double tail[HWY_MAX_BYTES / sizeof(double)] = {};

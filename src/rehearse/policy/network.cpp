@@ -10,8 +10,9 @@ namespace {
 
 void check(const FeatureMap& features, const Vector& scale, const Squash& squash, Index hidden) {
   Violations violations;
-  violations.require(scale.size() == features.features() && (scale.array() > 0).all(),
-                     fmt::format("policy scale has {} entries, must have {}, all > 0", scale.size(), features.features()));
+  violations.require(
+      scale.size() == features.features() && (scale.array() > 0).all(),
+      fmt::format("policy scale has {} entries, must have {}, all > 0", scale.size(), features.features()));
   violations.require(hidden >= 0, fmt::format("policy hidden = {}, must be ≥ 0", hidden));
   violations.require(!squash.bounds.empty(), "policy has no actions");
   violations.throw_if_any();
@@ -41,7 +42,8 @@ class Network final : public Policy {
     features_.apply(X, inputs);
     for (Index i = 0; i < n; ++i) inputs.col(i) *= inverse_scale_(i);
     if (hidden_ == 0) {
-      layer(Theta.data(), Theta.outerStride(), inputs.data(), rows, n, U.data(), U.outerStride(), actions(), rows, false);
+      layer(Theta.data(), Theta.outerStride(), inputs.data(), rows, n, U.data(), U.outerStride(), actions(), rows,
+            false);
     } else {
       units.resize(rows, hidden_);
       layer(Theta.data(), Theta.outerStride(), inputs.data(), rows, n, units.data(), rows, hidden_, rows, true);

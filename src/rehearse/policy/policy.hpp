@@ -13,9 +13,9 @@ class Policy {
  public:
   virtual ~Policy() = default;
 
-  virtual std::string name() const = 0;      // "mlp"
-  virtual Index parameters() const = 0;      // of θ
-  virtual Index actions() const = 0;         // du
+  virtual std::string name() const = 0;  // "mlp"
+  virtual Index parameters() const = 0;  // of θ
+  virtual Index actions() const = 0;     // du
 
   /// Theta: n × parameters(), one policy a row; X: n × dx; t_s: time since the episode's start; U: n × du, written.
   /// A row with a NaN state gets a NaN action.

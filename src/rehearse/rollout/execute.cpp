@@ -9,8 +9,8 @@ namespace {
 
 Vector checked(Vector state, Index size, Index step) {
   if (state.size() != size || !state.allFinite())
-    throw std::runtime_error(fmt::format("the plant's state at step {} has {} entries, must have {} finite ones", step,
-                                         state.size(), size));
+    throw std::runtime_error(
+        fmt::format("the plant's state at step {} has {} entries, must have {} finite ones", step, state.size(), size));
   return state;
 }
 

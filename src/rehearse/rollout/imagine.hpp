@@ -25,8 +25,8 @@ struct ImagineOptions {
 
 /// Returns of imagined episodes, one column a candidate.
 struct Imagined {
-  Matrix returns;          // particles × candidates
-  Index failed = 0;        // rollouts that ended because a prediction was not finite
+  Matrix returns;    // particles × candidates
+  Index failed = 0;  // rollouts that ended because a prediction was not finite
 };
 
 /// Imagines `particles` episodes of each policy (Theta: parameters × candidates), all rollouts in lockstep within

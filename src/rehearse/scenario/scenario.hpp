@@ -25,7 +25,7 @@ struct Scenario {
   std::string name;
   Task task;
   std::function<std::unique_ptr<system::Plant>()> make_plant;
-  std::vector<NamedPrior> priors;  // the first is the default
+  std::vector<NamedPrior> priors;                   // the first is the default
   std::shared_ptr<const system::Simulator> oracle;  // the plant's own dynamics, for `--prior oracle`; may be null
   std::shared_ptr<const policy::Policy> policy;
 };
@@ -35,7 +35,7 @@ class ScenarioBuilder {
  public:
   virtual ~ScenarioBuilder() = default;
   virtual std::string name() const = 0;
-  virtual std::string summary() const = 0;                 // one line for `rehearse list`
+  virtual std::string summary() const = 0;  // one line for `rehearse list`
   virtual std::vector<std::string> prior_names() const = 0;
   virtual void fields(FieldVisitor& v) = 0;  // plant.NAME, noise, …
   virtual Scenario build() const = 0;        // throws InvalidInput

@@ -96,6 +96,8 @@ std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace para
   return std::make_shared<OdeSimulator>(std::move(ode), std::move(parameters), dt_s, substeps);
 }
 
-std::unique_ptr<Plant> make_ode_plant(OdePlantOptions options) { return std::make_unique<OdePlant>(std::move(options)); }
+std::unique_ptr<Plant> make_ode_plant(OdePlantOptions options) {
+  return std::make_unique<OdePlant>(std::move(options));
+}
 
 }  // namespace rehearse::system

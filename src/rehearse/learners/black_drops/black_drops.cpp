@@ -102,9 +102,8 @@ class BlackDrops final : public Learner {
           std::make_shared<dynamics::SimulatorModel>(*setting_.prior, *proposal.phi, options_.prior_variance);
       return;
     }
-    dynamics::Learned learned =
-        dynamics::learn(data_, features_, setting_.prior ? &*setting_.prior : nullptr, options_.model, state_,
-                        *setting_.evaluator);
+    dynamics::Learned learned = dynamics::learn(data_, features_, setting_.prior ? &*setting_.prior : nullptr,
+                                                options_.model, state_, *setting_.evaluator);
     proposal.model = learned.model;
     proposal.phi = learned.state.phi;
     proposal.log_evidence = learned.log_evidence;
@@ -128,7 +127,8 @@ class BlackDrops final : public Learner {
       proposal.rollouts += found.rollouts;
       proposal.failed_rollouts += found.failed_rollouts;
       carried_ = std::move(found.runners_up);
-      if (static_cast<Index>(carried_.size()) > options_.carried) carried_.resize(static_cast<std::size_t>(options_.carried));
+      if (static_cast<Index>(carried_.size()) > options_.carried)
+        carried_.resize(static_cast<std::size_t>(options_.carried));
     }
   }
 
@@ -165,7 +165,8 @@ class Builder final : public LearnerBuilder {
     return std::holds_alternative<dynamics::ZeroMean>(options_.model) ? PriorUse::none : PriorUse::required;
   }
   bool chooses_priors() const override {
-    return std::holds_alternative<dynamics::GpMi>(options_.model) || std::holds_alternative<dynamics::Mi>(options_.model);
+    return std::holds_alternative<dynamics::GpMi>(options_.model) ||
+           std::holds_alternative<dynamics::Mi>(options_.model);
   }
   void fields(FieldVisitor& v) override { options_.fields(v); }
   std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }

@@ -15,8 +15,8 @@ class ImaginedReturn {
 
   void operator()(const ConstMatrixView& Theta, std::uint64_t first, Index samples, VectorView values) {
     const rollout::Imagined imagined =
-        rollout::imagine(problem_.model, problem_.policy, problem_.task, Theta, first, samples * options_.particles, key_,
-                         options_.imagine, problem_.evaluator);
+        rollout::imagine(problem_.model, problem_.policy, problem_.task, Theta, first, samples * options_.particles,
+                         key_, options_.imagine, problem_.evaluator);
     values = imagined.returns.colwise().mean().transpose();
     rollouts_ += imagined.returns.size();
     failed_ += imagined.failed;
@@ -83,9 +83,9 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
                       .rollouts_per_s = speed.per_s(objective.rollouts())});
   };
   const std::vector<Interval> box(static_cast<std::size_t>(problem.policy.parameters()), {-options.box, options.box});
-  optim::RaceResult race = optim::race(std::ref(objective), starts, box, options.race,
-                                       {.seed = seed, .trial = trial, .purpose = Purpose::search}, problem.evaluator,
-                                       report);
+  optim::RaceResult race =
+      optim::race(std::ref(objective), starts, box, options.race,
+                  {.seed = seed, .trial = trial, .purpose = Purpose::search}, problem.evaluator, report);
   SearchResult result;
   ImaginedReturn selection(problem, options, {.seed = seed, .trial = trial, .purpose = Purpose::selection});
   select(std::move(race.contenders), selection, options, result);

@@ -99,7 +99,9 @@ Vector tip_descriptor(const Episode& episode) {
 
 Task make_task(const Options& options) {
   Task task;
-  task.states = {{"dtheta1", "rad/s"}, {"dtheta2", "rad/s"}, {"theta1", "rad", StateKind::angle},
+  task.states = {{"dtheta1", "rad/s"},
+                 {"dtheta2", "rad/s"},
+                 {"theta1", "rad", StateKind::angle},
                  {"theta2", "rad", StateKind::angle}};
   task.actions = {{"u", "N m", {-kTorque, kTorque}}};
   task.start_mean = Vector{{0, 0, std::numbers::pi, std::numbers::pi}};
@@ -140,7 +142,9 @@ std::vector<Guess> guesses() {
 class Builder final : public scenario::ScenarioBuilder {
  public:
   std::string name() const override { return "pendubot"; }
-  std::string summary() const override { return "swing up two links by a torque on the first joint (50 steps of 0.05 s)"; }
+  std::string summary() const override {
+    return "swing up two links by a torque on the first joint (50 steps of 0.05 s)";
+  }
   std::vector<std::string> prior_names() const override {
     std::vector<std::string> names;
     for (const Guess& guess : guesses()) names.push_back(guess.name);
