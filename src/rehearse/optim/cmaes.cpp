@@ -92,7 +92,7 @@ Cmaes::Cmaes(const Vector& mean, double sigma, const std::vector<Interval>& box,
       box_(box),
       constants_(mean.size(), checked_population(mean, sigma, box, options), options.active),
       covariance_(mean.size(), mean.size() <= options.eigen_up_to ? Root::eigen : Root::cholesky),
-      mean_(box_.preimage(mean, mean)),
+      mean_(mean),
       path_sigma_(Vector::Zero(mean.size())),
       path_c_(Vector::Zero(mean.size())),
       step_(mean.size()),
@@ -111,7 +111,7 @@ Cmaes::Cmaes(const Vector& mean, double sigma, const std::vector<Interval>& box,
 
 Vector Cmaes::mean() const {
   Matrix m = mean_;
-  box_.into(m);
+  box_.project(m);
   return m;
 }
 
@@ -128,8 +128,9 @@ void Cmaes::draw() {
   std::iota(members.begin(), members.end(), key_.particle << 32);
   fill_normals(key_, candidates.data(), members.data(), static_cast<std::uint64_t>(generation_), normals_);
   covariance_.colour(normals_, steps_);
-  candidates_ = (sigma_ * steps_).colwise() + mean_;
-  box_.into(candidates_);
+  draws_ = (sigma_ * steps_).colwise() + mean_;
+  candidates_ = draws_;
+  box_.project(candidates_);
 }
 
 void Cmaes::inject(const Vector& x) { injected_.push_back(x); }
@@ -141,11 +142,10 @@ void Cmaes::place_injected() {
   const double n = static_cast<double>(dimension());
   const double longest = std::sqrt(n) + 2 * n / (n + 2);  // Hansen 2011, eq. 4 and Table 1
   for (Index j = 0; j < foreign_; ++j) {
-    const Vector& x = injected_[static_cast<std::size_t>(j)];
-    step_ = (box_.preimage(x, mean_) - mean_) / sigma_;
+    candidates_.col(j) = draws_.col(j) = injected_[static_cast<std::size_t>(j)];
+    step_ = (draws_.col(j) - mean_) / sigma_;
     const double length = covariance_.length(step_);
     steps_.col(j) = length > longest ? Vector(step_ * (longest / length)) : step_;
-    candidates_.col(j) = x;
   }
   injected_.clear();
 }
@@ -171,10 +171,18 @@ void Cmaes::tell(const ConstVectorView& values, const std::vector<Index>& order)
   asked_ = false;
 }
 
+Vector Cmaes::deviations() const {
+  return sigma_ * Vector::NullaryExpr(dimension(), [&](Index i) { return std::sqrt(covariance_.variance(i)); });
+}
+
+const Vector& Cmaes::penalties(const ConstVectorView& values) {
+  return box_.penalties(draws_, values, mean_, deviations(), constants_.mu_eff);
+}
+
 void Cmaes::rank(const ConstVectorView& values) {
+  const Vector score = values - penalties(values);
   std::iota(order_.begin(), order_.end(), Index{0});
-  std::stable_sort(order_.begin(), order_.end(),
-                   [&](Index a, Index b) { return usable(values, a) > usable(values, b); });
+  std::stable_sort(order_.begin(), order_.end(), [&](Index a, Index b) { return usable(score, a) > usable(score, b); });
 }
 
 void Cmaes::keep_best(const ConstVectorView& values) {
@@ -241,14 +249,12 @@ void Cmaes::renew_decomposition() {
   if (!covariance_.decompose()) stop_ = Stop::condition;
 }
 
-// The transformed space is periodic: a standard deviation beyond the box is as good as a uniform draw, and would grow
-// for ever along a coordinate that does not matter.
+// A standard deviation beyond the box is as good as a uniform draw, and would grow for ever along a coordinate that
+// does not matter.
 void Cmaes::keep_inside() {
-  for (std::size_t k = 0; k < box_.box().size(); ++k) {
-    const Index i = static_cast<Index>(k);
-    const double width = box_.box()[k].high - box_.box()[k].low;
+  for (Index i = 0; box_.bounded() && i < dimension(); ++i) {
     const double deviation = sigma_ * std::sqrt(covariance_.variance(i));
-    if (deviation > width) covariance_.scale(i, width / deviation);
+    if (deviation > box_.width(i)) covariance_.scale(i, box_.width(i) / deviation);
   }
 }
 

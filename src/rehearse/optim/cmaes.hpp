@@ -7,7 +7,7 @@
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/types.hpp"
-#include "rehearse/optim/box_transform.hpp"
+#include "rehearse/optim/box.hpp"
 #include "rehearse/optim/covariance.hpp"
 #include "rehearse/optim/strategy_constants.hpp"
 
@@ -49,6 +49,9 @@ class Cmaes {
   /// better than from the values (uncertainty handling); empty: by value, ties to the first.
   void tell(const ConstVectorView& values, const std::vector<Index>& order = {});
 
+  /// What these values (λ) lose because their draws left the box; `tell` without an order takes it into account.
+  const Vector& penalties(const ConstVectorView& values);
+
   /// Has x evaluated as one of the next generation, where it takes part like any other (Hansen 2011, Injecting
   /// external solutions into CMA-ES). At most λ; later ones are dropped.
   void inject(const Vector& x);
@@ -70,6 +73,7 @@ class Cmaes {
   void draw();
   void place_injected();
   void rank(const ConstVectorView& values);
+  Vector deviations() const;
   void keep_best(const ConstVectorView& values);
   void move_mean();
   void adapt_step();
@@ -85,15 +89,16 @@ class Cmaes {
 
   CmaesOptions options_;
   StreamKey key_;
-  BoxTransform box_;
+  Box box_;
   StrategyConstants constants_;
   Covariance covariance_;
-  Vector mean_;  // before the box transform, as all that follows up to candidates_
+  Vector mean_;  // may leave the box a little
   Vector path_sigma_, path_c_, step_, whitened_;
   Matrix normals_;            // λ × n
   Matrix steps_;              // n × λ, (x_i − mean) / σ
   Matrix ranked_;             // n × (λ + 1): weighted steps, best first, and the path
-  Matrix candidates_;         // n × λ, inside the box
+  Matrix draws_;              // n × λ
+  Matrix candidates_;         // n × λ, the draws projected onto the box
   std::vector<Index> order_;  // best first
   std::vector<Vector> injected_;
   Index foreign_ = 0;  // the first so many candidates of this generation were injected

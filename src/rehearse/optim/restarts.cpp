@@ -195,7 +195,7 @@ void Search::generation(Cmaes& cmaes, UncertaintyHandler& noise) {
   } else {
     again_.resize(twice);
     evaluate(X.leftCols(twice), samples, again_);
-    const std::vector<Index> order = noise.rank(values_, again_);
+    const std::vector<Index> order = noise.rank(values_, again_, cmaes.penalties(values_));
     cmaes.tell(values_, order);
     cmaes.widen(noise.sigma_factor());
   }

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/optim/box_transform.hpp"
+#include "rehearse/optim/box.hpp"
 #include "rehearse/optim/derivative_free.hpp"
 #include "rehearse/optim/nlopt_search.hpp"
 

@@ -101,16 +101,17 @@ Index UncertaintyHandler::reevaluations() const {
 
 Index UncertaintyHandler::generation_cost() const { return (population_ + reevaluations()) * samples(); }
 
-std::vector<Index> UncertaintyHandler::rank(VectorView values, const ConstVectorView& again) {
+std::vector<Index> UncertaintyHandler::rank(VectorView values, const ConstVectorView& again, const Vector& penalties) {
   const auto count = static_cast<std::size_t>(again.size());
-  const JointRanks ranks(values, again);
+  const Vector loss = penalties.size() > 0 ? penalties : Vector::Zero(values.size());
+  const JointRanks ranks(values - loss, again - loss.head(again.size()));
   uncertainty_ += options_.smoothing * (measure(ranks, count, options_.tolerance) - uncertainty_);
   values.head(again.size()) = (values.head(again.size()) + again) / 2;
   treat();
   const double fraction = options_.reevaluated * static_cast<double>(population_);
   carried_ += fraction - static_cast<double>(again.size());
   carried_ = std::max(carried_, 0.0);
-  return order_of(ranks, count, values);
+  return order_of(ranks, count, values - loss);
 }
 
 // Hansen 2009, section III.C: first more evaluations, then larger steps.

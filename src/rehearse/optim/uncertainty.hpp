@@ -32,10 +32,10 @@ class UncertaintyHandler {
   Index reevaluations() const;    // of this generation: its first so many candidates are evaluated twice
   Index generation_cost() const;  // evaluations that this generation takes
 
-  /// Takes the values (λ) of this generation and those of its first `reevaluations()` candidates evaluated again.
-  /// Leaves in `values` the means of both; returns the candidates from best to worst by the sum of their ranks in both.
-  /// What is not finite is the worst.
-  std::vector<Index> rank(VectorView values, const ConstVectorView& again);
+  /// Takes the values (λ) of this generation, those of its first `reevaluations()` candidates evaluated again, and what
+  /// the ranking is to take off each (λ; empty: nothing). Leaves in `values` the means of both evaluations; returns the
+  /// candidates from best to worst by the sum of their ranks in both. What is not finite is the worst.
+  std::vector<Index> rank(VectorView values, const ConstVectorView& again, const Vector& penalties = {});
 
   double sigma_factor() const { return sigma_factor_; }  // that the last generation asks for
   double uncertainty() const { return uncertainty_; }    // s̄; above zero: too much noise
