@@ -120,11 +120,11 @@ Rng Search::random() const {
   return Rng(key);
 }
 
-// Hansen 2009: the regime that used fewer evaluations goes next, the large one first.
+// Hansen 2009: the regime that used fewer evaluations goes next. The first descent counts as small.
 bool Search::next(Plan& plan) {
   const Descent& last = result_.descents.back();
   if (plan.large) last_large_ = last.evaluations;
-  if (result_.descents.size() > 1) (plan.large ? large_ : small_) += last.evaluations;
+  (plan.large ? large_ : small_) += last.evaluations;
   if (!result_.stop.empty()) return false;
   if (options_.strategy == Strategy::single) result_.stop = last.stop;
   if (options_.strategy == Strategy::bipop && small_ < large_) {
