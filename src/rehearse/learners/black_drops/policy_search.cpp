@@ -43,28 +43,49 @@ class Speedometer {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// The finalists' expected returns by many rollouts; the best is the result, the others its runners-up.
-void select(std::vector<optim::Contender> contenders, ImaginedReturn& objective, const SearchOptions& options,
-            SearchResult& result) {
-  const auto count = std::min(options.finalists, static_cast<Index>(contenders.size()));
-  Matrix Theta(contenders.front().x.size(), count);
-  for (Index i = 0; i < count; ++i) Theta.col(i) = contenders[static_cast<std::size_t>(i)].x;
-  Vector values(count);
+using Box = std::vector<Interval>;
+
+/// Good policies, best first, by the method asked for.
+std::vector<Vector> find(const optim::BatchObjective& objective, const std::vector<Vector>& starts, const Box& box,
+                         const SearchProblem& problem, const SearchOptions& options, const StreamKey& key,
+                         const optim::SearchListener& listener) {
+  std::vector<Vector> found;
+  if (options.method == Method::race) {
+    auto result = optim::race(objective, starts, box, options.race, key, problem.evaluator, listener);
+    for (optim::Contender& contender : result.contenders) found.push_back(std::move(contender.x));
+  } else {
+    const Vector start = starts.empty() ? random_policy(problem.policy, options, key.seed, key.trial) : starts.front();
+    auto result = optim::maximise(objective, start, box, options.restarts, key, listener);
+    for (optim::Candidate& candidate : result.candidates) found.push_back(std::move(candidate.x));
+  }
+  return found;
+}
+
+/// Compares the finalists and the starts by many rollouts of each; the best is the result, other finds its runners-up.
+void select(std::vector<Vector> found, const std::vector<Vector>& starts, ImaginedReturn& objective,
+            const SearchOptions& options, SearchResult& result) {
+  const auto finalists = std::min(options.finalists, static_cast<Index>(found.size()));
+  Matrix Theta(found.front().size(), finalists + static_cast<Index>(starts.size()));
+  for (Index i = 0; i < Theta.cols(); ++i)
+    Theta.col(i) = i < finalists ? found[static_cast<std::size_t>(i)] : starts[static_cast<std::size_t>(i - finalists)];
+  Vector values(Theta.cols());
   objective(Theta, 0, options.selection, values);
   Index best = 0;
   result.predicted_return = values.maxCoeff(&best);
   result.theta = Theta.col(best);
-  for (std::size_t i = 0; i < contenders.size(); ++i)
-    if (static_cast<Index>(i) != best) result.runners_up.push_back(std::move(contenders[i].x));
+  if (best < finalists) found.erase(found.begin() + best);
+  result.runners_up = std::move(found);
 }
 
 }  // namespace
 
 void SearchOptions::fields(FieldVisitor& v) {
+  v.choice("method", method, {"race", "restarts"});
   v.number("box", box, above(0));
   v.integer("particles", particles, at_least(1));
   v.group("imagine", imagine);
   v.group("race", race);
+  v.group("restarts", restarts);
   v.integer("finalists", finalists, at_least(1));
   v.integer("selection", selection, at_least(1));
 }
@@ -74,21 +95,21 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
   const StreamKey key{.seed = seed, .trial = trial, .purpose = Purpose::imagined_noise};
   ImaginedReturn objective(problem, options, key);
   const Speedometer speed;
+  const Index budget = options.method == Method::race ? options.race.max_evaluations : options.restarts.max_evaluations;
   const auto report = [&](Index evaluations, double best) {
     if (!problem.progress) return;
     problem.progress({.phase = "search",
-                      .done = static_cast<double>(evaluations) / static_cast<double>(options.race.max_evaluations),
+                      .done = static_cast<double>(evaluations) / static_cast<double>(budget),
                       .best = best,
                       .rollouts = objective.rollouts(),
                       .rollouts_per_s = speed.per_s(objective.rollouts())});
   };
-  const std::vector<Interval> box(static_cast<std::size_t>(problem.policy.parameters()), {-options.box, options.box});
-  optim::RaceResult race =
-      optim::race(std::ref(objective), starts, box, options.race,
-                  {.seed = seed, .trial = trial, .purpose = Purpose::search}, problem.evaluator, report);
+  const Box box(static_cast<std::size_t>(problem.policy.parameters()), {-options.box, options.box});
+  std::vector<Vector> found = find(std::ref(objective), starts, box, problem, options,
+                                   {.seed = seed, .trial = trial, .purpose = Purpose::search}, report);
   SearchResult result;
   ImaginedReturn selection(problem, options, {.seed = seed, .trial = trial, .purpose = Purpose::selection});
-  select(std::move(race.contenders), selection, options, result);
+  select(std::move(found), starts, selection, options, result);
   result.rollouts = objective.rollouts() + selection.rollouts();
   result.failed_rollouts = objective.failed() + selection.failed();
   return result;

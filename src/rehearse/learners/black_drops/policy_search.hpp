@@ -9,18 +9,26 @@
 #include "rehearse/core/task.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
 #include "rehearse/optim/race.hpp"
+#include "rehearse/optim/restarts.hpp"
 #include "rehearse/policy/policy.hpp"
 #include "rehearse/rollout/imagine.hpp"
 
 namespace rehearse::learners::black_drops {
 
+enum class Method {
+  race,      // many descents that compete: on the pendubot's true dynamics it finds a solution with far fewer rollouts
+  restarts,  // one after the other, the paper's: BIPOP, with uncertainty handling and elitism if asked for
+};
+
 /// Each rollout is one noisy measurement of the expected return, which CMA-ES maximises (Chatzilygeroudis 2017).
 struct SearchOptions {
+  Method method = Method::race;
   double box = 5;       // θ in [−box, box]; the authors' code
   Index particles = 1;  // rollouts of one evaluation; the paper: 1
   rollout::ImagineOptions imagine;
   optim::RaceOptions race;
-  Index finalists = 4;    // best contenders that are compared once more
+  optim::SearchOptions restarts{.max_evaluations = 200000};
+  Index finalists = 4;    // best policies found that are compared once more, together with those it started from
   Index selection = 100;  // rollouts of each of them; their mean is the predicted return
   void fields(FieldVisitor& v);
 };
@@ -42,8 +50,8 @@ struct SearchProblem {
   const ProgressSink& progress;
 };
 
-/// The policy of the highest expected return in the model. The first descents begin at `starts`. Random numbers come
-/// from (seed, trial) alone.
+/// The policy of the highest expected return in the model, never worse there than `starts`, from which the first
+/// descents begin. Random numbers come from (seed, trial) alone.
 SearchResult search_policy(const SearchProblem& problem, const std::vector<Vector>& starts,
                            const SearchOptions& options, std::uint64_t seed, std::uint64_t trial);
 
