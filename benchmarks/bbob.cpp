@@ -223,7 +223,7 @@ std::string table(const nlohmann::json& report) {
                         comparable ? fmt::format("{:.2f}", row["ert_1e-7"].get<double>() / published) : "–");
   }
   text +=
-      "\n## Cost of a generation, without the objective\n\n"
+      "\n## Cost of a generation, without the objective\n\nMedians and minima; the machine may be shared.\n\n"
       "| n | λ | generation | root of C | its cost | every | share | an eigendecomposition would cost |\n"
       "|---|---|---|---|---|---|---|---|\n";
   for (const auto& t : report["timing"])
