@@ -1,0 +1,95 @@
+#include "rehearse/dynamics/gp_model.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "swing.hpp"
+
+namespace rehearse::dynamics {
+namespace {
+
+gp::Posterior posterior(const Dataset& data, const Matrix& targets) {
+  Matrix F(data.size(), 4);
+  gp_inputs(swing::features(), data.states, data.actions, F);
+  const gp::Hyperparameters kernel{.log_lengths = Vector::Zero(4), .log_signal = 0, .log_noise = std::log(0.1)};
+  return gp::Posterior(gp::Inputs(F), targets, {kernel, kernel});
+}
+
+struct Prediction {
+  Matrix mean, variance;
+};
+Prediction predict(const DynamicsModel& model, const Matrix& X, const Matrix& U) {
+  Prediction p{Matrix(X.rows(), 2), Matrix(X.rows(), 2)};
+  model.predict(X, U, p.mean, p.variance);
+  return p;
+}
+
+TEST(GpInputs, AreFeaturesThenActions) {
+  const Dataset data = swing::data(5, 1);
+  Matrix F(5, 4);
+  gp_inputs(swing::features(), data.states, data.actions, F);
+  for (Index i = 0; i < 5; ++i) {
+    EXPECT_EQ(F(i, 0), data.states(i, 0));
+    EXPECT_NEAR(F(i, 1), std::cos(data.states(i, 1)), 1e-14);
+    EXPECT_NEAR(F(i, 2), std::sin(data.states(i, 1)), 1e-14);
+    EXPECT_EQ(F(i, 3), data.actions(i, 0));
+  }
+}
+
+TEST(GpModel, IsPriorMeanPlusPosterior) {
+  const Dataset data = swing::data(20, 1), at = swing::data(30, 2);
+  const prior::Prior prior = swing::prior_at(swing::kTruth);
+  const GpModel without(swing::features(), {}, posterior(data, data.changes), PredictedVariance::latent);
+  const GpModel with(swing::features(), Mean{prior, swing::kTruth}, posterior(data, data.changes),
+                     PredictedVariance::latent);
+  const Prediction a = predict(without, at.states, at.actions), b = predict(with, at.states, at.actions);
+  EXPECT_LT((b.mean - a.mean - at.changes).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_EQ(a.variance, b.variance);
+}
+
+TEST(GpModel, NoisyVarianceIsLatentPlusNoise) {
+  const Dataset data = swing::data(20, 1), at = swing::data(30, 2);
+  const GpModel latent(swing::features(), {}, posterior(data, data.changes), PredictedVariance::latent);
+  const GpModel noisy(swing::features(), {}, posterior(data, data.changes), PredictedVariance::noisy);
+  const Matrix difference =
+      predict(noisy, at.states, at.actions).variance - predict(latent, at.states, at.actions).variance;
+  EXPECT_LT((difference.array() - 0.01).abs().maxCoeff(), 1e-12);
+}
+
+TEST(GpModel, FailedRowsAreNanAndDisturbNoOther) {
+  const Dataset data = swing::data(20, 1);
+  Dataset at = swing::data(200, 2);
+  const prior::Prior prior = swing::prior_at(swing::kTruth);
+  const GpModel model(swing::features(), Mean{prior, swing::kTruth}, posterior(data, data.changes),
+                      PredictedVariance::latent);
+  const Prediction clean = predict(model, at.states, at.actions);
+  at.states(7, 0) = std::numeric_limits<double>::quiet_NaN();
+  at.states(150, 0) = 1e300;
+  at.states(151, 1) = std::numeric_limits<double>::infinity();
+  const Prediction spoilt = predict(model, at.states, at.actions);
+  for (Index i = 0; i < 200; ++i) {
+    if (i == 7 || i == 150 || i == 151) {
+      EXPECT_FALSE(spoilt.mean.row(i).allFinite()) << i;
+    } else {
+      EXPECT_EQ(clean.mean.row(i), spoilt.mean.row(i)) << i;
+      EXPECT_EQ(clean.variance.row(i), spoilt.variance.row(i)) << i;
+    }
+  }
+}
+
+TEST(GpModel, RowsDoNotDependOnTheBatch) {
+  const Dataset data = swing::data(20, 1), at = swing::data(40, 2);
+  const prior::Prior prior = swing::prior_at(swing::kTruth);
+  const GpModel model(swing::features(), Mean{prior, swing::kTruth}, posterior(data, data.changes),
+                      PredictedVariance::latent);
+  const Prediction all = predict(model, at.states, at.actions);
+  for (Index i = 0; i < 40; ++i) {
+    const Prediction one = predict(model, at.states.row(i), at.actions.row(i));
+    EXPECT_EQ(one.mean, all.mean.row(i)) << i;
+    EXPECT_EQ(one.variance, all.variance.row(i)) << i;
+  }
+}
+
+}  // namespace
+}  // namespace rehearse::dynamics

@@ -1,0 +1,65 @@
+#include "rehearse/dynamics/residuals.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "swing.hpp"
+
+namespace rehearse::dynamics {
+namespace {
+
+TEST(Residuals, WithoutAPriorAreTheChanges) {
+  const Dataset data = swing::data(20, 1);
+  const Residuals residuals(data, swing::features());
+  const Residuals::Rows rows = residuals.at(nullptr, {});
+  EXPECT_EQ(rows.targets, data.changes);
+  EXPECT_EQ(rows.left_out, 0);
+  EXPECT_EQ(rows.inputs->size(), 20);
+  EXPECT_EQ(rows.inputs->dimensions(), 4) << "speed, cosine, sine, action";
+  EXPECT_EQ(residuals.size(), 20);
+}
+
+TEST(Residuals, ScaleIsTheSpreadOfTheRawChanges) {
+  const Dataset data = swing::data(20, 1);
+  const Residuals residuals(data, swing::features());
+  for (Index e = 0; e < 2; ++e) {
+    const Eigen::ArrayXd y = data.changes.col(e);
+    EXPECT_NEAR(residuals.scale()(e), std::sqrt((y - y.mean()).square().sum() / 19), 1e-12);
+  }
+}
+
+TEST(Residuals, SubtractThePriorMean) {
+  const Dataset data = swing::data(20, 1);
+  const Vector phi{{0.6, 0}};
+  const prior::Prior prior = swing::prior_at(phi);
+  Matrix mean(20, 2);
+  prior.mean(data.states, data.actions, phi, mean);
+  EXPECT_EQ(Residuals(data, swing::features()).at(&prior, phi).targets, data.changes - mean);
+}
+
+TEST(Residuals, RowsThatFailAreLeftOut) {
+  const Dataset data = swing::data(20, 1);
+  const auto fails = [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
+    swing::ode(x, u, phi, dxdt);
+    if (u(0) > 0) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
+  };
+  const prior::Prior prior = swing::prior({swing::length(), swing::friction()}, fails);
+  const Residuals::Rows rows = Residuals(data, swing::features()).at(&prior, swing::kTruth);
+  const Index positive = (data.actions.array() > 0).count();
+  EXPECT_EQ(rows.left_out, positive);
+  EXPECT_EQ(rows.inputs->size(), 20 - positive);
+  EXPECT_EQ(rows.targets, Matrix::Zero(20 - positive, 2));
+}
+
+TEST(Residuals, NoRowLeftHasNoInputs) {
+  const Dataset data = swing::data(20, 1);
+  const auto fails = [](const Vector&, const Vector&, const Vector&, Vector&) { throw 1; };
+  const prior::Prior prior = swing::prior({swing::length(), swing::friction()}, fails);
+  const Residuals::Rows rows = Residuals(data, swing::features()).at(&prior, swing::kTruth);
+  EXPECT_EQ(rows.inputs, nullptr);
+  EXPECT_EQ(rows.left_out, 20);
+}
+
+}  // namespace
+}  // namespace rehearse::dynamics
