@@ -1,0 +1,134 @@
+#include "rehearse/rollout/execute.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "cart.hpp"
+
+namespace rehearse::rollout {
+namespace {
+
+/// The cart of cart.hpp, measured 0.01 too far; keeps what it was asked.
+class CartPlant final : public system::Plant {
+ public:
+  explicit CartPlant(bool knows_truth = true) : knows_truth_(knows_truth) {}
+  Vector reset(Rng& rng) override {
+    x_ = Vector{{0, 1 + 0.1 * rng.normal()}};
+    return measured();
+  }
+  Vector step(const Vector& u) override {
+    actions.push_back(u(0));
+    x_ += Vector{{0.1 * u(0), 0.1 * x_(0)}};
+    if (static_cast<Index>(actions.size()) == fails_at) return failure();
+    return measured();
+  }
+  Vector truth() const override { return knows_truth_ ? x_ : Vector(); }
+
+  std::vector<double> actions;
+  Index fails_at = -1;
+  std::function<Vector()> failure;
+
+ private:
+  Vector measured() const { return x_.array() + 0.01; }
+  Vector x_;
+  bool knows_truth_;
+};
+
+const Rng kRng({.seed = 5, .trial = 1, .purpose = Purpose::start_state});
+
+TEST(Execute, RecordsWhatHappened) {
+  const Task task = cart::task();
+  CartPlant plant;
+  const Vector theta = cart::candidates(1);
+  const Episode episode = execute(plant, *cart::policy(), theta, task, kRng);
+  ASSERT_EQ(episode.steps(), 20);
+  ASSERT_EQ(episode.states.rows(), 21);
+  ASSERT_EQ(episode.true_states.rows(), 21);
+  EXPECT_FALSE(episode.ended);
+  EXPECT_EQ(episode.charged, 0);
+  EXPECT_LT((episode.states.array() - episode.true_states.array() - 0.01).abs().maxCoeff(), 1e-15);
+  Matrix u(1, 1);
+  for (Index t = 0; t < 20; ++t) {
+    cart::policy()->act(theta.transpose(), episode.states.row(t), 0, u);
+    EXPECT_EQ(episode.actions(t, 0), u(0, 0)) << "the policy sees the measured state";
+    EXPECT_EQ(episode.actions(t, 0), plant.actions[static_cast<std::size_t>(t)]);
+    const double p = episode.true_states(t + 1, 1);
+    EXPECT_DOUBLE_EQ(episode.rewards(t), std::exp(-p * p)) << "the reward sees the true state reached";
+  }
+  EXPECT_DOUBLE_EQ(episode.total_reward(), episode.rewards.sum());
+}
+
+TEST(Execute, SameStreamSameBytes) {
+  CartPlant a, b;
+  const Vector theta = cart::candidates(1);
+  EXPECT_EQ(execute(a, *cart::policy(), theta, cart::task(), kRng).states,
+            execute(b, *cart::policy(), theta, cart::task(), kRng).states);
+  const Rng other({.seed = 6, .trial = 1, .purpose = Purpose::start_state});
+  EXPECT_NE(execute(a, *cart::policy(), theta, cart::task(), other).states,
+            execute(b, *cart::policy(), theta, cart::task(), kRng).states);
+}
+
+TEST(Execute, WithoutTruthTheMeasuredStateStandsForIt) {
+  CartPlant plant(false);
+  const Episode episode = execute(plant, *cart::policy(), cart::candidates(1), cart::task(), kRng);
+  EXPECT_EQ(episode.states, episode.true_states);
+}
+
+TEST(Execute, AFallEndsTheEpisodeAndIsChargedTheFloor) {
+  Task task = cart::task();
+  int asked = 0;
+  task.ended = [&](const ConstVectorView&) { return ++asked == 7; };
+  CartPlant plant;
+  const Episode episode = execute(plant, *cart::policy(), cart::candidates(1), task, kRng);
+  EXPECT_TRUE(episode.ended);
+  EXPECT_EQ(episode.steps(), 7);
+  EXPECT_EQ(plant.actions.size(), 7u);
+  EXPECT_EQ(episode.states.rows(), 8);
+  EXPECT_EQ(episode.true_states.rows(), 8);
+  EXPECT_EQ(episode.rewards.size(), 7);
+  EXPECT_DOUBLE_EQ(episode.charged, 13 * task.reward_floor);
+  EXPECT_DOUBLE_EQ(episode.total_reward(), episode.rewards.sum() + 13 * task.reward_floor);
+}
+
+TEST(Execute, AFallAtTheLastStepIsChargedNothing) {
+  Task task = cart::task();
+  int asked = 0;
+  task.ended = [&](const ConstVectorView&) { return ++asked == 20; };
+  CartPlant plant;
+  const Episode episode = execute(plant, *cart::policy(), cart::candidates(1), task, kRng);
+  EXPECT_TRUE(episode.ended);
+  EXPECT_EQ(episode.steps(), 20);
+  EXPECT_EQ(episode.charged, 0);
+}
+
+TEST(Execute, APlantThatThrowsReachesTheCaller) {
+  CartPlant plant;
+  plant.fails_at = 3;
+  plant.failure = []() -> Vector { throw std::runtime_error("no answer"); };
+  EXPECT_THROW(
+      {
+        try {
+          execute(plant, *cart::policy(), cart::candidates(1), cart::task(), kRng);
+        } catch (const std::runtime_error& error) {
+          EXPECT_STREQ(error.what(), "no answer");
+          throw;
+        }
+      },
+      std::runtime_error);
+}
+
+TEST(Execute, AStateThatIsNoStateIsAnError) {
+  for (const Vector& state : {Vector(Vector::Zero(3)), Vector{{0, std::numeric_limits<double>::quiet_NaN()}},
+                              Vector{{std::numeric_limits<double>::infinity(), 0}}, Vector()}) {
+    CartPlant plant;
+    plant.fails_at = 3;
+    plant.failure = [&] { return state; };
+    EXPECT_THROW(execute(plant, *cart::policy(), cart::candidates(1), cart::task(), kRng), std::runtime_error);
+  }
+}
+
+}  // namespace
+}  // namespace rehearse::rollout

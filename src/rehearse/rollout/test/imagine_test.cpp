@@ -1,0 +1,278 @@
+#include "rehearse/rollout/imagine.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "cart.hpp"
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define REHEARSE_COUNTS_ALLOCATIONS
+#endif
+
+#ifdef REHEARSE_COUNTS_ALLOCATIONS
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// Eigen allocates by malloc, which glibc lets a program define anew.
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) noexcept {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
+#endif
+
+namespace rehearse::rollout {
+namespace {
+
+constexpr StreamKey kKey{.seed = 3, .trial = 2, .purpose = Purpose::imagined_noise};
+constexpr ImagineOptions kUnclipped{.noise_clip = 0};
+
+Imagined imagine_cart(const Task& task, const Matrix& Theta, Index particles, const ImagineOptions& options = {},
+                      const dynamics::DynamicsModel& model = cart::Model(), std::uint64_t first = 0,
+                      const Evaluator& evaluator = serial_evaluator()) {
+  return imagine(model, *cart::policy(), task, Theta, first, particles, kKey, options, evaluator);
+}
+
+/// The numbers that rollout (candidate, particle) meets, from their definition.
+struct Noise {
+  Matrix start, steps;  // 1 × 2, T × 2
+};
+Noise noise_of(const Task& task, std::uint64_t candidate, std::uint64_t particle) {
+  Noise noise{Matrix(1, 2), Matrix(task.horizon, 2)};
+  StreamKey start = kKey;
+  start.purpose = Purpose::imagined_start;
+  fill_normals(start, &candidate, &particle, 0, noise.start);
+  Matrix row(1, 2);
+  for (Index t = 0; t < task.horizon; ++t) {
+    fill_normals(kKey, &candidate, &particle, static_cast<std::uint64_t>(t), row);
+    noise.steps.row(t) = row;
+  }
+  return noise;
+}
+
+Vector start_of(const Task& task, const Noise& noise) {
+  return task.start_mean + (task.start_std.array() * noise.start.row(0).transpose().array()).matrix();
+}
+
+TEST(Imagine, EqualsALoopOverSingleRollouts) {
+  const Task task = cart::task();
+  const Matrix Theta = cart::candidates(7);
+  for (const double variance : {0.0, 0.01}) {
+    const Imagined imagined = imagine_cart(task, Theta, 3, kUnclipped, cart::Model(variance), 10);
+    ASSERT_EQ(imagined.returns.rows(), 3);
+    ASSERT_EQ(imagined.returns.cols(), 7);
+    EXPECT_EQ(imagined.failed, 0);
+    for (Index j = 0; j < 7; ++j) {
+      for (Index p = 0; p < 3; ++p) {
+        const Noise noise = noise_of(task, 10 + static_cast<std::uint64_t>(j), static_cast<std::uint64_t>(p));
+        const double expected =
+            cart::by_hand(task, Theta.col(j), start_of(task, noise), noise.steps, std::sqrt(variance)).value;
+        EXPECT_NEAR(imagined.returns(p, j), expected, 1e-12) << j << " " << p;
+      }
+    }
+  }
+}
+
+TEST(Imagine, NoiseIsClippedAtSoManyDeviations) {
+  const Task task = cart::task();
+  const Matrix Theta = cart::candidates(1);
+  for (const double clip : {0.5, 1.0}) {
+    const Imagined imagined = imagine_cart(task, Theta, 2, {.noise_clip = clip}, cart::Model(0.04));
+    for (Index p = 0; p < 2; ++p) {
+      const Noise noise = noise_of(task, 0, static_cast<std::uint64_t>(p));
+      const Matrix clipped = noise.steps.cwiseMin(clip).cwiseMax(-clip);
+      EXPECT_NEAR(imagined.returns(p, 0), cart::by_hand(task, Theta, start_of(task, noise), clipped, 0.2).value, 1e-12);
+    }
+  }
+}
+
+TEST(Imagine, WithoutSamplingFollowsTheMean) {
+  const Task task = cart::task(0);
+  const Matrix Theta = cart::candidates(3);
+  const Imagined mean = imagine_cart(task, Theta, 2, {.sample = false}, cart::Model(1));
+  EXPECT_EQ(mean.returns, imagine_cart(task, Theta, 2).returns);
+  EXPECT_EQ(mean.returns.row(0), mean.returns.row(1)) << "the start is certain too";
+}
+
+TEST(Imagine, SameBytesForAnyNumberOfThreads) {
+  const Task task = cart::task();
+  const Matrix Theta = cart::candidates(150);
+  const Imagined one = imagine_cart(task, Theta, 5, {}, cart::Model(0.01));
+  for (const int threads : {2, 3}) {
+    const auto evaluator = make_thread_evaluator(threads);
+    EXPECT_EQ(one.returns, imagine_cart(task, Theta, 5, {}, cart::Model(0.01), 0, *evaluator).returns);
+  }
+}
+
+TEST(Imagine, ARolloutDoesNotDependOnItsBatch) {
+  const Task task = cart::task();
+  const Matrix Theta = cart::candidates(150);
+  const Imagined all = imagine_cart(task, Theta, 3, {}, cart::Model(0.01));
+  for (const Index j : {0, 42, 43, 85, 149}) {
+    const Matrix theta = Theta.col(j);
+    EXPECT_EQ(imagine_cart(task, theta, 3, {}, cart::Model(0.01), static_cast<std::uint64_t>(j)).returns,
+              all.returns.col(j))
+        << j;
+    EXPECT_EQ(imagine_cart(task, theta, 1, {}, cart::Model(0.01), static_cast<std::uint64_t>(j)).returns(0, 0),
+              all.returns(0, j))
+        << "fewer particles are the first ones";
+  }
+}
+
+TEST(Imagine, CommonRandomNumbersGiveEveryCandidateTheSameNoise) {
+  const Task task = cart::task();
+  const Matrix theta = cart::candidates(1), Theta = theta.replicate(1, 4);
+  const Imagined common = imagine_cart(task, Theta, 2, {.common_random_numbers = true}, cart::Model(0.01));
+  const Imagined own = imagine_cart(task, Theta, 2, {}, cart::Model(0.01));
+  for (Index j = 1; j < 4; ++j) {
+    EXPECT_EQ(common.returns.col(j), common.returns.col(0));
+    EXPECT_NE(own.returns.col(j), own.returns.col(0));
+  }
+  EXPECT_NE(common.returns(0, 0), common.returns(1, 0)) << "particles still differ";
+}
+
+/// The first step (counted from 0) whose resulting state satisfies `when`, by hand; −1: none.
+Index first_step(const Matrix& states, const cart::Model::Spoil& when) {
+  for (Index t = 0; t + 1 < states.rows(); ++t)
+    if (when(states(t + 1, 0), states(t + 1, 1))) return t;
+  return -1;
+}
+
+double reward_before(const Matrix& states, Index steps) {
+  double sum = 0;
+  for (Index t = 0; t < steps; ++t) sum += std::exp(-states(t + 1, 1) * states(t + 1, 1));
+  return sum;
+}
+
+TEST(Imagine, AFallIsChargedTheFloorForTheRemainingSteps) {
+  Task task = cart::task();
+  const auto fallen = [](double, double position) { return position > 1.15; };
+  task.ended = [&](const ConstVectorView& x) { return fallen(x(0), x(1)); };
+  const Matrix Theta = cart::candidates(40);
+  const Imagined imagined = imagine_cart(task, Theta, 1);
+  Index falls = 0;
+  for (Index j = 0; j < 40; ++j) {
+    const Noise noise = noise_of(task, static_cast<std::uint64_t>(j), 0);
+    const Matrix states = cart::by_hand(task, Theta.col(j), start_of(task, noise), noise.steps, 0).states;
+    const Index t = first_step(states, fallen);
+    falls += t >= 0;
+    const double expected =
+        t < 0 ? reward_before(states, 20)
+              : reward_before(states, t + 1) + static_cast<double>(task.horizon - t - 1) * task.reward_floor;
+    EXPECT_NEAR(imagined.returns(0, j), expected, 1e-12) << j;
+  }
+  EXPECT_GT(falls, 5);
+  EXPECT_LT(falls, 35);
+  EXPECT_EQ(imagined.failed, 0) << "a fall is no failure";
+}
+
+TEST(Imagine, AFailureIsChargedTheFloorAndCounted) {
+  const Task task = cart::task();
+  const auto bad = [](double, double position) { return position > 1.15; };  // cannot be simulated from here
+  const Matrix Theta = cart::candidates(40);
+  const Imagined imagined = imagine_cart(task, Theta, 1, {}, cart::Model(0, bad));
+  Index failures = 0;
+  for (Index j = 0; j < 40; ++j) {
+    const Noise noise = noise_of(task, static_cast<std::uint64_t>(j), 0);
+    const Matrix states = cart::by_hand(task, Theta.col(j), start_of(task, noise), noise.steps, 0).states;
+    const bool at_start = bad(states(0, 0), states(0, 1));
+    const Index reached = at_start ? -1 : first_step(states, bad);  // the step after it fails
+    const bool fails = at_start || (reached >= 0 && reached + 1 < task.horizon);
+    failures += fails;
+    const double expected =
+        fails ? reward_before(states, reached + 1) + static_cast<double>(task.horizon - reached - 1) * task.reward_floor
+              : reward_before(states, 20);
+    EXPECT_NEAR(imagined.returns(0, j), expected, 1e-12) << j;
+  }
+  EXPECT_GT(failures, 5);
+  EXPECT_LT(failures, 35);
+  EXPECT_EQ(imagined.failed, failures);
+}
+
+TEST(Imagine, ARewardThatIsNotFiniteIsAFailureToo) {
+  Task task = cart::task(0);
+  task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView rewards) {
+    rewards.setConstant(std::numeric_limits<double>::infinity());
+  };
+  const Imagined imagined = imagine_cart(task, cart::candidates(3), 2);
+  EXPECT_EQ(imagined.failed, 6);
+  EXPECT_EQ(imagined.returns, Matrix::Constant(2, 3, 20 * task.reward_floor));
+}
+
+TEST(Imagine, HugePredictionsDisturbNoOtherRollout) {
+  /// Rows beyond a position come back as 1e300 or as infinities of either sign.
+  class Huge final : public dynamics::DynamicsModel {
+   public:
+    void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
+                 MatrixView variance) const override {
+      model_.predict(X, U, mean, variance);
+      for (Index i = 0; i < X.rows(); ++i)
+        if (X(i, 1) > 1.15) mean(i, 0) = i % 2 ? 1e300 : -std::numeric_limits<double>::infinity();
+    }
+
+   private:
+    cart::Model model_;
+  };
+  const Task task = cart::task();
+  const Matrix Theta = cart::candidates(200);
+  const Matrix clean = imagine_cart(task, Theta, 1).returns, spoilt = imagine_cart(task, Theta, 1, {}, Huge()).returns;
+  EXPECT_TRUE(spoilt.allFinite());
+  Index same = 0;
+  for (Index j = 0; j < 200; ++j) same += clean(0, j) == spoilt(0, j);
+  EXPECT_GT(same, 20);
+  EXPECT_LT(same, 190);
+}
+
+#ifdef REHEARSE_COUNTS_ALLOCATIONS
+TEST(Imagine, TimeLoopDoesNotAllocate) {
+  const Matrix Theta = cart::candidates(60);
+  const auto count = [&](Index horizon) {
+    Task task = cart::task();
+    task.horizon = horizon;
+    const auto policy = cart::policy();
+    const cart::Model model(0.01);
+    imagine(model, *policy, task, Theta, 0, 2, kKey, {}, serial_evaluator());  // the thread's buffers grow once
+    const long before = allocations;
+    imagine(model, *policy, task, Theta, 0, 2, kKey, {}, serial_evaluator());
+    return allocations - before;
+  };
+  EXPECT_GT(count(20), 0) << "the count works";
+  EXPECT_EQ(count(20), count(200));
+}
+#endif
+
+TEST(ImagineRecorded, HasTheReturnsAndTheStatesOfImagine) {
+  const Task task = cart::task();
+  const Matrix theta = cart::candidates(1);
+  const Recorded recorded = imagine_recorded(cart::Model(0.01), *cart::policy(), task, theta, 4, kKey, kUnclipped);
+  ASSERT_EQ(recorded.states.size(), 21u);
+  EXPECT_EQ(Matrix(recorded.returns), imagine_cart(task, theta, 4, kUnclipped, cart::Model(0.01)).returns);
+  for (Index p = 0; p < 4; ++p) {
+    const Noise noise = noise_of(task, 0, static_cast<std::uint64_t>(p));
+    const Matrix states = cart::by_hand(task, theta, start_of(task, noise), noise.steps, 0.1).states;
+    for (std::size_t t = 0; t <= 20; ++t)
+      EXPECT_LT((recorded.states[t].row(p) - states.row(static_cast<Index>(t))).norm(), 1e-12);
+  }
+}
+
+TEST(ImagineRecorded, AfterAnEarlyEndARowIsNan) {
+  Task task = cart::task(0);
+  task.ended = [](const ConstVectorView& x) { return x(1) < 0.9; };
+  Vector left = Vector::Zero(13);
+  left(12) = -5;  // the bias of the output: full force to the left
+  const Recorded recorded = imagine_recorded(cart::Model(), *cart::policy(), task, left, 2, kKey, {});
+  bool ended = false;
+  for (const Matrix& states : recorded.states) {
+    EXPECT_TRUE(ended ? states.array().isNaN().all() : (states.array().isFinite().all() || (ended = true)));
+  }
+  EXPECT_TRUE(ended);
+}
+
+}  // namespace
+}  // namespace rehearse::rollout
