@@ -16,7 +16,6 @@
 #include "bbob_functions.hpp"
 #include "rehearse/optim/restarts.hpp"
 
-extern "C" void openblas_set_num_threads(int threads);
 extern "C" char* openblas_get_corename();
 
 namespace {
@@ -238,7 +237,6 @@ std::string table(const nlohmann::json& report) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  openblas_set_num_threads(1);
   bool quick = false;
   std::string out, commit = "unknown", command = "bbob";
   for (int i = 1; i < argc; ++i) {

@@ -16,4 +16,16 @@ void dtrsv_(const char* uplo, const char* trans, const char* diag, const int* n,
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 void dsyevd_(const char* jobz, const char* uplo, const int* n, double* a, const int* lda, double* w, double* work,
              const int* lwork, int* iwork, const int* liwork, int* info);
+void openblas_set_num_threads(int threads);
 }
+
+namespace rehearse::optim {
+
+/// Threads are ours, not OpenBLAS's: its own spin, and would make results depend on their number. Call before any
+/// routine above; only the first call does anything. Not from a static initialiser, where OpenBLAS is not ready.
+inline void use_one_blas_thread() {
+  static const bool done = (openblas_set_num_threads(1), true);
+  static_cast<void>(done);
+}
+
+}  // namespace rehearse::optim

@@ -26,6 +26,7 @@ void multiply(const char* transposed, const Matrix& A, const double* x, double* 
 
 Covariance::Covariance(Index n, Root root)
     : root_(root), C_(Matrix::Identity(n, n)), A_(C_), projected_(n), next_(n, n) {
+  use_one_blas_thread();
   if (root == Root::cholesky) return;
   B_ = C_;
   eigenvalues_ = Vector::Ones(n);
