@@ -1,0 +1,111 @@
+#include "rehearse/testing/check_learner.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/testing/compare.hpp"
+
+namespace rehearse::testing {
+namespace {
+
+using learners::Learner;
+using learners::Proposal;
+
+/// What a run of a learner left behind.
+struct Run {
+  std::vector<Proposal> proposals;  // of trials 1, 2, …
+  std::vector<Episode> episodes;
+  std::vector<std::string> saved;  // after 0, 1, … episodes
+};
+
+template <class T>
+bool same_optional(const std::optional<T>& a, const std::optional<T>& b) {
+  return a.has_value() == b.has_value() && (!a || same(*a, *b));
+}
+
+/// Names of what differs; the model is compared by what it predicted, times not at all.
+std::string difference(const Proposal& a, const Proposal& b) {
+  std::string names;
+  const auto compare = [&](bool equal, const char* name) {
+    if (!equal) names += (names.empty() ? "" : ", ") + std::string(name);
+  };
+  compare(same(a.theta, b.theta), "theta");
+  compare(same_optional(a.predicted_return, b.predicted_return), "predicted_return");
+  compare(same_optional(a.log_evidence, b.log_evidence), "log_evidence");
+  compare(same_optional(a.phi, b.phi), "phi");
+  compare(a.rollouts == b.rollouts, "rollouts");
+  compare(a.failed_rollouts == b.failed_rollouts, "failed_rollouts");
+  compare(a.left_out_rows == b.left_out_rows, "left_out_rows");
+  compare(a.notes == b.notes, "notes");
+  return names;
+}
+
+class LearnerCheck {
+ public:
+  LearnerCheck(const learners::LearnerBuilder& builder, const learners::Setting& setting, const RunTrial& run_trial,
+               Index trials)
+      : builder_(builder), setting_(setting), run_trial_(run_trial), trials_(trials) {}
+
+  std::vector<std::string> run() {
+    const Run one = run_from_start(1), two = run_from_start(2);
+    for (std::size_t k = 0; k < one.proposals.size(); ++k) {
+      const std::string names = difference(one.proposals[k], two.proposals[k]);
+      found_.require(names.empty(), fmt::format("trial {}: two threads give another {}", k + 1, names));
+    }
+    for (Index told = 0; told < trials_; ++told) check_loaded(one, told);
+    return found_.list();
+  }
+
+ private:
+  std::unique_ptr<Learner> build(int threads) const {
+    learners::Setting setting = setting_;
+    setting.evaluator = make_thread_evaluator(threads);
+    return builder_.build(std::move(setting));
+  }
+
+  Run run_from_start(int threads) {
+    const auto learner = build(threads);
+    Run run;
+    run.saved.push_back(learner->save().dump());
+    for (Index k = 1; k <= trials_; ++k) {
+      run.proposals.push_back(learner->ask());
+      const std::string names = difference(run.proposals.back(), learner->ask());
+      found_.require(names.empty(), fmt::format("trial {}: asked again, another {} is proposed", k, names));
+      run.episodes.push_back(run_trial_(run.proposals.back().theta, static_cast<std::uint64_t>(k)));
+      learner->tell(run.episodes.back());
+      run.saved.push_back(learner->save().dump());
+    }
+    return run;
+  }
+
+  /// Goes on from what was saved after `told` episodes, to the end.
+  void check_loaded(const Run& run, Index told) {
+    const auto first = static_cast<std::size_t>(told);
+    const auto learner = build(1);
+    learner->load({run.episodes.begin(), run.episodes.begin() + told}, nlohmann::json::parse(run.saved[first]));
+    found_.require(learner->save().dump() == run.saved[first],
+                   fmt::format("loaded after {} episodes, something else is saved", told));
+    for (std::size_t k = first; k < run.proposals.size(); ++k) {
+      const std::string names = difference(run.proposals[k], learner->ask());
+      if (!names.empty())
+        return found_.add(fmt::format("loaded after {} episodes, trial {} has another {}", told, k + 1, names));
+      learner->tell(run.episodes[k]);
+    }
+  }
+
+  const learners::LearnerBuilder& builder_;
+  learners::Setting setting_;
+  RunTrial run_trial_;
+  Index trials_;
+  Violations found_;
+};
+
+}  // namespace
+
+std::vector<std::string> check_learner(const learners::LearnerBuilder& builder, const learners::Setting& setting,
+                                       const RunTrial& run_trial, Index trials) {
+  return LearnerCheck(builder, setting, run_trial, trials).run();
+}
+
+}  // namespace rehearse::testing
