@@ -1,0 +1,98 @@
+#include "rehearse/learners/black_drops/policy_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rehearse/dynamics/simulator_model.hpp"
+#include "slider.hpp"
+
+namespace rehearse::learners::black_drops {
+namespace {
+
+SearchOptions small() {
+  SearchOptions options;
+  options.race.max_evaluations = 400;
+  options.race.descents = 4;
+  options.race.rounds = 2;
+  options.race.judgements = 4;
+  options.race.cmaes.population = 8;
+  options.selection = 10;
+  return options;
+}
+
+SearchResult search(const std::vector<Vector>& starts, const SearchOptions& options, std::uint64_t seed = 1,
+                    std::uint64_t trial = 1, const Evaluator& evaluator = serial_evaluator(),
+                    const ProgressSink& progress = {}) {
+  const dynamics::SimulatorModel model(slider::prior(), slider::kTruth, 0.0004);
+  const auto policy = slider::policy();
+  const Task task = slider::task();
+  return search_policy({model, *policy, task, evaluator, progress}, starts, options, seed, trial);
+}
+
+TEST(SearchPolicy, FindsAPolicyAsGoodAsPredicted) {
+  const SearchResult found = search({}, small());
+  EXPECT_GT(found.predicted_return, 7);
+  EXPECT_NEAR(slider::run_trial(found.theta, 1).total_reward(), found.predicted_return, 1);
+  EXPECT_LE(found.theta.cwiseAbs().maxCoeff(), small().box);
+  EXPECT_GE(found.rollouts, 300);
+  EXPECT_LE(found.rollouts, 400 + small().finalists * small().selection);
+  EXPECT_EQ(found.failed_rollouts, 0);
+  EXPECT_FALSE(found.runners_up.empty());
+}
+
+TEST(SearchPolicy, DependsOnSeedAndTrialAlone) {
+  const auto threads = make_thread_evaluator(2);
+  const SearchResult one = search({}, small()), two = search({}, small(), 1, 1, *threads);
+  EXPECT_EQ(one.theta, two.theta);
+  EXPECT_EQ(one.predicted_return, two.predicted_return);
+  EXPECT_EQ(one.rollouts, two.rollouts);
+  EXPECT_NE(one.theta, search({}, small(), 2).theta);
+  EXPECT_NE(one.theta, search({}, small(), 1, 2).theta);
+}
+
+TEST(SearchPolicy, AGoodStartIsNotLost) {
+  SearchOptions tiny = small();
+  tiny.race.max_evaluations = 64;
+  const Vector good{{-5, 0}};
+  EXPECT_GT(search({good}, tiny).predicted_return, 6.5);
+}
+
+TEST(SearchPolicy, SeveralParticlesAreOneEvaluation) {
+  SearchOptions options = small();
+  options.particles = 3;
+  EXPECT_GE(search({}, options).rollouts, 3 * 300);
+}
+
+TEST(SearchPolicy, ReportsHowFarItIs) {
+  double last = 0;
+  Index rollouts = 0;
+  search({}, small(), 1, 1, serial_evaluator(), [&](const Progress& progress) {
+    EXPECT_EQ(progress.phase, "search");
+    EXPECT_GE(progress.done, last);
+    EXPECT_GE(progress.rollouts, rollouts);
+    last = progress.done;
+    rollouts = progress.rollouts;
+  });
+  EXPECT_GT(last, 0.5);
+  EXPECT_LE(last, 1);
+}
+
+TEST(RandomPolicy, IsUniformInTheBoxAndReproducible) {
+  SearchOptions options;
+  options.box = 2;
+  const auto policy = slider::policy();
+  double sum = 0, largest = 0;
+  constexpr int kSeeds = 500;  // 1000 numbers; their mean is beyond 0.18 (5 deviations) with probability 6e-7
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Vector theta = random_policy(*policy, options, seed, 1);
+    ASSERT_EQ(theta.size(), 2);
+    EXPECT_EQ(theta, random_policy(*policy, options, seed, 1));
+    sum += theta.sum();
+    largest = std::max(largest, theta.cwiseAbs().maxCoeff());
+  }
+  EXPECT_LT(std::abs(sum / (2 * kSeeds)), 0.19);
+  EXPECT_LE(largest, 2);
+  EXPECT_GT(largest, 1.9);
+}
+
+}  // namespace
+}  // namespace rehearse::learners::black_drops
