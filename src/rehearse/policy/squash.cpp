@@ -11,6 +11,8 @@ void Squash::apply(MatrixView a) const {
     column *= gain;
     vector_tanh(column.data(), column.data(), column.size());
     column = (bound.low + bound.high) / 2 + (bound.high - bound.low) / 2 * column.array();
+    // Rounding may leave the bounds by the last bit; a NaN stays.
+    for (double& u : column) u = u > bound.high ? bound.high : u < bound.low ? bound.low : u;
   }
 }
 

@@ -1,0 +1,33 @@
+#include "rehearse/policy/squash.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace rehearse::policy {
+namespace {
+
+TEST(Squash, IsCentrePlusHalfWidthTimesTanh) {
+  const Squash squash{{{-2, 4}, {-1, 1}}, 3};
+  Matrix a{{0.1, -0.2}, {0, 0}, {5, -5}};
+  const Matrix before = a;
+  squash.apply(a);
+  for (Index i = 0; i < 3; ++i) {
+    EXPECT_NEAR(a(i, 0), 1 + 3 * std::tanh(3 * before(i, 0)), 1e-14);
+    EXPECT_NEAR(a(i, 1), std::tanh(3 * before(i, 1)), 1e-14);
+  }
+}
+
+TEST(Squash, InfinitiesEndAtTheBoundsAndNanStays) {
+  const double inf = std::numeric_limits<double>::infinity();
+  Matrix a{{inf}, {-inf}, {1e300}, {std::numeric_limits<double>::quiet_NaN()}};
+  Squash{{{-2, 4}}, 1}.apply(a);
+  EXPECT_EQ(a(0, 0), 4);
+  EXPECT_EQ(a(1, 0), -2);
+  EXPECT_EQ(a(2, 0), 4);
+  EXPECT_TRUE(std::isnan(a(3, 0)));
+}
+
+}  // namespace
+}  // namespace rehearse::policy
