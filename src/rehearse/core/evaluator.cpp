@@ -1,9 +1,11 @@
 #include "rehearse/core/evaluator.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <vector>
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -24,7 +26,8 @@ class SerialEvaluator final : public Evaluator {
 
 class ThreadEvaluator final : public Evaluator {
  public:
-  explicit ThreadEvaluator(int threads) : arena_(threads) {}
+  explicit ThreadEvaluator(int threads)
+      : limit_(tbb::global_control::max_allowed_parallelism, most(threads)), arena_(threads) {}
 
   void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
     for_each(results.cols(), [&](Index i) { task(i, results.col(i)); });
@@ -50,6 +53,11 @@ class ThreadEvaluator final : public Evaluator {
   int concurrency() const override { return arena_.max_concurrency(); }
 
  private:
+  static std::size_t most(int threads) {
+    return static_cast<std::size_t>(std::max(threads, tbb::info::default_concurrency()));
+  }
+
+  tbb::global_control limit_;  // more threads than cores are allowed; without it oneTBB prints a warning
   mutable tbb::task_arena arena_;
 };
 

@@ -145,7 +145,7 @@ std::string closest(std::string_view name, const std::vector<std::string>& names
 std::string to_text(double value) { return fmt::format("{}", value); }
 
 bool from_text(std::string_view text, double& value) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc{} && end == text.data() + text.size();
 }

@@ -1,0 +1,50 @@
+#include "rehearse/core/episode.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rehearse {
+namespace {
+
+Episode episode(Index steps, double start) {
+  Episode e{.states = Matrix(steps + 1, 2), .actions = Matrix(steps, 1), .rewards = Vector::Constant(steps, 0.5)};
+  for (Index t = 0; t <= steps; ++t) e.states.row(t) << start + static_cast<double>(t * t), -static_cast<double>(t);
+  for (Index t = 0; t < steps; ++t) e.actions(t, 0) = static_cast<double>(t);
+  e.true_states = e.states.array() + 0.25;
+  return e;
+}
+
+TEST(Episode, TotalRewardHoldsWhatWasCharged) {
+  Episode e = episode(4, 0);
+  EXPECT_EQ(e.steps(), 4);
+  EXPECT_EQ(e.total_reward(), 2);
+  e.charged = -3;
+  EXPECT_EQ(e.total_reward(), -1);
+}
+
+TEST(Dataset, TakesTheMeasuredSteps) {
+  Dataset data;
+  data.append(episode(3, 0));
+  ASSERT_EQ(data.size(), 3);
+  EXPECT_EQ(data.states, episode(3, 0).states.topRows(3));
+  EXPECT_EQ(data.actions, episode(3, 0).actions);
+  Matrix changes(3, 2);
+  changes << 1, -1, 3, -1, 5, -1;
+  EXPECT_EQ(data.changes, changes);
+}
+
+TEST(Dataset, GrowsEpisodeByEpisode) {
+  Dataset data;
+  EXPECT_EQ(data.size(), 0);
+  data.append(episode(3, 0));
+  data.append(episode(2, 100));
+  ASSERT_EQ(data.size(), 5);
+  EXPECT_EQ(data.states(2, 0), 4);
+  EXPECT_EQ(data.states(3, 0), 100) << "no step leads from one episode into the next";
+  EXPECT_EQ(data.changes(2, 0), 5);
+  EXPECT_EQ(data.changes(3, 0), 1);
+  data.append(episode(0, 5));
+  EXPECT_EQ(data.size(), 5);
+}
+
+}  // namespace
+}  // namespace rehearse

@@ -1,0 +1,25 @@
+#include "rehearse/core/errors.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rehearse {
+namespace {
+
+TEST(Violations, AreThrownTogetherALineEach) {
+  Violations violations;
+  violations.throw_if_any();
+  violations.require(true, "holds");
+  EXPECT_TRUE(violations.empty());
+  violations.require(false, "a = 0, must be > 0");
+  violations.add("b is missing");
+  EXPECT_EQ(violations.list().size(), 2u);
+  try {
+    violations.throw_if_any();
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "a = 0, must be > 0\nb is missing");
+  }
+}
+
+}  // namespace
+}  // namespace rehearse

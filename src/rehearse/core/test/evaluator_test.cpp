@@ -1,0 +1,94 @@
+#include "rehearse/core/evaluator.hpp"
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace rehearse {
+namespace {
+
+class EachEvaluator : public ::testing::TestWithParam<int> {
+ protected:
+  std::unique_ptr<Evaluator> evaluator_ = make_thread_evaluator(GetParam());
+};
+
+TEST_P(EachEvaluator, FillsEveryColumnOnce) {
+  std::vector<std::atomic<int>> calls(1000);
+  Matrix results = Matrix::Zero(3, 1000);
+  evaluator_->evaluate(
+      [&](Index i, VectorView column) {
+        ++calls[static_cast<std::size_t>(i)];
+        column = Vector{{static_cast<double>(i), 1, 2}};
+      },
+      results);
+  for (Index i = 0; i < 1000; ++i) {
+    EXPECT_EQ(calls[static_cast<std::size_t>(i)], 1);
+    EXPECT_EQ(results.col(i), (Vector{{static_cast<double>(i), 1, 2}}));
+  }
+}
+
+TEST_P(EachEvaluator, NothingToDo) {
+  Matrix none(3, 0);
+  evaluator_->evaluate([](Index, VectorView) { FAIL(); }, none);
+  evaluator_->for_each(0, [](Index) { FAIL(); });
+}
+
+TEST_P(EachEvaluator, TheFirstExceptionInOrderComesBack) {
+  for (int repetition = 0; repetition < 20; ++repetition) {
+    try {
+      evaluator_->for_each(100, [](Index i) {
+        if (i % 30 == 17) throw std::runtime_error(std::to_string(i));
+      });
+      FAIL();
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "17");
+    }
+  }
+  int calls = 0;
+  evaluator_->for_each(1, [&](Index) { ++calls; });
+  EXPECT_EQ(calls, 1) << "it can be used again";
+}
+
+TEST_P(EachEvaluator, MayBeCalledFromWithinATask) {
+  Matrix sums(1, 20);
+  evaluator_->evaluate(
+      [&](Index i, VectorView sum) {
+        Matrix products(1, 50);
+        evaluator_->evaluate([&](Index j, VectorView product) { product(0) = static_cast<double>(i * j); }, products);
+        sum(0) = products.sum();
+      },
+      sums);
+  for (Index i = 0; i < 20; ++i) EXPECT_EQ(sums(0, i), static_cast<double>(i * 49 * 50 / 2));
+}
+
+TEST_P(EachEvaluator, NeverRunsMoreThanItSays) {
+  std::atomic<int> running{0}, most{0};
+  evaluator_->for_each(200, [&](Index) {
+    int now = ++running;
+    int seen = most;
+    while (seen < now && !most.compare_exchange_weak(seen, now)) {
+    }
+    --running;
+  });
+  EXPECT_LE(most, evaluator_->concurrency());
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, EachEvaluator, ::testing::Values(1, 2, 4));
+
+TEST(Evaluator, SaysHowManyRunAtOnce) {
+  EXPECT_EQ(serial_evaluator().concurrency(), 1);
+  EXPECT_EQ(make_thread_evaluator(1)->concurrency(), 1);
+  EXPECT_EQ(make_thread_evaluator(3)->concurrency(), 3);
+  EXPECT_GE(make_thread_evaluator(0)->concurrency(), 1);
+}
+
+TEST(Evaluator, MoreThreadsThanCoresPrintNothing) {
+  ::testing::internal::CaptureStderr();
+  make_thread_evaluator(64)->for_each(64, [](Index) {});
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace rehearse

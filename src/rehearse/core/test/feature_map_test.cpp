@@ -1,0 +1,42 @@
+#include "rehearse/core/feature_map.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace rehearse {
+namespace {
+
+const FeatureMap kMap({StateKind::plain, StateKind::omitted, StateKind::angle, StateKind::plain});
+
+TEST(FeatureMap, CountsAndNames) {
+  EXPECT_EQ(kMap.states(), 4);
+  EXPECT_EQ(kMap.features(), 4);
+  EXPECT_EQ(kMap.names({"v", "x", "theta", "w"}), (std::vector<std::string>{"v", "cos theta", "sin theta", "w"}));
+  EXPECT_EQ(FeatureMap().features(), 0);
+}
+
+TEST(FeatureMap, AnglesBecomeCosineAndSine) {
+  Matrix X(3, 4), F(3, 4);
+  X << 1, 2, 0.5, 4, 5, 6, -3, 8, 9, 10, M_PI / 2, 12;
+  kMap.apply(X, F);
+  for (Index i = 0; i < 3; ++i) {
+    EXPECT_EQ(F(i, 0), X(i, 0));
+    EXPECT_NEAR(F(i, 1), std::cos(X(i, 2)), 1e-15);
+    EXPECT_NEAR(F(i, 2), std::sin(X(i, 2)), 1e-15);
+    EXPECT_EQ(F(i, 3), X(i, 3));
+  }
+}
+
+TEST(FeatureMap, WorksOnBlocks) {
+  Matrix X = Matrix::Random(9, 6), F = Matrix::Constant(9, 6, 7), whole(5, 4);
+  kMap.apply(X.block(2, 1, 5, 4), F.block(3, 1, 5, 4));
+  const Matrix copy = X.block(2, 1, 5, 4);
+  kMap.apply(copy, whole);
+  EXPECT_EQ(F.block(3, 1, 5, 4), whole);
+  F.block(3, 1, 5, 4).setConstant(7);
+  EXPECT_EQ(F, Matrix::Constant(9, 6, 7)) << "nothing else is written";
+}
+
+}  // namespace
+}  // namespace rehearse

@@ -1,0 +1,138 @@
+#include "rehearse/core/options.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse {
+namespace {
+
+enum class Colour { red, green };
+
+struct Inner {
+  Index population = 17;
+  void fields(FieldVisitor& v) { v.integer("population", population, at_least(4)); }
+};
+struct Outer {
+  double width = 0.5;
+  double share = 0.25;
+  bool active = true;
+  Colour colour = Colour::green;
+  Inner cmaes;
+  void fields(FieldVisitor& v) {
+    v.number("width", width, above(0));
+    v.number("share", share, between(0, 1));
+    v.boolean("active", active);
+    v.choice("colour", colour, {"red", "green"});
+    v.group("cmaes", cmaes);
+  }
+};
+
+Fields fields_of(Outer& options) {
+  return [&](FieldVisitor& v) { options.fields(v); };
+}
+
+std::string refusal(Outer& options, const char* name, const char* text) {
+  try {
+    set_field(fields_of(options), name, text);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Options, AreListedInTheirOrder) {
+  Outer options;
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {"width", "0.5"}, {"share", "0.25"}, {"active", "true"}, {"colour", "green"}, {"cmaes.population", "17"}};
+  EXPECT_EQ(list_fields(fields_of(options)), expected);
+}
+
+TEST(Options, AreSetFromText) {
+  Outer options;
+  EXPECT_TRUE(set_field(fields_of(options), "width", "+1e-3"));
+  EXPECT_TRUE(set_field(fields_of(options), "share", "1"));
+  EXPECT_TRUE(set_field(fields_of(options), "active", "false"));
+  EXPECT_TRUE(set_field(fields_of(options), "colour", "red"));
+  EXPECT_TRUE(set_field(fields_of(options), "cmaes.population", "4"));
+  EXPECT_EQ(options.width, 1e-3);
+  EXPECT_EQ(options.share, 1);
+  EXPECT_FALSE(options.active);
+  EXPECT_EQ(options.colour, Colour::red);
+  EXPECT_EQ(options.cmaes.population, 4);
+}
+
+TEST(Options, AnUnknownNameIsNotFound) {
+  Outer options;
+  for (const char* name : {"population", "cmaes", "cmaes.", "Width", "", "cmaes.population.x"})
+    EXPECT_FALSE(set_field(fields_of(options), name, "1")) << name;
+}
+
+TEST(Options, RefusalsNameTheValueAndTheBound) {
+  Outer options;
+  EXPECT_EQ(refusal(options, "cmaes.population", "0"), "cmaes.population = 0, must be ≥ 4");
+  EXPECT_EQ(refusal(options, "cmaes.population", "4.5"), "cmaes.population = 4.5, must be a whole number");
+  EXPECT_EQ(refusal(options, "cmaes.population", ""), "cmaes.population = , must be a whole number");
+  EXPECT_EQ(refusal(options, "width", "0"), "width = 0, must be > 0");
+  EXPECT_EQ(refusal(options, "width", "nan"), "width = nan, must be > 0");
+  EXPECT_EQ(refusal(options, "width", "1 m"), "width = 1 m, must be a number");
+  EXPECT_EQ(refusal(options, "share", "2"), "share = 2, must be between 0 and 1");
+  EXPECT_EQ(refusal(options, "active", "yes"), "active = yes, must be true or false");
+  EXPECT_EQ(refusal(options, "colour", "blue"), "colour = blue, must be one of red, green");
+  EXPECT_EQ(list_fields(fields_of(options)), [] {
+    Outer untouched;
+    return list_fields(fields_of(untouched));
+  }()) << "what is refused changes nothing";
+}
+
+TEST(Options, ViolationsAreAllReported) {
+  Outer options;
+  EXPECT_TRUE(field_violations(fields_of(options)).empty());
+  options.width = -1;
+  options.share = std::numeric_limits<double>::quiet_NaN();
+  options.cmaes.population = 3;
+  const std::vector<std::string> expected = {"width = -1, must be > 0", "share = nan, must be between 0 and 1",
+                                             "cmaes.population = 3, must be ≥ 4"};
+  EXPECT_EQ(field_violations(fields_of(options)), expected);
+}
+
+TEST(Options, EveryFieldReadsBackExactly) {
+  Outer options{.width = 0.1 + 0.2, .share = 1.0 / 3, .active = false, .colour = Colour::red, .cmaes = {123456789}};
+  Outer copy;
+  for (const auto& [name, text] : list_fields(fields_of(options))) EXPECT_TRUE(set_field(fields_of(copy), name, text));
+  EXPECT_EQ(list_fields(fields_of(copy)), list_fields(fields_of(options)));
+  EXPECT_EQ(copy.width, options.width);
+  EXPECT_EQ(copy.share, options.share);
+}
+
+TEST(ToText, IsShortAndExact) {
+  EXPECT_EQ(to_text(0.1), "0.1");
+  EXPECT_EQ(to_text(-3), "-3");
+  for (const double value : {0.1 + 0.2, 1e-320, 5e-324, 1.7976931348623157e308, -0.0, 1.0 / 3}) {
+    double back = 7;
+    EXPECT_TRUE(from_text(to_text(value), back)) << value;
+    EXPECT_EQ(back, value);
+    EXPECT_EQ(std::signbit(back), std::signbit(value));
+  }
+}
+
+TEST(FromText, RefusesWhatIsNoNumber) {
+  double value = 7;
+  for (const char* text : {"", "+", "1e", "0x10 ", "1,5", " 1", "1 ", "one", "--1", "+-1"})
+    EXPECT_FALSE(from_text(text, value)) << text;
+}
+
+TEST(Closest, IsTheNameMeant) {
+  const std::vector<std::string> names = {"learner", "prior", "trials", "seed"};
+  EXPECT_EQ(closest("trails", names), "trials");
+  EXPECT_EQ(closest("sed", names), "seed");
+  EXPECT_EQ(closest("learnr", names), "learner");
+  EXPECT_EQ(closest("prior", names), "prior");
+  EXPECT_EQ(closest("anything", {}), "");
+}
+
+}  // namespace
+}  // namespace rehearse

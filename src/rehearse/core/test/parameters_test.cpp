@@ -1,0 +1,100 @@
+#include "rehearse/core/parameters.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse {
+namespace {
+
+Parameter continuous(const char* name, double value, Interval box) {
+  Parameter parameter;
+  parameter.name = name;
+  parameter.value = value;
+  parameter.kind = Parameter::Kind::continuous;
+  parameter.box = box;
+  return parameter;
+}
+
+Parameter discrete(const char* name, double value, std::vector<double> choices) {
+  Parameter parameter;
+  parameter.name = name;
+  parameter.value = value;
+  parameter.kind = Parameter::Kind::discrete;
+  parameter.choices = std::move(choices);
+  return parameter;
+}
+
+Parameter fixed(const char* name, double value) {
+  Parameter parameter;
+  parameter.name = name;
+  parameter.value = value;
+  return parameter;
+}
+
+ParameterSpace space() {
+  return ParameterSpace({fixed("gravity", 9.82), continuous("mass", 0.5, {0.1, 1}), discrete("legs", 2, {2, 4, 6})});
+}
+
+template <class F>
+std::string refusal(F&& f) {
+  try {
+    f();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ParameterSpace, KnowsItsParameters) {
+  const ParameterSpace s = space();
+  EXPECT_EQ(s.size(), 3);
+  EXPECT_EQ(s.values(), (Vector{{9.82, 0.5, 2}}));
+  EXPECT_EQ(s.names(), (std::vector<std::string>{"gravity", "mass", "legs"}));
+  EXPECT_EQ(s.find("legs"), 2);
+  EXPECT_EQ(s.find("leg"), -1);
+  EXPECT_EQ(s.of_kind(Parameter::Kind::fixed), std::vector<Index>{0});
+  EXPECT_EQ(s.of_kind(Parameter::Kind::continuous), std::vector<Index>{1});
+  EXPECT_EQ(s.of_kind(Parameter::Kind::discrete), std::vector<Index>{2});
+  EXPECT_TRUE(s.has_tunable());
+  EXPECT_EQ(ParameterSpace().size(), 0);
+  EXPECT_FALSE(ParameterSpace().has_tunable());
+}
+
+TEST(ParameterSpace, FixedAtKeepsNamesAndTakesValues) {
+  const ParameterSpace s = space().fixed_at(Vector{{9.81, 0.7, 4}});
+  EXPECT_FALSE(s.has_tunable());
+  EXPECT_EQ(s.values(), (Vector{{9.81, 0.7, 4}}));
+  EXPECT_EQ(s.names(), space().names());
+}
+
+TEST(ParameterSpace, ValuesStayInTheirBoxOrSet) {
+  ParameterSpace s = space();
+  s.set_value("mass", 1);
+  s.set_value("legs", 6);
+  s.set_value("gravity", 1.6);
+  EXPECT_EQ(s.values(), (Vector{{1.6, 1, 6}}));
+  EXPECT_EQ(refusal([&] { s.set_value("mass", 2); }), "mass = 2, must be between 0.1 and 1");
+  EXPECT_EQ(refusal([&] { s.set_value("legs", 3); }), "legs = 3, must be one of 2, 4, 6");
+  EXPECT_EQ(refusal([&] { s.set_value("mass", std::numeric_limits<double>::quiet_NaN()); }),
+            "mass = nan, must be finite");
+  EXPECT_EQ(refusal([&] { s.set_value("mas", 1); }),
+            "unknown parameter 'mas', did you mean 'mass'? (known: gravity, mass, legs)");
+  EXPECT_EQ(s.values(), (Vector{{1.6, 1, 6}})) << "what is refused changes nothing";
+}
+
+TEST(ParameterSpace, BadParametersAreAllReported) {
+  const std::string text = refusal([] {
+    ParameterSpace({fixed("", 1), fixed("a", 1), fixed("a", 2), continuous("b", 0, {1, 1}), discrete("c", 0, {}),
+                    continuous("d", 5, {0, 1})});
+  });
+  for (const char* line :
+       {"parameter 0 has no name", "parameter a appears twice", "parameter b needs a finite box with low < high",
+        "parameter c has no choices", "d = 5, must be between 0 and 1"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << " in\n" << text;
+}
+
+}  // namespace
+}  // namespace rehearse

@@ -1,0 +1,60 @@
+#include "rehearse/core/task.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace rehearse {
+namespace {
+
+Task task() {
+  Task task;
+  task.states = {{"v", "m/s"}, {"theta", "rad", StateKind::angle}};
+  task.actions = {{"u", "N", {-1, 1}}};
+  task.start_mean = Vector{{0, 1}};
+  task.start_std = Vector{{0, 0.1}};
+  task.dt_s = 0.1;
+  task.horizon = 25;
+  task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView) {};
+  return task;
+}
+
+TEST(Task, KnowsItsSizes) {
+  EXPECT_TRUE(task().violations().empty());
+  EXPECT_EQ(task().state_size(), 2);
+  EXPECT_EQ(task().action_size(), 1);
+  EXPECT_DOUBLE_EQ(task().episode_s(), 2.5);
+  EXPECT_EQ(task().feature_map().features(), 3);
+  EXPECT_EQ(task().state_names(), (std::vector<std::string>{"v", "theta"}));
+}
+
+/// The violations of a task that `spoil` changed.
+template <class F>
+std::vector<std::string> after(F&& spoil) {
+  Task spoilt = task();
+  spoil(spoilt);
+  return spoilt.violations();
+}
+
+TEST(Task, EachViolationIsNamed) {
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(after([](Task& t) { t.horizon = 0; }), Lines{"horizon = 0, must be ≥ 1"});
+  EXPECT_EQ(after([](Task& t) { t.dt_s = -1; }), Lines{"dt_s = -1, must be > 0"});
+  EXPECT_EQ(after([](Task& t) { t.reward = {}; }), Lines{"task has no reward"});
+  EXPECT_EQ(after([](Task& t) { t.reward_floor = -std::numeric_limits<double>::infinity(); }),
+            Lines{"reward_floor = -inf, must be finite"});
+  EXPECT_EQ(after([](Task& t) {
+              t.actions[0].bounds = {1, 1};
+            }),
+            Lines{"action u: bounds must be finite with low < high"});
+  EXPECT_EQ(after([](Task& t) { t.start_mean = Vector{{1}}; }),
+            Lines{"start_mean has 1 entries, must have 2 finite ones"});
+  EXPECT_EQ(after([](Task& t) { t.start_std(0) = -1; }), Lines{"start_std has 2 entries, must have 2 of them, ≥ 0"});
+}
+
+TEST(Task, AnEmptyOneLacksEverything) {
+  EXPECT_EQ(Task().violations().size(), 5u) << "states, actions, dt_s, horizon, reward";
+}
+
+}  // namespace
+}  // namespace rehearse
