@@ -1,0 +1,99 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/prior/prior.hpp"
+
+namespace rehearse::prior {
+namespace {
+
+/// dX = the sum of its parameters, each times a power of ten: which ones were used can be read off.
+class Digits final : public system::Simulator {
+ public:
+  explicit Digits(ParameterSpace space) : space_(std::move(space)) {}
+  const ParameterSpace& parameters() const override { return space_; }
+  void change(const ConstMatrixView&, const ConstMatrixView&, const Vector& phi, MatrixView dX) const override {
+    double sum = 0;
+    for (Index i = 0; i < phi.size(); ++i) sum = 10 * sum + phi(i);
+    dX.setConstant(sum);
+  }
+
+ private:
+  ParameterSpace space_;
+};
+
+Parameter fixed(const char* name, double value) {
+  Parameter parameter;
+  parameter.name = name;
+  parameter.value = value;
+  return parameter;
+}
+
+Parameter tunable(const char* name, double value, Interval box = {0, 9}) {
+  Parameter parameter = fixed(name, value);
+  parameter.kind = Parameter::Kind::continuous;
+  parameter.box = box;
+  return parameter;
+}
+
+Prior prior(const char* name, std::vector<Parameter> parameters) {
+  const ParameterSpace space(std::move(parameters));
+  return {name, std::make_shared<Digits>(space), space};
+}
+
+double change_of(const Prior& prior, const Vector& phi) {
+  Matrix dX(1, 1);
+  EXPECT_EQ(prior.mean(Matrix{{0}}, Matrix{{0}}, phi, dX), 0);
+  return dX(0, 0);
+}
+
+TEST(Choice, SharesParametersOfTheSameNameAndBox) {
+  const Prior a = prior("a", {tunable("m", 1), tunable("l", 2)}), b = prior("b", {tunable("l", 3), tunable("m", 4)});
+  const Prior both = choice({a, b});
+  EXPECT_EQ(both.name, "a,b");
+  EXPECT_EQ(both.space.names(), (std::vector<std::string>{"prior", "m", "l"}));
+  EXPECT_EQ(both.space[0].kind, Parameter::Kind::discrete);
+  EXPECT_EQ(both.space[0].choices, (std::vector<double>{0, 1}));
+  EXPECT_EQ(both.space.values(), (Vector{{0, 1, 2}})) << "the first prior's values are where the search starts";
+  EXPECT_EQ(change_of(both, Vector{{0, 5, 6}}), 56);
+  EXPECT_EQ(change_of(both, Vector{{1, 5, 6}}), 65) << "each prior keeps its own order";
+}
+
+TEST(Choice, KeepsParametersOfOtherBoxesApart) {
+  const Prior a = prior("a", {tunable("m", 1, {0, 5})}), b = prior("b", {tunable("m", 2, {1, 9})});
+  const Prior both = choice({a, b});
+  EXPECT_EQ(both.space.names(), (std::vector<std::string>{"prior", "m@a", "m@b"}));
+  EXPECT_EQ(change_of(both, Vector{{0, 3, 7}}), 3);
+  EXPECT_EQ(change_of(both, Vector{{1, 3, 7}}), 7);
+}
+
+TEST(Choice, FixedParametersStayEachPriorsOwn) {
+  const Prior a = prior("a", {fixed("g", 8), tunable("m", 1)}), b = prior("b", {fixed("g", 9), tunable("m", 2)});
+  const Prior both = choice({a, b});
+  EXPECT_EQ(both.space.names(), (std::vector<std::string>{"prior", "m"}));
+  EXPECT_EQ(change_of(both, Vector{{0, 5}}), 85);
+  EXPECT_EQ(change_of(both, Vector{{1, 5}}), 95);
+}
+
+TEST(Choice, TunableInOneAndFixedInTheOther) {
+  const Prior a = prior("a", {tunable("m", 1)}), b = prior("b", {fixed("m", 7)});
+  const Prior both = choice({a, b});
+  EXPECT_EQ(both.space.names(), (std::vector<std::string>{"prior", "m"}));
+  EXPECT_EQ(change_of(both, Vector{{0, 5}}), 5);
+  EXPECT_EQ(change_of(both, Vector{{1, 5}}), 7);
+}
+
+TEST(Choice, AmongThreeOfTheSameSpaceIsOneMoreParameter) {
+  const Prior a = prior("a", {tunable("m", 1)}), b = prior("b", {tunable("m", 2)}), c = prior("c", {tunable("m", 3)});
+  EXPECT_EQ(choice({a, b, c}).space.names(), (std::vector<std::string>{"prior", "m"}));
+  EXPECT_EQ(choice({a, b, c}).space[0].choices, (std::vector<double>{0, 1, 2}));
+}
+
+TEST(Choice, NeedsTwo) {
+  EXPECT_THROW(choice({}), InvalidInput);
+  EXPECT_THROW(choice({prior("a", {tunable("m", 1)})}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rehearse::prior

@@ -1,0 +1,165 @@
+#include "rehearse/system/ode.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace rehearse::system {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
+
+/// x'' = −ω² x + u: states (x, x'), φ = (ω).
+void oscillator(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
+  dxdt(0) = x(1);
+  dxdt(1) = -phi(0) * phi(0) * x(0) + u(0);
+}
+
+/// Its state after t seconds.
+Vector exact(const Vector& x, double u, double omega, double t) {
+  const double rest = u / (omega * omega), c = std::cos(omega * t), s = std::sin(omega * t);
+  return Vector{{rest + (x(0) - rest) * c + x(1) / omega * s, -(x(0) - rest) * omega * s + x(1) * c}};
+}
+
+ParameterSpace omega(double value) {
+  Parameter parameter;
+  parameter.name = "omega";
+  parameter.value = value;
+  return ParameterSpace({parameter});
+}
+
+const Vector kPhi{{3}};
+
+TEST(IntegrateAdaptive, FollowsTheHarmonicOscillator) {
+  for (const double t : {0.05, 1.0, 10.0}) {
+    const Vector x{{0.4, -1}}, u{{0.7}};
+    EXPECT_LT((integrate_adaptive(oscillator, x, u, kPhi, t) - exact(x, 0.7, 3, t)).norm(), 1e-10 * (1 + t)) << t;
+  }
+}
+
+TEST(IntegrateAdaptive, ToleranceIsKept) {
+  const Vector x{{0.4, -1}}, u{{0}};
+  const auto error = [&](double tolerance) {
+    return (integrate_adaptive(oscillator, x, u, kPhi, 1, tolerance) - exact(x, 0, 3, 1)).norm();
+  };
+  EXPECT_LT(error(1e-6), 1e-4);
+  EXPECT_LT(error(1e-12), 1e-10);
+  EXPECT_LT(error(1e-12), error(1e-6));
+}
+
+TEST(IntegrateAdaptive, AStateThatIsNoStateComesToAnEnd) {
+  const auto before = std::chrono::steady_clock::now();
+  for (const double bad : {kNan, kInf, -kInf, 1e300}) {
+    try {
+      const Vector x = integrate_adaptive(oscillator, Vector{{bad, 0}}, Vector{{0}}, kPhi, 0.05);
+      EXPECT_TRUE(!x.allFinite() || bad == 1e300) << bad;
+    } catch (const std::exception&) {
+    }
+  }
+  const auto explosion = [](const Vector& x, const Vector&, const Vector&, Vector& dxdt) {
+    dxdt(0) = x(0) * x(0);  // reaches infinity after one second
+  };
+  try {
+    EXPECT_FALSE(integrate_adaptive(explosion, Vector{{1}}, Vector{{0}}, kPhi, 2).allFinite());
+  } catch (const std::exception&) {
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(20));
+}
+
+// The fifth order: half the step, 2^5 = 32 times less error.
+TEST(OdeSimulator, ConvergesWithTheFifthOrder) {
+  const Matrix X{{0.4, -1}}, U{{0.7}};
+  const auto error = [&](Index substeps) {
+    Matrix dX(1, 2);
+    make_ode_simulator(oscillator, omega(3), 1, substeps)->change(X, U, kPhi, dX);
+    return ((X + dX).transpose() - exact(X.row(0), 0.7, 3, 1)).norm();
+  };
+  for (const Index substeps : {16, 32, 64}) {
+    const double ratio = error(substeps) / error(2 * substeps);
+    EXPECT_GT(ratio, 26) << substeps;
+    EXPECT_LT(ratio, 40) << substeps;
+  }
+}
+
+TEST(OdeSimulator, RowsAndParametersAreTheirOwn) {
+  const auto simulator = make_ode_simulator(oscillator, omega(3), 0.1, 8);
+  EXPECT_EQ(simulator->parameters().names(), std::vector<std::string>{"omega"});
+  const Matrix X = Matrix::Random(9, 2), U = Matrix::Random(9, 1);
+  Matrix dX(9, 2), one(1, 2);
+  for (const double w : {1.0, 3.0}) {
+    simulator->change(X, U, Vector{{w}}, dX);
+    for (Index i = 0; i < 9; ++i) {
+      EXPECT_LT(((X + dX).row(i).transpose() - exact(X.row(i), U(i, 0), w, 0.1)).norm(), 1e-8);
+      simulator->change(X.row(i), U.row(i), Vector{{w}}, one);
+      EXPECT_EQ(one, dX.row(i));
+    }
+  }
+}
+
+OdePlantOptions plant_options() {
+  return {.ode = oscillator,
+          .phi = kPhi,
+          .dt_s = 0.1,
+          .start_mean = Vector{{1, 0}},
+          .start_std = Vector{{0, 0}},
+          .measurement_std = {}};
+}
+
+TEST(OdePlant, WithoutNoiseFollowsTheEquation) {
+  const auto plant = make_ode_plant(plant_options());
+  Rng rng({.seed = 1});
+  Vector expected = plant->reset(rng);
+  EXPECT_EQ(expected, (Vector{{1, 0}}));
+  for (int t = 0; t < 20; ++t) {
+    expected = exact(expected, 0.5, 3, 0.1);
+    const Vector measured = plant->step(Vector{{0.5}});
+    EXPECT_LT((measured - expected).norm(), 1e-9);
+    EXPECT_EQ(measured, plant->truth());
+  }
+}
+
+// Seed 1, n = 4000 measurements: the standard deviation of their noise is within 5 √(1/2n) = 5.6 % with probability
+// 1 − 6e-7, the mean within 5 deviations of 0.
+TEST(OdePlant, MeasurementsAreNoisyAndTheTruthIsNot) {
+  OdePlantOptions noisy = plant_options();
+  noisy.measurement_std = Vector{{0.1, 0.3}};
+  const auto plant = make_ode_plant(noisy), clean = make_ode_plant(plant_options());
+  Rng rng({.seed = 1}), other({.seed = 2});
+  plant->reset(rng);
+  clean->reset(other);
+  constexpr Index n = 4000;
+  Matrix errors(n, 2);
+  for (Index t = 0; t < n; ++t) {
+    const Vector measured = plant->step(Vector{{0}});
+    clean->step(Vector{{0}});
+    errors.row(t) = (measured - plant->truth()).transpose();
+    ASSERT_EQ(plant->truth(), clean->truth()) << "noise of measurement does not move the robot";
+  }
+  for (Index i = 0; i < 2; ++i) {
+    const double deviation = std::sqrt(errors.col(i).squaredNorm() / n);
+    EXPECT_NEAR(deviation, noisy.measurement_std(i), 0.056 * noisy.measurement_std(i));
+    EXPECT_LT(std::abs(errors.col(i).mean()), 5 * noisy.measurement_std(i) / std::sqrt(n));
+  }
+}
+
+// Seeds 1..2000; bounds as above, 5 √(1/4000) = 7.9 %.
+TEST(OdePlant, TheStartIsDrawnFromTheRng) {
+  OdePlantOptions options = plant_options();
+  options.start_std = Vector{{0.2, 0}};
+  const auto plant = make_ode_plant(options);
+  double sum = 0, squares = 0;
+  constexpr int n = 2000;
+  for (std::uint64_t seed = 1; seed <= n; ++seed) {
+    Rng rng({.seed = seed});
+    const Vector start = plant->reset(rng);
+    EXPECT_EQ(start(1), 0);
+    sum += start(0) - 1, squares += (start(0) - 1) * (start(0) - 1);
+  }
+  EXPECT_LT(std::abs(sum / n), 5 * 0.2 / std::sqrt(n));
+  EXPECT_NEAR(std::sqrt(squares / n), 0.2, 0.079 * 0.2);
+}
+
+}  // namespace
+}  // namespace rehearse::system

@@ -1,0 +1,79 @@
+#include "rehearse/testing/check_learner.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/random.hpp"
+
+namespace rehearse::testing {
+namespace {
+
+enum class Fault { none, asks_anew, counts_threads, forgets };
+
+/// Proposes the sum of all returns and a number of tells that only `save` keeps.
+class Adding final : public learners::Learner {
+ public:
+  Adding(learners::Setting setting, Fault fault) : setting_(std::move(setting)), fault_(fault) {}
+
+  const learners::Proposal& ask() override {
+    if (fault_ == Fault::asks_anew) ++extra_;
+    const double threads = fault_ == Fault::counts_threads ? setting_.evaluator->concurrency() : 0;
+    proposal_.theta = Vector{{sum_ + extra_ + threads, tells_}};
+    return proposal_;
+  }
+  void tell(const Episode& episode) override {
+    sum_ += episode.total_reward();
+    ++tells_;
+  }
+  nlohmann::json save() const override { return {{"tells", tells_}}; }
+  void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override {
+    for (const Episode& episode : episodes) sum_ += episode.total_reward();
+    if (fault_ != Fault::forgets) tells_ = state.at("tells").get<double>();
+  }
+
+ private:
+  learners::Setting setting_;
+  Fault fault_;
+  learners::Proposal proposal_;
+  double sum_ = 0, tells_ = 0, extra_ = 0;
+};
+
+class Builder final : public learners::LearnerBuilder {
+ public:
+  explicit Builder(Fault fault) : fault_(fault) {}
+  std::string name() const override { return "adding"; }
+  std::string summary() const override { return "adds"; }
+  learners::PriorUse prior_use() const override { return learners::PriorUse::none; }
+  bool chooses_priors() const override { return false; }
+  void fields(FieldVisitor&) override {}
+  std::unique_ptr<learners::Learner> build(learners::Setting setting) const override {
+    return std::make_unique<Adding>(std::move(setting), fault_);
+  }
+
+ private:
+  Fault fault_;
+};
+
+Episode run_trial(const Vector& theta, std::uint64_t trial) {
+  return {.states = Matrix::Zero(2, 1),
+          .true_states = Matrix::Zero(2, 1),
+          .actions = Matrix::Zero(1, 1),
+          .rewards = Vector{{0.1 * static_cast<double>(trial) + 0.01 * theta(0)}}};
+}
+
+std::string check(Fault fault) {
+  std::string text;
+  for (const std::string& line : check_learner(Builder(fault), {}, run_trial)) text += line + "\n";
+  return text;
+}
+
+TEST(CheckLearner, AcceptsAGoodOne) { EXPECT_EQ(check(Fault::none), ""); }
+
+TEST(CheckLearner, FindsFaults) {
+  EXPECT_NE(check(Fault::asks_anew).find("trial 1: asked again, another theta is proposed"), std::string::npos);
+  EXPECT_NE(check(Fault::counts_threads).find("trial 1: two threads give another theta"), std::string::npos);
+  EXPECT_NE(check(Fault::forgets).find("loaded after 1 episodes, trial 2 has another theta"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rehearse::testing
