@@ -87,12 +87,15 @@ Learned learn_kind(const FixedPrior& kind, const Residuals& residuals, const Fea
   return learn_gps(residuals, features, prior, prior->space.values(), kind.gp, start.kernels, evaluator);
 }
 
-/// The φ of the least mean squared one-step error.
+/// The φ of the least mean squared one-step error. A row that fails is charged the variance of the changes, so that a φ
+/// at which rows fail does not win by having fewer of them to predict.
 Identified least_squares(const Mi& kind, const Residuals& residuals, const prior::Prior& prior,
                          const std::optional<Vector>& start) {
+  const double charge = residuals.scale().squaredNorm();
   const auto objective = [&](const Vector& phi) {
     const Residuals::Rows rows = residuals.at(&prior, phi);
-    return rows.inputs ? -rows.targets.squaredNorm() / static_cast<double>(rows.targets.rows()) : kWorst;
+    const double charged = static_cast<double>(rows.left_out) * charge;
+    return rows.inputs ? -(rows.targets.squaredNorm() + charged) / static_cast<double>(residuals.size()) : kWorst;
   };
   return identify(prior.space, start, objective, kind.subplex);
 }
