@@ -217,9 +217,11 @@ TEST(Learn, AParameterDoesNotWinByFailingWhereItIsWrong) {
     if (phi(0) < 1 && std::abs(std::sin(x(1))) > 0.4) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
   };
   const prior::Prior prior = swing::prior({swing::discrete("length", 0.5, {0.5, 1.2}), swing::friction()}, fragile);
-  const Learned learned = learn_swing(swing::data(60, 1), Mi{}, &prior);
-  EXPECT_EQ((*learned.state.phi)(0), 1.2);
-  EXPECT_EQ(learned.left_out_rows, 0);
+  for (const Kind& kind : {Kind(GpMi{}), Kind(Mi{})}) {
+    const Learned learned = learn_swing(swing::data(60, 1), kind, &prior);
+    EXPECT_EQ((*learned.state.phi)(0), 1.2) << kind.index();
+    EXPECT_EQ(learned.left_out_rows, 0);
+  }
 }
 
 TEST(Learn, SaysWhatIsMissing) {
