@@ -33,8 +33,7 @@ int main() {
   task.start_std = Vector::Zero(2);
   task.dt_s = 0.1;
   task.horizon = 20;
-  task.reward = reward::saturating(
-      [](const ConstMatrixView& X, VectorView d2) { d2 = X.col(1).cwiseAbs2(); }, 0.2);
+  task.reward = reward::saturating([](const ConstMatrixView& X, VectorView d2) { d2 = X.col(1).cwiseAbs2(); }, 0.2);
 
   // The robot. Here it is simulated; yours implements system::Plant: reset and step.
   const auto robot = system::make_ode_plant({.ode = cart,

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -113,9 +114,11 @@ class EvidenceOfPhi {
     Kernels kernels =
         fit_kernels(rows, residuals_.scale(), starts(rows, residuals_.scale(), kernels_, kind_.gp.fit.bounds),
                     kind_.gp.fit, evaluator_);
-    // A φ at which rows fail must not win by having fewer of them to explain.
-    const double share = static_cast<double>(residuals_.size()) / static_cast<double>(rows.targets.rows());
-    const double score = score_of(kernels.log_evidences, kind_.score) * share;
+    // A φ at which rows fail must not win by having fewer of them to explain: a row that fails counts as if the model
+    // knew no more of it than the spread of the changes.
+    const Vector uninformed =
+        -0.5 - residuals_.scale().array().max(1e-300).log() - 0.5 * std::log(2 * std::numbers::pi);
+    const double score = score_of(kernels.log_evidences + static_cast<double>(rows.left_out) * uninformed, kind_.score);
     if (score > best_) best_ = score, kernels_ = std::move(kernels.fitted);
     return score;
   }

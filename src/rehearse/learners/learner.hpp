@@ -22,15 +22,15 @@ namespace rehearse::learners {
 struct Proposal {
   Vector theta;
   std::optional<double> predicted_return;
-  Index rollouts = 0;         // imagined to choose this policy
-  Index failed_rollouts = 0;  // of these, ended by a failed simulation
-  std::optional<double> log_evidence;  // of the data under the model
-  std::optional<Vector> phi;           // of the prior, in the order of its space
+  Index rollouts = 0;                                    // imagined to choose this policy
+  Index failed_rollouts = 0;                             // of these, ended by a failed simulation
+  std::optional<double> log_evidence;                    // of the data under the model
+  std::optional<Vector> phi;                             // of the prior, in the order of its space
   std::shared_ptr<const dynamics::DynamicsModel> model;  // that predicted the return; null before there is one
-  Index left_out_rows = 0;             // training rows whose prior mean was not finite
-  std::vector<std::string> notes;      // numerical failures survived, a line each
-  double model_s = 0;                  // time spent learning the model
-  double search_s = 0;                 // and searching the policy
+  Index left_out_rows = 0;                               // training rows whose prior mean was not finite
+  std::vector<std::string> notes;                        // numerical failures survived, a line each
+  double model_s = 0;                                    // time spent learning the model
+  double search_s = 0;                                   // and searching the policy
 };
 
 /// Everything a learner is given. It never holds the plant.

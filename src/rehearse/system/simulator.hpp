@@ -8,7 +8,8 @@ namespace rehearse::system {
 /// A black box that maps states, actions and parameters to state changes over one control step, a batch at a time.
 ///
 /// Laws (checked by testing::check_simulator): `change` may run concurrently; a row depends on that row alone; a row
-/// that cannot be simulated comes back as NaN, or the call throws, and then it is retried row by row.
+/// that cannot be simulated comes back as NaN, or the call throws, and then it is retried row by row. It must not run
+/// oneTBB tasks of its own: the calling thread could pick up another batch in the middle of this one.
 class Simulator {
  public:
   virtual ~Simulator() = default;

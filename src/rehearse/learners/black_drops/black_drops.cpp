@@ -89,30 +89,42 @@ class BlackDrops final : public Learner {
       proposal.theta = random_policy(*setting_.policy, options_.search, setting_.seed, trial());
       return proposal;
     }
-    proposal.model_s = seconds([&] { learn_model(proposal); });
-    proposal.search_s = seconds([&] { search(proposal); });
+    // What an interruption must not leave behind is assigned last.
+    dynamics::WarmStart state = state_;
+    std::vector<Vector> carried = carried_;
+    proposal.model_s = seconds([&] { learn_model(proposal, state); });
+    proposal.search_s = seconds([&] { search(proposal, carried); });
+    state_ = std::move(state);
+    carried_ = std::move(carried);
     return proposal;
   }
 
-  void learn_model(Proposal& proposal) {
+  void learn_model(Proposal& proposal, dynamics::WarmStart& state) {
     if (setting_.progress) setting_.progress({.phase = "model"});
-    if (returns_.empty()) {
-      proposal.phi = setting_.prior->space.values();
-      proposal.model =
-          std::make_shared<dynamics::SimulatorModel>(*setting_.prior, *proposal.phi, options_.prior_variance);
-      return;
+    if (returns_.empty()) return trust_prior(proposal, options_.prior_variance);
+    try {
+      dynamics::Learned learned = dynamics::learn(data_, features_, setting_.prior ? &*setting_.prior : nullptr,
+                                                  options_.model, state, *setting_.evaluator);
+      proposal.model = learned.model;
+      proposal.phi = learned.state.phi;
+      proposal.log_evidence = learned.log_evidence;
+      proposal.left_out_rows = learned.left_out_rows;
+      proposal.notes = std::move(learned.notes);
+      state = std::move(learned.state);
+    } catch (const InvalidInput& nothing_to_learn_from) {
+      if (!setting_.prior) throw;
+      trust_prior(proposal, 0);
+      proposal.left_out_rows = data_.size();
+      proposal.notes.push_back(nothing_to_learn_from.what());
     }
-    dynamics::Learned learned = dynamics::learn(data_, features_, setting_.prior ? &*setting_.prior : nullptr,
-                                                options_.model, state_, *setting_.evaluator);
-    proposal.model = learned.model;
-    proposal.phi = learned.state.phi;
-    proposal.log_evidence = learned.log_evidence;
-    proposal.left_out_rows = learned.left_out_rows;
-    proposal.notes = std::move(learned.notes);
-    state_ = std::move(learned.state);
   }
 
-  void search(Proposal& proposal) {
+  void trust_prior(Proposal& proposal, double variance) const {
+    proposal.phi = setting_.prior->space.values();
+    proposal.model = std::make_shared<dynamics::SimulatorModel>(*setting_.prior, *proposal.phi, variance);
+  }
+
+  void search(Proposal& proposal, std::vector<Vector>& carried) const {
     const SearchProblem problem{*proposal.model, *setting_.policy, setting_.task, *setting_.evaluator,
                                 setting_.progress};
     std::vector<Vector> starts = known_policies();
@@ -126,9 +138,9 @@ class BlackDrops final : public Learner {
       proposal.predicted_return = found.predicted_return;
       proposal.rollouts += found.rollouts;
       proposal.failed_rollouts += found.failed_rollouts;
-      carried_ = std::move(found.runners_up);
-      if (static_cast<Index>(carried_.size()) > options_.carried)
-        carried_.resize(static_cast<std::size_t>(options_.carried));
+      carried = std::move(found.runners_up);
+      if (static_cast<Index>(carried.size()) > options_.carried)
+        carried.resize(static_cast<std::size_t>(options_.carried));
     }
   }
 

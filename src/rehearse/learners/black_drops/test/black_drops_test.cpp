@@ -149,8 +149,7 @@ TEST(BlackDrops, ASimulatorThatFailsInHalfItsRowsEndsNoRun) {
   }
 }
 
-// Open: when no row of the data has a finite prior mean, the learners with GPs throw InvalidInput.
-TEST(BlackDrops, DISABLED_ASimulatorThatAlwaysFailsEndsNoRun) {
+TEST(BlackDrops, ASimulatorThatAlwaysFailsEndsNoRun) {
   prior::Prior prior = slider::prior();
   prior.simulator = testing::make_hostile(prior.simulator, testing::Harm::nan, 1);
   for (const char* name : slider::kWithPrior) {
@@ -195,8 +194,7 @@ TEST(BlackDrops, ReportsProgressAndCanBeInterrupted) {
   EXPECT_GT(run_trial(interrupted.learner->ask().theta, 2).total_reward(), 7);
 }
 
-// Open: the warm start of the interrupted model stays, so that the next proposal is not that of an undisturbed run.
-TEST(BlackDrops, DISABLED_AnInterruptedProposalLeavesNoTrace) {
+TEST(BlackDrops, AnInterruptedProposalLeavesNoTrace) {
   Listened interrupted, calm;
   const std::string saved = interrupted.learner->save().dump();
   interrupted.stop = true;
