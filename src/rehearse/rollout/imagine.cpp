@@ -6,7 +6,9 @@
 namespace rehearse::rollout {
 namespace {
 
-constexpr Index kChunk = 128;  // rows; fixed, so that results do not depend on the number of threads
+// Fixed, so that results do not depend on the number of threads; small, so that the few candidates of a late generation
+// still occupy several threads.
+constexpr Index kChunk = 32;  // rows
 
 /// Memory of a chunk, kept by each thread from one to the next: fresh pages cost more than a step of a cheap model.
 struct Buffers {
