@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "rehearse/core/task.hpp"
-#include "rehearse/dynamics/dynamics_model.hpp"
 #include "rehearse/experiment/record.hpp"
+#include "rehearse/learners/learner.hpp"
 
 namespace rehearse::experiment {
 
