@@ -21,6 +21,7 @@ enum class Purpose : std::uint32_t {
   selection = 8,
   prediction = 9,
   test = 10,
+  resampling = 11,
 };
 
 /// The name of a stream.
