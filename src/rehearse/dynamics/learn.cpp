@@ -68,8 +68,8 @@ Learned learn_gps(const Residuals& residuals, const FeatureMap& features, const 
   std::optional<Mean> mean;
   if (prior) mean = Mean{*prior, phi};
   Learned learned;
-  learned.model = std::make_shared<GpModel>(features, mean, gp::Posterior(*rows.inputs, rows.targets, kernels.fitted),
-                                            options.variance);
+  learned.model = std::make_shared<GpModel>(
+      features, mean, gp::Posterior(*rows.inputs, rows.targets, kernels.fitted, options.tolerance), options.variance);
   learned.state.kernels = std::move(kernels.fitted);
   if (prior) learned.state.phi = phi;
   learned.log_evidence = kernels.log_evidences.sum();

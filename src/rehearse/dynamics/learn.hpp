@@ -21,8 +21,10 @@ namespace rehearse::dynamics {
 struct GpOptions {
   gp::FitOptions fit;
   PredictedVariance variance = PredictedVariance::latent;
+  double tolerance = 0.01;  // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
   void fields(FieldVisitor& v) {
     v.group("fit", fit);
+    v.number("tolerance", tolerance, between(0, 1));
     v.choice("variance", variance, {"latent", "noisy"});
   }
 };

@@ -7,13 +7,17 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/gp/compression.hpp"
 #include "rehearse/gp/evidence.hpp"
+#include "rehearse/gp/kernel.hpp"
 #include "rehearse/gp/prediction_kernel.hpp"
 #include "rehearse/gp/tiles.hpp"
 
 namespace rehearse::gp {
 namespace {
 
+/// Errors are measured at few inputs; elsewhere they may be several times larger.
+constexpr double kMargin = 0.2;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 void check(const Inputs& inputs, const ConstMatrixView& Y, const std::vector<Hyperparameters>& hyperparameters) {
@@ -31,11 +35,49 @@ void check(const Inputs& inputs, const ConstMatrixView& Y, const std::vector<Hyp
   wrong.throw_if_any();
 }
 
+/// The lower triangle of the correlations of the inputs that `evidence` has scaled.
+Matrix correlations(Index n, Index D, Workspace& workspace) {
+  correlation_matrix(workspace.scaled(), n, D, 1, workspace.tiles());
+  Matrix C(n, n);
+  for (Index j = 0; j < n; ++j)
+    for (Index i = j; i < n; ++i) C(i, j) = workspace.tiles()[entry_offset(i, j)];
+  return C;
+}
+
+void to_tiles(const Matrix& lower, double* tiles) {
+  std::fill(tiles, tiles + tiles_size(lower.rows()), 0.0);
+  for (Index i = lower.rows(); i < padded(lower.rows()); ++i) tiles[entry_offset(i, i)] = 1;
+  for (Index j = 0; j < lower.cols(); ++j)
+    for (Index i = j; i < lower.rows(); ++i) tiles[entry_offset(i, j)] = lower(i, j);
+}
+
+/// The inverse of the factor in `tiles`, as predictions read it.
+Vector packed_inverse(Index n, double* tiles) {
+  tiles_invert_factor(n, tiles);
+  Vector packed(packed_size(n));
+  pack_inverse_factor(tiles, n, packed.data());
+  return packed;
+}
+
+/// The training inputs, and the points halfway from each to the next and to one half the data further, 3n × D.
+Matrix probes(const Inputs& inputs) {
+  const Index n = inputs.size();
+  Matrix unit(3 * n, inputs.dimensions());
+  for (Index i = 0; i < n; ++i) {
+    unit.row(i) = inputs.unit().row(i);
+    unit.row(n + i) = (inputs.unit().row(i) + inputs.unit().row((i + 1) % n)) / 2;
+    unit.row(2 * n + i) = (inputs.unit().row(i) + inputs.unit().row((i + n / 2) % n)) / 2;
+  }
+  return (unit * inputs.half_range().asDiagonal()).rowwise() + inputs.center().transpose();
+}
+
+}  // namespace
+
 /// Buffers of one thread for one chunk of queries.
-struct Scratch {
+struct Posterior::Scratch {
   std::vector<double> unit, scaled, columns;  // D × kChunk, D × kChunk, n × kChunk
   bool missing[kChunk];                       // the row has a NaN
-  double means[kChunk], norms[kChunk];
+  double means[kChunk], rest[kChunk], norms[kChunk];
 
   void resize(Index n, Index D) {
     const auto enlarge = [](std::vector<double>& v, Index size) {
@@ -43,99 +85,184 @@ struct Scratch {
     };
     enlarge(unit, D * kChunk), enlarge(scaled, D * kChunk), enlarge(columns, n * kChunk);
   }
+
+  /// Rows of F, as the training inputs are kept; a NaN marks its row and, like the padding, becomes 0.
+  void load(const Inputs& inputs, const ConstMatrixView& F, Index first, Index rows) {
+    std::fill(missing, missing + kChunk, false);
+    for (Index d = 0; d < inputs.dimensions(); ++d) {
+      const double center = inputs.center()(d), factor = 1 / inputs.half_range()(d);
+      double* row = unit.data() + d * kChunk;
+      for (Index q = 0; q < rows; ++q) {
+        const double value = (F(first + q, d) - center) * factor;
+        const bool nan = std::isnan(value);
+        row[q] = nan ? 0 : value;
+        missing[q] |= nan;
+      }
+      std::fill(row + rows, row + kChunk, 0.0);
+    }
+  }
+
+  void scale(const ConstVectorView& factors) {
+    for (Index k = 0; k < factors.size() * kChunk; ++k)
+      scaled[static_cast<std::size_t>(k)] = unit[static_cast<std::size_t>(k)] * factors(k / kChunk);
+  }
+
+  /// `means`, and unless only these are asked for `norms`, of the first rows.
+  void predict(const Output& output, Index rows, bool only_mean) {
+    const Index D = output.points.rows(), support = output.support, others = output.weights.size() - support;
+    correlate(output.points.data(), support, D, output.weights.data(), scaled.data(), rows,
+              only_mean ? nullptr : columns.data(), means);
+    if (others > 0) {
+      correlate(output.points.col(support).data(), others, D, output.weights.data() + support, scaled.data(), rows,
+                nullptr, rest);
+      for (Index q = 0; q < rows; ++q) means[q] += rest[q];
+    }
+    if (!only_mean) triangular_norms(output.inverse_factor.data(), support, columns.data(), rows, norms);
+  }
+
+  double mean(Index q) const { return missing[q] ? kNaN : means[q]; }
+  double variance(Index q, const Output& output) const {
+    return missing[q] ? kNaN : output.signal_variance * std::max(0.0, 1 - norms[q]);
+  }
 };
 
 /// The scratch of the calling thread.
-Scratch& scratch(Index n, Index D) {
+Posterior::Scratch& Posterior::scratch(Index n, Index D) {
   thread_local Scratch mine;
   mine.resize(n, D);
   return mine;
 }
 
-/// Rows of F, as the training inputs are kept; a NaN marks its row and, like the padding, becomes 0.
-void load_chunk(const Inputs& inputs, const ConstMatrixView& F, Index first, Index rows, Scratch& s) {
-  std::fill(s.missing, s.missing + kChunk, false);
-  for (Index d = 0; d < inputs.dimensions(); ++d) {
-    const double center = inputs.center()(d), factor = 1 / inputs.half_range()(d);
-    double* unit = s.unit.data() + d * kChunk;
-    for (Index q = 0; q < rows; ++q) {
-      const double value = (F(first + q, d) - center) * factor;
-      const bool missing = std::isnan(value);
-      unit[q] = missing ? 0 : value;
-      s.missing[q] |= missing;
-    }
-    std::fill(unit + rows, unit + kChunk, 0.0);
-  }
-}
-
-/// Calls predict_output(e, first row, rows, scratch) for each chunk of F's rows, scaled by each output's factors.
-template <class PredictOutput>
-void for_each_chunk(const Inputs& inputs, const Matrix& factors, const ConstMatrixView& F,
-                    PredictOutput predict_output) {
-  Scratch& s = scratch(inputs.size(), inputs.dimensions());
+/// Calls visit(first row, rows, scratch) for each chunk of F's rows.
+template <class Visit>
+void Posterior::for_each_chunk(const ConstMatrixView& F, Visit visit) const {
+  Scratch& s = scratch(size(), dimensions());
   for (Index first = 0; first < F.rows(); first += kChunk) {
     const Index rows = std::min<Index>(kChunk, F.rows() - first);
-    load_chunk(inputs, F, first, rows, s);
-    for (Index e = 0; e < factors.cols(); ++e) {
-      for (Index k = 0; k < inputs.dimensions() * kChunk; ++k)
-        s.scaled[static_cast<std::size_t>(k)] = s.unit[static_cast<std::size_t>(k)] * factors(k / kChunk, e);
-      predict_output(e, first, rows, s);
-    }
+    s.load(inputs_, F, first, rows);
+    visit(first, rows, s);
   }
 }
 
-}  // namespace
-
-Posterior::Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperparameters> hyperparameters)
+Posterior::Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperparameters> hyperparameters,
+                     double tolerance)
     : inputs_(std::move(inputs)), hyperparameters_(std::move(hyperparameters)) {
   check(inputs_, Y, hyperparameters_);
-  const Index E = outputs(), n = size(), D = dimensions();
-  factors_.resize(D, E), points_.resize(D, n * E), weights_.resize(n, E), inverse_factors_.resize(packed_size(n), E);
-  signal_variances_.resize(E), noise_variances_.resize(E), log_evidences_.resize(E), jitters_.resize(E);
+  const Index E = outputs();
+  factors_.resize(dimensions(), E);
+  noise_variances_.resize(E), log_evidences_.resize(E), jitters_.resize(E);
   Workspace workspace;
-  for (Index e = 0; e < E; ++e) condition(e, Y.col(e), workspace);
+  for (Index e = 0; e < E; ++e) {
+    Output exact = condition(e, Y.col(e), workspace);
+    std::optional<Output> few = compress(e, Y.col(e), exact, tolerance, workspace);
+    outputs_.push_back(few ? std::move(*few) : std::move(exact));
+  }
 }
 
-void Posterior::condition(Index e, const ConstVectorView& y, Workspace& workspace) {
+Posterior::Output Posterior::condition(Index e, const ConstVectorView& y, Workspace& workspace) {
   const Index n = size();
   const Hyperparameters& theta = hyperparameters_[static_cast<std::size_t>(e)];
   const Evidence value = evidence(inputs_, y, theta.flat(), workspace);
   if (!value.ok()) throw InvalidInput(fmt::format("gp hyperparameters[{}] are too extreme to condition on data", e));
-  signal_variances_(e) = theta.signal_variance();
   noise_variances_(e) = theta.noise_variance();
   log_evidences_(e) = value.value;
   jitters_(e) = value.jitter;
   factors_.col(e) = workspace.factors();
-  points_.middleCols(e * n, n) = (inputs_.unit() * workspace.factors().asDiagonal()).transpose();
-  weights_.col(e) = Eigen::Map<const Vector>(workspace.weights(), n) * std::exp(theta.log_signal);
+  Output output{.points = (inputs_.unit() * workspace.factors().asDiagonal()).transpose(),
+                .weights = Vector::Map(workspace.weights(), n) * std::exp(theta.log_signal),
+                .support = n,
+                .inverse_factor = {},
+                .signal_variance = theta.signal_variance()};
+  output.inverse_factor = packed_inverse(n, workspace.tiles());
+  return output;
+}
 
-  tiles_invert_factor(n, workspace.tiles());
-  pack_inverse_factor(workspace.tiles(), n, inverse_factors_.col(e).data());
+/// The workspace holds the inputs scaled for this output.
+std::optional<Posterior::Output> Posterior::compress(Index e, const ConstVectorView& y, const Output& exact,
+                                                     double tolerance, Workspace& workspace) const {
+  if (tolerance <= 0) return std::nullopt;
+  const double noise_ratio = noise_variances_(e) / exact.signal_variance + jitters_(e);
+  // √t = tolerance · √ρ keeps the error below tolerance · σ_n everywhere. For smaller ρ that would ask for more than
+  // double precision gives, and a thousandth of ρ is measured to be enough.
+  const double remainder = noise_ratio * tolerance * tolerance * std::clamp(noise_ratio, 0.01, 1.0);
+  const auto worthwhile = static_cast<Index>(0.75 * static_cast<double>(size()));
+  const std::optional<Summary> summary =
+      summarise(correlations(size(), dimensions(), workspace), noise_ratio, y, remainder, worthwhile);
+  if (!summary) return std::nullopt;
+
+  const Index r = static_cast<Index>(summary->points.size());
+  to_tiles(summary->covariance, workspace.tiles());
+  if (!tiles_cholesky(r, workspace.tiles())) return std::nullopt;
+  Vector weights = Vector::Zero(padded(r));
+  weights.head(r) = summary->targets;
+  tiles_solve(r, workspace.tiles(), weights.data());
+  tiles_solve_transposed(r, workspace.tiles(), weights.data());
+  Output few{.points = exact.points(Eigen::all, summary->points),
+             .weights = weights.head(r),
+             .support = r,
+             .inverse_factor = packed_inverse(r, workspace.tiles()),
+             .signal_variance = exact.signal_variance};
+  const Errors errors = compare(e, exact, few);
+  if (!(errors.deviation <= kMargin * tolerance)) return std::nullopt;
+  if (!(errors.mean <= kMargin * tolerance)) use_all_for_mean(exact, summary->points, few);
+  return few;
+}
+
+/// The mean of `exact`, the variance of `few`.
+void Posterior::use_all_for_mean(const Output& exact, std::vector<Index> order, Output& few) {
+  std::vector<bool> first(static_cast<std::size_t>(exact.support), false);
+  for (const Index i : order) first[static_cast<std::size_t>(i)] = true;
+  for (Index i = 0; i < exact.support; ++i)
+    if (!first[static_cast<std::size_t>(i)]) order.push_back(i);
+  few.points = exact.points(Eigen::all, order);
+  few.weights = exact.weights(order);
+}
+
+Posterior::Errors Posterior::compare(Index e, const Output& exact, const Output& other) const {
+  Errors errors;
+  for_each_chunk(probes(inputs_), [&](Index, Index rows, Scratch& s) {
+    s.scale(factors_.col(e));
+    s.predict(exact, rows, false);
+    Vector mean(rows), deviation(rows);
+    for (Index q = 0; q < rows; ++q) mean(q) = s.mean(q), deviation(q) = std::sqrt(s.variance(q, exact));
+    s.predict(other, rows, false);
+    for (Index q = 0; q < rows; ++q) {
+      errors.mean = std::max(errors.mean, std::abs(s.mean(q) - mean(q)));
+      errors.deviation = std::max(errors.deviation, std::abs(std::sqrt(s.variance(q, other)) - deviation(q)));
+    }
+  });
+  const double noise = std::sqrt(noise_variances_(e));
+  return {errors.mean / noise, errors.deviation / noise};
 }
 
 void Posterior::predict(const ConstMatrixView& F, MatrixView mean, MatrixView variance) const {
-  for_each_chunk(inputs_, factors_, F, [&](Index e, Index first, Index rows, Scratch& s) {
-    correlate(points(e), size(), dimensions(), weights_.col(e).data(), s.scaled.data(), rows, s.columns.data(),
-              s.means);
-    triangular_norms(inverse_factors_.col(e).data(), size(), s.columns.data(), rows, s.norms);
-    for (Index q = 0; q < rows; ++q) {
-      mean(first + q, e) = s.missing[q] ? kNaN : s.means[q];
-      variance(first + q, e) = s.missing[q] ? kNaN : signal_variances_(e) * std::max(0.0, 1 - s.norms[q]);
+  for_each_chunk(F, [&](Index first, Index rows, Scratch& s) {
+    for (Index e = 0; e < outputs(); ++e) {
+      s.scale(factors_.col(e));
+      s.predict(output(e), rows, false);
+      for (Index q = 0; q < rows; ++q) {
+        mean(first + q, e) = s.mean(q);
+        variance(first + q, e) = s.variance(q, output(e));
+      }
     }
   });
 }
 
 void Posterior::predict_mean(const ConstMatrixView& F, MatrixView mean) const {
-  for_each_chunk(inputs_, factors_, F, [&](Index e, Index first, Index rows, Scratch& s) {
-    correlate(points(e), size(), dimensions(), weights_.col(e).data(), s.scaled.data(), rows, nullptr, s.means);
-    for (Index q = 0; q < rows; ++q) mean(first + q, e) = s.missing[q] ? kNaN : s.means[q];
+  for_each_chunk(F, [&](Index first, Index rows, Scratch& s) {
+    for (Index e = 0; e < outputs(); ++e) {
+      s.scale(factors_.col(e));
+      s.predict(output(e), rows, true);
+      for (Index q = 0; q < rows; ++q) mean(first + q, e) = s.mean(q);
+    }
   });
 }
 
 Matrix Posterior::inverse_factor(Index e) const {
-  Matrix inverse = Matrix::Zero(size(), size());
-  for (Index j = 0; j < size(); ++j)
-    for (Index i = j; i < size(); ++i) inverse(i, j) = packed_entry(inverse_factors_.col(e).data(), i, j);
+  const Index n = output(e).support;
+  Matrix inverse = Matrix::Zero(n, n);
+  for (Index j = 0; j < n; ++j)
+    for (Index i = j; i < n; ++i) inverse(i, j) = packed_entry(output(e).inverse_factor.data(), i, j);
   return inverse;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "rehearse/gp/hyperparameters.hpp"
@@ -16,7 +17,14 @@ class Posterior {
  public:
   /// Y: n × E targets; one set of hyperparameters per output. Throws InvalidInput on wrong sizes or values that are
   /// not finite. The jitter ladder of cholesky.hpp applies.
-  Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperparameters> hyperparameters);
+  ///
+  /// `tolerance` > 0 allows errors of the mean and of the standard deviation, as a fraction of σ_n: an output whose
+  /// data a few points sum up (compression.hpp) is predicted from these. Both errors are measured against the exact
+  /// posterior at the training inputs and between them, and kept below a fifth of the tolerance there; where σ_n² ≥
+  /// σ_f²/100 that of the standard deviation is below the tolerance at every input, by the bound given in
+  /// compression.hpp.
+  Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperparameters> hyperparameters,
+            double tolerance = 0);
 
   Index size() const { return inputs_.size(); }
   Index dimensions() const { return inputs_.dimensions(); }
@@ -26,7 +34,7 @@ class Posterior {
   /// in [0, σ_f²]. A row with a NaN is NaN in both; an infinite or far input gives the prior, 0 and σ_f².
   void predict(const ConstMatrixView& F, MatrixView mean, MatrixView variance) const;
 
-  /// The same means, without the n² work of the variances.
+  /// The same means, without the work of the variances.
   void predict_mean(const ConstMatrixView& F, MatrixView mean) const;
 
   const std::vector<Hyperparameters>& hyperparameters() const { return hyperparameters_; }
@@ -35,21 +43,42 @@ class Posterior {
   const Vector& jitters() const { return jitters_; }                  // E, of the ladder, × σ_f²
   const Inputs& inputs() const { return inputs_; }
 
-  // For moment matching, with c the correlations (the covariance without σ_f²) and K/σ_f² = L Lᵀ:
-  auto weights(Index e) const { return weights_.col(e); }  // n, w = σ_f² K⁻¹y: the mean is Σ_i w_i c(x, x_i)
-  Matrix inverse_factor(Index e) const;                    // n × n, L⁻¹, lower; a copy
+  /// Points that the mean and the variance of output e are computed from; n where none is left out.
+  Index mean_points(Index e) const { return output(e).weights.size(); }
+  Index variance_points(Index e) const { return output(e).support; }
+
+  // For moment matching, without tolerance; with c the correlations (the covariance without σ_f²) and K/σ_f² = L Lᵀ:
+  const Vector& weights(Index e) const { return output(e).weights; }  // n, w = σ_f² K⁻¹y: the mean is Σ_i w_i c(x, x_i)
+  Matrix inverse_factor(Index e) const;                               // n × n, L⁻¹, lower; a copy
 
  private:
-  void condition(Index e, const ConstVectorView& y, Workspace& workspace);
-  const double* points(Index e) const { return points_.col(e * size()).data(); }
+  struct Output {
+    Matrix points;          // D × m: inputs / ℓ, one a column; the variance needs the first `support`
+    Vector weights;         // m
+    Index support = 0;      // s
+    Vector inverse_factor;  // packed_size(s): L⁻¹, see prediction_kernel.hpp
+    double signal_variance = 0;
+  };
+  struct Scratch;
+  struct Errors {
+    double mean = 0, deviation = 0;  // largest, in σ_n
+  };
+
+  const Output& output(Index e) const { return outputs_[static_cast<std::size_t>(e)]; }
+  Output condition(Index e, const ConstVectorView& y, Workspace& workspace);
+  std::optional<Output> compress(Index e, const ConstVectorView& y, const Output& exact, double tolerance,
+                                 Workspace& workspace) const;
+  static void use_all_for_mean(const Output& exact, std::vector<Index> order, Output& few);
+  Errors compare(Index e, const Output& exact, const Output& other) const;
+  template <class Visit>
+  void for_each_chunk(const ConstMatrixView& F, Visit visit) const;
+  static Scratch& scratch(Index n, Index D);
 
   Inputs inputs_;
   std::vector<Hyperparameters> hyperparameters_;
-  Matrix factors_;          // D × E, from unit inputs to inputs / ℓ
-  Matrix points_;           // D × nE: inputs / ℓ, one a column
-  Matrix weights_;          // n × E
-  Matrix inverse_factors_;  // packed_size(n) × E: L⁻¹, see prediction_kernel.hpp
-  Vector signal_variances_, noise_variances_, log_evidences_, jitters_;
+  Matrix factors_;  // D × E, from unit inputs to inputs / ℓ
+  std::vector<Output> outputs_;
+  Vector noise_variances_, log_evidences_, jitters_;
 };
 
 }  // namespace rehearse::gp

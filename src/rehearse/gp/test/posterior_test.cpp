@@ -26,9 +26,20 @@ std::vector<Hyperparameters> three_outputs(Index D) {
           naive::hyperparameters(D, 0.3, 1, 1e-3)};
 }
 
-Posterior make(Index n, Index D) {
+Posterior make(Index n, Index D, double tolerance = 0) {
   const Matrix X = naive::normals(n, D, 1);
-  return Posterior(Inputs(X), naive::normals(n, 3, 2), three_outputs(D));
+  return Posterior(Inputs(X), naive::normals(n, 3, 2), three_outputs(D), tolerance);
+}
+
+/// Two inputs whose functions are so smooth that a few points sum them up, but for the third output: its noise hides
+/// nothing.
+Posterior smooth(Index n, double tolerance) {
+  const Matrix X = naive::normals(n, 2, 17);
+  std::vector<Hyperparameters> thetas = {naive::hyperparameters(2, 2, 1, 0.5), naive::hyperparameters(2, 2, 2, 0.02),
+                                         naive::hyperparameters(2, 0.1, 1, 1e-6)};
+  Matrix Y(n, 3);
+  for (Index e = 0; e < 3; ++e) Y.col(e) = naive::draw(X, thetas[static_cast<std::size_t>(e)], 18);
+  return Posterior(Inputs(X), Y, std::move(thetas), tolerance);
 }
 
 TEST(Posterior, AgreesWithTheBook) {
@@ -65,10 +76,31 @@ TEST(Posterior, ExposesWhatMomentMatchingNeeds) {
   EXPECT_TRUE(Vector(posterior.weights(0)).isApprox(4 * K.llt().solve(Y), 1e-9));
 }
 
+TEST(Posterior, WithinTheToleranceFewPointsStandForAll) {
+  const Index n = 220;
+  const double tolerance = 0.01;
+  const Posterior exact = smooth(n, 0), few = smooth(n, tolerance);
+  Matrix F(3000, 2);
+  F << naive::normals(1000, 2, 19), 3 * naive::normals(1000, 2, 20), naive::normals(n, 2, 17).replicate(4, 1),
+      20 * naive::normals(120, 2, 21);
+  const Prediction a = predict(exact, F), b = predict(few, F);
+  for (Index e = 0; e < 3; ++e) {
+    const double noise = std::sqrt(exact.noise_variances()(e));
+    const Vector difference = a.variance.col(e).cwiseSqrt() - b.variance.col(e).cwiseSqrt();
+    EXPECT_LT(difference.cwiseAbs().maxCoeff(), tolerance * noise) << e;
+    EXPECT_LT((a.mean.col(e) - b.mean.col(e)).cwiseAbs().maxCoeff(), tolerance * noise) << e;
+    EXPECT_EQ(exact.variance_points(e), n);
+  }
+  EXPECT_LT(few.variance_points(0), n / 4);
+  EXPECT_LT(few.variance_points(1), n / 2);
+  EXPECT_EQ(few.variance_points(2), n);
+  EXPECT_EQ(few.log_evidences(), exact.log_evidences());
+}
+
 TEST(Posterior, ARowIsTheSameToTheBitHoweverManyComeWithIt) {
-  for (const Index n : {1, 5, 50, 130, 200, 331}) {
-    const Posterior posterior = make(n, 7);
-    const Matrix F = naive::normals(200, 7, 8);
+  for (const Index n : {1, 5, 50, 130, 200, 331, -200}) {
+    const Posterior posterior = n > 0 ? make(n, 7) : smooth(-n, 0.01);
+    const Matrix F = naive::normals(200, posterior.dimensions(), 8);
     const Prediction all = predict(posterior, F);
     Matrix means(200, 3);
     posterior.predict_mean(F, means);
@@ -114,7 +146,7 @@ TEST(Posterior, OneThreadUsesManyPosteriorsInTurn) {
 }
 
 TEST(Posterior, MissingRowsStayAlone) {
-  const Posterior posterior = make(70, 4);
+  const Posterior posterior = make(70, 4, 0.01);
   Matrix F = naive::normals(130, 4, 12);
   const Prediction clean = predict(posterior, F);
   F(7, 2) = F(129, 0) = std::numeric_limits<double>::quiet_NaN();
@@ -156,11 +188,13 @@ TEST(Posterior, DegenerateTrainingDataNeverGiveNaN) {
     for (const double noise : {0.1, 1e-8, 1e-150}) {
       const Matrix Y = Matrix::Zero(data.rows(), 1);
       const Hyperparameters theta = naive::hyperparameters(3, 1, 1, noise);
-      const Prediction p = predict(Posterior(Inputs(data), Y, {theta}), F);
-      EXPECT_TRUE(p.mean.allFinite());
-      EXPECT_TRUE(p.variance.allFinite());
-      EXPECT_GE(p.variance.minCoeff(), 0);
-      EXPECT_LE(p.variance.maxCoeff(), 1);
+      for (const double tolerance : {0.0, 0.01, 1.0}) {
+        const Prediction p = predict(Posterior(Inputs(data), Y, {theta}, tolerance), F);
+        EXPECT_TRUE(p.mean.allFinite());
+        EXPECT_TRUE(p.variance.allFinite());
+        EXPECT_GE(p.variance.minCoeff(), 0);
+        EXPECT_LE(p.variance.maxCoeff(), 1);
+      }
     }
   }
 }
