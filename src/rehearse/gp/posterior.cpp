@@ -59,6 +59,14 @@ Vector packed_inverse(Index n, double* tiles) {
   return packed;
 }
 
+/// The trace to leave out, in units of σ_n² (compression.hpp). √t = tolerance · √ρ keeps the error below
+/// tolerance · σ_n at every input. Small ρ would need more digits for that than there are; t = 2ρ is measured to be
+/// enough (docs/performance.md).
+double remainder(double noise_ratio, double tolerance) {
+  const double share = noise_ratio >= 0.01 ? noise_ratio : 2e4 * noise_ratio;
+  return tolerance * tolerance * std::min(share, 1.0);
+}
+
 /// The training inputs, and the points halfway from each to the next and to one half the data further, 3n × D.
 Matrix probes(const Inputs& inputs) {
   const Index n = inputs.size();
@@ -182,30 +190,32 @@ std::optional<Posterior::Output> Posterior::compress(Index e, const ConstVectorV
                                                      double tolerance, Workspace& workspace) const {
   if (tolerance <= 0) return std::nullopt;
   const double noise_ratio = noise_variances_(e) / exact.signal_variance + jitters_(e);
-  // √t = tolerance · √ρ keeps the error below tolerance · σ_n everywhere. For smaller ρ that would ask for more than
-  // double precision gives, and a thousandth of ρ is measured to be enough.
-  const double remainder = noise_ratio * tolerance * tolerance * std::clamp(noise_ratio, 0.01, 1.0);
   const auto worthwhile = static_cast<Index>(0.75 * static_cast<double>(size()));
-  const std::optional<Summary> summary =
-      summarise(correlations(size(), dimensions(), workspace), noise_ratio, y, remainder, worthwhile);
+  const auto summary = summarise(correlations(size(), dimensions(), workspace), noise_ratio, y,
+                                 noise_ratio * remainder(noise_ratio, tolerance), worthwhile);
   if (!summary) return std::nullopt;
+  std::optional<Output> few = condition(*summary, exact, workspace);
+  if (!few) return std::nullopt;
+  const Errors errors = compare(e, exact, *few);
+  if (!(errors.deviation <= kMargin * tolerance)) return std::nullopt;
+  if (!(errors.mean <= kMargin * tolerance)) use_all_for_mean(exact, summary->points, *few);
+  return few;
+}
 
-  const Index r = static_cast<Index>(summary->points.size());
-  to_tiles(summary->covariance, workspace.tiles());
+std::optional<Posterior::Output> Posterior::condition(const Summary& summary, const Output& exact,
+                                                      Workspace& workspace) {
+  const auto r = static_cast<Index>(summary.points.size());
+  to_tiles(summary.covariance, workspace.tiles());
   if (!tiles_cholesky(r, workspace.tiles())) return std::nullopt;
   Vector weights = Vector::Zero(padded(r));
-  weights.head(r) = summary->targets;
+  weights.head(r) = summary.targets;
   tiles_solve(r, workspace.tiles(), weights.data());
   tiles_solve_transposed(r, workspace.tiles(), weights.data());
-  Output few{.points = exact.points(Eigen::all, summary->points),
-             .weights = weights.head(r),
-             .support = r,
-             .inverse_factor = packed_inverse(r, workspace.tiles()),
-             .signal_variance = exact.signal_variance};
-  const Errors errors = compare(e, exact, few);
-  if (!(errors.deviation <= kMargin * tolerance)) return std::nullopt;
-  if (!(errors.mean <= kMargin * tolerance)) use_all_for_mean(exact, summary->points, few);
-  return few;
+  return Output{.points = exact.points(Eigen::all, summary.points),
+                .weights = weights.head(r),
+                .support = r,
+                .inverse_factor = packed_inverse(r, workspace.tiles()),
+                .signal_variance = exact.signal_variance};
 }
 
 /// The mean of `exact`, the variance of `few`.

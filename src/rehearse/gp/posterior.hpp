@@ -8,6 +8,7 @@
 
 namespace rehearse::gp {
 
+struct Summary;
 class Workspace;
 
 /// E independent GPs conditioned on the same inputs (Rasmussen 2006, eqs 2.25 and 2.26), made for batches. Immutable;
@@ -68,6 +69,7 @@ class Posterior {
   Output condition(Index e, const ConstVectorView& y, Workspace& workspace);
   std::optional<Output> compress(Index e, const ConstVectorView& y, const Output& exact, double tolerance,
                                  Workspace& workspace) const;
+  static std::optional<Output> condition(const Summary& summary, const Output& exact, Workspace& workspace);
   static void use_all_for_mean(const Output& exact, std::vector<Index> order, Output& few);
   Errors compare(Index e, const Output& exact, const Output& other) const;
   template <class Visit>
