@@ -21,8 +21,7 @@ int main() {
   };
 
   // The guess: the mass may be anything from 0.2 to 5 kg; the search starts at 1 kg.
-  Parameter mass{.name = "mass", .unit = "kg", .value = 1, .kind = Parameter::Kind::continuous, .box = {0.2, 5}};
-  const ParameterSpace space({mass});
+  const ParameterSpace space({Parameter::continuous("mass", 1, {0.2, 5}, "kg")});
   const prior::Prior guess{"guess", system::make_ode_simulator(cart, space, 0.1, 4), space};
 
   // The task: from rest at 1 m to the origin within 2 s.

@@ -24,6 +24,22 @@ std::string violation(const Parameter& p, double value) {
 
 }  // namespace
 
+Parameter Parameter::fixed(std::string name, double value, std::string unit) {
+  return {.name = std::move(name), .unit = std::move(unit), .value = value};
+}
+
+Parameter Parameter::continuous(std::string name, double value, Interval box, std::string unit) {
+  return {.name = std::move(name), .unit = std::move(unit), .value = value, .kind = Kind::continuous, .box = box};
+}
+
+Parameter Parameter::discrete(std::string name, double value, std::vector<double> choices, std::string unit) {
+  return {.name = std::move(name),
+          .unit = std::move(unit),
+          .value = value,
+          .kind = Kind::discrete,
+          .choices = std::move(choices)};
+}
+
 ParameterSpace::ParameterSpace(std::vector<Parameter> parameters) : parameters_(std::move(parameters)) {
   Violations violations;
   for (Index i = 0; i < size(); ++i) {
@@ -70,14 +86,28 @@ bool ParameterSpace::has_tunable() const {
   return std::any_of(parameters_.begin(), parameters_.end(), [](const Parameter& p) { return p.tunable(); });
 }
 
-void ParameterSpace::set_value(std::string_view name, double value) {
+Parameter& ParameterSpace::at(std::string_view name) {
   const Index i = find(name);
   if (i < 0)
     throw InvalidInput(fmt::format("unknown parameter '{}', did you mean '{}'? (known: {})", name,
                                    closest(name, names()), fmt::join(names(), ", ")));
-  const std::string line = violation((*this)[i], value);
+  return parameters_[static_cast<std::size_t>(i)];
+}
+
+void ParameterSpace::set_value(std::string_view name, double value) {
+  Parameter& parameter = at(name);
+  const std::string line = violation(parameter, value);
   if (!line.empty()) throw InvalidInput(line);
-  parameters_[static_cast<std::size_t>(i)].value = value;
+  parameter.value = value;
+}
+
+ParameterSpace ParameterSpace::tunable_in(Interval box, const std::vector<std::string>& names) const {
+  ParameterSpace tunable = *this;
+  for (const std::string& name : names) {
+    Parameter& parameter = tunable.at(name);
+    parameter = Parameter::continuous(parameter.name, parameter.value, box, parameter.unit);
+  }
+  return ParameterSpace(std::move(tunable.parameters_));
 }
 
 ParameterSpace ParameterSpace::fixed_at(const Vector& phi) const {

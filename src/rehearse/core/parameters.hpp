@@ -19,6 +19,10 @@ struct Parameter {
   Interval box;                 // continuous
   std::vector<double> choices;  // discrete
 
+  static Parameter fixed(std::string name, double value, std::string unit = "");
+  static Parameter continuous(std::string name, double value, Interval box, std::string unit = "");
+  static Parameter discrete(std::string name, double value, std::vector<double> choices, std::string unit = "");
+
   bool tunable() const { return kind != Kind::fixed; }
 };
 
@@ -41,10 +45,15 @@ class ParameterSpace {
   /// Throws InvalidInput if there is no such parameter or the value is outside its box or set.
   void set_value(std::string_view name, double value);
 
+  /// The same parameters, those of these names tunable in the box. Throws InvalidInput as above.
+  ParameterSpace tunable_in(Interval box, const std::vector<std::string>& names) const;
+
   /// The same parameters, all fixed at phi.
   ParameterSpace fixed_at(const Vector& phi) const;
 
  private:
+  Parameter& at(std::string_view name);
+
   std::vector<Parameter> parameters_;
 };
 

@@ -9,33 +9,9 @@
 namespace rehearse {
 namespace {
 
-Parameter continuous(const char* name, double value, Interval box) {
-  Parameter parameter;
-  parameter.name = name;
-  parameter.value = value;
-  parameter.kind = Parameter::Kind::continuous;
-  parameter.box = box;
-  return parameter;
-}
-
-Parameter discrete(const char* name, double value, std::vector<double> choices) {
-  Parameter parameter;
-  parameter.name = name;
-  parameter.value = value;
-  parameter.kind = Parameter::Kind::discrete;
-  parameter.choices = std::move(choices);
-  return parameter;
-}
-
-Parameter fixed(const char* name, double value) {
-  Parameter parameter;
-  parameter.name = name;
-  parameter.value = value;
-  return parameter;
-}
-
 ParameterSpace space() {
-  return ParameterSpace({fixed("gravity", 9.82), continuous("mass", 0.5, {0.1, 1}), discrete("legs", 2, {2, 4, 6})});
+  return ParameterSpace({Parameter::fixed("gravity", 9.82), Parameter::continuous("mass", 0.5, {0.1, 1}),
+                         Parameter::discrete("legs", 2, {2, 4, 6})});
 }
 
 template <class F>
@@ -70,6 +46,21 @@ TEST(ParameterSpace, FixedAtKeepsNamesAndTakesValues) {
   EXPECT_EQ(s.names(), space().names());
 }
 
+TEST(ParameterSpace, TunableInKeepsValuesAndUnits) {
+  const ParameterSpace fixed({Parameter::fixed("m", 0.5, "kg"), Parameter::fixed("l", 0.4, "m")});
+  const ParameterSpace s = fixed.tunable_in({0.1, 1}, {"l"});
+  EXPECT_EQ(s.values(), fixed.values());
+  EXPECT_EQ(s.of_kind(Parameter::Kind::continuous), std::vector<Index>{1});
+  EXPECT_EQ(s[1].unit, "m");
+  EXPECT_EQ(s[1].box.low, 0.1);
+  EXPECT_EQ(s[1].box.high, 1);
+  EXPECT_EQ(refusal([&] { fixed.tunable_in({0.45, 1}, {"m", "l"}); }), "l = 0.4, must be between 0.45 and 1");
+  EXPECT_EQ(refusal([&] {
+              fixed.tunable_in({0, 1}, {"n"});
+            }),
+            "unknown parameter 'n', did you mean 'm'? (known: m, l)");
+}
+
 TEST(ParameterSpace, ValuesStayInTheirBoxOrSet) {
   ParameterSpace s = space();
   s.set_value("mass", 1);
@@ -87,8 +78,9 @@ TEST(ParameterSpace, ValuesStayInTheirBoxOrSet) {
 
 TEST(ParameterSpace, BadParametersAreAllReported) {
   const std::string text = refusal([] {
-    ParameterSpace({fixed("", 1), fixed("a", 1), fixed("a", 2), continuous("b", 0, {1, 1}), discrete("c", 0, {}),
-                    continuous("d", 5, {0, 1})});
+    ParameterSpace({Parameter::fixed("", 1), Parameter::fixed("a", 1), Parameter::fixed("a", 2),
+                    Parameter::continuous("b", 0, {1, 1}), Parameter::discrete("c", 0, {}),
+                    Parameter::continuous("d", 5, {0, 1})});
   });
   for (const char* line :
        {"parameter 0 has no name", "parameter a appears twice", "parameter b needs a finite box with low < high",

@@ -10,18 +10,13 @@
 namespace rehearse::dynamics {
 namespace {
 
-using swing::continuous;
-using swing::discrete;
-
 const optim::SubplexOptions kExact{.x_tolerance = 1e-9, .value_tolerance = 1e-12};
 
 double away_from(const Vector& phi, const Vector& target) { return -(phi - target).squaredNorm(); }
 
 TEST(Identify, SearchesTheContinuousAndLeavesTheFixed) {
-  Parameter fixed;
-  fixed.name = "mass";
-  fixed.value = 7;
-  const ParameterSpace space({continuous("a", 0, {-1, 1}), fixed, continuous("b", 0, {-1, 1})});
+  const ParameterSpace space(
+      {Parameter::continuous("a", 0, {-1, 1}), Parameter::fixed("mass", 7), Parameter::continuous("b", 0, {-1, 1})});
   const auto score = [](const Vector& phi) { return away_from(phi, Vector{{0.3, 0, -0.4}}); };
   const Identified found = identify(space, {}, score, kExact);
   EXPECT_LT((found.phi - Vector{{0.3, 7, -0.4}}).norm(), 1e-4);
@@ -29,13 +24,13 @@ TEST(Identify, SearchesTheContinuousAndLeavesTheFixed) {
 }
 
 TEST(Identify, OptimumOutsideTheBoxEndsAtItsBorder) {
-  const ParameterSpace space({continuous("a", 0, {-1, 1})});
+  const ParameterSpace space({Parameter::continuous("a", 0, {-1, 1})});
   const auto score = [](const Vector& phi) { return away_from(phi, Vector{{3}}); };
   EXPECT_NEAR(identify(space, {}, score, kExact).phi(0), 1, 1e-6);
 }
 
 TEST(Identify, TriesEveryCombinationOfTheDiscreteOnce) {
-  const ParameterSpace space({discrete("a", 1, {1, 2}), discrete("b", 1, {1, 2, 3})});
+  const ParameterSpace space({Parameter::discrete("a", 1, {1, 2}), Parameter::discrete("b", 1, {1, 2, 3})});
   std::vector<Vector> tried;
   const auto score = [&](const Vector& phi) {
     tried.push_back(phi);
@@ -48,7 +43,7 @@ TEST(Identify, TriesEveryCombinationOfTheDiscreteOnce) {
 }
 
 TEST(Identify, EachCombinationHasItsOwnContinuousOptimum) {
-  const ParameterSpace space({discrete("which", 0, {0, 1, 2}), continuous("a", 0, {-3, 3})});
+  const ParameterSpace space({Parameter::discrete("which", 0, {0, 1, 2}), Parameter::continuous("a", 0, {-3, 3})});
   const auto score = [](const Vector& phi) {  // which = 1 has the best optimum, at a = 1
     return (phi(0) == 1 ? 1.0 : 0.5) - std::abs(phi(1) - phi(0));
   };
@@ -58,7 +53,7 @@ TEST(Identify, EachCombinationHasItsOwnContinuousOptimum) {
 }
 
 TEST(Identify, StartsWhereItIsTold) {
-  const ParameterSpace space({continuous("a", 0, {-1, 1})});
+  const ParameterSpace space({Parameter::continuous("a", 0, {-1, 1})});
   double first = std::numeric_limits<double>::quiet_NaN();
   const auto score = [&](const Vector& phi) {
     if (std::isnan(first)) first = phi(0);
@@ -69,7 +64,7 @@ TEST(Identify, StartsWhereItIsTold) {
 }
 
 TEST(Identify, NoTunableParameterIsOneEvaluation) {
-  const ParameterSpace space = ParameterSpace({continuous("a", 0.2, {-1, 1})}).fixed_at(Vector{{0.2}});
+  const ParameterSpace space = ParameterSpace({Parameter::continuous("a", 0.2, {-1, 1})}).fixed_at(Vector{{0.2}});
   const Identified found = identify(space, {}, [](const Vector&) { return 3.0; }, {});
   EXPECT_EQ(found.phi, (Vector{{0.2}}));
   EXPECT_EQ(found.evaluations, 1);
@@ -77,7 +72,7 @@ TEST(Identify, NoTunableParameterIsOneEvaluation) {
 }
 
 TEST(Identify, SurvivesScoresThatAreNotFinite) {
-  const ParameterSpace space({continuous("a", 0, {-1, 1})});
+  const ParameterSpace space({Parameter::continuous("a", 0, {-1, 1})});
   const auto score = [](const Vector& phi) {
     return phi(0) > 0.3 ? std::numeric_limits<double>::quiet_NaN() : away_from(phi, Vector{{0.25}});
   };

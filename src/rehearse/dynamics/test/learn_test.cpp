@@ -90,8 +90,8 @@ TEST(Learn, GpMiAndMiIdentifyContinuousParameters) {
 
 TEST(Learn, IdentifiesDiscreteParametersAndMixtures) {
   const Dataset data = swing::data(25, 1);
-  const Parameter lengths = swing::discrete("length", 0.5, {0.5, 0.65, 0.8, 0.95});
-  const Parameter frictions = swing::discrete("friction", 0, {0, 0.3, 0.6});
+  const Parameter lengths = Parameter::discrete("length", 0.5, {0.5, 0.65, 0.8, 0.95});
+  const Parameter frictions = Parameter::discrete("friction", 0, {0, 0.3, 0.6});
   const prior::Prior all_discrete = swing::prior({lengths, frictions});
   const prior::Prior mixture = swing::prior({swing::length(), frictions});
   for (const Kind& kind : {Kind(GpMi{}), Kind(Mi{})}) {
@@ -216,7 +216,7 @@ TEST(Learn, AParameterDoesNotWinByFailingWhereItIsWrong) {
     swing::ode(x, u, phi, dxdt);
     if (phi(0) < 1 && std::abs(std::sin(x(1))) > 0.4) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
   };
-  const prior::Prior prior = swing::prior({swing::discrete("length", 0.5, {0.5, 1.2}), swing::friction()}, fragile);
+  const prior::Prior prior = swing::prior({Parameter::discrete("length", 0.5, {0.5, 1.2}), swing::friction()}, fragile);
   for (const Kind& kind : {Kind(GpMi{}), Kind(Mi{})}) {
     const Learned learned = learn_swing(swing::data(60, 1), kind, &prior);
     EXPECT_EQ((*learned.state.phi)(0), 1.2) << kind.index();

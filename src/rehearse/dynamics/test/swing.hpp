@@ -19,26 +19,8 @@ inline void ode(const Vector& x, const Vector& u, const Vector& phi, Vector& dxd
 
 inline const Vector kTruth{{0.8, 0.3}};
 
-inline Parameter continuous(const char* name, double value, Interval box) {
-  Parameter parameter;
-  parameter.name = name;
-  parameter.value = value;
-  parameter.kind = Parameter::Kind::continuous;
-  parameter.box = box;
-  return parameter;
-}
-
-inline Parameter discrete(const char* name, double value, std::vector<double> choices) {
-  Parameter parameter;
-  parameter.name = name;
-  parameter.value = value;
-  parameter.kind = Parameter::Kind::discrete;
-  parameter.choices = std::move(choices);
-  return parameter;
-}
-
-inline Parameter length(double value = 0.5) { return continuous("length", value, {0.3, 2}); }
-inline Parameter friction(double value = 0.1) { return continuous("friction", value, {0, 1}); }
+inline Parameter length(double value = 0.5) { return Parameter::continuous("length", value, {0.3, 2}); }
+inline Parameter friction(double value = 0.1) { return Parameter::continuous("friction", value, {0, 1}); }
 
 inline prior::Prior prior(std::vector<Parameter> parameters, system::Ode equation = ode) {
   const ParameterSpace space(std::move(parameters));

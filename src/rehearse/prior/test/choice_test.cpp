@@ -23,18 +23,8 @@ class Digits final : public system::Simulator {
   ParameterSpace space_;
 };
 
-Parameter fixed(const char* name, double value) {
-  Parameter parameter;
-  parameter.name = name;
-  parameter.value = value;
-  return parameter;
-}
-
 Parameter tunable(const char* name, double value, Interval box = {0, 9}) {
-  Parameter parameter = fixed(name, value);
-  parameter.kind = Parameter::Kind::continuous;
-  parameter.box = box;
-  return parameter;
+  return Parameter::continuous(name, value, box);
 }
 
 Prior prior(const char* name, std::vector<Parameter> parameters) {
@@ -69,7 +59,8 @@ TEST(Choice, KeepsParametersOfOtherBoxesApart) {
 }
 
 TEST(Choice, FixedParametersStayEachPriorsOwn) {
-  const Prior a = prior("a", {fixed("g", 8), tunable("m", 1)}), b = prior("b", {fixed("g", 9), tunable("m", 2)});
+  const Prior a = prior("a", {Parameter::fixed("g", 8), tunable("m", 1)}),
+              b = prior("b", {Parameter::fixed("g", 9), tunable("m", 2)});
   const Prior both = choice({a, b});
   EXPECT_EQ(both.space.names(), (std::vector<std::string>{"prior", "m"}));
   EXPECT_EQ(change_of(both, Vector{{0, 5}}), 85);
@@ -77,7 +68,7 @@ TEST(Choice, FixedParametersStayEachPriorsOwn) {
 }
 
 TEST(Choice, TunableInOneAndFixedInTheOther) {
-  const Prior a = prior("a", {tunable("m", 1)}), b = prior("b", {fixed("m", 7)});
+  const Prior a = prior("a", {tunable("m", 1)}), b = prior("b", {Parameter::fixed("m", 7)});
   const Prior both = choice({a, b});
   EXPECT_EQ(both.space.names(), (std::vector<std::string>{"prior", "m"}));
   EXPECT_EQ(change_of(both, Vector{{0, 5}}), 5);

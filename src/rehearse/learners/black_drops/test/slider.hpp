@@ -42,18 +42,10 @@ inline std::shared_ptr<const policy::Policy> policy() {
       {.features = FeatureMap({StateKind::plain}), .scale = Vector::Ones(1), .squash = {{{-1, 1}}, 1}});
 }
 
-inline Parameter tunable(const char* name, double value, Interval box) {
-  Parameter parameter;
-  parameter.name = name;
-  parameter.value = value;
-  parameter.kind = Parameter::Kind::continuous;
-  parameter.box = box;
-  return parameter;
-}
-
 /// The right equation, starting from this gain; the drag is unknown too.
 inline prior::Prior prior(double gain = 1) {
-  const ParameterSpace space({tunable("gain", gain, {-2, 2}), tunable("drag", 0.5, {0, 1})});
+  const ParameterSpace space(
+      {Parameter::continuous("gain", gain, {-2, 2}), Parameter::continuous("drag", 0.5, {0, 1})});
   return {"slider", system::make_ode_simulator(ode, space, kDt, 4), space};
 }
 
