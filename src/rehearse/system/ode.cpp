@@ -96,6 +96,21 @@ std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace para
   return std::make_shared<OdeSimulator>(std::move(ode), std::move(parameters), dt_s, substeps);
 }
 
+Ode OdeKernel::ode() const {
+  return [derivative = derivative](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
+    derivative(x.data(), u(0), phi.data(), dxdt.data());
+  };
+}
+
+std::shared_ptr<const Simulator> make_ode_simulator(OdeKernel kernel, ParameterSpace parameters, double dt_s,
+                                                    Index substeps) {
+  const auto change = [=](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
+    kernel.change(X.data(), X.outerStride(), U.data(), phi.data(), dt_s, substeps, dX.data(), dX.outerStride(),
+                  X.rows());
+  };
+  return make_simulator(std::move(parameters), change);
+}
+
 std::unique_ptr<Plant> make_ode_plant(OdePlantOptions options) {
   return std::make_unique<OdePlant>(std::move(options));
 }

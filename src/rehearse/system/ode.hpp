@@ -19,9 +19,24 @@ using Ode = std::function<void(const Vector& x, const Vector& u, const Vector& p
 Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, const Vector& phi, double duration_s,
                           double tolerance = 1e-12);
 
-/// A simulator of any equation, row by row with `substeps` fixed steps of Dormand–Prince 5. Built-in robots have
-/// vectorised ones; this needs no more than a lambda.
+/// A simulator of any equation, row by row with `substeps` fixed steps of Dormand–Prince 5: slow, but it needs no more
+/// than a lambda.
 std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps);
+
+/// An equation of one action, vectorised over rows: what ode_kernel-inl.hpp makes of a robot's.
+struct OdeKernel {
+  /// dxdt (dx) at state x (dx).
+  void (*derivative)(const double* x, double u, const double* phi, double* dxdt);
+
+  /// Changes of n states (X, dX: n × dx, columns a stride apart) under n actions over duration_s, by so many steps of
+  /// Dormand–Prince 5. A row that leaves the range of the equation comes back as NaN.
+  void (*change)(const double* X, Index x_stride, const double* U, const double* phi, double duration_s, Index steps,
+                 double* dX, Index dx_stride, Index rows);
+
+  Ode ode() const;
+};
+std::shared_ptr<const Simulator> make_ode_simulator(OdeKernel kernel, ParameterSpace parameters, double dt_s,
+                                                    Index substeps);
 
 /// A simulated robot: the equation under an adaptive integrator, with Gaussian start and measurements.
 struct OdePlantOptions {

@@ -21,7 +21,26 @@ Index blank_failed_rows(MatrixView dX) {
   return failed;
 }
 
+class FunctionSimulator final : public Simulator {
+ public:
+  FunctionSimulator(ParameterSpace parameters, Change change)
+      : parameters_(std::move(parameters)), change_(std::move(change)) {}
+
+  const ParameterSpace& parameters() const override { return parameters_; }
+  void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
+    change_(X, U, phi, dX);
+  }
+
+ private:
+  ParameterSpace parameters_;
+  Change change_;
+};
+
 }  // namespace
+
+std::shared_ptr<const Simulator> make_simulator(ParameterSpace parameters, Change change) {
+  return std::make_shared<FunctionSimulator>(std::move(parameters), std::move(change));
+}
 
 Index change_contained(const Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U,
                        const Vector& phi, MatrixView dX) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include "rehearse/core/parameters.hpp"
 #include "rehearse/core/types.hpp"
 
@@ -20,6 +23,13 @@ class Simulator {
   /// X: n × dx, U: n × du, phi: values in the order of parameters(), dX: n × dx.
   virtual void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const = 0;
 };
+
+/// Writes dX (n × dx) for X (n × dx), U (n × du) and phi; keeps the laws above.
+using Change =
+    std::function<void(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX)>;
+
+/// A simulator that is no more than a function.
+std::shared_ptr<const Simulator> make_simulator(ParameterSpace parameters, Change change);
 
 /// Contains a hostile simulator: if the batch throws it is retried row by row, and rows that throw again, or are not
 /// finite, come back as NaN. Returns how many rows failed.

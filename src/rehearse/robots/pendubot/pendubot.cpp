@@ -3,12 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "rehearse/core/errors.hpp"
 #include "rehearse/core/vector_math.hpp"
-#include "rehearse/policy/network.hpp"
 #include "rehearse/reward/saturating.hpp"
 #include "rehearse/robots/pendubot/kernel.hpp"
-#include "rehearse/system/ode.hpp"
+#include "rehearse/scenario/builder.hpp"
+#include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::robots::pendubot {
 namespace {
@@ -19,51 +18,23 @@ constexpr double kTorque = 3.5;        // N m
 constexpr double kRewardLength = 0.5;  // m, whatever the lengths of the plant or the prior
 constexpr double kRewardWidth = 0.5;   // m
 constexpr double kSolvedDistance = 0.2;
-constexpr Index kSolvedFrom = 40;  // states x_40..x_50: the last 0.5 s
+constexpr double kSolvedTime = 0.5;  // s, at the end
+const Vector kPolicyScale{{10, 10, 1, 1, 1, 1}};
 
-Vector to_phi(const Physics& p) { return Vector{{p.m1, p.m2, p.l1, p.l2, p.b1, p.b2}}; }
+Constants to_constants(const double* phi) { return {phi[0], phi[1], phi[2], phi[3], phi[4], phi[5]}; }
 
-Constants to_constants(const Vector& phi) { return {phi(0), phi(1), phi(2), phi(3), phi(4), phi(5)}; }
+const system::OdeKernel kKernel{
+    [](const double* x, double u, const double* phi, double* dxdt) { derivative(x, u, to_constants(phi), dxdt); },
+    [](const double* X, Index x_stride, const double* U, const double* phi, double duration_s, Index steps, double* dX,
+       Index dx_stride,
+       Index rows) { change(X, x_stride, U, to_constants(phi), duration_s, steps, dX, dx_stride, rows); }};
 
-Parameter fixed(std::string name, std::string unit, double value) {
-  Parameter parameter;
-  parameter.name = std::move(name);
-  parameter.unit = std::move(unit);
-  parameter.value = value;
-  return parameter;
+/// In the order of φ.
+ParameterSpace parameters(const Physics& p) {
+  return ParameterSpace({Parameter::fixed("m1", p.m1, "kg"), Parameter::fixed("m2", p.m2, "kg"),
+                         Parameter::fixed("l1", p.l1, "m"), Parameter::fixed("l2", p.l2, "m"),
+                         Parameter::fixed("b1", p.b1, "N m s/rad"), Parameter::fixed("b2", p.b2, "N m s/rad")});
 }
-
-ParameterSpace fixed_space(const Physics& p) {
-  return ParameterSpace({fixed("m1", "kg", p.m1), fixed("m2", "kg", p.m2), fixed("l1", "m", p.l1),
-                         fixed("l2", "m", p.l2), fixed("b1", "N m s/rad", p.b1), fixed("b2", "N m s/rad", p.b2)});
-}
-
-/// m1, m2, l1, l2 tunable in the box; b1, b2 never are.
-ParameterSpace tunable_space(const Physics& p, Interval box) {
-  std::vector<Parameter> parameters = fixed_space(p).all();
-  for (std::size_t i = 0; i < 4; ++i) {
-    parameters[i].kind = Parameter::Kind::continuous;
-    parameters[i].box = box;
-  }
-  return ParameterSpace(std::move(parameters));
-}
-
-class PendubotSimulator final : public system::Simulator {
- public:
-  PendubotSimulator(const Physics& physics, double dt_s, Index substeps)
-      : parameters_(fixed_space(physics)), dt_s_(dt_s), substeps_(substeps) {}
-
-  const ParameterSpace& parameters() const override { return parameters_; }
-  void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
-    pendubot::change(X.data(), X.outerStride(), U.data(), to_constants(phi), dt_s_, substeps_, dX.data(),
-                     dX.outerStride(), X.rows());
-  }
-
- private:
-  ParameterSpace parameters_;
-  double dt_s_;
-  Index substeps_;
-};
 
 /// ‖tip − (0, 1)‖² with tip = (−l (sin θ1 + sin θ2), l (cos θ1 + cos θ2)).
 void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
@@ -76,24 +47,16 @@ void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
   d2 = x.square() + y.square();
 }
 
-/// The tip is within 0.2 m of the goal at every state of the last 0.5 s.
-bool solved(const Episode& episode) {
-  if (episode.steps() < kHorizon || episode.ended) return false;
-  const Matrix last = episode.true_states.bottomRows(kHorizon - kSolvedFrom + 1);
-  Vector d2(last.rows());
-  squared_tip_distance(last, d2);
-  return (d2.array() <= kSolvedDistance * kSolvedDistance).all();
+Eigen::Vector2d tip(const ConstVectorView& state) {
+  return kRewardLength *
+         Eigen::Vector2d{-std::sin(state(2)) - std::sin(state(3)), std::cos(state(2)) + std::cos(state(3))};
 }
 
 /// Tip positions (x, y) at three equally spaced times, the last at the end.
 Vector tip_descriptor(const Episode& episode) {
   Vector descriptor(6);
-  for (Index i = 0; i < 3; ++i) {
-    const Index t = episode.steps() * (i + 1) / 3;
-    const double angle1 = episode.true_states(t, 2), angle2 = episode.true_states(t, 3);
-    descriptor(2 * i) = -kRewardLength * (std::sin(angle1) + std::sin(angle2));
-    descriptor(2 * i + 1) = kRewardLength * (std::cos(angle1) + std::cos(angle2));
-  }
+  for (Index i = 0; i < 3; ++i)
+    descriptor.segment<2>(2 * i) = tip(episode.true_states.row(episode.steps() * (i + 1) / 3).transpose());
   return descriptor;
 }
 
@@ -109,53 +72,21 @@ Task make_task(const Options& options) {
   task.dt_s = kDt;
   task.horizon = kHorizon;
   task.reward = reward::saturating(squared_tip_distance, kRewardWidth);
-  task.solved = solved;
+  task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
+    return (tip(state) - Eigen::Vector2d{0, 1}).norm() <= kSolvedDistance;
+  });
   task.descriptor = tip_descriptor;
   return task;
 }
 
-std::unique_ptr<system::Plant> make_plant(const Options& options, const Task& task) {
-  const auto ode = [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
-    derivative(x.data(), u(0), to_constants(phi), dxdt.data());
-  };
-  return system::make_ode_plant({.ode = ode,
-                                 .phi = to_phi(options.plant),
-                                 .dt_s = kDt,
-                                 .start_mean = task.start_mean,
-                                 .start_std = task.start_std,
-                                 .measurement_std = Vector::Constant(4, options.measurement_noise)});
-}
-
-struct Guess {
-  std::string name;
-  Physics physics;
-};
-
 /// Chatzilygeroudis 2018, Table I.
-std::vector<Guess> guesses() {
-  return {{"useful", {.m1 = 0.65, .l2 = 0.4}},
-          {"tunable", {.m2 = 0.75}},
-          {"misleading", {.l2 = 0.25}},
-          {"partial", {.m1 = 0.65, .m2 = 0.35, .b1 = 0, .b2 = 0}}};
+std::vector<scenario::Guess> guesses(Interval box) {
+  const auto guess = [box](const char* name, const Physics& physics) {
+    return scenario::Guess{name, parameters(physics).tunable_in(box, {"m1", "m2", "l1", "l2"})};
+  };
+  return {guess("useful", {.m1 = 0.65, .l2 = 0.4}), guess("tunable", {.m2 = 0.75}), guess("misleading", {.l2 = 0.25}),
+          guess("partial", {.m1 = 0.65, .m2 = 0.35, .b1 = 0, .b2 = 0})};
 }
-
-class Builder final : public scenario::ScenarioBuilder {
- public:
-  std::string name() const override { return "pendubot"; }
-  std::string summary() const override {
-    return "swing up two links by a torque on the first joint (50 steps of 0.05 s)";
-  }
-  std::vector<std::string> prior_names() const override {
-    std::vector<std::string> names;
-    for (const Guess& guess : guesses()) names.push_back(guess.name);
-    return names;
-  }
-  void fields(FieldVisitor& v) override { options_.fields(v); }
-  scenario::Scenario build() const override { return make(options_); }
-
- private:
-  Options options_;
-};
 
 }  // namespace
 
@@ -175,30 +106,27 @@ void Options::fields(FieldVisitor& v) {
   v.number("box_low", box_low, at_least(0));
   v.number("box_high", box_high, above(0));
   v.integer("substeps", substeps, at_least(1));
-  v.integer("hidden", hidden, at_least(1));
-  v.number("policy_gain", policy_gain, above(0));
+  policy.fields(v);
 }
 
 std::shared_ptr<const system::Simulator> make_simulator(const Physics& physics, double dt_s, Index substeps) {
-  return std::make_shared<PendubotSimulator>(physics, dt_s, substeps);
+  return system::make_ode_simulator(kKernel, parameters(physics), dt_s, substeps);
 }
 
 scenario::Scenario make(const Options& options) {
-  scenario::Scenario result;
-  result.name = "pendubot";
-  result.task = make_task(options);
-  result.make_plant = [options, task = result.task] { return make_plant(options, task); };
-  for (const Guess& guess : guesses())
-    result.priors.push_back({guess.name, make_simulator(guess.physics, kDt, options.substeps),
-                             tunable_space(guess.physics, {options.box_low, options.box_high})});
-  result.oracle = make_simulator(options.plant, kDt, options.substeps);
-  result.policy = policy::make_mlp({.features = result.task.feature_map(),
-                                    .scale = Vector{{10, 10, 1, 1, 1, 1}},
-                                    .hidden = options.hidden,
-                                    .squash = {{{-kTorque, kTorque}}, options.policy_gain}});
-  return result;
+  const Task task = make_task(options);
+  return scenario::make_ode_scenario({.name = "pendubot",
+                                      .task = task,
+                                      .kernel = kKernel,
+                                      .plant = parameters(options.plant),
+                                      .measurement_noise = options.measurement_noise,
+                                      .guesses = guesses({options.box_low, options.box_high}),
+                                      .substeps = options.substeps,
+                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale)});
 }
 
-std::unique_ptr<scenario::ScenarioBuilder> builder() { return std::make_unique<Builder>(); }
+std::unique_ptr<scenario::ScenarioBuilder> builder() {
+  return scenario::make_builder("swing up two links by a torque on the first joint (50 steps of 0.05 s)", make);
+}
 
 }  // namespace rehearse::robots::pendubot

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "rehearse/core/options.hpp"
+#include "rehearse/scenario/policy_options.hpp"
 #include "rehearse/scenario/scenario.hpp"
 
 namespace rehearse::robots::pendubot {
@@ -20,11 +21,10 @@ struct Options {
   Physics plant;
   double start_noise = 0;        // std of every state at the start (the authors' later code: 0.001)
   double measurement_noise = 0;  // std of every measured state (the authors' later code: 0.01)
-  double box_low = 0.05;   // of the tunable m1, m2, l1, l2 (the authors' code: 0, where the mass matrix is singular)
-  double box_high = 1.2;   // (the authors' code: 1)
-  Index substeps = 20;     // of the priors' integrator in a control step
-  Index hidden = 10;       // units of the policy network
-  double policy_gain = 5;  // output 3.5 tanh(gain · a) (the paper: 1; the authors' code: 5)
+  double box_low = 0.05;  // of the tunable m1, m2, l1, l2 (the authors' code: 0, where the mass matrix is singular)
+  double box_high = 1.2;  // (the authors' code: 1)
+  Index substeps = 20;    // of the priors' integrator in a control step
+  scenario::PolicyOptions policy{.policy_gain = 5};  // (the paper: 1; the authors' code: 5)
   void fields(FieldVisitor& v);
 };
 

@@ -26,6 +26,36 @@ void oscillate(const Matrix& X, const Matrix& U, Index substeps, Index rows, Mat
   for_each_block<2, 1>(X.data(), X.rows(), U.data(), U.rows(), dX.data(), dX.rows(), rows, step);
 }
 
+/// Two pendulums side by side, the first driven, coupled by a spring of angle: states ω1, θ1, ω2, θ2; φ: stiffness.
+template <class D>
+struct Pendulums {
+  using V = Vec<D>;
+  static constexpr int kStates = 4;
+  static constexpr int kAngles[] = {1, 3};
+  Pendulums(D d, const double* phi) : stiffness(hn::Set(d, phi[0])), gravity(hn::Set(d, 9.82)) {}
+  void operator()(const V* x, const V* trig, V u, V* dxdt) const {
+    // sin(θ1 − θ2)
+    const V pull = hn::Mul(stiffness, hn::NegMulAdd(trig[1], trig[2], hn::Mul(trig[0], trig[3])));
+    dxdt[0] = hn::Sub(u, hn::MulAdd(gravity, trig[0], pull));
+    dxdt[1] = x[0];
+    dxdt[2] = hn::NegMulAdd(gravity, trig[2], pull);
+    dxdt[3] = x[2];
+  }
+  V stiffness, gravity;
+};
+
+void pendulums(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
+  const double pull = phi(0) * std::sin(x(1) - x(3));
+  dxdt << u(0) - 9.82 * std::sin(x(1)) - pull, x(0), pull - 9.82 * std::sin(x(3)), x(2);
+}
+
+const Vector kStiffness{{5}};
+
+void swing(const Matrix& X, const Matrix& U, Index substeps, Matrix& dX) {
+  change_rows<Pendulums>(X.data(), X.rows(), U.data(), kStiffness.data(), 0.1, substeps, dX.data(), dX.rows(),
+                         X.rows());
+}
+
 namespace {
 
 TEST(OdeKernel, FollowsTheOscillatorForAnyNumberOfRowsAndStrides) {
@@ -52,6 +82,37 @@ TEST(OdeKernel, TakesTheStepsOfTheSimulatorOfEquations) {
   oscillate(X, U, 2, 5, ours);  // so few steps that only the same formula gives the same numbers
   make_ode_simulator(ode, {}, kDt, 2)->change(X, U, {}, theirs);
   EXPECT_LT((ours - theirs).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+TEST(OdeKernel, AnglesTurnWithoutAnErrorOfTheirOwn) {
+  Matrix X = 3 * Matrix::Random(21, 4), U = Matrix::Random(21, 1);
+  X.col(0) *= 10;  // up to 30 rad/s
+  Matrix ours(21, 4), theirs(21, 4);
+  for (const Index substeps : {6, 12}) {
+    swing(X, U, substeps, ours);
+    make_ode_simulator(pendulums, {}, 0.1, substeps)->change(X, U, kStiffness, theirs);
+    EXPECT_LT((ours - theirs).cwiseAbs().maxCoeff(), 1e-12) << substeps;
+  }
+  for (Index i = 0; i < 21; ++i) {
+    const Vector x = X.row(i).transpose(), u = U.row(i).transpose();
+    Vector slope(4), expected(4);
+    slope_of_row<Pendulums>(x.data(), u(0), kStiffness.data(), slope.data());
+    pendulums(x, u, kStiffness, expected);
+    EXPECT_LT((slope - expected).norm(), 1e-12);
+  }
+}
+
+TEST(OdeKernel, AnglesBeyondAllReasonAreNanInTheirRowAlone) {
+  const Matrix X = Matrix::Random(11, 4), U = Matrix::Random(11, 1);
+  Matrix clean(11, 4), dX(11, 4);
+  swing(X, U, 4, clean);
+  for (const Index column : {1, 3}) {
+    Matrix far = X;
+    far(4, column) = 30001;
+    swing(far, U, 4, dX);
+    for (Index i = 0; i < 11; ++i)
+      EXPECT_TRUE(i == 4 ? dX.row(i).array().isNaN().all() : dX.row(i) == clean.row(i)) << i;
+  }
 }
 
 }  // namespace

@@ -23,12 +23,7 @@ Vector exact(const Vector& x, double u, double omega, double t) {
   return Vector{{rest + (x(0) - rest) * c + x(1) / omega * s, -(x(0) - rest) * omega * s + x(1) * c}};
 }
 
-ParameterSpace omega(double value) {
-  Parameter parameter;
-  parameter.name = "omega";
-  parameter.value = value;
-  return ParameterSpace({parameter});
-}
+ParameterSpace omega(double value) { return ParameterSpace({Parameter::fixed("omega", value)}); }
 
 const Vector kPhi{{3}};
 
@@ -96,6 +91,30 @@ TEST(OdeSimulator, RowsAndParametersAreTheirOwn) {
       EXPECT_EQ(one, dX.row(i));
     }
   }
+}
+
+TEST(OdeSimulator, CallsItsKernelWithItsRows) {
+  const OdeKernel kernel{[](const double* x, double u, const double* phi, double* dxdt) {
+                           dxdt[0] = x[1];
+                           dxdt[1] = -phi[0] * phi[0] * x[0] + u;
+                         },
+                         [](const double* X, Index x_stride, const double* U, const double* phi, double duration_s,
+                            Index steps, double* dX, Index dx_stride, Index rows) {
+                           for (Index i = 0; i < rows; ++i) {
+                             dX[i] = X[i] + U[i] + phi[0];
+                             dX[i + dx_stride] = X[i + x_stride] + duration_s + static_cast<double>(steps);
+                           }
+                         }};
+  const Matrix X = Matrix::Random(7, 2), U = Matrix::Random(7, 1);
+  Matrix dX(7, 2);
+  make_ode_simulator(kernel, omega(3), 0.25, 8)->change(X.middleRows(2, 4), U.middleRows(2, 4), kPhi, dX.topRows(4));
+  EXPECT_EQ(dX.col(0).head(4), ((X.col(0).segment(2, 4) + U.col(0).segment(2, 4)).array() + 3).matrix());
+  EXPECT_EQ(dX.col(1).head(4), (X.col(1).segment(2, 4).array() + 0.25 + 8).matrix());
+
+  Vector ours(2), theirs(2);
+  kernel.ode()(Vector{{0.4, -1}}, Vector{{0.7}}, kPhi, ours);
+  oscillator(Vector{{0.4, -1}}, Vector{{0.7}}, kPhi, theirs);
+  EXPECT_EQ(ours, theirs);
 }
 
 OdePlantOptions plant_options() {

@@ -1,14 +1,12 @@
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
-#include <chrono>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "rehearse/core/random.hpp"
 #include "rehearse/robots/pendubot/kernel.hpp"
-#include "rehearse/rollout/execute.hpp"
-#include "rehearse/system/ode.hpp"
+#include "rehearse/testing/check_scenario.hpp"
 
 namespace rehearse::robots::pendubot {
 namespace {
@@ -47,28 +45,21 @@ TEST(Pendubot, DerivativeIsThePapersEquation) {
   }
 }
 
-/// States and torques of `episodes` episodes of random policies.
-Dataset random_episodes(const scenario::Scenario& s, int episodes) {
-  Dataset data;
-  const auto plant = s.make_plant();
-  for (int e = 0; e < episodes; ++e) {
-    Rng rng({.trial = static_cast<std::uint64_t>(e), .purpose = Purpose::random_policy});
-    Vector theta(s.policy->parameters());
-    for (double& value : theta) value = rng.uniform(-5, 5);
-    data.append(rollout::execute(*plant, *s.policy, theta, s.task, rng));
-  }
-  return data;
-}
-
 TEST(Pendubot, SimulatorIsWithin2e6OfTheAdaptiveIntegratorEverywhere) {
   const scenario::Scenario s = make({});
-  const Dataset data = random_episodes(s, 100);
+  const Dataset data = testing::random_episodes(s, 100);
   Matrix dX(data.size(), 4);
   s.oracle->change(data.states, data.actions, kTruth, dX);
   const double worst = (dX - data.changes).cwiseAbs().maxCoeff();
   RecordProperty("worst_error", std::to_string(worst));
   EXPECT_LT(worst, 2e-6);
   EXPECT_GT(data.states.col(1).cwiseAbs().maxCoeff(), 10) << "the episodes must visit fast motions";
+}
+
+TEST(Pendubot, KeepsTheLaws) {
+  EXPECT_EQ(testing::check_scenario(make({})), std::vector<std::string>{});
+  EXPECT_EQ(testing::check_scenario(make({.start_noise = 0.001, .measurement_noise = 0.01})),
+            std::vector<std::string>{});
 }
 
 TEST(Pendubot, EveryPriorOfTableOne) {

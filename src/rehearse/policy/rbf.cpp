@@ -1,0 +1,63 @@
+#include "rehearse/policy/rbf.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/policy/rbf_kernel.hpp"
+
+namespace rehearse::policy {
+namespace {
+
+void check(const RbfOptions& options) {
+  Violations violations;
+  const Index features = options.features.features();
+  violations.require(options.scale.size() == features && (options.scale.array() > 0).all(),
+                     fmt::format("policy scale has {} entries, must have {}, all > 0", options.scale.size(), features));
+  violations.require(options.centres >= 1, fmt::format("rbf.centres = {}, must be ≥ 1", options.centres));
+  violations.require(options.noise > 0, fmt::format("rbf.noise = {}, must be > 0", options.noise));
+  violations.require(!options.bounds.empty(), "policy has no actions");
+  violations.throw_if_any();
+}
+
+class Rbf final : public Policy {
+ public:
+  explicit Rbf(RbfOptions options)
+      : features_(std::move(options.features)),
+        inverse_scale_(options.scale.cwiseInverse()),
+        bounds_(std::move(options.bounds)),
+        shape_{features_.features(), options.centres, static_cast<Index>(bounds_.size()), options.noise} {}
+
+  std::string name() const override { return "rbf"; }
+  Index actions() const override { return shape_.actions; }
+  Index parameters() const override { return shape_.parameters(); }
+
+  void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double, MatrixView U) const override {
+    thread_local Matrix inputs;
+    const Index rows = X.rows();
+    inputs.resize(rows, shape_.inputs);
+    features_.apply(X, inputs);
+    for (Index i = 0; i < shape_.inputs; ++i) inputs.col(i) *= inverse_scale_(i);
+    rbf(shape_, Theta.data(), Theta.outerStride(), inputs.data(), rows, U.data(), U.outerStride(), rows);
+    for (Index a = 0; a < shape_.actions; ++a) {
+      const auto [low, high] = bounds_[static_cast<std::size_t>(a)];
+      for (double& u : U.col(a)) u = std::clamp((low + high) / 2 + (high - low) / 2 * u, low, high);  // a NaN stays
+    }
+  }
+
+ private:
+  FeatureMap features_;
+  Vector inverse_scale_;
+  std::vector<Interval> bounds_;
+  RbfShape shape_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Policy> make_rbf(RbfOptions options) {
+  check(options);
+  return std::make_shared<Rbf>(std::move(options));
+}
+
+}  // namespace rehearse::policy

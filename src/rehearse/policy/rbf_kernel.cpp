@@ -1,0 +1,166 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rehearse/policy/rbf_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Highway's order matters: the functions come after the target.
+#include <hwy/aligned_allocator.h>
+#include <hwy/contrib/math/math-inl.h>
+
+#include "rehearse/policy/rbf_kernel.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace rehearse::policy {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<double>;
+using V = hn::Vec<D>;
+
+constexpr double kLargestLogLength = 20;  // beyond it a kernel is as good as constant, or nothing
+constexpr double kLargestMean = 1e4;      // Highway's sine is valid up to 39 000; beyond some 10 it has no meaning here
+
+/// Columns of vectors, one lane a row of the batch.
+struct Lanes {
+  Lanes(double* memory, Index count) : data(memory), lanes(count) {}
+  HWY_INLINE V operator[](Index i) const { return hn::Load(D(), data + i * lanes); }
+  HWY_INLINE void set(Index i, V value) const { hn::Store(value, D(), data + i * lanes); }
+
+  double* data;
+  Index lanes;
+};
+
+HWY_INLINE V clamp(V x, double limit) {
+  const D d;
+  return hn::Max(hn::Set(d, -limit), hn::Min(x, hn::Set(d, limit)));
+}
+
+/// exp(−½ squared); Highway 1.0.3 turns exp(NaN) into 0.
+HWY_INLINE V correlation(V squared) {
+  const D d;
+  return hn::IfThenElse(hn::IsNaN(squared), squared, hn::Exp(d, hn::Mul(squared, hn::Set(d, -0.5))));
+}
+
+HWY_INLINE V squared_distance(const Lanes& points, Index a, Index b, Index inputs) {
+  V sum = hn::Zero(D());
+  for (Index i = 0; i < inputs; ++i) {
+    const V difference = hn::Sub(points[a * inputs + i], points[b * inputs + i]);
+    sum = hn::MulAdd(difference, difference, sum);
+  }
+  return sum;
+}
+
+/// Row i of a lower triangle, packed by rows.
+constexpr Index row_of(Index i) { return i * (i + 1) / 2; }
+
+/// K + σ_n² I = L Lᵀ, and in place of L's diagonal its reciprocal.
+HWY_INLINE void factorise(const Lanes& points, const RbfShape& shape, const Lanes& L) {
+  const D d;
+  const V diagonal = hn::Set(d, 1 + shape.noise * shape.noise);
+  for (Index i = 0; i < shape.centres; ++i)
+    for (Index j = 0; j <= i; ++j) {
+      V rest = i == j ? diagonal : correlation(squared_distance(points, i, j, shape.inputs));
+      for (Index k = 0; k < j; ++k) rest = hn::NegMulAdd(L[row_of(i) + k], L[row_of(j) + k], rest);
+      L.set(row_of(i) + j, i == j ? hn::Div(hn::Set(d, 1.0), hn::Sqrt(rest)) : hn::Mul(rest, L[row_of(j) + j]));
+    }
+}
+
+/// b := L⁻¹ b
+HWY_INLINE void solve(const Lanes& L, const Lanes& b, Index n) {
+  for (Index i = 0; i < n; ++i) {
+    V rest = b[i];
+    for (Index k = 0; k < i; ++k) rest = hn::NegMulAdd(L[row_of(i) + k], b[k], rest);
+    b.set(i, hn::Mul(rest, L[row_of(i) + i]));
+  }
+}
+
+/// (9 sin a + sin 3a) / 8 (Deisenroth 2010, eq. 3.46), with sin 3a = 3 sin a − 4 sin³ a.
+HWY_INLINE V squash(V a) {
+  const D d;
+  const V sine = hn::Sin(d, clamp(a, kLargestMean));
+  const V squashed = hn::Mul(hn::Mul(sine, hn::Set(d, 0.5)), hn::NegMulAdd(sine, sine, hn::Set(d, 3.0)));
+  return hn::IfThenElse(hn::IsNaN(a), a, squashed);
+}
+
+/// Where the vectors of a block of rows lie.
+struct Block {
+  Block(const RbfShape& s, double* memory, Index lanes)
+      : theta(memory, lanes),
+        points(theta.data + s.parameters() * lanes, lanes),
+        L(points.data + (s.centres + 1) * s.inputs * lanes, lanes),
+        k(L.data + row_of(s.centres) * lanes, lanes),
+        w(k.data + s.centres * lanes, lanes),
+        x(w.data + s.centres * lanes, lanes) {}
+  static Index vectors(const RbfShape& s) {
+    return s.parameters() + (s.centres + 2) * s.inputs + row_of(s.centres) + 2 * s.centres;
+  }
+
+  Lanes theta;   // parameters
+  Lanes points;  // centres and, last, the inputs, divided by the length scales
+  Lanes L, k, w;
+  Lanes x;  // inputs
+};
+
+/// kᵀ (K + σ_n² I)⁻¹ y, squashed.
+HWY_INLINE V act(const RbfShape& s, Index action, const Block& block) {
+  const D d;
+  const Index n = s.centres, lengths = action * s.inputs, centres = s.actions * s.inputs;
+  const Index targets = centres + n * s.inputs + action * n;
+  for (Index i = 0; i < s.inputs; ++i) {
+    const V factor = hn::Exp(d, hn::Neg(clamp(block.theta[lengths + i], kLargestLogLength)));
+    for (Index c = 0; c < n; ++c)
+      block.points.set(c * s.inputs + i, hn::Mul(block.theta[centres + c * s.inputs + i], factor));
+    block.points.set(n * s.inputs + i, hn::Mul(block.x[i], factor));
+  }
+  factorise(block.points, s, block.L);
+  for (Index c = 0; c < n; ++c) {
+    block.k.set(c, correlation(squared_distance(block.points, n, c, s.inputs)));
+    block.w.set(c, block.theta[targets + c]);
+  }
+  solve(block.L, block.k, n);
+  solve(block.L, block.w, n);
+  V mean = hn::Zero(d);
+  for (Index c = 0; c < n; ++c) mean = hn::MulAdd(block.k[c], block.w[c], mean);
+  return squash(mean);
+}
+
+/// Rows [row, row + count) of some columns; a block that is not full is padded with its first row.
+HWY_INLINE void load(const double* from, Index stride, Index columns, Index row, Index count, const Lanes& to) {
+  for (Index c = 0; c < columns; ++c)
+    for (Index i = 0; i < to.lanes; ++i) to.data[c * to.lanes + i] = from[c * stride + row + (i < count ? i : 0)];
+}
+
+void RbfKernel(const RbfShape& shape, const double* theta, Index theta_stride, const double* in, Index in_stride,
+               double* out, Index out_stride, Index rows) {
+  thread_local hwy::AlignedFreeUniquePtr<double[]> memory;
+  thread_local Index allocated = 0;
+  const auto lanes = static_cast<Index>(hn::Lanes(D()));
+  const Index needed = Block::vectors(shape) * lanes;
+  if (needed > allocated) memory = hwy::AllocateAligned<double>(static_cast<std::size_t>(needed)), allocated = needed;
+  const Block block(shape, memory.get(), lanes);
+  for (Index row = 0; row < rows; row += lanes) {
+    const Index count = rows - row < lanes ? rows - row : lanes;
+    load(theta, theta_stride, shape.parameters(), row, count, block.theta);
+    load(in, in_stride, shape.inputs, row, count, block.x);
+    for (Index a = 0; a < shape.actions; ++a) {
+      block.w.set(0, act(shape, a, block));
+      for (Index i = 0; i < count; ++i) out[a * out_stride + row + i] = block.w.data[i];
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rehearse::policy
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rehearse::policy {
+
+HWY_EXPORT(RbfKernel);
+
+void rbf(const RbfShape& shape, const double* theta, Index theta_stride, const double* in, Index in_stride, double* out,
+         Index out_stride, Index rows) {
+  HWY_DYNAMIC_DISPATCH(RbfKernel)(shape, theta, theta_stride, in, in_stride, out, out_stride, rows);
+}
+
+}  // namespace rehearse::policy
+#endif

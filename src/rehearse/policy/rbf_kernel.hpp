@@ -1,0 +1,20 @@
+#pragma once
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::policy {
+
+struct RbfShape {
+  Index inputs, centres, actions;
+  double noise;  // σ_n
+
+  Index parameters() const { return inputs * actions + centres * inputs + centres * actions; }
+};
+
+/// For a batch in which every row has its own θ (n × parameters(); see rbf.hpp) and inputs (n × D): out (n × actions),
+/// the squashed mean of the policy's GP, in [−1, 1]. Strides are those between columns. No allocation after a thread's
+/// first call.
+void rbf(const RbfShape& shape, const double* theta, Index theta_stride, const double* in, Index in_stride, double* out,
+         Index out_stride, Index rows);
+
+}  // namespace rehearse::policy

@@ -1,0 +1,119 @@
+#include "rehearse/policy/rbf.hpp"
+
+#include <cmath>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/random.hpp"
+#include "rehearse/testing/check_policy.hpp"
+
+namespace rehearse::policy {
+namespace {
+
+const std::vector<Interval> kBounds = {{-3.5, 3.5}, {0.1, 0.3}};
+constexpr double kNoise = 0.05;
+
+std::shared_ptr<const Policy> rbf(Index centres, std::vector<Interval> bounds = kBounds) {
+  return make_rbf({.features = FeatureMap({StateKind::plain, StateKind::angle, StateKind::omitted}),
+                   .scale = Vector{{10, 1, 2}},
+                   .centres = centres,
+                   .noise = kNoise,
+                   .bounds = std::move(bounds)});
+}
+
+/// The mean of a GP in textbook form; theta in the order that rbf.hpp says.
+double mean(const Vector& theta, const Vector& x, Index centres, Index actions, Index action) {
+  const Index D = x.size();
+  const Vector lengths = theta.segment(action * D, D).array().exp();
+  const auto centre = [&](Index i) { return theta.segment(actions * D + i * D, D); };
+  const Vector targets = theta.segment(actions * D + centres * D + action * centres, centres);
+  const auto k = [&](const Vector& a, const Vector& b) {
+    return std::exp(-0.5 * ((a - b).array() / lengths.array()).square().sum());
+  };
+  Matrix K(centres, centres);
+  Vector kx(centres);
+  for (Index i = 0; i < centres; ++i) {
+    kx(i) = k(x, centre(i));
+    for (Index j = 0; j < centres; ++j) K(i, j) = k(centre(i), centre(j)) + (i == j ? kNoise * kNoise : 0);
+  }
+  return kx.dot(K.fullPivLu().solve(targets));
+}
+
+Matrix normals(Index rows, Index columns, std::uint64_t seed) {
+  Rng rng({.seed = seed});
+  Matrix numbers(rows, columns);
+  for (double& value : numbers.reshaped()) value = rng.normal();
+  return numbers;
+}
+
+TEST(Rbf, IsItsFormula) {
+  for (const Index centres : {1, 2, 10}) {
+    for (const Index rows : {1, 3, 8, 17}) {
+      const auto policy = rbf(centres);
+      ASSERT_EQ(policy->parameters(), 2 * 3 + centres * 3 + 2 * centres);
+      const Matrix Theta = normals(rows, policy->parameters(), 1), X = normals(rows, 3, 2);
+      Matrix U(rows, 2);
+      policy->act(Theta, X, 0, U);
+      for (Index r = 0; r < rows; ++r) {
+        const Vector x{{X(r, 0) / 10, std::cos(X(r, 1)), std::sin(X(r, 1)) / 2}};
+        for (Index a = 0; a < 2; ++a) {
+          const double m = mean(Theta.row(r), x, centres, 2, a);
+          const auto [low, high] = kBounds[static_cast<std::size_t>(a)];
+          const double squashed = (9 * std::sin(m) + std::sin(3 * m)) / 8;
+          EXPECT_NEAR(U(r, a), (low + high) / 2 + (high - low) / 2 * squashed, 1e-10);
+        }
+      }
+    }
+  }
+}
+
+TEST(Rbf, PassesThroughItsTargetsWhereCentresAreFarApart) {
+  const auto policy = make_rbf(
+      {.features = FeatureMap({StateKind::plain}), .scale = Vector::Ones(1), .centres = 2, .bounds = {{-1, 1}}});
+  const Matrix Theta{{0, -5, 5, 0.3, -0.7}};  // ln ℓ; centres; targets
+  for (const double x : {-5.0, 0.0, 5.0}) {
+    Matrix U(1, 1);
+    policy->act(Theta, Matrix{{x}}, 0, U);
+    const double m = x < 0 ? 0.3 : x > 0 ? -0.7 : 0;
+    EXPECT_NEAR(U(0, 0), (9 * std::sin(m) + std::sin(3 * m)) / 8, 1e-3) << x;
+  }
+}
+
+Task task() {
+  Task task;
+  task.states = {{"v", ""}, {"angle", "", StateKind::angle}, {"place", "", StateKind::omitted}};
+  task.actions = {{"a", "", kBounds[0]}, {"b", "", kBounds[1]}};
+  task.start_mean = Vector{{0, 1, 5}};
+  task.start_std = Vector::Zero(3);
+  task.dt_s = 0.1;
+  task.horizon = 10;
+  return task;
+}
+
+TEST(Rbf, KeepsTheLawsOfPolicies) {
+  for (const Index centres : {1, 10, 50})
+    EXPECT_EQ(testing::check_policy(*rbf(centres), task()), std::vector<std::string>{}) << centres;
+}
+
+TEST(Rbf, StaysInItsBoundsForHugeParameters) {
+  const auto policy = rbf(10);
+  for (const double size : {10.0, 1e3, 1e6}) {
+    Matrix U(64, 2);
+    policy->act(size * normals(64, policy->parameters(), 1), normals(64, 3, 2), 0, U);
+    EXPECT_TRUE(U.allFinite()) << size;
+  }
+}
+
+TEST(Rbf, SaysWhatIsWrong) {
+  EXPECT_THROW(rbf(0), InvalidInput);
+  EXPECT_THROW(rbf(10, {}), InvalidInput);
+  const FeatureMap features({StateKind::plain});
+  EXPECT_THROW(make_rbf({.features = features, .scale = Vector::Ones(2), .bounds = kBounds}), InvalidInput);
+  EXPECT_THROW(make_rbf({.features = features, .scale = Vector::Zero(1), .bounds = kBounds}), InvalidInput);
+  EXPECT_THROW(make_rbf({.features = features, .scale = Vector::Ones(1), .noise = 0, .bounds = kBounds}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rehearse::policy

@@ -1,0 +1,101 @@
+#include "rehearse/robots/cartpole/cartpole.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "rehearse/core/vector_math.hpp"
+#include "rehearse/reward/saturating.hpp"
+#include "rehearse/robots/cartpole/kernel.hpp"
+#include "rehearse/scenario/builder.hpp"
+#include "rehearse/scenario/ode_scenario.hpp"
+
+namespace rehearse::robots::cartpole {
+namespace {
+
+constexpr double kForce = 10;            // N
+constexpr double kRewardLength = 0.5;    // m, whatever the length of the plant or the prior
+constexpr double kRewardWidth = 0.25;    // m
+constexpr double kSolvedDistance = 0.1;  // m, of the cart from the centre
+constexpr double kSolvedAngle = 10 * std::numbers::pi / 180;
+const Vector kPolicyScale{{5, 5, 10, 1, 1}};
+constexpr double kSolvedTime = 0.5;  // s, at the end
+
+/// In the order of φ.
+ParameterSpace parameters(const Physics& p) {
+  return ParameterSpace({Parameter::fixed("m_pole", p.m_pole, "kg"), Parameter::fixed("m_cart", p.m_cart, "kg"),
+                         Parameter::fixed("l", p.l, "m"), Parameter::fixed("b", p.b, "N s/m")});
+}
+
+/// Of the pole's tip from where it is upright at x = 0: x² + 2 x l sin θ + 2 l² + 2 l² cos θ.
+void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
+  thread_local Matrix trig;
+  trig.resize(X.rows(), 2);
+  vector_sin_cos(X.col(3).data(), trig.col(0).data(), trig.col(1).data(), X.rows());
+  const auto x = X.col(0).array();
+  d2 =
+      x * (x + 2 * kRewardLength * trig.col(0).array()) + 2 * kRewardLength * kRewardLength * (1 + trig.col(1).array());
+}
+
+Task make_task(const Options& options) {
+  Task task;
+  task.states = {{"x", "m"}, {"dx", "m/s"}, {"dtheta", "rad/s"}, {"theta", "rad", StateKind::angle}};
+  task.actions = {{"u", "N", {-kForce, kForce}}};
+  task.start_mean = Vector::Zero(4);
+  task.start_std = Vector::Constant(4, options.start_noise);
+  task.dt_s = options.dt_s;
+  task.horizon = options.horizon;
+  task.reward = reward::saturating(squared_tip_distance, kRewardWidth);
+  task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
+    return std::abs(state(0)) <= kSolvedDistance && -std::cos(state(3)) >= std::cos(kSolvedAngle);
+  });
+  return task;
+}
+
+/// Ours, in the manner of Chatzilygeroudis 2018, Table I; b is never tunable.
+std::vector<scenario::Guess> guesses(Interval box) {
+  const auto guess = [box](const char* name, const Physics& physics) {
+    return scenario::Guess{name, parameters(physics).tunable_in(box, {"m_pole", "m_cart", "l"})};
+  };
+  return {guess("useful", {.m_pole = 0.65, .l = 0.4}), guess("tunable", {.m_cart = 0.75}),
+          guess("misleading", {.m_pole = 0.75, .m_cart = 0.75, .l = 0.25}),
+          guess("partial", {.m_pole = 0.65, .m_cart = 0.35, .b = 1})};
+}
+
+}  // namespace
+
+void Physics::fields(FieldVisitor& v) {
+  v.number("m_pole", m_pole, above(0));
+  v.number("m_cart", m_cart, above(0));
+  v.number("l", l, above(0));
+  v.number("b", b, at_least(0));
+}
+
+void Options::fields(FieldVisitor& v) {
+  v.group("plant", plant);
+  v.number("dt_s", dt_s, above(0));
+  v.integer("horizon", horizon, at_least(1));
+  v.number("start_noise", start_noise, at_least(0));
+  v.number("measurement_noise", measurement_noise, at_least(0));
+  v.number("box_low", box_low, above(0));
+  v.number("box_high", box_high, above(0));
+  v.integer("substeps", substeps, at_least(1));
+  policy.fields(v);
+}
+
+scenario::Scenario make(const Options& options) {
+  const Task task = make_task(options);
+  return scenario::make_ode_scenario({.name = "cartpole",
+                                      .task = task,
+                                      .kernel = kernel(),
+                                      .plant = parameters(options.plant),
+                                      .measurement_noise = options.measurement_noise,
+                                      .guesses = guesses({options.box_low, options.box_high}),
+                                      .substeps = options.substeps,
+                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale)});
+}
+
+std::unique_ptr<scenario::ScenarioBuilder> builder() {
+  return scenario::make_builder("swing up and balance a pole on a cart (40 steps of 0.1 s)", make);
+}
+
+}  // namespace rehearse::robots::cartpole

@@ -1,0 +1,37 @@
+#pragma once
+// The cart-pole: a pole that hangs from a cart, to be swung up and balanced by a force on the cart (Deisenroth 2011,
+// Chatzilygeroudis 2017).
+
+#include <memory>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/scenario/policy_options.hpp"
+#include "rehearse/scenario/scenario.hpp"
+
+namespace rehearse::robots::cartpole {
+
+struct Physics {
+  double m_pole = 0.5, m_cart = 0.5;  // kg
+  double l = 0.5;                     // m
+  double b = 0.1;                     // N s/m, between cart and ground
+  void fields(FieldVisitor& v);
+};
+
+/// Of the authors' code, unless it says otherwise.
+struct Options {
+  Physics plant;
+  double dt_s = 0.1;                // MC-PILCO (Amadio 2022): 0.05
+  Index horizon = 40;               // steps; MC-PILCO: 60
+  double start_noise = 0.001;       // std of every state at the start; MC-PILCO: 0.01
+  double measurement_noise = 0.01;  // std of every measured state
+  double box_low = 0.05;            // of the tunable m_pole, m_cart, l
+  double box_high = 1.2;
+  Index substeps = 20;  // of the priors' integrator in a control step
+  scenario::PolicyOptions policy;
+  void fields(FieldVisitor& v);
+};
+
+scenario::Scenario make(const Options& options);
+std::unique_ptr<scenario::ScenarioBuilder> builder();
+
+}  // namespace rehearse::robots::cartpole

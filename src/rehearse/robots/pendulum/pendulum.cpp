@@ -1,0 +1,94 @@
+#include "rehearse/robots/pendulum/pendulum.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "rehearse/core/vector_math.hpp"
+#include "rehearse/reward/saturating.hpp"
+#include "rehearse/robots/pendulum/kernel.hpp"
+#include "rehearse/scenario/builder.hpp"
+#include "rehearse/scenario/ode_scenario.hpp"
+
+namespace rehearse::robots::pendulum {
+namespace {
+
+constexpr double kDt = 0.1;  // s
+constexpr Index kHorizon = 40;
+constexpr double kTorque = 2.5;       // N m
+constexpr double kRewardWidth = 0.5;  // of a pendulum of length 1
+const Vector kPolicyScale{{10, 1, 1}};
+constexpr double kSolvedAngle = 10 * std::numbers::pi / 180;
+constexpr double kSolvedTime = 0.5;  // s, at the end
+
+/// In the order of φ.
+ParameterSpace parameters(const Physics& p) {
+  return ParameterSpace(
+      {Parameter::fixed("m", p.m, "kg"), Parameter::fixed("l", p.l, "m"), Parameter::fixed("b", p.b, "N m s/rad")});
+}
+
+/// (cos θ + 1)² + sin² θ = 2 + 2 cos θ
+void squared_distance(const ConstMatrixView& X, VectorView d2) {
+  thread_local Vector sine;
+  sine.resize(X.rows());
+  vector_sin_cos(X.col(1).data(), sine.data(), d2.data(), X.rows());
+  d2 = 2 + 2 * d2.array();
+}
+
+Task make_task(const Options& options) {
+  Task task;
+  task.states = {{"dtheta", "rad/s"}, {"theta", "rad", StateKind::angle}};
+  task.actions = {{"u", "N m", {-kTorque, kTorque}}};
+  task.start_mean = Vector::Zero(2);
+  task.start_std = Vector::Constant(2, options.start_noise);
+  task.dt_s = kDt;
+  task.horizon = kHorizon;
+  task.reward = reward::saturating(squared_distance, kRewardWidth);
+  task.solved = scenario::holds_at_the_end(
+      task, kSolvedTime, [](const ConstVectorView& state) { return -std::cos(state(1)) >= std::cos(kSolvedAngle); });
+  return task;
+}
+
+/// Ours, in the manner of Chatzilygeroudis 2018, Table I; b is never tunable.
+std::vector<scenario::Guess> guesses(Interval box) {
+  const auto guess = [box](const char* name, const Physics& physics) {
+    return scenario::Guess{name, parameters(physics).tunable_in(box, {"m", "l"})};
+  };
+  return {guess("useful", {.m = 1.3, .l = 0.8}), guess("tunable", {.m = 1.5}), guess("misleading", {.l = 0.5}),
+          guess("partial", {.m = 0.7, .b = 0.3})};
+}
+
+}  // namespace
+
+void Physics::fields(FieldVisitor& v) {
+  v.number("m", m, above(0));
+  v.number("l", l, above(0));
+  v.number("b", b, at_least(0));
+}
+
+void Options::fields(FieldVisitor& v) {
+  v.group("plant", plant);
+  v.number("start_noise", start_noise, at_least(0));
+  v.number("measurement_noise", measurement_noise, at_least(0));
+  v.number("box_low", box_low, above(0));
+  v.number("box_high", box_high, above(0));
+  v.integer("substeps", substeps, at_least(1));
+  policy.fields(v);
+}
+
+scenario::Scenario make(const Options& options) {
+  const Task task = make_task(options);
+  return scenario::make_ode_scenario({.name = "pendulum",
+                                      .task = task,
+                                      .kernel = kernel(),
+                                      .plant = parameters(options.plant),
+                                      .measurement_noise = options.measurement_noise,
+                                      .guesses = guesses({options.box_low, options.box_high}),
+                                      .substeps = options.substeps,
+                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale)});
+}
+
+std::unique_ptr<scenario::ScenarioBuilder> builder() {
+  return scenario::make_builder("swing up a pendulum whose motor is too weak to lift it (40 steps of 0.1 s)", make);
+}
+
+}  // namespace rehearse::robots::pendulum

@@ -1,0 +1,42 @@
+#include "rehearse/scenario/ode_scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rehearse::scenario {
+
+Scenario make_ode_scenario(const OdeScenario& parts) {
+  const Task& task = parts.task;
+  const auto simulator = [&](const ParameterSpace& parameters) {
+    return system::make_ode_simulator(parts.kernel, parameters.fixed_at(parameters.values()), task.dt_s,
+                                      parts.substeps);
+  };
+  const system::OdePlantOptions plant{.ode = parts.kernel.ode(),
+                                      .phi = parts.plant.values(),
+                                      .dt_s = task.dt_s,
+                                      .start_mean = task.start_mean,
+                                      .start_std = task.start_std,
+                                      .measurement_std = Vector::Constant(task.state_size(), parts.measurement_noise)};
+  Scenario scenario{.name = parts.name,
+                    .task = task,
+                    .make_plant = [plant] { return system::make_ode_plant(plant); },
+                    .oracle = simulator(parts.plant),
+                    .policy = parts.policy};
+  for (const Guess& guess : parts.guesses)
+    scenario.priors.push_back({guess.name, simulator(guess.parameters), guess.parameters});
+  return scenario;
+}
+
+std::function<bool(const Episode&)> holds_at_the_end(const Task& task, double seconds,
+                                                     std::function<bool(const ConstVectorView& state)> holds) {
+  const Index horizon = task.horizon;
+  const Index first = std::max<Index>(0, horizon - std::lround(seconds / task.dt_s));
+  return [=, holds = std::move(holds)](const Episode& episode) {
+    if (episode.steps() < horizon || episode.ended) return false;
+    for (Index t = first; t <= horizon; ++t)
+      if (!holds(episode.true_states.row(t).transpose())) return false;
+    return true;
+  };
+}
+
+}  // namespace rehearse::scenario

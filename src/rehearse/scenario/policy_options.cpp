@@ -1,0 +1,31 @@
+#include "rehearse/scenario/policy_options.hpp"
+
+#include "rehearse/policy/network.hpp"
+#include "rehearse/policy/rbf.hpp"
+
+namespace rehearse::scenario {
+
+void PolicyOptions::fields(FieldVisitor& v) {
+  v.choice("policy", policy, {"mlp", "rbf", "linear"});
+  v.integer("hidden", hidden, at_least(1));
+  v.number("policy_gain", policy_gain, above(0));
+  v.integer("centres", centres, at_least(1));
+}
+
+std::shared_ptr<const policy::Policy> make_policy(const PolicyOptions& options, const Task& task, const Vector& scale) {
+  std::vector<Interval> bounds;
+  for (const ActionVariable& action : task.actions) bounds.push_back(action.bounds);
+  const policy::Squash squash{bounds, options.policy_gain};
+  switch (options.policy) {
+    case PolicyOptions::Kind::rbf:
+      return policy::make_rbf(
+          {.features = task.feature_map(), .scale = scale, .centres = options.centres, .bounds = bounds});
+    case PolicyOptions::Kind::linear:
+      return policy::make_linear({.features = task.feature_map(), .scale = scale, .squash = squash});
+    default:
+      return policy::make_mlp(
+          {.features = task.feature_map(), .scale = scale, .hidden = options.hidden, .squash = squash});
+  }
+}
+
+}  // namespace rehearse::scenario

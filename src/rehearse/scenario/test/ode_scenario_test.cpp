@@ -1,0 +1,77 @@
+#include "rehearse/scenario/ode_scenario.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "oscillator.hpp"
+
+namespace rehearse::scenario {
+namespace {
+
+TEST(OdeScenario, PlantIntegratesTheEquationAndOracleIsItsKernel) {
+  const Scenario s = oscillator::make({.omega = 2.5});
+  EXPECT_EQ(s.name, "oscillator");
+  const auto plant = s.make_plant();
+  Rng rng({});
+  EXPECT_EQ(plant->reset(rng), s.task.start_mean);
+  const Vector x = plant->step(Vector{{0}});
+  EXPECT_NEAR(x(0), std::cos(0.25), 1e-10);
+  EXPECT_NEAR(x(1), -2.5 * std::sin(0.25), 1e-10);
+
+  Matrix dX(1, 2);
+  const ParameterSpace& space = s.oracle->parameters();
+  s.oracle->change(Matrix{{1, 0}}, Matrix{{0}}, space.values(), dX);
+  EXPECT_EQ(dX, (Matrix{{0, -0.1 * 2.5 * 2.5}})) << "Euler's step, at the plant's parameters";
+  EXPECT_FALSE(space.has_tunable());
+}
+
+TEST(OdeScenario, PriorsKeepTheirValuesAndWhatMayBeTuned) {
+  const Scenario s = oscillator::make({});
+  ASSERT_EQ(s.priors.size(), 2u);
+  EXPECT_EQ(s.priors[0].name, "slow");
+  EXPECT_EQ(s.priors[0].parameters.values(), Vector{{2}});
+  EXPECT_TRUE(s.priors[0].parameters.has_tunable());
+  EXPECT_FALSE(s.priors[1].parameters.has_tunable());
+  Matrix dX(1, 2);
+  s.priors[1].simulator->change(Matrix{{1, 0}}, Matrix{{0}}, s.priors[1].parameters.values(), dX);
+  EXPECT_DOUBLE_EQ(dX(0, 1), -1.6);
+}
+
+TEST(OdeScenario, MeasurementsAreNoisyAndTheTruthIsNot) {
+  const auto plant = oscillator::make({.noise = 0.1}).make_plant();
+  Rng rng({});
+  const Vector measured = plant->reset(rng);
+  EXPECT_EQ(plant->truth(), (Vector{{1, 0}}));
+  EXPECT_NE(measured(0), 1);
+  EXPECT_NE(measured(1), 0);
+}
+
+TEST(HoldsAtTheEnd, LooksAtEveryStateOfTheLastSeconds) {
+  const Task task = oscillator::task({.horizon = 10});
+  const auto solved = holds_at_the_end(task, 0.3, [](const ConstVectorView& x) { return x(0) > 0; });
+  Episode episode{.true_states = Matrix::Constant(11, 2, -1), .actions = Matrix::Zero(10, 1)};
+  episode.true_states.col(0).tail(4).setOnes();  // x_7..x_10
+  EXPECT_TRUE(solved(episode));
+  for (const Index t : {7, 8, 10}) {
+    Episode fails = episode;
+    fails.true_states(t, 0) = -1;
+    EXPECT_FALSE(solved(fails)) << t;
+  }
+  Episode fell = episode;
+  fell.ended = true;
+  EXPECT_FALSE(solved(fell));
+  Episode cut{.true_states = Matrix::Ones(10, 2), .actions = Matrix::Zero(9, 1)};
+  EXPECT_FALSE(solved(cut));
+}
+
+TEST(HoldsAtTheEnd, OfAShortEpisodeLooksAtAll) {
+  const auto solved = holds_at_the_end(oscillator::task({.horizon = 2}), 1, [](const auto& x) { return x(0) > 0; });
+  Episode episode{.true_states = Matrix::Ones(3, 2), .actions = Matrix::Zero(2, 1)};
+  EXPECT_TRUE(solved(episode));
+  episode.true_states(0, 0) = -1;
+  EXPECT_FALSE(solved(episode));
+}
+
+}  // namespace
+}  // namespace rehearse::scenario

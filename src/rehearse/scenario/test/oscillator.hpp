@@ -1,0 +1,63 @@
+#pragma once
+// A scenario with one option: an oscillator x'' = −ω² x + u with states (x, x').
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/policy/network.hpp"
+#include "rehearse/scenario/ode_scenario.hpp"
+
+namespace rehearse::scenario::oscillator {
+
+struct Options {
+  double omega = 3;
+  Index horizon = 5;
+  double noise = 0;
+  void fields(FieldVisitor& v) {
+    v.number("omega", omega, above(0));
+    v.integer("horizon", horizon, at_least(1));
+    v.number("noise", noise, at_least(0));
+  }
+};
+
+inline void derivative(const double* x, double u, const double* phi, double* dxdt) {
+  dxdt[0] = x[1];
+  dxdt[1] = -phi[0] * phi[0] * x[0] + u;
+}
+
+/// One step of Euler's: known by its error.
+inline void change(const double* X, Index x_stride, const double* U, const double* phi, double duration_s, Index,
+                   double* dX, Index dx_stride, Index rows) {
+  for (Index i = 0; i < rows; ++i) {
+    const double x[] = {X[i], X[i + x_stride]};
+    double slope[2];
+    derivative(x, U[i], phi, slope);
+    for (int c = 0; c < 2; ++c) dX[i + c * dx_stride] = duration_s * slope[c];
+  }
+}
+
+inline ParameterSpace parameters(double omega) { return ParameterSpace({Parameter::fixed("omega", omega, "rad/s")}); }
+
+inline Task task(const Options& options) {
+  Task task;
+  task.states = {{"x", "m"}, {"dx", "m/s"}};
+  task.actions = {{"u", "N", {-2, 1}}};
+  task.start_mean = Vector{{1, 0}};
+  task.start_std = Vector::Zero(2);
+  task.dt_s = 0.1;
+  task.horizon = options.horizon;
+  task.reward = [](const auto&, const auto&, const auto&, VectorView rewards) { rewards.setZero(); };
+  return task;
+}
+
+inline Scenario make(const Options& options) {
+  return make_ode_scenario(
+      {.name = "oscillator",
+       .task = task(options),
+       .kernel = {derivative, change},
+       .plant = parameters(options.omega),
+       .measurement_noise = options.noise,
+       .guesses = {{"slow", parameters(2).tunable_in({1, 5}, {"omega"})}, {"fast", parameters(4)}},
+       .policy = policy::make_linear(
+           {.features = task(options).feature_map(), .scale = Vector::Ones(2), .squash = {{{-2, 1}}, 1}})});
+}
+
+}  // namespace rehearse::scenario::oscillator

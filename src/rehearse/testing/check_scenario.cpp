@@ -1,0 +1,39 @@
+#include "rehearse/testing/check_scenario.hpp"
+
+#include "rehearse/rollout/execute.hpp"
+#include "rehearse/testing/check_plant.hpp"
+#include "rehearse/testing/check_policy.hpp"
+#include "rehearse/testing/check_simulator.hpp"
+
+namespace rehearse::testing {
+
+Dataset random_episodes(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) {
+  Dataset data;
+  const auto plant = scenario.make_plant();
+  for (Index e = 0; e < episodes; ++e) {
+    Rng rng({.seed = seed, .trial = static_cast<std::uint64_t>(e), .purpose = Purpose::random_policy});
+    Vector theta(scenario.policy->parameters());
+    for (double& value : theta) value = rng.uniform(-5, 5);
+    data.append(rollout::execute(*plant, *scenario.policy, theta, scenario.task, rng));
+  }
+  return data;
+}
+
+std::vector<std::string> check_scenario(const scenario::Scenario& scenario) {
+  std::vector<std::string> found = scenario.task.violations();
+  if (!found.empty()) return found;
+  const auto add = [&](const std::string& what, const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) found.push_back(what + ": " + line);
+  };
+  add("plant", check_plant(scenario.make_plant, scenario.task));
+  add("policy", check_policy(*scenario.policy, scenario.task));
+  if (!found.empty()) return found;
+  const Dataset data = random_episodes(scenario, 1);
+  for (const scenario::NamedPrior& prior : scenario.priors)
+    add("prior " + prior.name, check_simulator(*prior.simulator, data.states, data.actions, prior.parameters.values()));
+  if (scenario.oracle)
+    add("oracle", check_simulator(*scenario.oracle, data.states, data.actions, scenario.oracle->parameters().values()));
+  return found;
+}
+
+}  // namespace rehearse::testing
