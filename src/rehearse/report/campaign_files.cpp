@@ -1,0 +1,180 @@
+#include "rehearse/report/campaign_files.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "rehearse/report/run_files.hpp"
+#include "rehearse/statistics/quantiles.hpp"
+
+namespace rehearse::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Index kFormat = 1;  // of summary.json
+
+using Group = std::tuple<std::string, std::string, std::string>;   // learner, prior, variant
+using ByTrial = std::map<Index, std::vector<double>>;              // values of the runs of a group
+using Samples = std::map<std::pair<Group, std::string>, ByTrial>;  // by what was measured
+
+Json group_json(const Group& group) {
+  return {{"learner", std::get<0>(group)}, {"prior", std::get<1>(group)}, {"variant", std::get<2>(group)}};
+}
+
+Json read_summary(const fs::path& path) {
+  Json summary = read_json(path);
+  if (!summary.is_object() || !summary["format"].is_number_integer())
+    throw InvalidInput("it is no summary of a campaign");
+  if (summary["format"] != kFormat)
+    throw InvalidInput(fmt::format("format {} is that of another version of Rehearse, this one reads {}",
+                                   summary["format"].get<Index>(), kFormat));
+  return summary;
+}
+
+Group group_of(const Json& run) {
+  return {run.at("learner").get<std::string>(), run.at("prior").get<std::string>(),
+          run.at("variant").get<std::string>()};
+}
+
+/// What the summary does not know: what happened to the folders since.
+void check_runs(const fs::path& folder, const Json& runs, Problems& problems) {
+  for (const Json& run : runs) {
+    const std::string where = run.at("folder").get<std::string>(), state = run.at("state").get<std::string>();
+    if (state == "failed")
+      problems.add(where, "failed: " + run.at("reason").get<std::string>());
+    else if (fs::exists(folder / where) || state == "done")
+      check_run_folder(folder / where, where, run.at("trials").get<Index>(), problems);
+  }
+}
+
+/// What lies in runs/ and is no run of the campaign. Hidden entries are folders that are being made.
+void name_strangers(const fs::path& folder, const Json& summary, Problems& problems) {
+  std::map<std::string, std::string> reasons;
+  for (const Json& skipped : summary.at("skipped"))
+    reasons[skipped.at("path").get<std::string>()] = skipped.at("reason").get<std::string>();
+  std::set<std::string> known;
+  for (const Json& run : summary.at("runs")) known.insert(run.at("folder").get<std::string>());
+  std::set<fs::path> entries;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder / "runs", ignored))
+    entries.insert("runs" / entry.path().filename());
+  for (const fs::path& entry : entries) {
+    if (known.contains(entry.string()) || entry.filename().string().starts_with('.')) continue;
+    const auto found = reasons.find(entry.string());
+    problems.add(entry, found == reasons.end() ? "it is no run of this campaign" : found->second);
+  }
+}
+
+/// Numbers of a column by row; a cell without one is skipped by the caller.
+std::vector<std::string> texts(const statistics::Table& table, std::string_view name) {
+  const int position = table.column(name);
+  if (position < 0) throw InvalidInput(fmt::format("there is no column {}", name));
+  std::vector<std::string> cells;
+  for (const auto& row : table.rows) cells.push_back(row[static_cast<std::size_t>(position)]);
+  return cells;
+}
+
+Samples parameter_samples(const statistics::Table& table) {
+  const auto learners = texts(table, "learner"), priors = texts(table, "prior"), variants = texts(table, "variant");
+  const auto trials = table.numbers("trial");
+  Samples samples;
+  for (const std::string& name : parameter_names(table)) {
+    const auto values = table.numbers("phi." + name);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (values[i] && trials[i])
+        samples[{{learners[i], priors[i], variants[i]}, name}][static_cast<Index>(*trials[i])].push_back(*values[i]);
+  }
+  return samples;
+}
+
+Json quartiles_json(const ByTrial& by_trial) {
+  Json trials = Json::array();
+  for (const auto& [trial, values] : by_trial) {
+    const statistics::FiveNumbers five = statistics::five_numbers(values);
+    trials.push_back({{"trial", trial},
+                      {"runs", values.size()},
+                      {"quartile_1", rounded(five.quartile_1)},
+                      {"median", rounded(five.median)},
+                      {"quartile_3", rounded(five.quartile_3)}});
+  }
+  return trials;
+}
+
+/// One entry a measured thing, in the order of the summary's groups.
+Json samples_json(const Json& summary, const Samples& samples, const char* key) {
+  Json all = Json::array();
+  for (const Json& entry : summary.at("groups"))
+    for (const auto& [of, by_trial] : samples) {
+      if (of.first != group_of(entry)) continue;
+      all.push_back(group_json(of.first));
+      all.back()[key] = of.second;
+      all.back()["trials"] = quartiles_json(by_trial);
+    }
+  return all;
+}
+
+/// The readable specs, the first of each group: its runs differ in their seeds alone.
+std::map<Group, RunSpec> specs_of(const fs::path& folder, const Json& runs) {
+  std::map<Group, RunSpec> specs;
+  for (const Json& run : runs) {
+    if (specs.contains(group_of(run))) continue;
+    try {
+      specs[group_of(run)] = read_spec(folder / run.at("folder").get<std::string>());
+    } catch (const InvalidInput&) {  // check_runs has named it
+    }
+  }
+  return specs;
+}
+
+Json parameters_json(const fs::path& folder, const Json& summary, const statistics::Table& table) {
+  Json parameters = samples_json(summary, parameter_samples(table), "parameter");
+  const auto specs = specs_of(folder, summary.at("runs"));
+  for (Json& parameter : parameters) {
+    const auto spec = specs.find(group_of(parameter));
+    const auto truth = spec == specs.end() ? std::nullopt : spec->second.truth(parameter.at("parameter"));
+    parameter["truth"] = truth ? rounded(*truth) : Json();
+  }
+  return parameters;
+}
+
+/// Seconds of computing, from the timings of every run that has them.
+Samples time_samples(const fs::path& folder, const Json& runs) {
+  Samples samples;
+  for (const Json& run : runs) {
+    try {
+      const auto table = read_table(folder / run.at("folder").get<std::string>() / "timings.csv");
+      const auto trials = table.numbers("trial");
+      for (const char* part : {"model_s", "search_s"}) {
+        const auto seconds = table.numbers(part);
+        for (std::size_t i = 0; i < seconds.size(); ++i)
+          if (seconds[i] && trials[i])
+            samples[{group_of(run), part}][static_cast<Index>(*trials[i])].push_back(*seconds[i]);
+      }
+    } catch (const InvalidInput&) {  // a run that did not start has none
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+Json read_campaign(const fs::path& folder, Problems& problems) {
+  const Json summary = read_summary(folder / "summary.json");
+  try {
+    check_runs(folder, summary.at("runs"), problems);
+    name_strangers(folder, summary, problems);
+    Json campaign = {{"summary", rounded(summary)}};
+    const auto table = problems.value_or_problem("campaign.csv", [&] { return read_table(folder / "campaign.csv"); });
+    campaign["parameters"] = table ? parameters_json(folder, summary, *table) : Json::array();
+    campaign["times"] = samples_json(summary, time_samples(folder, summary.at("runs")), "part");
+    return campaign;
+  } catch (const Json::exception&) {
+    throw InvalidInput("it lacks what docs/campaigns.md promises");
+  }
+}
+
+}  // namespace rehearse::report

@@ -1,0 +1,72 @@
+#include "rehearse/report/files.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/options.hpp"
+
+namespace rehearse::report {
+namespace {
+
+/// The column as numbers, or as text if a cell is neither empty nor a number.
+Json column(const statistics::Table& table, std::size_t position) {
+  Json numbers = Json::array(), texts = Json::array();
+  bool numeric = true;
+  for (const auto& row : table.rows) {
+    const std::string& cell = row[position];
+    double value = 0;
+    const bool is_number = from_text(cell, value);
+    numeric = numeric && (is_number || cell.empty());
+    numbers.push_back(is_number ? rounded(value) : Json());
+    texts.push_back(cell);
+  }
+  return numeric ? numbers : texts;
+}
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) throw InvalidInput("it is not there");
+  std::ifstream file(path, std::ios::binary);
+  if (!file || !std::filesystem::is_regular_file(path, ignored)) throw InvalidInput("it cannot be read");
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+statistics::Table read_table(const std::filesystem::path& path) { return statistics::read_csv(read_text(path)); }
+
+Json read_json(const std::filesystem::path& path) {
+  try {
+    return Json::parse(read_text(path));
+  } catch (const Json::parse_error&) {
+    throw InvalidInput("it is truncated or no JSON");
+  }
+}
+
+Json rounded(double value) {
+  constexpr double kExact = 9007199254740992.0;  // 2^53
+  if (!std::isfinite(value)) return {};
+  if (value == std::round(value) && std::abs(value) < kExact) return static_cast<std::int64_t>(value);
+  double nearest = 0;
+  from_text(fmt::format("{:.6g}", value), nearest);
+  return nearest;
+}
+
+Json rounded(Json json) {
+  if (json.is_number_float()) return rounded(json.get<double>());
+  if (json.is_structured())
+    for (Json& item : json) item = rounded(std::move(item));
+  return json;
+}
+
+Json columns(const statistics::Table& table) {
+  Json all = Json::object();
+  for (std::size_t i = 0; i < table.header.size(); ++i) all[table.header[i]] = column(table, i);
+  return all;
+}
+
+}  // namespace rehearse::report

@@ -1,0 +1,60 @@
+#pragma once
+// Reading the files of a folder so that what is wrong with one of them becomes a problem. For the sources of this room.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/report/report.hpp"
+#include "rehearse/statistics/table.hpp"
+
+namespace rehearse::report {
+
+using Json = nlohmann::ordered_json;
+
+/// A whole file. Throws InvalidInput.
+std::string read_text(const std::filesystem::path& path);
+
+/// A table that is whole. Throws InvalidInput.
+statistics::Table read_table(const std::filesystem::path& path);
+
+/// Throws InvalidInput.
+Json read_json(const std::filesystem::path& path);
+
+/// To 6 significant digits, whole numbers exactly; null if it is not finite.
+Json rounded(double value);
+
+/// Every number in it rounded.
+Json rounded(Json json);
+
+/// Column name → cells, numbers where all cells are numbers or empty (null).
+Json columns(const statistics::Table& table);
+
+/// Problems, each with where it is.
+class Problems {
+ public:
+  void add(const std::filesystem::path& where, std::string what) { list_.push_back({where.string(), std::move(what)}); }
+
+  /// The value of `read`; if it throws InvalidInput, none and a problem.
+  template <class Read>
+  auto value_or_problem(const std::filesystem::path& where, Read read) -> std::optional<decltype(read())> {
+    try {
+      return read();
+    } catch (const InvalidInput& error) {
+      add(where, error.what());
+      return std::nullopt;
+    }
+  }
+
+  const std::vector<Problem>& list() const { return list_; }
+
+ private:
+  std::vector<Problem> list_;
+};
+
+}  // namespace rehearse::report

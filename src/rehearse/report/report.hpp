@@ -1,0 +1,37 @@
+#pragma once
+// Folders of runs and campaigns as one page (docs/report.md). Reads files, and knows no algorithm and no robot.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::report {
+
+/// Something in a folder that could not be used, or did not go well.
+struct Problem {
+  std::string where;  // relative to the folder
+  std::string what;
+};
+
+/// What the page shows.
+struct Report {
+  std::string json;  // numbers to 6 digits
+  std::vector<Problem> problems;
+};
+
+/// Of a run folder (docs/run-folder.md) or a campaign folder (docs/campaigns.md). What cannot be read is left out and
+/// named among the problems. Throws InvalidInput if the folder is neither, or its spec.toml or summary.json is
+/// unusable.
+Report read_folder(const std::filesystem::path& folder);
+
+/// Of one trial of a run folder. Throws InvalidInput, too, if there is no such trial.
+Report read_trial(const std::filesystem::path& folder, Index trial);
+
+/// A self-contained page. page_template: the built page of web/, which has one place for the data. Throws InvalidInput
+/// if it has not.
+std::string to_html(const Report& report, std::string_view page_template);
+
+}  // namespace rehearse::report

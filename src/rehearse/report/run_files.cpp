@@ -1,0 +1,198 @@
+#include "rehearse/report/run_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include "rehearse/core/options.hpp"
+
+namespace rehearse::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kFormat = 1;  // of spec.toml and of the checkpoint
+
+fs::path trial_file(const char* kind, Index trial, const char* extension) {
+  return fs::path(kind) / fmt::format("trial-{:03}.{}", trial, extension);
+}
+
+toml::table parse(const std::string& text) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw InvalidInput(fmt::format("line {}: {}", error.source().begin.line, std::string(error.description())));
+  }
+}
+
+std::string text_of(const toml::node& node) {
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  if (const auto number = node.value_exact<double>()) return to_text(*number);
+  std::ostringstream out;
+  node.visit([&](const auto& value) { out << value; });
+  return out.str();
+}
+
+void add_options(const toml::table& table, const std::string& prefix,
+                 std::vector<std::pair<toml::source_position, std::pair<std::string, std::string>>>& options) {
+  for (const auto& [key, node] : table) {
+    const std::string name = fmt::format("{}{}", prefix, key.str());
+    if (const toml::table* inner = node.as_table())
+      add_options(*inner, name + ".", options);
+    else
+      options.push_back({node.source().begin, {name, text_of(node)}});
+  }
+}
+
+/// Under every section but [run].
+std::vector<std::pair<std::string, std::string>> options_of(toml::table file) {
+  file.erase("run");
+  file.erase("format");
+  std::vector<std::pair<toml::source_position, std::pair<std::string, std::string>>> found;
+  add_options(file, "", found);
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::pair<std::string, std::string>> options;
+  for (auto& [position, option] : found) options.push_back(std::move(option));
+  return options;
+}
+
+/// The header line holds the number of bytes that follow it.
+void check_checkpoint(const fs::path& path) {
+  const std::string bytes = read_text(path);
+  const std::size_t line = bytes.find('\n');
+  long format = 0;
+  std::size_t size = 0;
+  if (line == std::string::npos || std::sscanf(bytes.c_str(), "rehearse-checkpoint %ld %zu", &format, &size) != 2)
+    throw InvalidInput("it is truncated or none of Rehearse");
+  if (format != kFormat) throw InvalidInput(fmt::format("format {} is that of another version of Rehearse", format));
+  if (size != bytes.size() - line - 1) throw InvalidInput("it is truncated or damaged");
+}
+
+void check_ends_with_line(const fs::path& path) {
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) throw InvalidInput("it is not there, or cannot be read");
+  const bool whole = std::fseek(file, -1, SEEK_END) == 0 && std::fgetc(file) == '\n';
+  std::fclose(file);
+  if (!whole) throw InvalidInput("it is cut short");
+}
+
+void check_trials(const fs::path& path, Index trials) {
+  const auto rows = static_cast<Index>(read_table(path).rows.size());
+  if (rows < trials) throw InvalidInput(fmt::format("it has {} of {} trials", rows, trials));
+}
+
+Json spec_json(const RunSpec& spec) {
+  Json options = Json::array();
+  for (const auto& [key, text] : spec.options) options.push_back({key, text});
+  return {{"scenario", spec.scenario}, {"learner", spec.learner}, {"prior", spec.prior},
+          {"seed", spec.seed},         {"planned", spec.trials},  {"options", options}};
+}
+
+Json truths(const RunSpec& spec, const statistics::Table& trials) {
+  Json truth = Json::object();
+  for (const std::string& name : parameter_names(trials))
+    if (const auto value = spec.truth(name)) truth[name] = rounded(*value);
+  return truth;
+}
+
+/// A motion is there if the scenario can draw its robot.
+Json motion(const fs::path& folder, const fs::path& path, Problems& problems) {
+  if (!fs::exists(folder / path)) return {};
+  return problems.value_or_problem(path, [&] { return rounded(read_json(folder / path)); }).value_or(Json());
+}
+
+Index trajectories_in(const fs::path& folder) {
+  Index trials = 0;
+  while (fs::exists(folder / trial_file("trajectories", trials + 1, "csv"))) ++trials;
+  return trials;
+}
+
+Json episode(const fs::path& folder, Index trial, Problems& problems) {
+  const auto table = [&](const fs::path& path) {
+    return problems.value_or_problem(path, [&] { return columns(read_table(folder / path)); }).value_or(Json());
+  };
+  const fs::path prediction = trial_file("predictions", trial, "csv");
+  return {{"trial", trial},
+          {"trajectory", table(trial_file("trajectories", trial, "csv"))},
+          {"prediction", fs::exists(folder / prediction) ? table(prediction) : Json()},  // a random trial has none
+          {"motion", motion(folder, trial_file("motion", trial, "json"), problems)}};
+}
+
+}  // namespace
+
+std::optional<double> RunSpec::truth(const std::string& name) const {
+  const std::string key = "scenario.plant." + name.substr(0, name.find('@'));
+  for (const auto& [option, text] : options) {
+    double value = 0;
+    if (option == key && from_text(text, value)) return value;
+  }
+  return std::nullopt;
+}
+
+RunSpec read_spec(const fs::path& folder) {
+  const toml::table file = parse(read_text(folder / "spec.toml"));
+  const std::int64_t format = file["format"].value_or(std::int64_t{0});
+  if (format == 0 || !file["run"].is_table()) throw InvalidInput("it is no spec: it needs `format` and [run]");
+  if (format != kFormat)
+    throw InvalidInput(
+        fmt::format("format {} is that of another version of Rehearse, this one reads {}", format, kFormat));
+  const auto run = file["run"];
+  return {.scenario = run["scenario"].value_or(std::string{}),
+          .learner = run["learner"].value_or(std::string{}),
+          .prior = run["prior"].value_or(std::string{}),
+          .trials = run["trials"].value_or(Index{0}),
+          .seed = run["seed"].value_or(Index{0}),
+          .options = options_of(file)};
+}
+
+std::vector<std::string> parameter_names(const statistics::Table& trials) {
+  constexpr std::string_view kPrefix = "phi.";
+  std::vector<std::string> names;
+  for (const std::string& column : trials.header)
+    if (column.starts_with(kPrefix)) names.push_back(column.substr(kPrefix.size()));
+  return names;
+}
+
+void check_run_folder(const fs::path& folder, const fs::path& where, Index trials, Problems& problems) {
+  const auto check = [&](const fs::path& file, auto reader) {
+    problems.value_or_problem(where / file, [&] { return reader(), true; });
+  };
+  if (!fs::is_directory(folder)) return problems.add(where, "it is not there, or no folder");
+  check("spec.toml", [&] { read_spec(folder); });
+  check("checkpoint", [&] { check_checkpoint(folder / "checkpoint"); });
+  check("trials.csv", [&] { check_trials(folder / "trials.csv", trials); });
+  for (Index trial = 1; trial <= trials; ++trial) {
+    const fs::path trajectory = trial_file("trajectories", trial, "csv"),
+                   prediction = trial_file("predictions", trial, "csv");
+    check(trajectory, [&] { check_ends_with_line(folder / trajectory); });
+    if (fs::exists(folder / prediction)) check(prediction, [&] { check_ends_with_line(folder / prediction); });
+  }
+}
+
+Json read_run(const fs::path& folder, std::optional<Index> only, Problems& problems) {
+  const RunSpec spec = read_spec(folder);
+  Json run = spec_json(spec);
+  run["done"] = fs::exists(folder / "done");
+  Index trials = trajectories_in(folder);
+  if (const auto table = problems.value_or_problem("trials.csv", [&] { return read_table(folder / "trials.csv"); })) {
+    trials = static_cast<Index>(table->rows.size());
+    run["trials"] = columns(*table);
+    run["truth"] = truths(spec, *table);
+  }
+  for (const char* name : {"timings", "errors", "notes"}) {
+    const fs::path path = fmt::format("{}.csv", name);
+    if (const auto table = problems.value_or_problem(path, [&] { return read_table(folder / path); }))
+      run[name] = columns(*table);
+  }
+  problems.value_or_problem("checkpoint", [&] { return check_checkpoint(folder / "checkpoint"), true; });
+  run["episodes"] = Json::array();
+  for (Index trial = only.value_or(1); trial <= only.value_or(trials); ++trial)
+    run["episodes"].push_back(episode(folder, trial, problems));
+  return run;
+}
+
+}  // namespace rehearse::report

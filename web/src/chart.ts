@@ -1,0 +1,158 @@
+// Lines with bands over a number, which is what nearly every figure here is.
+import * as Plot from '@observablehq/plot'
+import type { Symbol } from './colours'
+import { number } from './format'
+
+export interface Point {
+  x: number
+  y: number
+  /** Filled lightly. */
+  band?: [number, number]
+  /** Inside it, filled more. */
+  core?: [number, number]
+  /** Drawn as a vertical bar. */
+  interval?: [number, number]
+  /** What a reader who points at it is told. */
+  tip?: string
+  hollow?: boolean
+}
+
+export interface Series {
+  label: string
+  colour: string
+  points: Point[]
+  symbol?: Symbol
+  dash?: string
+  width?: number
+  opacity?: number
+  line?: boolean
+}
+
+export interface ChartOptions {
+  width: number
+  height?: number
+  x: { label: string; domain?: [number, number]; whole?: boolean; log?: boolean }
+  y: { label: string; domain?: [number, number]; log?: boolean; percent?: boolean }
+  series: Series[]
+  /** A dashed horizontal line with its label. */
+  rule?: { y: number; label: string } | null
+  /** A vertical line that `moveCursor` moves. */
+  cursor?: boolean
+}
+
+type Drawn = SVGSVGElement & { cursor?: { line: SVGLineElement; x: (value: number) => number } }
+
+export function chart(options: ChartOptions): SVGSVGElement {
+  const { width, x, y, series, rule } = options
+  const points = series.flatMap((one) => one.points.map((point) => ({ ...point, label: one.label })))
+  const plot = Plot.plot({
+    width,
+    height: options.height ?? 240,
+    marginLeft: 56,
+    marginRight: 16,
+    marginTop: 24,
+    marginBottom: 40,
+    style: { fontSize: '12px', background: 'none', overflow: 'visible' },
+    x: { ...axis(x, width / 70), labelAnchor: 'center', labelArrow: 'none', ...(x.whole ? { tickFormat: wholeOnly } : {}) },
+    y: { ...axis(y, 5), labelAnchor: 'top', labelArrow: 'none', grid: true, ...(y.percent ? { tickFormat: '.0%' } : {}) },
+    marks: [
+      ...series.flatMap(bands),
+      rule ? ruleMarks(rule) : null,
+      ...series.flatMap(lines),
+      Plot.tip(
+        points,
+        Plot.pointer({
+          x: 'x',
+          y: 'y',
+          title: (p: Point & { label: string }) => `${p.label}\n${p.tip ?? `${x.label} ${number(p.x)}\n${number(p.y)}`}`,
+          fill: 'var(--surface)',
+          stroke: 'var(--muted)',
+          fontSize: 12,
+          maxRadius: 30,
+        }),
+      ),
+    ],
+  }) as Drawn & Plot.Plot
+  if (options.cursor) addCursor(plot)
+  return plot
+}
+
+/** Puts the cursor of a chart that has one at x. */
+export function moveCursor(svg: SVGSVGElement, x: number) {
+  const cursor = (svg as Drawn).cursor
+  if (!cursor) return
+  const at = String(cursor.x(x))
+  cursor.line.setAttribute('x1', at)
+  cursor.line.setAttribute('x2', at)
+}
+
+/** The interval that holds all of these, a little wider; undefined without any. */
+export function extent(values: number[], zero = false): [number, number] | undefined {
+  const finite = values.filter(Number.isFinite)
+  if (finite.length === 0) return undefined
+  const low = Math.min(...finite, zero ? 0 : Infinity)
+  const high = Math.max(...finite, zero ? 0 : -Infinity)
+  const room = 0.04 * (high - low) || Math.abs(high) * 0.1 || 1
+  return [zero && low === 0 ? 0 : low - room, high + room]
+}
+
+function axis(of: ChartOptions['x'] | ChartOptions['y'], ticks: number): Plot.ScaleOptions {
+  return {
+    label: of.label,
+    ticks: Math.max(3, Math.floor(ticks)),
+    ...(of.log ? { type: 'log' as const } : { type: 'linear' as const }),
+    ...(of.domain ? { domain: of.domain } : { nice: !of.log }),
+  }
+}
+
+function wholeOnly(value: number): string {
+  return Number.isInteger(value) ? String(value) : ''
+}
+
+function bands({ colour, points }: Series): Plot.Markish[] {
+  const area = (side: 'band' | 'core', fillOpacity: number) => {
+    const some = points.filter((point) => point[side])
+    if (some.length === 0) return null
+    return Plot.areaY(some, { x: 'x', y1: (p: Point) => p[side]?.[0], y2: (p: Point) => p[side]?.[1], fill: colour, fillOpacity, clip: true })
+  }
+  return [area('band', 0.16), area('core', 0.24)]
+}
+
+function lines({ colour, points, symbol, dash, width = 2, opacity = 1, line = true }: Series): Plot.Markish[] {
+  const some = points.filter((point) => point.interval)
+  const drawn = { x: 'x', y: 'y', stroke: colour, strokeOpacity: opacity }
+  return [
+    some.length > 0
+      ? Plot.ruleX(some, { x: 'x', y1: (p: Point) => p.interval?.[0], y2: (p: Point) => p.interval?.[1], stroke: colour, strokeOpacity: 0.55, strokeWidth: 2 })
+      : null,
+    line ? Plot.lineY(points, { ...drawn, clip: true, strokeWidth: width, ...(dash ? { strokeDasharray: dash } : {}) }) : null,
+    ...(symbol
+      ? [true, false].map((hollow) =>
+          Plot.dot(
+            points.filter((point) => (point.hollow ?? false) === hollow),
+            { ...drawn, symbol, r: 3.5, strokeWidth: 1.5, fill: hollow ? 'var(--surface)' : colour },
+          ),
+        )
+      : []),
+  ]
+}
+
+function ruleMarks({ y, label }: { y: number; label: string }): Plot.Markish[] {
+  return [
+    Plot.ruleY([y], { stroke: 'currentColor', strokeDasharray: '4 3', strokeOpacity: 0.7 }),
+    Plot.text([label], { y, frameAnchor: 'right', dy: -7, textAnchor: 'end', fillOpacity: 0.8 }),
+  ]
+}
+
+function addCursor(plot: Drawn & Plot.Plot) {
+  const scale = plot.scale('x')
+  const range = [...(plot.scale('y')?.range ?? [])]
+  if (!scale) return
+  const line = document.createElementNS('http://www.w3.org/2000/svg', 'line')
+  line.setAttribute('class', 'cursor')
+  line.setAttribute('y1', String(range[0]))
+  line.setAttribute('y2', String(range[1]))
+  plot.append(line)
+  plot.cursor = { line, x: (value) => Number(scale.apply(value)) }
+  moveCursor(plot, Number([...(scale.domain ?? [])][0] ?? 0))
+}

@@ -1,0 +1,182 @@
+// The data that `rehearse report` puts into the page. src/rehearse/report writes it; docs/run-folder.md and
+// docs/campaigns.md say what the columns and keys mean.
+
+export type Cell = number | null
+/** Column name → cells. */
+export type Columns = Record<string, Cell[]>
+
+export interface Report {
+  format: 1
+  name: string
+  problems: { where: string; what: string }[]
+  run?: Run
+  replay?: Run
+  campaign?: Campaign
+}
+
+export interface Run {
+  scenario: string
+  learner: string
+  prior: string
+  seed: number
+  planned: number
+  done: boolean
+  options: [string, string][]
+  /** What could not be read is not there. */
+  trials?: Columns
+  timings?: Columns
+  errors?: Columns
+  notes?: { trial: number[]; note: string[] }
+  truth?: Record<string, number>
+  episodes: Episode[]
+}
+
+export interface Episode {
+  trial: number
+  trajectory: Columns | null
+  prediction: Columns | null
+  motion: Motion | null
+}
+
+/** motion/trial-003.json: a robot as straight bodies in a plane. A frame has both ends (x, y, x, y) of every body. */
+export interface Motion {
+  unit: string
+  goal: [number, number] | null
+  bodies: { name: string; width: number }[]
+  real: Cell[][]
+  predicted: Cell[][] | null
+}
+
+export interface GroupKey {
+  learner: string
+  prior: string
+  variant: string
+}
+
+export interface FiveNumbers {
+  min: Cell
+  quartile_1: Cell
+  median: Cell
+  quartile_3: Cell
+  max: Cell
+}
+
+export interface SuccessRate {
+  runs: number
+  count: number
+  rate: Cell
+  low: Cell
+  high: Cell
+}
+
+export interface GroupTrial {
+  trial: number
+  runs: number
+  interaction_s: Cell
+  return: FiveNumbers
+  best_return: FiveNumbers
+  solved: SuccessRate | null
+  solved_by: SuccessRate | null
+}
+
+export interface Group extends GroupKey {
+  runs: number
+  done: number
+  failed: number
+  trials: GroupTrial[]
+}
+
+export interface ClaimPart {
+  learner: string
+  priors: string[]
+  variants: string[]
+  against: { learner: string; priors: string[]; variants: string[] } | null
+  measure: string
+  runs: number
+  of: number
+  count: Cell
+  estimate: Cell
+  low: Cell
+  high: Cell
+  required: string
+  result: 'pass' | 'fail' | 'undecided'
+  reason: string | null
+}
+
+export interface CampaignRun extends GroupKey {
+  run: string
+  seed: number
+  state: 'done' | 'failed' | 'unfinished'
+  trials: number
+  first_success: Cell
+  best_return: Cell
+  reason: string | null
+}
+
+/** Quartiles by trial over the runs of a group. */
+export interface Quartiles extends GroupKey {
+  trials: { trial: number; runs: number; quartile_1: Cell; median: Cell; quartile_3: Cell }[]
+}
+
+export interface Campaign {
+  summary: {
+    title: string
+    scenario: string
+    trials: number
+    seeds: number[]
+    learners: string[]
+    priors: string[]
+    variants: string[]
+    complete: boolean
+    counts: { runs: number; done: number; failed: number; unfinished: number }
+    missing: { learner: string; reason: string }[]
+    runs: CampaignRun[]
+    groups: Group[]
+    claims: { text: string; result: ClaimPart['result']; parts: ClaimPart[] }[]
+  }
+  parameters: (Quartiles & { parameter: string; truth: Cell })[]
+  times: (Quartiles & { part: 'model_s' | 'search_s' })[]
+}
+
+/** A column of a trajectory or a prediction: "theta1 5% [rad]" is theta1, 5%, rad. */
+export interface Variable {
+  name: string
+  unit: string
+}
+
+export function parseHeader(header: string): Variable {
+  const match = /^(.*?)(?: \[(.*)\])?$/.exec(header)
+  return { name: match?.[1] ?? header, unit: match?.[2] ?? '' }
+}
+
+/** The column of that name, whatever its unit. */
+export function column(columns: Columns | null | undefined, name: string): Cell[] | undefined {
+  if (!columns) return undefined
+  const header = Object.keys(columns).find((key) => parseHeader(key).name === name)
+  return header === undefined ? undefined : columns[header]
+}
+
+/** States are what a trajectory also has as true values; what stands behind them are actions, then the reward. */
+export function variables(trajectory: Columns): { states: Variable[]; actions: Variable[] } {
+  const all = Object.keys(trajectory).map(parseHeader)
+  const isState = (v: Variable) => all.some((other) => other.name === `true ${v.name}`)
+  const states = all.filter(isState)
+  const actions = all.filter(
+    (v) => !isState(v) && v.name !== 'time' && v.name !== 'reward' && !states.some((s) => v.name === `true ${s.name}`),
+  )
+  return { states, actions }
+}
+
+export function withUnit(v: Variable): string {
+  return v.unit ? `${v.name} (${v.unit})` : v.name
+}
+
+export function present(value: Cell | undefined): value is number {
+  return value !== null && value !== undefined
+}
+
+/** Position of the largest number, the first of equals; 0 without any. */
+export function indexOfMax(cells: Cell[]): number {
+  const numbers = cells.map((value) => value ?? -Infinity)
+  return Math.max(0, numbers.indexOf(Math.max(...numbers)))
+}

@@ -1,0 +1,107 @@
+// The frame of every figure: title, what it shows, legend, panels as wide as the page allows, and what can be saved.
+import { h, download, type Child } from './dom'
+import { downloadCsv, svgOf, type Drawn, type Row } from './export'
+import { legend, type LegendEntry } from './legend'
+
+export interface Panel {
+  title: string
+  draw: (width: number) => SVGSVGElement
+}
+
+export interface FigureOptions {
+  /** Of the files that are saved. */
+  name: string
+  title: string
+  about?: Child
+  legend?: LegendEntry[]
+  panels: () => Panel[]
+  table: () => Row[]
+  /** Of a panel, in px; as many stand side by side as fit, at most `columns`. */
+  minWidth?: number
+  maxWidth?: number
+  columns?: number
+  controls?: HTMLElement
+  afterDrawing?: () => void
+}
+
+export interface Figure {
+  element: HTMLElement
+  redraw: () => void
+  drawn: () => Drawn[]
+}
+
+const GAP = 16
+
+export function figure(options: FigureOptions): Figure {
+  const grid = h('div', { class: 'panels' })
+  let panels: Drawn[] = []
+  let columns = 1
+  let drawnWidth = 0
+
+  const redraw = () => {
+    if (drawnWidth === 0) return
+    const wanted = options.panels()
+    const minWidth = options.minWidth ?? 300
+    const fitting = Math.floor((drawnWidth + GAP) / (minWidth + GAP))
+    columns = Math.max(1, Math.min(wanted.length, options.columns ?? 4, fitting))
+    const width = Math.min((drawnWidth - GAP * (columns - 1)) / columns, options.maxWidth ?? 720)
+    panels = wanted.map(({ title, draw }) => ({ title, svg: draw(Math.floor(width)) }))
+    grid.style.gridTemplateColumns = `repeat(${columns}, minmax(0, ${Math.floor(width)}px))`
+    grid.replaceChildren(
+      ...panels.map(({ title, svg }) => {
+        svg.setAttribute('role', 'img')
+        svg.setAttribute('aria-label', `${options.title}: ${title}`)
+        return h('div', { class: 'panel' }, title ? h('h4', {}, title) : null, svg)
+      }),
+    )
+    options.afterDrawing?.()
+  }
+  new ResizeObserver(() =>
+    requestAnimationFrame(() => {
+      if (grid.clientWidth === drawnWidth) return
+      drawnWidth = grid.clientWidth
+      redraw()
+    }),
+  ).observe(grid)
+
+  const saveSvg = () => download(`${options.name}.svg`, svgOf(options.title, panels, columns, options.legend ?? []), 'image/svg+xml')
+  const element = h(
+    'figure',
+    { id: options.name },
+    heading(options.title, [
+      { label: 'SVG', save: saveSvg },
+      { label: 'CSV', save: () => downloadCsv(options.name, options.table()) },
+    ]),
+    options.about ? h('figcaption', {}, options.about) : null,
+    options.controls,
+    options.legend?.length ? legend(options.legend) : null,
+    grid,
+  )
+  return { element, redraw, drawn: () => panels }
+}
+
+function heading(title: string, files: { label: string; save: () => void }[]): HTMLElement {
+  return h(
+    'div',
+    { class: 'heading' },
+    h('h3', {}, title),
+    h(
+      'div',
+      { class: 'save' },
+      ...files.map(({ label, save }) =>
+        h('button', { type: 'button', onclick: save, 'aria-label': `Save “${title}” as ${label}` }, label),
+      ),
+    ),
+  )
+}
+
+/** A table with its title, that can be saved too. */
+export function tableFigure(name: string, title: string, about: Child, rows: () => Row[], table: HTMLElement): HTMLElement {
+  return h(
+    'figure',
+    { id: name },
+    heading(title, [{ label: 'CSV', save: () => downloadCsv(name, rows()) }]),
+    about ? h('figcaption', {}, about) : null,
+    h('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-label': title }, table),
+  )
+}

@@ -1,0 +1,53 @@
+import { symbol, symbolCircle, symbolCross, symbolDiamond2, symbolSquare, symbolStar, symbolTriangle, symbolWye } from 'd3-shape'
+import type { Symbol } from './colours'
+import { h, s } from './dom'
+
+export interface LegendEntry {
+  label: string
+  colour: string
+  symbol?: Symbol
+  hollow?: boolean
+  dash?: string
+  line?: boolean
+  /** Opacity of a filled band. */
+  band?: number
+}
+
+export function legend(entries: LegendEntry[]): HTMLElement {
+  const picture = (entry: LegendEntry) =>
+    s('svg', { viewBox: '-2 -8 32 16', width: 32, height: 16, 'aria-hidden': 'true' }, ...entryMarks(entry))
+  return h('ul', { class: 'legend' }, ...entries.map((entry) => h('li', {}, picture(entry), entry.label)))
+}
+
+/** What stands for a series, 28 wide around y = 0. */
+export function entryMarks(entry: LegendEntry): SVGElement[] {
+  const stroke = { stroke: entry.colour, 'stroke-width': 2, fill: 'none', 'stroke-dasharray': entry.dash ?? 'none' }
+  const marks: SVGElement[] = []
+  if (entry.band) marks.push(s('rect', { x: 2, y: -6, width: 24, height: 12, fill: entry.colour, opacity: entry.band }))
+  if (entry.line !== false) marks.push(s('line', { x1: 0, x2: 28, ...stroke }))
+  if (entry.symbol)
+    marks.push(
+      s('path', {
+        d: symbolPath(entry.symbol, 36),
+        transform: 'translate(14, 0)',
+        fill: entry.hollow ? 'var(--surface)' : entry.colour,
+        stroke: entry.colour,
+        'stroke-width': 1.5,
+      }),
+    )
+  return marks
+}
+
+const SHAPES = {
+  circle: symbolCircle,
+  square: symbolSquare,
+  triangle: symbolTriangle,
+  diamond2: symbolDiamond2,
+  star: symbolStar,
+  cross: symbolCross,
+  wye: symbolWye,
+}
+
+function symbolPath(name: Symbol, area: number): string {
+  return symbol(SHAPES[name], area)() ?? ''
+}

@@ -1,0 +1,295 @@
+// The page of one run, and that of one trial of it.
+import { chart, extent, type Point, type Series } from './chart'
+import { PREDICTED, REAL } from './colours'
+import { column, indexOfMax, parseHeader, present, withUnit, type Cell, type Columns, type Report, type Run } from './data'
+import { h, type Child } from './dom'
+import type { Row } from './export'
+import { figure, tableFigure, type Panel } from './figure'
+import { count, duration, number } from './format'
+import { head, problems, sections, tiles, type Tile } from './layout'
+import { player } from './player'
+
+const TRIAL = { label: 'trial', whole: true }
+
+export function runPage(report: Report, run: Run): Child[] {
+  return [
+    head(title(run), subtitle(run)),
+    problems(report),
+    h(
+      'main',
+      {},
+      tiles(keyFigures(run)),
+      ...sections([
+        { id: 'returns', title: 'Returns', content: [returns(run)] },
+        { id: 'replay', title: 'Replay', content: [replay(run)] },
+        { id: 'model', title: 'The model', content: [parameters(run), errors(run), evidence(run)] },
+        { id: 'computing', title: 'Computing', content: [times(run), rollouts(run), notes(run)] },
+        { id: 'options', title: 'Options', content: [options(run)] },
+      ]),
+    ),
+  ]
+}
+
+export function replayPage(report: Report, run: Run): Child[] {
+  const trial = run.episodes[0]?.trial ?? 1
+  return [head(`${title(run)}: trial ${trial}`, subtitle(run)), problems(report), h('main', { class: 'replay' }, replay(run))]
+}
+
+function title(run: Run): string {
+  return `${run.learner} on ${run.scenario}`
+}
+
+function subtitle(run: Run): string {
+  const done = run.trials?.['trial']?.length ?? run.episodes.length
+  const state = run.done ? count(done, 'trial') : `${done} of ${count(run.planned, 'trial')}, not complete`
+  return [run.prior ? `prior ${run.prior}` : 'no prior', `seed ${run.seed}`, state].join(' · ')
+}
+
+function keyFigures({ trials, timings }: Run): Tile[] {
+  if (!trials) return []
+  const at = (name: string, i: number) => trials[name]?.[i]
+  const all = trials['return'] ?? []
+  const solved = (trials['solved'] ?? []).findIndex((value) => value === 1)
+  const best = indexOfMax(all)
+  const knowsSolved = (trials['solved'] ?? []).some(present)
+  const seconds = sum(timings?.['model_s']) + sum(timings?.['search_s'])
+  return [
+    knowsSolved && {
+      label: 'Solved',
+      value: solved < 0 ? 'not yet' : `trial ${at('trial', solved)}`,
+      ...(solved < 0 ? {} : { note: `after ${number(at('interaction_s', solved))} s on the robot` }),
+    },
+    all.length > 0 && { label: 'Best return', value: number(all[best]), note: `trial ${at('trial', best)}` },
+    { label: 'Time on the robot', value: `${number(trials['interaction_s']?.at(-1) ?? 0)} s`, note: count(all.length, 'trial') },
+    timings && { label: 'Time to compute', value: duration(seconds) },
+    { label: 'Imagined episodes', value: number(sum(trials['rollouts'])), note: `${number(sum(trials['failed_rollouts']))} failed` },
+  ].filter((tile): tile is Tile => Boolean(tile))
+}
+
+function returns({ trials }: Run): Child {
+  if (!trials?.['return']?.length) return null
+  const solved = trials['solved'] ?? []
+  const real = pointsOf(trials, 'return').map((p, i) => ({ ...p, hollow: solved[i] !== 1 }))
+  const predicted = pointsOf(trials, 'predicted_return')
+  const series: Series[] = [
+    { label: 'predicted', colour: PREDICTED, points: predicted, dash: '6 3', symbol: 'square' },
+    { label: 'on the robot', colour: REAL, points: real, symbol: 'circle' },
+  ]
+  return figure({
+    name: 'returns-by-trial',
+    title: 'Return, predicted and real',
+    about: 'Before each trial the model says what return it expects of the policy. The closer the two, the better it knows the robot.',
+    legend: [
+      { label: 'on the robot, solved', colour: REAL, symbol: 'circle' },
+      { label: 'on the robot, not solved', colour: REAL, symbol: 'circle', hollow: true },
+      { label: 'predicted before the trial', colour: PREDICTED, symbol: 'square', dash: '6 3' },
+    ],
+    panels: () => [
+      {
+        title: '',
+        draw: (width) => chart({ width, height: 300, x: TRIAL, y: { label: 'return', ...fit([...real, ...predicted], true) }, series }),
+      },
+    ],
+    table: () => rowsOf(trials, ['trial', 'interaction_s', 'return', 'solved', 'predicted_return']),
+    maxWidth: 960,
+  }).element
+}
+
+function replay(run: Run): Child {
+  const usable = run.episodes.filter((episode) => episode.trajectory)
+  const best = indexOfMax(run.trials?.['return'] ?? []) + 1
+  const start = usable.find(({ trial }) => trial === best) ?? usable[0]
+  if (!start) return null
+  return player(usable, start, (trial) => {
+    const value = (name: string) => run.trials?.[name]?.[trial - 1]
+    const expected = present(value('predicted_return')) ? `, ${number(value('predicted_return'))} predicted` : ''
+    const solved = value('solved')
+    return `Return ${number(value('return'))}${expected}${present(solved) ? (solved === 1 ? ', solved' : ', not solved') : ''}.`
+  })
+}
+
+function parameters({ trials, truth = {} }: Run): Child {
+  const names = Object.keys(trials ?? {}).filter((name) => name.startsWith('phi.'))
+  if (!trials || names.length === 0 || !trials['trial']?.length) return null
+  const panel = (column: string): Panel => {
+    const name = column.slice(4)
+    const known = truth[name]
+    const points = pointsOf(trials, column)
+    const series = [{ label: name, colour: PREDICTED, points, symbol: 'circle' as const }]
+    return {
+      title: name,
+      draw: (width) =>
+        chart({
+          width,
+          height: 190,
+          x: TRIAL,
+          y: { label: '', ...fit([...points, ...(present(known) ? [{ x: 0, y: known }] : [])]) },
+          series,
+          rule: present(known) ? { y: known, label: 'robot' } : null,
+        }),
+    }
+  }
+  return figure({
+    name: 'parameters-by-trial',
+    title: 'Parameters of the prior',
+    about: 'The values with which the model chose each trial’s policy; in trial 1 those of the prior as given. Dashed: the robot’s own, where the scenario says them.',
+    panels: () => names.map(panel),
+    table: () => rowsOf(trials, ['trial', ...names]).map((row) => ({ ...row, ...prefixed('truth.', truth) })),
+    minWidth: 220,
+  }).element
+}
+
+/** One panel a state, one line a trial. */
+function errors({ errors, prior }: Run): Child {
+  if (!errors || !errors['trial']?.length) return null
+  const headers = Object.keys(errors).filter((key) => key.startsWith('rms '))
+  const trials = [...new Set((errors['trial'] ?? []).filter(present))]
+  const first = trials[0] as number
+  const firstIs = first === 1 && prior ? 'trial 1: the prior as given' : `trial ${first}: the first model`
+  const series = (header: string): Series[] =>
+    trials.map((trial) => ({
+      label: `trial ${trial}`,
+      colour: trial === first ? REAL : PREDICTED,
+      opacity: trial === first ? 1 : 0.3 + (0.7 * trials.indexOf(trial)) / (trials.length - 1),
+      symbol: 'circle',
+      points: (errors['horizon'] ?? []).flatMap((x, i): Point[] => {
+        const y = errors[header]?.[i]
+        return errors['trial']?.[i] === trial && present(x) && present(y) && y > 0 ? [{ x, y }] : []
+      }),
+    }))
+  const panel = (header: string): Panel => {
+    const variable = parseHeader(header.slice(4))
+    return {
+      title: withUnit(variable),
+      draw: (width) => chart({ width, x: { label: 'horizon (steps)', log: true }, y: { label: 'root mean square error', log: true }, series: series(header) }),
+    }
+  }
+  return figure({
+    name: 'prediction-error',
+    title: 'How wrong is the model?',
+    about: 'Error of its mean prediction of each trial over 1, 2, 5, … steps, before it was told of the trial: left one step, right the longest forecast.',
+    legend: [
+      { label: firstIs, colour: REAL, symbol: 'circle' },
+      ...(trials.length > 1 ? [{ label: `trials ${trials[1]} to ${trials.at(-1)}, light to dark`, colour: PREDICTED, symbol: 'circle' as const }] : []),
+    ],
+    panels: () => headers.map(panel),
+    table: () => rowsOf(errors, Object.keys(errors)),
+    minWidth: 260,
+  }).element
+}
+
+function evidence({ trials }: Run): Child {
+  const points = trials ? pointsOf(trials, 'log_evidence') : []
+  if (!trials || points.length === 0) return null
+  return figure({
+    name: 'evidence',
+    title: 'Log evidence of the model',
+    about: 'Of all data so far, all outputs together; it grows with the data.',
+    panels: () => [
+      {
+        title: '',
+        draw: (width) => chart({ width, x: TRIAL, y: { label: 'nats', ...fit(points) }, series: [{ label: 'log evidence', colour: PREDICTED, points, symbol: 'circle' }] }),
+      },
+    ],
+    table: () => rowsOf(trials, ['trial', 'log_evidence']),
+  }).element
+}
+
+function times({ timings }: Run): Child {
+  if (!timings?.['trial']?.length) return null
+  const model = pointsOf(timings, 'model_s')
+  const search = pointsOf(timings, 'search_s')
+  return figure({
+    name: 'times',
+    title: 'Time to compute',
+    about: 'Learning the model, and searching a policy on it. Differs from run to run and machine to machine.',
+    legend: [
+      { label: 'search', colour: 'var(--green)', symbol: 'circle' },
+      { label: 'model', colour: 'var(--purple)', symbol: 'square' },
+    ],
+    panels: () => [
+      {
+        title: '',
+        draw: (width) =>
+          chart({
+            width,
+            x: TRIAL,
+            y: { label: 'seconds', ...fit([...model, ...search], true) },
+            series: [
+              { label: 'search', colour: 'var(--green)', points: search, symbol: 'circle' },
+              { label: 'model', colour: 'var(--purple)', points: model, symbol: 'square' },
+            ],
+          }),
+      },
+    ],
+    table: () => rowsOf(timings, Object.keys(timings)),
+  }).element
+}
+
+function rollouts({ trials }: Run): Child {
+  if (!trials?.['rollouts']?.length) return null
+  const series = [
+    { label: 'imagined', colour: 'var(--green)', symbol: 'circle' as const, points: pointsOf(trials, 'rollouts') },
+    { label: 'failed', colour: REAL, symbol: 'cross' as const, points: pointsOf(trials, 'failed_rollouts') },
+  ]
+  return figure({
+    name: 'rollouts',
+    title: 'Imagined episodes',
+    about: 'How many the search needed, and how many ended because a simulation failed.',
+    legend: series.map(({ label, colour, symbol }) => ({ label, colour, symbol })),
+    panels: () => [
+      {
+        title: '',
+        draw: (width) => chart({ width, x: TRIAL, y: { label: 'episodes', ...fit(series.flatMap(({ points }) => points), true) }, series }),
+      },
+    ],
+    table: () => rowsOf(trials, ['trial', 'rollouts', 'failed_rollouts']),
+  }).element
+}
+
+function notes({ notes }: Run): Child {
+  if (!notes?.trial.length) return null
+  const rows = notes.trial.map((trial, i) => ({ trial, note: notes.note[i] ?? '' }))
+  const table = h(
+    'table',
+    {},
+    h('thead', {}, h('tr', {}, h('th', { scope: 'col' }, 'Trial'), h('th', { scope: 'col' }, 'What happened'))),
+    h('tbody', {}, ...rows.map(({ trial, note }) => h('tr', {}, h('td', {}, trial), h('td', {}, note)))),
+  )
+  return tableFigure('notes', 'Numerical failures that were survived', null, () => rows, table)
+}
+
+function options({ options }: Run): Child {
+  if (options.length === 0) return null
+  return h(
+    'details',
+    {},
+    h('summary', {}, `All ${options.length} options of this run`),
+    h('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-label': 'Options' },
+      h('table', {}, h('tbody', {}, ...options.map(([key, text]) => h('tr', {}, h('th', { scope: 'row' }, h('code', {}, key)), h('td', {}, text)))))),
+  )
+}
+
+function pointsOf(columns: Columns, name: string): Point[] {
+  return (column(columns, 'trial') ?? []).flatMap((x, i): Point[] => {
+    const y = columns[name]?.[i]
+    return present(x) && present(y) ? [{ x, y }] : []
+  })
+}
+
+function rowsOf(columns: Columns, names: string[]): Row[] {
+  return (columns['trial'] ?? []).map((_, i) => Object.fromEntries(names.map((name) => [name, columns[name]?.[i] ?? null])))
+}
+
+function prefixed(prefix: string, values: Record<string, number>): Row {
+  return Object.fromEntries(Object.entries(values).map(([name, value]) => [prefix + name, value]))
+}
+
+function fit(points: Point[], zero = false): { domain?: [number, number] } {
+  const domain = extent(points.map(({ y }) => y), zero)
+  return domain ? { domain } : {}
+}
+
+function sum(cells: Cell[] | undefined): number {
+  return (cells ?? []).reduce((so: number, value) => so + (value ?? 0), 0)
+}

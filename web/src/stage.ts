@@ -1,0 +1,131 @@
+// The robot, drawn from the bodies in a motion.
+import { present, type Motion } from './data'
+import { REAL, PREDICTED } from './colours'
+import { s } from './dom'
+
+export interface Stage {
+  element: SVGSVGElement
+  /** Shows a motion at a frame, which may lie between two. */
+  show: (motion: Motion, frame: number) => void
+}
+
+interface Bounds {
+  left: number
+  right: number
+  bottom: number
+  top: number
+}
+
+/** One that has room for all these motions. */
+export function stage(motions: Motion[]): Stage {
+  const bounds = boundsOf(motions)
+  const size = Math.max(bounds.right - bounds.left, bounds.top - bounds.bottom)
+  const element = s('svg', {
+    class: 'stage',
+    viewBox: `${bounds.left} ${-bounds.top} ${bounds.right - bounds.left} ${bounds.top - bounds.bottom}`,
+    role: 'img',
+    'aria-label': 'The robot at the time of the slider',
+  })
+  const ground = s('line', { class: 'ground', x1: bounds.left, x2: bounds.right, y1: 0, y2: 0 })
+  const scale = scaleBar(bounds, size, motions[0]?.unit ?? 'm')
+  const goal = s('g', { class: 'goal' })
+  const trail = s('polyline', { class: 'trail', stroke: REAL })
+  const predicted = s('g', { opacity: 0.45 })
+  const real = s('g')
+  element.append(ground, scale, goal, trail, predicted, real)
+
+  return {
+    element,
+    show(motion, frame) {
+      goal.replaceChildren(...goalMarks(motion.goal, size))
+      predicted.replaceChildren(...bodies(motion, frameAt(motion.predicted, frame), PREDICTED))
+      real.replaceChildren(...bodies(motion, frameAt(motion.real, frame), REAL), ...joints(motion, frameAt(motion.real, frame), size))
+      trail.setAttribute('points', trailOf(motion, frame))
+    },
+  }
+}
+
+/** Between two frames bodies move in straight lines; none where a number is missing. */
+function frameAt(frames: Motion['real'] | null, frame: number): number[] | null {
+  if (!frames || frames.length === 0) return null
+  const before = frames[Math.min(Math.floor(frame), frames.length - 1)] ?? []
+  const after = frames[Math.min(Math.floor(frame) + 1, frames.length - 1)] ?? []
+  const part = frame - Math.floor(frame)
+  const numbers = before.map((value, i) => {
+    const next = after[i]
+    return present(value) && present(next) ? value + part * (next - value) : NaN
+  })
+  return numbers.every(Number.isFinite) ? numbers : null
+}
+
+function bodies(motion: Motion, ends: number[] | null, colour: string): SVGElement[] {
+  if (!ends) return []
+  return motion.bodies.map(({ name, width }, i) => {
+    const [x1 = 0, y1 = 0, x2 = 0, y2 = 0] = ends.slice(4 * i, 4 * i + 4)
+    return s('line', { x1, y1: -y1, x2, y2: -y2, stroke: colour, 'stroke-width': width, 'stroke-linecap': 'round' }, s('title', {}, name))
+  })
+}
+
+/** Where a body hangs on the one before it; the first only if it never moves. */
+function joints(motion: Motion, ends: number[] | null, size: number): SVGElement[] {
+  if (!ends) return []
+  const fixed = motion.real.every((frame) => frame[0] === motion.real[0]?.[0] && frame[1] === motion.real[0]?.[1])
+  return motion.bodies.flatMap((_, i) =>
+    i === 0 && !fixed ? [] : [s('circle', { class: 'joint', cx: ends[4 * i] ?? 0, cy: -(ends[4 * i + 1] ?? 0), r: 0.011 * size })],
+  )
+}
+
+/** The way of the last body's far end in the last second or so. */
+function trailOf(motion: Motion, frame: number): string {
+  const points: string[] = []
+  for (let at = Math.max(0, Math.floor(frame) - 20); at <= frame; ++at) {
+    const ends = frameAt(motion.real, at)
+    if (ends) points.push(`${ends.at(-2)},${-(ends.at(-1) ?? 0)}`)
+  }
+  const now = frameAt(motion.real, frame)
+  if (now) points.push(`${now.at(-2)},${-(now.at(-1) ?? 0)}`)
+  return points.join(' ')
+}
+
+function goalMarks(goal: Motion['goal'], size: number): SVGElement[] {
+  if (!goal) return []
+  const [x, y] = goal
+  const r = 0.025 * size
+  return [
+    s('circle', { cx: x, cy: -y, r }),
+    s('line', { x1: x - 1.6 * r, x2: x + 1.6 * r, y1: -y, y2: -y }),
+    s('line', { x1: x, x2: x, y1: -y - 1.6 * r, y2: -y + 1.6 * r }),
+  ]
+}
+
+/** A length that is known, in a lower corner. */
+function scaleBar(bounds: Bounds, size: number, unit: string): SVGElement {
+  const length = [0.1, 0.2, 0.5, 1, 2, 5, 10].find((candidate) => candidate > 0.12 * size) ?? 10
+  const x = bounds.left + 0.04 * size
+  const y = -bounds.bottom - 0.04 * size
+  return s(
+    'g',
+    { class: 'scale' },
+    s('path', { d: `M${x},${y - 0.01 * size}V${y}H${x + length}V${y - 0.01 * size}` }),
+    s('text', { x: x + length / 2, y: y - 0.025 * size, 'font-size': 0.035 * size, 'text-anchor': 'middle' }, `${length} ${unit}`),
+  )
+}
+
+function boundsOf(motions: Motion[]): Bounds {
+  const bounds: Bounds = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity }
+  const include = (x: number, y: number, room: number) => {
+    bounds.left = Math.min(bounds.left, x - room)
+    bounds.right = Math.max(bounds.right, x + room)
+    bounds.bottom = Math.min(bounds.bottom, y - room)
+    bounds.top = Math.max(bounds.top, y + room)
+  }
+  for (const motion of motions) {
+    if (motion.goal) include(...motion.goal, 0.1)
+    for (const frame of motion.real)
+      for (let i = 0; i + 1 < frame.length; i += 2) {
+        const [x, y] = [frame[i], frame[i + 1]]
+        if (present(x) && present(y)) include(x, y, 0.15)
+      }
+  }
+  return bounds.left < bounds.right ? bounds : { left: -1, right: 1, bottom: -1, top: 1 }
+}
