@@ -1,5 +1,9 @@
 #include "rehearse/gp/compression.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "rehearse/optim/blas.hpp"
 
 namespace rehearse::gp {
@@ -35,12 +39,21 @@ std::optional<Pivoted> pivoted_cholesky(Matrix C, double remainder, Index most) 
   return pivoted;
 }
 
+/// wᵀRw = wᵀCw − ‖Lᵀw‖² with Cw = y − ρw, and what rounding may have taken from it.
+double remaining_energy(const Pivoted& pivoted, double noise_ratio, const ConstVectorView& y,
+                        const ConstVectorView& weights) {
+  const double all = weights.dot(y - noise_ratio * weights);
+  const double explained = (pivoted.L.transpose() * weights(pivoted.order)).squaredNorm();
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * static_cast<double>(y.size()) * all;
+  return std::max(0.0, all - explained) + rounding;
+}
+
 }  // namespace
 
-std::optional<Summary> summarise(const Matrix& C, double noise_ratio, const ConstVectorView& y, double remainder,
-                                 Index most) {
+std::optional<Summary> summarise(const Matrix& C, double noise_ratio, const ConstVectorView& y,
+                                 const ConstVectorView& weights, double t, Index most) {
   optim::use_one_blas_thread();
-  std::optional<Pivoted> pivoted = pivoted_cholesky(C, remainder, most);
+  std::optional<Pivoted> pivoted = pivoted_cholesky(C, t * noise_ratio, most);
   if (!pivoted) return std::nullopt;
   const Matrix& L = pivoted->L;
   const int n = static_cast<int>(L.rows()), r = static_cast<int>(L.cols()), rest = n - r;
@@ -64,6 +77,7 @@ std::optional<Summary> summarise(const Matrix& C, double noise_ratio, const Cons
   summary.covariance.resize(r, r);
   dsyrk_("L", "N", &r, &r, &one, L.data(), &n, &zero, summary.covariance.data(), &r);
   summary.covariance.triangularView<Eigen::Lower>() += noise_ratio * noise;
+  summary.mean_error = std::sqrt(remaining_energy(*pivoted, noise_ratio, y, weights)) * (1 + std::sqrt(t));
   summary.points.assign(pivoted->order.begin(), pivoted->order.begin() + r);
   return summary;
 }

@@ -17,13 +17,18 @@ struct Summary {
   std::vector<Index> points;  // r
   Matrix covariance;          // r × r, C_PP + ρ (TᵀT)⁻¹, lower triangle
   Vector targets;             // r
+  double mean_error = 0;      // bound of |difference| from the exact posterior mean at any input
 };
 
-/// C: n × n correlations (lower triangle); ρ = σ_n²/σ_f². The points leave a remainder R = C − T C_PP Tᵀ of trace at
-/// most `remainder`. With t = trace(R)/ρ the standard deviation s̃ of the summary and s of all points then differ by
-/// at most (t + √t) s̃, in units of σ_f, at any input: R acts as a further noise between 0 and ρt, and correlates with
-/// the rest by √t at most. None if more than `most` points are needed, or a factorisation fails.
-std::optional<Summary> summarise(const Matrix& C, double noise_ratio, const ConstVectorView& y, double remainder,
-                                 Index most);
+/// C: n × n correlations (lower triangle); ρ = σ_n²/σ_f²; weights w = (C + ρI)⁻¹ y. The points leave a remainder
+/// R = C − T C_PP Tᵀ of trace at most tρ. Then at any input, where s̃ is the standard deviation of the summary and s
+/// that of all points in units of σ_f,
+///
+///   |s − s̃| ≤ (t + √t) s̃,   |m − m̃| ≤ √(wᵀRw) (1 + √t):
+///
+/// R acts as a further noise between 0 and tρ whose correlation with the rest is √t at most. None if more than `most`
+/// points are needed, or a factorisation fails.
+std::optional<Summary> summarise(const Matrix& C, double noise_ratio, const ConstVectorView& y,
+                                 const ConstVectorView& weights, double t, Index most);
 
 }  // namespace rehearse::gp

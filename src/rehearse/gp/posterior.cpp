@@ -191,14 +191,14 @@ std::optional<Posterior::Output> Posterior::compress(Index e, const ConstVectorV
   if (tolerance <= 0) return std::nullopt;
   const double noise_ratio = noise_variances_(e) / exact.signal_variance + jitters_(e);
   const auto worthwhile = static_cast<Index>(0.75 * static_cast<double>(size()));
-  const auto summary = summarise(correlations(size(), dimensions(), workspace), noise_ratio, y,
-                                 noise_ratio * remainder(noise_ratio, tolerance), worthwhile);
+  const auto summary = summarise(correlations(size(), dimensions(), workspace), noise_ratio, y, exact.weights,
+                                 remainder(noise_ratio, tolerance), worthwhile);
   if (!summary) return std::nullopt;
   std::optional<Output> few = condition(*summary, exact, workspace);
   if (!few) return std::nullopt;
-  const Errors errors = compare(e, exact, *few);
-  if (!(errors.deviation <= kMargin * tolerance)) return std::nullopt;
-  if (!(errors.mean <= kMargin * tolerance)) use_all_for_mean(exact, summary->points, *few);
+  const double noise = std::sqrt(noise_variances_(e));
+  if (!(deviation_error(e, exact, *few) <= kMargin * tolerance * noise)) return std::nullopt;
+  if (!(summary->mean_error <= tolerance * noise)) use_all_for_mean(exact, summary->points, *few);
   return few;
 }
 
@@ -228,21 +228,18 @@ void Posterior::use_all_for_mean(const Output& exact, std::vector<Index> order, 
   few.weights = exact.weights(order);
 }
 
-Posterior::Errors Posterior::compare(Index e, const Output& exact, const Output& other) const {
-  Errors errors;
+/// The largest difference between the two standard deviations that was met.
+double Posterior::deviation_error(Index e, const Output& exact, const Output& other) const {
+  double error = 0;
   for_each_chunk(probes(inputs_), [&](Index, Index rows, Scratch& s) {
     s.scale(factors_.col(e));
     s.predict(exact, rows, false);
-    Vector mean(rows), deviation(rows);
-    for (Index q = 0; q < rows; ++q) mean(q) = s.mean(q), deviation(q) = std::sqrt(s.variance(q, exact));
+    Vector deviation(rows);
+    for (Index q = 0; q < rows; ++q) deviation(q) = std::sqrt(s.variance(q, exact));
     s.predict(other, rows, false);
-    for (Index q = 0; q < rows; ++q) {
-      errors.mean = std::max(errors.mean, std::abs(s.mean(q) - mean(q)));
-      errors.deviation = std::max(errors.deviation, std::abs(std::sqrt(s.variance(q, other)) - deviation(q)));
-    }
+    for (Index q = 0; q < rows; ++q) error = std::max(error, std::abs(std::sqrt(s.variance(q, other)) - deviation(q)));
   });
-  const double noise = std::sqrt(noise_variances_(e));
-  return {errors.mean / noise, errors.deviation / noise};
+  return error;
 }
 
 void Posterior::predict(const ConstMatrixView& F, MatrixView mean, MatrixView variance) const {

@@ -20,10 +20,9 @@ class Posterior {
   /// not finite. The jitter ladder of cholesky.hpp applies.
   ///
   /// `tolerance` > 0 allows errors of the mean and of the standard deviation, as a fraction of σ_n: an output whose
-  /// data a few points sum up (compression.hpp) is predicted from these. Both errors are measured against the exact
-  /// posterior at the training inputs and between them, and kept below a fifth of the tolerance there; where σ_n² ≥
-  /// σ_f²/100 that of the standard deviation is below the tolerance at every input, by the bound given in
-  /// compression.hpp.
+  /// data a few points sum up (compression.hpp) is predicted from these. That of the mean is bounded at every input;
+  /// that of the standard deviation too where σ_n² ≥ σ_f²/100, elsewhere it is measured at the training inputs and
+  /// between them, and kept below a fifth of the tolerance there.
   Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperparameters> hyperparameters,
             double tolerance = 0);
 
@@ -61,9 +60,6 @@ class Posterior {
     double signal_variance = 0;
   };
   struct Scratch;
-  struct Errors {
-    double mean = 0, deviation = 0;  // largest, in σ_n
-  };
 
   const Output& output(Index e) const { return outputs_[static_cast<std::size_t>(e)]; }
   Output condition(Index e, const ConstVectorView& y, Workspace& workspace);
@@ -71,7 +67,7 @@ class Posterior {
                                  Workspace& workspace) const;
   static std::optional<Output> condition(const Summary& summary, const Output& exact, Workspace& workspace);
   static void use_all_for_mean(const Output& exact, std::vector<Index> order, Output& few);
-  Errors compare(Index e, const Output& exact, const Output& other) const;
+  double deviation_error(Index e, const Output& exact, const Output& other) const;
   template <class Visit>
   void for_each_chunk(const ConstMatrixView& F, Visit visit) const;
   static Scratch& scratch(Index n, Index D);
