@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,7 +32,10 @@ class Choice final : public system::Simulator {
     which.kind = Parameter::Kind::discrete;
     for (std::size_t k = 0; k < priors.size(); ++k) which.choices.push_back(static_cast<double>(k));
     parameters.push_back(which);
-    for (const Prior& prior : priors) sources_.push_back(add_tunable(prior, parameters));
+    for (const Prior& prior : priors) {
+      sources_.push_back(add_tunable(prior, parameters));
+      values_.push_back(prior.space.values());
+    }
     space_ = ParameterSpace(std::move(parameters));
   }
 
@@ -39,13 +43,15 @@ class Choice final : public system::Simulator {
 
   void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
     const auto k = static_cast<std::size_t>(std::lround(phi(0)));
-    const Prior& prior = priors_[k];
-    Vector own = prior.space.values();
+    thread_local Vector kept;      // so that the time loop of a rollout allocates nothing
+    Vector own = std::move(kept);  // not shared: one of the priors may be a choice itself
+    own = values_[k];
     for (Index i = 0; i < own.size(); ++i) {
       const Index source = sources_[k][static_cast<std::size_t>(i)];
       if (source >= 0) own(i) = phi(source);
     }
-    prior.simulator->change(X, U, own, dX);
+    priors_[k].simulator->change(X, U, own, dX);
+    kept = std::move(own);
   }
 
  private:
@@ -68,6 +74,7 @@ class Choice final : public system::Simulator {
 
   std::vector<Prior> priors_;
   std::vector<std::vector<Index>> sources_;
+  std::vector<Vector> values_;  // of each prior's own parameters
   ParameterSpace space_;
 };
 

@@ -13,7 +13,9 @@ constexpr Index kChunk = 32;  // rows
 /// Memory of a chunk, kept by each thread from one to the next: fresh pages cost more than a step of a cheap model.
 struct Buffers {
   Matrix Theta, X, next, variance, noise, U;
-  Vector reward, returns;
+  Vector reward, returns, state;
+  std::vector<std::uint64_t> candidates, particles;
+  std::vector<char> alive;
 };
 
 Buffers& buffers_of_this_thread() {
@@ -21,90 +23,84 @@ Buffers& buffers_of_this_thread() {
   return buffers;
 }
 
-/// The rollouts [first, first + rows) of a batch; rollout r is particle r % particles of candidate r / particles.
+/// Some rows of a batch in lockstep, each a particle of a candidate.
 class Chunk {
  public:
   Chunk(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task, const StreamKey& key,
         const ImagineOptions& options, Index rows, Buffers& buffers)
-      : model_(model),
-        policy_(policy),
-        task_(task),
-        key_(key),
-        options_(options),
-        candidates_(static_cast<std::size_t>(rows)),
-        particles_(static_cast<std::size_t>(rows)),
-        alive_(static_cast<std::size_t>(rows), true),
-        Theta_(buffers.Theta),
-        X_(buffers.X),
-        next_(buffers.next),
-        variance_(buffers.variance),
-        noise_(buffers.noise),
-        U_(buffers.U),
-        reward_(buffers.reward),
-        returns_(buffers.returns) {
-    Theta_.resize(rows, policy.parameters());
-    for (Matrix* states : {&X_, &next_, &variance_, &noise_}) states->resize(rows, task.state_size());
-    U_.resize(rows, task.action_size());
-    reward_.resize(rows);
-    returns_.setZero(rows);
+      : model_(model), policy_(policy), task_(task), key_(key), options_(options), b_(buffers) {
+    b_.Theta.resize(rows, policy.parameters());
+    for (Matrix* states : {&b_.X, &b_.next, &b_.variance, &b_.noise}) states->resize(rows, task.state_size());
+    b_.U.resize(rows, task.action_size());
+    b_.reward.resize(rows);
+    b_.returns.setZero(rows);
+    b_.candidates.resize(static_cast<std::size_t>(rows));
+    b_.particles.resize(static_cast<std::size_t>(rows));
+    b_.alive.assign(static_cast<std::size_t>(rows), true);
   }
 
   void set_row(Index row, const ConstVectorView& theta, std::uint64_t candidate, std::uint64_t particle) {
-    Theta_.row(row) = theta.transpose();
-    candidates_[static_cast<std::size_t>(row)] = options_.common_random_numbers ? 0 : candidate;
-    particles_[static_cast<std::size_t>(row)] = particle;
+    b_.Theta.row(row) = theta.transpose();
+    b_.candidates[static_cast<std::size_t>(row)] = options_.common_random_numbers ? 0 : candidate;
+    b_.particles[static_cast<std::size_t>(row)] = particle;
   }
 
   void start() {
     StreamKey key = key_;
     key.purpose = Purpose::imagined_start;
     const bool random = (task_.start_std.array() > 0).any();
-    if (random) fill_normals(key, candidates_.data(), particles_.data(), 0, noise_);
-    for (Index s = 0; s < X_.cols(); ++s) {
-      X_.col(s).setConstant(task_.start_mean(s));
-      if (random) X_.col(s) += task_.start_std(s) * noise_.col(s);
+    if (random) fill_normals(key, b_.candidates.data(), b_.particles.data(), 0, b_.noise);
+    for (Index s = 0; s < b_.X.cols(); ++s) {
+      b_.X.col(s).setConstant(task_.start_mean(s));
+      if (random) b_.X.col(s) += task_.start_std(s) * b_.noise.col(s);
     }
   }
 
   /// x_t → x_{t+1} for every row.
   void step(Index t) {
-    policy_.act(Theta_, X_, static_cast<double>(t) * task_.dt_s, U_);
-    model_.predict(X_, U_, next_, variance_);
+    policy_.act(b_.Theta, b_.X, static_cast<double>(t) * task_.dt_s, b_.U);
+    model_.predict(b_.X, b_.U, b_.next, b_.variance);
     if (options_.sample) add_noise(t);
-    next_ += X_;
-    task_.reward(X_, U_, next_, reward_);
-    for (Index row = 0; row < X_.rows(); ++row) settle(row, t);
-    X_.swap(next_);
+    b_.next += b_.X;
+    task_.reward(b_.X, b_.U, b_.next, b_.reward);
+    for (Index row = 0; row < b_.X.rows(); ++row) settle(row, t);
+    b_.X.swap(b_.next);
   }
 
-  const Matrix& states() const { return X_; }
-  const Vector& returns() const { return returns_; }
-  bool alive(Index row) const { return alive_[static_cast<std::size_t>(row)] != 0; }
+  const Matrix& states() const { return b_.X; }
+  const Vector& returns() const { return b_.returns; }
+  bool alive(Index row) const { return b_.alive[static_cast<std::size_t>(row)] != 0; }
   Index failed() const { return failed_; }
 
  private:
   void add_noise(Index t) {
-    if (!(variance_.array() > 0).any()) return;
-    fill_normals(key_, candidates_.data(), particles_.data(), static_cast<std::uint64_t>(t), noise_);
-    if (options_.noise_clip > 0) noise_ = noise_.cwiseMin(options_.noise_clip).cwiseMax(-options_.noise_clip);
-    next_.array() += noise_.array() * variance_.array().sqrt();
+    if (!(b_.variance.array() > 0).any()) return;
+    fill_normals(key_, b_.candidates.data(), b_.particles.data(), static_cast<std::uint64_t>(t), b_.noise);
+    if (options_.noise_clip > 0) b_.noise = b_.noise.cwiseMin(options_.noise_clip).cwiseMax(-options_.noise_clip);
+    b_.next.array() += b_.noise.array() * b_.variance.array().sqrt();
   }
 
   /// Adds the reward, or ends the rollout. A row that has ended stays at the start, where the model is finite.
   void settle(Index row, Index t) {
-    auto& alive = alive_[static_cast<std::size_t>(row)];
+    auto& alive = b_.alive[static_cast<std::size_t>(row)];
     if (alive) {
       const auto remaining = static_cast<double>(task_.horizon - t);
-      const bool finite = next_.row(row).allFinite() && std::isfinite(reward_(row));
-      returns_(row) += finite ? reward_(row) : remaining * task_.reward_floor;
+      const bool finite = b_.next.row(row).allFinite() && std::isfinite(b_.reward(row));
+      b_.returns(row) += finite ? b_.reward(row) : remaining * task_.reward_floor;
       failed_ += !finite;
       alive = finite;
-      if (finite && task_.ended && task_.ended(next_.row(row).transpose())) {
-        returns_(row) += (remaining - 1) * task_.reward_floor;
+      if (finite && ended(row)) {
+        b_.returns(row) += (remaining - 1) * task_.reward_floor;
         alive = false;
       }
     }
-    if (!alive) next_.row(row) = task_.start_mean.transpose();
+    if (!alive) b_.next.row(row) = task_.start_mean.transpose();
+  }
+
+  bool ended(Index row) {
+    if (!task_.ended) return false;
+    b_.state = b_.next.row(row).transpose();
+    return task_.ended(b_.state);
   }
 
   const dynamics::DynamicsModel& model_;
@@ -112,10 +108,7 @@ class Chunk {
   const Task& task_;
   StreamKey key_;
   ImagineOptions options_;
-  std::vector<std::uint64_t> candidates_, particles_;
-  std::vector<char> alive_;
-  Matrix &Theta_, &X_, &next_, &variance_, &noise_, &U_;
-  Vector &reward_, &returns_;
+  Buffers& b_;
   Index failed_ = 0;
 };
 

@@ -1,31 +1,12 @@
 #include "rehearse/rollout/imagine.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "cart.hpp"
-
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define REHEARSE_COUNTS_ALLOCATIONS
-#endif
-
-#ifdef REHEARSE_COUNTS_ALLOCATIONS
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Eigen allocates by malloc, which glibc lets a program define anew.
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) noexcept {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  return __libc_malloc(size);
-}
-#endif
 
 namespace rehearse::rollout {
 namespace {
@@ -228,24 +209,6 @@ TEST(Imagine, HugePredictionsDisturbNoOtherRollout) {
   EXPECT_GT(same, 20);
   EXPECT_LT(same, 190);
 }
-
-#ifdef REHEARSE_COUNTS_ALLOCATIONS
-TEST(Imagine, TimeLoopDoesNotAllocate) {
-  const Matrix Theta = cart::candidates(60);
-  const auto count = [&](Index horizon) {
-    Task task = cart::task();
-    task.horizon = horizon;
-    const auto policy = cart::policy();
-    const cart::Model model(0.01);
-    imagine(model, *policy, task, Theta, 0, 2, kKey, {}, serial_evaluator());  // the thread's buffers grow once
-    const long before = allocations;
-    imagine(model, *policy, task, Theta, 0, 2, kKey, {}, serial_evaluator());
-    return allocations - before;
-  };
-  EXPECT_GT(count(20), 0) << "the count works";
-  EXPECT_EQ(count(20), count(200));
-}
-#endif
 
 TEST(ImagineRecorded, HasTheReturnsAndTheStatesOfImagine) {
   const Task task = cart::task();

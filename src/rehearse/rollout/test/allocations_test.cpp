@@ -1,0 +1,74 @@
+// The time loop allocates nothing: an episode of twice the length takes as many allocations.
+
+#include <atomic>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "cart.hpp"
+#include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/robots/pendubot/pendubot.hpp"
+#include "rehearse/rollout/imagine.hpp"
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// Eigen allocates by malloc, as operator new does; glibc lets a program define it anew.
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) noexcept {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
+
+namespace rehearse::rollout {
+namespace {
+
+/// Of the second of two calls: a thread's buffers grow once.
+long allocations_of(const dynamics::DynamicsModel& model, const policy::Policy& policy, Task task, Index horizon) {
+  task.horizon = horizon;
+  const Matrix Theta = Matrix::Constant(policy.parameters(), 60, 0.3);
+  const auto call = [&] { return imagine(model, policy, task, Theta, 0, 2, {}, {}, serial_evaluator()); };
+  call();
+  const long before = allocations;
+  call();
+  return allocations - before;
+}
+
+void expect_none_in_time_loop(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task) {
+  EXPECT_GT(allocations_of(model, policy, task, 50), 0) << "the count works";
+  EXPECT_EQ(allocations_of(model, policy, task, 50), allocations_of(model, policy, task, 100));
+}
+
+TEST(Allocations, NoneInTheTimeLoop) { expect_none_in_time_loop(cart::Model(0.01), *cart::policy(), cart::task()); }
+
+TEST(Allocations, NoneWhereRolloutsMayEndEarly) {
+  Task task = cart::task();
+  task.ended = [](const ConstVectorView& x) { return std::abs(x(1)) > 1e3; };
+  expect_none_in_time_loop(cart::Model(0.01), *cart::policy(), task);
+}
+
+gp::Posterior posterior(const FeatureMap& features) {
+  const Matrix X = Matrix::Random(30, features.features() + 1), Y = Matrix::Random(30, 4);
+  const gp::Hyperparameters kernel{.log_lengths = Vector::Zero(X.cols()), .log_signal = -2, .log_noise = -4};
+  return {gp::Inputs(X), Y, std::vector(4, kernel)};
+}
+
+TEST(Allocations, NoneWithThePendubotsGpsAndPriors) {
+  const scenario::Scenario pendubot = robots::pendubot::make({});
+  const FeatureMap features = pendubot.task.feature_map();
+  std::vector<prior::Prior> priors;
+  for (const scenario::NamedPrior& p : pendubot.priors) priors.push_back({p.name, p.simulator, p.parameters});
+  for (const prior::Prior& prior : {priors[2], prior::choice(priors)})
+    for (const auto variance : {dynamics::PredictedVariance::latent, dynamics::PredictedVariance::noisy})
+      expect_none_in_time_loop(
+          dynamics::GpModel(features, dynamics::Mean{prior, prior.space.values()}, posterior(features), variance),
+          *pendubot.policy, pendubot.task);
+}
+
+}  // namespace
+}  // namespace rehearse::rollout
+
+#endif
