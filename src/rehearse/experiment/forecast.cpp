@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "rehearse/rollout/forecast.hpp"
+
 namespace rehearse::experiment {
 namespace {
 
@@ -24,15 +26,7 @@ void wrap_angles(const Task& task, Matrix& differences) {
           differences.col(s).unaryExpr([](double d) { return std::remainder(d, 2 * std::numbers::pi); });
 }
 
-/// What has failed is NaN and no input for a model: a state of the episode stands in.
-Matrix known_states(const Matrix& predicted, const Episode& episode) {
-  Matrix states = predicted;
-  for (Index i = 0; i < states.rows(); ++i)
-    if (!states.row(i).allFinite()) states.row(i) = episode.states.row(i);
-  return states;
-}
-
-/// predicted (n × dx): where the predictions that started n steps in a row arrived, one horizon later.
+/// predicted: what rollout::forecast gives for this horizon.
 ForecastError compare(const Task& task, const Episode& episode, Index horizon, const Matrix& predicted) {
   Matrix differences = predicted - episode.states.middleRows(horizon, predicted.rows());
   wrap_angles(task, differences);
@@ -78,18 +72,9 @@ double quantile(const std::vector<double>& sorted, double fraction) {
 std::vector<ForecastError> forecast_errors(const dynamics::DynamicsModel& model, const Task& task,
                                            const Episode& episode) {
   const std::vector<Index> horizons = horizons_up_to(episode.steps());
+  const std::vector<Matrix> predicted = rollout::forecast(model, episode, horizons);
   std::vector<ForecastError> errors;
-  Matrix predicted = episode.states.topRows(episode.steps()), mean, variance;
-  for (Index step = 1; step <= episode.steps(); ++step) {  // row t started at step t and has come to t + step
-    const Index rows = episode.steps() - step + 1;
-    predicted.conservativeResize(rows, Eigen::NoChange);
-    mean.resize(rows, predicted.cols());
-    variance.resize(rows, predicted.cols());
-    model.predict(known_states(predicted, episode), episode.actions.middleRows(step - 1, rows), mean, variance);
-    predicted += mean;  // what has failed stays NaN
-    if (std::find(horizons.begin(), horizons.end(), step) != horizons.end())
-      errors.push_back(compare(task, episode, step, predicted));
-  }
+  for (std::size_t i = 0; i < horizons.size(); ++i) errors.push_back(compare(task, episode, horizons[i], predicted[i]));
   return errors;
 }
 

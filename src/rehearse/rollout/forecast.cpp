@@ -1,0 +1,35 @@
+#include "rehearse/rollout/forecast.hpp"
+
+namespace rehearse::rollout {
+namespace {
+
+/// What has failed is no input for a model: a state of the episode stands in.
+Matrix known_states(const Matrix& predicted, const Episode& episode) {
+  Matrix states = predicted;
+  for (Index i = 0; i < states.rows(); ++i)
+    if (!states.row(i).allFinite()) states.row(i) = episode.states.row(i);
+  return states;
+}
+
+}  // namespace
+
+std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode& episode,
+                             const std::vector<Index>& horizons) {
+  std::vector<Matrix> arrived;
+  Matrix predicted = episode.states.topRows(episode.steps()), mean, variance;
+  Index step = 0;
+  for (const Index horizon : horizons) {
+    for (; step < horizon; ++step) {  // row t started at step t and has come to t + step
+      const Index rows = episode.steps() - step;
+      predicted.conservativeResize(rows, Eigen::NoChange);
+      mean.resize(rows, predicted.cols());
+      variance.resize(rows, predicted.cols());
+      model.predict(known_states(predicted, episode), episode.actions.middleRows(step, rows), mean, variance);
+      predicted += mean;  // what has failed stays NaN
+    }
+    arrived.push_back(predicted);
+  }
+  return arrived;
+}
+
+}  // namespace rehearse::rollout

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/dynamics/dynamics_model.hpp"
+
+namespace rehearse::rollout {
+
+/// Where a model's mean prediction, continued from every state of an episode under the actions that were taken,
+/// arrives. horizons: ascending, in 1..T. Element i has T − horizons[i] + 1 rows: row t is the state (dx) predicted for
+/// step t + horizons[i] from the one measured at step t; NaN once a prediction on the way was not finite.
+std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode& episode,
+                             const std::vector<Index>& horizons);
+
+}  // namespace rehearse::rollout

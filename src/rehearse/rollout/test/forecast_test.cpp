@@ -1,0 +1,62 @@
+#include "rehearse/rollout/forecast.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cart.hpp"
+
+namespace rehearse::rollout {
+namespace {
+
+Episode episode(Index steps) { return {.states = Matrix::Random(steps + 1, 2), .actions = Matrix::Random(steps, 1)}; }
+
+/// The state `horizon` steps after step t, by hand.
+Matrix from(const dynamics::DynamicsModel& model, const Episode& episode, Index t, Index horizon) {
+  Matrix state = episode.states.row(t), change(1, 2), variance(1, 2);
+  for (Index k = t; k < t + horizon; ++k) {
+    model.predict(state, episode.actions.row(k), change, variance);
+    state += change;
+  }
+  return state;
+}
+
+TEST(Forecast, ContinuesFromEveryStateUnderTheActionsTaken) {
+  const cart::Model model(0.3);
+  const Episode taken = episode(7);
+  const std::vector<Index> horizons = {1, 2, 5, 7};
+  const std::vector<Matrix> predicted = forecast(model, taken, horizons);
+  ASSERT_EQ(predicted.size(), horizons.size());
+  for (std::size_t i = 0; i < horizons.size(); ++i) {
+    ASSERT_EQ(predicted[i].rows(), 8 - horizons[i]);
+    for (Index t = 0; t < predicted[i].rows(); ++t)
+      EXPECT_LT((predicted[i].row(t) - from(model, taken, t, horizons[i])).norm(), 1e-14) << horizons[i] << " " << t;
+  }
+  EXPECT_TRUE(forecast(model, taken, {}).empty());
+}
+
+TEST(Forecast, WhatFailsStaysNanInItsRowAndIsNoInputForTheModel) {
+  /// Cannot predict from positions beyond 0.
+  class Spoilt final : public dynamics::DynamicsModel {
+   public:
+    void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
+                 MatrixView variance) const override {
+      EXPECT_TRUE(X.allFinite());
+      model_.predict(X, U, mean, variance);
+    }
+
+   private:
+    cart::Model model_{0, [](double, double position) { return position > 0; }};
+  };
+  Episode taken = episode(4);
+  taken.states.col(0).setZero();
+  taken.states.col(1) << -1, 1, -1, -1, -1;
+  taken.actions.setZero();
+  const std::vector<Matrix> predicted = forecast(Spoilt(), taken, {1, 2, 3});
+  for (const Matrix& states : predicted)
+    for (Index t = 0; t < states.rows(); ++t)
+      EXPECT_TRUE(t == 1 ? states.row(t).array().isNaN().all() : states.row(t) == taken.states.row(t)) << t;
+}
+
+}  // namespace
+}  // namespace rehearse::rollout
