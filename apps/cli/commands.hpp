@@ -27,8 +27,15 @@ struct ResumeArguments {
   std::optional<std::string> trials, threads;
 };
 
+struct CampaignArguments {
+  std::string file;
+  std::optional<std::string> threads, out;
+  bool check_claims = false;
+};
+
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);
 int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments);
 int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments);
+int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments);
 
 }  // namespace rehearse::apps

@@ -1,11 +1,8 @@
 #include "apps/cli/console.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include "rehearse/experiment/tables.hpp"
 
@@ -14,22 +11,9 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-std::size_t terminal_width() {
-  winsize size{};
-  return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
-}
-
 std::string verdict(const std::optional<bool>& solved) { return !solved ? "" : *solved ? "  solved" : "  not solved"; }
 
 }  // namespace
-
-std::string duration_text(double seconds) {
-  if (seconds < 99.5) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 99.5 * 60) return fmt::format("{:.0f} min", seconds / 60);
-  return fmt::format("{:.1f} h", seconds / 3600);
-}
-
-Console::Console() : terminal_(::isatty(STDOUT_FILENO) == 1) {}
 
 void Console::started(const experiment::Resolved& resolved, const std::filesystem::path& folder, Index done) {
   const experiment::Spec& spec = resolved.spec;
@@ -38,25 +22,20 @@ void Console::started(const experiment::Resolved& resolved, const std::filesyste
   phi_names_ = experiment::tunable_names(resolved.prior);
   begin_ = trial_begin_ = phase_begin_ = Clock::now();
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
-  print(fmt::format("{} learned by {}{}, seed {}: {} trials of {} s in {}", spec.scenario, spec.learner, prior,
-                    spec.seed, spec.trials, resolved.scenario.task.episode_s(), folder.string()));
-  if (done > 0) print(fmt::format("continuing after trial {}", done));
+  line_.print(fmt::format("{} learned by {}{}, seed {}: {} trials of {} s in {}", spec.scenario, spec.learner, prior,
+                          spec.seed, spec.trials, resolved.scenario.task.episode_s(), folder.string()));
+  if (done > 0) line_.print(fmt::format("continuing after trial {}", done));
 }
 
 void Console::progress(Index trial, const Progress& progress) {
-  if (!terminal_) return;
-  const auto now = Clock::now();
-  if (progress.phase != phase_) phase_begin_ = now;
+  if (progress.phase != phase_) phase_begin_ = Clock::now();
   phase_ = progress.phase;
-  if (now - last_shown_ < std::chrono::milliseconds(100)) return;
-  last_shown_ = now;
+  if (!line_.is_due()) return;
   std::string line = fmt::format("trial {}/{}  {} {:.0f} %", trial, trials_, progress.phase, 100 * progress.done);
   if (progress.rollouts > 0)
     line += fmt::format("  best predicted return {:.3f}  {:.0f} rollouts/s", progress.best, progress.rollouts_per_s);
   line += time_left(progress);
-  fmt::print("\r\033[K{}", line.substr(0, terminal_width()));
-  std::fflush(stdout);
-  line_shown_ = true;
+  line_.show(line);
 }
 
 /// Trials are taken to last as long as those before; before there are any, only the phase is known.
@@ -80,25 +59,13 @@ void Console::trial_done(const experiment::TrialRecord& record) {
   line += verdict(record.solved);
   for (std::size_t i = 0; i < std::min(phi_names_.size(), record.phi.size()); ++i)
     line += fmt::format("  {} {:.4g}", phi_names_[i], record.phi[i]);
-  print(line);
+  line_.print(line);
 }
 
 void Console::finished(const experiment::RunResult& result) {
   const std::string solved = result.solved_at ? fmt::format("solved at trial {}", *result.solved_at)
                                               : fmt::format("not solved in {} trials", result.trials);
-  print(fmt::format("{}, best return {:.3f}, in {}", solved, result.best_return, result.folder.string()));
-}
-
-void Console::print(const std::string& line) {
-  clear_line();
-  fmt::print("{}\n", line);
-  std::fflush(stdout);
-}
-
-void Console::clear_line() {
-  if (line_shown_) fmt::print("\r\033[K");
-  std::fflush(stdout);
-  line_shown_ = false;
+  line_.print(fmt::format("{}, best return {:.3f}, in {}", solved, result.best_return, result.folder.string()));
 }
 
 }  // namespace rehearse::apps

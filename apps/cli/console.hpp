@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/status_line.hpp"
 #include "rehearse/experiment/run.hpp"
 
 namespace rehearse::apps {
@@ -11,34 +12,28 @@ namespace rehearse::apps {
 /// Shows a run on standard output: one line a trial, and on a terminal a last line that is rewritten as it goes.
 class Console final : public experiment::RunListener {
  public:
-  Console();
   void started(const experiment::Resolved& resolved, const std::filesystem::path& folder, Index done) override;
   void progress(Index trial, const Progress& progress) override;
   void trial_done(const experiment::TrialRecord& record) override;
   void finished(const experiment::RunResult& result);
 
   /// Wipes the line that is being rewritten.
-  void clear_line();
+  void clear_line() { line_.clear(); }
 
   Index trials_done() const { return done_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void print(const std::string& line);
   std::string time_left(const Progress& progress) const;
 
-  bool terminal_;
-  bool line_shown_ = false;
+  StatusLine line_;
   Index trials_ = 0;
   Index done_ = 0;
   Index done_before_ = 0;
   std::vector<std::string> phi_names_;
   std::string phase_;
-  Clock::time_point begin_, trial_begin_, phase_begin_, last_shown_;
+  Clock::time_point begin_, trial_begin_, phase_begin_;
 };
-
-/// "45 s", "12 min", "3.1 h"
-std::string duration_text(double seconds);
 
 }  // namespace rehearse::apps

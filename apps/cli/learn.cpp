@@ -1,10 +1,11 @@
-#include <csignal>
 #include <filesystem>
 
 #include <fmt/format.h>
 
+#include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/signals.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/files.hpp"
 #include "rehearse/experiment/run.hpp"
@@ -14,33 +15,6 @@ namespace rehearse::apps {
 namespace {
 
 using experiment::Catalogue, experiment::RunOptions, experiment::RunResult, experiment::Spec;
-
-volatile std::sig_atomic_t caught_signal = 0;
-
-/// The first signal stops the run where it can be resumed; a second one ends the process as usual.
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int signal) { caught_signal = signal; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-}
-
-void set_text(const Fields& fields, const std::string& name, const std::optional<std::string>& text,
-              Violations& violations) {
-  if (!text) return;
-  try {
-    set_field(fields, name, *text);
-  } catch (const InvalidInput& error) {
-    violations.add(fmt::format("--{}", error.what()));
-  }
-}
-
-Index threads_of(const std::optional<std::string>& text, Violations& violations) {
-  Index threads = 0;  // all cores
-  set_text([&](FieldVisitor& v) { v.integer("threads", threads, between(1, 1024)); }, "threads", text, violations);
-  return threads;
-}
 
 void set_numbers(Spec& spec, const std::optional<std::string>& trials, const std::optional<std::string>& seed,
                  Violations& violations) {
@@ -94,7 +68,7 @@ int run_on_console(const std::filesystem::path& folder, Index threads, Start sta
   catch_signals();
   const RunOptions options{.evaluator = make_thread_evaluator(static_cast<int>(threads)),
                            .listener = &console,
-                           .stop = [] { return caught_signal != 0; }};
+                           .stop = [] { return caught_signal() != 0; }};
   try {
     console.finished(start(options));
     return kSuccess;
@@ -102,7 +76,7 @@ int run_on_console(const std::filesystem::path& folder, Index threads, Start sta
     console.clear_line();
     fmt::print(stderr, "rehearse: interrupted after {} trials; to continue: rehearse resume {}\n",
                console.trials_done(), folder.string());
-    return 128 + caught_signal;
+    return 128 + caught_signal();
   } catch (const experiment::RunFailed& error) {
     console.clear_line();
     fmt::print(stderr, "rehearse: {}\nrehearse: what was done is kept; to try again: rehearse resume {}\n",

@@ -21,6 +21,8 @@ constexpr const char* kExample = R"(Example: swing up the pendubot in 10 trials,
   rehearse learn pendubot --learner gp-mi --prior misleading --out runs/demo
 Then continue it to 15 trials:
   rehearse resume runs/demo --trials 15
+Do many runs and compare them:
+  rehearse campaign campaigns/pendubot-short.toml --out runs/short
 What there is to learn, and with what:
   rehearse list)";
 
@@ -32,6 +34,13 @@ constexpr const char* kLearnExample = R"(Examples:
 The folder holds one row a trial in trials.csv, the trajectories, the model's predictions,
 the policies, and spec.toml, which gives the same trials.csv when it is run again.
 Ctrl-C stops the run; `rehearse resume` continues it.)";
+
+constexpr const char* kCampaignExample = R"(Example:
+  rehearse campaign campaigns/pendubot-short.toml --out runs/short
+
+The same command continues what was interrupted. The folder holds the run folders in runs,
+a row for every trial in campaign.csv, and statistics and claims in summary.json.
+docs/campaigns.md describes the file.)";
 
 template <class Command, class T>
 CLI::Option* add(Command* command, const std::string& name, T& value, const std::string& help, const char* type) {
@@ -76,6 +85,18 @@ CLI::App* add_resume(CLI::App& app, ResumeArguments& arguments) {
   return command;
 }
 
+CLI::App* add_campaign(CLI::App& app, CampaignArguments& arguments) {
+  CLI::App* command = app.add_subcommand("campaign", "Do a grid of runs, or continue it: learners × priors × seeds");
+  add(command, "FILE", arguments.file, "The campaign file, for instance campaigns/pendubot-short.toml", "")->required();
+  add(command, "--out", arguments.out,
+      "The folder of the campaign; one that was begun is continued. Default: runs/ and the file's name", "DIR");
+  add(command, "--threads", arguments.threads,
+      "Threads to compute with in all, one a run where there are enough runs. Default: all cores", "K");
+  command->add_flag("--check-claims", arguments.check_claims, "Exit with status 1 if a claim fails");
+  command->footer(kCampaignExample);
+  return command;
+}
+
 /// CLI11 speaks of what it did not expect; we know what was meant.
 void check_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> known;
@@ -97,9 +118,11 @@ int run(int argc, char** argv) {
   ListArguments list_arguments;
   LearnArguments learn_arguments;
   ResumeArguments resume_arguments;
+  CampaignArguments campaign_arguments;
   const CLI::App* list_command = add_list(app, list_arguments);
   const CLI::App* learn_command = add_learn(app, learn_arguments);
-  add_resume(app, resume_arguments);
+  const CLI::App* resume_command = add_resume(app, resume_arguments);
+  add_campaign(app, campaign_arguments);
   check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
@@ -109,7 +132,8 @@ int run(int argc, char** argv) {
   }
   if (list_command->parsed()) return list(catalogue(), list_arguments);
   if (learn_command->parsed()) return learn(catalogue(), learn_arguments);
-  return resume(catalogue(), resume_arguments);
+  if (resume_command->parsed()) return resume(catalogue(), resume_arguments);
+  return campaign(catalogue(), campaign_arguments);
 }
 
 /// One line on standard error for each line of the message.

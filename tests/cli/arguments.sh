@@ -34,7 +34,7 @@ expect 0 "misleading" - list
 expect 0 '"takes_prior": true' - list --json
 expect 0 "search.race.max_evaluations = " - list --options
 
-expect 2 "a command is missing (list, learn, resume)" 1
+expect 2 "a command is missing (list, learn, resume, " 1
 expect 2 "unknown command 'lern', did you mean 'learn'?" 1 lern
 expect 2 "--colour" 1 list --colour
 expect 2 "SCENARIO is required" 1 learn

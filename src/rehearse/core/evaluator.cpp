@@ -1,6 +1,5 @@
 #include "rehearse/core/evaluator.hpp"
 
-#include <algorithm>
 #include <exception>
 #include <vector>
 
@@ -24,10 +23,11 @@ class SerialEvaluator final : public Evaluator {
   int concurrency() const override { return 1; }
 };
 
+constexpr std::size_t kMostThreads = 4096;
+
 class ThreadEvaluator final : public Evaluator {
  public:
-  explicit ThreadEvaluator(int threads)
-      : limit_(tbb::global_control::max_allowed_parallelism, most(threads)), arena_(threads) {}
+  explicit ThreadEvaluator(int threads) : arena_(threads) { allow_more_threads_than_cores(); }
 
   void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
     for_each(results.cols(), [&](Index i) { task(i, results.col(i)); });
@@ -53,11 +53,13 @@ class ThreadEvaluator final : public Evaluator {
   int concurrency() const override { return arena_.max_concurrency(); }
 
  private:
-  static std::size_t most(int threads) {
-    return static_cast<std::size_t>(std::max(threads, tbb::info::default_concurrency()));
+  /// Without it oneTBB prints a warning. One for the process, because of several the smallest limit holds.
+  static void allow_more_threads_than_cores() {
+    static const auto* const limit =
+        new tbb::global_control(tbb::global_control::max_allowed_parallelism, kMostThreads);
+    static_cast<void>(limit);
   }
 
-  tbb::global_control limit_;  // more threads than cores are allowed; without it oneTBB prints a warning
   mutable tbb::task_arena arena_;
 };
 

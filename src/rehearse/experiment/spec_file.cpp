@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
-#include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/files.hpp"
+#include "rehearse/experiment/toml_reader.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -27,15 +25,6 @@ std::string in_quotes(std::string_view text) {
       out += c;
   }
   return out + '"';
-}
-
-/// The text of a value, as `--set` takes it.
-std::string text_of(const toml::node& node) {
-  if (const auto* text = node.as_string()) return text->get();
-  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  if (const auto* integer = node.as_integer()) return fmt::to_string(integer->get());
-  if (const auto* number = node.as_floating_point()) return to_text(number->get());
-  throw InvalidInput(fmt::format("line {}: a value must be a number, true, false or text", node.source().begin.line));
 }
 
 /// Numbers and booleans as such where they come back as the same text, all else quoted.
@@ -68,70 +57,35 @@ std::string section(const Spec& spec, std::string_view name) {
   return lines.empty() ? lines : fmt::format("\n[{}]\n{}", name, lines);
 }
 
-/// An option and where it stands: a TOML table does not keep the order of its keys.
-struct Option {
-  std::uint32_t line, column;
-  std::string key, text;
-};
-
-void read_options(const toml::table& table, const std::string& prefix, std::vector<Option>& options) {
-  for (const auto& [key, node] : table) {
-    const std::string name = prefix + "." + std::string(key.str());
-    if (const auto* nested = node.as_table())
-      read_options(*nested, name, options);
-    else
-      options.push_back({node.source().begin.line, node.source().begin.column, name, text_of(node)});
-  }
-}
-
-void add_in_order(std::vector<Option> options, Spec& spec) {
-  std::sort(options.begin(), options.end(),
-            [](const Option& a, const Option& b) { return std::tie(a.line, a.column) < std::tie(b.line, b.column); });
-  for (Option& option : options) spec.options.emplace_back(std::move(option.key), std::move(option.text));
-}
-
-void check_format(const toml::table& file) {
+void check_format(const toml::table& file, const std::string& source) {
   if (!file.contains("format") || !file["run"].is_table())
-    throw InvalidInput("not a spec: it needs `format` and [run]");
+    throw InvalidInput(fmt::format("{}: not a spec: it needs `format` and [run]", source));
   const std::int64_t format = file["format"].value_or(std::int64_t{0});
   if (format != kFormat)
-    throw InvalidInput(
-        fmt::format("format {} is that of another version of Rehearse, this one reads {}", format, kFormat));
+    throw InvalidInput(fmt::format("{}: format {} is that of another version of Rehearse, this one reads {}", source,
+                                   format, kFormat));
 }
 
-void read_run(const toml::table& run, Spec& spec) {
-  Violations violations;
-  for (const auto& [key, node] : run) {
-    const std::string name(key.str()), text = text_of(node);
-    if (name == "scenario")
-      spec.scenario = text;
-    else if (name == "learner")
-      spec.learner = text;
-    else if (name == "prior")
-      spec.prior = text;
-    else if (!set_field([&](FieldVisitor& v) { spec.fields(v); }, name, text))
-      violations.add(fmt::format("line {}: unknown key '{}' in [run]", node.source().begin.line, name));
-  }
-  violations.throw_if_any();
+void read_run(TomlReader run, Spec& spec) {
+  run.take("scenario", spec.scenario);
+  run.take("learner", spec.learner);
+  run.take("prior", spec.prior);
+  run.take_fields([&](FieldVisitor& v) { spec.fields(v); });
+  run.finish();
 }
 
-Spec read(std::string_view text) {
-  const toml::table file = toml::parse(text);
-  check_format(file);
-  Spec spec;
-  std::vector<Option> options;
-  for (const auto& [key, node] : file) {
-    const std::string name(key.str());
-    const bool section = std::find(kSections.begin(), kSections.end(), name) != kSections.end() && node.is_table();
-    if (name == "run")
-      read_run(*node.as_table(), spec);
-    else if (section)
-      read_options(*node.as_table(), name, options);
-    else if (name != "format")
-      throw InvalidInput(fmt::format("line {}: unknown table or key '{}'", node.source().begin.line, name));
+void read_options(const toml::table& file, TomlReader& reader, FileViolations& violations, Spec& spec) {
+  for (const std::string_view section : kSections) reader.take_table(std::string(section));
+  for (const auto& [key, node] : leaves(file)) {
+    const std::string_view section = std::string_view(key).substr(0, key.find('.'));
+    if (section.size() == key.size() || std::find(kSections.begin(), kSections.end(), section) == kSections.end())
+      continue;
+    try {
+      spec.options.emplace_back(key, text_of(*node));
+    } catch (const InvalidInput& error) {
+      violations.add(line_of(*node), error.what());
+    }
   }
-  add_in_order(std::move(options), spec);
-  return spec;
 }
 
 }  // namespace
@@ -148,13 +102,17 @@ std::string to_toml(const Spec& spec) {
 }
 
 Spec from_toml(std::string_view text, const std::string& source_name) {
-  try {
-    return read(text);
-  } catch (const toml::parse_error& error) {
-    throw InvalidInput(fmt::format("{}: line {}: {}", source_name, error.source().begin.line, error.description()));
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(fmt::format("{}: {}", source_name, error.what()));
-  }
+  const toml::table file = parse_toml(text, source_name);
+  check_format(file, source_name);
+  FileViolations violations(source_name);
+  TomlReader reader(file, "", violations);
+  reader.take("format");
+  Spec spec;
+  read_run(TomlReader(*reader.take_table("run"), "[run]", violations), spec);
+  read_options(file, reader, violations, spec);
+  reader.finish();
+  violations.throw_if_any();
+  return spec;
 }
 
 std::uint64_t fingerprint(Spec spec) {

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "rehearse/experiment/catalogue.hpp"
 
@@ -207,15 +208,29 @@ inline Catalogue catalogue(Killer killer = {}) {
     family.push_back(std::make_unique<EchoBuilder>(false, killer));
     return family;
   }};
-  catalogue.not_built = {{"hexapod", "DART 6.12 was not found"}};
+  catalogue.not_built = {{"hexapod", "DART 6.12 was not found"}, {"pilco", "not written yet"}};
   return catalogue;
 }
 
-/// A folder of its own for each test, empty at its start.
+/// Removes folders when the program ends.
+class Remover {
+ public:
+  ~Remover() {
+    std::error_code ignored;
+    for (const std::filesystem::path& path : paths) std::filesystem::remove_all(path, ignored);
+  }
+  std::vector<std::filesystem::path> paths;
+};
+
+/// A folder of its own for each test, empty at its start; in memory where there is such a place, because checkpoints
+/// wait for the disk.
 inline std::filesystem::path test_folder() {
+  static Remover remover;
   const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const auto path = std::filesystem::path(testing::TempDir()) / "rehearse" / info->test_suite_name() / info->name();
-  std::filesystem::remove_all(path);
+  std::filesystem::path root = "/dev/shm";
+  if (!is_directory(root)) root = testing::TempDir();
+  remover.paths.push_back(root / ("rehearse-test-" + std::to_string(::getpid())));
+  const std::filesystem::path path = remover.paths.back() / info->test_suite_name() / info->name();
   std::filesystem::create_directories(path);
   return path;
 }

@@ -111,8 +111,13 @@ TEST(SpecFile, SaysWhereItIsWrong) {
   EXPECT_EQ(complaint_about("a = 1\n"), "x.toml: not a spec: it needs `format` and [run]");
   EXPECT_EQ(complaint_about("format = 7\n[run]\n"),
             "x.toml: format 7 is that of another version of Rehearse, this one reads 1");
-  EXPECT_EQ(complaint_about("format = 1\n[run]\ntrails = 3\n"), "x.toml: line 3: unknown key 'trails' in [run]");
-  EXPECT_EQ(complaint_about("format = 1\n[run]\ntrials = 0\n"), "x.toml: trials = 0, must be between 1 and 1000000");
+  EXPECT_EQ(
+      complaint_about("format = 1\n[run]\ntrails = 3\nseed = -1\n[learner]\nx = [1]\n[lerner]\n"),
+      "x.toml: line 3: unknown key 'trails' in [run], did you mean 'trials'? (known: scenario, learner, prior, "
+      "trials, seed)\n"
+      "x.toml: line 4: seed = -1, must be between 0 and 9007199254740992\n"
+      "x.toml: line 6: a value must be a number, true, false or text\n"
+      "x.toml: line 7: unknown key 'lerner', did you mean 'learner'? (known: format, run, scenario, learner, prior)");
 }
 
 }  // namespace

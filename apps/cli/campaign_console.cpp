@@ -1,0 +1,222 @@
+#include "apps/cli/campaign_console.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rehearse/experiment/campaign_claims.hpp"
+#include "rehearse/experiment/campaign_summary.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+using experiment::Campaign, experiment::CampaignGroup, experiment::ClaimPart, experiment::ClaimResult,
+    experiment::PartResult, experiment::RunOutcome, experiment::RunState, experiment::TrialStatistics,
+    experiment::Verdict;
+using Seconds = std::chrono::duration<double>;
+
+std::string counted(std::size_t number, const char* what) {
+  return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
+std::string label_of(const CampaignGroup& group) {
+  std::string label = group.learner;
+  for (const std::string& part : {group.prior, group.variant})
+    if (!part.empty()) label += " " + part;
+  return label;
+}
+
+std::string outcome_text(const RunOutcome& outcome, Index trials) {
+  if (outcome.state == RunState::failed) return "FAILED: " + outcome.reason;
+  const auto solved = outcome.first_success(trials);
+  return fmt::format("{}, best return {:.3f}", solved ? fmt::format("solved at trial {}", *solved) : "not solved",
+                     outcome.best_return(trials));
+}
+
+/// "3 of 3 (0.29 to 1)"
+std::string rate_text(const std::optional<experiment::SuccessRate>& rate) {
+  if (!rate) return "-";
+  return fmt::format("{} of {} ({:.2g} to {:.2g})", rate->count, rate->runs, rate->interval.low, rate->interval.high);
+}
+
+std::string numbers_text(const statistics::FiveNumbers& five) {
+  return fmt::format("{:.3g} ({:.3g} to {:.3g})", five.median, five.quartile_1, five.quartile_3);
+}
+
+void print_row(const std::vector<std::size_t>& widths, const std::vector<std::string>& cells) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) line += fmt::format("  {:<{}}", cells[i], widths[i]);
+  fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+}
+
+void print_table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  for (const auto& row : rows) print_row(widths, row);
+}
+
+void print_groups(const Campaign& campaign) {
+  const Index last = campaign.plan.trials;
+  std::vector<std::vector<std::string>> rows = {{"learner", "runs", fmt::format("solved by trial {} (95 %)", last),
+                                                 fmt::format("return of trial {} (quartiles)", last)}};
+  for (std::size_t i = 0; i < campaign.plan.groups.size(); ++i) {
+    const std::vector<TrialStatistics> trials = experiment::trial_statistics(campaign, i);
+    const bool reached = !trials.empty() && trials.back().trial == last;
+    const Index runs = reached ? trials.back().runs : 0;
+    rows.push_back({label_of(campaign.plan.groups[i]), fmt::format("{}/{}", runs, campaign.plan.seeds.size()),
+                    reached ? rate_text(trials.back().solved_by) : "-",
+                    reached ? numbers_text(trials.back().total_reward) : "-"});
+  }
+  for (const auto& [name, reason] : campaign.plan.missing) rows.push_back({name, "missing", reason, ""});
+  fmt::print("\n");
+  print_table(rows);
+}
+
+void print_failures(const Campaign& campaign) {
+  if (campaign.count(RunState::failed) > 0) fmt::print("\nFailed; tried again when the campaign is started again\n");
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i)
+    if (campaign.runs[i].state == RunState::failed)
+      fmt::print("  {}: {}\n", campaign.plan.runs[i].name, campaign.runs[i].reason);
+}
+
+const char* word_for(Verdict verdict) { return verdict == Verdict::fail ? "FAIL" : to_text(verdict); }
+
+std::string labels_of(const Campaign& campaign, const std::vector<std::size_t>& groups) {
+  std::vector<std::string> labels;
+  for (std::size_t group : groups) {
+    const std::string label = label_of(campaign.plan.groups[group]);
+    if (std::find(labels.begin(), labels.end(), label) == labels.end()) labels.push_back(label);
+  }
+  return fmt::format("{}", fmt::join(labels, " + "));
+}
+
+/// "mi useful against gp-mi useful: 1.2 (-0.3 to 2.7)"
+std::string part_text(const Campaign& campaign, const ClaimPart& part, const PartResult& result) {
+  std::string text = labels_of(campaign, part.groups);
+  if (!part.against.empty()) text += " against " + labels_of(campaign, part.against);
+  if (result.runs > 0) text += ": ";
+  if (result.runs > 0)
+    text += result.count ? fmt::format("{} of {}", *result.count, result.runs) : fmt::format("{:.3g}", result.estimate);
+  if (result.runs > 0 && std::isfinite(result.interval.low))
+    text += fmt::format(" ({:.3g} to {:.3g})", result.interval.low, result.interval.high);
+  const std::string separator = text.empty() ? "" : "; ";
+  return result.reason.empty() ? text : text + separator + result.reason;
+}
+
+void print_claims(const Campaign& campaign) {
+  const std::vector<ClaimResult> results = experiment::judge(campaign);
+  if (!results.empty()) fmt::print("\nClaims, with 95 % intervals\n");
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const auto& [claim, parts, missing] = campaign.plan.claims[i];
+    const PartResult& first = results[i].parts.front();
+    fmt::print("  {:<10} {} ({}: {})\n", word_for(results[i].verdict), claim.text, first.measure, first.required);
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      fmt::print("    {:<10} {}\n", word_for(results[i].parts[k].verdict),
+                 part_text(campaign, parts[k], results[i].parts[k]));
+  }
+}
+
+}  // namespace
+
+void CampaignConsole::started(const Campaign& campaign, Index at_once) {
+  plan_ = campaign.plan;
+  at_once_ = std::max<Index>(1, at_once);
+  ended_ = campaign.count(RunState::done);
+  failed_ = campaign.count(RunState::failed);
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i)
+    if (campaign.runs[i].state == RunState::unfinished) left_[learner_of(i)] += plan_.trials - campaign.runs[i].done();
+  line_.print(fmt::format("{}: {} ({} × {}) of {} in {}", plan_.title, counted(plan_.runs.size(), "run"),
+                          counted(plan_.groups.size(), "group"), counted(plan_.seeds.size(), "seed"),
+                          counted(static_cast<std::size_t>(plan_.trials), "trial"), folder_));
+  for (const auto& [name, reason] : plan_.missing) line_.print(fmt::format("missing: {}", reason));
+  for (const auto& [path, reason] : campaign.skipped) line_.print(fmt::format("skipped: {}: {}", path, reason));
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i)
+    if (campaign.runs[i].state == RunState::failed)
+      line_.print(fmt::format("skipped: {}: {}", plan_.runs[i].name, campaign.runs[i].reason));
+  if (ended_ > 0) line_.print(fmt::format("{} of {} done already", ended_, counted(plan_.runs.size(), "run")));
+}
+
+void CampaignConsole::run_started(std::size_t run, Index done) {
+  running_[run] = {Clock::now(), Clock::now(), done, done + 1};
+}
+
+void CampaignConsole::progress(std::size_t run, Index trial, const Progress& progress) {
+  Running& state = running_[run];
+  if (trial != state.trial) state.trial_begin = Clock::now();
+  state.trial = trial;
+  if (!line_.is_due()) return;
+  std::string line = fmt::format("{}/{} runs", ended_, plan_.runs.size());
+  if (failed_ > 0) line += fmt::format(", {} failed", failed_);
+  if (const auto left = seconds_left()) line += fmt::format("  about {} left", duration_text(*left));
+  line += fmt::format("  {}: trial {}/{} {} {:.0f} %", name_of(run), trial, plan_.trials, progress.phase,
+                      100 * progress.done);
+  line_.show(line);
+}
+
+void CampaignConsole::run_ended(std::size_t run, const RunOutcome& outcome) {
+  const auto found = running_.find(run);
+  double seconds = 0;
+  if (found != running_.end()) {
+    Cost& spent = spent_[learner_of(run)];
+    seconds = Seconds(Clock::now() - found->second.begin).count();
+    spent.seconds += seconds;
+    spent.trials += outcome.done() - found->second.before;
+    left_[learner_of(run)] -= plan_.trials - found->second.before;
+    running_.erase(found);
+  }
+  ++(outcome.state == RunState::failed ? failed_ : ended_);
+  line_.print(fmt::format("[{}/{}] {}  {}  in {}", ended_ + failed_, plan_.runs.size(), name_of(run),
+                          outcome_text(outcome, plan_.trials), duration_text(seconds)));
+}
+
+void CampaignConsole::finished(const Campaign& campaign) {
+  line_.clear();
+  print_groups(campaign);
+  print_failures(campaign);
+  print_claims(campaign);
+  fmt::print("\nThe tables: {0}/campaign.csv, {0}/summary.json\n", folder_);
+}
+
+std::string CampaignConsole::name_of(std::size_t run) const {
+  const experiment::PlannedRun& planned = plan_.runs[run];
+  return fmt::format("{} seed {}", label_of(plan_.groups[planned.group]), planned.spec.seed);
+}
+
+const std::string& CampaignConsole::learner_of(std::size_t run) const {
+  return plan_.groups[plan_.runs[run].group].learner;
+}
+
+std::map<std::string, CampaignConsole::Cost> CampaignConsole::costs() const {
+  std::map<std::string, Cost> costs = spent_;
+  for (const auto& [run, state] : running_) {
+    const Index trials = state.trial - 1 - state.before;
+    if (trials <= 0) continue;
+    costs[learner_of(run)].seconds += Seconds(state.trial_begin - state.begin).count();
+    costs[learner_of(run)].trials += trials;
+  }
+  return costs;
+}
+
+/// Trials are taken to last as long as those before of the same learner; of all learners, before it has any.
+std::optional<double> CampaignConsole::seconds_left() const {
+  const std::map<std::string, Cost> known = costs();
+  Cost all;
+  for (const auto& [learner, cost] : known) {
+    all.seconds += cost.seconds;
+    all.trials += cost.trials;
+  }
+  if (all.trials == 0) return std::nullopt;
+  double seconds = 0;
+  for (const auto& [learner, trials] : left_) {
+    const auto found = known.find(learner);
+    const Cost& cost = found != known.end() && found->second.trials > 0 ? found->second : all;
+    seconds += static_cast<double>(trials) * cost.seconds / static_cast<double>(cost.trials);
+  }
+  for (const auto& [run, state] : running_) seconds -= Seconds(Clock::now() - state.begin).count();
+  return std::max(0.0, seconds) / static_cast<double>(at_once_);
+}
+
+}  // namespace rehearse::apps

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "apps/cli/status_line.hpp"
+#include "rehearse/experiment/campaign.hpp"
+
+namespace rehearse::apps {
+
+/// Shows a campaign on standard output: one line a run that ends, and on a terminal a last line that is rewritten.
+class CampaignConsole final : public experiment::CampaignListener {
+ public:
+  explicit CampaignConsole(std::string folder) : folder_(std::move(folder)) {}
+  void started(const experiment::Campaign& campaign, Index at_once) override;
+  void run_started(std::size_t run, Index done) override;
+  void progress(std::size_t run, Index trial, const Progress& progress) override;
+  void run_ended(std::size_t run, const experiment::RunOutcome& outcome) override;
+
+  /// The tables of results and claims.
+  void finished(const experiment::Campaign& campaign);
+  void clear_line() { line_.clear(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Running {
+    Clock::time_point begin, trial_begin;
+    Index before = 0;  // trials done when it was started or continued
+    Index trial = 1;
+  };
+
+  /// What the trials of a learner have cost so far.
+  struct Cost {
+    double seconds = 0;
+    Index trials = 0;
+  };
+
+  std::string name_of(std::size_t run) const;
+  const std::string& learner_of(std::size_t run) const;
+  std::map<std::string, Cost> costs() const;
+  std::optional<double> seconds_left() const;
+
+  StatusLine line_;
+  std::string folder_;
+  experiment::CampaignPlan plan_;
+  Index at_once_ = 1;
+  Index ended_ = 0;
+  Index failed_ = 0;
+  std::map<std::size_t, Running> running_;
+  std::map<std::string, Index> left_;  // trials to do, by learner
+  std::map<std::string, Cost> spent_;  // in runs that have ended
+};
+
+}  // namespace rehearse::apps

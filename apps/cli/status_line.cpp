@@ -1,0 +1,49 @@
+#include "apps/cli/status_line.hpp"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace rehearse::apps {
+namespace {
+
+std::size_t terminal_width() {
+  winsize size{};
+  return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
+}
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  if (seconds < 99.5) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 99.5 * 60) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+StatusLine::StatusLine() : terminal_(::isatty(STDOUT_FILENO) == 1) {}
+
+void StatusLine::print(const std::string& line) {
+  clear();
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
+bool StatusLine::is_due() const { return terminal_ && Clock::now() - last_ >= std::chrono::milliseconds(100); }
+
+void StatusLine::show(const std::string& line) {
+  if (!is_due()) return;
+  last_ = Clock::now();
+  fmt::print("\r\033[K{}", line.substr(0, terminal_width()));
+  std::fflush(stdout);
+  shown_ = true;
+}
+
+void StatusLine::clear() {
+  if (shown_) fmt::print("\r\033[K");
+  std::fflush(stdout);
+  shown_ = false;
+}
+
+}  // namespace rehearse::apps

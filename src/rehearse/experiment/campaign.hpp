@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "rehearse/core/events.hpp"
+#include "rehearse/experiment/campaign_results.hpp"
+
+namespace rehearse::experiment {
+
+/// Hears how a campaign goes; one call at a time, on whichever thread has the news. `run` is a position in the plan.
+class CampaignListener {
+ public:
+  virtual ~CampaignListener() = default;
+  virtual void started(const Campaign&, Index /*runs at once*/) {}
+  virtual void run_started(std::size_t /*run*/, Index /*trials done before*/) {}
+  virtual void progress(std::size_t /*run*/, Index /*trial*/, const Progress&) {}
+  virtual void run_ended(std::size_t /*run*/, const RunOutcome&) {}
+};
+
+/// What does not decide results.
+struct CampaignOptions {
+  int threads = 0;                       // in all; 0: as many as cores
+  CampaignListener* listener = nullptr;  // null: nobody listens
+  std::function<bool()> stop;            // polled; once true, the campaign stops where it can be continued
+};
+
+/// Does what is left to do of the campaign in a folder, which is made if it is not there. A run that fails is recorded
+/// and does not stop the others. text: the campaign file's; source: its name, for messages. Throws InvalidInput before
+/// anything runs; std::runtime_error if the tables cannot be written. After a stop, some runs are unfinished.
+Campaign run_campaign(const Catalogue& catalogue, std::string_view text, const std::string& source,
+                      const std::filesystem::path& folder, const CampaignOptions& options);
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,249 @@
+#include "rehearse/experiment/campaign_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "rehearse/experiment/toml_reader.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+constexpr Index kFormat = 1;
+constexpr Index kMaxSeeds = 100000;
+
+/// "3" or "1-30".
+std::optional<std::pair<Index, Index>> seed_range(std::string_view text) {
+  const auto number = [](std::string_view digits, Index& value) {
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return error == std::errc{} && end == digits.data() + digits.size() && value >= 0 && value <= Index{1} << 53;
+  };
+  const std::size_t dash = text.find('-');
+  Index first = 0, last = 0;
+  const bool ok =
+      number(text.substr(0, dash), first) && (dash == std::string_view::npos || number(text.substr(dash + 1), last));
+  if (dash == std::string_view::npos) last = first;
+  return ok && first <= last && last - first < kMaxSeeds ? std::optional(std::pair{first, last}) : std::nullopt;
+}
+
+/// A number, "A-B", or a list of numbers.
+std::optional<std::vector<Index>> seeds_of(const toml::node& node) {
+  std::vector<Index> seeds;
+  const auto add = [&](const toml::node& element) {
+    if (element.is_array() || element.is_table()) return false;
+    const auto range = seed_range(text_of(element));
+    for (Index seed = range ? range->first : 0; range && seed <= range->second; ++seed) seeds.push_back(seed);
+    return range.has_value();
+  };
+  const auto* list = node.as_array();
+  const bool ok = list ? std::all_of(list->begin(), list->end(), add) : add(node);
+  std::vector<Index> sorted = seeds;
+  std::sort(sorted.begin(), sorted.end());
+  const bool twice = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+  return ok && !twice && !seeds.empty() ? std::optional(seeds) : std::nullopt;
+}
+
+class CampaignReader {
+ public:
+  CampaignReader(const toml::table& table, FileViolations& violations)
+      : table_(table), violations_(violations), reader_(table, "", violations) {}
+
+  CampaignFile read() {
+    check_format();
+    read_grid();
+    read_options();
+    read_axes();
+    read_claims();
+    reader_.finish();
+    for (const auto& [key, node] : table_) file_.lines[std::string(key.str())] = line_of(node);
+    return std::move(file_);
+  }
+
+ private:
+  void check_format() {
+    const toml::node* format = reader_.take("format");
+    if (!format)
+      violations_.add(0, fmt::format("format is missing; write format = {}", kFormat));
+    else if (format->value<std::int64_t>() != kFormat)
+      reader_.wrong("format", fmt::format("this version of Rehearse reads format = {}", kFormat));
+  }
+
+  void read_grid() {
+    reader_.take("title", file_.title);
+    if (!reader_.take("scenario", file_.scenario)) violations_.add(0, "scenario is missing");
+    if (!reader_.take("learners", file_.learners)) violations_.add(0, "learners is missing");
+    reader_.take("priors", file_.priors);
+    reader_.take_fields([&](FieldVisitor& v) { v.integer("trials", file_.trials, between(1, 1e6)); });
+    const toml::node* seeds = reader_.take("seeds");
+    if (!seeds)
+      violations_.add(0, "seeds is missing; write for instance seeds = \"1-30\"");
+    else if (const auto list = seeds_of(*seeds))
+      file_.seeds = *list;
+    else
+      reader_.wrong("seeds", "seeds must be \"FIRST-LAST\" or a list of different whole numbers from 0 on");
+  }
+
+  std::vector<FileOption> options_of(const toml::table& table) {
+    std::vector<FileOption> options;
+    for (const auto& [key, node] : leaves(table)) {
+      if (node->is_array())
+        violations_.add(line_of(*node), fmt::format("{}: one value; several go into [vary]", key));
+      else if (const auto text = value_text(key, *node))
+        options.push_back({key, *text, line_of(*node)});
+    }
+    return options;
+  }
+
+  std::optional<std::string> value_text(const std::string& key, const toml::node& node) {
+    try {
+      return text_of(node);
+    } catch (const InvalidInput& error) {
+      violations_.add(line_of(node), fmt::format("{}: {}", key, error.what()));
+      return std::nullopt;
+    }
+  }
+
+  void read_options() {
+    if (const toml::table* set = reader_.take_table("set")) file_.options = options_of(*set);
+    const toml::table* learners = reader_.take_table("learner");
+    if (!learners) return;
+    for (const auto& [key, node] : *learners) {
+      const std::string name(key.str());
+      file_.lines["learner." + name] = line_of(node);
+      if (const auto* options = node.as_table())
+        file_.learner_options[name] = options_of(*options);
+      else
+        violations_.add(line_of(node), fmt::format("learner.{} must be a table [learner.NAME] of options", name));
+    }
+  }
+
+  void read_axes() {
+    const toml::table* vary = reader_.take_table("vary");
+    if (!vary) return;
+    for (const auto& [key, node] : leaves(*vary)) {
+      Axis axis{.key = key, .line = line_of(*node)};
+      if (const auto* list = node->as_array())
+        for (const toml::node& element : *list)
+          if (const auto text = value_text(key, element)) axis.texts.push_back(*text);
+      const std::vector<std::string>& texts = axis.texts;
+      for (const std::string& text : texts)
+        if (std::count(texts.begin(), texts.end(), text) > 1)
+          violations_.add(axis.line, fmt::format("{} has the value {} twice", key, text));
+      if (texts.empty()) violations_.add(axis.line, fmt::format("{} must be a list of values in [vary]", key));
+      file_.axes.push_back(std::move(axis));
+    }
+  }
+
+  void read_claims() {
+    const toml::node* claims = reader_.take("claim");
+    if (!claims) return;
+    if (!claims->is_array_of_tables()) return reader_.wrong("claim", "claims are written as [[claim]]");
+    for (const toml::node& claim : *claims->as_array()) read_claim(*claim.as_table());
+  }
+
+  void read_claim(const toml::table& table) {
+    TomlReader reader(table, "[[claim]]", violations_);
+    Claim claim{.line = line_of(table)};
+    if (!reader.take("text", claim.text)) violations_.add(claim.line, "the claim has no text");
+    if (!reader.take("learner", claim.learner)) violations_.add(claim.line, "the claim names no learner");
+    reader.take("priors", claim.priors);
+    reader.take("variants", claim.variants);
+    reader.take_fields([&](FieldVisitor& v) {
+      v.boolean("pooled", claim.pooled);
+      v.boolean("observed", claim.observed);
+    });
+    read_kind(reader, claim);
+    reader.finish();
+    file_.claims.push_back(std::move(claim));
+  }
+
+  void read_kind(TomlReader& reader, Claim& claim) {
+    const bool success = reader.has("solved_by"), better = reader.has("better_than"),
+               not_worse = reader.has("not_worse_than"),
+               median = reader.has("median_at_least") || reader.has("median_at_most");
+    if (success + better + not_worse + median != 1)
+      violations_.add(
+          claim.line,
+          "a claim has one of solved_by, better_than, not_worse_than, and median_at_least or median_at_most");
+    if (success) claim.success = read_success(reader, claim.line);
+    if (better || not_worse) claim.comparison = read_comparison(reader, better ? "better_than" : "not_worse_than");
+    if (median) claim.median = read_median(reader);
+  }
+
+  Bound trials() const { return between(1, static_cast<double>(file_.trials)); }
+
+  std::optional<double> number(TomlReader& reader, const std::string& key, Bound bound = any_value()) {
+    double value = 0;
+    const bool there = reader.has(key);
+    reader.take_fields([&](FieldVisitor& v) { v.number(key, value, bound); });
+    return there ? std::optional(value) : std::nullopt;
+  }
+
+  SuccessClaim read_success(TomlReader& reader, Index line) {
+    SuccessClaim success;
+    Index runs = 0;
+    reader.take_fields([&](FieldVisitor& v) {
+      v.integer("solved_by", success.solved_by, trials());
+      v.integer("at_least_runs", runs, at_least(1));
+    });
+    if (reader.has("at_least_runs")) success.at_least_runs = runs;
+    success.at_least_rate = number(reader, "at_least_rate", between(0, 1));
+    if (!success.at_least_rate && !success.at_least_runs)
+      violations_.add(line, "solved_by needs at_least_rate or at_least_runs");
+    return success;
+  }
+
+  Measure read_measure(TomlReader& reader) {
+    Measure measure{.trial = file_.trials};
+    if (!reader.has("metric"))
+      violations_.add(reader.line(), "metric is missing: \"return\", \"best_return\" or \"first_success\"");
+    reader.take_fields([&](FieldVisitor& v) {
+      v.choice("metric", measure.metric, {"return", "best_return", "first_success"});
+      v.integer("trial", measure.trial, trials());
+    });
+    return measure;
+  }
+
+  ComparisonClaim read_comparison(TomlReader& reader, const std::string& key) {
+    ComparisonClaim comparison{.measure = read_measure(reader)};
+    if (key == "not_worse_than") comparison.not_worse_by = number(reader, "margin", at_least(0)).value_or(0);
+    const toml::table* other = reader.take_table(key);
+    if (!other) return comparison;
+    TomlReader inner(*other, key, violations_);
+    const auto name = [&](const char* what) {
+      std::string text;
+      return inner.take(what, text) ? std::optional(text) : std::nullopt;
+    };
+    comparison.learner = name("learner");
+    comparison.prior = name("prior");
+    comparison.variant = name("variant");
+    inner.finish();
+    if (other->empty()) reader.wrong(key, fmt::format("{} names nothing: learner, prior or variant", key));
+    return comparison;
+  }
+
+  MedianClaim read_median(TomlReader& reader) {
+    MedianClaim median{.measure = read_measure(reader)};
+    median.at_least = number(reader, "median_at_least");
+    median.at_most = number(reader, "median_at_most");
+    return median;
+  }
+
+  const toml::table& table_;
+  FileViolations& violations_;
+  TomlReader reader_;
+  CampaignFile file_;
+};
+
+}  // namespace
+
+CampaignFile read_campaign_file(std::string_view text, const std::string& source, FileViolations& violations) {
+  const toml::table table = parse_toml(text, source);
+  CampaignFile file = CampaignReader(table, violations).read();
+  if (file.title.empty()) file.title = std::filesystem::path(source).stem().string();
+  return file;
+}
+
+}  // namespace rehearse::experiment

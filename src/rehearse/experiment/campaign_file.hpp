@@ -1,0 +1,83 @@
+#pragma once
+// The campaign file as it was written; docs/campaigns.md describes it.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::experiment {
+
+class FileViolations;
+
+struct FileOption {
+  std::string key, text;
+  Index line = 0;
+};
+
+/// An option of which the grid has several values.
+struct Axis {
+  std::string key;
+  std::vector<std::string> texts;
+  Index line = 0;
+};
+
+enum class Metric { total_reward, best_return, first_success };
+
+/// Until or of this trial, as the metric says.
+struct Measure {
+  Metric metric = Metric::total_reward;
+  Index trial = 0;  // 0: the last
+};
+
+/// Solved by a trial, often enough.
+struct SuccessClaim {
+  Index solved_by = 0;
+  std::optional<double> at_least_rate;
+  std::optional<Index> at_least_runs;
+};
+
+/// The claim's runs are better than others, which differ from them in what is named here, or not worse by a margin.
+struct ComparisonClaim {
+  Measure measure;
+  std::optional<std::string> learner, prior, variant;
+  std::optional<double> not_worse_by;  // empty: better
+};
+
+struct MedianClaim {
+  Measure measure;
+  std::optional<double> at_least, at_most;
+};
+
+struct Claim {
+  std::string text;
+  Index line = 0;
+  std::string learner;
+  std::vector<std::string> priors, variants;  // empty: all
+  bool pooled = false;
+  bool observed = false;
+  std::optional<SuccessClaim> success;  // of these three, one
+  std::optional<ComparisonClaim> comparison;
+  std::optional<MedianClaim> median;
+};
+
+struct CampaignFile {
+  std::string title, scenario;
+  std::vector<std::string> learners, priors;
+  std::vector<Index> seeds;
+  Index trials = 10;
+  std::vector<FileOption> options;
+  std::map<std::string, std::vector<FileOption>> learner_options;
+  std::vector<Axis> axes;
+  std::vector<Claim> claims;
+  std::map<std::string, Index> lines;  // of the keys outside tables, and "learner.NAME"
+};
+
+/// Reads as much as can be understood; what cannot becomes violations. Throws InvalidInput if it is no TOML.
+CampaignFile read_campaign_file(std::string_view text, const std::string& source, FileViolations& violations);
+
+}  // namespace rehearse::experiment

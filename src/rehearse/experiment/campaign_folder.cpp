@@ -1,0 +1,158 @@
+#include "rehearse/experiment/campaign_folder.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/campaign_summary.hpp"
+#include "rehearse/experiment/spec_file.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kFile = "campaign.toml", *kRuns = "runs";
+
+fs::path without_slash(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
+
+/// Whether nothing of anybody's is in a folder: what is left of a start that was killed counts as nothing.
+bool is_blank(const fs::path& folder) {
+  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), [](const fs::directory_entry& entry) {
+    return entry.path().filename() == "lock" || entry.path().extension() == ".tmp";
+  });
+}
+
+void make_folder(const fs::path& path) {
+  try {
+    if (!fs::exists(path)) fs::create_directories(path);
+    if (!fs::is_directory(path)) throw InvalidInput(fmt::format("{} is not a folder", path.string()));
+    if (!fs::exists(path / kFile) && !is_blank(path))
+      throw InvalidInput(
+          fmt::format("{} already exists and is not the folder of a campaign; name another", path.string()));
+  } catch (const fs::filesystem_error& error) {
+    throw InvalidInput(fmt::format("cannot create {}: {}", path.string(), error.code().message()));
+  }
+}
+
+/// The plan with which a folder was begun.
+CampaignPlan begun_plan(const Catalogue& catalogue, const fs::path& file, const std::string& text) {
+  try {
+    return plan_campaign(catalogue, text, file.string());
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(
+        fmt::format("{}\nthe campaign in this folder cannot be read; name another folder", error.what()));
+  }
+}
+
+/// Throws InvalidInput unless every run that was begun is one of the plan, with as many trials or more.
+void check_only_adds(const CampaignPlan& begun, const CampaignPlan& plan, const fs::path& path) {
+  std::map<std::string, std::uint64_t> wanted;
+  for (const PlannedRun& run : plan.runs) wanted[run.name] = fingerprint(run.spec);
+  std::vector<std::string> lacking, changed;
+  for (const PlannedRun& run : begun.runs) {
+    const auto found = wanted.find(run.name);
+    if (found == wanted.end())
+      lacking.push_back(run.name);
+    else if (found->second != fingerprint(run.spec))
+      changed.push_back(run.name);
+  }
+  Violations violations;
+  const auto others = [](const std::vector<std::string>& names) {
+    if (names.size() == 1) return names.front();
+    return fmt::format("{} and {} other run{}", names.front(), names.size() - 1, names.size() == 2 ? "" : "s");
+  };
+  if (!lacking.empty())
+    violations.add(fmt::format("{} was begun with {}, which the campaign file no longer has; name another folder",
+                               path.string(), others(lacking)));
+  if (!changed.empty())
+    violations.add(
+        fmt::format("{} was begun with other options of {}; name another folder", path.string(), others(changed)));
+  violations.require(plan.trials >= begun.trials,
+                     fmt::format("{} was begun with {} trials, the campaign file has {}; name another folder",
+                                 path.string(), begun.trials, plan.trials));
+  violations.throw_if_any();
+}
+
+/// What a run that was killed while its folder was made leaves behind: ".NAME.PROCESS".
+bool is_unborn(const std::string& name, const CampaignPlan& plan) {
+  return std::any_of(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) {
+    const std::string prefix = "." + run.name + ".";
+    return name.starts_with(prefix) && name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
+  });
+}
+
+void remove_unborn(const fs::path& runs, const CampaignPlan& plan) {
+  std::vector<fs::path> unborn;
+  for (const auto& entry : fs::directory_iterator(runs))
+    if (is_unborn(entry.path().filename().string(), plan)) unborn.push_back(entry.path());
+  for (const fs::path& path : unborn) fs::remove_all(path);
+}
+
+std::string complaint_about_spec(const fs::path& file, const PlannedRun& run) {
+  try {
+    if (fingerprint(from_toml(read_file(file), file.string())) == fingerprint(run.spec)) return {};
+    return fmt::format("{} has other options: it is of another campaign or version", file.string());
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+}
+
+/// Nothing if the file is not there or damaged: the run is resumed, and writes it again from its checkpoint.
+RunOutcome rows_of(const fs::path& file, Index trials) {
+  try {
+    if (fs::exists(file)) return outcome_of(statistics::read_csv(read_file(file)), trials);
+  } catch (const InvalidInput&) {
+  }
+  return {};
+}
+
+}  // namespace
+
+CampaignFolder CampaignFolder::open(const Catalogue& catalogue, const fs::path& given, std::string_view text,
+                                    const CampaignPlan& plan) {
+  const fs::path path = without_slash(given), file = path / kFile;
+  make_folder(path);
+  FolderLock lock(path);
+  const std::string begun = fs::exists(file) ? read_file(file) : "";
+  if (!begun.empty() && begun != text) check_only_adds(begun_plan(catalogue, file, begun), plan, path);
+  if (begun != text) write_file(file, text, Durability::power);
+  try {
+    fs::create_directories(path / kRuns);
+    remove_unborn(path / kRuns, plan);
+  } catch (const fs::filesystem_error& error) {
+    throw InvalidInput(fmt::format("cannot write in {}: {}", path.string(), error.code().message()));
+  }
+  return {path, std::move(lock)};
+}
+
+RunOutcome CampaignFolder::read(const PlannedRun& run) const {
+  const fs::path folder = path_of(run);
+  if (!fs::exists(fs::symlink_status(folder))) return {};
+  const std::string complaint = complaint_about_spec(folder / "spec.toml", run);
+  if (!complaint.empty()) return {.state = RunState::failed, .reason = complaint};
+  RunOutcome outcome = rows_of(folder / "trials.csv", run.spec.trials);
+  if (outcome.done() == run.spec.trials && fs::exists(folder / "done")) outcome.state = RunState::done;
+  return outcome;
+}
+
+std::vector<Skipped> CampaignFolder::strangers(const CampaignPlan& plan) const {
+  std::vector<Skipped> found;
+  for (const auto& entry : fs::directory_iterator(path_ / kRuns)) {
+    const std::string name = entry.path().filename().string();
+    const bool planned =
+        std::any_of(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) { return run.name == name; });
+    if (!planned) found.push_back({fmt::format("{}/{}", kRuns, name), "not a run of this campaign"});
+  }
+  std::sort(found.begin(), found.end(), [](const Skipped& a, const Skipped& b) { return a.path < b.path; });
+  return found;
+}
+
+void CampaignFolder::write(const Campaign& campaign) const {
+  write_file(path_ / "campaign.csv", campaign_csv(campaign));
+  write_file(path_ / "summary.json", summary_json(campaign));
+}
+
+}  // namespace rehearse::experiment

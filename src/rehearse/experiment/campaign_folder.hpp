@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rehearse/experiment/campaign_results.hpp"
+#include "rehearse/experiment/files.hpp"
+
+namespace rehearse::experiment {
+
+/// The folder of a campaign, locked while this lives.
+class CampaignFolder {
+ public:
+  /// A new folder, an empty one, or that of this campaign or of a part of it. text: the campaign file's, of which
+  /// `plan` was made. Throws InvalidInput if the folder is anything else, asks for other runs, cannot be written, or is
+  /// in use.
+  static CampaignFolder open(const Catalogue& catalogue, const std::filesystem::path& path, std::string_view text,
+                             const CampaignPlan& plan);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path path_of(const PlannedRun& run) const { return path_ / "runs" / run.name; }
+
+  /// What a run's folder holds: done, unfinished (or not there), or failed when it is another's or unreadable.
+  RunOutcome read(const PlannedRun& run) const;
+
+  /// What lies under runs/ and is none of the plan's, in order of name.
+  std::vector<Skipped> strangers(const CampaignPlan& plan) const;
+
+  /// campaign.csv and summary.json, each in one step.
+  void write(const Campaign& campaign) const;
+
+ private:
+  CampaignFolder(std::filesystem::path path, FolderLock lock) : path_(std::move(path)), lock_(std::move(lock)) {}
+
+  std::filesystem::path path_;
+  FolderLock lock_;
+};
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,227 @@
+#include "rehearse/experiment/campaign_plan.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/campaign_claim_plan.hpp"
+#include "rehearse/experiment/priors.hpp"
+#include "rehearse/experiment/toml_reader.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+constexpr std::size_t kMaxRuns = 100000;
+
+using Options = std::vector<std::pair<std::string, std::string>>;
+
+/// The name without "PRIOR." in "prior.PRIOR.NAME".
+std::string without_prior(const std::string& key, const std::string& prior) {
+  const std::string prefix = fmt::format("prior.{}.", prior);
+  return key.starts_with(prefix) ? "prior." + key.substr(prefix.size()) : key;
+}
+
+/// Whether `--set key=…` reaches something in a run whose complete spec this is.
+bool has_option(const Spec& complete, const std::string& key) {
+  const bool several = complete.prior.find(',') != std::string::npos;
+  const std::string wanted = several ? key : without_prior(key, complete.prior);
+  for (const auto& [name, text] : complete.options) {
+    if (name == wanted || name == "scenario." + key || name == "learner." + key) return true;
+    if (!several || !name.starts_with("prior.") || !key.starts_with("prior.")) continue;
+    if (name.ends_with(key.substr(key.find('.')))) return true;  // prior.NAME of any of several
+  }
+  return false;
+}
+
+std::string variant_name(const Options& varied) {
+  std::string name;
+  for (const auto& [key, text] : varied) name += fmt::format("{}{}={}", name.empty() ? "" : ",", key, text);
+  return name;
+}
+
+/// A name that is one folder on every file system.
+std::string folder_name(const Spec& spec, const std::string& variant) {
+  std::string name = fmt::format("{}-{}-{}-", spec.scenario, spec.learner, spec.prior.empty() ? "none" : spec.prior);
+  if (!variant.empty()) name += variant + "-";
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._,=+-").find(c) == std::string::npos)
+      c = '_';
+  return name + fmt::to_string(spec.seed);
+}
+
+class Planner {
+ public:
+  Planner(const Catalogue& catalogue, const CampaignFile& file, FileViolations& violations)
+      : catalogue_(catalogue), file_(file), violations_(violations) {
+    plan_.title = file.title;
+    plan_.scenario = file.scenario;
+    plan_.trials = file.trials;
+    plan_.seeds = file.seeds;
+  }
+
+  CampaignPlan plan() {
+    const bool scenario = catalogue_.scenario(file_.scenario) != nullptr;
+    if (!scenario && !file_.scenario.empty())
+      violations_.add(line("scenario"), catalogue_.why_missing("scenario", file_.scenario));
+    for (const std::string& learner : file_.learners) add_learner(learner, scenario);
+    for (const auto& [learner, options] : file_.learner_options) check_is_planned(learner);
+    if (!known_options_.empty()) check_all_used();
+    for (const Claim& claim : file_.claims) check_learners(claim);
+    if (!violations_.empty()) return {};
+    for (const Claim& claim : file_.claims) plan_.claims.push_back(plan_claim(plan_, claim, violations_));
+    return std::move(plan_);
+  }
+
+ private:
+  Index line(const std::string& key) const {
+    const auto found = file_.lines.find(key);
+    return found == file_.lines.end() ? 0 : found->second;
+  }
+
+  void add_learner(const std::string& name, bool scenario) {
+    const auto builder = catalogue_.learner(name);
+    if (!builder) {
+      const std::string why = catalogue_.why_missing("learner", name);
+      const bool left_out = std::any_of(catalogue_.not_built.begin(), catalogue_.not_built.end(),
+                                        [&](const NotBuilt& missing) { return missing.name == name; });
+      if (left_out)
+        plan_.missing.push_back({name, why});
+      else
+        violations_.add(line("learners"), why);
+      return;
+    }
+    const bool no_prior = builder->prior_use() == learners::PriorUse::none || file_.priors.empty();
+    if (scenario)
+      for (const std::string& prior : no_prior ? std::vector<std::string>{""} : file_.priors) add_cell(name, prior);
+  }
+
+  /// The complete spec, or nothing and violations at this line.
+  std::optional<Spec> resolved(Spec spec, const Options& options, Index line) {
+    spec.options = options;
+    try {
+      return resolve(catalogue_, spec).spec;
+    } catch (const InvalidInput& error) {
+      violations_.add(line, error.what());
+      return std::nullopt;
+    }
+  }
+
+  /// All variants and seeds of one learner and prior.
+  void add_cell(const std::string& learner, const std::string& prior) {
+    const Spec bare = {.scenario = file_.scenario,
+                       .learner = learner,
+                       .prior = prior,
+                       .trials = file_.trials,
+                       .seed = file_.seeds.empty() ? 1 : file_.seeds.front()};
+    const auto complete = resolved(bare, {}, line(prior.empty() ? "learners" : "priors"));
+    if (!complete) return;
+    for (const auto& [key, text] : complete->options)
+      known_options_.push_back(key.starts_with("prior.") ? key : key.substr(key.find('.') + 1));
+    const std::optional<Options> options = common_options(bare, *complete);
+    const auto variants = all_variants(bare, *complete);
+    if (options && variants)
+      for (const Options& varied : *variants) add_group(bare, *options, varied);
+  }
+
+  /// Of [set] what this cell has, and all of [learner.NAME]; nothing if one is wrong.
+  std::optional<Options> common_options(const Spec& bare, const Spec& complete) {
+    Options options;
+    bool right = true;
+    const auto add = [&](const FileOption& option) {
+      right = resolved(bare, {{option.key, option.text}}, option.line).has_value() && right;
+      options.emplace_back(option.key, option.text);
+    };
+    for (const FileOption& option : file_.options)
+      if (use(complete, option.key)) add(option);
+    const auto own = file_.learner_options.find(bare.learner);
+    if (own != file_.learner_options.end()) std::for_each(own->second.begin(), own->second.end(), add);
+    return right ? std::optional(options) : std::nullopt;
+  }
+
+  /// Of [vary], every combination of what this cell has, the last fastest; nothing if a value is wrong.
+  std::optional<std::vector<Options>> all_variants(const Spec& bare, const Spec& complete) {
+    std::vector<Options> variants = {{}};
+    bool right = true;
+    for (const Axis& axis : file_.axes) {
+      if (!use(complete, axis.key)) continue;
+      std::vector<Options> longer;
+      for (const Options& variant : variants)
+        for (const std::string& text : axis.texts) {
+          longer.push_back(variant);
+          longer.back().emplace_back(axis.key, text);
+        }
+      for (const std::string& text : axis.texts)
+        right = resolved(bare, {{axis.key, text}}, axis.line).has_value() && right;
+      variants = std::move(longer);
+    }
+    return right ? std::optional(variants) : std::nullopt;
+  }
+
+  bool use(const Spec& complete, const std::string& key) {
+    const bool has = has_option(complete, key);
+    if (has) used_.insert(key);
+    return has;
+  }
+
+  void add_group(const Spec& bare, Options options, const Options& varied) {
+    options.insert(options.end(), varied.begin(), varied.end());
+    const auto complete = resolved(bare, options, 0);
+    if (!complete) return;
+    const std::string variant = variant_name(varied);
+    plan_.groups.push_back({bare.learner, complete->prior, variant, varied});
+    for (Index seed : file_.seeds) {
+      Spec spec = *complete;
+      spec.seed = seed;
+      plan_.runs.push_back({folder_name(spec, variant), plan_.groups.size() - 1, std::move(spec)});
+    }
+    if (plan_.runs.size() > kMaxRuns) throw InvalidInput(fmt::format("more than {} runs", kMaxRuns));
+  }
+
+  bool is_learner(const std::string& name) const {
+    return std::find(file_.learners.begin(), file_.learners.end(), name) != file_.learners.end();
+  }
+
+  void check_learners(const Claim& claim) {
+    for (const std::string& name : {claim.learner, claim.comparison ? claim.comparison->learner.value_or("") : ""})
+      if (!name.empty() && !is_learner(name))
+        violations_.add(claim.line, fmt::format("the claim's learner '{}' is none of the learners ({})", name,
+                                                fmt::join(file_.learners, ", ")));
+  }
+
+  void check_is_planned(const std::string& learner) {
+    if (is_learner(learner)) return;
+    violations_.add(line("learner." + learner),
+                    fmt::format("[learner.{}] is none of the learners ({})", learner, fmt::join(file_.learners, ", ")));
+  }
+
+  void check_all_used() {
+    for (const FileOption& option : file_.options) check_used(option.key, option.line);
+    for (const Axis& axis : file_.axes) check_used(axis.key, axis.line);
+  }
+
+  void check_used(const std::string& key, Index line) {
+    if (!used_.contains(key)) violations_.add(line, unknown_option(key, known_options_));
+  }
+
+  const Catalogue& catalogue_;
+  const CampaignFile& file_;
+  FileViolations& violations_;
+  CampaignPlan plan_;
+  std::set<std::string> used_;
+  std::vector<std::string> known_options_;
+};
+
+}  // namespace
+
+CampaignPlan plan_campaign(const Catalogue& catalogue, std::string_view text, const std::string& source) {
+  FileViolations violations(source);
+  const CampaignFile file = read_campaign_file(text, source, violations);
+  CampaignPlan plan = Planner(catalogue, file, violations).plan();
+  violations.throw_if_any();
+  return plan;
+}
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,215 @@
+#include "rehearse/experiment/campaign_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fake.hpp"
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+const std::string kHead = "format = 1\nscenario = \"line\"\nseeds = [4, 2]\ntrials = 3\n";
+
+CampaignPlan plan_of(const std::string& rest) { return plan_campaign(fake::catalogue(), kHead + rest, "c.toml"); }
+
+std::string complaint(const std::string& text) {
+  return fake::message_of<InvalidInput>([&] { plan_campaign(fake::catalogue(), text, "c.toml"); });
+}
+
+std::string option(const PlannedRun& run, const std::string& key) {
+  for (const auto& [name, text] : run.spec.options)
+    if (name == key) return text;
+  return "none";
+}
+
+std::vector<std::string> names_of(const CampaignPlan& plan) {
+  std::vector<std::string> names;
+  for (const PlannedRun& run : plan.runs) names.push_back(run.name);
+  return names;
+}
+
+TEST(CampaignPlan, KeepsTheOrderOfTheFile) {
+  const CampaignPlan plan = plan_of("learners = [\"echo-alone\", \"echo\"]\npriors = [\"far\", \"near\"]\n");
+  EXPECT_EQ(names_of(plan),
+            (std::vector<std::string>{"line-echo-alone-none-4", "line-echo-alone-none-2", "line-echo-far-4",
+                                      "line-echo-far-2", "line-echo-near-4", "line-echo-near-2"}));
+  ASSERT_EQ(plan.groups.size(), 3u);
+  EXPECT_EQ(plan.groups[0].prior, "");
+  EXPECT_EQ(plan.groups[1].prior, "far");
+  EXPECT_EQ(plan.runs[3].spec.seed, 2);
+  EXPECT_EQ(plan.runs[3].spec.trials, 3);
+  EXPECT_EQ(plan.runs[3].group, 1u);
+}
+
+TEST(CampaignPlan, DefaultsAreTheFirstPriorTenTrialsAndTheFilesName) {
+  const CampaignPlan plan = plan_campaign(
+      fake::catalogue(), "format = 1\nscenario = \"line\"\nlearners = \"echo\"\nseeds = \"5-7\"\n", "some/where.toml");
+  EXPECT_EQ(plan.groups[0].prior, "near");
+  EXPECT_EQ(plan.trials, 10);
+  EXPECT_EQ(plan.seeds, (std::vector<Index>{5, 6, 7}));
+  EXPECT_EQ(plan.title, "where");
+}
+
+TEST(CampaignPlan, OptionsReachTheRunsThatHaveThem) {
+  const CampaignPlan plan = plan_of(R"(
+    learners = ["echo", "echo-alone"]
+    [set]
+    search.step = 2
+    prior.gain = 1.5
+    [learner.echo-alone]
+    search.step = 3
+  )");
+  EXPECT_EQ(option(plan.run(0, 0), "learner.search.step"), "2");
+  EXPECT_EQ(option(plan.run(0, 0), "prior.gain"), "1.5");
+  EXPECT_EQ(option(plan.run(1, 0), "learner.search.step"), "3");
+}
+
+TEST(CampaignPlan, VariesOptionsAndRunsOnceWhereThereIsNone) {
+  const CampaignPlan plan = plan_of(R"(
+    learners = ["echo", "echo-alone"]
+    [vary]
+    noise = [0, 0.5]
+    prior.gain = [1, 2]
+  )");
+  ASSERT_EQ(plan.groups.size(), 6u);
+  EXPECT_EQ(plan.groups[0].variant, "noise=0,prior.gain=1");
+  EXPECT_EQ(plan.groups[1].variant, "noise=0,prior.gain=2");  // the last changes fastest
+  EXPECT_EQ(plan.groups[3].variant, "noise=0.5,prior.gain=2");
+  EXPECT_EQ(plan.groups[4].variant, "noise=0");
+  EXPECT_EQ(plan.run(1, 0).name, "line-echo-near-noise=0,prior.gain=2-4");
+  EXPECT_EQ(option(plan.run(1, 0), "prior.gain"), "2");
+  EXPECT_EQ(option(plan.run(4, 0), "prior.gain"), "none");
+}
+
+TEST(CampaignPlan, SeveralPriorsOfOneRunAndTheOracle) {
+  const CampaignPlan plan = plan_of(R"(
+    learners = ["echo"]
+    priors = ["near,far", "oracle", "far"]
+    [set]
+    prior.gain = 2
+    prior.far.drift = 0.5
+  )");
+  EXPECT_EQ(option(plan.run(0, 0), "prior.near.gain"), "2");
+  EXPECT_EQ(option(plan.run(0, 0), "prior.far.drift"), "0.5");
+  EXPECT_EQ(option(plan.run(0, 0), "prior.near.drift"), "0");
+  EXPECT_EQ(option(plan.run(1, 0), "prior.gain"), "none");
+  EXPECT_EQ(option(plan.run(2, 0), "prior.drift"), "0.5");
+}
+
+TEST(CampaignPlan, ALearnerThatIsNotBuiltIsMissing) {
+  const CampaignPlan plan = plan_of("learners = [\"pilco\", \"echo\"]\n[learner.pilco]\ncentres = 200\n");
+  ASSERT_EQ(plan.missing.size(), 1u);
+  EXPECT_EQ(plan.missing[0].name, "pilco");
+  EXPECT_EQ(plan.missing[0].reason, "learner 'pilco' is not built: not written yet");
+  EXPECT_EQ(plan.runs.size(), 2u);
+}
+
+TEST(CampaignPlan, FindsWhatClaimsAreAbout) {
+  const CampaignPlan plan = plan_of(R"(
+    learners = ["echo", "echo-alone", "pilco"]
+    priors = ["near", "far"]
+    [vary]
+    prior.drift = [0, 1]
+    [[claim]]
+    text = "each"
+    learner = "echo"
+    variants = ["prior.drift=1"]
+    solved_by = 2
+    at_least_runs = 1
+    [[claim]]
+    text = "pooled"
+    learner = "echo"
+    priors = ["far"]
+    pooled = true
+    better_than = { learner = "echo-alone" }
+    metric = "best_return"
+    [[claim]]
+    text = "by prior"
+    learner = "echo"
+    priors = ["far"]
+    not_worse_than = { prior = "near" }
+    metric = "first_success"
+    trial = 2
+    [[claim]]
+    text = "missing"
+    learner = "echo-alone"
+    better_than = { learner = "pilco" }
+    metric = "return"
+  )");
+  ASSERT_EQ(plan.claims.size(), 4u);
+  const PlannedClaim &each = plan.claims[0], &pooled = plan.claims[1], &by_prior = plan.claims[2];
+  ASSERT_EQ(each.parts.size(), 2u);
+  EXPECT_EQ(each.parts[1].groups, (std::vector<std::size_t>{3}));
+  ASSERT_EQ(pooled.parts.size(), 1u);
+  EXPECT_EQ(pooled.parts[0].groups, (std::vector<std::size_t>{2, 3}));
+  EXPECT_EQ(pooled.parts[0].against, (std::vector<std::size_t>{4, 4}));
+  ASSERT_EQ(by_prior.parts.size(), 2u);
+  EXPECT_EQ(by_prior.parts[1].against, (std::vector<std::size_t>{1}));
+  EXPECT_EQ(by_prior.claim.comparison->measure.trial, 2);
+  EXPECT_EQ(pooled.claim.comparison->measure.trial, 3);
+  EXPECT_EQ(plan.claims[3].missing, "learner 'pilco' is not built: not written yet");
+}
+
+TEST(CampaignPlan, SaysAllThatIsWrongWithItsLine) {
+  EXPECT_EQ(complaint("format = 2\n"),
+            "c.toml: learners is missing\nc.toml: scenario is missing\n"
+            "c.toml: seeds is missing; write for instance seeds = \"1-30\"\n"
+            "c.toml: line 1: this version of Rehearse reads format = 1");
+  EXPECT_TRUE(complaint("format = 1\nseeds = [\n").starts_with("c.toml: line "));
+  EXPECT_EQ(
+      complaint(R"(format = 1
+scenario = "line"
+learners = ["echo", "eco"]
+priors = ["near", "nowhere", "near"]
+seeds = "3-1"
+trials = 0
+[set]
+search.stop = 1
+noise = -1
+prior.gain = "much"
+[learner.echo-alone]
+search.step = 1
+[vary]
+breaks = [true, true]
+search.step = 0.5
+)"),
+      "c.toml: line 3: unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)\n"
+      "c.toml: line 4: priors names 'near' twice\n"
+      "c.toml: line 4: unknown prior 'nowhere' of scenario line, did you mean 'near'? (known: near, far, oracle)\n"
+      "c.toml: line 5: seeds must be \"FIRST-LAST\" or a list of different whole numbers from 0 on\n"
+      "c.toml: line 6: trials = 0, must be between 1 and 1000000\n"
+      "c.toml: line 8: unknown option 'search.stop', did you mean 'search.step'?\n"
+      "c.toml: line 9: noise = -1, must be ≥ 0\n"
+      "c.toml: line 10: prior.gain = much, must be a number\n"
+      "c.toml: line 11: [learner.echo-alone] is none of the learners (echo, eco)\n"
+      "c.toml: line 14: breaks has the value true twice\n"
+      "c.toml: line 15: search.step must be a list of values in [vary]");
+}
+
+TEST(CampaignPlan, SaysWhatIsWrongWithClaims) {
+  const auto about = [](const std::string& claim) {
+    return complaint(kHead + "learners = [\"echo\"]\n[[claim]]\ntext = \"x\"\n" + claim);
+  };
+  const std::string success = "learner = \"echo\"\nsolved_by = 2\n";
+  EXPECT_EQ(about(success), "c.toml: line 6: solved_by needs at_least_rate or at_least_runs");
+  EXPECT_EQ(about(success + "at_least_runs = 3\n"), "c.toml: line 6: at_least_runs = 3, but the claim is about 2 runs");
+  EXPECT_EQ(about(success + "at_least_rate = 95\n"), "c.toml: line 10: at_least_rate = 95, must be between 0 and 1");
+  EXPECT_EQ(about("learner = \"echo\"\nsolved_by = 4\nat_least_runs = 1\n"),
+            "c.toml: line 9: solved_by = 4, must be between 1 and 3");
+  EXPECT_EQ(about("learner = \"eco\"\nsolved_by = 1\nat_least_runs = 1\n"),
+            "c.toml: line 6: the claim's learner 'eco' is none of the learners (echo)");
+  EXPECT_EQ(about(success + "at_least_runs = 1\npriors = [\"far\"]\n"),
+            "c.toml: line 6: learner echo has no prior 'far'");
+  EXPECT_EQ(about("learner = \"echo\"\nbetter_than = { learner = \"echo\" }\nmetric = \"return\"\n"),
+            "c.toml: line 6: the claim compares runs with themselves");
+  EXPECT_EQ(about("learner = \"echo\"\nbetter_than = { prior = \"far\" }\nmetric = \"return\"\n"),
+            "c.toml: line 6: there is nothing to compare with: no runs of learner echo, prior 'far', variant ''");
+  EXPECT_EQ(about("learner = \"echo\"\nmedian_at_least = 1\n"),
+            "c.toml: line 6: metric is missing: \"return\", \"best_return\" or \"first_success\"");
+  EXPECT_EQ(about("learner = \"echo\"\n"),
+            "c.toml: line 6: a claim has one of solved_by, better_than, not_worse_than, and median_at_least or "
+            "median_at_most");
+}
+
+}  // namespace
+}  // namespace rehearse::experiment
