@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# kill.sh PROGRAM: kills a short campaign with SIGKILL at instants spread over its length, starts each again, and compares
+# the tables with those of one that was never interrupted; then threads, damage, claims and Ctrl-C.
+set -u
+program=$(realpath "$1")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+cat >c.toml <<'TOML'
+format = 1
+scenario = "pendubot"
+learners = ["mi", "black-drops-prior", "pilco"]
+priors = ["misleading"]
+seeds = "1-3"
+trials = 2
+
+[set]
+search.race.max_evaluations = 800
+search.race.descents = 2
+search.selection = 10
+model.subplex.max_evaluations = 100
+
+[[claim]]
+text = "nobody solves it with so few rollouts"
+learner = "mi"
+solved_by = 2
+at_least_runs = 3
+TOML
+
+milliseconds() { echo $(($(date +%s%N) / 1000000)); }
+same() { cmp "$1/campaign.csv" "$2/campaign.csv" && cmp "$1/summary.json" "$2/summary.json" || fail "$2 differs from $1"; }
+
+begin=$(milliseconds)
+"$program" campaign c.toml --out whole --threads 2 >output || fail "the whole campaign: $(cat output)"
+length=$(($(milliseconds) - begin))
+echo "the whole campaign takes $length ms"
+[ "$(wc -l <whole/campaign.csv)" = 13 ] || fail "campaign.csv has $(wc -l <whole/campaign.csv) lines"
+grep -q "missing: learner 'pilco' is not built" output || fail "the missing learner is not reported"
+grep -q "FAIL .*nobody solves it" output || fail "the claim is not judged"
+
+for instant in 1 3 5 7; do
+  run=killed-$instant
+  "$program" campaign c.toml --out $run --threads 2 >/dev/null &
+  process=$!
+  until [ -d $run ] || ! kill -0 $process 2>/dev/null; do sleep 0.002; done
+  sleep "$(printf '%d.%03d' $((length * instant / 8 / 1000)) $((length * instant / 8 % 1000)))"
+  kill -KILL $process 2>/dev/null
+  wait $process 2>/dev/null
+  echo "killed at instant $instant with $(find $run/runs -name done 2>/dev/null | wc -l) of 6 runs done"
+  find $run/runs -name timings.csv -newer c.toml | while read -r file; do
+    [ -e "$(dirname "$file")/done" ] && echo mine >"$file"
+  done
+  finished=$(grep -lx mine $run/runs/*/timings.csv 2>/dev/null | wc -l)
+  "$program" campaign c.toml --out $run --threads 2 >/dev/null || fail "starting $run again"
+  same whole $run
+  [ "$(grep -lx mine $run/runs/*/timings.csv 2>/dev/null | wc -l)" = "$finished" ] || fail "$run repeats a finished run"
+done
+
+"$program" campaign c.toml --out one --threads 1 >/dev/null
+same whole one
+
+"$program" campaign c.toml --out whole --check-claims >/dev/null
+[ $? = 1 ] || fail "a claim that fails does not make --check-claims fail"
+
+echo mine >one/runs/notes.txt
+truncate -s -5 one/runs/pendubot-mi-misleading-2/checkpoint
+rm one/runs/pendubot-mi-misleading-2/done
+echo "format = 7" >one/runs/pendubot-mi-misleading-3/spec.toml
+"$program" campaign c.toml --out one >output
+[ $? = 1 ] || fail "damaged runs do not make the campaign fail"
+for words in "skipped: runs/notes.txt" "misleading-2: .*the checkpoint is truncated or damaged" "misleading-3: .*spec.toml"; do
+  grep -q "$words" output || fail "damage is not named ($words): $(cat output)"
+done
+[ "$(wc -l <one/campaign.csv)" = 9 ] || fail "campaign.csv of the rest has $(wc -l <one/campaign.csv) lines"
+
+# Ctrl-C: 130, and it can be continued.
+"$program" campaign c.toml --out stopped >/dev/null 2>output &
+process=$!
+until [ -d stopped/runs ] || ! kill -0 $process 2>/dev/null; do sleep 0.01; done
+kill -INT $process
+wait $process
+code=$?
+[ $code = 130 ] || fail "an interrupted campaign exits with $code: $(cat output)"
+grep -q "give the same command again" output || fail "an interrupted campaign says: $(cat output)"
+"$program" campaign c.toml --out stopped >/dev/null || fail "continuing after Ctrl-C"
+same whole stopped
+
+echo "$failures failures"
+exit $((failures > 0))
