@@ -54,24 +54,33 @@ void CosKernel(const double* in, double* out, Index n) {
   map(in, out, n, [](D d, auto x) HWY_ATTR { return nan_outside(d, x, hn::Cos(d, x)); });
 }
 
-/// first[i] = sqrt(−2 log(1 − u1)) cos(2π u2), second with sin.
+/// cosine = sqrt(−2 log(1 − u1)) cos(2π u2), sine with sin.
+template <class V>
+HWY_INLINE void box_muller(D d, V u1, V u2, V& cosine, V& sine) {
+  const V radius = hn::Sqrt(hn::Mul(hn::Set(d, -2.0), hn::Log(d, hn::Sub(hn::Set(d, 1.0), u1))));
+  const V angle = hn::Mul(hn::Set(d, 6.283185307179586), u2);
+  cosine = hn::Mul(radius, hn::Cos(d, angle));
+  sine = hn::Mul(radius, hn::Sin(d, angle));
+}
+
 void BoxMullerKernel(const double* u1, const double* u2, double* first, double* second, Index n) {
   const D d;
   const auto lanes = static_cast<Index>(hn::Lanes(d));
-  HWY_ALIGN double buffer[4][HWY_MAX_BYTES / sizeof(double)] = {};
-  for (Index i = 0; i < n; i += lanes) {
-    const Index count = n - i < lanes ? n - i : lanes;
-    for (Index k = 0; k < count; ++k) buffer[0][k] = u1[i + k], buffer[1][k] = u2[i + k];
-    const auto one = hn::Set(d, 1.0);
-    const auto log_u = hn::Log(d, hn::Sub(one, hn::Load(d, buffer[0])));
-    const auto radius = hn::Sqrt(hn::Mul(hn::Set(d, -2.0), log_u));
-    const auto angle = hn::Mul(hn::Set(d, 6.283185307179586), hn::Load(d, buffer[1]));
-    hn::Store(hn::Mul(radius, hn::Cos(d, angle)), d, buffer[2]);
-    if (second) hn::Store(hn::Mul(radius, hn::Sin(d, angle)), d, buffer[3]);
-    for (Index k = 0; k < count; ++k) {
-      first[i + k] = buffer[2][k];
-      if (second) second[i + k] = buffer[3][k];
-    }
+  hn::Vec<D> cosine, sine;
+  Index i = 0;
+  for (; i + lanes <= n; i += lanes) {
+    box_muller(d, hn::LoadU(d, u1 + i), hn::LoadU(d, u2 + i), cosine, sine);
+    hn::StoreU(cosine, d, first + i);
+    if (second) hn::StoreU(sine, d, second + i);
+  }
+  if (i == n) return;
+  HWY_ALIGN double tail[2][HWY_MAX_BYTES / sizeof(double)] = {};
+  for (Index k = i; k < n; ++k) tail[0][k - i] = u1[k], tail[1][k - i] = u2[k];
+  box_muller(d, hn::Load(d, tail[0]), hn::Load(d, tail[1]), cosine, sine);
+  hn::Store(cosine, d, tail[0]), hn::Store(sine, d, tail[1]);
+  for (Index k = i; k < n; ++k) {
+    first[k] = tail[0][k - i];
+    if (second) second[k] = tail[1][k - i];
   }
 }
 

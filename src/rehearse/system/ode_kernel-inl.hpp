@@ -24,19 +24,21 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D>
 using Vec = hn::Vec<D>;
 
-/// out = x + h Σ_j a_j k_j over the first `Stages` slopes.
-template <int Stages, int N, class D>
-HWY_INLINE void combine(D d, const Vec<D>* x, const Vec<D> k[][N], const double* a, double h, Vec<D>* out) {
+/// out = x + h Σ_j a_j k_j over the first `Stages` slopes, for the first `Count` of N states.
+template <int Stages, int Count, int N, class D>
+HWY_INLINE void combine(D d, const Vec<D>* x, const Vec<D> k[][N], const double (&a)[Stages], double h, Vec<D>* out) {
   Vec<D> weights[Stages];
   for (int j = 0; j < Stages; ++j) weights[j] = hn::Set(d, h * a[j]);
-  for (int i = 0; i < N; ++i) {
+  for (int i = 0; i < Count; ++i) {
     out[i] = x[i];
-    for (int j = 0; j < Stages; ++j) out[i] = hn::MulAdd(weights[j], k[j][i], out[i]);
+    for (int j = 0; j < Stages; ++j)
+      if (a[j] != 0) out[i] = hn::MulAdd(weights[j], k[j][i], out[i]);
   }
 }
 
-/// One step of Dormand and Prince 1980, fifth order. rhs(d, x, dx) writes the N derivatives at x.
-template <int N, class D, class Rhs>
+/// One step of Dormand and Prince 1980, fifth order. rhs(d, x, dx) writes the N derivatives at x; if they depend on the
+/// first kInner states alone, the stages leave out the others.
+template <int N, int kInner = N, class D, class Rhs>
 HWY_INLINE void dopri5_step(D d, const Rhs& rhs, Vec<D>* x, double h) {
   static constexpr double kA2[] = {1.0 / 5}, kA3[] = {3.0 / 40, 9.0 / 40}, kA4[] = {44.0 / 45, -56.0 / 15, 32.0 / 9},
                           kA5[] = {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
@@ -44,23 +46,23 @@ HWY_INLINE void dopri5_step(D d, const Rhs& rhs, Vec<D>* x, double h) {
                           kB[] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84};
   Vec<D> k[6][N], y[N];
   rhs(d, x, k[0]);
-  combine<1, N>(d, x, k, kA2, h, y);
+  combine<1, kInner, N>(d, x, k, kA2, h, y);
   rhs(d, y, k[1]);
-  combine<2, N>(d, x, k, kA3, h, y);
+  combine<2, kInner, N>(d, x, k, kA3, h, y);
   rhs(d, y, k[2]);
-  combine<3, N>(d, x, k, kA4, h, y);
+  combine<3, kInner, N>(d, x, k, kA4, h, y);
   rhs(d, y, k[3]);
-  combine<4, N>(d, x, k, kA5, h, y);
+  combine<4, kInner, N>(d, x, k, kA5, h, y);
   rhs(d, y, k[4]);
-  combine<5, N>(d, x, k, kA6, h, y);
+  combine<5, kInner, N>(d, x, k, kA6, h, y);
   rhs(d, y, k[5]);
-  combine<6, N>(d, x, k, kB, h, x);
+  combine<6, N, N>(d, x, k, kB, h, x);
 }
 
 /// `steps` of them.
-template <int N, class D, class Rhs>
+template <int N, int kInner = N, class D, class Rhs>
 HWY_INLINE void dopri5(D d, const Rhs& rhs, Vec<D>* x, double duration, Index steps) {
-  for (Index step = 0; step < steps; ++step) dopri5_step<N>(d, rhs, x, duration / static_cast<double>(steps));
+  for (Index step = 0; step < steps; ++step) dopri5_step<N, kInner>(d, rhs, x, duration / static_cast<double>(steps));
 }
 
 /// For each block of lanes of the rows of X (n × N) and U (n × M), column-major with strides: loads them, calls

@@ -22,12 +22,13 @@ constexpr double kLargestAngle = 30000;  // rad; Highway's sine and cosine are v
 /// Chatzilygeroudis 2018, section V: absolute angles counter-clockwise from upright. A θ̈ = b, A symmetric 2 × 2.
 ///
 /// The state is extended by the sines and cosines of the angles, which obey their own equations (sin θ)' = cos θ θ̇:
-/// then a step costs no trigonometric function, and is several times faster.
+/// then a step costs no trigonometric function, and is several times faster. Nothing depends on the angles then; they
+/// come last.
 template <class D>
 class Equations {
  public:
   using V = hn::Vec<D>;
-  // x: θ̇1, θ̇2, θ1, θ2, sin θ1, cos θ1, sin θ2, cos θ2
+  static constexpr int kStates = 8, kInner = 6;  // θ̇1, θ̇2, sin θ1, cos θ1, sin θ2, cos θ2, θ1, θ2
 
   HWY_INLINE Equations(D d, const Constants& c)
       : a11_(hn::Set(d, c.l1 * c.l1 * (c.m1 / 4 + c.m2) + c.m1 * c.l1 * c.l1 / 12)),
@@ -37,17 +38,23 @@ class Equations {
         gravity2_(hn::Set(d, kGravity * 0.5 * c.m2 * c.l2)),
         b1_(hn::Set(d, c.b1)),
         b2_(hn::Set(d, c.b2)),
+        zero_(hn::Zero(d)),
         one_(hn::Set(d, 1.0)) {}
 
-  static HWY_INLINE void extend(D d, V* x) {
-    x[4] = hn::Sin(d, x[2]);
-    x[5] = hn::Cos(d, x[2]);
-    x[6] = hn::Sin(d, x[3]);
-    x[7] = hn::Cos(d, x[3]);
+  /// From θ̇1, θ̇2, θ1, θ2 and back.
+  static HWY_INLINE void extend(D d, const V* state, V* x) {
+    x[0] = state[0], x[1] = state[1], x[6] = state[2], x[7] = state[3];
+    x[2] = hn::Sin(d, x[6]);
+    x[3] = hn::Cos(d, x[6]);
+    x[4] = hn::Sin(d, x[7]);
+    x[5] = hn::Cos(d, x[7]);
+  }
+  static HWY_INLINE void shorten(const V* x, V* state) {
+    state[0] = x[0], state[1] = x[1], state[2] = x[6], state[3] = x[7];
   }
 
   HWY_INLINE void operator()(const V* x, V u, V* dxdt) const {
-    const V sin1 = x[4], cos1 = x[5], sin2 = x[6], cos2 = x[7];
+    const V sin1 = x[2], cos1 = x[3], sin2 = x[4], cos2 = x[5];
     const V sin12 = hn::NegMulAdd(cos1, sin2, sin1 * cos2), cos12 = hn::MulAdd(cos1, cos2, sin1 * sin2);
     const V a12 = coupling_ * cos12, swing = coupling_ * sin12;
     const V rhs1 = hn::MulAdd(gravity1_, sin1, u) - hn::MulAdd(swing, x[1] * x[1], b1_ * x[0]);
@@ -55,42 +62,45 @@ class Equations {
     const V inverse = one_ / hn::NegMulAdd(a12, a12, a11_ * a22_);
     dxdt[0] = hn::NegMulAdd(a12, rhs2, a22_ * rhs1) * inverse;
     dxdt[1] = hn::NegMulAdd(a12, rhs1, a11_ * rhs2) * inverse;
-    dxdt[2] = x[0];
-    dxdt[3] = x[1];
-    dxdt[4] = cos1 * x[0];
-    dxdt[5] = hn::Neg(sin1 * x[0]);
-    dxdt[6] = cos2 * x[1];
-    dxdt[7] = hn::Neg(sin2 * x[1]);
+    dxdt[2] = cos1 * x[0];
+    dxdt[3] = hn::NegMulSub(sin1, x[0], zero_);
+    dxdt[4] = cos2 * x[1];
+    dxdt[5] = hn::NegMulSub(sin2, x[1], zero_);
+    dxdt[6] = x[0];
+    dxdt[7] = x[1];
   }
 
  private:
-  V a11_, a22_, coupling_, gravity1_, gravity2_, b1_, b2_, one_;
+  V a11_, a22_, coupling_, gravity1_, gravity2_, b1_, b2_, zero_, one_;
 };
 
 void DerivativeKernel(const double* x, double u, const Constants& constants, double* dxdt) {
-  const hn::CappedTag<double, 1> d;
-  using V = hn::Vec<decltype(d)>;
-  const Equations<hn::CappedTag<double, 1>> equations(d, constants);
-  V state[8], slope[8];
+  using D = hn::CappedTag<double, 1>;
+  using E = Equations<D>;
+  const D d;
+  hn::Vec<D> state[4], extended[E::kStates], slope[E::kStates];
   for (int i = 0; i < 4; ++i) state[i] = hn::LoadU(d, x + i);
-  equations.extend(d, state);
-  equations(state, hn::Set(d, u), slope);
-  for (int i = 0; i < 4; ++i) hn::StoreU(slope[i], d, dxdt + i);
+  E::extend(d, state, extended);
+  E(d, constants)(extended, hn::Set(d, u), slope);
+  E::shorten(slope, state);
+  for (int i = 0; i < 4; ++i) hn::StoreU(state[i], d, dxdt + i);
 }
 
 void ChangeKernel(const double* X, Index x_stride, const double* U, const Constants& constants, double dt_s,
                   Index substeps, double* dX, Index dx_stride, Index rows) {
   using D = hn::ScalableTag<double>;
   using V = hn::Vec<D>;
-  const Equations<D> equations(D(), constants);
+  using E = Equations<D>;
+  const E equations(D(), constants);
   const auto step = [&](D d, V* x, const V* u) HWY_ATTR {
     const auto rhs = [&](D, const V* state, V* slope) HWY_ATTR { equations(state, u[0], slope); };
-    V extended[8] = {x[0], x[1], x[2], x[3]};
-    equations.extend(d, extended);
-    ode::dopri5<8>(d, rhs, extended, dt_s, substeps);
+    V extended[E::kStates];
+    E::extend(d, x, extended);
+    ode::dopri5<E::kStates, E::kInner>(d, rhs, extended, dt_s, substeps);
+    E::shorten(extended, x);
     const auto limit = hn::Set(d, kLargestAngle);
-    const auto valid = hn::And(hn::Lt(hn::Abs(extended[2]), limit), hn::Lt(hn::Abs(extended[3]), limit));
-    for (int i = 0; i < 4; ++i) x[i] = hn::IfThenElse(valid, extended[i], hn::NaN(d));
+    const auto valid = hn::And(hn::Lt(hn::Abs(x[2]), limit), hn::Lt(hn::Abs(x[3]), limit));
+    for (int i = 0; i < 4; ++i) x[i] = hn::IfThenElse(valid, x[i], hn::NaN(d));
   };
   ode::for_each_block<4, 1>(X, x_stride, U, 0, dX, dx_stride, rows, step);
 }

@@ -26,6 +26,22 @@ void oscillate(const Matrix& X, const Matrix& U, Index substeps, Index rows, Mat
   for_each_block<2, 1>(X.data(), X.rows(), U.data(), U.rows(), dX.data(), dX.rows(), rows, step);
 }
 
+/// The oscillator without a force, and the integral of x, which nothing depends on.
+template <int kInner>
+Matrix oscillate_and_sum(const Matrix& X) {
+  Matrix dX(X.rows(), 3);
+  const auto step = [](auto d, auto* x, const auto*) {
+    const auto rhs = [](auto d1, const auto* state, auto* slope) {
+      slope[0] = state[1];
+      slope[1] = hn::Mul(hn::Set(d1, -kOmega * kOmega), state[0]);
+      slope[2] = state[0];
+    };
+    dopri5<3, kInner>(d, rhs, x, kDt, 20);
+  };
+  for_each_block<3, 1>(X.data(), X.rows(), X.data(), X.rows(), dX.data(), dX.rows(), X.rows(), step);
+  return dX;
+}
+
 /// Two pendulums side by side, the first driven, coupled by a spring of angle: states ω1, θ1, ω2, θ2; φ: stiffness.
 template <class D>
 struct Pendulums {
@@ -70,6 +86,13 @@ TEST(OdeKernel, FollowsTheOscillatorForAnyNumberOfRowsAndStrides) {
     }
     EXPECT_EQ(dX.bottomRows(20 - rows), Matrix::Constant(20 - rows, 2, 7)) << "nothing is written behind the last row";
   }
+}
+
+TEST(OdeKernel, IntegralsNeedNoStages) {
+  const Matrix X = Matrix::Random(11, 3), dX = oscillate_and_sum<2>(X);
+  EXPECT_EQ(dX, oscillate_and_sum<3>(X));
+  const Vector sum = -dX.col(1) / (kOmega * kOmega);  // x'' = −ω² x
+  EXPECT_LT((dX.col(2) - sum).cwiseAbs().maxCoeff(), 1e-8);
 }
 
 TEST(OdeKernel, TakesTheStepsOfTheSimulatorOfEquations) {
