@@ -4,6 +4,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/forecast.hpp"
+#include "rehearse/experiment/motion.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/tables.hpp"
 #include "rehearse/rollout/execute.hpp"
@@ -72,6 +73,14 @@ auto named_failure(Index trial, const char* who, Step step) -> decltype(step()) 
   } catch (const std::exception& error) {
     throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()));
   }
+}
+
+/// By step (T+1 × dx), of the particles that are still finite.
+Matrix mean_states(const rollout::Recorded& recorded) {
+  Matrix means(recorded.states.size(), recorded.states.front().cols());
+  for (std::size_t t = 0; t < recorded.states.size(); ++t)
+    means.row(static_cast<Index>(t)) = mean_of_finite(recorded.states[t]);
+  return means;
 }
 
 /// ask → execute → tell, and the folder.
@@ -146,6 +155,12 @@ class Run {
     const auto recorded = rollout::imagine_recorded(*proposal.model, with_.policy(), with_.task(), proposal.theta,
                                                     kPredictionParticles, key, unclipped);
     folder_.write_prediction(trial, prediction_csv(with_.task(), recorded));
+    draw("prediction", trial, mean_states(recorded));
+  }
+
+  void draw(const char* kind, Index trial, const Matrix& states) const {
+    const auto& drawing = with_.resolved().scenario.drawing;
+    if (drawing) folder_.write_motion(kind, trial, motion_json(*drawing, states));
   }
 
   TrialRecord record(Index trial, const learners::Proposal& proposal, const Episode& episode) const {
@@ -186,6 +201,7 @@ class Run {
   /// The episode is on the disk before the learner is told of it, because a robot does not repeat it.
   void keep(TrialRecord record, const Episode& episode) {
     folder_.write_trajectory(record.trial, trajectory_csv(with_.task(), episode));
+    draw("trial", record.trial, episode.true_states);
     history_.trials.push_back(std::move(record));
     history_.episodes.push_back(episode);
     folder_.write_checkpoint(history_);

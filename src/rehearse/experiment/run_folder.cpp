@@ -102,6 +102,11 @@ void RunFolder::write_trajectory(Index trial, const std::string& csv) const {
   write_file(trial_file(path_ / "trajectories", trial), csv);
 }
 
+void RunFolder::write_motion(const char* kind, Index trial, const std::string& json) const {
+  fs::create_directories(path_ / "motion");  // a scenario that cannot be drawn has none
+  write_file(path_ / "motion" / fmt::format("{}-{:03}.json", kind, trial), json);
+}
+
 void RunFolder::mark_done(bool done) const {
   if (done)
     write_file(path_ / kDone, fmt::format("{} trials\n", spec_.trials));

@@ -36,6 +36,9 @@ class RunFolder {
   void write_prediction(Index trial, const std::string& csv) const;
   void write_trajectory(Index trial, const std::string& csv) const;
 
+  /// How the robot moved, or how the model expects it to. kind: "trial" or "prediction".
+  void write_motion(const char* kind, Index trial, const std::string& json) const;
+
   /// Marks the run as complete, or as not.
   void mark_done(bool done) const;
 

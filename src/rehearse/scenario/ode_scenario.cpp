@@ -21,7 +21,8 @@ Scenario make_ode_scenario(const OdeScenario& parts) {
                     .task = task,
                     .make_plant = [plant] { return system::make_ode_plant(plant); },
                     .oracle = simulator(parts.plant),
-                    .policy = parts.policy};
+                    .policy = parts.policy,
+                    .drawing = parts.drawing};
   for (const Guess& guess : parts.guesses)
     scenario.priors.push_back({guess.name, simulator(guess.parameters), guess.parameters});
   return scenario;

@@ -25,6 +25,7 @@ struct OdeScenario {
   std::vector<Guess> guesses;
   Index substeps = 20;  // of priors and oracle in a control step
   std::shared_ptr<const policy::Policy> policy;
+  std::optional<Drawing> drawing;
 };
 Scenario make_ode_scenario(const OdeScenario& parts);
 

@@ -2,12 +2,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/policy/policy.hpp"
+#include "rehearse/scenario/drawing.hpp"
 #include "rehearse/system/plant.hpp"
 #include "rehearse/system/simulator.hpp"
 
@@ -28,6 +30,7 @@ struct Scenario {
   std::vector<NamedPrior> priors;                   // the first is the default
   std::shared_ptr<const system::Simulator> oracle;  // the plant's own dynamics, for `--prior oracle`; may be null
   std::shared_ptr<const policy::Policy> policy;
+  std::optional<Drawing> drawing;  // empty: it cannot be shown
 };
 
 /// A scenario whose options can still be set: what a robot's folder gives to the catalogue.

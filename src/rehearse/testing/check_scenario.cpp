@@ -1,11 +1,28 @@
 #include "rehearse/testing/check_scenario.hpp"
 
+#include <fmt/format.h>
+
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/testing/check_plant.hpp"
 #include "rehearse/testing/check_policy.hpp"
 #include "rehearse/testing/check_simulator.hpp"
 
 namespace rehearse::testing {
+namespace {
+
+/// One finite line a body, in every state.
+std::vector<std::string> check_drawing(const scenario::Drawing& drawing, const Matrix& states) {
+  for (Index t = 0; t < states.rows(); ++t) {
+    const std::vector<scenario::Line> lines = drawing.lines(Vector(states.row(t)));
+    if (lines.size() != drawing.bodies.size())
+      return {fmt::format("{} lines for {} bodies", lines.size(), drawing.bodies.size())};
+    for (const scenario::Line& line : lines)
+      if (!line.from.allFinite() || !line.to.allFinite()) return {fmt::format("not finite in state {}", t)};
+  }
+  return {};
+}
+
+}  // namespace
 
 Dataset random_episodes(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) {
   Dataset data;
@@ -33,6 +50,7 @@ std::vector<std::string> check_scenario(const scenario::Scenario& scenario) {
     add("prior " + prior.name, check_simulator(*prior.simulator, data.states, data.actions, prior.parameters.values()));
   if (scenario.oracle)
     add("oracle", check_simulator(*scenario.oracle, data.states, data.actions, scenario.oracle->parameters().values()));
+  if (scenario.drawing) add("drawing", check_drawing(*scenario.drawing, data.states));
   return found;
 }
 

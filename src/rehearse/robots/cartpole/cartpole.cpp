@@ -51,6 +51,15 @@ Task make_task(const Options& options) {
   return task;
 }
 
+scenario::Drawing drawing(double l) {
+  const auto lines = [l](const ConstVectorView& state) {
+    const scenario::Point hinge{state(0), 0}, half_cart{0.1, 0};
+    const scenario::Point tip = hinge + l * scenario::Point{std::sin(state(3)), -std::cos(state(3))};
+    return std::vector<scenario::Line>{{hinge - half_cart, hinge + half_cart}, {hinge, tip}};
+  };
+  return {.bodies = {{"cart", 0.1}, {"pole", 0.03}}, .goal = {{0, kRewardLength}}, .lines = lines};
+}
+
 /// Ours, in the manner of Chatzilygeroudis 2018, Table I; b is never tunable.
 std::vector<scenario::Guess> guesses(Interval box) {
   const auto guess = [box](const char* name, const Physics& physics) {
@@ -91,7 +100,8 @@ scenario::Scenario make(const Options& options) {
                                       .measurement_noise = options.measurement_noise,
                                       .guesses = guesses({options.box_low, options.box_high}),
                                       .substeps = options.substeps,
-                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale)});
+                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale),
+                                      .drawing = drawing(options.plant.l)});
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> builder() {

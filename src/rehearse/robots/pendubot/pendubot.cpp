@@ -79,6 +79,15 @@ Task make_task(const Options& options) {
   return task;
 }
 
+scenario::Drawing drawing(double l1, double l2) {
+  const auto lines = [=](const ConstVectorView& state) {
+    const scenario::Point elbow = l1 * scenario::Point{-std::sin(state(2)), std::cos(state(2))};
+    const scenario::Point end = elbow + l2 * scenario::Point{-std::sin(state(3)), std::cos(state(3))};
+    return std::vector<scenario::Line>{{{0, 0}, elbow}, {elbow, end}};
+  };
+  return {.bodies = {{"link 1", 0.05}, {"link 2", 0.05}}, .goal = {{0, 2 * kRewardLength}}, .lines = lines};
+}
+
 /// Chatzilygeroudis 2018, Table I.
 std::vector<scenario::Guess> guesses(Interval box) {
   const auto guess = [box](const char* name, const Physics& physics) {
@@ -122,7 +131,8 @@ scenario::Scenario make(const Options& options) {
                                       .measurement_noise = options.measurement_noise,
                                       .guesses = guesses({options.box_low, options.box_high}),
                                       .substeps = options.substeps,
-                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale)});
+                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale),
+                                      .drawing = drawing(options.plant.l1, options.plant.l2)});
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> builder() {

@@ -48,6 +48,14 @@ Task make_task(const Options& options) {
   return task;
 }
 
+scenario::Drawing drawing(double l) {
+  const auto lines = [l](const ConstVectorView& state) {
+    const scenario::Point tip = l * scenario::Point{std::sin(state(1)), -std::cos(state(1))};
+    return std::vector<scenario::Line>{{{0, 0}, tip}};
+  };
+  return {.bodies = {{"pendulum", 0.06}}, .goal = {{0, l}}, .lines = lines};
+}
+
 /// Ours, in the manner of Chatzilygeroudis 2018, Table I; b is never tunable.
 std::vector<scenario::Guess> guesses(Interval box) {
   const auto guess = [box](const char* name, const Physics& physics) {
@@ -84,7 +92,8 @@ scenario::Scenario make(const Options& options) {
                                       .measurement_noise = options.measurement_noise,
                                       .guesses = guesses({options.box_low, options.box_high}),
                                       .substeps = options.substeps,
-                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale)});
+                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale),
+                                      .drawing = drawing(options.plant.l)});
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> builder() {

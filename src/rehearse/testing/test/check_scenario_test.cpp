@@ -20,6 +20,10 @@ TEST(CheckScenario, NamesThePartThatBreaksALaw) {
   ASSERT_FALSE(lines.empty());
   for (const std::string& line : lines) EXPECT_TRUE(line.starts_with("prior tunable: ")) << line;
 
+  scenario = robots::pendubot::make({});
+  scenario.drawing->bodies.pop_back();
+  EXPECT_EQ(check_scenario(scenario), Lines{"drawing: 2 lines for 1 bodies"});
+
   scenario.task.actions.front().bounds = {-1, 1};  // the policy's are wider
   ASSERT_FALSE(check_scenario(scenario).empty());
   EXPECT_TRUE(check_scenario(scenario).front().starts_with("policy: "));

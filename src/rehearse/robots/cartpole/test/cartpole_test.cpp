@@ -109,5 +109,19 @@ TEST(Cartpole, SolvedLooksAtTheLastHalfSecond) {
   }
 }
 
+TEST(Cartpole, IsDrawnWithItsEndWhereTheRewardSeesIt) {
+  constexpr double kWidth = 0.25;
+  const scenario::Scenario s = make({});
+  const Vector upright{{0, 0, 0, M_PI}};
+  const Vector tilted = upright + Vector::Constant(upright.size(), 0.3);
+  for (const Vector& state : {upright, tilted}) {
+    const double distance = (s.drawing->lines(state).back().to - *s.drawing->goal).norm();
+    const Matrix X = state.transpose(), U = Matrix::Zero(1, 1);
+    Vector reward(1);
+    s.task.reward(X, U, X, reward);
+    EXPECT_NEAR(reward(0), std::exp(-distance * distance / (2 * kWidth * kWidth)), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace rehearse::robots::cartpole

@@ -94,5 +94,19 @@ TEST(Pendubot, SolvedLooksAtTheLastHalfSecond) {
   EXPECT_FALSE(s.task.solved(episode));
 }
 
+TEST(Pendubot, IsDrawnWithItsEndWhereTheRewardSeesIt) {
+  constexpr double kWidth = 0.5;
+  const scenario::Scenario s = make({});
+  const Vector upright{{0, 0, 0, 0}};
+  const Vector tilted = upright + Vector::Constant(upright.size(), 0.3);
+  for (const Vector& state : {upright, tilted}) {
+    const double distance = (s.drawing->lines(state).back().to - *s.drawing->goal).norm();
+    const Matrix X = state.transpose(), U = Matrix::Zero(1, 1);
+    Vector reward(1);
+    s.task.reward(X, U, X, reward);
+    EXPECT_NEAR(reward(0), std::exp(-distance * distance / (2 * kWidth * kWidth)), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace rehearse::robots::pendubot
