@@ -33,9 +33,21 @@ struct CampaignArguments {
   bool check_claims = false;
 };
 
+struct ReportArguments {
+  std::string folder;
+  std::optional<std::string> out;
+};
+
+struct ReplayArguments {
+  std::string folder;
+  std::optional<std::string> trial, out;
+};
+
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);
 int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments);
 int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments);
 int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments);
+int report(const ReportArguments& arguments);
+int replay(const ReplayArguments& arguments);
 
 }  // namespace rehearse::apps

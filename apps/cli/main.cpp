@@ -23,6 +23,8 @@ Then continue it to 15 trials:
   rehearse resume runs/demo --trials 15
 Do many runs and compare them:
   rehearse campaign campaigns/pendubot-short.toml --out runs/short
+See what happened, in a browser:
+  rehearse report runs/demo
 What there is to learn, and with what:
   rehearse list)";
 
@@ -97,6 +99,21 @@ CLI::App* add_campaign(CLI::App& app, CampaignArguments& arguments) {
   return command;
 }
 
+CLI::App* add_report(CLI::App& app, ReportArguments& arguments) {
+  CLI::App* command = app.add_subcommand("report", "Show a run or a campaign as a page for the browser");
+  add(command, "DIR", arguments.folder, "The folder of the run or the campaign", "")->required();
+  add(command, "--out", arguments.out, "The page. Default: report.html in the folder", "FILE.html");
+  return command;
+}
+
+CLI::App* add_replay(CLI::App& app, ReplayArguments& arguments) {
+  CLI::App* command = app.add_subcommand("replay", "Show the motion of one trial as a page for the browser");
+  add(command, "DIR", arguments.folder, "The run folder", "")->required();
+  add(command, "--trial", arguments.trial, "Which trial, from 1", "N")->required();
+  add(command, "--out", arguments.out, "The page. Default: for instance replay-003.html in the folder", "FILE.html");
+  return command;
+}
+
 /// CLI11 speaks of what it did not expect; we know what was meant.
 void check_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> known;
@@ -119,10 +136,14 @@ int run(int argc, char** argv) {
   LearnArguments learn_arguments;
   ResumeArguments resume_arguments;
   CampaignArguments campaign_arguments;
+  ReportArguments report_arguments;
+  ReplayArguments replay_arguments;
   const CLI::App* list_command = add_list(app, list_arguments);
   const CLI::App* learn_command = add_learn(app, learn_arguments);
   const CLI::App* resume_command = add_resume(app, resume_arguments);
-  add_campaign(app, campaign_arguments);
+  const CLI::App* campaign_command = add_campaign(app, campaign_arguments);
+  const CLI::App* report_command = add_report(app, report_arguments);
+  add_replay(app, replay_arguments);
   check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
@@ -133,7 +154,9 @@ int run(int argc, char** argv) {
   if (list_command->parsed()) return list(catalogue(), list_arguments);
   if (learn_command->parsed()) return learn(catalogue(), learn_arguments);
   if (resume_command->parsed()) return resume(catalogue(), resume_arguments);
-  return campaign(catalogue(), campaign_arguments);
+  if (campaign_command->parsed()) return campaign(catalogue(), campaign_arguments);
+  if (report_command->parsed()) return report(report_arguments);
+  return replay(replay_arguments);
 }
 
 /// One line on standard error for each line of the message.

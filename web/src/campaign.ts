@@ -242,13 +242,10 @@ function parameters(campaign: Campaign, style: (group: GroupKey) => Style): Chil
 function times(campaign: Campaign, style: (group: GroupKey) => Style): Child {
   const { times } = campaign
   if (times.length === 0) return null
-  const seriesOf = (part: string) => (one: Quartiles): Series => ({ ...style(one), label: `${style(one).label}: ${part}`, points: quartilePoints(one) })
-  const values = times.flatMap((one) => quartilePoints(one).flatMap(({ y, band }) => [y, ...(band ?? [])])).filter((y) => y > 0)
-  const domain: [number, number] = [Math.max(Math.min(...values), 1e-3), Math.max(...values)]
-  const positive = (one: Series): Series => ({
-    ...one,
-    points: one.points.flatMap((p): Point[] => (p.y > 0 ? [{ ...p, ...(p.band ? { band: [Math.max(p.band[0], domain[0]), p.band[1]] } : {}) }] : [])),
-  })
+  const domain = (part: string) => {
+    const found = extent(times.filter((one) => one.part === part).flatMap((one) => quartilePoints(one).flatMap(({ y, band }) => [y, ...(band ?? [])])), true)
+    return found ? { domain: found } : {}
+  }
   const panel = (prior: string, part: 'model_s' | 'search_s', name: string): Panel => ({
     title: `${name}, ${panelTitle(prior)}`,
     draw: (width) =>
@@ -256,8 +253,8 @@ function times(campaign: Campaign, style: (group: GroupKey) => Style): Child {
         width,
         height: 220,
         x: { label: 'trial', whole: true },
-        y: { label: 'seconds', log: true, domain },
-        series: inPanel(times.filter((one) => one.part === part), prior).map(seriesOf(name)).map(positive),
+        y: { label: 'seconds', ...domain(part) },
+        series: inPanel(times.filter((one) => one.part === part), prior).map((one) => ({ ...style(one), points: quartilePoints(one) })),
       }),
   })
   return figure({

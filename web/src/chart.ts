@@ -26,6 +26,8 @@ export interface Series {
   width?: number
   opacity?: number
   line?: boolean
+  /** Each value holds until the next. */
+  held?: boolean
 }
 
 export interface ChartOptions {
@@ -50,11 +52,13 @@ export function chart(options: ChartOptions): SVGSVGElement {
     height: options.height ?? 240,
     marginLeft: 56,
     marginRight: 16,
-    marginTop: 24,
+    marginTop: y.label ? 24 : 10,
     marginBottom: 40,
+    insetLeft: 8,
+    insetRight: 8,
     style: { fontSize: '12px', background: 'none', overflow: 'visible' },
-    x: { ...axis(x, width / 70), labelAnchor: 'center', labelArrow: 'none', ...(x.whole ? { tickFormat: wholeOnly } : {}) },
-    y: { ...axis(y, 5), labelAnchor: 'top', labelArrow: 'none', grid: true, ...(y.percent ? { tickFormat: '.0%' } : {}) },
+    x: { ...axis(x, width / 70), labelAnchor: 'center', labelArrow: 'none', ...(x.whole ? { tickFormat: wholeOnly } : x.log ? { tickFormat: String } : {}) },
+    y: { ...axis(y, 5), labelAnchor: 'top', labelArrow: 'none', grid: true, ...(y.percent ? { tickFormat: '.0%' } : y.log ? { tickFormat: powerOfTen } : {}) },
     marks: [
       ...series.flatMap(bands),
       rule ? ruleMarks(rule) : null,
@@ -86,13 +90,13 @@ export function moveCursor(svg: SVGSVGElement, x: number) {
   cursor.line.setAttribute('x2', at)
 }
 
-/** The interval that holds all of these, a little wider; undefined without any. */
-export function extent(values: number[], zero = false): [number, number] | undefined {
+/** The interval that holds all of these (and zero), a little wider, and at least `span` wide; undefined without any. */
+export function extent(values: number[], zero = false, span = 0): [number, number] | undefined {
   const finite = values.filter(Number.isFinite)
   if (finite.length === 0) return undefined
   const low = Math.min(...finite, zero ? 0 : Infinity)
   const high = Math.max(...finite, zero ? 0 : -Infinity)
-  const room = 0.04 * (high - low) || Math.abs(high) * 0.1 || 1
+  const room = Math.max(0.04 * (high - low), (span - (high - low)) / 2) || Math.abs(high) * 0.1 || 1
   return [zero && low === 0 ? 0 : low - room, high + room]
 }
 
@@ -109,6 +113,14 @@ function wholeOnly(value: number): string {
   return Number.isInteger(value) ? String(value) : ''
 }
 
+/** 0.001 is 10⁻³; between powers there is no label. */
+function powerOfTen(value: number): string {
+  const exponent = Math.round(Math.log10(value))
+  if (Math.abs(value / 10 ** exponent - 1) > 1e-9) return ''
+  if (Math.abs(exponent) <= 2) return String(10 ** exponent)
+  return '10' + [...String(exponent)].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)])).join('')
+}
+
 function bands({ colour, points }: Series): Plot.Markish[] {
   const area = (side: 'band' | 'core', fillOpacity: number) => {
     const some = points.filter((point) => point[side])
@@ -118,14 +130,14 @@ function bands({ colour, points }: Series): Plot.Markish[] {
   return [area('band', 0.16), area('core', 0.24)]
 }
 
-function lines({ colour, points, symbol, dash, width = 2, opacity = 1, line = true }: Series): Plot.Markish[] {
+function lines({ colour, points, symbol, dash, width = 2, opacity = 1, line = true, held = false }: Series): Plot.Markish[] {
   const some = points.filter((point) => point.interval)
   const drawn = { x: 'x', y: 'y', stroke: colour, strokeOpacity: opacity }
   return [
     some.length > 0
       ? Plot.ruleX(some, { x: 'x', y1: (p: Point) => p.interval?.[0], y2: (p: Point) => p.interval?.[1], stroke: colour, strokeOpacity: 0.55, strokeWidth: 2 })
       : null,
-    line ? Plot.lineY(points, { ...drawn, clip: true, strokeWidth: width, ...(dash ? { strokeDasharray: dash } : {}) }) : null,
+    line ? Plot.lineY(points, { ...drawn, clip: true, curve: held ? 'step-after' : 'linear', strokeWidth: width, ...(dash ? { strokeDasharray: dash } : {}) }) : null,
     ...(symbol
       ? [true, false].map((hollow) =>
           Plot.dot(

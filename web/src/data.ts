@@ -43,8 +43,8 @@ export interface Motion {
   unit: string
   goal: [number, number] | null
   bodies: { name: string; width: number }[]
-  real: Cell[][]
-  predicted: Cell[][] | null
+  frames: Cell[][]
+  predicted?: Cell[][] | null
 }
 
 export interface GroupKey {

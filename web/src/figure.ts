@@ -56,13 +56,12 @@ export function figure(options: FigureOptions): Figure {
     )
     options.afterDrawing?.()
   }
-  new ResizeObserver(() =>
-    requestAnimationFrame(() => {
-      if (grid.clientWidth === drawnWidth) return
-      drawnWidth = grid.clientWidth
-      redraw()
-    }),
-  ).observe(grid)
+  const fit = () => {
+    if (grid.clientWidth === drawnWidth) return
+    drawnWidth = grid.clientWidth
+    redraw()
+  }
+  whenNear(grid, () => new ResizeObserver(() => requestAnimationFrame(fit)).observe(grid))
 
   const saveSvg = () => download(`${options.name}.svg`, svgOf(options.title, panels, columns, options.legend ?? []), 'image/svg+xml')
   const element = h(
@@ -78,6 +77,19 @@ export function figure(options: FigureOptions): Figure {
     grid,
   )
   return { element, redraw, drawn: () => panels }
+}
+
+/** Figures far below are drawn when the reader comes near, so that a page of many opens at once. */
+function whenNear(element: Element, then: () => void) {
+  const observer = new IntersectionObserver(
+    (entries) => {
+      if (!entries.some(({ isIntersecting }) => isIntersecting)) return
+      observer.disconnect()
+      then()
+    },
+    { rootMargin: '800px 0px' },
+  )
+  observer.observe(element)
 }
 
 function heading(title: string, files: { label: string; save: () => void }[]): HTMLElement {

@@ -68,6 +68,11 @@ export function sections(all: Section[]): HTMLElement[] {
   ]
 }
 
+/** Figures side by side where there is room. */
+export function beside(...figures: Child[]): Child {
+  return figures.some((child) => child) && h('div', { class: 'beside' }, ...figures)
+}
+
 /** A choice of one, as radio buttons. */
 export function choice(label: string, options: [value: string, text: string][], chosen: (value: string) => void): HTMLElement {
   const name = `choice-${label.toLowerCase().replaceAll(/\W+/g, '-')}`

@@ -140,11 +140,12 @@ function panelsOf({ trajectory, prediction }: Episode): Panel[] {
         cursor: true,
       }),
   })
-  const plain = (variable: Variable) => panel(variable, [line('real', REAL, times, column(trajectory, variable.name))])
+  const recorded = (variable: Variable, held: boolean) =>
+    panel(variable, [{ ...line('real', REAL, times, column(trajectory, variable.name)), held }])
   return [
     ...states.map((state) => panel(state, stateSeries(state, times, trajectory, prediction))),
-    ...actions.map(plain),
-    plain({ name: 'reward', unit: '' }),
+    ...actions.map((action) => recorded(action, true)),
+    recorded({ name: 'reward', unit: '' }, false),
   ]
 }
 

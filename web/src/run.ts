@@ -6,7 +6,7 @@ import { h, type Child } from './dom'
 import type { Row } from './export'
 import { figure, tableFigure, type Panel } from './figure'
 import { count, duration, number } from './format'
-import { head, problems, sections, tiles, type Tile } from './layout'
+import { beside, head, problems, sections, tiles, type Tile } from './layout'
 import { player } from './player'
 
 const TRIAL = { label: 'trial', whole: true }
@@ -22,8 +22,8 @@ export function runPage(report: Report, run: Run): Child[] {
       ...sections([
         { id: 'returns', title: 'Returns', content: [returns(run)] },
         { id: 'replay', title: 'Replay', content: [replay(run)] },
-        { id: 'model', title: 'The model', content: [parameters(run), errors(run), evidence(run)] },
-        { id: 'computing', title: 'Computing', content: [times(run), rollouts(run), notes(run)] },
+        { id: 'model', title: 'The model', content: [errors(run), beside(parameters(run), evidence(run))] },
+        { id: 'computing', title: 'Computing', content: [beside(times(run), rollouts(run)), notes(run)] },
         { id: 'options', title: 'Options', content: [options(run)] },
       ]),
     ),
@@ -91,7 +91,7 @@ function returns({ trials }: Run): Child {
       },
     ],
     table: () => rowsOf(trials, ['trial', 'interaction_s', 'return', 'solved', 'predicted_return']),
-    maxWidth: 960,
+    maxWidth: 1200,
   }).element
 }
 
@@ -116,6 +116,8 @@ function parameters({ trials, truth = {} }: Run): Child {
     const known = truth[name]
     const points = pointsOf(trials, column)
     const series = [{ label: name, colour: PREDICTED, points, symbol: 'circle' as const }]
+    const values = [...points.map(({ y }) => y), ...(present(known) ? [known] : [])]
+    const domain = extent(values, false, 0.2 * Math.max(...values.map(Math.abs)))  // what is small should look small
     return {
       title: name,
       draw: (width) =>
@@ -123,7 +125,7 @@ function parameters({ trials, truth = {} }: Run): Child {
           width,
           height: 190,
           x: TRIAL,
-          y: { label: '', ...fit([...points, ...(present(known) ? [{ x: 0, y: known }] : [])]) },
+          y: { label: '', ...(domain ? { domain } : {}) },
           series,
           rule: present(known) ? { y: known, label: 'robot' } : null,
         }),
@@ -136,6 +138,7 @@ function parameters({ trials, truth = {} }: Run): Child {
     panels: () => names.map(panel),
     table: () => rowsOf(trials, ['trial', ...names]).map((row) => ({ ...row, ...prefixed('truth.', truth) })),
     minWidth: 220,
+    columns: 2,
   }).element
 }
 

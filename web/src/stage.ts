@@ -39,14 +39,14 @@ export function stage(motions: Motion[]): Stage {
     show(motion, frame) {
       goal.replaceChildren(...goalMarks(motion.goal, size))
       predicted.replaceChildren(...bodies(motion, frameAt(motion.predicted, frame), PREDICTED))
-      real.replaceChildren(...bodies(motion, frameAt(motion.real, frame), REAL), ...joints(motion, frameAt(motion.real, frame), size))
+      real.replaceChildren(...bodies(motion, frameAt(motion.frames, frame), REAL), ...joints(motion, frameAt(motion.frames, frame), size))
       trail.setAttribute('points', trailOf(motion, frame))
     },
   }
 }
 
 /** Between two frames bodies move in straight lines; none where a number is missing. */
-function frameAt(frames: Motion['real'] | null, frame: number): number[] | null {
+function frameAt(frames: Motion['frames'] | null | undefined, frame: number): number[] | null {
   if (!frames || frames.length === 0) return null
   const before = frames[Math.min(Math.floor(frame), frames.length - 1)] ?? []
   const after = frames[Math.min(Math.floor(frame) + 1, frames.length - 1)] ?? []
@@ -69,7 +69,7 @@ function bodies(motion: Motion, ends: number[] | null, colour: string): SVGEleme
 /** Where a body hangs on the one before it; the first only if it never moves. */
 function joints(motion: Motion, ends: number[] | null, size: number): SVGElement[] {
   if (!ends) return []
-  const fixed = motion.real.every((frame) => frame[0] === motion.real[0]?.[0] && frame[1] === motion.real[0]?.[1])
+  const fixed = motion.frames.every((frame) => frame[0] === motion.frames[0]?.[0] && frame[1] === motion.frames[0]?.[1])
   return motion.bodies.flatMap((_, i) =>
     i === 0 && !fixed ? [] : [s('circle', { class: 'joint', cx: ends[4 * i] ?? 0, cy: -(ends[4 * i + 1] ?? 0), r: 0.011 * size })],
   )
@@ -79,10 +79,10 @@ function joints(motion: Motion, ends: number[] | null, size: number): SVGElement
 function trailOf(motion: Motion, frame: number): string {
   const points: string[] = []
   for (let at = Math.max(0, Math.floor(frame) - 20); at <= frame; ++at) {
-    const ends = frameAt(motion.real, at)
+    const ends = frameAt(motion.frames, at)
     if (ends) points.push(`${ends.at(-2)},${-(ends.at(-1) ?? 0)}`)
   }
-  const now = frameAt(motion.real, frame)
+  const now = frameAt(motion.frames, frame)
   if (now) points.push(`${now.at(-2)},${-(now.at(-1) ?? 0)}`)
   return points.join(' ')
 }
@@ -121,7 +121,7 @@ function boundsOf(motions: Motion[]): Bounds {
   }
   for (const motion of motions) {
     if (motion.goal) include(...motion.goal, 0.1)
-    for (const frame of motion.real)
+    for (const frame of motion.frames)
       for (let i = 0; i + 1 < frame.length; i += 2) {
         const [x, y] = [frame[i], frame[i + 1]]
         if (present(x) && present(y)) include(x, y, 0.15)

@@ -17,9 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kFormat = 1;  // of spec.toml and of the checkpoint
 
-fs::path trial_file(const char* kind, Index trial, const char* extension) {
-  return fs::path(kind) / fmt::format("trial-{:03}.{}", trial, extension);
-}
+fs::path trial_file(const char* kind, Index trial) { return fs::path(kind) / fmt::format("trial-{:03}.csv", trial); }
 
 toml::table parse(const std::string& text) {
   try {
@@ -49,11 +47,10 @@ void add_options(const toml::table& table, const std::string& prefix,
 }
 
 /// Under every section but [run].
-std::vector<std::pair<std::string, std::string>> options_of(toml::table file) {
-  file.erase("run");
-  file.erase("format");
+std::vector<std::pair<std::string, std::string>> options_of(const toml::table& file) {
   std::vector<std::pair<toml::source_position, std::pair<std::string, std::string>>> found;
-  add_options(file, "", found);
+  for (const auto& [section, node] : file)
+    if (section != "run" && node.is_table()) add_options(*node.as_table(), std::string(section.str()) + ".", found);
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::pair<std::string, std::string>> options;
   for (auto& [position, option] : found) options.push_back(std::move(option));
@@ -99,15 +96,22 @@ Json truths(const RunSpec& spec, const statistics::Table& trials) {
   return truth;
 }
 
-/// A motion is there if the scenario can draw its robot.
-Json motion(const fs::path& folder, const fs::path& path, Problems& problems) {
-  if (!fs::exists(folder / path)) return {};
-  return problems.value_or_problem(path, [&] { return rounded(read_json(folder / path)); }).value_or(Json());
+/// What the files of a trial say together; null if the scenario cannot draw its robot.
+Json motion(const fs::path& folder, Index trial, Problems& problems) {
+  const auto read = [&](const char* kind) -> Json {
+    const fs::path path = fs::path("motion") / fmt::format("{}-{:03}.json", kind, trial);
+    if (!fs::exists(folder / path)) return {};
+    return problems.value_or_problem(path, [&] { return rounded(read_json(folder / path)); }).value_or(Json());
+  };
+  Json motion = read("trial");
+  const Json prediction = read("prediction");
+  if (motion.is_object() && prediction.is_object()) motion["predicted"] = prediction.value("frames", Json());
+  return motion;
 }
 
 Index trajectories_in(const fs::path& folder) {
   Index trials = 0;
-  while (fs::exists(folder / trial_file("trajectories", trials + 1, "csv"))) ++trials;
+  while (fs::exists(folder / trial_file("trajectories", trials + 1))) ++trials;
   return trials;
 }
 
@@ -115,11 +119,11 @@ Json episode(const fs::path& folder, Index trial, Problems& problems) {
   const auto table = [&](const fs::path& path) {
     return problems.value_or_problem(path, [&] { return columns(read_table(folder / path)); }).value_or(Json());
   };
-  const fs::path prediction = trial_file("predictions", trial, "csv");
+  const fs::path prediction = trial_file("predictions", trial);
   return {{"trial", trial},
-          {"trajectory", table(trial_file("trajectories", trial, "csv"))},
+          {"trajectory", table(trial_file("trajectories", trial))},
           {"prediction", fs::exists(folder / prediction) ? table(prediction) : Json()},  // a random trial has none
-          {"motion", motion(folder, trial_file("motion", trial, "json"), problems)}};
+          {"motion", motion(folder, trial, problems)}};
 }
 
 }  // namespace
@@ -166,8 +170,7 @@ void check_run_folder(const fs::path& folder, const fs::path& where, Index trial
   check("checkpoint", [&] { check_checkpoint(folder / "checkpoint"); });
   check("trials.csv", [&] { check_trials(folder / "trials.csv", trials); });
   for (Index trial = 1; trial <= trials; ++trial) {
-    const fs::path trajectory = trial_file("trajectories", trial, "csv"),
-                   prediction = trial_file("predictions", trial, "csv");
+    const fs::path trajectory = trial_file("trajectories", trial), prediction = trial_file("predictions", trial);
     check(trajectory, [&] { check_ends_with_line(folder / trajectory); });
     if (fs::exists(folder / prediction)) check(prediction, [&] { check_ends_with_line(folder / prediction); });
   }

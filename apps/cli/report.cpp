@@ -1,0 +1,68 @@
+#include "rehearse/report/report.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "apps/cli/arguments.hpp"
+#include "apps/cli/commands.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/files.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The page without data, in the build folder or where `cmake --install` put it.
+std::string page_template() {
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
+  for (const fs::path& folder : {program, program.parent_path()}) {
+    const fs::path page = folder / "share/rehearse/report.html";
+    if (fs::exists(page)) return experiment::read_file(page);
+  }
+  const std::string build = fs::exists(program / "CMakeCache.txt") ? program.string() : "BUILD_FOLDER";
+  throw InvalidInput(fmt::format(
+      "the page of reports is not built; with nodejs and npm installed: cmake --build {} --target page", build));
+}
+
+void write(const fs::path& path, const std::string& page) {
+  try {
+    experiment::write_file(path, page);
+  } catch (const std::runtime_error& error) {
+    throw InvalidInput(fmt::format("{}; --out FILE.html names another file", error.what()));
+  }
+}
+
+int write_page(const fs::path& folder, const report::Report& report, const fs::path& out) {
+  const std::string page = to_html(report, page_template());
+  write(out, page);
+  for (const report::Problem& problem : report.problems)
+    fmt::print(stderr, "rehearse: {}: {}\n", (folder / problem.where).string(), problem.what);
+  fmt::print("{} ({:.1f} MB) opens in a browser\n", out.string(), 1e-6 * static_cast<double>(page.size()));
+  return kSuccess;
+}
+
+Index trial_of(const ReplayArguments& arguments) {
+  Index trial = 0;
+  Violations violations;
+  set_text([&](FieldVisitor& v) { v.integer("trial", trial, at_least(1)); }, "trial", arguments.trial, violations);
+  violations.throw_if_any();
+  return trial;
+}
+
+}  // namespace
+
+int report(const ReportArguments& arguments) {
+  const fs::path folder = arguments.folder;
+  return write_page(folder, report::read_folder(folder), arguments.out.value_or((folder / "report.html").string()));
+}
+
+int replay(const ReplayArguments& arguments) {
+  const fs::path folder = arguments.folder;
+  const Index trial = trial_of(arguments);
+  const fs::path beside = folder / fmt::format("replay-{:03}.html", trial);
+  return write_page(folder, report::read_trial(folder, trial), arguments.out.value_or(beside.string()));
+}
+
+}  // namespace rehearse::apps

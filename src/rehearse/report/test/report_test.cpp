@@ -1,0 +1,225 @@
+#include "rehearse/report/report.hpp"
+
+#include <fstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::report {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Lines = std::vector<std::string>;
+
+void write(const fs::path& path, const std::string& text) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+class ReportTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(::testing::TempDir()) / fmt::format("report-{}", test->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Two trials of a block that slides; trial 1 has no prediction.
+  static void write_run(const fs::path& run, int seed = 1) {
+    write(run / "spec.toml",
+          fmt::format("format = 1\n[run]\nscenario = \"slider\"\nlearner = \"gp-mi\"\nprior = \"light\"\n"
+                      "trials = 2\nseed = {}\n[scenario]\nplant.m = 1.5\nkind = \"a\"\n[learner]\nx = 2\n",
+                      seed));
+    write(run / "trials.csv",
+          "trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence,phi.m,phi.k\n"
+          "1,2.5,0.123456789,0,,0,0,,,\n2,5,3,1,2.75,1234567,1,12.5,1.4,0.25\n");
+    write(run / "timings.csv", fmt::format("trial,model_s,search_s,rollouts_per_s\n1,0.5,2,10\n2,1,{},10\n", 2 + seed));
+    write(run / "errors.csv", "trial,horizon,compared,failed,rms x [m]\n2,1,50,0,0.01\n");
+    write(run / "notes.csv", "trial,note\n2,\"a fit, failed\"\n");
+    for (int trial : {1, 2})
+      write(run / fmt::format("trajectories/trial-00{}.csv", trial),
+            "time [s],x [m],true x [m],u [N],reward\n0,0,0,1,\n0.1,0.5,0.4,,1\n");
+    write(run / "predictions/trial-002.csv", "time [s],particles,x mean [m]\n0,100,0\n0.1,100,\n");
+    write(run / "motion/trial-002.json", R"({"format":1,"unit":"m","goal":null,"bodies":[],"frames":[[1.23456789]]})");
+    write(run / "motion/prediction-002.json", R"({"format":1,"unit":"m","goal":null,"bodies":[],"frames":[[null]]})");
+    write(run / "checkpoint", "rehearse-checkpoint 1 3 0000000000000000\nabc");
+    write(run / "done", "2 trials\n");
+  }
+
+  static json run_entry(const std::string& name, int seed, const std::string& state) {
+    return {{"run", name},
+            {"folder", "runs/" + name},
+            {"learner", "gp-mi"},
+            {"prior", "light"},
+            {"variant", ""},
+            {"seed", seed},
+            {"state", state},
+            {"trials", 2},
+            {"first_success", 2},
+            {"best_return", 3},
+            {"reason", state == "failed" ? json("the plant failed") : json()}};
+  }
+
+  /// Four runs: three done, one failed.
+  void write_campaign() const {
+    json summary = {{"format", 1}, {"title", "t"}, {"skipped", json::array()}, {"runs", json::array()}};
+    std::string rows = "run,scenario,learner,prior,variant,seed,trial,phi.m\n";
+    for (int seed : {1, 2, 3}) {
+      const std::string name = fmt::format("run-{}", seed);
+      write_run(folder_ / "runs" / name, seed);
+      summary["runs"].push_back(run_entry(name, seed, "done"));
+      rows += fmt::format("{0},slider,gp-mi,light,,{1},1,\n{0},slider,gp-mi,light,,{1},2,{2}\n", name, seed,
+                          1 + 0.1 * seed);
+    }
+    summary["runs"].push_back(run_entry("run-4", 4, "failed"));
+    summary["groups"] = {{{"learner", "gp-mi"}, {"prior", "light"}, {"variant", ""}}};
+    write(folder_ / "summary.json", summary.dump());
+    write(folder_ / "campaign.csv", rows);
+  }
+
+  Lines problems_of(const Report& report) const {
+    Lines lines;
+    for (const Problem& problem : report.problems) lines.push_back(problem.where + ": " + problem.what);
+    return lines;
+  }
+
+  std::string error_of(const std::function<void()>& call) const {
+    try {
+      call();
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(ReportTest, ARunHasItsTablesAsColumns) {
+  write_run(folder_);
+  const Report report = read_folder(folder_);
+  EXPECT_EQ(problems_of(report), Lines{});
+  const json all = json::parse(report.json), &run = all["run"];
+  EXPECT_EQ(all["name"], folder_.filename().string());
+  EXPECT_EQ(run["learner"], "gp-mi");
+  EXPECT_EQ(run["planned"], 2);
+  EXPECT_EQ(run["done"], true);
+  EXPECT_EQ(run["options"], json::parse(R"([["scenario.plant.m","1.5"],["scenario.kind","a"],["learner.x","2"]])"));
+  EXPECT_EQ(run["trials"]["return"], json::parse("[0.123457, 3]"));
+  EXPECT_EQ(run["trials"]["rollouts"], json::parse("[0, 1234567]"));
+  EXPECT_EQ(run["trials"]["predicted_return"], json::parse("[null, 2.75]"));
+  EXPECT_EQ(run["truth"], json::parse(R"({"m": 1.5})"));  // k is not the plant's
+  EXPECT_EQ(run["notes"]["note"], json::parse(R"(["a fit, failed"])"));
+  ASSERT_EQ(run["episodes"].size(), 2u);
+  EXPECT_EQ(run["episodes"][0]["trajectory"]["true x [m]"], json::parse("[0, 0.4]"));
+  EXPECT_TRUE(run["episodes"][0]["prediction"].is_null());
+  EXPECT_TRUE(run["episodes"][0]["motion"].is_null());
+  EXPECT_EQ(run["episodes"][1]["prediction"]["x mean [m]"], json::parse("[0, null]"));
+  EXPECT_EQ(run["episodes"][1]["motion"]["frames"], json::parse("[[1.23457]]"));
+  EXPECT_EQ(run["episodes"][1]["motion"]["predicted"], json::parse("[[null]]"));
+}
+
+TEST_F(ReportTest, AReplayHasOneEpisode) {
+  write_run(folder_);
+  const json all = json::parse(read_trial(folder_, 2).json);
+  ASSERT_EQ(all["replay"]["episodes"].size(), 1u);
+  EXPECT_EQ(all["replay"]["episodes"][0]["trial"], 2);
+  EXPECT_TRUE(error_of([&] { read_trial(folder_, 3); }).starts_with("trial 3 is not in "));
+  write(folder_ / "other/summary.json", "{}");
+  EXPECT_NE(error_of([&] { read_trial(folder_ / "other", 1); }).find("is not a run folder"), std::string::npos);
+}
+
+TEST_F(ReportTest, ADamagedRunIsReportedWithoutWhatIsDamaged) {
+  write_run(folder_);
+  write(folder_ / "trials.csv", "trial,interaction_s,return\n1,2.5,0.1\n2,5");
+  write(folder_ / "trajectories/trial-001.csv", "time [s],x [m],true x [m],u [N],reward\n0,0,0");
+  write(folder_ / "motion/trial-002.json", "{\"format\":1,");
+  write(folder_ / "checkpoint", "rehearse-checkpoint 1 3 0000000000000000\nab");
+  fs::remove(folder_ / "errors.csv");
+  const Report report = read_folder(folder_);
+  EXPECT_EQ(
+      problems_of(report),
+      (Lines{"trials.csv: row 3 is cut short", "errors.csv: it is not there", "checkpoint: it is truncated or damaged",
+             "trajectories/trial-001.csv: row 2 is cut short", "motion/trial-002.json: it is truncated or no JSON"}));
+  const json all = json::parse(report.json);
+  EXPECT_EQ(all["problems"].size(), 5u);
+  EXPECT_FALSE(all["run"].contains("trials"));
+  EXPECT_TRUE(all["run"]["episodes"][0]["trajectory"].is_null());
+  EXPECT_TRUE(all["run"]["episodes"][1]["trajectory"].is_object());
+}
+
+TEST_F(ReportTest, ACampaignHasParametersAndTimes) {
+  write_campaign();
+  const json all = json::parse(read_folder(folder_).json), &campaign = all["campaign"];
+  EXPECT_EQ(campaign["summary"]["title"], "t");
+  ASSERT_EQ(campaign["parameters"].size(), 1u);
+  EXPECT_EQ(campaign["parameters"][0],
+            json::parse(R"({"learner":"gp-mi","prior":"light","variant":"","parameter":"m","truth":1.5,
+    "trials":[{"trial":2,"runs":3,"quartile_1":1.15,"median":1.2,"quartile_3":1.25}]})"));
+  ASSERT_EQ(campaign["times"].size(), 2u);
+  EXPECT_EQ(campaign["times"][1]["part"], "search_s");
+  EXPECT_EQ(campaign["times"][1]["trials"][1],
+            json::parse(R"({"trial":2,"runs":3,"quartile_1":3.5,"median":4,"quartile_3":4.5})"));
+}
+
+TEST_F(ReportTest, ACampaignNamesWhatIsWrongInItsFolder) {
+  write_campaign();
+  EXPECT_EQ(problems_of(read_folder(folder_)), Lines{"runs/run-4: failed: the plant failed"});
+
+  write(folder_ / "runs/run-1/trials.csv", "trial,return\n1,2\n");
+  write(folder_ / "runs/run-1/predictions/trial-002.csv", "time [s],part");
+  write(folder_ / "runs/run-2/spec.toml", "format = 2\n[run]\n");
+  write(folder_ / "runs/run-2/checkpoint", "rehearse-checkpoint 7 3 0\nabc");
+  fs::remove_all(folder_ / "runs/run-3");
+  write(folder_ / "runs/notes.txt", "mine");
+  write(folder_ / "runs/.being-made/spec.toml", "");
+  EXPECT_EQ(
+      problems_of(read_folder(folder_)),
+      (Lines{"runs/run-1/trials.csv: it has 1 of 2 trials", "runs/run-1/predictions/trial-002.csv: it is cut short",
+             "runs/run-2/spec.toml: format 2 is that of another version of Rehearse, this one reads 1",
+             "runs/run-2/checkpoint: format 7 is that of another version of Rehearse",
+             "runs/run-3: it is not there, or no folder", "runs/run-4: failed: the plant failed",
+             "runs/notes.txt: it is no run of this campaign"}));
+
+  write(folder_ / "campaign.csv", "run,learner");
+  const Report report = read_folder(folder_);
+  EXPECT_EQ(report.problems.back().where, "campaign.csv");
+  EXPECT_EQ(json::parse(report.json)["campaign"]["parameters"], json::array());
+}
+
+TEST_F(ReportTest, RefusesWhatIsNoFolderOfRehearse) {
+  const auto error = [&] { return error_of([&] { read_folder(folder_); }); };
+  EXPECT_NE(error().find("is neither a run folder (no spec.toml) nor a campaign (no summary.json)"), std::string::npos);
+  write(folder_ / "campaign.toml", "");
+  EXPECT_NE(error().find("is a campaign without results yet"), std::string::npos);
+  write(folder_ / "summary.json", R"({"format": 2})");
+  EXPECT_TRUE(error().ends_with("summary.json: format 2 is that of another version of Rehearse, this one reads 1"))
+      << error();
+  write(folder_ / "summary.json", R"({"format": 1})");
+  EXPECT_TRUE(error().ends_with("summary.json: it lacks what docs/campaigns.md promises")) << error();
+  write(folder_ / "summary.json", "[]");
+  EXPECT_TRUE(error().ends_with("summary.json: it is no summary of a campaign")) << error();
+  write(folder_ / "spec.toml", "format = 3\n[run]\n");
+  EXPECT_TRUE(error().ends_with("spec.toml: format 3 is that of another version of Rehearse, this one reads 1"))
+      << error();
+  write(folder_ / "spec.toml", "format = \n");
+  EXPECT_NE(error().find("spec.toml: line 1: "), std::string::npos) << error();
+  EXPECT_NE(error_of([&] { read_folder(folder_ / "spec.toml"); }).find("is not a folder"), std::string::npos);
+}
+
+TEST(Html, HoldsTheDataAndNothingThatEndsIt) {
+  const Report report{.json = R"({"name":"</script><b>"})"};
+  EXPECT_EQ(to_html(report, "<script>REHEARSE_REPORT_DATA</script>"),
+            R"(<script>{"name":"\u003c/script>\u003cb>"}</script>)");
+  EXPECT_THROW(to_html(report, "<script></script>"), InvalidInput);
+  EXPECT_THROW(to_html(report, "REHEARSE_REPORT_DATA REHEARSE_REPORT_DATA"), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rehearse::report

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# report.sh PROGRAM BUILD BROWSER_TEST CHROMIUM: reports of a run, a trial and a damaged campaign, opened in a browser.
+# Exits with 77 where the page is not built or there is no browser.
+set -euo pipefail
+program=$(realpath "$1") build=$2 browser_test=$3 chromium=$4
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+
+# refused PATTERN ARGS…: exit code 2 and one line on standard error that holds the pattern.
+refused() {
+  local pattern=$1 code=0
+  shift
+  "$@" >stdout 2>stderr || code=$?
+  [ $code = 2 ] || fail "'$*' exits with $code: $(cat stderr)"
+  grep -qF -- "$pattern" stderr || fail "'$*' does not say '$pattern' but: $(cat stderr)"
+  [ "$(wc -l <stderr)" = 1 ] || fail "'$*' says more than one line: $(cat stderr)"
+}
+
+quick=(search.race.max_evaluations=100 search.race.descents=1 search.selection=2)
+"$program" learn pendubot --learner gp-mi --trials 2 "${quick[@]/#/--set=}" --out run >/dev/null
+
+mkdir bare
+cp "$program" bare/rehearse
+refused "--target page" bare/rehearse report run
+[ ! -e run/report.html ] || fail "a report without a page is written"
+
+[ -f "$build/share/rehearse/report.html" ] || { echo "the page is not built: cmake --build $build --target page"; exit 77; }
+refused "is neither a run folder" "$program" report bare
+refused "trial 3 is not in run" "$program" replay run --trial 3
+refused "--trial = 0" "$program" replay run --trial 0
+refused "cannot write" "$program" report run --out nowhere/report.html
+
+"$program" report run >stdout 2>stderr
+[ ! -s stderr ] || fail "the report of a whole run complains: $(cat stderr)"
+grep -q "^run/report.html (0\.[0-9] MB) opens in a browser$" stdout || fail "the report says $(cat stdout)"
+"$program" replay run --trial 2 --out replay.html >/dev/null
+
+cat >campaign.toml <<'END'
+format = 1
+scenario = "pendubot"
+learners = ["gp-mi", "black-drops"]
+seeds = "1-2"
+trials = 2
+END
+printf '[set]\n%s\n' "$(printf '%s\n' "${quick[@]}")" >>campaign.toml
+cat >>campaign.toml <<'END'
+[[claim]]
+text = "GP-MI solves it at once"
+learner = "gp-mi"
+solved_by = 1
+at_least_rate = 0.5
+END
+"$program" campaign campaign.toml --out campaign >/dev/null
+runs=(campaign/runs/*)
+truncate -s -9 "${runs[0]}/trials.csv"
+sed -i 's/^format = 1/format = 9/' "${runs[1]}/spec.toml"
+echo stray >campaign/runs/stray.txt
+"$program" report campaign 2>stderr >/dev/null
+for problem in "${runs[0]}/trials.csv: row 3 is cut short" "${runs[1]}/spec.toml: format 9 is that of another version" \
+  "campaign/runs/stray.txt: "; do
+  grep -qF "rehearse: $problem" stderr || fail "the report does not say '$problem' but: $(cat stderr)"
+done
+[ "$(wc -l <stderr)" = 3 ] || fail "the report names other problems: $(cat stderr)"
+
+[ -x "$chromium" ] || { echo "there is no chromium"; exit 77; }
+node "$browser_test" "$chromium" "$build/web/page" run/report.html replay.html campaign/report.html

@@ -1,0 +1,106 @@
+// browser.mjs CHROMIUM PACKAGES RUN.html REPLAY.html CAMPAIGN.html: a reader's way through real reports. Fails on anything that
+// a page says on the console, on any request, and on what it does not show. PACKAGES: the folder of node_modules.
+import assert from 'node:assert/strict'
+import { readFileSync } from 'node:fs'
+import { createRequire } from 'node:module'
+import { pathToFileURL } from 'node:url'
+
+const [chromiumPath, packages, runPage, replayPage, campaignPage] = process.argv.slice(2)
+const { chromium } = createRequire(`${packages}/`)('playwright-core')
+const browser = await chromium.launch({ executablePath: chromiumPath, args: ['--no-sandbox'] })
+
+/** Opens a page as a reader would and hands it to `visit`; nothing may have gone wrong when that ends. */
+async function open(file, settings, visit) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, ...settings })
+  const page = await context.newPage()
+  const wrong = []
+  page.on('console', (message) => wrong.push(`console: ${message.text()}`))
+  page.on('pageerror', (error) => wrong.push(`error: ${error.message}`))
+  const url = pathToFileURL(file).href
+  page.on('request', (request) => {
+    if (request.url() !== url && !/^(data|blob):/.test(request.url())) wrong.push(`request: ${request.url()}`)
+  })
+  await page.goto(url)
+  await page.waitForSelector('h1')
+  await visit(page)
+  await everyFigure(page)
+  const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth)
+  assert.ok(overflow <= 0, `${file} is ${overflow} px wider than the window`)
+  assert.deepEqual(wrong, [])
+  await context.close()
+}
+
+/** Every figure draws something when the reader comes to it. */
+async function everyFigure(page) {
+  for (const figure of await page.locator('figure').all()) {
+    await figure.scrollIntoViewIfNeeded()
+    await figure.locator('svg path, svg line, tbody tr').first().waitFor({ state: 'attached' })
+  }
+}
+
+async function saved(page, name) {
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name }).click()])
+  return readFileSync(await download.path(), 'utf8')
+}
+
+const cursors = (page) => page.locator('#trajectory line.cursor').evaluateAll((lines) => lines.map((line) => line.getAttribute('x1')))
+const robot = (page) => page.locator('.stage').innerHTML()
+
+/** The slider moves the robot and the cursors, by mouse and by keyboard. */
+async function moveSlider(page) {
+  const slider = page.getByRole('slider', { name: 'Time' })
+  await slider.scrollIntoViewIfNeeded()
+  await page.locator('#trajectory line.cursor').first().waitFor({ state: 'attached' })
+  const before = [await robot(page), await cursors(page)]
+  await slider.fill('20')
+  const moved = [await robot(page), await cursors(page)]
+  assert.notEqual(moved[0], before[0])
+  assert.ok(before[1].length > 0 && moved[1].every((x, i) => x !== before[1][i]), 'a cursor stands still')
+  await slider.press('ArrowRight')
+  assert.equal(await slider.getAttribute('aria-valuetext'), '1.05 s')
+  assert.notEqual(await robot(page), moved[0])
+}
+
+async function play(page) {
+  await page.getByRole('slider', { name: 'Time' }).fill('0')
+  await page.getByRole('button', { name: 'Play' }).press('Enter')
+  await page.getByText(/^0\.[1-9]\d \/ 2\.50 s$/).waitFor()
+  await page.getByRole('button', { name: 'Pause' }).press('Enter')
+}
+
+await open(runPage, {}, async (page) => {
+  assert.equal(await page.locator('h1').textContent(), 'gp-mi on pendubot')
+  await moveSlider(page)
+  await play(page)
+  await page.getByRole('combobox', { name: 'Trial' }).selectOption('Trial 1')
+  const first = await page.locator('.player .about').textContent()
+  await page.getByRole('button', { name: 'Next trial' }).click()
+  assert.notEqual(await page.locator('.player .about').textContent(), first)
+  await page.getByRole('button', { name: 'Dark' }).click()
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark')
+
+  const svg = await saved(page, 'Save “Return, predicted and real” as SVG')
+  assert.match(svg, /^<svg [^]*Return, predicted and real[^]*<\/svg>$/)
+  assert.doesNotMatch(svg, /var\(|light-dark/)
+  const csv = (await saved(page, 'Save “Return, predicted and real” as CSV')).trim().split('\n')
+  assert.equal(csv[0], 'trial,interaction_s,return,solved,predicted_return')
+  assert.equal(csv.length, 3)
+})
+
+await open(replayPage, { colorScheme: 'dark' }, async (page) => {
+  assert.match(await page.locator('h1').textContent(), /trial 2$/)
+  await moveSlider(page)
+})
+
+await open(campaignPage, { viewport: { width: 400, height: 800 } }, async (page) => {
+  const problems = await page.locator('.problems li').allTextContents()
+  for (const name of ['stray.txt', 'trials.csv', 'another version']) assert.ok(problems.some((line) => line.includes(name)), `${name} is not named`)
+  await page.locator('#return-by-interaction-time').scrollIntoViewIfNeeded()
+  await page.getByRole('radio', { name: 'best so far' }).press('Space')
+  await page.locator('#success-by-trial').scrollIntoViewIfNeeded()
+  const csv = await saved(page, 'Save “Return against time on the robot” as CSV')
+  assert.match(csv, /^learner,prior,variant,trial,runs,interaction_s,return_min,/)
+})
+
+await browser.close()
+console.log('every page is as it should be')
