@@ -35,12 +35,13 @@ int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& ar
   const Campaign done = experiment::run_campaign(
       catalogue, text, arguments.file, folder,
       {.threads = static_cast<int>(threads), .listener = &console, .stop = [] { return caught_signal() != 0; }});
-  console.finished(done);
   if (done.count(RunState::unfinished) > 0) {
+    console.clear_line();
     fmt::print(stderr, "rehearse: interrupted with {} of {} runs done; to continue, give the same command again\n",
                done.count(RunState::done), done.runs.size());
     return 128 + caught_signal();
   }
+  console.finished(done);
   const bool failed = done.count(RunState::failed) > 0 || (arguments.check_claims && a_claim_failed(done));
   return failed ? kFailed : kSuccess;
 }

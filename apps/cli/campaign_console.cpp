@@ -70,9 +70,9 @@ void print_groups(const Campaign& campaign) {
                     reached ? rate_text(trials.back().solved_by) : "-",
                     reached ? numbers_text(trials.back().total_reward) : "-"});
   }
-  for (const auto& [name, reason] : campaign.plan.missing) rows.push_back({name, "missing", reason, ""});
   fmt::print("\n");
   print_table(rows);
+  for (const auto& [name, reason] : campaign.plan.missing) fmt::print("  missing: {}\n", reason);
 }
 
 void print_failures(const Campaign& campaign) {

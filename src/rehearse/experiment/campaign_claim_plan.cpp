@@ -94,10 +94,10 @@ class ClaimPlanner {
   }
 
   void check_counts() {
-    if (!claim_.success || !claim_.success->at_least_runs) return;
+    if (!claim_.success) return;
     for (const ClaimPart& part : planned_.parts) {
       const auto runs = static_cast<Index>(part.groups.size() * plan_.seeds.size());
-      if (*claim_.success->at_least_runs > runs)
+      if (claim_.success->at_least_runs.value_or(0) > runs)
         return wrong(
             fmt::format("at_least_runs = {}, but the claim is about {} runs", *claim_.success->at_least_runs, runs));
     }

@@ -13,23 +13,29 @@ namespace rehearse::experiment {
 namespace {
 
 std::string name_of(const Measure& measure) {
-  switch (measure.metric) {
-    case Metric::total_reward:
-      return fmt::format("return of trial {}", measure.trial);
-    case Metric::best_return:
-      return fmt::format("best return until trial {}", measure.trial);
-    case Metric::first_success:
-      break;
-  }
+  if (measure.metric == Metric::total_reward) return fmt::format("return of trial {}", measure.trial);
+  if (measure.metric == Metric::best_return) return fmt::format("best return until trial {}", measure.trial);
   return "trial of first success";
 }
 
-/// Nothing if the run has not come so far; a run that failed has no success from there on, but no return either.
+std::string name_of_success(const Measure& measure) {
+  if (!measure.success_return) return fmt::format("solved by trial {}", measure.trial);
+  return fmt::format("return of {} reached by trial {}", *measure.success_return, measure.trial);
+}
+
+std::optional<Index> first_success(const RunOutcome& run, const Measure& measure) {
+  if (!measure.success_return) return run.first_success(measure.trial);
+  for (Index trial = 1; trial <= std::min(measure.trial, run.done()); ++trial)
+    if (run.best_return(trial) >= *measure.success_return) return trial;
+  return std::nullopt;
+}
+
+/// Nothing if the run has not come so far, even if it has succeeded: early ones alone would be a biased choice. A run
+/// that failed has no success from there on, but no return either.
 std::optional<double> value_of(const RunOutcome& run, const Measure& measure) {
   if (measure.metric == Metric::first_success) {
-    const auto trial = run.first_success(measure.trial);
-    if (trial || run.decided(measure.trial)) return static_cast<double>(trial.value_or(measure.trial + 1));
-    return std::nullopt;
+    if (!run.decided(measure.trial)) return std::nullopt;
+    return static_cast<double>(first_success(run, measure).value_or(measure.trial + 1));
   }
   if (run.done() < measure.trial) return std::nullopt;
   return measure.metric == Metric::total_reward ? run.returns[static_cast<std::size_t>(measure.trial - 1)]
@@ -73,7 +79,8 @@ class Judge {
 
   std::optional<double> value(std::size_t group, std::size_t seed, const Measure& measure) {
     const RunOutcome& run = campaign_.outcome(group, seed);
-    for (const auto& solved : run.solved) cannot_say_ = cannot_say_ || !solved;
+    const bool needs_solved = measure.metric == Metric::first_success && !measure.success_return;
+    for (const auto& solved : run.solved) cannot_say_ = cannot_say_ || (needs_solved && !solved);
     const auto value = value_of(run, measure);
     if (!value && run.state == RunState::failed) ++failed_;
     return value;
@@ -122,37 +129,29 @@ class Judge {
     const double estimate = result_.estimate;
     return planned_.claim.observed ? Interval{estimate, estimate} : result_.interval;
   }
-  bool complete() const { return result_.of > 0 && result_.runs == result_.of && !wants_what_cannot_be_said(); }
+  bool complete() const { return result_.of > 0 && result_.runs == result_.of && !cannot_say_; }
   Verdict once_complete(Verdict verdict) const { return complete() ? verdict : Verdict::undecided; }
 
-  bool wants_what_cannot_be_said() const {
-    const Claim& claim = planned_.claim;
-    const Metric metric = claim.comparison ? claim.comparison->measure.metric
-                          : claim.median   ? claim.median->measure.metric
-                                           : Metric::first_success;
-    return cannot_say_ && metric == Metric::first_success;
-  }
-
   void judge_success(const SuccessClaim& wanted) {
-    const std::vector<double> first = values({Metric::first_success, wanted.solved_by});
+    const std::vector<double> first = values(wanted.measure);
     const auto n = static_cast<Index>(first.size());
     const Index count = std::count_if(first.begin(), first.end(),
-                                      [&](double trial) { return trial <= static_cast<double>(wanted.solved_by); });
-    show(fmt::format("solved by trial {}", wanted.solved_by), first.size(),
-         static_cast<double>(count) / static_cast<double>(n), statistics::rate_interval(count, n));
+                                      [&](double trial) { return trial <= static_cast<double>(wanted.measure.trial); });
+    show(name_of_success(wanted.measure), first.size(), static_cast<double>(count) / static_cast<double>(n),
+         statistics::rate_interval(count, n));
     result_.count = count;
-    if (wanted.at_least_rate)
-      require(fmt::format("rate ≥ {}", *wanted.at_least_rate),
-              once_complete(at_or_above(deciding(), *wanted.at_least_rate)));
-    if (wanted.at_least_runs)
-      require(fmt::format("count ≥ {}", *wanted.at_least_runs), count_verdict(count, *wanted.at_least_runs));
-  }
-
-  /// Known as soon as the runs to come cannot change it.
-  Verdict count_verdict(Index count, Index wanted) const {
-    if (wants_what_cannot_be_said() || result_.of == 0) return Verdict::undecided;
-    if (count >= wanted) return Verdict::pass;
-    return count + result_.of - result_.runs < wanted ? Verdict::fail : Verdict::undecided;
+    if (const auto rate = wanted.at_least_rate)
+      require(fmt::format("rate ≥ {}", *rate), once_complete(at_or_above(deciding(), *rate)));
+    if (const auto rate = wanted.at_most_rate)
+      require(fmt::format("rate ≤ {}", *rate), once_complete(at_or_below(deciding(), *rate)));
+    // Counts are known as soon as the runs to come cannot change them.
+    const auto low = static_cast<double>(count), high = static_cast<double>(count + result_.of - n);
+    const bool can_say = result_.of > 0 && !cannot_say_;
+    const Interval possible = can_say ? Interval{low, high} : Interval{-HUGE_VAL, HUGE_VAL};
+    if (const auto runs = wanted.at_least_runs)
+      require(fmt::format("count ≥ {}", *runs), at_or_above(possible, static_cast<double>(*runs)));
+    if (const auto runs = wanted.at_most_runs)
+      require(fmt::format("count ≤ {}", *runs), at_or_below(possible, static_cast<double>(*runs)));
   }
 
   void judge_comparison(const ComparisonClaim& wanted) {
@@ -176,7 +175,7 @@ class Judge {
   std::string why_undecided() const {
     if (!planned_.missing.empty()) return planned_.missing;
     const char* what = planned_.claim.comparison ? "pairs" : "runs";
-    if (wants_what_cannot_be_said()) return "the scenario cannot say what is solved";
+    if (cannot_say_) return "the scenario cannot say what is solved";
     if (result_.runs < result_.of && failed_ > 0) return fmt::format("{} runs failed and have no such value", failed_);
     if (result_.runs < result_.of) return fmt::format("{} of {} {} are done", result_.runs, result_.of, what);
     if (std::isinf(result_.interval.low)) return fmt::format("an interval needs 6 {}", what);

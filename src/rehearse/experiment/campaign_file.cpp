@@ -160,14 +160,14 @@ class CampaignReader {
   }
 
   void read_kind(TomlReader& reader, Claim& claim) {
-    const bool success = reader.has("solved_by"), better = reader.has("better_than"),
+    const bool success = reader.has("solved_by") || reader.has("reached_by"), better = reader.has("better_than"),
                not_worse = reader.has("not_worse_than"),
                median = reader.has("median_at_least") || reader.has("median_at_most");
     if (success + better + not_worse + median != 1)
-      violations_.add(
-          claim.line,
-          "a claim has one of solved_by, better_than, not_worse_than, and median_at_least or median_at_most");
-    if (success) claim.success = read_success(reader, claim.line);
+      violations_.add(claim.line,
+                      "a claim has one of solved_by, reached_by, better_than, not_worse_than, and median_at_least or "
+                      "median_at_most");
+    if (success) claim.success = read_success(reader);
     if (better || not_worse) claim.comparison = read_comparison(reader, better ? "better_than" : "not_worse_than");
     if (median) claim.median = read_median(reader);
   }
@@ -181,17 +181,26 @@ class CampaignReader {
     return there ? std::optional(value) : std::nullopt;
   }
 
-  SuccessClaim read_success(TomlReader& reader, Index line) {
+  std::optional<Index> count(TomlReader& reader, const std::string& key) {
+    Index value = 0;
+    const bool there = reader.has(key);
+    reader.take_fields([&](FieldVisitor& v) { v.integer(key, value, at_least(0)); });
+    return there ? std::optional(value) : std::nullopt;
+  }
+
+  SuccessClaim read_success(TomlReader& reader) {
     SuccessClaim success;
-    Index runs = 0;
-    reader.take_fields([&](FieldVisitor& v) {
-      v.integer("solved_by", success.solved_by, trials());
-      v.integer("at_least_runs", runs, at_least(1));
-    });
-    if (reader.has("at_least_runs")) success.at_least_runs = runs;
+    const bool reached = reader.has("reached_by");
+    reader.take_fields(
+        [&](FieldVisitor& v) { v.integer(reached ? "reached_by" : "solved_by", success.measure.trial, trials()); });
+    if (reached) success.measure.success_return = number(reader, "return_at_least");
+    if (reached && !success.measure.success_return) violations_.add(reader.line(), "reached_by needs return_at_least");
     success.at_least_rate = number(reader, "at_least_rate", between(0, 1));
-    if (!success.at_least_rate && !success.at_least_runs)
-      violations_.add(line, "solved_by needs at_least_rate or at_least_runs");
+    success.at_most_rate = number(reader, "at_most_rate", between(0, 1));
+    success.at_least_runs = count(reader, "at_least_runs");
+    success.at_most_runs = count(reader, "at_most_runs");
+    if (!success.at_least_rate && !success.at_most_rate && !success.at_least_runs && !success.at_most_runs)
+      violations_.add(reader.line(), "how many? at_least_runs, at_most_runs, at_least_rate or at_most_rate");
     return success;
   }
 

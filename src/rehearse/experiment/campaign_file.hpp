@@ -31,14 +31,15 @@ enum class Metric { total_reward, best_return, first_success };
 /// Until or of this trial, as the metric says.
 struct Measure {
   Metric metric = Metric::total_reward;
-  Index trial = 0;  // 0: the last
+  Index trial = 0;
+  std::optional<double> success_return;  // success is this return; empty: it is what the scenario calls solved
 };
 
-/// Solved by a trial, often enough.
+/// Bounds of how many of the runs succeed; those that are given.
 struct SuccessClaim {
-  Index solved_by = 0;
-  std::optional<double> at_least_rate;
-  std::optional<Index> at_least_runs;
+  Measure measure{Metric::first_success, 0, {}};
+  std::optional<double> at_least_rate, at_most_rate;
+  std::optional<Index> at_least_runs, at_most_runs;
 };
 
 /// The claim's runs are better than others, which differ from them in what is named here, or not worse by a margin.

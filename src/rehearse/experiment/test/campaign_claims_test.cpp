@@ -67,7 +67,16 @@ TEST(Claims, CountIsDecidedOnceTheRestCannotChangeIt) {
   EXPECT_EQ(judge(campaign)[0].verdict, Verdict::undecided);
   campaign.runs[1].state = RunState::failed;  // never solved
   EXPECT_EQ(judge(campaign)[0].verdict, Verdict::fail);
-  for (std::size_t seed = 0; seed < 7; ++seed) campaign.runs[seed] = run_of({30});  // of unfinished runs
+  for (std::size_t seed = 0; seed < 7; ++seed) campaign.runs[seed] = run_of({30, 30});
+  EXPECT_EQ(judge(campaign)[0].verdict, Verdict::pass);
+}
+
+TEST(Claims, AnEarlySuccessCountsOnceItsRunHasComeThatFar) {
+  Campaign campaign = campaign_with("learner = \"echo\"\npriors = [\"near\"]\nsolved_by = 2\nat_least_runs = 1\n");
+  campaign.runs[0] = run_of({30});
+  EXPECT_EQ(judge(campaign)[0].parts[0].runs, 0);
+  campaign.runs[0] = run_of({30, 1});
+  EXPECT_EQ(judge(campaign)[0].parts[0].runs, 1);
   EXPECT_EQ(judge(campaign)[0].verdict, Verdict::pass);
 }
 
@@ -85,6 +94,32 @@ TEST(Claims, RateIsDecidedByItsInterval) {
   EXPECT_EQ(verdict("at_least_rate = 0.8\nobserved = true\n"), Verdict::fail);
   EXPECT_EQ(verdict("at_least_rate = 0.36\nat_least_runs = 7\n"), Verdict::fail);
   EXPECT_EQ(verdict("at_least_rate = 0.36\nat_least_runs = 6\n"), Verdict::undecided);
+}
+
+TEST(Claims, SuccessCanBeBoundedFromAbove) {
+  const auto verdict = [](const std::string& more, Index done) {
+    Campaign campaign = campaign_with("learner = \"echo\"\npriors = [\"near\"]\nsolved_by = 2\n" + more);
+    set_group(campaign, 0, kLow, kSixSolved);
+    for (std::size_t seed = static_cast<std::size_t>(done); seed < 8; ++seed) campaign.runs[seed] = {};
+    return judge(campaign)[0].verdict;
+  };
+  EXPECT_EQ(verdict("at_most_runs = 6\n", 8), Verdict::pass);
+  EXPECT_EQ(verdict("at_most_runs = 6\n", 7), Verdict::undecided);
+  EXPECT_EQ(verdict("at_most_runs = 5\n", 6), Verdict::fail);
+  EXPECT_EQ(verdict("at_most_rate = 0.97\n", 8), Verdict::pass);
+  EXPECT_EQ(verdict("at_most_rate = 0.5\n", 8), Verdict::undecided);
+  EXPECT_EQ(verdict("at_most_rate = 0.34\n", 8), Verdict::fail);
+  EXPECT_EQ(verdict("at_most_rate = 0.34\n", 7), Verdict::undecided);
+}
+
+TEST(Claims, SuccessCanBeAReturn) {
+  Campaign campaign = campaign_with(
+      "learner = \"echo\"\npriors = [\"near\"]\nreached_by = 1\nreturn_at_least = 4\nat_least_runs = 5\n");
+  set_group(campaign, 0, kLow, kHigh);
+  for (RunOutcome& run : campaign.runs) run.solved.assign(run.solved.size(), std::nullopt);  // needs none
+  EXPECT_EQ(judge(campaign)[0].verdict, Verdict::pass);
+  EXPECT_EQ(judge(campaign)[0].parts[0].count, 5);
+  EXPECT_EQ(judge(campaign)[0].parts[0].measure, "return of 4 reached by trial 1");
 }
 
 TEST(Claims, EachPriorMustPassUnlessTheyArePooled) {

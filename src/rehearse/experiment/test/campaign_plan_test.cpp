@@ -191,8 +191,10 @@ TEST(CampaignPlan, SaysWhatIsWrongWithClaims) {
     return complaint(kHead + "learners = [\"echo\"]\n[[claim]]\ntext = \"x\"\n" + claim);
   };
   const std::string success = "learner = \"echo\"\nsolved_by = 2\n";
-  EXPECT_EQ(about(success), "c.toml: line 6: solved_by needs at_least_rate or at_least_runs");
+  EXPECT_EQ(about(success), "c.toml: line 6: how many? at_least_runs, at_most_runs, at_least_rate or at_most_rate");
   EXPECT_EQ(about(success + "at_least_runs = 3\n"), "c.toml: line 6: at_least_runs = 3, but the claim is about 2 runs");
+  EXPECT_EQ(about("learner = \"echo\"\nreached_by = 2\nat_most_runs = 2\n"),
+            "c.toml: line 6: reached_by needs return_at_least");
   EXPECT_EQ(about(success + "at_least_rate = 95\n"), "c.toml: line 10: at_least_rate = 95, must be between 0 and 1");
   EXPECT_EQ(about("learner = \"echo\"\nsolved_by = 4\nat_least_runs = 1\n"),
             "c.toml: line 9: solved_by = 4, must be between 1 and 3");
@@ -206,9 +208,10 @@ TEST(CampaignPlan, SaysWhatIsWrongWithClaims) {
             "c.toml: line 6: there is nothing to compare with: no runs of learner echo, prior 'far', variant ''");
   EXPECT_EQ(about("learner = \"echo\"\nmedian_at_least = 1\n"),
             "c.toml: line 6: metric is missing: \"return\", \"best_return\" or \"first_success\"");
-  EXPECT_EQ(about("learner = \"echo\"\n"),
-            "c.toml: line 6: a claim has one of solved_by, better_than, not_worse_than, and median_at_least or "
-            "median_at_most");
+  EXPECT_EQ(
+      about("learner = \"echo\"\n"),
+      "c.toml: line 6: a claim has one of solved_by, reached_by, better_than, not_worse_than, and median_at_least or "
+      "median_at_most");
 }
 
 }  // namespace
