@@ -25,6 +25,8 @@ export interface Series {
   dash?: string
   width?: number
   opacity?: number
+  /** Of a symbol, in px. */
+  radius?: number
   line?: boolean
   /** Each value holds until the next. */
   held?: boolean
@@ -130,7 +132,7 @@ function bands({ colour, points }: Series): Plot.Markish[] {
   return [area('band', 0.16), area('core', 0.24)]
 }
 
-function lines({ colour, points, symbol, dash, width = 2, opacity = 1, line = true, held = false }: Series): Plot.Markish[] {
+function lines({ colour, points, symbol, dash, width = 2, opacity = 1, radius = 3.5, line = true, held = false }: Series): Plot.Markish[] {
   const some = points.filter((point) => point.interval)
   const drawn = { x: 'x', y: 'y', stroke: colour, strokeOpacity: opacity }
   return [
@@ -142,7 +144,7 @@ function lines({ colour, points, symbol, dash, width = 2, opacity = 1, line = tr
       ? [true, false].map((hollow) =>
           Plot.dot(
             points.filter((point) => (point.hollow ?? false) === hollow),
-            { ...drawn, symbol, r: 3.5, strokeWidth: 1.5, fill: hollow ? 'var(--surface)' : colour },
+            { ...drawn, symbol, r: radius, fillOpacity: opacity, strokeWidth: 1.5, fill: hollow ? 'var(--surface)' : colour },
           ),
         )
       : []),

@@ -1,7 +1,7 @@
 // One trial: the robot moving, and every state with what the model had expected, under one time slider.
 import { chart, extent, moveCursor, type Point, type Series } from './chart'
 import { PREDICTED, REAL } from './colours'
-import { column, present, variables, withUnit, type Cell, type Episode, type Variable } from './data'
+import { column, present, variables, withUnit, type Cell, type Columns, type Episode, type Variable } from './data'
 import { h } from './dom'
 import type { Row } from './export'
 import { figure, type Panel } from './figure'
@@ -11,13 +11,9 @@ import { stage } from './stage'
 
 const SPEEDS = [0.25, 0.5, 1, 2]
 
-const LEGEND: LegendEntry[] = [
-  { label: 'the robot', colour: REAL },
-  { label: 'the model’s mean before the trial', colour: PREDICTED, dash: '6 3' },
-  { label: '5–95 % and 25–75 % of 100 imagined episodes', colour: PREDICTED, band: 0.3, line: false },
-]
+const MEASURED = { symbol: 'circle', radius: 1.5, opacity: 0.5, line: false } as const
 
-/** title: what a trial's number is followed by ("return 21.9, solved"). */
+/** describe: what is said of a trial ("Return 21.9, solved."). */
 export function player(episodes: Episode[], start: Episode, describe: (trial: number) => string): HTMLElement {
   let episode = start
   let time = 0
@@ -34,7 +30,7 @@ export function player(episodes: Episode[], start: Episode, describe: (trial: nu
     name: 'trajectory',
     title: 'States, action and reward of the trial',
     about: 'Where the line leaves the band, the model was wrong about the robot.',
-    legend: LEGEND,
+    legend: legendOf(start),
     panels: () => panelsOf(episode),
     table: () => tableOf(episode),
     minWidth: 280,
@@ -124,6 +120,25 @@ export function player(episodes: Episode[], start: Episode, describe: (trial: nu
   )
 }
 
+function legendOf({ trajectory, prediction }: Episode): LegendEntry[] {
+  const entries: LegendEntry[] = [{ label: 'the robot', colour: REAL }]
+  if (trajectory && isNoisy(trajectory)) entries.push({ label: 'as measured', colour: REAL, symbol: 'circle', line: false })
+  if (prediction)
+    entries.push(
+      { label: 'the model’s mean before the trial', colour: PREDICTED, dash: '6 3' },
+      { label: '5–95 % and 25–75 % of 100 imagined episodes', colour: PREDICTED, band: 0.3, line: false },
+    )
+  return entries
+}
+
+/** Whether what was measured is not what was true. */
+function isNoisy(trajectory: Columns): boolean {
+  return variables(trajectory).states.some(({ name }) => {
+    const truth = column(trajectory, `true ${name}`)
+    return column(trajectory, name)?.some((value, i) => value !== truth?.[i])
+  })
+}
+
 function panelsOf({ trajectory, prediction }: Episode): Panel[] {
   if (!trajectory) return []
   const times = column(trajectory, 'time') ?? []
@@ -158,18 +173,17 @@ function domainOf(series: Series[]): { domain?: [number, number] } {
   return { domain: [Math.max(all[0], real[0] - room), Math.min(all[1], real[1] + room)] }
 }
 
-function stateSeries({ name }: Variable, times: Cell[], trajectory: NonNullable<Episode['trajectory']>, prediction: Episode['prediction']): Series[] {
+function stateSeries({ name }: Variable, times: Cell[], trajectory: Columns, prediction: Episode['prediction']): Series[] {
   const truth = column(trajectory, `true ${name}`) ?? []
   const measured = column(trajectory, name) ?? []
-  const noisy = measured.some((value, i) => value !== truth[i])
   const all: Series[] = []
   if (prediction) all.push(predictedSeries(name, prediction))
+  if (isNoisy(trajectory)) all.push({ ...line('measured', REAL, times, measured), ...MEASURED })
   all.push(line('real', REAL, times, truth.some(present) ? truth : measured))
-  if (noisy && truth.some(present)) all.push({ ...line('measured', REAL, times, measured), symbol: 'circle', line: false, opacity: 0.5 })
   return all
 }
 
-function predictedSeries(name: string, prediction: NonNullable<Episode['prediction']>): Series {
+function predictedSeries(name: string, prediction: Columns): Series {
   const at = (part: string) => column(prediction, `${name} ${part}`) ?? []
   const [mean, low, lower, upper, high] = ['mean', '5%', '25%', '75%', '95%'].map(at)
   const pair = (a: Cell | undefined, b: Cell | undefined): [number, number] | undefined => (present(a) && present(b) ? [a, b] : undefined)

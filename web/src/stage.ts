@@ -16,33 +16,53 @@ interface Bounds {
   top: number
 }
 
-/** One that has room for all these motions. */
+/** One that has room for all these motions; where they go far along the ground, it follows the robot. */
 export function stage(motions: Motion[]): Stage {
   const bounds = boundsOf(motions)
-  const size = Math.max(bounds.right - bounds.left, bounds.top - bounds.bottom)
+  const height = bounds.top - bounds.bottom
+  const width = Math.min(bounds.right - bounds.left, 1.6 * height)
+  const size = Math.max(width, height)
   const element = s('svg', {
     class: 'stage',
-    viewBox: `${bounds.left} ${-bounds.top} ${bounds.right - bounds.left} ${bounds.top - bounds.bottom}`,
+    viewBox: `0 ${-bounds.top} ${width} ${height}`,
     role: 'img',
     'aria-label': 'The robot at the time of the slider',
   })
-  const ground = s('line', { class: 'ground', x1: bounds.left, x2: bounds.right, y1: 0, y2: 0 })
-  const scale = scaleBar(bounds, size, motions[0]?.unit ?? 'm')
+  const tick = [0.1, 0.2, 0.5, 1, 2, 5, 10].find((candidate) => candidate > 0.12 * size) ?? 20
   const goal = s('g', { class: 'goal' })
   const trail = s('polyline', { class: 'trail', stroke: REAL })
   const predicted = s('g', { opacity: 0.45 })
   const real = s('g')
-  element.append(ground, scale, goal, trail, predicted, real)
+  const world = s('g', {}, ground(bounds, size, tick), goal, trail, predicted, real)
+  element.append(world, scaleBar(bounds, size, tick, motions[0]?.unit ?? 'm'))
 
   return {
     element,
     show(motion, frame) {
+      const now = frameAt(motion.frames, frame)
+      world.setAttribute('transform', `translate(${-leftOf(bounds, width, motion.goal, now)}, 0)`)
       goal.replaceChildren(...goalMarks(motion.goal, size))
       predicted.replaceChildren(...bodies(motion, frameAt(motion.predicted, frame), PREDICTED))
-      real.replaceChildren(...bodies(motion, frameAt(motion.frames, frame), REAL), ...joints(motion, frameAt(motion.frames, frame), size))
+      real.replaceChildren(...bodies(motion, now, REAL), ...joints(motion, now, size))
       trail.setAttribute('points', trailOf(motion, frame))
     },
   }
+}
+
+/** The left end of what is seen: the goal in the middle, unless the robot would leave. */
+function leftOf(bounds: Bounds, width: number, goal: Motion['goal'], ends: number[] | null): number {
+  const xs = (ends ?? []).filter((_, i) => i % 2 === 0)
+  const home = (goal?.[0] ?? (bounds.left + bounds.right) / 2) - width / 2
+  if (xs.length === 0) return home
+  const inside = Math.min(Math.max(home, Math.max(...xs) - 0.85 * width), Math.min(...xs) - 0.15 * width)
+  return Math.min(Math.max(inside, bounds.left), bounds.right - width)
+}
+
+/** The height zero, with marks that show how the robot moves along it. */
+function ground(bounds: Bounds, size: number, tick: number): SVGElement {
+  const marks: string[] = []
+  for (let x = Math.ceil(bounds.left / tick) * tick; x <= bounds.right; x += tick) marks.push(`M${x},0v${0.015 * size}`)
+  return s('path', { class: 'ground', d: `M${bounds.left},0H${bounds.right}${marks.join('')}` })
 }
 
 /** Between two frames bodies move in straight lines; none where a number is missing. */
@@ -98,10 +118,9 @@ function goalMarks(goal: Motion['goal'], size: number): SVGElement[] {
   ]
 }
 
-/** A length that is known, in a lower corner. */
-function scaleBar(bounds: Bounds, size: number, unit: string): SVGElement {
-  const length = [0.1, 0.2, 0.5, 1, 2, 5, 10].find((candidate) => candidate > 0.12 * size) ?? 10
-  const x = bounds.left + 0.04 * size
+/** The distance of the marks on the ground, in a lower corner. */
+function scaleBar(bounds: Bounds, size: number, length: number, unit: string): SVGElement {
+  const x = 0.04 * size
   const y = -bounds.bottom - 0.04 * size
   return s(
     'g',
