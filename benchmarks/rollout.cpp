@@ -32,8 +32,8 @@ namespace {
 using namespace rehearse;
 
 constexpr Index kCandidates = 32 * 17;       // descents × population
-constexpr Index kStates = 50 * kCandidates;  // of a generation's rollouts
-constexpr Index kRows = 32;                  // of a chunk of rollouts
+constexpr Index kStates = kCandidates * 50;  // of all their steps
+constexpr Index kRows = 32;                  // of a chunk of rollouts, see rollout/imagine.cpp
 constexpr StreamKey kKey{.purpose = Purpose::imagined_noise};
 
 Vector random_theta(const policy::Policy& policy, Rng& rng) {
@@ -120,7 +120,32 @@ class Products {
   double norms_[gp::kChunk] = {};
 };
 
-/// The same by OpenBLAS, 64 columns at a time; each output has its own matrix.
+/// The correlations that these products need, of all outputs.
+class Correlations {
+ public:
+  explicit Correlations(const gp::Posterior& gp)
+      : outputs_(gp.outputs()),
+        points_(Matrix::Random(gp.dimensions(), gp.size())),
+        queries_(Matrix::Random(gp::kChunk, gp.dimensions())),
+        weights_(gp.size()),
+        columns_(gp.size(), gp::kChunk) {
+    weights_.setRandom();
+  }
+  void operator()() {
+    for (Index e = 0; e < outputs_; ++e)
+      gp::correlate(points_.data(), points_.cols(), points_.rows(), weights_.data(), queries_.data(), kRows,
+                    columns_.data(), means_);
+  }
+
+ private:
+  Index outputs_;
+  Matrix points_, queries_;
+  Vector weights_;
+  Matrix columns_;
+  double means_[gp::kChunk] = {};
+};
+
+/// The products by OpenBLAS, 64 columns at a time; each output has its own matrix.
 class Dtrmm {
  public:
   explicit Dtrmm(const gp::Posterior& gp) : n_(static_cast<int>(gp.size())), columns_(Matrix::Random(n_, kColumns)) {
@@ -147,31 +172,36 @@ struct Part {
 
 template <class Step>
 Part chunked(std::string name, Step step) {
-  return {std::move(name), [step] {
+  return {std::move(name), [step]() mutable {
             for (Index done = 0; done < kStates; done += kRows) step();
           }};
 }
 
-std::vector<Part> parts_of(const Setup& s) {
-  static Matrix mean(kRows, 4), variance(kRows, 4), U(kRows, 1), features(kRows, 6);
-  static Vector reward(kRows);
-  static const std::vector<std::uint64_t> names(kRows, 7);
+/// What the parts write.
+struct Outputs {
+  Matrix mean{kRows, 4}, variance{kRows, 4}, U{kRows, 1}, features{kRows, 6};
+  Vector reward{kRows};
+};
+
+std::vector<Part> parts_of(const Setup& s, Outputs& out) {
   const gp::Posterior& gp = s.model->posterior();
   const Matrix Theta = s.Theta.leftCols(kRows).transpose();
   const prior::Prior& prior = s.prior;
   const Vector phi = prior.space.values();
+  const std::vector<std::uint64_t> names(kRows, 7);
   return {
       {"rollout", [&] { imagine(s, serial_evaluator()); }},
       {"products", Products(gp, kRows)},
       {"wide_products", Products(gp, gp::kChunk)},
       {"dtrmm", Dtrmm(gp)},
-      chunked("gp", [&] { gp.predict(s.inputs, mean, variance); }),
-      chunked("gp_mean", [&] { gp.predict_mean(s.inputs, mean); }),
-      chunked("features", [&] { s.features.apply(s.X, features); }),
-      chunked("policy", [&, Theta] { s.pendubot.policy->act(Theta, s.X, 0, U); }),
-      chunked("prior", [&, phi] { prior.mean(s.X, s.U, phi, mean); }),
-      chunked("reward", [&] { s.pendubot.task.reward(s.X, s.U, s.X, reward); }),
-      chunked("normals", [&] { fill_normals(kKey, names.data(), names.data(), 3, mean); }),
+      chunked("gp", [&] { gp.predict(s.inputs, out.mean, out.variance); }),
+      chunked("correlations", Correlations(gp)),
+      chunked("gp_mean", [&] { gp.predict_mean(s.inputs, out.mean); }),
+      chunked("features", [&] { s.features.apply(s.X, out.features); }),
+      chunked("policy", [&, Theta] { s.pendubot.policy->act(Theta, s.X, 0, out.U); }),
+      chunked("prior", [&, phi] { prior.mean(s.X, s.U, phi, out.mean); }),
+      chunked("reward", [&] { s.pendubot.task.reward(s.X, s.U, s.X, out.reward); }),
+      chunked("normals", [&, names] { fill_normals(kKey, names.data(), names.data(), 3, out.mean); }),
   };
 }
 
@@ -181,11 +211,14 @@ double cpu_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Counters are ns of CPU time a state, and their ratios; the time is that of all rollouts of a generation.
+/// Arguments: training points; whether there is a prior. Counters: ns of CPU time a state (`gp` is mean and variance,
+/// `products` the triangular products of as many rows at a time as a rollout has, `wide_products` of as many as gp
+/// takes), and ratios: over the faster products; prior, policy, reward and normals together over the rollout.
 void parts(benchmark::State& state) {
   const bool with_prior = state.range(1) != 0;
   const Setup setup(state.range(0), with_prior);
-  const std::vector<Part> all = parts_of(setup);
+  Outputs outputs;
+  const std::vector<Part> all = parts_of(setup, outputs);
   std::vector<double> least(all.size(), std::numeric_limits<double>::infinity());
   for (auto _ : state) {
     for (std::size_t i = 0; i < all.size(); ++i) {
