@@ -208,7 +208,7 @@ function parameters(campaign: Campaign, style: (group: GroupKey) => Style): Chil
     const all = parameters.filter((one) => one.parameter === name)
     const truth = shown.find((one) => present(one.truth))?.truth
     const values = all.flatMap((one) => [...quartilePoints(one).flatMap(({ y, band }) => [y, ...(band ?? [])]), ...(present(one.truth) ? [one.truth] : [])])
-    const domain = extent(values)
+    const domain = extent(values, false, 0.2 * Math.max(...values.map(Math.abs))) // what is small should look small
     return [
       {
         title: `${name}, ${panelTitle(prior)}`,
@@ -239,13 +239,18 @@ function parameters(campaign: Campaign, style: (group: GroupKey) => Style): Chil
   }).element
 }
 
+const SHORTEST_S = 0.01
+
 function times(campaign: Campaign, style: (group: GroupKey) => Style): Child {
   const { times } = campaign
   if (times.length === 0) return null
-  const domain = (part: string) => {
-    const found = extent(times.filter((one) => one.part === part).flatMap((one) => quartilePoints(one).flatMap(({ y, band }) => [y, ...(band ?? [])])), true)
-    return found ? { domain: found } : {}
-  }
+  const floored = (one: Quartiles): Point[] =>
+    quartilePoints(one).map((p) => ({
+      ...p,
+      y: Math.max(p.y, SHORTEST_S),
+      ...(p.band ? { band: [Math.max(p.band[0], SHORTEST_S), Math.max(p.band[1], SHORTEST_S)] } : {}),
+    }))
+  const longest = Math.max(...times.flatMap((one) => floored(one).flatMap(({ y, band }) => [y, ...(band ?? [])])))
   const panel = (prior: string, part: 'model_s' | 'search_s', name: string): Panel => ({
     title: `${name}, ${panelTitle(prior)}`,
     draw: (width) =>
@@ -253,14 +258,14 @@ function times(campaign: Campaign, style: (group: GroupKey) => Style): Child {
         width,
         height: 220,
         x: { label: 'trial', whole: true },
-        y: { label: 'seconds', ...domain(part) },
-        series: inPanel(times.filter((one) => one.part === part), prior).map((one) => ({ ...style(one), points: quartilePoints(one) })),
+        y: { label: 'seconds', log: true, domain: [SHORTEST_S, Math.max(1, 1.2 * longest)] },
+        series: inPanel(times.filter((one) => one.part === part), prior).map((one) => ({ ...style(one), points: floored(one) })),
       }),
   })
   return figure({
     name: 'time-by-trial',
     title: 'Time to compute a trial',
-    about: 'Median and quartiles over the runs of searching the policy, and of learning the model.',
+    about: 'Median and quartiles over the runs, of searching the policy and of learning the model. Less than 10 ms is drawn as 10 ms.',
     legend: legendOf(campaign, style, { band: 0.16 }),
     panels: () => panelPriors(campaign).flatMap((prior) => [panel(prior, 'search_s', 'search'), panel(prior, 'model_s', 'model')]),
     table: () =>
@@ -325,7 +330,8 @@ function estimate({ estimate, low, high, count }: ClaimPart): string {
 }
 
 function runs({ summary }: Campaign): Child {
-  const columns = ['Run', 'Learner', 'Prior', 'Variant', 'Seed', 'State', 'Trials', 'Solved in trial', 'Best return']
+  const varies = summary.variants.some((variant) => variant !== '')
+  const columns = ['Run', 'Learner', 'Prior', ...(varies ? ['Variant'] : []), 'Seed', 'State', 'Trials', 'Solved in trial', 'Best return']
   const table = h(
     'table',
     {},
@@ -338,7 +344,7 @@ function runs({ summary }: Campaign): Child {
           'tr',
           {},
           h('th', { scope: 'row' }, h('code', {}, run.run)),
-          ...[run.learner, run.prior, run.variant].map((text) => h('td', {}, text)),
+          ...[run.learner, run.prior, ...(varies ? [run.variant] : [])].map((text) => h('td', {}, text)),
           h('td', { class: 'number' }, run.seed),
           h('td', {}, h('span', { class: `badge ${run.state}` }, run.state), run.reason ? h('small', {}, run.reason) : null),
           ...[run.trials, run.first_success, run.best_return].map((value) => h('td', { class: 'number' }, number(value))),

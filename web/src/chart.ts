@@ -49,6 +49,7 @@ type Drawn = SVGSVGElement & { cursor?: { line: SVGLineElement; x: (value: numbe
 export function chart(options: ChartOptions): SVGSVGElement {
   const { width, x, y, series, rule } = options
   const points = series.flatMap((one) => one.points.map((point) => ({ ...point, label: one.label })))
+  const powers = y.log ? powersOfTen(y.domain ?? points.map((point) => point.y)) : undefined
   const plot = Plot.plot({
     width,
     height: options.height ?? 240,
@@ -59,8 +60,8 @@ export function chart(options: ChartOptions): SVGSVGElement {
     insetLeft: 8,
     insetRight: 8,
     style: { fontSize: '12px', background: 'none', overflow: 'visible' },
-    x: { ...axis(x, width / 70), labelAnchor: 'center', labelArrow: 'none', ...(x.whole ? { tickFormat: wholeOnly } : x.log ? { tickFormat: String } : {}) },
-    y: { ...axis(y, 5), labelAnchor: 'top', labelArrow: 'none', grid: true, ...(y.percent ? { tickFormat: '.0%' } : y.log ? { tickFormat: powerOfTen } : {}) },
+    x: { ...axis(x, width / 70), labelAnchor: 'center', labelArrow: 'none', ...(x.whole ? { tickFormat: wholeOnly } : x.log ? { ticks: [...new Set(points.map((p) => p.x))], tickFormat: String } : {}) },
+    y: { ...axis(y, 5), labelAnchor: 'top', labelArrow: 'none', grid: true, ...(y.percent ? { tickFormat: '.0%' } : powers ? { ticks: powers, tickFormat: asPower } : {}) },
     marks: [
       ...series.flatMap(bands),
       rule ? ruleMarks(rule) : null,
@@ -115,11 +116,20 @@ function wholeOnly(value: number): string {
   return Number.isInteger(value) ? String(value) : ''
 }
 
-/** 0.001 is 10⁻³; between powers there is no label. */
-function powerOfTen(value: number): string {
+/** At most six powers of ten among these numbers; undefined, which leaves it to Plot, without two. */
+function powersOfTen(values: number[]): number[] | undefined {
+  const exponents = values.filter((value) => value > 0).map(Math.log10)
+  const low = Math.ceil(Math.min(...exponents) - 1e-9)
+  const high = Math.floor(Math.max(...exponents) + 1e-9)
+  if (exponents.length === 0 || high <= low) return undefined
+  const step = Math.ceil((high - low + 1) / 6)
+  return Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, i) => 10 ** (low + i * step))
+}
+
+/** 0.001 is 10⁻³. */
+function asPower(value: number): string {
   const exponent = Math.round(Math.log10(value))
-  if (Math.abs(value / 10 ** exponent - 1) > 1e-9) return ''
-  if (Math.abs(exponent) <= 2) return String(10 ** exponent)
+  if (Math.abs(exponent) <= 2) return number(value, 2)
   return '10' + [...String(exponent)].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)])).join('')
 }
 

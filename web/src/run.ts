@@ -117,7 +117,7 @@ function parameters({ trials, truth = {} }: Run): Child {
     const points = pointsOf(trials, column)
     const series = [{ label: name, colour: PREDICTED, points, symbol: 'circle' as const }]
     const values = [...points.map(({ y }) => y), ...(present(known) ? [known] : [])]
-    const domain = extent(values, false, 0.2 * Math.max(...values.map(Math.abs)))  // what is small should look small
+    const domain = extent(values, false, 0.2 * Math.max(...values.map(Math.abs))) // what is small should look small
     return {
       title: name,
       draw: (width) =>
@@ -173,7 +173,7 @@ function errors({ errors, prior }: Run): Child {
     about: 'Error of its mean prediction of each trial over 1, 2, 5, … steps, before it was told of the trial: left one step, right the longest forecast.',
     legend: [
       { label: firstIs, colour: REAL, symbol: 'circle' },
-      ...(trials.length > 1 ? [{ label: `trials ${trials[1]} to ${trials.at(-1)}, light to dark`, colour: PREDICTED, symbol: 'circle' as const }] : []),
+      ...(trials.length > 1 ? [{ label: `trials ${trials[1]} to ${trials.at(-1)}, faint to strong`, colour: PREDICTED, symbol: 'circle' as const }] : []),
     ],
     panels: () => headers.map(panel),
     table: () => rowsOf(errors, Object.keys(errors)),
@@ -191,7 +191,7 @@ function evidence({ trials }: Run): Child {
     panels: () => [
       {
         title: '',
-        draw: (width) => chart({ width, x: TRIAL, y: { label: 'nats', ...fit(points) }, series: [{ label: 'log evidence', colour: PREDICTED, points, symbol: 'circle' }] }),
+        draw: (width) => chart({ width, height: 320, x: TRIAL, y: { label: 'nats', ...fit(points) }, series: [{ label: 'log evidence', colour: PREDICTED, points, symbol: 'circle' }] }),
       },
     ],
     table: () => rowsOf(trials, ['trial', 'log_evidence']),
