@@ -28,6 +28,10 @@ int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& ar
   violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
   violations.throw_if_any();
   const std::string text = experiment::read_file(arguments.file);
+  if (arguments.dry_run) {
+    print_plan(experiment::plan_campaign(catalogue, text, arguments.file));
+    return kSuccess;
+  }
   const std::string folder = arguments.out.value_or("runs/" + std::filesystem::path(arguments.file).stem().string());
 
   CampaignConsole console(folder);

@@ -119,7 +119,21 @@ void print_claims(const Campaign& campaign) {
   }
 }
 
+std::string headline(const experiment::CampaignPlan& plan) {
+  return fmt::format("{}: {} ({} × {}) of {}", plan.title, counted(plan.runs.size(), "run"),
+                     counted(plan.groups.size(), "group"), counted(plan.seeds.size(), "seed"),
+                     counted(static_cast<std::size_t>(plan.trials), "trial"));
+}
+
 }  // namespace
+
+void print_plan(const experiment::CampaignPlan& plan) {
+  fmt::print("{}\n", headline(plan));
+  for (const CampaignGroup& group : plan.groups) fmt::print("  {}\n", label_of(group));
+  for (const auto& [name, reason] : plan.missing) fmt::print("  missing: {}\n", reason);
+  if (!plan.claims.empty()) fmt::print("Claims\n");
+  for (const experiment::PlannedClaim& claim : plan.claims) fmt::print("  {}\n", claim.claim.text);
+}
 
 void CampaignConsole::started(const Campaign& campaign, Index at_once) {
   plan_ = campaign.plan;
@@ -128,9 +142,7 @@ void CampaignConsole::started(const Campaign& campaign, Index at_once) {
   failed_ = campaign.count(RunState::failed);
   for (std::size_t i = 0; i < campaign.runs.size(); ++i)
     if (campaign.runs[i].state == RunState::unfinished) left_[learner_of(i)] += plan_.trials - campaign.runs[i].done();
-  line_.print(fmt::format("{}: {} ({} × {}) of {} in {}", plan_.title, counted(plan_.runs.size(), "run"),
-                          counted(plan_.groups.size(), "group"), counted(plan_.seeds.size(), "seed"),
-                          counted(static_cast<std::size_t>(plan_.trials), "trial"), folder_));
+  line_.print(fmt::format("{} in {}", headline(plan_), folder_));
   for (const auto& [name, reason] : plan_.missing) line_.print(fmt::format("missing: {}", reason));
   for (const auto& [path, reason] : campaign.skipped) line_.print(fmt::format("skipped: {}: {}", path, reason));
   for (std::size_t i = 0; i < campaign.runs.size(); ++i)

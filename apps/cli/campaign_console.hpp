@@ -54,4 +54,7 @@ class CampaignConsole final : public experiment::CampaignListener {
   std::map<std::string, Cost> spent_;  // in runs that have ended
 };
 
+/// What a campaign would do.
+void print_plan(const experiment::CampaignPlan& plan);
+
 }  // namespace rehearse::apps

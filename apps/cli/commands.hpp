@@ -31,6 +31,7 @@ struct CampaignArguments {
   std::string file;
   std::optional<std::string> threads, out;
   bool check_claims = false;
+  bool dry_run = false;
 };
 
 struct ReportArguments {

@@ -94,6 +94,7 @@ CLI::App* add_campaign(CLI::App& app, CampaignArguments& arguments) {
       "The folder of the campaign; one that was begun is continued. Default: runs/ and the file's name", "DIR");
   add(command, "--threads", arguments.threads,
       "Threads to compute with in all, one a run where there are enough runs. Default: all cores", "K");
+  command->add_flag("--dry-run", arguments.dry_run, "Check the file and say what would be done, without doing it");
   command->add_flag("--check-claims", arguments.check_claims, "Exit with status 1 if a claim fails");
   command->footer(kCampaignExample);
   return command;

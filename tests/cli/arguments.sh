@@ -2,6 +2,7 @@
 # arguments.sh PROGRAM: what the command line accepts and refuses, with which exit code and words.
 set -u
 program=$(realpath "$1")
+campaigns=$(realpath "$(dirname "$0")/../../campaigns")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
@@ -98,6 +99,18 @@ cp $run/checkpoint again/checkpoint
 expect 2 "again" 1 resume again
 rm again/spec.toml
 expect 2 "it has no spec.toml" 1 resume again
+
+# Campaigns; what is wrong with a file is tested in the room, what running one does in tests/campaign.
+expect 0 "--check-claims" - campaign --help
+expect 2 "FILE is required" 1 campaign
+expect 2 "cannot read nothing.toml" 1 campaign nothing.toml
+expect 2 "--threads = 0, must be between 1 and" 1 campaign nothing.toml --threads 0
+printf 'format = 1\nscenario = "pendubot"\nlearners = "mi"\nseeds = 1\ntrails = 2\n[set]\nplant.b9 = 1\n' >wrong.toml
+expect 2 "wrong.toml: line 5: unknown key 'trails', did you mean 'trials'?" 2 campaign wrong.toml --out wrong
+expect 2 "wrong.toml: line 7: unknown option 'plant.b9', did you mean 'plant.b" 2 campaign wrong.toml --out wrong
+[ -e wrong ] && fail "a wrong campaign file leaves a folder"
+for file in "$campaigns"/*.toml; do expect 0 " runs (" - campaign "$file" --dry-run; done
+expect 2 "is not the folder of a campaign" 1 campaign "$campaigns/pendulum.toml" --out $run
 
 # Ctrl-C: 130, and the run can be resumed.
 "$program" learn pendubot --learner gp-mi --trials 2 --out stopped >stdout 2>stderr &
