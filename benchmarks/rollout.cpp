@@ -33,7 +33,7 @@ using namespace rehearse;
 
 constexpr Index kCandidates = 32 * 17;       // descents × population
 constexpr Index kStates = kCandidates * 50;  // of all their steps
-constexpr Index kRows = 32;                  // of a chunk of rollouts, see rollout/imagine.cpp
+constexpr Index kRows = 64;                  // of a chunk of rollouts, see rollout/imagine.cpp
 constexpr StreamKey kKey{.purpose = Purpose::imagined_noise};
 
 Vector random_theta(const policy::Policy& policy, Rng& rng) {

@@ -6,9 +6,10 @@
 namespace rehearse::rollout {
 namespace {
 
-// Fixed, so that results do not depend on the number of threads; small, so that the few candidates of a late generation
-// still occupy several threads.
-constexpr Index kChunk = 32;  // rows
+/// Rows of a chunk, by the size of the batch alone: each chunk reads the whole model at every step, which on a busy
+/// machine costs more than using it, so many; but so few that a late generation's candidates still occupy several
+/// threads.
+Index rows_of_chunk(Index batch) { return batch >= 512 ? 64 : 32; }
 
 /// Memory of a chunk, kept by each thread from one to the next: fresh pages cost more than a step of a cheap model.
 struct Buffers {
@@ -117,11 +118,11 @@ class Chunk {
 Imagined imagine(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
                  const ConstMatrixView& Theta, std::uint64_t first_candidate, Index particles, const StreamKey& key,
                  const ImagineOptions& options, const Evaluator& evaluator) {
-  const Index total = Theta.cols() * particles;
-  const Index chunks = (total + kChunk - 1) / kChunk;
-  Matrix results(kChunk + 1, chunks);  // returns, and how many failed
+  const Index total = Theta.cols() * particles, most = rows_of_chunk(total);
+  const Index chunks = (total + most - 1) / most;
+  Matrix results(most + 1, chunks);  // returns, and how many failed
   const auto task_of_chunk = [&](Index c, VectorView result) {
-    const Index first = c * kChunk, rows = std::min(kChunk, total - first);
+    const Index first = c * most, rows = std::min(most, total - first);
     Chunk chunk(model, policy, task, key, options, rows, buffers_of_this_thread());
     for (Index row = 0; row < rows; ++row) {
       const Index candidate = (first + row) / particles, particle = (first + row) % particles;
@@ -131,15 +132,15 @@ Imagined imagine(const dynamics::DynamicsModel& model, const policy::Policy& pol
     chunk.start();
     for (Index t = 0; t < task.horizon; ++t) chunk.step(t);
     result.head(rows) = chunk.returns();
-    result(kChunk) = static_cast<double>(chunk.failed());
+    result(most) = static_cast<double>(chunk.failed());
   };
   evaluator.evaluate(task_of_chunk, results);
 
   Imagined imagined{.returns = Matrix(particles, Theta.cols())};
   for (Index c = 0; c < chunks; ++c) {
-    const Index rows = std::min(kChunk, total - c * kChunk);
-    Vector::Map(imagined.returns.data() + c * kChunk, rows) = results.col(c).head(rows);
-    imagined.failed += static_cast<Index>(results(kChunk, c));
+    const Index rows = std::min(most, total - c * most);
+    Vector::Map(imagined.returns.data() + c * most, rows) = results.col(c).head(rows);
+    imagined.failed += static_cast<Index>(results(most, c));
   }
   return imagined;
 }

@@ -94,15 +94,15 @@ TEST(Imagine, SameBytesForAnyNumberOfThreads) {
 TEST(Imagine, ARolloutDoesNotDependOnItsBatch) {
   const Task task = cart::task();
   const Matrix Theta = cart::candidates(150);
-  const Imagined all = imagine_cart(task, Theta, 3, {}, cart::Model(0.01));
-  for (const Index j : {0, 42, 43, 85, 149}) {
-    const Matrix theta = Theta.col(j);
-    EXPECT_EQ(imagine_cart(task, theta, 3, {}, cart::Model(0.01), static_cast<std::uint64_t>(j)).returns,
-              all.returns.col(j))
-        << j;
-    EXPECT_EQ(imagine_cart(task, theta, 1, {}, cart::Model(0.01), static_cast<std::uint64_t>(j)).returns(0, 0),
-              all.returns(0, j))
-        << "fewer particles are the first ones";
+  for (const Index particles : {3, 4}) {  // 450 and 600 rollouts: small and large chunks
+    const Imagined all = imagine_cart(task, Theta, particles, {}, cart::Model(0.01));
+    for (const Index j : {0, 42, 43, 85, 149}) {
+      const Matrix theta = Theta.col(j);
+      const auto name = static_cast<std::uint64_t>(j);
+      EXPECT_EQ(imagine_cart(task, theta, particles, {}, cart::Model(0.01), name).returns, all.returns.col(j)) << j;
+      EXPECT_EQ(imagine_cart(task, theta, 1, {}, cart::Model(0.01), name).returns(0, 0), all.returns(0, j))
+          << "fewer particles are the first ones";
+    }
   }
 }
 
