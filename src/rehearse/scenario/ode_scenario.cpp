@@ -5,23 +5,33 @@
 
 namespace rehearse::scenario {
 
-Scenario make_ode_scenario(const OdeScenario& parts) {
+void OdeOptions::fields(FieldVisitor& v) {
+  v.number("start_noise", start_noise, at_least(0));
+  v.number("measurement_noise", measurement_noise, at_least(0));
+  v.number("box_low", box_low, at_least(0));
+  v.number("box_high", box_high, above(0));
+  v.integer("substeps", substeps, at_least(1));
+  policy.fields(v);
+}
+
+Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options) {
   const Task& task = parts.task;
   const auto simulator = [&](const ParameterSpace& parameters) {
     return system::make_ode_simulator(parts.kernel, parameters.fixed_at(parameters.values()), task.dt_s,
-                                      parts.substeps);
+                                      options.substeps);
   };
-  const system::OdePlantOptions plant{.ode = parts.kernel.ode(),
-                                      .phi = parts.plant.values(),
-                                      .dt_s = task.dt_s,
-                                      .start_mean = task.start_mean,
-                                      .start_std = task.start_std,
-                                      .measurement_std = Vector::Constant(task.state_size(), parts.measurement_noise)};
+  const system::OdePlantOptions plant{
+      .ode = parts.kernel.ode(),
+      .phi = parts.plant.values(),
+      .dt_s = task.dt_s,
+      .start_mean = task.start_mean,
+      .start_std = task.start_std,
+      .measurement_std = Vector::Constant(task.state_size(), options.measurement_noise)};
   Scenario scenario{.name = parts.name,
                     .task = task,
                     .make_plant = [plant] { return system::make_ode_plant(plant); },
                     .oracle = simulator(parts.plant),
-                    .policy = parts.policy,
+                    .policy = make_policy(options.policy, task, parts.policy_scale),
                     .drawing = parts.drawing};
   for (const Guess& guess : parts.guesses)
     scenario.priors.push_back({guess.name, simulator(guess.parameters), guess.parameters});

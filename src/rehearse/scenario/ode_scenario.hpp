@@ -6,10 +6,24 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/scenario/policy_options.hpp"
 #include "rehearse/scenario/scenario.hpp"
 #include "rehearse/system/ode.hpp"
 
 namespace rehearse::scenario {
+
+/// What can be set of every such scenario.
+struct OdeOptions {
+  double start_noise = 0;        // std of every state at the start
+  double measurement_noise = 0;  // std of every measured state
+  double box_low = 0.05;         // of the parameters that may be tuned
+  double box_high = 1.2;
+  Index substeps = 20;  // of priors and oracle in a control step
+  PolicyOptions policy;
+
+  Interval box() const { return {box_low, box_high}; }
+  void fields(FieldVisitor& v);
+};
 
 struct Guess {
   std::string name;
@@ -20,14 +34,12 @@ struct OdeScenario {
   std::string name;
   Task task;
   system::OdeKernel kernel;
-  ParameterSpace plant;          // all fixed, at the truth
-  double measurement_noise = 0;  // std of every measured state
+  ParameterSpace plant;  // all fixed, at the truth
   std::vector<Guess> guesses;
-  Index substeps = 20;  // of priors and oracle in a control step
-  std::shared_ptr<const policy::Policy> policy;
+  Vector policy_scale;  // what the policy's inputs are divided by, one a feature
   std::optional<Drawing> drawing;
 };
-Scenario make_ode_scenario(const OdeScenario& parts);
+Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options);
 
 /// For Task::solved: whether the whole horizon was run and every true state of its last `seconds` is as it should be.
 std::function<bool(const Episode&)> holds_at_the_end(const Task& task, double seconds,

@@ -5,34 +5,20 @@
 
 #include <gtest/gtest.h>
 
+#include "fixture.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/core/random.hpp"
 #include "rehearse/testing/check_policy.hpp"
 
 namespace rehearse::policy {
 namespace {
 
-const std::vector<Interval> kBounds = {{-3.5, 3.5}, {0.1, 0.3}};
-
-FeatureMap features() { return FeatureMap({StateKind::plain, StateKind::angle, StateKind::omitted}); }
-const Vector kScale{{10, 1, 2}};
+using fixture::features, fixture::inputs, fixture::kBounds, fixture::kScale, fixture::normals, fixture::task;
 
 std::shared_ptr<const Policy> mlp(Index hidden, double gain = 1) {
   return make_mlp({.features = features(), .scale = kScale, .hidden = hidden, .squash = {kBounds, gain}});
 }
 std::shared_ptr<const Policy> linear(double gain = 1) {
   return make_linear({.features = features(), .scale = kScale, .squash = {kBounds, gain}});
-}
-
-Matrix normals(Index rows, Index columns, std::uint64_t seed) {
-  Rng rng({.seed = seed});
-  Matrix numbers(rows, columns);
-  for (double& value : numbers.reshaped()) value = rng.normal();
-  return numbers;
-}
-
-Vector inputs(const Matrix& X, Index row) {
-  return Vector{{X(row, 0) / 10, std::cos(X(row, 1)), std::sin(X(row, 1)) / 2}};
 }
 
 /// One layer, weight by weight from `theta`, which is advanced.
@@ -84,17 +70,6 @@ TEST(Linear, IsItsFormula) {
     const double* theta = row.data();
     EXPECT_LT((U.row(r).transpose() - squash(layer(theta, inputs(X, r), 2), 0.7)).norm(), 1e-13);
   }
-}
-
-Task task() {
-  Task task;
-  task.states = {{"v", ""}, {"angle", "", StateKind::angle}, {"place", "", StateKind::omitted}};
-  task.actions = {{"a", "", kBounds[0]}, {"b", "", kBounds[1]}};
-  task.start_mean = Vector{{0, 1, 5}};
-  task.start_std = Vector::Zero(3);
-  task.dt_s = 0.1;
-  task.horizon = 10;
-  return task;
 }
 
 TEST(Network, KeepsTheLawsOfPolicies) {

@@ -5,22 +5,20 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "fixture.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/core/random.hpp"
 #include "rehearse/testing/check_policy.hpp"
 
 namespace rehearse::policy {
 namespace {
 
-const std::vector<Interval> kBounds = {{-3.5, 3.5}, {0.1, 0.3}};
+using fixture::features, fixture::inputs, fixture::kBounds, fixture::kScale, fixture::normals, fixture::task;
+
 constexpr double kNoise = 0.05;
 
 std::shared_ptr<const Policy> rbf(Index centres, std::vector<Interval> bounds = kBounds) {
-  return make_rbf({.features = FeatureMap({StateKind::plain, StateKind::angle, StateKind::omitted}),
-                   .scale = Vector{{10, 1, 2}},
-                   .centres = centres,
-                   .noise = kNoise,
-                   .bounds = std::move(bounds)});
+  return make_rbf(
+      {.features = features(), .scale = kScale, .centres = centres, .noise = kNoise, .bounds = std::move(bounds)});
 }
 
 /// The mean of a GP in textbook form; theta in the order that rbf.hpp says.
@@ -41,13 +39,6 @@ double mean(const Vector& theta, const Vector& x, Index centres, Index actions, 
   return kx.dot(K.fullPivLu().solve(targets));
 }
 
-Matrix normals(Index rows, Index columns, std::uint64_t seed) {
-  Rng rng({.seed = seed});
-  Matrix numbers(rows, columns);
-  for (double& value : numbers.reshaped()) value = rng.normal();
-  return numbers;
-}
-
 TEST(Rbf, IsItsFormula) {
   for (const Index centres : {1, 2, 10}) {
     for (const Index rows : {1, 3, 8, 17}) {
@@ -57,7 +48,7 @@ TEST(Rbf, IsItsFormula) {
       Matrix U(rows, 2);
       policy->act(Theta, X, 0, U);
       for (Index r = 0; r < rows; ++r) {
-        const Vector x{{X(r, 0) / 10, std::cos(X(r, 1)), std::sin(X(r, 1)) / 2}};
+        const Vector x = inputs(X, r);
         for (Index a = 0; a < 2; ++a) {
           const double m = mean(Theta.row(r), x, centres, 2, a);
           const auto [low, high] = kBounds[static_cast<std::size_t>(a)];
@@ -81,17 +72,6 @@ TEST(Rbf, PassesThroughItsTargetsWhereCentresAreFarApart) {
   }
 }
 
-Task task() {
-  Task task;
-  task.states = {{"v", ""}, {"angle", "", StateKind::angle}, {"place", "", StateKind::omitted}};
-  task.actions = {{"a", "", kBounds[0]}, {"b", "", kBounds[1]}};
-  task.start_mean = Vector{{0, 1, 5}};
-  task.start_std = Vector::Zero(3);
-  task.dt_s = 0.1;
-  task.horizon = 10;
-  return task;
-}
-
 TEST(Rbf, KeepsTheLawsOfPolicies) {
   for (const Index centres : {1, 10, 50})
     EXPECT_EQ(testing::check_policy(*rbf(centres), task()), std::vector<std::string>{}) << centres;
@@ -109,10 +89,9 @@ TEST(Rbf, StaysInItsBoundsForHugeParameters) {
 TEST(Rbf, SaysWhatIsWrong) {
   EXPECT_THROW(rbf(0), InvalidInput);
   EXPECT_THROW(rbf(10, {}), InvalidInput);
-  const FeatureMap features({StateKind::plain});
-  EXPECT_THROW(make_rbf({.features = features, .scale = Vector::Ones(2), .bounds = kBounds}), InvalidInput);
-  EXPECT_THROW(make_rbf({.features = features, .scale = Vector::Zero(1), .bounds = kBounds}), InvalidInput);
-  EXPECT_THROW(make_rbf({.features = features, .scale = Vector::Ones(1), .noise = 0, .bounds = kBounds}), InvalidInput);
+  EXPECT_THROW(make_rbf({.features = features(), .scale = Vector::Ones(2), .bounds = kBounds}), InvalidInput);
+  EXPECT_THROW(make_rbf({.features = features(), .scale = Vector::Zero(3), .bounds = kBounds}), InvalidInput);
+  EXPECT_THROW(make_rbf({.features = features(), .scale = kScale, .noise = 0, .bounds = kBounds}), InvalidInput);
 }
 
 }  // namespace

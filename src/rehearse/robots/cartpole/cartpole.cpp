@@ -7,7 +7,6 @@
 #include "rehearse/reward/saturating.hpp"
 #include "rehearse/robots/cartpole/kernel.hpp"
 #include "rehearse/scenario/builder.hpp"
-#include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::robots::cartpole {
 namespace {
@@ -41,7 +40,7 @@ Task make_task(const Options& options) {
   task.states = {{"x", "m"}, {"dx", "m/s"}, {"dtheta", "rad/s"}, {"theta", "rad", StateKind::angle}};
   task.actions = {{"u", "N", {-kForce, kForce}}};
   task.start_mean = Vector::Zero(4);
-  task.start_std = Vector::Constant(4, options.start_noise);
+  task.start_std = Vector::Constant(4, options.ode.start_noise);
   task.dt_s = options.dt_s;
   task.horizon = options.horizon;
   task.reward = reward::saturating(squared_tip_distance, kRewardWidth);
@@ -83,25 +82,18 @@ void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
   v.number("dt_s", dt_s, above(0));
   v.integer("horizon", horizon, at_least(1));
-  v.number("start_noise", start_noise, at_least(0));
-  v.number("measurement_noise", measurement_noise, at_least(0));
-  v.number("box_low", box_low, above(0));
-  v.number("box_high", box_high, above(0));
-  v.integer("substeps", substeps, at_least(1));
-  policy.fields(v);
+  ode.fields(v);
 }
 
 scenario::Scenario make(const Options& options) {
-  const Task task = make_task(options);
   return scenario::make_ode_scenario({.name = "cartpole",
-                                      .task = task,
+                                      .task = make_task(options),
                                       .kernel = kernel(),
                                       .plant = parameters(options.plant),
-                                      .measurement_noise = options.measurement_noise,
-                                      .guesses = guesses({options.box_low, options.box_high}),
-                                      .substeps = options.substeps,
-                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale),
-                                      .drawing = drawing(options.plant.l)});
+                                      .guesses = guesses(options.ode.box()),
+                                      .policy_scale = kPolicyScale,
+                                      .drawing = drawing(options.plant.l)},
+                                     options.ode);
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> builder() {

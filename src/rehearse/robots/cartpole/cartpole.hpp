@@ -5,8 +5,7 @@
 #include <memory>
 
 #include "rehearse/core/options.hpp"
-#include "rehearse/scenario/policy_options.hpp"
-#include "rehearse/scenario/scenario.hpp"
+#include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::robots::cartpole {
 
@@ -20,14 +19,9 @@ struct Physics {
 /// Of the authors' code, unless it says otherwise.
 struct Options {
   Physics plant;
-  double dt_s = 0.1;                // MC-PILCO (Amadio 2022): 0.05
-  Index horizon = 40;               // steps; MC-PILCO: 60
-  double start_noise = 0.001;       // std of every state at the start; MC-PILCO: 0.01
-  double measurement_noise = 0.01;  // std of every measured state
-  double box_low = 0.05;            // of the tunable m_pole, m_cart, l
-  double box_high = 1.2;
-  Index substeps = 20;  // of the priors' integrator in a control step
-  scenario::PolicyOptions policy;
+  double dt_s = 0.1;                                                          // MC-PILCO (Amadio 2022): 0.05
+  Index horizon = 40;                                                         // steps; MC-PILCO: 60
+  scenario::OdeOptions ode{.start_noise = 0.001, .measurement_noise = 0.01};  // MC-PILCO: 0.01, 0.01
   void fields(FieldVisitor& v);
 };
 

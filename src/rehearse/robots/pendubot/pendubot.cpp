@@ -7,7 +7,6 @@
 #include "rehearse/reward/saturating.hpp"
 #include "rehearse/robots/pendubot/kernel.hpp"
 #include "rehearse/scenario/builder.hpp"
-#include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::robots::pendubot {
 namespace {
@@ -68,7 +67,7 @@ Task make_task(const Options& options) {
                  {"theta2", "rad", StateKind::angle}};
   task.actions = {{"u", "N m", {-kTorque, kTorque}}};
   task.start_mean = Vector{{0, 0, std::numbers::pi, std::numbers::pi}};
-  task.start_std = Vector::Constant(4, options.start_noise);
+  task.start_std = Vector::Constant(4, options.ode.start_noise);
   task.dt_s = kDt;
   task.horizon = kHorizon;
   task.reward = reward::saturating(squared_tip_distance, kRewardWidth);
@@ -110,12 +109,7 @@ void Physics::fields(FieldVisitor& v) {
 
 void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
-  v.number("start_noise", start_noise, at_least(0));
-  v.number("measurement_noise", measurement_noise, at_least(0));
-  v.number("box_low", box_low, at_least(0));
-  v.number("box_high", box_high, above(0));
-  v.integer("substeps", substeps, at_least(1));
-  policy.fields(v);
+  ode.fields(v);
 }
 
 std::shared_ptr<const system::Simulator> make_simulator(const Physics& physics, double dt_s, Index substeps) {
@@ -123,16 +117,14 @@ std::shared_ptr<const system::Simulator> make_simulator(const Physics& physics, 
 }
 
 scenario::Scenario make(const Options& options) {
-  const Task task = make_task(options);
   return scenario::make_ode_scenario({.name = "pendubot",
-                                      .task = task,
+                                      .task = make_task(options),
                                       .kernel = kKernel,
                                       .plant = parameters(options.plant),
-                                      .measurement_noise = options.measurement_noise,
-                                      .guesses = guesses({options.box_low, options.box_high}),
-                                      .substeps = options.substeps,
-                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale),
-                                      .drawing = drawing(options.plant.l1, options.plant.l2)});
+                                      .guesses = guesses(options.ode.box()),
+                                      .policy_scale = kPolicyScale,
+                                      .drawing = drawing(options.plant.l1, options.plant.l2)},
+                                     options.ode);
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> builder() {

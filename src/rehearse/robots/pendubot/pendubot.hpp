@@ -5,8 +5,7 @@
 #include <string>
 
 #include "rehearse/core/options.hpp"
-#include "rehearse/scenario/policy_options.hpp"
-#include "rehearse/scenario/scenario.hpp"
+#include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::robots::pendubot {
 
@@ -19,12 +18,9 @@ struct Physics {
 
 struct Options {
   Physics plant;
-  double start_noise = 0;        // std of every state at the start (the authors' later code: 0.001)
-  double measurement_noise = 0;  // std of every measured state (the authors' later code: 0.01)
-  double box_low = 0.05;  // of the tunable m1, m2, l1, l2 (the authors' code: 0, where the mass matrix is singular)
-  double box_high = 1.2;  // (the authors' code: 1)
-  Index substeps = 20;    // of the priors' integrator in a control step
-  scenario::PolicyOptions policy{.policy_gain = 5};  // (the paper: 1; the authors' code: 5)
+  // The authors' later code: start_noise 0.001, measurement_noise 0.01. Their box is [0, 1], with a singular mass
+  // matrix at 0; the paper's policy_gain is 1, that of their code 5.
+  scenario::OdeOptions ode{.policy = {.policy_gain = 5}};
   void fields(FieldVisitor& v);
 };
 

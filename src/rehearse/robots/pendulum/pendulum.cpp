@@ -7,7 +7,6 @@
 #include "rehearse/reward/saturating.hpp"
 #include "rehearse/robots/pendulum/kernel.hpp"
 #include "rehearse/scenario/builder.hpp"
-#include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::robots::pendulum {
 namespace {
@@ -39,7 +38,7 @@ Task make_task(const Options& options) {
   task.states = {{"dtheta", "rad/s"}, {"theta", "rad", StateKind::angle}};
   task.actions = {{"u", "N m", {-kTorque, kTorque}}};
   task.start_mean = Vector::Zero(2);
-  task.start_std = Vector::Constant(2, options.start_noise);
+  task.start_std = Vector::Constant(2, options.ode.start_noise);
   task.dt_s = kDt;
   task.horizon = kHorizon;
   task.reward = reward::saturating(squared_distance, kRewardWidth);
@@ -75,25 +74,18 @@ void Physics::fields(FieldVisitor& v) {
 
 void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
-  v.number("start_noise", start_noise, at_least(0));
-  v.number("measurement_noise", measurement_noise, at_least(0));
-  v.number("box_low", box_low, above(0));
-  v.number("box_high", box_high, above(0));
-  v.integer("substeps", substeps, at_least(1));
-  policy.fields(v);
+  ode.fields(v);
 }
 
 scenario::Scenario make(const Options& options) {
-  const Task task = make_task(options);
   return scenario::make_ode_scenario({.name = "pendulum",
-                                      .task = task,
+                                      .task = make_task(options),
                                       .kernel = kernel(),
                                       .plant = parameters(options.plant),
-                                      .measurement_noise = options.measurement_noise,
-                                      .guesses = guesses({options.box_low, options.box_high}),
-                                      .substeps = options.substeps,
-                                      .policy = scenario::make_policy(options.policy, task, kPolicyScale),
-                                      .drawing = drawing(options.plant.l)});
+                                      .guesses = guesses(options.ode.box()),
+                                      .policy_scale = kPolicyScale,
+                                      .drawing = drawing(options.plant.l)},
+                                     options.ode);
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> builder() {

@@ -4,8 +4,7 @@
 #include <memory>
 
 #include "rehearse/core/options.hpp"
-#include "rehearse/scenario/policy_options.hpp"
-#include "rehearse/scenario/scenario.hpp"
+#include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::robots::pendulum {
 
@@ -19,12 +18,7 @@ struct Physics {
 /// Of the authors' code.
 struct Options {
   Physics plant;
-  double start_noise = 0;        // std of every state at the start
-  double measurement_noise = 0;  // std of every measured state
-  double box_low = 0.1;          // of the tunable m, l
-  double box_high = 2.4;
-  Index substeps = 8;  // of the priors' integrator in a control step
-  scenario::PolicyOptions policy;
+  scenario::OdeOptions ode{.box_low = 0.1, .box_high = 2.4, .substeps = 8};
   void fields(FieldVisitor& v);
 };
 

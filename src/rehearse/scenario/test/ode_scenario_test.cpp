@@ -39,12 +39,27 @@ TEST(OdeScenario, PriorsKeepTheirValuesAndWhatMayBeTuned) {
 }
 
 TEST(OdeScenario, MeasurementsAreNoisyAndTheTruthIsNot) {
-  const auto plant = oscillator::make({.noise = 0.1}).make_plant();
+  oscillator::Options options;
+  options.ode.measurement_noise = 0.1;
+  const auto plant = oscillator::make(options).make_plant();
   Rng rng({});
   const Vector measured = plant->reset(rng);
   EXPECT_EQ(plant->truth(), (Vector{{1, 0}}));
   EXPECT_NE(measured(0), 1);
   EXPECT_NE(measured(1), 0);
+}
+
+TEST(OdeScenario, OptionsReachTheirParts) {
+  oscillator::Options options;
+  for (const auto& [name, text] : {std::pair{"start_noise", "0.2"}, {"box_low", "1.5"}, {"policy", "linear"}})
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { options.fields(v); }, name, text)) << name;
+  const Scenario s = oscillator::make(options);
+  EXPECT_EQ(s.task.start_std, (Vector{{0.2, 0.2}}));
+  EXPECT_EQ(s.priors[0].parameters[0].box.low, 1.5);
+  EXPECT_EQ(s.policy->name(), "linear");
+  Matrix U(1, 1);  // θ · (x / scale), squashed into [−2, 1]
+  s.policy->act(Matrix{{0, 0.3, 0}}, Matrix{{0, 4}}, 0, U);
+  EXPECT_NEAR(U(0, 0), -0.5 + 1.5 * std::tanh(0.6), 1e-14);
 }
 
 TEST(HoldsAtTheEnd, LooksAtEveryStateOfTheLastSeconds) {

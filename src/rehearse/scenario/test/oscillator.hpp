@@ -2,7 +2,6 @@
 // A scenario with one option: an oscillator x'' = −ω² x + u with states (x, x').
 
 #include "rehearse/core/options.hpp"
-#include "rehearse/policy/network.hpp"
 #include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::scenario::oscillator {
@@ -10,11 +9,11 @@ namespace rehearse::scenario::oscillator {
 struct Options {
   double omega = 3;
   Index horizon = 5;
-  double noise = 0;
+  OdeOptions ode{.box_low = 1, .box_high = 5};
   void fields(FieldVisitor& v) {
     v.number("omega", omega, above(0));
     v.integer("horizon", horizon, at_least(1));
-    v.number("noise", noise, at_least(0));
+    ode.fields(v);
   }
 };
 
@@ -41,7 +40,7 @@ inline Task task(const Options& options) {
   task.states = {{"x", "m"}, {"dx", "m/s"}};
   task.actions = {{"u", "N", {-2, 1}}};
   task.start_mean = Vector{{1, 0}};
-  task.start_std = Vector::Zero(2);
+  task.start_std = Vector::Constant(2, options.ode.start_noise);
   task.dt_s = 0.1;
   task.horizon = options.horizon;
   task.reward = [](const auto&, const auto&, const auto&, VectorView rewards) { rewards.setZero(); };
@@ -54,10 +53,9 @@ inline Scenario make(const Options& options) {
        .task = task(options),
        .kernel = {derivative, change},
        .plant = parameters(options.omega),
-       .measurement_noise = options.noise,
-       .guesses = {{"slow", parameters(2).tunable_in({1, 5}, {"omega"})}, {"fast", parameters(4)}},
-       .policy = policy::make_linear(
-           {.features = task(options).feature_map(), .scale = Vector::Ones(2), .squash = {{{-2, 1}}, 1}})});
+       .guesses = {{"slow", parameters(2).tunable_in(options.ode.box(), {"omega"})}, {"fast", parameters(4)}},
+       .policy_scale = Vector{{1, 2}}},
+      options.ode);
 }
 
 }  // namespace rehearse::scenario::oscillator

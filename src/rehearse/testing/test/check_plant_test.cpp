@@ -57,8 +57,8 @@ std::string check(Fault fault) {
 TEST(CheckPlant, AcceptsGoodOnes) {
   EXPECT_EQ(check(Fault::none), "");
   robots::pendubot::Options noisy;
-  noisy.start_noise = 0.1;
-  noisy.measurement_noise = 0.01;
+  noisy.ode.start_noise = 0.1;
+  noisy.ode.measurement_noise = 0.01;
   for (const auto& options : {robots::pendubot::Options{}, noisy}) {
     const auto scenario = robots::pendubot::make(options);
     EXPECT_EQ(check_plant(scenario.make_plant, scenario.task), std::vector<std::string>{});

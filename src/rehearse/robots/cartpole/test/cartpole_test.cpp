@@ -38,7 +38,7 @@ TEST(Cartpole, DerivativeIsThePublishedEquation) {
 
 /// Error of a control step of the simulator, at every state that 100 random policies reach.
 double worst_error(Options options) {
-  options.start_noise = options.measurement_noise = 0;
+  options.ode.start_noise = options.ode.measurement_noise = 0;
   const scenario::Scenario s = make(options);
   const Dataset data = testing::random_episodes(s, 100);
   EXPECT_GT(data.states.col(2).cwiseAbs().maxCoeff(), 10) << "the episodes must visit fast motions";
@@ -56,8 +56,8 @@ TEST(Cartpole, SimulatorIsWithin2e6OfTheAdaptiveIntegratorEverywhere) {
 
 TEST(Cartpole, KeepsTheLaws) {
   Options rbf;
-  rbf.policy.policy = scenario::PolicyOptions::Kind::rbf;
-  for (const Options& options : {Options{}, Options{.dt_s = 0.05, .horizon = 60, .start_noise = 0.01}, rbf})
+  rbf.ode.policy.policy = scenario::PolicyOptions::Kind::rbf;
+  for (const Options& options : {Options{}, Options{.dt_s = 0.05, .horizon = 60}, rbf})
     EXPECT_EQ(testing::check_scenario(make(options)), std::vector<std::string>{});
 }
 

@@ -58,7 +58,7 @@ TEST(Pendubot, SimulatorIsWithin2e6OfTheAdaptiveIntegratorEverywhere) {
 
 TEST(Pendubot, KeepsTheLaws) {
   EXPECT_EQ(testing::check_scenario(make({})), std::vector<std::string>{});
-  EXPECT_EQ(testing::check_scenario(make({.start_noise = 0.001, .measurement_noise = 0.01})),
+  EXPECT_EQ(testing::check_scenario(make({.ode = {.start_noise = 0.001, .measurement_noise = 0.01}})),
             std::vector<std::string>{});
 }
 

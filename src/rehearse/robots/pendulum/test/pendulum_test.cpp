@@ -37,9 +37,10 @@ TEST(Pendulum, SimulatorIsWithin2e6OfTheAdaptiveIntegratorEverywhere) {
 }
 
 TEST(Pendulum, KeepsTheLaws) {
-  Options noisy{.start_noise = 0.1, .measurement_noise = 0.01}, rbf, linear;
-  rbf.policy.policy = scenario::PolicyOptions::Kind::rbf;
-  linear.policy.policy = scenario::PolicyOptions::Kind::linear;
+  Options noisy, rbf, linear;
+  noisy.ode.start_noise = 0.1, noisy.ode.measurement_noise = 0.01;
+  rbf.ode.policy.policy = scenario::PolicyOptions::Kind::rbf;
+  linear.ode.policy.policy = scenario::PolicyOptions::Kind::linear;
   for (const Options& options : {Options{}, noisy, rbf, linear})
     EXPECT_EQ(testing::check_scenario(make(options)), std::vector<std::string>{});
 }
