@@ -8,7 +8,9 @@ function dataWhileDeveloping() {
     name: 'data-while-developing',
     apply: 'serve',
     transformIndexHtml: (html) =>
-      html.replace('REHEARSE_REPORT_DATA', () => readFileSync(process.env.REHEARSE_DATA, 'utf8').replaceAll('<', '\\u003c')),
+      html.replace('REHEARSE_REPORT_DATA', () =>
+        readFileSync(process.env.REHEARSE_DATA, 'utf8').replaceAll('<', '\\u003c'),
+      ),
   }
 }
 

@@ -62,8 +62,8 @@ truncate -s -9 "${runs[0]}/trials.csv"
 sed -i 's/^format = 1/format = 9/' "${runs[1]}/spec.toml"
 echo stray >campaign/runs/stray.txt
 "$program" report campaign 2>stderr >/dev/null
-for problem in "${runs[0]}/trials.csv: row 3 is cut short" "${runs[1]}/spec.toml: format 9 is that of another version" \
-  "campaign/runs/stray.txt: "; do
+for problem in "${runs[0]}/trials.csv: row 3 is cut short" \
+  "${runs[1]}/spec.toml: format 9 is that of another version" "campaign/runs/stray.txt: "; do
   grep -qF "rehearse: $problem" stderr || fail "the report does not say '$problem' but: $(cat stderr)"
 done
 [ "$(wc -l <stderr)" = 3 ] || fail "the report names other problems: $(cat stderr)"

@@ -60,8 +60,23 @@ export function chart(options: ChartOptions): SVGSVGElement {
     insetLeft: 8,
     insetRight: 8,
     style: { fontSize: '12px', background: 'none', overflow: 'visible' },
-    x: { ...axis(x, width / 70), labelAnchor: 'center', labelArrow: 'none', ...(x.whole ? { tickFormat: wholeOnly } : x.log ? { ticks: [...new Set(points.map((p) => p.x))], tickFormat: String } : {}) },
-    y: { ...axis(y, 5), labelAnchor: 'top', labelArrow: 'none', grid: true, ...(y.percent ? { tickFormat: '.0%' } : powers ? { ticks: powers, tickFormat: asPower } : {}) },
+    x: {
+      ...axis(x, width / 70),
+      labelAnchor: 'center',
+      labelArrow: 'none',
+      ...(x.whole
+        ? { tickFormat: wholeOnly }
+        : x.log
+          ? { ticks: [...new Set(points.map((p) => p.x))], tickFormat: String }
+          : {}),
+    },
+    y: {
+      ...axis(y, 5),
+      labelAnchor: 'top',
+      labelArrow: 'none',
+      grid: true,
+      ...(y.percent ? { tickFormat: '.0%' } : powers ? { ticks: powers, tickFormat: asPower } : {}),
+    },
     marks: [
       ...series.flatMap(bands),
       rule ? ruleMarks(rule) : null,
@@ -71,7 +86,8 @@ export function chart(options: ChartOptions): SVGSVGElement {
         Plot.pointer({
           x: 'x',
           y: 'y',
-          title: (p: Point & { label: string }) => `${p.label}\n${p.tip ?? `${x.label} ${number(p.x)}\n${number(p.y)}`}`,
+          title: (p: Point & { label: string }) =>
+            `${p.label}\n${p.tip ?? `${x.label} ${number(p.x)}\n${number(p.y)}`}`,
           fill: 'var(--surface)',
           stroke: 'var(--muted)',
           fontSize: 12,
@@ -93,14 +109,27 @@ export function moveCursor(svg: SVGSVGElement, x: number) {
   cursor.line.setAttribute('x2', at)
 }
 
-/** The interval that holds all of these (and zero), a little wider, and at least `span` wide; undefined without any. */
-export function extent(values: number[], zero = false, span = 0): [number, number] | undefined {
+export interface Domain {
+  domain?: [number, number]
+}
+
+/**
+ * The interval that holds all of these, a little wider. zero: zero, too. span: at least so wide, relative to the largest,
+ * so that what is small looks small.
+ */
+export function fit(values: number[], { zero = false, span = 0 } = {}): Domain {
   const finite = values.filter(Number.isFinite)
-  if (finite.length === 0) return undefined
+  if (finite.length === 0) return {}
   const low = Math.min(...finite, zero ? 0 : Infinity)
   const high = Math.max(...finite, zero ? 0 : -Infinity)
-  const room = Math.max(0.04 * (high - low), (span - (high - low)) / 2) || Math.abs(high) * 0.1 || 1
-  return [zero && low === 0 ? 0 : low - room, high + room]
+  const largest = Math.max(Math.abs(low), Math.abs(high))
+  const room = Math.max(0.04 * (high - low), (span * largest - (high - low)) / 2) || 0.1 * largest || 1
+  return { domain: [zero && low === 0 ? 0 : low - room, high + room] }
+}
+
+/** What a series draws up and down. */
+export function heights({ points }: { points: Point[] }): number[] {
+  return points.flatMap(({ y, band }) => [y, ...(band ?? [])])
 }
 
 function axis(of: ChartOptions['x'] | ChartOptions['y'], ticks: number): Plot.ScaleOptions {
@@ -137,24 +166,63 @@ function bands({ colour, points }: Series): Plot.Markish[] {
   const area = (side: 'band' | 'core', fillOpacity: number) => {
     const some = points.filter((point) => point[side])
     if (some.length === 0) return null
-    return Plot.areaY(some, { x: 'x', y1: (p: Point) => p[side]?.[0], y2: (p: Point) => p[side]?.[1], fill: colour, fillOpacity, clip: true })
+    return Plot.areaY(some, {
+      x: 'x',
+      y1: (p: Point) => p[side]?.[0],
+      y2: (p: Point) => p[side]?.[1],
+      fill: colour,
+      fillOpacity,
+      clip: true,
+    })
   }
   return [area('band', 0.16), area('core', 0.24)]
 }
 
-function lines({ colour, points, symbol, dash, width = 2, opacity = 1, radius = 3.5, line = true, held = false }: Series): Plot.Markish[] {
+function lines({
+  colour,
+  points,
+  symbol,
+  dash,
+  width = 2,
+  opacity = 1,
+  radius = 3.5,
+  line = true,
+  held = false,
+}: Series): Plot.Markish[] {
   const some = points.filter((point) => point.interval)
   const drawn = { x: 'x', y: 'y', stroke: colour, strokeOpacity: opacity }
   return [
     some.length > 0
-      ? Plot.ruleX(some, { x: 'x', y1: (p: Point) => p.interval?.[0], y2: (p: Point) => p.interval?.[1], stroke: colour, strokeOpacity: 0.55, strokeWidth: 2 })
+      ? Plot.ruleX(some, {
+          x: 'x',
+          y1: (p: Point) => p.interval?.[0],
+          y2: (p: Point) => p.interval?.[1],
+          stroke: colour,
+          strokeOpacity: 0.55,
+          strokeWidth: 2,
+        })
       : null,
-    line ? Plot.lineY(points, { ...drawn, clip: true, curve: held ? 'step-after' : 'linear', strokeWidth: width, ...(dash ? { strokeDasharray: dash } : {}) }) : null,
+    line
+      ? Plot.lineY(points, {
+          ...drawn,
+          clip: true,
+          curve: held ? 'step-after' : 'linear',
+          strokeWidth: width,
+          ...(dash ? { strokeDasharray: dash } : {}),
+        })
+      : null,
     ...(symbol
       ? [true, false].map((hollow) =>
           Plot.dot(
             points.filter((point) => (point.hollow ?? false) === hollow),
-            { ...drawn, symbol, r: radius, fillOpacity: opacity, strokeWidth: 1.5, fill: hollow ? 'var(--surface)' : colour },
+            {
+              ...drawn,
+              symbol,
+              r: radius,
+              fillOpacity: opacity,
+              strokeWidth: 1.5,
+              fill: hollow ? 'var(--surface)' : colour,
+            },
           ),
         )
       : []),

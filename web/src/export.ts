@@ -43,7 +43,10 @@ export function svgOf(title: string, panels: Drawn[], columns: number, legend: L
     style: 'color: #1b1f24',
     fill: 'currentColor',
   })
-  root.append(s('rect', { ...all, fill: '#ffffff' }), s('text', { x: MARGIN, y: 20, 'font-size': 15, 'font-weight': 600 }, title))
+  root.append(
+    s('rect', { ...all, fill: '#ffffff' }),
+    s('text', { x: MARGIN, y: 20, 'font-size': 15, 'font-weight': 600 }, title),
+  )
   root.append(drawnLegend(legend))
   panels.forEach((panel, i) => {
     const x = MARGIN + width * (i % across)
@@ -54,7 +57,9 @@ export function svgOf(title: string, panels: Drawn[], columns: number, legend: L
     copy.setAttribute('y', String(y + TITLE))
     root.append(s('text', { x, y: y + 14, 'font-weight': 600 }, panel.title), copy)
   })
-  return new XMLSerializer().serializeToString(root).replaceAll(/var\((--[\w-]+)\)/g, (_, name: string) => lightValue(name))
+  return new XMLSerializer()
+    .serializeToString(root)
+    .replaceAll(/var\((--[\w-]+)\)/g, (_, name: string) => lightValue(name))
 }
 
 function drawnLegend(legend: LegendEntry[]): SVGElement {

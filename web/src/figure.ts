@@ -63,7 +63,8 @@ export function figure(options: FigureOptions): Figure {
   }
   whenNear(grid, () => new ResizeObserver(() => requestAnimationFrame(fit)).observe(grid))
 
-  const saveSvg = () => download(`${options.name}.svg`, svgOf(options.title, panels, columns, options.legend ?? []), 'image/svg+xml')
+  const saveSvg = () =>
+    download(`${options.name}.svg`, svgOf(options.title, panels, columns, options.legend ?? []), 'image/svg+xml')
   const element = h(
     'figure',
     { id: options.name },
@@ -107,13 +108,28 @@ function heading(title: string, files: { label: string; save: () => void }[]): H
   )
 }
 
+interface TableOptions {
+  name: string
+  title: string
+  about?: Child
+  columns: string[]
+  /** The rows as they are shown. */
+  lines: HTMLElement[]
+  table: () => Row[]
+}
+
 /** A table with its title, that can be saved too. */
-export function tableFigure(name: string, title: string, about: Child, rows: () => Row[], table: HTMLElement): HTMLElement {
+export function tableFigure({ name, title, about, columns, lines, table }: TableOptions): HTMLElement {
+  const head = h('tr', {}, ...columns.map((column) => h('th', { scope: 'col' }, column)))
   return h(
     'figure',
     { id: name },
-    heading(title, [{ label: 'CSV', save: () => downloadCsv(name, rows()) }]),
+    heading(title, [{ label: 'CSV', save: () => downloadCsv(name, table()) }]),
     about ? h('figcaption', {}, about) : null,
-    h('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-label': title }, table),
+    h(
+      'div',
+      { class: 'scroll', tabindex: 0, role: 'region', 'aria-label': title },
+      h('table', {}, h('thead', {}, head), h('tbody', {}, ...lines)),
+    ),
   )
 }

@@ -5,7 +5,9 @@ export function number(value: Cell | undefined, digits = 4): string {
   if (!present(value)) return '–'
   if (Number.isInteger(value) && Math.abs(value) < 1e15) return value.toLocaleString('en').replaceAll(',', '\u202f')
   const size = Math.abs(value)
-  return size !== 0 && (size < 1e-3 || size >= 1e6) ? value.toExponential(digits - 2) : String(Number(value.toPrecision(digits)))
+  return size !== 0 && (size < 1e-3 || size >= 1e6)
+    ? value.toExponential(digits - 2)
+    : String(Number(value.toPrecision(digits)))
 }
 
 export function percent(value: Cell): string {

@@ -15,7 +15,8 @@ export function head(title: string, subtitle: Child): HTMLElement {
 /** Starts with what the reader's system prefers. */
 function themeButton(): HTMLElement {
   const prefersDark = matchMedia('(prefers-color-scheme: dark)')
-  const isDark = () => (document.documentElement.dataset['theme'] ?? (prefersDark.matches ? 'dark' : 'light')) === 'dark'
+  const isDark = () =>
+    (document.documentElement.dataset['theme'] ?? (prefersDark.matches ? 'dark' : 'light')) === 'dark'
   const button = h('button', { type: 'button', class: 'theme', onclick: () => set(isDark() ? 'light' : 'dark') })
   function set(theme?: string) {
     if (theme) document.documentElement.dataset['theme'] = theme
@@ -74,7 +75,11 @@ export function beside(...figures: Child[]): Child {
 }
 
 /** A choice of one, as radio buttons. */
-export function choice(label: string, options: [value: string, text: string][], chosen: (value: string) => void): HTMLElement {
+export function choice(
+  label: string,
+  options: [value: string, text: string][],
+  chosen: (value: string) => void,
+): HTMLElement {
   const name = `choice-${label.toLowerCase().replaceAll(/\W+/g, '-')}`
   return h(
     'fieldset',

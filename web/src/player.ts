@@ -1,13 +1,13 @@
 // One trial: the robot moving, and every state with what the model had expected, under one time slider.
-import { chart, extent, moveCursor, type Point, type Series } from './chart'
+import { chart, fit, heights, moveCursor, type Domain, type Point, type Series } from './chart'
 import { PREDICTED, REAL } from './colours'
 import { column, present, variables, withUnit, type Cell, type Columns, type Episode, type Variable } from './data'
 import { h } from './dom'
 import type { Row } from './export'
-import { figure, type Panel } from './figure'
+import { figure, type Figure, type Panel } from './figure'
 import { number } from './format'
 import type { LegendEntry } from './legend'
-import { stage } from './stage'
+import { stage, type Stage } from './stage'
 
 const SPEEDS = [0.25, 0.5, 1, 2]
 
@@ -15,114 +15,145 @@ const MEASURED = { symbol: 'circle', radius: 1.5, opacity: 0.5, line: false } as
 
 /** describe: what is said of a trial ("Return 21.9, solved."). */
 export function player(episodes: Episode[], start: Episode, describe: (trial: number) => string): HTMLElement {
-  let episode = start
-  let time = 0
-  let playing = false
-  let speed = 1
+  return new Player(episodes, start, describe).element
+}
 
-  const times = () => (column(episode.trajectory, 'time') ?? []).filter(present)
-  const end = () => times().at(-1) ?? 0
-  const step = () => times()[1] ?? 1
+class Player {
+  readonly element: HTMLElement
+  private episode: Episode
+  private time = 0
+  private playing = false
 
-  const motions = episodes.flatMap((one) => (one.motion ? [one.motion] : []))
-  const picture = motions.length > 0 ? stage(motions) : null
-  const states = figure({
-    name: 'trajectory',
-    title: 'States, action and reward of the trial',
-    about: 'Where the line leaves the band, the model was wrong about the robot.',
-    legend: legendOf(start),
-    panels: () => panelsOf(episode),
-    table: () => tableOf(episode),
-    minWidth: 280,
-    columns: 3,
-    afterDrawing: () => show(),
-  })
-
-  const slider = h('input', { type: 'range', min: 0, value: 0, step: 1, 'aria-label': 'Time', oninput: () => seek(Number(slider.value) * step()) })
-  const clock = h('output', { class: 'clock' })
-  const play = h('button', { type: 'button', class: 'play', onclick: () => toggle() })
-  const rate = h(
+  private readonly picture: Stage | null
+  private readonly states: Figure
+  private readonly slider = h('input', { type: 'range', min: 0, value: 0, step: 1, 'aria-label': 'Time' })
+  private readonly clock = h('output', { class: 'clock' })
+  private readonly play = h('button', { type: 'button', class: 'play', onclick: () => this.toggle(!this.playing) })
+  private readonly about = h('p', { class: 'about', 'aria-live': 'polite' })
+  private readonly trials: HTMLSelectElement
+  private readonly speed = h(
     'select',
-    { 'aria-label': 'Speed', onchange: () => (speed = Number(rate.value)) },
+    { 'aria-label': 'Speed' },
     ...SPEEDS.map((value) => h('option', { value, selected: value === 1 }, `${value}×`)),
   )
-  const choice = h(
-    'select',
-    { 'aria-label': 'Trial', onchange: () => choose(Number(choice.value)) },
-    ...episodes.map(({ trial }, i) => h('option', { value: i }, `Trial ${trial}`)),
-  )
-  const by = (way: number) => () => choose(Math.min(episodes.length - 1, Math.max(0, Number(choice.value) + way)))
-  const about = h('p', { class: 'about', 'aria-live': 'polite' })
 
-  function show() {
-    const frame = time / step()
-    slider.value = String(Math.round(frame))
-    slider.setAttribute('aria-valuetext', `${number(time, 3)} s`)
-    clock.value = `${time.toFixed(2)} / ${end().toFixed(2)} s`
-    for (const { svg } of states.drawn()) moveCursor(svg, time)
-    if (picture && episode.motion) picture.show(episode.motion, frame)
+  constructor(
+    private readonly episodes: Episode[],
+    start: Episode,
+    private readonly describe: (trial: number) => string,
+  ) {
+    this.episode = start
+    const motions = episodes.flatMap((one) => (one.motion ? [one.motion] : []))
+    this.picture = motions.length > 0 ? stage(motions) : null
+    this.states = this.stateFigure()
+    this.trials = h(
+      'select',
+      { 'aria-label': 'Trial', onchange: () => this.choose(Number(this.trials.value)) },
+      ...episodes.map(({ trial }, i) => h('option', { value: i }, `Trial ${trial}`)),
+    )
+    this.slider.addEventListener('input', () => this.seek(Number(this.slider.value) * this.step()))
+    this.element = h(
+      'div',
+      { class: 'player' },
+      this.controls(),
+      this.about,
+      this.picture ? h('div', { class: 'stage-frame' }, this.picture.element) : null,
+      this.states.element,
+    )
+    this.choose(episodes.indexOf(start))
+    this.toggle(false)
   }
-  function seek(to: number) {
-    time = Math.min(end(), Math.max(0, to))
-    show()
+
+  private stateFigure(): Figure {
+    return figure({
+      name: 'trajectory',
+      title: 'States, action and reward of the trial',
+      about: 'Where the line leaves the band, the model was wrong about the robot.',
+      legend: legendOf(this.episode),
+      panels: () => panelsOf(this.episode),
+      table: () => tableOf(this.episode),
+      minWidth: 280,
+      columns: 3,
+      afterDrawing: () => this.show(),
+    })
   }
-  function choose(index: number) {
-    episode = episodes[index] ?? episode
-    choice.value = String(index)
-    slider.max = String(Math.max(0, times().length - 1))
-    about.textContent = describe(episode.trial)
-    states.redraw()
-    picture?.element.classList.toggle('empty', !episode.motion)
-    seek(time)
-  }
-  function toggle(on = !playing) {
-    playing = on
-    play.textContent = playing ? '❚❚' : '▶'
-    play.setAttribute('aria-label', playing ? 'Pause' : 'Play')
-    if (!playing) return
-    if (time >= end()) time = 0
-    let last = performance.now()
-    const tick = (now: number) => {
-      if (!playing) return
-      seek(time + (speed * (now - last)) / 1000)
-      last = now
-      if (time >= end()) toggle(false)
-      else requestAnimationFrame(tick)
+
+  private controls(): HTMLElement {
+    const last = this.episodes.length - 1
+    const by = (label: string, sign: string, way: number) => {
+      const onclick = () => this.choose(Math.min(last, Math.max(0, Number(this.trials.value) + way)))
+      return h('button', { type: 'button', 'aria-label': label, onclick }, sign)
     }
-    requestAnimationFrame(tick)
-  }
-
-  choose(episodes.indexOf(start))
-  toggle(false)
-  return h(
-    'div',
-    { class: 'player' },
-    h(
+    return h(
       'div',
       { class: 'controls', role: 'group', 'aria-label': 'Replay' },
-      episodes.length > 1
-        ? h(
-            'div',
-            { class: 'choice' },
-            h('button', { type: 'button', onclick: by(-1), 'aria-label': 'Trial before' }, '‹'),
-            choice,
-            h('button', { type: 'button', onclick: by(1), 'aria-label': 'Next trial' }, '›'),
-          )
+      last > 0
+        ? h('div', { class: 'choice' }, by('Trial before', '‹', -1), this.trials, by('Next trial', '›', 1))
         : null,
-      play,
-      slider,
-      clock,
-      rate,
-    ),
-    about,
-    picture ? h('div', { class: 'stage-frame' }, picture.element) : null,
-    states.element,
-  )
+      this.play,
+      this.slider,
+      this.clock,
+      this.speed,
+    )
+  }
+
+  private times(): number[] {
+    return (column(this.episode.trajectory, 'time') ?? []).filter(present)
+  }
+  private end(): number {
+    return this.times().at(-1) ?? 0
+  }
+  private step(): number {
+    return this.times()[1] ?? 1
+  }
+
+  private show() {
+    const frame = this.time / this.step()
+    this.slider.value = String(Math.round(frame))
+    this.slider.setAttribute('aria-valuetext', `${number(this.time, 3)} s`)
+    this.clock.value = `${this.time.toFixed(2)} / ${this.end().toFixed(2)} s`
+    for (const { svg } of this.states.drawn()) moveCursor(svg, this.time)
+    if (this.episode.motion) this.picture?.show(this.episode.motion, frame)
+  }
+
+  private seek(time: number) {
+    this.time = Math.min(this.end(), Math.max(0, time))
+    this.show()
+  }
+
+  private choose(index: number) {
+    this.episode = this.episodes[index] ?? this.episode
+    this.trials.value = String(index)
+    this.slider.max = String(Math.max(0, this.times().length - 1))
+    this.about.textContent = this.describe(this.episode.trial)
+    this.picture?.element.classList.toggle('empty', !this.episode.motion)
+    this.states.redraw()
+    this.seek(this.time)
+  }
+
+  private toggle(playing: boolean) {
+    this.playing = playing
+    this.play.textContent = playing ? '❚❚' : '▶'
+    this.play.setAttribute('aria-label', playing ? 'Pause' : 'Play')
+    if (!playing) return
+    if (this.time >= this.end()) this.time = 0
+    requestAnimationFrame((now) => this.tick(now))
+  }
+
+  private tick(before: number) {
+    requestAnimationFrame((now) => {
+      if (!this.playing) return
+      this.seek(this.time + (Number(this.speed.value) * (now - before)) / 1000)
+      if (this.time >= this.end()) this.toggle(false)
+      else this.tick(now)
+    })
+  }
 }
 
 function legendOf({ trajectory, prediction }: Episode): LegendEntry[] {
   const entries: LegendEntry[] = [{ label: 'the robot', colour: REAL }]
-  if (trajectory && isNoisy(trajectory)) entries.push({ label: 'as measured', colour: REAL, symbol: 'circle', line: false })
+  if (trajectory && isNoisy(trajectory))
+    entries.push({ label: 'as measured', colour: REAL, symbol: 'circle', line: false })
   if (prediction)
     entries.push(
       { label: 'the model’s mean before the trial', colour: PREDICTED, dash: '6 3' },
@@ -156,7 +187,7 @@ function panelsOf({ trajectory, prediction }: Episode): Panel[] {
       }),
   })
   const recorded = (variable: Variable, held: boolean) =>
-    panel(variable, [{ ...line('real', REAL, times, column(trajectory, variable.name)), held }])
+    panel(variable, [{ ...line('robot', REAL, times, column(trajectory, variable.name)), held }])
   return [
     ...states.map((state) => panel(state, stateSeries(state, times, trajectory, prediction))),
     ...actions.map((action) => recorded(action, true)),
@@ -165,28 +196,34 @@ function panelsOf({ trajectory, prediction }: Episode): Panel[] {
 }
 
 /** Of what is drawn; but a prediction that runs away is cut, so that what happened stays readable. */
-function domainOf(series: Series[]): { domain?: [number, number] } {
-  const real = extent(series.flatMap((one) => (one.colour === REAL ? one.points.map((p) => p.y) : [])))
-  const all = extent(series.flatMap(({ points }) => points.flatMap((p) => [p.y, ...(p.band ?? [])])))
+function domainOf(series: Series[]): Domain {
+  const real = fit(series.filter(({ colour }) => colour === REAL).flatMap(heights)).domain
+  const all = fit(series.flatMap(heights)).domain
   if (!real || !all) return {}
   const room = 2 * (real[1] - real[0])
   return { domain: [Math.max(all[0], real[0] - room), Math.min(all[1], real[1] + room)] }
 }
 
-function stateSeries({ name }: Variable, times: Cell[], trajectory: Columns, prediction: Episode['prediction']): Series[] {
+function stateSeries(
+  { name }: Variable,
+  times: Cell[],
+  trajectory: Columns,
+  prediction: Episode['prediction'],
+): Series[] {
   const truth = column(trajectory, `true ${name}`) ?? []
   const measured = column(trajectory, name) ?? []
   const all: Series[] = []
   if (prediction) all.push(predictedSeries(name, prediction))
   if (isNoisy(trajectory)) all.push({ ...line('measured', REAL, times, measured), ...MEASURED })
-  all.push(line('real', REAL, times, truth.some(present) ? truth : measured))
+  all.push(line('robot', REAL, times, truth.some(present) ? truth : measured))
   return all
 }
 
 function predictedSeries(name: string, prediction: Columns): Series {
   const at = (part: string) => column(prediction, `${name} ${part}`) ?? []
   const [mean, low, lower, upper, high] = ['mean', '5%', '25%', '75%', '95%'].map(at)
-  const pair = (a: Cell | undefined, b: Cell | undefined): [number, number] | undefined => (present(a) && present(b) ? [a, b] : undefined)
+  const pair = (a: Cell | undefined, b: Cell | undefined): [number, number] | undefined =>
+    present(a) && present(b) ? [a, b] : undefined
   const points = (column(prediction, 'time') ?? []).flatMap((x, i): Point[] => {
     const y = mean?.[i]
     if (!present(x) || !present(y)) return []
@@ -194,7 +231,7 @@ function predictedSeries(name: string, prediction: Columns): Series {
     const core = pair(lower?.[i], upper?.[i])
     return [{ x, y, ...(band ? { band } : {}), ...(core ? { core } : {}) }]
   })
-  return { label: 'predicted mean', colour: PREDICTED, points, dash: '6 3', width: 1.5 }
+  return { label: 'model, mean', colour: PREDICTED, points, dash: '6 3', width: 1.5 }
 }
 
 function line(label: string, colour: string, times: Cell[], values: Cell[] | undefined): Series {

@@ -1,7 +1,17 @@
 // The page of one run, and that of one trial of it.
-import { chart, extent, type Point, type Series } from './chart'
+import { chart, fit, heights, type Point, type Series } from './chart'
 import { PREDICTED, REAL } from './colours'
-import { column, indexOfMax, parseHeader, present, withUnit, type Cell, type Columns, type Report, type Run } from './data'
+import {
+  column,
+  indexOfMax,
+  parseHeader,
+  present,
+  withUnit,
+  type Cell,
+  type Columns,
+  type Report,
+  type Run,
+} from './data'
 import { h, type Child } from './dom'
 import type { Row } from './export'
 import { figure, tableFigure, type Panel } from './figure'
@@ -32,7 +42,11 @@ export function runPage(report: Report, run: Run): Child[] {
 
 export function replayPage(report: Report, run: Run): Child[] {
   const trial = run.episodes[0]?.trial ?? 1
-  return [head(`${title(run)}: trial ${trial}`, subtitle(run)), problems(report), h('main', { class: 'replay' }, replay(run))]
+  return [
+    head(`${title(run)}: trial ${trial}`, subtitle(run)),
+    problems(report),
+    h('main', { class: 'replay' }, replay(run)),
+  ]
 }
 
 function title(run: Run): string {
@@ -60,9 +74,17 @@ function keyFigures({ trials, timings }: Run): Tile[] {
       ...(solved < 0 ? {} : { note: `after ${number(at('interaction_s', solved))} s on the robot` }),
     },
     all.length > 0 && { label: 'Best return', value: number(all[best]), note: `trial ${at('trial', best)}` },
-    { label: 'Time on the robot', value: `${number(trials['interaction_s']?.at(-1) ?? 0)} s`, note: count(all.length, 'trial') },
+    {
+      label: 'Time on the robot',
+      value: `${number(trials['interaction_s']?.at(-1) ?? 0)} s`,
+      note: count(all.length, 'trial'),
+    },
     timings && { label: 'Time to compute', value: duration(seconds) },
-    { label: 'Imagined episodes', value: number(sum(trials['rollouts'])), note: `${number(sum(trials['failed_rollouts']))} failed` },
+    {
+      label: 'Imagined episodes',
+      value: number(sum(trials['rollouts'])),
+      note: `${number(sum(trials['failed_rollouts']))} failed`,
+    },
   ].filter((tile): tile is Tile => Boolean(tile))
 }
 
@@ -73,12 +95,14 @@ function returns({ trials }: Run): Child {
   const predicted = pointsOf(trials, 'predicted_return')
   const series: Series[] = [
     { label: 'predicted', colour: PREDICTED, points: predicted, dash: '6 3', symbol: 'square' },
-    { label: 'on the robot', colour: REAL, points: real, symbol: 'circle' },
+    { label: 'robot', colour: REAL, points: real, symbol: 'circle' },
   ]
   return figure({
     name: 'returns-by-trial',
     title: 'Return, predicted and real',
-    about: 'Before each trial the model says what return it expects of the policy. The closer the two, the better it knows the robot.',
+    about:
+      'Before each trial the model says what return it expects of the policy. ' +
+      'The closer the two, the better it knows the robot.',
     legend: [
       { label: 'on the robot, solved', colour: REAL, symbol: 'circle' },
       { label: 'on the robot, not solved', colour: REAL, symbol: 'circle', hollow: true },
@@ -87,7 +111,14 @@ function returns({ trials }: Run): Child {
     panels: () => [
       {
         title: '',
-        draw: (width) => chart({ width, height: 300, x: TRIAL, y: { label: 'return', ...fit([...real, ...predicted], true) }, series }),
+        draw: (width) =>
+          chart({
+            width,
+            height: 300,
+            x: TRIAL,
+            y: { label: 'return', ...fit(series.flatMap(heights), { zero: true }) },
+            series,
+          }),
       },
     ],
     table: () => rowsOf(trials, ['trial', 'interaction_s', 'return', 'solved', 'predicted_return']),
@@ -104,7 +135,8 @@ function replay(run: Run): Child {
     const value = (name: string) => run.trials?.[name]?.[trial - 1]
     const expected = present(value('predicted_return')) ? `, ${number(value('predicted_return'))} predicted` : ''
     const solved = value('solved')
-    return `Return ${number(value('return'))}${expected}${present(solved) ? (solved === 1 ? ', solved' : ', not solved') : ''}.`
+    const verdict = present(solved) ? (solved === 1 ? ', solved' : ', not solved') : ''
+    return `Return ${number(value('return'))}${expected}${verdict}.`
   })
 }
 
@@ -117,7 +149,6 @@ function parameters({ trials, truth = {} }: Run): Child {
     const points = pointsOf(trials, column)
     const series = [{ label: name, colour: PREDICTED, points, symbol: 'circle' as const }]
     const values = [...points.map(({ y }) => y), ...(present(known) ? [known] : [])]
-    const domain = extent(values, false, 0.2 * Math.max(...values.map(Math.abs))) // what is small should look small
     return {
       title: name,
       draw: (width) =>
@@ -125,7 +156,7 @@ function parameters({ trials, truth = {} }: Run): Child {
           width,
           height: 190,
           x: TRIAL,
-          y: { label: '', ...(domain ? { domain } : {}) },
+          y: { label: '', ...fit(values, { span: 0.2 }) },
           series,
           rule: present(known) ? { y: known, label: 'robot' } : null,
         }),
@@ -134,7 +165,9 @@ function parameters({ trials, truth = {} }: Run): Child {
   return figure({
     name: 'parameters-by-trial',
     title: 'Parameters of the prior',
-    about: 'The values with which the model chose each trial’s policy; in trial 1 those of the prior as given. Dashed: the robot’s own, where the scenario says them.',
+    about:
+      'With these values the model chose each trial’s policy; in trial 1 they are those of the prior as given. ' +
+      'Dashed: the robot’s own, where the scenario says them.',
     panels: () => names.map(panel),
     table: () => rowsOf(trials, ['trial', ...names]).map((row) => ({ ...row, ...prefixed('truth.', truth) })),
     minWidth: 220,
@@ -144,41 +177,44 @@ function parameters({ trials, truth = {} }: Run): Child {
 
 /** One panel a state, one line a trial. */
 function errors({ errors, prior }: Run): Child {
-  if (!errors || !errors['trial']?.length) return null
-  const headers = Object.keys(errors).filter((key) => key.startsWith('rms '))
-  const trials = [...new Set((errors['trial'] ?? []).filter(present))]
-  const first = trials[0] as number
-  const firstIs = first === 1 && prior ? 'trial 1: the prior as given' : `trial ${first}: the first model`
-  const series = (header: string): Series[] =>
-    trials.map((trial) => ({
-      label: `trial ${trial}`,
-      colour: trial === first ? REAL : PREDICTED,
-      opacity: trial === first ? 1 : 0.3 + (0.7 * trials.indexOf(trial)) / (trials.length - 1),
-      symbol: 'circle',
-      points: (errors['horizon'] ?? []).flatMap((x, i): Point[] => {
-        const y = errors[header]?.[i]
-        return errors['trial']?.[i] === trial && present(x) && present(y) && y > 0 ? [{ x, y }] : []
+  const trials = [...new Set((errors?.['trial'] ?? []).filter(present))]
+  if (!errors || !present(trials[0])) return null
+  const panel = (header: string): Panel => ({
+    title: withUnit(parseHeader(header.slice(4))),
+    draw: (width) =>
+      chart({
+        width,
+        x: { label: 'horizon (steps)', log: true },
+        y: { label: 'root mean square error', log: true },
+        series: trials.map((trial, i) => errorSeries(errors, header, trial, i / trials.length)),
       }),
-    }))
-  const panel = (header: string): Panel => {
-    const variable = parseHeader(header.slice(4))
-    return {
-      title: withUnit(variable),
-      draw: (width) => chart({ width, x: { label: 'horizon (steps)', log: true }, y: { label: 'root mean square error', log: true }, series: series(header) }),
-    }
-  }
+  })
+  const first = trials[0] === 1 && prior ? 'trial 1: the prior as given' : `trial ${trials[0]}: the first model`
+  const others = { label: `trials ${trials[1]} to ${trials.at(-1)}, faint to strong`, colour: PREDICTED }
   return figure({
     name: 'prediction-error',
     title: 'How wrong is the model?',
-    about: 'Error of its mean prediction of each trial over 1, 2, 5, … steps, before it was told of the trial: left one step, right the longest forecast.',
-    legend: [
-      { label: firstIs, colour: REAL, symbol: 'circle' },
-      ...(trials.length > 1 ? [{ label: `trials ${trials[1]} to ${trials.at(-1)}, faint to strong`, colour: PREDICTED, symbol: 'circle' as const }] : []),
-    ],
-    panels: () => headers.map(panel),
+    about:
+      'Error of its mean prediction of each trial over 1, 2, 5, … steps, before it was told of the trial: ' +
+      'left one step, right the longest forecast.',
+    legend: [{ label: first, colour: REAL }, ...(trials.length > 1 ? [others] : [])],
+    panels: () =>
+      Object.keys(errors)
+        .filter((header) => header.startsWith('rms '))
+        .map(panel),
     table: () => rowsOf(errors, Object.keys(errors)),
     minWidth: 260,
   }).element
+}
+
+/** age: 0 is the first trial, which stands out. */
+function errorSeries(errors: Columns, header: string, trial: number, age: number): Series {
+  const points = (errors['horizon'] ?? []).flatMap((x, i): Point[] => {
+    const y = errors[header]?.[i]
+    return errors['trial']?.[i] === trial && present(x) && present(y) && y > 0 ? [{ x, y }] : []
+  })
+  const look = age === 0 ? { colour: REAL } : { colour: PREDICTED, opacity: 0.25 + 0.75 * age }
+  return { label: `trial ${trial}`, symbol: 'circle', points, ...look }
 }
 
 function evidence({ trials }: Run): Child {
@@ -191,7 +227,14 @@ function evidence({ trials }: Run): Child {
     panels: () => [
       {
         title: '',
-        draw: (width) => chart({ width, height: 320, x: TRIAL, y: { label: 'nats', ...fit(points) }, series: [{ label: 'log evidence', colour: PREDICTED, points, symbol: 'circle' }] }),
+        draw: (width) =>
+          chart({
+            width,
+            height: 320,
+            x: TRIAL,
+            y: { label: 'nats', ...fit(heights({ points })) },
+            series: [{ label: 'log evidence', colour: PREDICTED, points, symbol: 'circle' }],
+          }),
       },
     ],
     table: () => rowsOf(trials, ['trial', 'log_evidence']),
@@ -200,29 +243,20 @@ function evidence({ trials }: Run): Child {
 
 function times({ timings }: Run): Child {
   if (!timings?.['trial']?.length) return null
-  const model = pointsOf(timings, 'model_s')
-  const search = pointsOf(timings, 'search_s')
+  const series: Series[] = [
+    { label: 'search', colour: 'var(--green)', symbol: 'circle', points: pointsOf(timings, 'search_s') },
+    { label: 'model', colour: 'var(--purple)', symbol: 'square', points: pointsOf(timings, 'model_s') },
+  ]
   return figure({
     name: 'times',
     title: 'Time to compute',
     about: 'Learning the model, and searching a policy on it. Differs from run to run and machine to machine.',
-    legend: [
-      { label: 'search', colour: 'var(--green)', symbol: 'circle' },
-      { label: 'model', colour: 'var(--purple)', symbol: 'square' },
-    ],
+    legend: series,
     panels: () => [
       {
         title: '',
         draw: (width) =>
-          chart({
-            width,
-            x: TRIAL,
-            y: { label: 'seconds', ...fit([...model, ...search], true) },
-            series: [
-              { label: 'search', colour: 'var(--green)', points: search, symbol: 'circle' },
-              { label: 'model', colour: 'var(--purple)', points: model, symbol: 'square' },
-            ],
-          }),
+          chart({ width, x: TRIAL, y: { label: 'seconds', ...fit(series.flatMap(heights), { zero: true }) }, series }),
       },
     ],
     table: () => rowsOf(timings, Object.keys(timings)),
@@ -231,19 +265,25 @@ function times({ timings }: Run): Child {
 
 function rollouts({ trials }: Run): Child {
   if (!trials?.['rollouts']?.length) return null
-  const series = [
-    { label: 'imagined', colour: 'var(--green)', symbol: 'circle' as const, points: pointsOf(trials, 'rollouts') },
-    { label: 'failed', colour: REAL, symbol: 'cross' as const, points: pointsOf(trials, 'failed_rollouts') },
+  const series: Series[] = [
+    { label: 'imagined', colour: 'var(--green)', symbol: 'circle', points: pointsOf(trials, 'rollouts') },
+    { label: 'failed', colour: REAL, symbol: 'cross', points: pointsOf(trials, 'failed_rollouts') },
   ]
   return figure({
     name: 'rollouts',
     title: 'Imagined episodes',
     about: 'How many the search needed, and how many ended because a simulation failed.',
-    legend: series.map(({ label, colour, symbol }) => ({ label, colour, symbol })),
+    legend: series,
     panels: () => [
       {
         title: '',
-        draw: (width) => chart({ width, x: TRIAL, y: { label: 'episodes', ...fit(series.flatMap(({ points }) => points), true) }, series }),
+        draw: (width) =>
+          chart({
+            width,
+            x: TRIAL,
+            y: { label: 'episodes', ...fit(series.flatMap(heights), { zero: true }) },
+            series,
+          }),
       },
     ],
     table: () => rowsOf(trials, ['trial', 'rollouts', 'failed_rollouts']),
@@ -253,13 +293,14 @@ function rollouts({ trials }: Run): Child {
 function notes({ notes }: Run): Child {
   if (!notes?.trial.length) return null
   const rows = notes.trial.map((trial, i) => ({ trial, note: notes.note[i] ?? '' }))
-  const table = h(
-    'table',
-    {},
-    h('thead', {}, h('tr', {}, h('th', { scope: 'col' }, 'Trial'), h('th', { scope: 'col' }, 'What happened'))),
-    h('tbody', {}, ...rows.map(({ trial, note }) => h('tr', {}, h('td', {}, trial), h('td', {}, note)))),
-  )
-  return tableFigure('notes', 'Numerical failures that were survived', null, () => rows, table)
+  const lines = rows.map(({ trial, note }) => h('tr', {}, h('td', {}, trial), h('td', {}, note)))
+  return tableFigure({
+    name: 'notes',
+    title: 'Numerical failures that were survived',
+    columns: ['Trial', 'What happened'],
+    lines,
+    table: () => rows,
+  })
 }
 
 function options({ options }: Run): Child {
@@ -268,8 +309,21 @@ function options({ options }: Run): Child {
     'details',
     {},
     h('summary', {}, `All ${options.length} options of this run`),
-    h('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-label': 'Options' },
-      h('table', {}, h('tbody', {}, ...options.map(([key, text]) => h('tr', {}, h('th', { scope: 'row' }, h('code', {}, key)), h('td', {}, text)))))),
+    h(
+      'div',
+      { class: 'scroll', tabindex: 0, role: 'region', 'aria-label': 'Options' },
+      h(
+        'table',
+        {},
+        h(
+          'tbody',
+          {},
+          ...options.map(([key, text]) =>
+            h('tr', {}, h('th', { scope: 'row' }, h('code', {}, key)), h('td', {}, text)),
+          ),
+        ),
+      ),
+    ),
   )
 }
 
@@ -281,16 +335,13 @@ function pointsOf(columns: Columns, name: string): Point[] {
 }
 
 function rowsOf(columns: Columns, names: string[]): Row[] {
-  return (columns['trial'] ?? []).map((_, i) => Object.fromEntries(names.map((name) => [name, columns[name]?.[i] ?? null])))
+  return (columns['trial'] ?? []).map((_, i) =>
+    Object.fromEntries(names.map((name) => [name, columns[name]?.[i] ?? null])),
+  )
 }
 
 function prefixed(prefix: string, values: Record<string, number>): Row {
   return Object.fromEntries(Object.entries(values).map(([name, value]) => [prefix + name, value]))
-}
-
-function fit(points: Point[], zero = false): { domain?: [number, number] } {
-  const domain = extent(points.map(({ y }) => y), zero)
-  return domain ? { domain } : {}
 }
 
 function sum(cells: Cell[] | undefined): number {

@@ -82,7 +82,11 @@ function bodies(motion: Motion, ends: number[] | null, colour: string): SVGEleme
   if (!ends) return []
   return motion.bodies.map(({ name, width }, i) => {
     const [x1 = 0, y1 = 0, x2 = 0, y2 = 0] = ends.slice(4 * i, 4 * i + 4)
-    return s('line', { x1, y1: -y1, x2, y2: -y2, stroke: colour, 'stroke-width': width, 'stroke-linecap': 'round' }, s('title', {}, name))
+    return s(
+      'line',
+      { x1, y1: -y1, x2, y2: -y2, stroke: colour, 'stroke-width': width, 'stroke-linecap': 'round' },
+      s('title', {}, name),
+    )
   })
 }
 
@@ -91,7 +95,9 @@ function joints(motion: Motion, ends: number[] | null, size: number): SVGElement
   if (!ends) return []
   const fixed = motion.frames.every((frame) => frame[0] === motion.frames[0]?.[0] && frame[1] === motion.frames[0]?.[1])
   return motion.bodies.flatMap((_, i) =>
-    i === 0 && !fixed ? [] : [s('circle', { class: 'joint', cx: ends[4 * i] ?? 0, cy: -(ends[4 * i + 1] ?? 0), r: 0.011 * size })],
+    i === 0 && !fixed
+      ? []
+      : [s('circle', { class: 'joint', cx: ends[4 * i] ?? 0, cy: -(ends[4 * i + 1] ?? 0), r: 0.011 * size })],
   )
 }
 
@@ -126,7 +132,11 @@ function scaleBar(bounds: Bounds, size: number, length: number, unit: string): S
     'g',
     { class: 'scale' },
     s('path', { d: `M${x},${y - 0.01 * size}V${y}H${x + length}V${y - 0.01 * size}` }),
-    s('text', { x: x + length / 2, y: y - 0.025 * size, 'font-size': 0.035 * size, 'text-anchor': 'middle' }, `${length} ${unit}`),
+    s(
+      'text',
+      { x: x + length / 2, y: y - 0.025 * size, 'font-size': 0.035 * size, 'text-anchor': 'middle' },
+      `${length} ${unit}`,
+    ),
   )
 }
 

@@ -1,5 +1,6 @@
-// browser.mjs CHROMIUM PACKAGES RUN.html REPLAY.html CAMPAIGN.html: a reader's way through real reports. Fails on anything that
-// a page says on the console, on any request, and on what it does not show. PACKAGES: the folder of node_modules.
+// browser.mjs CHROMIUM PACKAGES RUN.html REPLAY.html CAMPAIGN.html: a reader's way through real reports. Fails on
+// anything that a page says on the console, on any request, and on what it does not show. PACKAGES: the folder of
+// node_modules.
 import assert from 'node:assert/strict'
 import { readFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
@@ -11,7 +12,11 @@ const browser = await chromium.launch({ executablePath: chromiumPath, args: ['--
 
 /** Opens a page as a reader would and hands it to `visit`; nothing may have gone wrong when that ends. */
 async function open(file, settings, visit) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, acceptDownloads: true, ...settings })
+  const context = await browser.newContext({
+    viewport: { width: 1280, height: 900 },
+    acceptDownloads: true,
+    ...settings,
+  })
   const page = await context.newPage()
   const wrong = []
   page.on('console', (message) => wrong.push(`console: ${message.text()}`))
@@ -43,7 +48,8 @@ async function saved(page, name) {
   return readFileSync(await download.path(), 'utf8')
 }
 
-const cursors = (page) => page.locator('#trajectory line.cursor').evaluateAll((lines) => lines.map((line) => line.getAttribute('x1')))
+const cursors = (page) =>
+  page.locator('#trajectory line.cursor').evaluateAll((lines) => lines.map((line) => line.getAttribute('x1')))
 const robot = (page) => page.locator('.stage').innerHTML()
 
 /** The slider moves the robot and the cursors, by mouse and by keyboard. */
@@ -94,7 +100,11 @@ await open(replayPage, { colorScheme: 'dark' }, async (page) => {
 
 await open(campaignPage, { viewport: { width: 400, height: 800 } }, async (page) => {
   const problems = await page.locator('.problems li').allTextContents()
-  for (const name of ['stray.txt', 'trials.csv', 'another version']) assert.ok(problems.some((line) => line.includes(name)), `${name} is not named`)
+  for (const name of ['stray.txt', 'trials.csv', 'another version'])
+    assert.ok(
+      problems.some((line) => line.includes(name)),
+      `${name} is not named`,
+    )
   await page.locator('#return-by-interaction-time').scrollIntoViewIfNeeded()
   await page.getByRole('radio', { name: 'best so far' }).press('Space')
   await page.locator('#success-by-trial').scrollIntoViewIfNeeded()

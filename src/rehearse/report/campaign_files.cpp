@@ -69,7 +69,7 @@ void name_strangers(const fs::path& folder, const Json& summary, Problems& probl
   }
 }
 
-/// Numbers of a column by row; a cell without one is skipped by the caller.
+/// The cells of a column.
 std::vector<std::string> texts(const statistics::Table& table, std::string_view name) {
   const int position = table.column(name);
   if (position < 0) throw InvalidInput(fmt::format("there is no column {}", name));

@@ -1,0 +1,213 @@
+// Return, success, parameters and time, a panel for each prior and a line for each learner.
+import { chart, fit, heights, type Point, type Series } from './chart'
+import { present, type Campaign, type Group, type GroupTrial, type Quartiles, type SuccessRate } from './data'
+import type { Child } from './dom'
+import type { Row } from './export'
+import { figure, type Panel } from './figure'
+import { count, number, percent } from './format'
+import { inPanel, legendOf, medianPoint, medianPoints, panelPriors, panelTitle, type StyleOf } from './groups'
+import { choice } from './layout'
+
+const TRIAL = { label: 'trial', whole: true }
+
+export function returns(campaign: Campaign, style: StyleOf): Child {
+  const { groups } = campaign.summary
+  let measure: 'return' | 'best_return' = 'return'
+  const series = (group: Group): Series => ({
+    ...style(group),
+    points: group.trials.flatMap((one) => {
+      const at = `trial ${one.trial}, ${number(one.interaction_s)} s`
+      return medianPoint(one.interaction_s, one[measure], at, one.runs)
+    }),
+  })
+  const panel = (prior: string): Panel => {
+    const all = groups.map(series)
+    const x = {
+      label: 'time on the robot (s)',
+      ...fit(
+        all.flatMap(({ points }) => points.map((p) => p.x)),
+        { zero: true },
+      ),
+    }
+    const y = { label: 'return', ...fit(all.flatMap(heights), { zero: true }) }
+    return {
+      title: panelTitle(prior),
+      draw: (width) => chart({ width, height: 260, x, y, series: inPanel(groups, prior).map(series) }),
+    }
+  }
+  const measures: [string, string][] = [
+    ['return', 'of the trial'],
+    ['best_return', 'best so far'],
+  ]
+  const drawn = figure({
+    name: 'return-by-interaction-time',
+    title: 'Return against time on the robot',
+    about: 'Median and quartiles over the seeds.',
+    legend: legendOf(groups, style, { band: 0.16 }),
+    controls: choice('Return', measures, (value) => {
+      measure = value as typeof measure
+      drawn.redraw()
+    }),
+    panels: () => panelPriors(campaign).map(panel),
+    table: () =>
+      byTrial(groups, ({ trial, runs, interaction_s, return: now, best_return: best }) => ({
+        trial,
+        runs,
+        interaction_s,
+        ...prefixed('return_', now),
+        ...prefixed('best_return_', best),
+      })),
+    columns: 2,
+  })
+  return drawn.element
+}
+
+export function success(campaign: Campaign, style: StyleOf): Child {
+  const { groups, trials } = campaign.summary
+  if (!groups.some((group) => group.trials.some(({ solved_by }) => solved_by))) return null
+  let measure: 'solved_by' | 'solved' = 'solved_by'
+  const series = (group: Group, i: number, all: Group[]): Series => {
+    const shift = 0.12 * (i - (all.length - 1) / 2) // so that intervals stand beside each other
+    return { ...style(group), points: group.trials.flatMap((one) => ratePoint(one.trial, shift, one[measure])) }
+  }
+  const panel = (prior: string): Panel => ({
+    title: panelTitle(prior),
+    draw: (width) =>
+      chart({
+        width,
+        height: 260,
+        x: { ...TRIAL, domain: [0.5, trials + 0.5] },
+        y: { label: 'solved', percent: true, domain: [0, 1] },
+        series: inPanel(groups, prior).map(series),
+      }),
+  })
+  const measures: [string, string][] = [
+    ['solved_by', 'by this trial'],
+    ['solved', 'in this trial'],
+  ]
+  const drawn = figure({
+    name: 'success-by-trial',
+    title: 'Success rate by trial',
+    about: 'With 95 % intervals (Clopper and Pearson 1934). Runs that failed count as not solved.',
+    legend: legendOf(groups, style),
+    controls: choice('Solved', measures, (value) => {
+      measure = value as typeof measure
+      drawn.redraw()
+    }),
+    panels: () => panelPriors(campaign).map(panel),
+    table: () =>
+      byTrial(groups, ({ trial, solved, solved_by }) => ({
+        trial,
+        ...prefixed('solved_', solved),
+        ...prefixed('solved_by_', solved_by),
+      })),
+    columns: 2,
+  })
+  return drawn.element
+}
+
+function ratePoint(trial: number, shift: number, rate: SuccessRate | null): Point[] {
+  if (!rate || !present(rate.rate)) return []
+  const tip = [
+    `trial ${trial}`,
+    `${rate.count} of ${count(rate.runs, 'run')}, ${percent(rate.rate)}`,
+    `95 %: ${percent(rate.low)} … ${percent(rate.high)}`,
+  ].join('\n')
+  const known = present(rate.low) && present(rate.high)
+  const interval = known ? { interval: [rate.low, rate.high] as [number, number] } : {}
+  return [{ x: trial + shift, y: rate.rate, tip, ...interval }]
+}
+
+export function parameters({ parameters }: Campaign, style: StyleOf): Child {
+  if (parameters.length === 0) return null
+  const names = [...new Set(parameters.map(({ parameter }) => parameter))]
+  const priors = [...new Set(parameters.map(({ prior }) => prior))]
+  const panel = (prior: string, name: string): Panel[] => {
+    const all = parameters.filter((one) => one.parameter === name)
+    const shown = all.filter((one) => one.prior === prior)
+    if (shown.length === 0) return []
+    const truth = shown.find((one) => present(one.truth))?.truth
+    const values = [
+      ...all.flatMap((one) => heights({ points: medianPoints(one) })),
+      ...all.map((one) => one.truth).filter(present),
+    ]
+    return [
+      {
+        title: `${name}, ${panelTitle(prior)}`,
+        draw: (width) =>
+          chart({
+            width,
+            height: 190,
+            x: TRIAL,
+            y: { label: '', ...fit(values, { span: 0.2 }) },
+            series: shown.map((one) => ({ ...style(one), points: medianPoints(one) })),
+            rule: present(truth) ? { y: truth, label: 'robot' } : null,
+          }),
+      },
+    ]
+  }
+  return figure({
+    name: 'parameters-by-trial',
+    title: 'Identified parameters against the truth',
+    about:
+      'Median and quartiles of the values with which the model chose each trial’s policy. Dashed: the robot’s own.',
+    legend: legendOf(parameters, style, { band: 0.16 }),
+    panels: () => priors.flatMap((prior) => names.flatMap((name) => panel(prior, name))),
+    table: () => parameters.flatMap((one) => quartileRows(one, { parameter: one.parameter, truth: one.truth })),
+    minWidth: 220,
+    columns: names.length,
+  }).element
+}
+
+const SHORTEST_S = 0.01
+
+export function times(campaign: Campaign, style: StyleOf): Child {
+  const { times } = campaign
+  if (times.length === 0) return null
+  const longest = Math.max(1, ...times.flatMap((one) => heights({ points: medianPoints(one) })))
+  const panel = (prior: string, part: string, name: string): Panel => {
+    const shown = inPanel(times, prior).filter((one) => one.part === part)
+    const y = { label: 'seconds', log: true, domain: [SHORTEST_S, 1.2 * longest] as [number, number] }
+    const series = shown.map((one) => ({ ...style(one), points: medianPoints(one).map(notShorter) }))
+    return {
+      title: `${name}, ${panelTitle(prior)}`,
+      draw: (width) => chart({ width, height: 220, x: TRIAL, y, series }),
+    }
+  }
+  return figure({
+    name: 'time-by-trial',
+    title: 'Time to compute a trial',
+    about:
+      'Median and quartiles over the runs, of searching the policy and of learning the model. ' +
+      'Less than 10 ms is drawn as 10 ms.',
+    legend: legendOf(times, style, { band: 0.16 }),
+    panels: () =>
+      panelPriors(campaign).flatMap((prior) => [panel(prior, 'search_s', 'search'), panel(prior, 'model_s', 'model')]),
+    table: () => times.flatMap((one) => quartileRows(one, { part: one.part })),
+    minWidth: 260,
+    columns: 4,
+  }).element
+}
+
+/** Zero has no place on a logarithmic axis. */
+function notShorter(point: Point): Point {
+  const raised = (value: number) => Math.max(value, SHORTEST_S)
+  const band = point.band ? { band: [raised(point.band[0]), raised(point.band[1])] as [number, number] } : {}
+  return { ...point, y: raised(point.y), ...band }
+}
+
+function byTrial(groups: Group[], row: (trial: GroupTrial) => Row): Row[] {
+  return groups.flatMap(({ learner, prior, variant, trials }) =>
+    trials.map((trial) => ({ learner, prior, variant, ...row(trial) })),
+  )
+}
+
+function quartileRows({ learner, prior, variant, trials }: Quartiles, of: Row): Row[] {
+  return trials.map((quartiles) => ({ learner, prior, variant, ...of, ...quartiles }))
+}
+
+function prefixed(prefix: string, values: object | null): Row {
+  return Object.fromEntries(
+    Object.entries(values ?? {}).map(([name, value]: [string, Row[string]]) => [prefix + name, value]),
+  )
+}
