@@ -140,8 +140,8 @@ void CampaignConsole::started(const Campaign& campaign, Index at_once) {
   at_once_ = std::max<Index>(1, at_once);
   ended_ = campaign.count(RunState::done);
   failed_ = campaign.count(RunState::failed);
-  for (std::size_t i = 0; i < campaign.runs.size(); ++i)
-    if (campaign.runs[i].state == RunState::unfinished) left_[learner_of(i)] += plan_.trials - campaign.runs[i].done();
+  for (const RunOutcome& run : campaign.runs)
+    left_.push_back(run.state == RunState::unfinished ? plan_.trials - run.done() : 0);
   line_.print(fmt::format("{} in {}", headline(plan_), folder_));
   for (const auto& [name, reason] : plan_.missing) line_.print(fmt::format("missing: {}", reason));
   for (const auto& [path, reason] : campaign.skipped) line_.print(fmt::format("skipped: {}: {}", path, reason));
@@ -176,9 +176,9 @@ void CampaignConsole::run_ended(std::size_t run, const RunOutcome& outcome) {
     seconds = Seconds(Clock::now() - found->second.begin).count();
     spent.seconds += seconds;
     spent.trials += outcome.done() - found->second.before;
-    left_[learner_of(run)] -= plan_.trials - found->second.before;
     running_.erase(found);
   }
+  left_[run] = 0;
   ++(outcome.state == RunState::failed ? failed_ : ended_);
   line_.print(fmt::format("[{}/{}] {}  {}  in {}", ended_ + failed_, plan_.runs.size(), name_of(run),
                           outcome_text(outcome, plan_.trials), duration_text(seconds)));
@@ -222,10 +222,10 @@ std::optional<double> CampaignConsole::seconds_left() const {
   }
   if (all.trials == 0) return std::nullopt;
   double seconds = 0;
-  for (const auto& [learner, trials] : left_) {
-    const auto found = known.find(learner);
+  for (std::size_t run = 0; run < left_.size(); ++run) {
+    const auto found = known.find(learner_of(run));
     const Cost& cost = found != known.end() && found->second.trials > 0 ? found->second : all;
-    seconds += static_cast<double>(trials) * cost.seconds / static_cast<double>(cost.trials);
+    seconds += static_cast<double>(left_[run]) * cost.seconds / static_cast<double>(cost.trials);
   }
   for (const auto& [run, state] : running_) seconds -= Seconds(Clock::now() - state.begin).count();
   return std::max(0.0, seconds) / static_cast<double>(at_once_);

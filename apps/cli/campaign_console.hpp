@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/cli/status_line.hpp"
 #include "rehearse/experiment/campaign.hpp"
@@ -50,7 +51,7 @@ class CampaignConsole final : public experiment::CampaignListener {
   Index ended_ = 0;
   Index failed_ = 0;
   std::map<std::size_t, Running> running_;
-  std::map<std::string, Index> left_;  // trials to do, by learner
+  std::vector<Index> left_;            // trials to do, by run
   std::map<std::string, Cost> spent_;  // in runs that have ended
 };
 

@@ -14,9 +14,9 @@
 namespace rehearse::experiment {
 namespace {
 
-constexpr std::size_t kMaxRuns = 100000;
+constexpr std::size_t kMostRuns = 100000;
 
-using Options = std::vector<std::pair<std::string, std::string>>;
+using FileOptions = std::vector<FileOption>;
 
 /// The name without "PRIOR." in "prior.PRIOR.NAME".
 std::string without_prior(const std::string& key, const std::string& prior) {
@@ -36,9 +36,10 @@ bool has_option(const Spec& complete, const std::string& key) {
   return false;
 }
 
-std::string variant_name(const Options& varied) {
+std::string variant_name(const FileOptions& varied) {
   std::string name;
-  for (const auto& [key, text] : varied) name += fmt::format("{}{}={}", name.empty() ? "" : ",", key, text);
+  for (const FileOption& option : varied)
+    name += fmt::format("{}{}={}", name.empty() ? "" : ",", option.key, option.text);
   return name;
 }
 
@@ -50,6 +51,19 @@ std::string folder_name(const Spec& spec, const std::string& variant) {
     if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._,=+-").find(c) == std::string::npos)
       c = '_';
   return name + fmt::to_string(spec.seed);
+}
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
+    end = text.find('\n', begin);
+    lines.emplace_back(text.substr(begin, end - begin));
+  }
+  return lines;
+}
+
+bool is_among(const std::string& name, const std::vector<std::string>& names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 class Planner {
@@ -98,17 +112,6 @@ class Planner {
       for (const std::string& prior : no_prior ? std::vector<std::string>{""} : file_.priors) add_cell(name, prior);
   }
 
-  /// The complete spec, or nothing and violations at this line.
-  std::optional<Spec> resolved(Spec spec, const Options& options, Index line) {
-    spec.options = options;
-    try {
-      return resolve(catalogue_, spec).spec;
-    } catch (const InvalidInput& error) {
-      violations_.add(line, error.what());
-      return std::nullopt;
-    }
-  }
-
   /// All variants and seeds of one learner and prior.
   void add_cell(const std::string& learner, const std::string& prior) {
     const Spec bare = {.scenario = file_.scenario,
@@ -120,45 +123,71 @@ class Planner {
     if (!complete) return;
     for (const auto& [key, text] : complete->options)
       known_options_.push_back(key.starts_with("prior.") ? key : key.substr(key.find('.') + 1));
-    const std::optional<Options> options = common_options(bare, *complete);
-    const auto variants = all_variants(bare, *complete);
-    if (options && variants)
-      for (const Options& varied : *variants) add_group(bare, *options, varied);
+    const FileOptions options = common_options(*complete);
+    for (const FileOptions& varied : all_variants(*complete)) add_group(bare, options, varied);
   }
 
-  /// Of [set] what this cell has, and all of [learner.NAME]; nothing if one is wrong.
-  std::optional<Options> common_options(const Spec& bare, const Spec& complete) {
-    Options options;
-    bool right = true;
-    const auto add = [&](const FileOption& option) {
-      right = resolved(bare, {{option.key, option.text}}, option.line).has_value() && right;
-      options.emplace_back(option.key, option.text);
-    };
+  /// The complete spec, or nothing and violations, at the line of the option that causes each.
+  std::optional<Spec> resolved(const Spec& bare, const FileOptions& options, Index line_without_options) {
+    try {
+      return resolve(catalogue_, with_options(bare, options)).spec;
+    } catch (const InvalidInput& error) {
+      for (const std::string& message : lines_of(error.what()))
+        violations_.add(line_without_options > 0 ? line_without_options : cause(bare, options, message), message);
+      return std::nullopt;
+    }
+  }
+
+  static Spec with_options(Spec spec, const FileOptions& options) {
+    for (const FileOption& option : options) spec.options.emplace_back(option.key, option.text);
+    return spec;
+  }
+
+  /// The line of the option that is wrong in this way on its own, too; 0 if none is.
+  Index cause(const Spec& bare, const FileOptions& options, const std::string& message) const {
+    for (const FileOption& option : options) {
+      try {
+        resolve(catalogue_, with_options(bare, {option}));
+      } catch (const InvalidInput& error) {
+        if (is_among(message, lines_of(error.what()))) return option.line;
+      }
+    }
+    return 0;
+  }
+
+  /// Of [set] what this cell has, and all of [learner.NAME].
+  FileOptions common_options(const Spec& complete) {
+    FileOptions options;
     for (const FileOption& option : file_.options)
-      if (use(complete, option.key)) add(option);
-    const auto own = file_.learner_options.find(bare.learner);
-    if (own != file_.learner_options.end()) std::for_each(own->second.begin(), own->second.end(), add);
-    return right ? std::optional(options) : std::nullopt;
+      if (use(complete, option.key)) options.push_back(option);
+    const auto own = file_.learner_options.find(complete.learner);
+    if (own != file_.learner_options.end()) options.insert(options.end(), own->second.begin(), own->second.end());
+    return options;
   }
 
-  /// Of [vary], every combination of what this cell has, the last fastest; nothing if a value is wrong.
-  std::optional<std::vector<Options>> all_variants(const Spec& bare, const Spec& complete) {
-    std::vector<Options> variants = {{}};
-    bool right = true;
-    for (const Axis& axis : file_.axes) {
-      if (!use(complete, axis.key)) continue;
-      std::vector<Options> longer;
-      for (const Options& variant : variants)
+  /// Of [vary], every combination of what this cell has, the last fastest.
+  std::vector<FileOptions> all_variants(const Spec& complete) {
+    std::vector<Axis> axes;
+    for (const Axis& axis : file_.axes)
+      if (use(complete, axis.key) && !axis.texts.empty()) axes.push_back(axis);
+    std::vector<FileOptions> variants = {{}};
+    for (const Axis& axis : axes) {
+      if (variants.size() * axis.texts.size() > kMostRuns) {
+        too_many();
+        return {};
+      }
+      std::vector<FileOptions> longer;
+      for (const FileOptions& variant : variants)
         for (const std::string& text : axis.texts) {
           longer.push_back(variant);
-          longer.back().emplace_back(axis.key, text);
+          longer.back().push_back({axis.key, text, axis.line});
         }
-      for (const std::string& text : axis.texts)
-        right = resolved(bare, {{axis.key, text}}, axis.line).has_value() && right;
       variants = std::move(longer);
     }
-    return right ? std::optional(variants) : std::nullopt;
+    return variants;
   }
+
+  void too_many() { violations_.add(0, fmt::format("these are more than {} runs", kMostRuns)); }
 
   bool use(const Spec& complete, const std::string& key) {
     const bool has = has_option(complete, key);
@@ -166,33 +195,30 @@ class Planner {
     return has;
   }
 
-  void add_group(const Spec& bare, Options options, const Options& varied) {
+  void add_group(const Spec& bare, FileOptions options, const FileOptions& varied) {
     options.insert(options.end(), varied.begin(), varied.end());
     const auto complete = resolved(bare, options, 0);
+    if (plan_.runs.size() + file_.seeds.size() > kMostRuns) return too_many();
     if (!complete) return;
     const std::string variant = variant_name(varied);
-    plan_.groups.push_back({bare.learner, complete->prior, variant, varied});
+    plan_.groups.push_back({bare.learner, complete->prior, variant, {}});
+    for (const FileOption& option : varied) plan_.groups.back().options.emplace_back(option.key, option.text);
     for (Index seed : file_.seeds) {
       Spec spec = *complete;
       spec.seed = seed;
       plan_.runs.push_back({folder_name(spec, variant), plan_.groups.size() - 1, std::move(spec)});
     }
-    if (plan_.runs.size() > kMaxRuns) throw InvalidInput(fmt::format("more than {} runs", kMaxRuns));
-  }
-
-  bool is_learner(const std::string& name) const {
-    return std::find(file_.learners.begin(), file_.learners.end(), name) != file_.learners.end();
   }
 
   void check_learners(const Claim& claim) {
     for (const std::string& name : {claim.learner, claim.comparison ? claim.comparison->learner.value_or("") : ""})
-      if (!name.empty() && !is_learner(name))
+      if (!name.empty() && !is_among(name, file_.learners))
         violations_.add(claim.line, fmt::format("the claim's learner '{}' is none of the learners ({})", name,
                                                 fmt::join(file_.learners, ", ")));
   }
 
   void check_is_planned(const std::string& learner) {
-    if (is_learner(learner)) return;
+    if (is_among(learner, file_.learners)) return;
     violations_.add(line("learner." + learner),
                     fmt::format("[learner.{}] is none of the learners ({})", learner, fmt::join(file_.learners, ", ")));
   }

@@ -8,13 +8,6 @@
 
 namespace rehearse::experiment {
 
-void FileViolations::add(Index line, const std::string& message) {
-  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
-    end = message.find('\n', begin);
-    list_.emplace(line, message.substr(begin, end - begin));
-  }
-}
-
 void FileViolations::throw_if_any() const {
   Violations lines;
   for (const auto& [line, message] : list_)

@@ -19,8 +19,8 @@ class FileViolations {
  public:
   explicit FileViolations(std::string source) : source_(std::move(source)) {}
 
-  /// line: from 1, or 0 if it is not about one. `message` may have several lines; the same is kept once.
-  void add(Index line, const std::string& message);
+  /// line: from 1, or 0 if it is not about one. The same is kept once.
+  void add(Index line, const std::string& message) { list_.emplace(line, message); }
   bool empty() const { return list_.empty(); }
 
   /// InvalidInput, "SOURCE: line N: MESSAGE" for each, in the order of the lines.

@@ -186,6 +186,19 @@ search.step = 0.5
       "c.toml: line 15: search.step must be a list of values in [vary]");
 }
 
+TEST(CampaignPlan, TooManyRunsAreRefusedBeforeTheyArePlanned) {
+  std::string axes = "learners = [\"echo\"]\n[vary]\n";
+  for (const std::string key : {"noise", "plant.gain", "search.step", "prior.gain", "prior.drift"}) {
+    axes += key + " = [0";
+    for (int i = 1; i < 100; ++i) axes += ", " + std::to_string(i);
+    axes += "]\n";
+  }
+  EXPECT_EQ(complaint(kHead + axes), "c.toml: these are more than 100000 runs");
+  EXPECT_EQ(
+      complaint("format = 1\nscenario = \"line\"\nlearners = [\"echo\"]\nseeds = [\"1-60000\", \"100000-150000\"]\n"),
+      "c.toml: these are more than 100000 runs");
+}
+
 TEST(CampaignPlan, SaysWhatIsWrongWithClaims) {
   const auto about = [](const std::string& claim) {
     return complaint(kHead + "learners = [\"echo\"]\n[[claim]]\ntext = \"x\"\n" + claim);
