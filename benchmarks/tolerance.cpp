@@ -26,7 +26,7 @@ using namespace rehearse;
 namespace bd = learners::black_drops;
 
 struct Size {
-  Index trials = 20, states = 1000000, evaluations = 5000;
+  Index trials = 5, states = 40000, evaluations = 5000;  // states of each model: 10⁶ of all
 };
 
 /// A learning run: what it saw, what it tried.

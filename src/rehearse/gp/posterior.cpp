@@ -59,6 +59,9 @@ Vector packed_inverse(Index n, double* tiles) {
   return packed;
 }
 
+/// Below this ratio of σ_n²/σ_f² the trace that may be left out drowns in the rounding of a correlation matrix.
+constexpr double kLeastNoiseRatio = 1e-7;
+
 /// The trace to leave out, in units of σ_n² (compression.hpp). √t = tolerance · √ρ keeps the error below
 /// tolerance · σ_n at every input. Small ρ would need more digits for that than there are; t = 2ρ is measured to be
 /// enough (docs/performance.md).
@@ -67,14 +70,17 @@ double remainder(double noise_ratio, double tolerance) {
   return tolerance * tolerance * std::min(share, 1.0);
 }
 
-/// The training inputs, and the points halfway from each to the next and to one half the data further, 3n × D.
+/// The training inputs; points halfway from each to the next, and to one half the data further; and as far beyond it.
 Matrix probes(const Inputs& inputs) {
   const Index n = inputs.size();
-  Matrix unit(3 * n, inputs.dimensions());
+  Matrix unit(4 * n, inputs.dimensions());
   for (Index i = 0; i < n; ++i) {
-    unit.row(i) = inputs.unit().row(i);
-    unit.row(n + i) = (inputs.unit().row(i) + inputs.unit().row((i + 1) % n)) / 2;
-    unit.row(2 * n + i) = (inputs.unit().row(i) + inputs.unit().row((i + n / 2) % n)) / 2;
+    const auto x = inputs.unit().row(i), next = inputs.unit().row((i + 1) % n),
+               other = inputs.unit().row((i + n / 2) % n);
+    unit.row(i) = x;
+    unit.row(n + i) = (x + next) / 2;
+    unit.row(2 * n + i) = (x + other) / 2;
+    unit.row(3 * n + i) = 1.5 * x - 0.5 * other;
   }
   return (unit * inputs.half_range().asDiagonal()).rowwise() + inputs.center().transpose();
 }
@@ -190,6 +196,7 @@ std::optional<Posterior::Output> Posterior::compress(Index e, const ConstVectorV
                                                      double tolerance, Workspace& workspace) const {
   if (tolerance <= 0) return std::nullopt;
   const double noise_ratio = noise_variances_(e) / exact.signal_variance + jitters_(e);
+  if (noise_ratio < kLeastNoiseRatio) return std::nullopt;
   const auto worthwhile = static_cast<Index>(0.75 * static_cast<double>(size()));
   const auto summary = summarise(correlations(size(), dimensions(), workspace), noise_ratio, y, exact.weights,
                                  remainder(noise_ratio, tolerance), worthwhile);

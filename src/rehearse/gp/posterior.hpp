@@ -21,8 +21,8 @@ class Posterior {
   ///
   /// `tolerance` > 0 allows errors of the mean and of the standard deviation, as a fraction of σ_n: an output whose
   /// data a few points sum up (compression.hpp) is predicted from these. That of the mean is bounded at every input;
-  /// that of the standard deviation too where σ_n² ≥ σ_f²/100, elsewhere it is measured at the training inputs and
-  /// between them, and kept below a fifth of the tolerance there.
+  /// that of the standard deviation too where σ_n² ≥ σ_f²/100, elsewhere it is measured at, between and beyond the
+  /// training inputs, and kept below a fifth of the tolerance there.
   Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperparameters> hyperparameters,
             double tolerance = 0);
 
