@@ -10,6 +10,11 @@ import { choice } from './layout'
 
 const TRIAL = { label: 'trial', whole: true }
 
+/** The first of the campaign file is drawn last, over the others. */
+function inFront(series: Series[]): Series[] {
+  return [...series].reverse()
+}
+
 export function returns(campaign: Campaign, style: StyleOf): Child {
   const { groups } = campaign.summary
   let measure: 'return' | 'best_return' = 'return'
@@ -32,7 +37,7 @@ export function returns(campaign: Campaign, style: StyleOf): Child {
     const y = { label: 'return', ...fit(all.flatMap(heights), { zero: true }) }
     return {
       title: panelTitle(prior),
-      draw: (width) => chart({ width, height: 260, x, y, series: inPanel(groups, prior).map(series) }),
+      draw: (width) => chart({ width, height: 260, x, y, series: inFront(inPanel(groups, prior).map(series)) }),
     }
   }
   const measures: [string, string][] = [
@@ -78,7 +83,7 @@ export function success(campaign: Campaign, style: StyleOf): Child {
         height: 260,
         x: { ...TRIAL, domain: [0.5, trials + 0.5] },
         y: { label: 'solved', percent: true, domain: [0, 1] },
-        series: inPanel(groups, prior).map(series),
+        series: inFront(inPanel(groups, prior).map(series)),
       }),
   })
   const measures: [string, string][] = [
@@ -140,7 +145,7 @@ export function parameters({ parameters }: Campaign, style: StyleOf): Child {
             height: 190,
             x: TRIAL,
             y: { label: '', ...fit(values, { span: 0.2 }) },
-            series: shown.map((one) => ({ ...style(one), points: medianPoints(one) })),
+            series: inFront(shown.map((one) => ({ ...style(one), points: medianPoints(one) }))),
             rule: present(truth) ? { y: truth, label: 'robot' } : null,
           }),
       },
@@ -171,7 +176,7 @@ export function times(campaign: Campaign, style: StyleOf): Child {
     const series = shown.map((one) => ({ ...style(one), points: medianPoints(one).map(notShorter) }))
     return {
       title: `${name}, ${panelTitle(prior)}`,
-      draw: (width) => chart({ width, height: 220, x: TRIAL, y, series }),
+      draw: (width) => chart({ width, height: 220, x: TRIAL, y, series: inFront(series) }),
     }
   }
   return figure({

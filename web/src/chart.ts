@@ -49,6 +49,7 @@ type Drawn = SVGSVGElement & { cursor?: { line: SVGLineElement; x: (value: numbe
 export function chart(options: ChartOptions): SVGSVGElement {
   const { width, x, y, series, rule } = options
   const points = series.flatMap((one) => one.points.map((point) => ({ ...point, label: one.label })))
+  const xs = points.map((point) => point.x)
   const powers = y.log ? powersOfTen(y.domain ?? points.map((point) => point.y)) : undefined
   const plot = Plot.plot({
     width,
@@ -64,11 +65,8 @@ export function chart(options: ChartOptions): SVGSVGElement {
       ...axis(x, width / 70),
       labelAnchor: 'center',
       labelArrow: 'none',
-      ...(x.whole
-        ? { tickFormat: wholeOnly }
-        : x.log
-          ? { ticks: [...new Set(points.map((p) => p.x))], tickFormat: String }
-          : {}),
+      ...(x.whole ? { ticks: wholeTicks(x.domain ?? xs, width / 45), tickFormat: 'd' } : {}),
+      ...(x.log ? { ticks: [...new Set(xs)], tickFormat: String } : {}),
     },
     y: {
       ...axis(y, 5),
@@ -141,8 +139,13 @@ function axis(of: ChartOptions['x'] | ChartOptions['y'], ticks: number): Plot.Sc
   }
 }
 
-function wholeOnly(value: number): string {
-  return Number.isInteger(value) ? String(value) : ''
+/** Every integer between the least and the largest, or every second, fifth, … */
+function wholeTicks(values: number[], most: number): number[] {
+  if (values.length === 0) return []
+  const [low, high] = [Math.ceil(Math.min(...values)), Math.floor(Math.max(...values))]
+  const step = [1, 2, 5, 10, 20, 50, 100, 200, 500].find((size) => (high - low) / size < most) ?? 1000
+  const first = step === 1 ? low : Math.ceil(low / step) * step
+  return Array.from({ length: Math.floor((high - first) / step) + 1 }, (_, i) => first + i * step)
 }
 
 /** At most six powers of ten among these numbers; undefined, which leaves it to Plot, without two. */

@@ -3,11 +3,14 @@ import { present, type Cell } from './data'
 /** A number for people: 4 significant digits, no exponent where it can be avoided. */
 export function number(value: Cell | undefined, digits = 4): string {
   if (!present(value)) return '–'
-  if (Number.isInteger(value) && Math.abs(value) < 1e15) return value.toLocaleString('en').replaceAll(',', '\u202f')
+  return plain(value, digits).replace(/^-/, '−')
+}
+
+function plain(value: number, digits: number): string {
   const size = Math.abs(value)
-  return size !== 0 && (size < 1e-3 || size >= 1e6)
-    ? value.toExponential(digits - 2)
-    : String(Number(value.toPrecision(digits)))
+  if (Number.isInteger(value) && size < 1e15) return value.toLocaleString('en').replaceAll(',', '\u202f')
+  const extreme = size < 1e-3 || size >= 1e6
+  return extreme ? value.toExponential(digits - 2) : String(Number(value.toPrecision(digits)))
 }
 
 export function percent(value: Cell): string {
