@@ -112,23 +112,27 @@ class Crew {
   }
 
   RunOutcome outcome_of_run(const PlannedRun& planned, const RunOptions& options) const {
-    const auto path = folder_.path_of(planned);
+    RunOutcome outcome;
     try {
-      if (std::filesystem::exists(path))
-        resume_run(catalogue_, path, planned.spec.trials, options);
-      else
-        start_run(catalogue_, planned.spec, path, options);
+      start_or_resume(planned, options);
       return folder_.read(planned);
     } catch (const Interrupted&) {
       return folder_.read(planned);
     } catch (const InvalidInput& error) {  // a damaged folder: its rows cannot be trusted
-      return {.state = RunState::failed, .reason = error.what()};
+      outcome.fail(error.what());
     } catch (const std::exception& error) {
-      RunOutcome outcome = folder_.read(planned);
-      outcome.state = RunState::failed;
-      outcome.reason = error.what();
-      return outcome;
+      outcome = folder_.read(planned);
+      outcome.fail(error.what());
     }
+    return outcome;
+  }
+
+  void start_or_resume(const PlannedRun& planned, const RunOptions& options) const {
+    const auto path = folder_.path_of(planned);
+    if (std::filesystem::exists(path))
+      resume_run(catalogue_, path, planned.spec.trials, options);
+    else
+      start_run(catalogue_, planned.spec, path, options);
   }
 
   const Catalogue& catalogue_;

@@ -12,7 +12,7 @@ namespace rehearse::experiment {
 namespace {
 
 constexpr Index kFormat = 1;
-constexpr Index kMaxSeeds = 100000;
+constexpr Index kMostSeeds = 100000;
 
 /// "3" or "1-30".
 std::optional<std::pair<Index, Index>> seed_range(std::string_view text) {
@@ -25,14 +25,14 @@ std::optional<std::pair<Index, Index>> seed_range(std::string_view text) {
   const bool ok =
       number(text.substr(0, dash), first) && (dash == std::string_view::npos || number(text.substr(dash + 1), last));
   if (dash == std::string_view::npos) last = first;
-  return ok && first <= last && last - first < kMaxSeeds ? std::optional(std::pair{first, last}) : std::nullopt;
+  return ok && first <= last && last - first < kMostSeeds ? std::optional(std::pair{first, last}) : std::nullopt;
 }
 
 /// A number, "A-B", or a list of numbers.
 std::optional<std::vector<Index>> seeds_of(const toml::node& node) {
   std::vector<Index> seeds;
   const auto add = [&](const toml::node& element) {
-    if (element.is_array() || element.is_table()) return false;
+    if (!element.is_integer() && !element.is_string()) return false;
     const auto range = seed_range(text_of(element));
     for (Index seed = range ? range->first : 0; range && seed <= range->second; ++seed) seeds.push_back(seed);
     return range.has_value();

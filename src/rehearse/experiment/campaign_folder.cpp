@@ -131,9 +131,13 @@ CampaignFolder CampaignFolder::open(const Catalogue& catalogue, const fs::path& 
 RunOutcome CampaignFolder::read(const PlannedRun& run) const {
   const fs::path folder = path_of(run);
   if (!fs::exists(fs::symlink_status(folder))) return {};
+  RunOutcome outcome;
   const std::string complaint = complaint_about_spec(folder / "spec.toml", run);
-  if (!complaint.empty()) return {.state = RunState::failed, .reason = complaint};
-  RunOutcome outcome = rows_of(folder / "trials.csv", run.spec.trials);
+  if (!complaint.empty()) {
+    outcome.fail(complaint);
+    return outcome;
+  }
+  outcome = rows_of(folder / "trials.csv", run.spec.trials);
   if (outcome.done() == run.spec.trials && fs::exists(folder / "done")) outcome.state = RunState::done;
   return outcome;
 }

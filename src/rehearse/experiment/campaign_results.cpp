@@ -5,6 +5,12 @@
 
 namespace rehearse::experiment {
 
+void RunOutcome::fail(std::string why) {
+  for (std::size_t end = why.find('\n'); end != std::string::npos; end = why.find('\n', end)) why.replace(end, 1, "; ");
+  state = RunState::failed;
+  reason = std::move(why);
+}
+
 std::optional<Index> RunOutcome::first_success(Index until) const {
   for (Index trial = 1; trial <= std::min(until, done()); ++trial)
     if (solved[static_cast<std::size_t>(trial - 1)].value_or(false)) return trial;

@@ -14,12 +14,13 @@ enum class RunState { unfinished, done, failed };
 /// What is known of a planned run.
 struct RunOutcome {
   RunState state = RunState::unfinished;
-  std::string reason;                          // why it failed
+  std::string reason;                          // why it failed, in one line
   statistics::Table trials;                    // its trials.csv, up to as many trials as are planned
   std::vector<double> interaction_s, returns;  // of these, by trial
   std::vector<std::optional<bool>> solved;     // empty: the scenario cannot say
 
   Index done() const { return static_cast<Index>(returns.size()); }
+  void fail(std::string why);
 
   /// Whether trial `trial` was reached, or never will be.
   bool decided(Index trial) const { return done() >= trial || state == RunState::failed; }
