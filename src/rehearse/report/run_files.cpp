@@ -53,6 +53,7 @@ std::vector<std::pair<std::string, std::string>> options_of(const toml::table& f
     if (section != "run" && node.is_table()) add_options(*node.as_table(), std::string(section.str()) + ".", found);
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::pair<std::string, std::string>> options;
+  options.reserve(found.size());
   for (auto& [position, option] : found) options.push_back(std::move(option));
   return options;
 }
