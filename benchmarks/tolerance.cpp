@@ -1,5 +1,5 @@
 // How far predictions within a tolerance (gp::Posterior) are from exact ones, and how much faster, on models that the
-// learners of every built-in scenario made of real episodes: `tolerance [--quick] [--states N] [--out FILE.json]`.
+// learners of every built-in scenario made of real episodes: `tolerance [--quick] [--out FILE.json] [--commit HASH]`.
 // The states compared are those of imagined rollouts of the policies that were tried, of perturbed ones and of random
 // ones.
 
@@ -164,12 +164,13 @@ int main(int argc, char** argv) {
   CLI::App app("Predictions within a tolerance against exact ones");
   Size size;
   bool quick = false;
-  std::string out, only;
+  std::string out, only, commit;
   app.add_flag("--quick", quick);
   app.add_option("--states", size.states);
   app.add_option("--trials", size.trials);
   app.add_option("--scenario", only);
   app.add_option("--out", out);
+  app.add_option("--commit", commit);
   CLI11_PARSE(app, argc, argv);
   if (quick) size = {.trials = 2, .states = 2000, .evaluations = 500};
 
@@ -200,7 +201,7 @@ int main(int argc, char** argv) {
     }
     if (quick) break;
   }
-  if (!out.empty()) std::ofstream(out) << rows.dump(1) << '\n';
+  if (!out.empty()) std::ofstream(out) << nlohmann::json{{"commit", commit}, {"rows", rows}}.dump(1) << '\n';
   fmt::print("largest error of a standard deviation: {:.2g} σ_n\n", error);
   return error <= 0.01 ? 0 : 1;
 }
