@@ -55,9 +55,7 @@ class ThreadEvaluator final : public Evaluator {
  private:
   /// Without it oneTBB prints a warning. One for the process, because of several the smallest limit holds.
   static void allow_more_threads_than_cores() {
-    static const auto* const limit =
-        new tbb::global_control(tbb::global_control::max_allowed_parallelism, kMostThreads);
-    static_cast<void>(limit);
+    static const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kMostThreads);
   }
 
   mutable tbb::task_arena arena_;
