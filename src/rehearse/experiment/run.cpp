@@ -26,6 +26,7 @@ class Participants {
   const RunOptions& options() const { return options_; }
   const Resolved& resolved() const { return resolved_; }
   const Task& task() const { return resolved_.scenario.task; }
+  const policy::Policy& policy() const { return *resolved_.scenario.policy; }
   learners::Learner& learner() const { return *learner_; }
 
   /// Connected when it is first needed.
@@ -135,15 +136,14 @@ class Run {
     const learners::Proposal& proposal = ask(trial);
     if (proposal.model) predict(trial, proposal);
     const Episode episode = named_failure(trial, "plant", [&] {
-      return rollout::execute(with_.plant(), *proposal.policy, proposal.theta, with_.task(),
+      return rollout::execute(with_.plant(), with_.policy(), proposal.theta, with_.task(),
                               Rng({.seed = seed(), .trial = number(trial), .purpose = Purpose::start_state}));
     });
     keep(record(trial, proposal, episode), episode);
   }
 
   const learners::Proposal& checked(const learners::Proposal& proposal) const {
-    if (!proposal.policy) throw std::runtime_error("it proposed no policy");
-    const Index size = proposal.theta.size(), wanted = proposal.policy->parameters();
+    const Index size = proposal.theta.size(), wanted = with_.policy().parameters();
     if (size != wanted || !proposal.theta.allFinite())
       throw std::runtime_error(fmt::format("it proposed {} parameters, the policy has {} finite ones", size, wanted));
     return proposal;
@@ -152,7 +152,7 @@ class Run {
   void predict(Index trial, const learners::Proposal& proposal) const {
     const StreamKey key{.seed = seed(), .trial = number(trial), .purpose = Purpose::prediction};
     const rollout::ImagineOptions unclipped{.noise_clip = 0};
-    const auto recorded = rollout::imagine_recorded(*proposal.model, *proposal.policy, with_.task(), proposal.theta,
+    const auto recorded = rollout::imagine_recorded(*proposal.model, with_.policy(), with_.task(), proposal.theta,
                                                     kPredictionParticles, key, unclipped);
     folder_.write_prediction(trial, prediction_csv(with_.task(), recorded));
     draw("prediction", trial, mean_states(recorded));
@@ -173,7 +173,6 @@ class Run {
                        .failed_rollouts = proposal.failed_rollouts,
                        .log_evidence = proposal.log_evidence,
                        .phi = tunable_values(proposal),
-                       .policy = proposal.policy->name(),
                        .theta = proposal.theta,
                        .left_out_rows = proposal.left_out_rows,
                        .notes = proposal.notes,
