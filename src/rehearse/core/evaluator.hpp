@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "rehearse/core/types.hpp"
 
@@ -20,6 +21,10 @@ class Evaluator {
   /// Calls task(i) once for each i in 0..n−1 on the threads of this process alone: for tasks that change state kept
   /// here, which every rank must do for itself. Exceptions as above.
   virtual void for_each(Index n, const std::function<void(Index)>& task) const = 0;
+
+  /// What `work` returns, called once in all: with ranks on rank 0 alone, and every rank returns what it returned or
+  /// throws what it threw. For what cannot be shared, the plant and files. Not from within a task.
+  virtual std::string once(const std::function<std::string()>& work) const { return work(); }
 
   /// How many tasks run at once; must not decide results.
   virtual int concurrency() const = 0;

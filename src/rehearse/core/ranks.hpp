@@ -1,0 +1,71 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rehearse/core/evaluator.hpp"
+
+namespace rehearse {
+
+/// Processes that were started together and run the same program: the ranks of MPI. An implementation carries bytes;
+/// what they mean is said here.
+///
+/// The public calls down to `leave` are made by all ranks in the same order, each on one thread at a time. Where a rank
+/// breaks this (it met an exception that the others did not), all the others throw instead of waiting for ever.
+class Ranks {
+ public:
+  explicit Ranks(std::function<bool()> stop = {}) : stop_(std::move(stop)) {}
+  virtual ~Ranks() = default;
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  virtual int rank() const = 0;  // 0 leads
+  virtual int size() const = 0;
+
+  /// What every rank gives, in order of rank. step: what all are at; the same everywhere, or all throw.
+  std::vector<std::string> exchange(std::string_view step, std::string_view bytes);
+
+  /// What `work` returns on rank 0, on every rank; only rank 0 calls it. Its exception is thrown everywhere.
+  std::string once(const std::function<std::string()>& work);
+
+  /// Whether a rank was asked to stop (`stop` of the constructor) before the last call that all made: the same answer
+  /// everywhere.
+  bool stopped() const { return stopped_; }
+
+  struct End {
+    int rank = 0;
+    int code = 0;         // 0: all is well
+    std::string message;  // what went wrong
+  };
+  /// The last call: how each rank ended, by rank; only this one's end if another left earlier.
+  std::vector<End> leave(int code, const std::string& message);
+
+  /// Asks rank 0 and waits for the answer. On any thread of any other rank while rank 0 answers, and on no thread while
+  /// the calls above are being made.
+  virtual std::string ask(const std::string& question) = 0;
+
+  /// On rank 0: answers the next question, if one has come.
+  virtual bool answer(const std::function<std::string(const std::string& question)>& reply) = 0;
+
+ protected:
+  /// What every rank gives, in order of rank; returns when it is there.
+  virtual std::vector<std::string> carry(const std::string& bytes) = 0;
+
+ private:
+  void check_steps(std::string_view step, const std::vector<std::string>& steps, const std::vector<std::string>& given);
+
+  std::function<bool()> stop_;
+  std::atomic<bool> stopped_ = false;
+  bool over_ = false;  // a rank has left
+};
+
+/// Spreads tasks over all ranks, `threads` on this one (≥ 1). Made, and its calls outside of tasks made, by all ranks
+/// in the same order; calls from within tasks stay in this process. An exception of a task becomes an InvalidInput, an
+/// Interrupted or a std::runtime_error with the same message, on every rank. `ranks` must outlive it.
+std::unique_ptr<Evaluator> make_rank_evaluator(Ranks& ranks, int threads);
+
+}  // namespace rehearse

@@ -1,0 +1,237 @@
+#include "rehearse/core/ranks.hpp"
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/events.hpp"
+#include "rehearse/testing/rank_threads.hpp"
+
+namespace rehearse {
+namespace {
+
+using testing::on_rank_threads;
+
+/// What each rank says, however it ends.
+class Words {
+ public:
+  void add(const Ranks& ranks, const std::string& word) {
+    const std::lock_guard lock(mutex_);
+    words_[ranks.rank()] += word;
+  }
+  const std::map<int, std::string>& all() const { return words_; }
+  static std::map<int, std::string> same(int size, const std::string& word) {
+    std::map<int, std::string> all;
+    for (int rank = 0; rank < size; ++rank) all[rank] = word;
+    return all;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<int, std::string> words_;
+};
+
+template <class Action>
+std::string caught(Action action) {
+  try {
+    action();
+  } catch (const InvalidInput& error) {
+    return std::string("input: ") + error.what();
+  } catch (const std::exception& error) {
+    return std::string("error: ") + error.what();
+  } catch (const Interrupted&) {
+    return "interrupted";
+  }
+  return "";
+}
+
+TEST(Ranks, ExchangeInTheOrderOfRanks) {
+  Words words;
+  on_rank_threads(3, [&](Ranks& ranks) {
+    for (const std::string& given : ranks.exchange("here", std::string(1, static_cast<char>('a' + ranks.rank()))))
+      words.add(ranks, given);
+  });
+  EXPECT_EQ(words.all(), Words::same(3, "abc"));
+}
+
+TEST(Ranks, OnceOnTheFirstRankAlone) {
+  std::atomic<int> calls{0};
+  Words words;
+  on_rank_threads(3, [&](Ranks& ranks) {
+    words.add(ranks, ranks.once([&] { return ++calls, std::string("a\0b", 3); }));
+    words.add(ranks, ranks.once([&] { return std::string(); }));
+    words.add(ranks, caught([&] { ranks.once([]() -> std::string { throw InvalidInput("no such folder"); }); }));
+    words.add(ranks, caught([&] { ranks.once([]() -> std::string { throw std::range_error("too far"); }); }));
+    words.add(ranks, caught([&] { ranks.once([]() -> std::string { throw Interrupted{}; }); }));
+  });
+  EXPECT_EQ(calls, 1);
+  EXPECT_EQ(words.all(),
+            Words::same(3, std::string("a\0b", 3) + "input: no such folder" + "error: too far" + "interrupted"));
+}
+
+TEST(Ranks, AllStopWhereOneIsAskedTo) {
+  std::atomic<bool> asked{false};
+  Words words;
+  const auto work = [&](Ranks& ranks) {
+    ranks.exchange("before", "");
+    words.add(ranks, ranks.stopped() ? "stop" : "go");
+    ranks.exchange("between", "");
+    if (ranks.rank() == 0) asked = true;  // rank 2 polls it before the next exchange at the latest
+    ranks.exchange("after", "");
+    ranks.exchange("after that", "");
+    words.add(ranks, ranks.stopped() ? "stop" : "go");
+  };
+  on_rank_threads(3, work, [&](int rank) { return rank == 2 && asked; });
+  EXPECT_EQ(words.all(), Words::same(3, "gostop"));
+}
+
+TEST(Ranks, WhoLeavesEarlyIsNotWaitedFor) {
+  Words words;
+  on_rank_threads(3, [&](Ranks& ranks) {
+    if (ranks.rank() == 1) {
+      EXPECT_EQ(ranks.leave(1, "out of memory").size(), 1u);
+    } else {
+      words.add(ranks, caught([&] { ranks.once([] { return ""; }); }));
+      words.add(ranks, caught([&] { ranks.once([] { return ""; }); }));
+    }
+    EXPECT_EQ(ranks.leave(1, "").size(), 1u);
+  });
+  const std::string both = "error: rank 1 failed: out of memoryerror: the ranks have parted";
+  EXPECT_EQ(words.all(), (std::map<int, std::string>{{0, both}, {2, both}}));
+}
+
+TEST(Ranks, LeaveTogether) {
+  on_rank_threads(3, [&](Ranks& ranks) {
+    const auto ends = ranks.leave(ranks.rank(), std::string(ranks.rank(), 'x'));
+    ASSERT_EQ(ends.size(), 3u);
+    EXPECT_EQ(ends[0].code, 0);
+    EXPECT_EQ(ends[2].code, 2);
+    EXPECT_EQ(ends[2].message, "xx");
+  });
+}
+
+TEST(Ranks, WhoComputesSomethingElseIsFoundOut) {
+  Words words;
+  on_rank_threads(3, [&](Ranks& ranks) {
+    words.add(ranks, caught([&] {
+                       ranks.exchange(ranks.rank() == 2 ? "evaluate 3 x 4" : "evaluate 3 x 5", "");
+                     }).substr(0, 41));
+    EXPECT_EQ(ranks.leave(1, "").size(), 1u);
+  });
+  EXPECT_EQ(words.all(), Words::same(3, "error: the ranks do not compute the same:"));
+}
+
+TEST(Ranks, QuestionsFromAllThreads) {
+  on_rank_threads(3, [&](Ranks& ranks) {
+    if (ranks.rank() > 0) {
+      make_thread_evaluator(2)->for_each(10, [&](Index i) {
+        const std::string text = std::to_string(ranks.rank()) + " " + std::to_string(i);
+        EXPECT_EQ(ranks.ask(text), "<" + text + ">");
+      });
+      return;
+    }
+    for (int answered = 0; answered < 20;)
+      answered += ranks.answer([](const std::string& question) { return "<" + question + ">"; });
+  });
+}
+
+/// How many ranks, and threads on each but the last, which has one more.
+struct Workers {
+  int ranks, threads;
+};
+void PrintTo(const Workers& workers, std::ostream* out) { *out << workers.ranks << " ranks × " << workers.threads; }
+
+class RankEvaluators : public ::testing::TestWithParam<Workers> {
+ protected:
+  void on_all(const std::function<void(Ranks&, const Evaluator&)>& work) const {
+    const auto [size, threads] = GetParam();
+    on_rank_threads(size, [&, size = size, threads = threads](Ranks& ranks) {
+      const auto evaluator = make_rank_evaluator(ranks, threads + (ranks.rank() + 1 == size));
+      EXPECT_EQ(evaluator->concurrency(), size * threads + 1);
+      work(ranks, *evaluator);
+      EXPECT_EQ(ranks.leave(0, "").size(), static_cast<std::size_t>(size));
+    });
+  }
+};
+
+TEST_P(RankEvaluators, FillEveryColumnOnEveryRank) {
+  for (const Index n : {0, 1, 2, 7, 100}) {
+    std::atomic<Index> calls{0};
+    on_all([&](Ranks&, const Evaluator& evaluator) {
+      Matrix wide = Matrix::Zero(4, n);
+      evaluator.evaluate(
+          [&](Index i, VectorView column) {
+            ++calls;
+            column = Vector{{static_cast<double>(i), 0.1 * static_cast<double>(i)}};
+          },
+          wide.topRows(2));  // columns need not follow each other in memory
+      for (Index i = 0; i < n; ++i) {
+        const auto x = static_cast<double>(i);
+        EXPECT_EQ(wide.col(i), (Vector{{x, 0.1 * x, 0, 0}}));
+      }
+    });
+    EXPECT_EQ(calls, n) << "each once in all";
+  }
+}
+
+TEST_P(RankEvaluators, TheFirstExceptionInOrderOnEveryRank) {
+  on_all([](Ranks&, const Evaluator& evaluator) {
+    Matrix results(1, 90);
+    const auto failing = [&](Index first) {
+      return caught([&] {
+        evaluator.evaluate(
+            [&](Index i, VectorView) {
+              if (i >= first && i % 2 == 0) throw std::domain_error(std::to_string(i));
+              if (i >= first) throw InvalidInput(std::to_string(i));
+            },
+            results);
+      });
+    };
+    for (const Index first : {0, 17, 61, 89}) {
+      const std::string kind = first % 2 == 0 ? "error: " : "input: ";
+      EXPECT_EQ(failing(first), kind + std::to_string(first));
+    }
+    EXPECT_EQ(failing(90), "") << "it can be used again";
+  });
+}
+
+TEST_P(RankEvaluators, ForEachIsForThisProcess) {
+  on_all([](Ranks&, const Evaluator& evaluator) {
+    std::atomic<int> calls{0};
+    evaluator.for_each(20, [&](Index) { ++calls; });
+    EXPECT_EQ(calls, 20);
+  });
+}
+
+TEST_P(RankEvaluators, CallsWithinTasksStayInTheProcess) {
+  on_all([](Ranks& ranks, const Evaluator& evaluator) {
+    const auto sum_of = [&](Index n, const std::function<double(Index)>& term) {
+      Matrix terms(1, n);
+      evaluator.evaluate([&](Index i, VectorView value) { value(0) = term(i); }, terms);
+      return terms.sum();
+    };
+    const auto nested = [&](Index i) {
+      return sum_of(5, [&](Index j) { return sum_of(4, [&](Index k) { return static_cast<double>(i * j * k); }); });
+    };
+    EXPECT_EQ(sum_of(6, nested), 15 * 10 * 6);
+    evaluator.for_each(6, [&](Index i) { EXPECT_EQ(nested(i), static_cast<double>(i * 10 * 6)); });
+    EXPECT_EQ(ranks.once([] { return "still in step"; }), "still in step");
+  });
+}
+
+TEST_P(RankEvaluators, WorkOnce) {
+  std::atomic<int> calls{0};
+  on_all([&](Ranks&, const Evaluator& evaluator) {
+    EXPECT_EQ(evaluator.once([&] { return ++calls, "episode"; }), "episode");
+  });
+  EXPECT_EQ(calls, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ranks, RankEvaluators, ::testing::Values(Workers{1, 1}, Workers{2, 1}, Workers{3, 2}));
+
+}  // namespace
+}  // namespace rehearse
