@@ -59,8 +59,9 @@ std::string to_bytes(const std::exception_ptr& failure) {
 // A message is: whether this rank was asked to stop, the length of the step's name, the name, and what is given.
 std::vector<std::string> Ranks::exchange(std::string_view step, std::string_view bytes) {
   if (over_) throw std::runtime_error("the ranks have parted");
-  const char stop = stop_ && stop_() ? 1 : 0;
-  std::vector<std::string> given = carry(stop + bytes_of(step.size()) + std::string(step) + std::string(bytes));
+  std::string mine(1, stop_ && stop_() ? 1 : 0);
+  mine.append(bytes_of(step.size())).append(step).append(bytes);
+  std::vector<std::string> given = carry(mine);
   std::vector<std::string> steps;
   bool stopped = stopped_;
   for (std::string& message : given) {
@@ -96,7 +97,7 @@ std::string Ranks::once(const std::function<std::string()>& work) {
   std::string mine;
   if (rank() == 0) {
     try {
-      mine = "v" + work();
+      mine.append("v").append(work());
     } catch (...) {
       mine = to_bytes(std::current_exception());
     }
@@ -192,7 +193,7 @@ class RankEvaluator final : public Evaluator {
     });
     for (Index i = first; i < end; ++i)
       if (const std::string& failure = failures[static_cast<std::size_t>(i - first)]; !failure.empty())
-        return "f" + bytes_of(i) + failure;
+        return std::string("f").append(bytes_of(i)).append(failure);
     std::string bytes = "v";
     for (Index i = first; i < end; ++i)
       bytes.append(reinterpret_cast<const char*>(results.col(i).data()), column_bytes(results));
