@@ -22,6 +22,7 @@ enum class Purpose : std::uint32_t {
   prediction = 9,
   test = 10,
   resampling = 11,
+  evaluation = 12,
 };
 
 /// The name of a stream.

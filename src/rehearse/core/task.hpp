@@ -36,6 +36,7 @@ struct Task {
   double dt_s = 0;    // control step
   Index horizon = 0;  // steps of an episode, T
   Reward reward;
+  Reward initial_reward;    // a guess that stands in while the reward is still to be learned; empty: none
   double reward_floor = 0;  // charged for every step that an early end or a failed simulation leaves out
 
   std::function<bool(const ConstVectorView& state)> ended;  // a fall; empty: never. Any thread.

@@ -78,6 +78,7 @@ json from_record(const TrialRecord& r) {
   return {{"trial", r.trial},
           {"interaction_s", r.interaction_s},
           {"return", r.total_reward},
+          {"expected_return", from_optional(r.expected_return)},
           {"solved", from_optional(r.solved)},
           {"predicted_return", from_optional(r.predicted_return)},
           {"rollouts", r.rollouts},
@@ -97,6 +98,7 @@ TrialRecord to_record(const json& j) {
   j.at("trial").get_to(r.trial);
   j.at("interaction_s").get_to(r.interaction_s);
   j.at("return").get_to(r.total_reward);
+  to_optional(j.value("expected_return", json()), r.expected_return);
   to_optional(j.at("solved"), r.solved);
   to_optional(j.at("predicted_return"), r.predicted_return);
   j.at("rollouts").get_to(r.rollouts);

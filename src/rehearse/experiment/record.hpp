@@ -22,8 +22,9 @@ struct ForecastError {
 /// What is kept of one trial beside its episode. What does not apply is empty.
 struct TrialRecord {
   Index trial = 0;
-  double interaction_s = 0;  // on the plant, up to the end of this trial
-  double total_reward = 0;   // trials.csv calls it `return`
+  double interaction_s = 0;               // on the plant, up to the end of this trial
+  double total_reward = 0;                // trials.csv calls it `return`
+  std::optional<double> expected_return;  // over extra episodes of the policy that are no interaction
   std::optional<bool> solved;
   std::optional<double> predicted_return;
   Index rollouts = 0;

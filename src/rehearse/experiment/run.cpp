@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/evaluation.hpp"
 #include "rehearse/experiment/forecast.hpp"
 #include "rehearse/experiment/motion.hpp"
 #include "rehearse/experiment/run_folder.hpp"
@@ -179,6 +180,8 @@ class Run {
                        .model_s = proposal.model_s,
                        .search_s = proposal.search_s};
     if (task.solved) record.solved = task.solved(episode);
+    record.expected_return =
+        named_failure(trial, "plant", [&] { return expected_return(with_.resolved(), trial, proposal.theta); });
     if (proposal.model) record.forecast = forecast_errors(*proposal.model, task, episode);
     return record;
   }

@@ -87,7 +87,8 @@ void RunFolder::write_checkpoint(const History& history) const {
 }
 
 void RunFolder::write_tables(const History& history, const Resolved& resolved) const {
-  write_file(path_ / "trials.csv", trials_csv(history.trials, tunable_names(resolved.prior)));
+  write_file(path_ / "trials.csv",
+             trials_csv(history.trials, tunable_names(resolved.prior), resolved.scenario.evaluations > 0));
   write_file(path_ / "timings.csv", timings_csv(history.trials));
   write_file(path_ / "errors.csv", errors_csv(history.trials, resolved.scenario.task));
   write_file(path_ / "notes.csv", notes_csv(history.trials));

@@ -42,9 +42,11 @@ std::vector<std::string> tunable_names(const std::optional<prior::Prior>& prior)
   return names;
 }
 
-std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector<std::string>& phi_names) {
+std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector<std::string>& phi_names,
+                       bool evaluated) {
   Row header = {"trial",    "interaction_s",   "return",      "solved", "predicted_return",
                 "rollouts", "failed_rollouts", "log_evidence"};
+  if (evaluated) header.push_back("expected_return");
   for (const std::string& name : phi_names) header.push_back("phi." + name);
   Csv csv(header);
   for (const TrialRecord& t : trials) {
@@ -56,6 +58,7 @@ std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector
                Csv::cell(t.rollouts),
                Csv::cell(t.failed_rollouts),
                Csv::cell(t.log_evidence)};
+    if (evaluated) row.push_back(Csv::cell(t.expected_return));
     for (double value : t.phi) row.push_back(Csv::cell(value));
     row.resize(header.size());
     csv.row(row);

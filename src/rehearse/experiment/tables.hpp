@@ -15,7 +15,9 @@ namespace rehearse::experiment {
 /// Names of the tunable parameters of a prior; empty without one.
 std::vector<std::string> tunable_names(const std::optional<prior::Prior>& prior);
 
-std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector<std::string>& phi_names);
+/// With a column for the expected return where the scenario evaluates policies.
+std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector<std::string>& phi_names,
+                       bool evaluated = false);
 std::string timings_csv(const std::vector<TrialRecord>& trials);
 
 /// Forecast errors: one row per trial and horizon.

@@ -11,6 +11,8 @@ void OdeOptions::fields(FieldVisitor& v) {
   v.number("box_low", box_low, at_least(0));
   v.number("box_high", box_high, above(0));
   v.integer("substeps", substeps, at_least(1));
+  v.number("initial_reward_width", initial_reward_width, at_least(0));
+  v.integer("evaluations", evaluations, at_least(0));
   policy.fields(v);
 }
 
@@ -32,10 +34,16 @@ Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options) 
                     .make_plant = [plant] { return system::make_ode_plant(plant); },
                     .oracle = simulator(parts.plant),
                     .policy = make_policy(options.policy, task, parts.policy_scale),
-                    .drawing = parts.drawing};
+                    .drawing = parts.drawing,
+                    .evaluations = options.evaluations};
   for (const Guess& guess : parts.guesses)
     scenario.priors.push_back({guess.name, simulator(guess.parameters), guess.parameters});
   return scenario;
+}
+
+Reward initial_reward(const reward::SquaredDistance& squared_distance, const OdeOptions& options) {
+  return options.initial_reward_width > 0 ? reward::saturating(squared_distance, options.initial_reward_width)
+                                          : Reward{};
 }
 
 std::function<bool(const Episode&)> holds_at_the_end(const Task& task, double seconds,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/reward/saturating.hpp"
 #include "rehearse/scenario/policy_options.hpp"
 #include "rehearse/scenario/scenario.hpp"
 #include "rehearse/system/ode.hpp"
@@ -18,7 +19,9 @@ struct OdeOptions {
   double measurement_noise = 0;  // std of every measured state
   double box_low = 0.05;         // of the parameters that may be tuned
   double box_high = 1.2;
-  Index substeps = 20;  // of priors and oracle in a control step
+  Index substeps = 20;              // of priors and oracle in a control step
+  double initial_reward_width = 0;  // of the guess that stands in for a reward still to be learned; 0: none
+  Index evaluations = 0;            // extra episodes for each trial's expected_return; the authors' code: 500
   PolicyOptions policy;
 
   Interval box() const { return {box_low, box_high}; }
@@ -40,6 +43,9 @@ struct OdeScenario {
   std::optional<Drawing> drawing;
 };
 Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options);
+
+/// For Task::initial_reward: saturating as the reward is, with a width of its own; empty if the options give none.
+Reward initial_reward(const reward::SquaredDistance& squared_distance, const OdeOptions& options);
 
 /// For Task::solved: whether the whole horizon was run and every true state of its last `seconds` is as it should be.
 std::function<bool(const Episode&)> holds_at_the_end(const Task& task, double seconds,

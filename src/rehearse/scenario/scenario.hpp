@@ -31,6 +31,8 @@ struct Scenario {
   std::shared_ptr<const system::Simulator> oracle;  // the plant's own dynamics, for `--prior oracle`; may be null
   std::shared_ptr<const policy::Policy> policy;
   std::optional<Drawing> drawing;  // empty: it cannot be shown
+  Index evaluations = 0;           // extra episodes of each trial's policy on a plant of their own, which are no
+                                   // interaction: their mean return is recorded as expected_return; 0: none
 };
 
 /// A scenario whose options can still be set: what a robot's folder gives to the catalogue.

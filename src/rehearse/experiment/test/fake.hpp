@@ -33,12 +33,12 @@ class LineSimulator final : public system::Simulator {
   ParameterSpace parameters_ = line_parameters(1);
 };
 
-/// The same with gain 1 and measurement noise; fails in the trials it is told to.
+/// The same with gain 1, measurement noise and, unless that is 0, a random start; fails in the trials it is told to.
 class LinePlant final : public system::Plant {
  public:
   LinePlant(double gain, double noise, bool breaks) : gain_(gain), noise_(noise), breaks_(breaks) {}
   Vector reset(Rng& rng) override {
-    x_ = 1 + 0.1 * rng.normal();
+    x_ = 1 + (noise_ > 0 ? 0.1 : 0) * rng.normal();
     rng_ = rng;
     return measured();
   }
@@ -88,6 +88,7 @@ class LineBuilder final : public scenario::ScenarioBuilder {
     v.number("plant.gain", gain_, above(0));
     v.number("noise", noise_, at_least(0));
     v.boolean("breaks", breaks_);
+    v.integer("evaluations", evaluations_, at_least(0));
   }
   scenario::Scenario build() const override {
     const auto simulator = std::make_shared<LineSimulator>();
@@ -96,12 +97,14 @@ class LineBuilder final : public scenario::ScenarioBuilder {
             .make_plant = [*this] { return std::make_unique<LinePlant>(gain_, noise_, breaks_); },
             .priors = {{"near", simulator, line_parameters(1.2)}, {"far", simulator, line_parameters(3)}},
             .oracle = simulator,
-            .policy = std::make_shared<LinePolicy>()};
+            .policy = std::make_shared<LinePolicy>(),
+            .evaluations = evaluations_};
   }
 
  private:
   double gain_ = 1, noise_ = 0.01;
   bool breaks_ = false;
+  Index evaluations_ = 0;
 };
 
 /// Predicts with the simulator's gain.

@@ -13,6 +13,7 @@
 #include "rehearse/experiment/files.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/spec_file.hpp"
+#include "rehearse/statistics/table.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -78,6 +79,61 @@ TEST(Run, LearnerWithoutPriorHasNoModelColumns) {
   EXPECT_EQ(trials[0], "trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence");
   EXPECT_TRUE(trials[1].ends_with(",,100,0,")) << trials[1];
   EXPECT_TRUE(fs::is_empty(folder / "predictions"));
+}
+
+/// The cells of a column of a run's trials.csv.
+std::vector<std::string> column_of(const fs::path& folder, const std::string& name) {
+  const statistics::Table table = statistics::read_csv(read_file(folder / "trials.csv"));
+  const auto place = static_cast<std::size_t>(table.column(name));
+  std::vector<std::string> cells;
+  for (const auto& row : table.rows) cells.push_back(row.at(place));
+  return cells;
+}
+
+TEST(Run, ExpectedReturnWithoutNoiseIsTheReturn) {
+  const fs::path folder = fake::test_folder() / "run";
+  Spec spec = line_spec(3);
+  spec.options = {{"noise", "0"}, {"evaluations", "7"}};
+  start_run(fake::catalogue(), spec, folder, {});
+  EXPECT_EQ(column_of(folder, "expected_return"), column_of(folder, "return"));
+}
+
+// Seed 3. The start is N(1, 0.1²): returns differ, their means hardly.
+TEST(Run, ExpectedReturnIsAMeanOverManyEpisodes) {
+  const fs::path folder = fake::test_folder();
+  std::vector<double> means;
+  for (const char* evaluations : {"1", "2", "400", "800"}) {
+    Spec spec = line_spec(1);
+    spec.options = {{"evaluations", evaluations}};
+    start_run(fake::catalogue(), spec, folder / evaluations, {});
+    means.push_back(std::stod(column_of(folder / evaluations, "expected_return").front()));
+  }
+  EXPECT_NE(means[0], std::stod(column_of(folder / "1", "return").front())) << "its streams are its own";
+  EXPECT_NE(means[0], means[1]);
+  EXPECT_NEAR(means[2], means[3], 0.1);
+}
+
+TEST(Run, EvaluationsChangeNothingElse) {
+  const fs::path folder = fake::test_folder();
+  start_run(fake::catalogue(), line_spec(4), folder / "without", {});
+  Spec spec = line_spec(4);
+  spec.options = {{"evaluations", "5"}};
+  start_run(fake::catalogue(), spec, folder / "with", {});
+  for (const std::string& name : statistics::read_csv(read_file(folder / "without/trials.csv")).header)
+    EXPECT_EQ(column_of(folder / "with", name), column_of(folder / "without", name)) << name;
+  for (const char* file : {"trajectories/trial-004.csv", "predictions/trial-004.csv", "errors.csv", "policy.json"})
+    EXPECT_EQ(read_file(folder / "with" / file), read_file(folder / "without" / file)) << file;
+}
+
+TEST(Run, ExpectedReturnsSurviveAResume) {
+  const fs::path folder = fake::test_folder();
+  Spec spec = line_spec(2);
+  spec.options = {{"evaluations", "5"}};
+  start_run(fake::catalogue(), spec, folder / "resumed", {});
+  resume_run(fake::catalogue(), folder / "resumed", 4, {});
+  spec.trials = 4;
+  start_run(fake::catalogue(), spec, folder / "whole", {});
+  EXPECT_EQ(read_file(folder / "resumed/trials.csv"), read_file(folder / "whole/trials.csv"));
 }
 
 TEST(Run, FewerTrialsAreAPrefixOfMore) {

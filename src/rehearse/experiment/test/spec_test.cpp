@@ -27,8 +27,9 @@ TEST(Spec, LearnerTakesTheScenariosFirstPriorByDefault) {
 
 TEST(Spec, IsCompleteOnceResolved) {
   const Spec spec = resolve(fake::catalogue(), spec_of("echo", "far", {{"noise", "0.5"}, {"prior.gain", "2"}})).spec;
-  const Options expected = {{"scenario.plant.gain", "1"},   {"scenario.noise", "0.5"}, {"scenario.breaks", "false"},
-                            {"learner.search.step", "0.4"}, {"prior.gain", "2"},       {"prior.drift", "0"}};
+  const Options expected = {{"scenario.plant.gain", "1"},  {"scenario.noise", "0.5"},      {"scenario.breaks", "false"},
+                            {"scenario.evaluations", "0"}, {"learner.search.step", "0.4"}, {"prior.gain", "2"},
+                            {"prior.drift", "0"}};
   EXPECT_EQ(spec.options, expected);
 }
 
@@ -37,7 +38,7 @@ TEST(Spec, OptionsReachScenarioLearnerAndPrior) {
       resolve(fake::catalogue(),
               spec_of("echo", "near", {{"search.step", "2"}, {"scenario.noise", "0"}, {"prior.drift", "1"}}));
   EXPECT_EQ(resolved.spec.options[1].second, "0");
-  EXPECT_EQ(resolved.spec.options[3].second, "2");
+  EXPECT_EQ(resolved.spec.options[4].second, "2");
   EXPECT_EQ(resolved.prior->space[1].value, 1);
 }
 
@@ -52,8 +53,8 @@ TEST(Spec, SeveralPriorsAreOneChoice) {
   const Resolved resolved = resolve(fake::catalogue(), spec_of("echo", "near,far", {{"prior.far.gain", "3.5"}}));
   EXPECT_EQ(resolved.spec.prior, "near,far");
   EXPECT_GE(resolved.prior->space.find("prior"), 0);
-  EXPECT_EQ(resolved.spec.options[4], (std::pair<std::string, std::string>{"prior.near.gain", "1.2"}));
-  EXPECT_EQ(resolved.spec.options[6], (std::pair<std::string, std::string>{"prior.far.gain", "3.5"}));
+  EXPECT_EQ(resolved.spec.options[5], (std::pair<std::string, std::string>{"prior.near.gain", "1.2"}));
+  EXPECT_EQ(resolved.spec.options[7], (std::pair<std::string, std::string>{"prior.far.gain", "3.5"}));
 }
 
 TEST(Spec, SaysWhatIsWrong) {

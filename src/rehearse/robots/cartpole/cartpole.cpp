@@ -44,6 +44,7 @@ Task make_task(const Options& options) {
   task.dt_s = options.dt_s;
   task.horizon = options.horizon;
   task.reward = reward::saturating(squared_tip_distance, kRewardWidth);
+  task.initial_reward = scenario::initial_reward(squared_tip_distance, options.ode);
   task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
     return std::abs(state(0)) <= kSolvedDistance && -std::cos(state(3)) >= std::cos(kSolvedAngle);
   });

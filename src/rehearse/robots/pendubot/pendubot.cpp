@@ -71,6 +71,7 @@ Task make_task(const Options& options) {
   task.dt_s = kDt;
   task.horizon = kHorizon;
   task.reward = reward::saturating(squared_tip_distance, kRewardWidth);
+  task.initial_reward = scenario::initial_reward(squared_tip_distance, options.ode);
   task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
     return (tip(state) - Eigen::Vector2d{0, 1}).norm() <= kSolvedDistance;
   });

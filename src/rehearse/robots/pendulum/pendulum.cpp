@@ -42,6 +42,7 @@ Task make_task(const Options& options) {
   task.dt_s = kDt;
   task.horizon = kHorizon;
   task.reward = reward::saturating(squared_distance, kRewardWidth);
+  task.initial_reward = scenario::initial_reward(squared_distance, options.ode);
   task.solved = scenario::holds_at_the_end(
       task, kSolvedTime, [](const ConstVectorView& state) { return -std::cos(state(1)) >= std::cos(kSolvedAngle); });
   return task;
