@@ -16,6 +16,8 @@ void Dataset::append(const Episode& episode) {
   append_rows(states, episode.states.topRows(steps));
   append_rows(actions, episode.actions);
   append_rows(changes, episode.states.bottomRows(steps) - episode.states.topRows(steps));
+  rewards.conservativeResize(rewards.size() + steps);
+  rewards.tail(steps) = episode.rewards;
 }
 
 }  // namespace rehearse

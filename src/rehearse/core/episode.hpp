@@ -24,6 +24,7 @@ struct Dataset {
   Matrix states;   // n × dx
   Matrix actions;  // n × du
   Matrix changes;  // n × dx, next state − state
+  Vector rewards;  // n, of the states reached
 
   Index size() const { return states.rows(); }
   void append(const Episode& episode);

@@ -30,6 +30,7 @@ TEST(Dataset, TakesTheMeasuredSteps) {
   Matrix changes(3, 2);
   changes << 1, -1, 3, -1, 5, -1;
   EXPECT_EQ(data.changes, changes);
+  EXPECT_EQ(data.rewards, episode(3, 0).rewards);
 }
 
 TEST(Dataset, GrowsEpisodeByEpisode) {
@@ -42,6 +43,7 @@ TEST(Dataset, GrowsEpisodeByEpisode) {
   EXPECT_EQ(data.states(3, 0), 100) << "no step leads from one episode into the next";
   EXPECT_EQ(data.changes(2, 0), 5);
   EXPECT_EQ(data.changes(3, 0), 1);
+  EXPECT_EQ(data.rewards.size(), 5);
   data.append(episode(0, 5));
   EXPECT_EQ(data.size(), 5);
 }

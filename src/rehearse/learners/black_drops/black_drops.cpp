@@ -92,8 +92,12 @@ class BlackDrops final : public Learner {
     // What an interruption must not leave behind is assigned last.
     dynamics::WarmStart state = state_;
     std::vector<Vector> carried = carried_;
-    proposal.model_s = seconds([&] { learn_model(proposal, state); });
-    proposal.search_s = seconds([&] { search(proposal, carried); });
+    Task task = setting_.task;
+    proposal.model_s = seconds([&] {
+      learn_model(proposal, state);
+      if (options_.reward.learned) learn_reward(proposal, task);
+    });
+    proposal.search_s = seconds([&] { search(proposal, task, carried); });
     state_ = std::move(state);
     carried_ = std::move(carried);
     return proposal;
@@ -119,14 +123,25 @@ class BlackDrops final : public Learner {
     }
   }
 
+  /// Replaces the task's reward by what is believed of it.
+  void learn_reward(Proposal& proposal, Task& task) const {
+    if (returns_.empty()) {
+      task.reward = task.initial_reward;
+      return;
+    }
+    dynamics::LearnedReward learned = dynamics::learn_reward(data_, features_, options_.reward);
+    task.reward = std::move(learned.reward);
+    if (proposal.log_evidence) *proposal.log_evidence += learned.log_evidence;
+    for (std::string& note : learned.notes) proposal.notes.push_back(std::move(note));
+  }
+
   void trust_prior(Proposal& proposal, double variance) const {
     proposal.phi = setting_.prior->space.values();
     proposal.model = std::make_shared<dynamics::SimulatorModel>(*setting_.prior, *proposal.phi, variance);
   }
 
-  void search(Proposal& proposal, std::vector<Vector>& carried) const {
-    const SearchProblem problem{*proposal.model, *setting_.policy, setting_.task, *setting_.evaluator,
-                                setting_.progress};
+  void search(Proposal& proposal, const Task& task, std::vector<Vector>& carried) const {
+    const SearchProblem problem{*proposal.model, *setting_.policy, task, *setting_.evaluator, setting_.progress};
     std::vector<Vector> starts = known_policies();
     const Index searches = returns_.empty() ? options_.prior_searches : 1;
     for (Index i = 0; i < searches; ++i) {
@@ -192,6 +207,7 @@ class Builder final : public LearnerBuilder {
 
 void Options::fields(FieldVisitor& v) {
   std::visit([&](auto& kind) { v.group("model", kind); }, model);
+  v.group("reward", reward);
   v.group("search", search);
   v.boolean("start_from_best", start_from_best);
   v.integer("carried", carried, at_least(0));
@@ -206,6 +222,10 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   const bool needs_prior = !std::holds_alternative<dynamics::ZeroMean>(options.model);
   violations.require(!needs_prior || setting.prior, "this learner needs a prior");
   violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
+  violations.require(
+      !options.reward.learned || !needs_prior || setting.task.initial_reward,
+      "reward.learned = true, but the scenario gives no initial_reward for the first search, on the "
+      "prior: give it one (of those built in: initial_reward_width), or choose a learner without a prior");
   violations.throw_if_any();
   if (!needs_prior) setting.prior.reset();
   if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);

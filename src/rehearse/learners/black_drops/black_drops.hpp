@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rehearse/dynamics/learn.hpp"
+#include "rehearse/dynamics/learned_reward.hpp"
 #include "rehearse/learners/black_drops/policy_search.hpp"
 #include "rehearse/learners/learner.hpp"
 
@@ -13,6 +14,7 @@ namespace rehearse::learners::black_drops {
 
 struct Options {
   dynamics::Kind model = dynamics::GpMi{};
+  dynamics::RewardOptions reward;
   SearchOptions search;
   bool start_from_best = true;  // one descent starts from the best policy observed; the authors' code
   Index carried = 3;            // and so many from the best other policies of the search before
@@ -22,7 +24,8 @@ struct Options {
   void fields(FieldVisitor& v);
 };
 
-/// Throws InvalidInput if an option is out of bounds, or a prior is needed and missing.
+/// Throws InvalidInput if an option is out of bounds, or a prior is needed and missing, or the reward is to be learned
+/// and the first search, on the prior, has no initial_reward.
 std::unique_ptr<Learner> make(Setting setting, Options options);
 
 /// black-drops, black-drops-prior, gp-mi and mi.

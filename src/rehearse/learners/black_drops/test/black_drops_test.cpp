@@ -69,6 +69,61 @@ INSTANTIATE_TEST_SUITE_P(Names, EachLearner, ::testing::ValuesIn(slider::kNames)
   return name;
 });
 
+/// The learner of this name that is to learn the reward, too.
+std::unique_ptr<LearnerBuilder> reward_builder(const std::string& name, const std::string& evaluations = "300") {
+  auto learner = builder(name, evaluations);
+  set_field([&](FieldVisitor& v) { learner->fields(v); }, "reward.learned", "true");
+  return learner;
+}
+
+/// Without the reward; a guess of it, twice as wide, where there is one.
+Setting without_reward(std::optional<prior::Prior> prior, bool guess) {
+  Setting blind = setting(std::move(prior));
+  if (guess)
+    blind.task.initial_reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next,
+                                   VectorView rewards) { rewards = (-X_next.col(0).array().square() / 0.32).exp(); };
+  blind.task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView) {
+    ADD_FAILURE() << "the task's reward is not to be asked";
+  };
+  return blind;
+}
+
+TEST_P(EachLearner, LearnsTheRewardToo) {
+  const auto learner = reward_builder(GetParam(), "600")->build(without_reward(slider::prior(0.6), true));
+  const History history = learn(*learner, 4);
+  EXPECT_GT(*std::max_element(history.returns.begin(), history.returns.end()), 7.5);
+}
+
+TEST_P(EachLearner, KeepsTheLawsWithALearnedReward) {
+  EXPECT_EQ(testing::check_learner(*reward_builder(GetParam()), without_reward(slider::prior(), true), run_trial),
+            std::vector<std::string>{});
+}
+
+TEST(BlackDrops, ALearnedRewardNeedsAnInitialOneWithAPriorOnly) {
+  for (const char* name : slider::kWithPrior) {
+    const auto message = [&]() -> std::string {
+      try {
+        reward_builder(name)->build(without_reward(slider::prior(), false));
+      } catch (const InvalidInput& error) {
+        return error.what();
+      }
+      return {};
+    }();
+    for (const char* part : {"reward.learned = true", "initial_reward"})
+      EXPECT_NE(message.find(part), std::string::npos) << name << ": " << message;
+  }
+  EXPECT_NO_THROW(reward_builder("black-drops")->build(without_reward({}, false)));
+}
+
+TEST(BlackDrops, TheFirstSearchOnAPriorUsesTheInitialReward) {
+  const Proposal guessed = reward_builder("mi")->build(without_reward(slider::prior(), true))->ask();
+  Setting told = setting();
+  told.task.reward = without_reward({}, true).task.initial_reward;
+  const Proposal proposal = builder("mi")->build(told)->ask();
+  EXPECT_EQ(guessed.theta, proposal.theta);
+  EXPECT_EQ(guessed.predicted_return, proposal.predicted_return);
+}
+
 TEST(BlackDrops, WithoutAPriorTheFirstTrialIsRandomAndReproducible) {
   const auto first_theta = [](std::uint64_t seed) {
     const auto learner = builder("black-drops")->build(setting({}, seed));

@@ -1,0 +1,93 @@
+#include "rehearse/dynamics/learned_reward.hpp"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/vector_math.hpp"
+#include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/gp/posterior.hpp"
+
+namespace rehearse::dynamics {
+namespace {
+
+Matrix inputs_of(const Dataset& data, const FeatureMap& features) {
+  Matrix F(data.size(), features.features() + data.actions.cols());
+  gp_inputs(features, data.states + data.changes, data.actions, F);
+  return F;
+}
+
+double standard_deviation(const Vector& y) {
+  return (y.array() - y.mean()).matrix().norm() / std::sqrt(std::max<double>(1, static_cast<double>(y.size() - 1)));
+}
+
+/// What a GP with zero mean is fitted to, and the way back: r = y, or r = exp(y + offset) − floor.
+struct Targets {
+  Vector y;
+  RewardScale scale = RewardScale::linear;
+  double offset = 0, floor = 0;
+  double log_jacobian = 0;  // ln |dy/dr|, all rows together
+};
+
+Targets logarithmic(const Vector& rewards, double floor) {
+  const Vector logs = (rewards.array() + floor).log();
+  return {(logs.array() - logs.mean()).matrix(), RewardScale::logarithmic, logs.mean(), floor, -logs.sum()};
+}
+
+struct Fitted {
+  Targets targets;
+  gp::Fit fit;
+  double log_evidence() const { return fit.log_evidence + targets.log_jacobian; }
+};
+
+Fitted fitted(Targets targets, const gp::Inputs& inputs, const gp::FitOptions& options) {
+  const double scale = standard_deviation(targets.y);
+  const auto start = gp::default_start(inputs, targets.y, scale, options.bounds);
+  gp::Fit fit = gp::fit(inputs, targets.y, scale, start, options);
+  return {std::move(targets), std::move(fit)};
+}
+
+Fitted best_fit(const Vector& rewards, const gp::Inputs& inputs, const RewardOptions& options) {
+  const double floor = options.floor * rewards.maxCoeff();
+  const bool has_logarithm = rewards.minCoeff() >= 0 && floor >= std::numeric_limits<double>::min();
+  if (options.scale == RewardScale::linear || !has_logarithm) return fitted({.y = rewards}, inputs, options.fit);
+  Fitted logs = fitted(logarithmic(rewards, floor), inputs, options.fit);
+  if (options.scale == RewardScale::logarithmic) return logs;
+  Fitted plain = fitted({.y = rewards}, inputs, options.fit);
+  const bool logs_likelier = logs.log_evidence() >= plain.log_evidence();  // NaN where a fit failed
+  return logs_likelier || std::isnan(plain.log_evidence()) ? logs : plain;
+}
+
+Reward mean_of(std::shared_ptr<const gp::Posterior> posterior, const FeatureMap& features, const Targets& targets) {
+  const bool logarithmic = targets.scale == RewardScale::logarithmic;
+  return [=, posterior = std::move(posterior), offset = targets.offset, floor = targets.floor](
+             const ConstMatrixView&, const ConstMatrixView& U, const ConstMatrixView& X_next, VectorView rewards) {
+    thread_local Matrix inputs;
+    inputs.resize(X_next.rows(), features.features() + U.cols());
+    gp_inputs(features, X_next, U, inputs);
+    posterior->predict_mean(inputs, rewards);
+    if (!logarithmic) return;
+    rewards.array() += offset;
+    vector_exp(rewards.data(), rewards.data(), rewards.size());
+    rewards.array() -= floor;
+  };
+}
+
+}  // namespace
+
+LearnedReward learn_reward(const Dataset& data, const FeatureMap& features, const RewardOptions& options) {
+  if (data.size() == 0) throw InvalidInput("the data set has no row to learn the reward from");
+  const gp::Inputs inputs(inputs_of(data, features));
+  const Fitted best = best_fit(data.rewards, inputs, options);
+  LearnedReward learned{
+      .scale = best.targets.scale, .kernel = best.fit.hyperparameters, .log_evidence = best.log_evidence()};
+  if (best.fit.status == gp::Fit::Status::failed)
+    learned.notes.push_back("the kernel of the reward could not be fitted");
+  const auto posterior =
+      std::make_shared<gp::Posterior>(inputs, best.targets.y, std::vector{best.fit.hyperparameters}, options.tolerance);
+  learned.reward = mean_of(posterior, features, best.targets);
+  return learned;
+}
+
+}  // namespace rehearse::dynamics
