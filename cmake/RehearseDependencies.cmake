@@ -11,6 +11,10 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(fmt 9 REQUIRED)
 find_package(Threads REQUIRED)
 
+# Optional: several processes under mpirun.
+set(MPI_CXX_SKIP_MPICXX TRUE)
+find_package(MPI QUIET COMPONENTS CXX)
+
 # The pthread flavour's static library, because the serial one is not thread-safe and the shared
 # ones are exchanged behind our back by Debian's alternatives.
 find_library(REHEARSE_OPENBLAS_LIBRARY NAMES libopenblas.a PATH_SUFFIXES openblas-pthread REQUIRED)

@@ -1,3 +1,5 @@
+#include <array>
+#include <charconv>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -20,30 +22,60 @@ bool a_claim_failed(const Campaign& campaign) {
   return false;
 }
 
+/// "3/20"
+experiment::Share share_of(const std::optional<std::string>& text, Violations& violations) {
+  if (!text) return {};
+  const std::size_t slash = text->find('/');
+  std::array<Index, 2> numbers{};
+  const std::array<std::string, 2> texts = {text->substr(0, slash),
+                                            slash == std::string::npos ? "" : text->substr(slash + 1)};
+  bool right = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto [end, error] = std::from_chars(texts[i].data(), texts[i].data() + texts[i].size(), numbers[i]);
+    right = right && error == std::errc() && end == texts[i].data() + texts[i].size();
+  }
+  violations.require(right && 1 <= numbers[0] && numbers[0] <= numbers[1],
+                     fmt::format("--share = {}, must be K/N with K from 1 to N", *text));
+  return {numbers[0], numbers[1]};
+}
+
+void say_unfinished(const Campaign& campaign) {
+  fmt::print(stderr, "rehearse: interrupted with {} of {} runs done; to continue, give the same command again\n",
+             campaign.count(RunState::done), campaign.runs.size());
+}
+
 }  // namespace
 
-int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments) {
+int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const Company& company) {
   Violations violations;
   const Index threads = threads_of(arguments.threads, violations);
+  const experiment::Share share = share_of(arguments.share, violations);
   violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
+  violations.require(share.of == 1 || !arguments.check_claims, "--check-claims needs all runs, --share does some");
   violations.throw_if_any();
   const std::string text = experiment::read_file(arguments.file);
   if (arguments.dry_run) {
-    print_plan(experiment::plan_campaign(catalogue, text, arguments.file));
+    const experiment::CampaignPlan plan = experiment::plan_campaign(catalogue, text, arguments.file);
+    if (company.leads()) print_plan(plan);
     return kSuccess;
   }
   const std::string folder = arguments.out.value_or("runs/" + std::filesystem::path(arguments.file).stem().string());
+  if (company.leads() && !company.difference.empty())
+    fmt::print(stderr, "rehearse: the last bits of a run depend on the machine that does it: {}\n", company.difference);
 
-  CampaignConsole console(folder);
+  CampaignConsole console(folder, share);
   catch_signals();
-  const Campaign done = experiment::run_campaign(
-      catalogue, text, arguments.file, folder,
-      {.threads = static_cast<int>(threads), .listener = &console, .stop = [] { return caught_signal() != 0; }});
+  const Campaign done = experiment::run_campaign(catalogue, text, arguments.file, folder,
+                                                 {.threads = company.threads(threads),
+                                                  .listener = company.leads() ? &console : nullptr,
+                                                  .stop = [] { return caught_signal() != 0; },
+                                                  .share = share,
+                                                  .ranks = company.ranks.get()});
+  if (!company.leads()) return kSuccess;
   if (done.count(RunState::unfinished) > 0) {
     console.clear_line();
-    fmt::print(stderr, "rehearse: interrupted with {} of {} runs done; to continue, give the same command again\n",
-               done.count(RunState::done), done.runs.size());
-    return 128 + caught_signal();
+    say_unfinished(done);
+    return exit_code_of_signal();
   }
   console.finished(done);
   const bool failed = done.count(RunState::failed) > 0 || (arguments.check_claims && a_claim_failed(done));

@@ -142,7 +142,12 @@ void CampaignConsole::started(const Campaign& campaign, Index at_once) {
   failed_ = campaign.count(RunState::failed);
   for (const RunOutcome& run : campaign.runs)
     left_.push_back(run.state == RunState::unfinished ? plan_.trials - run.done() : 0);
-  line_.print(fmt::format("{} in {}", headline(plan_), folder_));
+  if (share_.of == 1)
+    line_.print(fmt::format("{} in {}", headline(plan_), folder_));
+  else
+    line_.print(fmt::format("{}: share {} of {}, {} of {} in {}", plan_.title, share_.number, share_.of,
+                            counted(plan_.runs.size(), "run"), counted(static_cast<std::size_t>(plan_.trials), "trial"),
+                            folder_));
   for (const auto& [name, reason] : plan_.missing) line_.print(fmt::format("missing: {}", reason));
   for (const auto& [path, reason] : campaign.skipped) line_.print(fmt::format("skipped: {}: {}", path, reason));
   for (std::size_t i = 0; i < campaign.runs.size(); ++i)
@@ -186,6 +191,11 @@ void CampaignConsole::run_ended(std::size_t run, const RunOutcome& outcome) {
 
 void CampaignConsole::finished(const Campaign& campaign) {
   line_.clear();
+  if (share_.of > 1) {
+    print_failures(campaign);
+    fmt::print("The same command without --share, when all shares have ended, writes the tables\n");
+    return;
+  }
   print_groups(campaign);
   print_failures(campaign);
   print_claims(campaign);

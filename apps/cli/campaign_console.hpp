@@ -14,13 +14,13 @@ namespace rehearse::apps {
 /// Shows a campaign on standard output: one line a run that ends, and on a terminal a last line that is rewritten.
 class CampaignConsole final : public experiment::CampaignListener {
  public:
-  explicit CampaignConsole(std::string folder) : folder_(std::move(folder)) {}
+  CampaignConsole(std::string folder, experiment::Share share) : folder_(std::move(folder)), share_(share) {}
   void started(const experiment::Campaign& campaign, Index at_once) override;
   void run_started(std::size_t run, Index done) override;
   void progress(std::size_t run, Index trial, const Progress& progress) override;
   void run_ended(std::size_t run, const experiment::RunOutcome& outcome) override;
 
-  /// The tables of results and claims.
+  /// The tables of results and claims, or of a share what failed.
   void finished(const experiment::Campaign& campaign);
   void clear_line() { line_.clear(); }
 
@@ -46,6 +46,7 @@ class CampaignConsole final : public experiment::CampaignListener {
 
   StatusLine line_;
   std::string folder_;
+  experiment::Share share_;
   experiment::CampaignPlan plan_;
   Index at_once_ = 1;
   Index ended_ = 0;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/ranks.hpp"
 #include "rehearse/experiment/catalogue.hpp"
 
 namespace rehearse::apps {
@@ -29,7 +30,7 @@ struct ResumeArguments {
 
 struct CampaignArguments {
   std::string file;
-  std::optional<std::string> threads, out;
+  std::optional<std::string> threads, out, share;
   bool check_claims = false;
   bool dry_run = false;
 };
@@ -44,10 +45,12 @@ struct ReplayArguments {
   std::optional<std::string> trial, out;
 };
 
+// With company, every process calls the same command; only the first prints.
+
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);
-int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments);
-int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments);
-int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments);
+int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments, const Company& company);
+int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments, const Company& company);
+int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const Company& company);
 int report(const ReportArguments& arguments);
 int replay(const ReplayArguments& arguments);
 

@@ -61,33 +61,50 @@ Spec resolved_spec(const Catalogue& catalogue, const Spec& spec, Violations& vio
   }
 }
 
+std::shared_ptr<const Evaluator> evaluator_of(const Company& company, Index asked) {
+  const int threads = company.threads(asked);
+  return company.ranks ? make_rank_evaluator(*company.ranks, threads) : make_thread_evaluator(threads);
+}
+
+/// Every rank computes what must be the same, the search's state and the model, and shares only the rollouts.
+void require_same_arithmetic(const Company& company) {
+  if (!company.difference.empty())
+    throw InvalidInput(
+        fmt::format("the processes compute differently ({}): use machines of one kind, or one setting of "
+                    "OPENBLAS_CORETYPE",
+                    company.difference));
+}
+
 /// Runs with signals caught and the console listening.
 template <class Start>
-int run_on_console(const std::filesystem::path& folder, Index threads, Start start) {
+int run_on_console(const std::filesystem::path& folder, Index threads, const Company& company, Start start) {
+  require_same_arithmetic(company);
   Console console;
   catch_signals();
-  const RunOptions options{.evaluator = make_thread_evaluator(static_cast<int>(threads)),
-                           .listener = &console,
-                           .stop = [] { return caught_signal() != 0; }};
+  const RunOptions options{.evaluator = evaluator_of(company, threads),
+                           .listener = company.leads() ? &console : nullptr,
+                           .stop = [&] { return company.ranks ? company.ranks->stopped() : caught_signal() != 0; }};
   try {
-    console.finished(start(options));
+    const RunResult result = start(options);
+    if (company.leads()) console.finished(result);
     return kSuccess;
   } catch (const Interrupted&) {
     console.clear_line();
-    fmt::print(stderr, "rehearse: interrupted after {} trials; to continue: rehearse resume {}\n",
-               console.trials_done(), folder.string());
-    return 128 + caught_signal();
+    if (company.leads())
+      fmt::print(stderr, "rehearse: interrupted after {} trials; to continue: rehearse resume {}\n",
+                 console.trials_done(), folder.string());
+    return exit_code_of_signal();
   } catch (const experiment::RunFailed& error) {
     console.clear_line();
-    fmt::print(stderr, "rehearse: {}\nrehearse: what was done is kept; to try again: rehearse resume {}\n",
-               error.what(), folder.string());
-    return kFailed;
+    if (!company.leads()) throw;
+    throw std::runtime_error(
+        fmt::format("{}\nwhat was done is kept; to try again: rehearse resume {}", error.what(), folder.string()));
   }
 }
 
 }  // namespace
 
-int learn(const Catalogue& catalogue, const LearnArguments& arguments) {
+int learn(const Catalogue& catalogue, const LearnArguments& arguments, const Company& company) {
   Violations violations;
   Spec spec = named_spec(arguments, violations);
   set_numbers(spec, arguments.trials, arguments.seed, violations);
@@ -97,19 +114,19 @@ int learn(const Catalogue& catalogue, const LearnArguments& arguments) {
   spec = resolved_spec(catalogue, spec, violations);
   violations.throw_if_any();
   const std::filesystem::path folder = arguments.out.value_or("runs/" + experiment::run_name(spec));
-  return run_on_console(folder, threads, [&](const RunOptions& options) {
+  return run_on_console(folder, threads, company, [&](const RunOptions& options) {
     return experiment::start_run(catalogue, spec, folder, options);
   });
 }
 
-int resume(const Catalogue& catalogue, const ResumeArguments& arguments) {
+int resume(const Catalogue& catalogue, const ResumeArguments& arguments, const Company& company) {
   Violations violations;
   Spec numbers;
   set_numbers(numbers, arguments.trials, {}, violations);
   const Index threads = threads_of(arguments.threads, violations);
   violations.throw_if_any();
   const auto trials = arguments.trials ? std::optional<Index>(numbers.trials) : std::nullopt;
-  return run_on_console(arguments.folder, threads, [&](const RunOptions& options) {
+  return run_on_console(arguments.folder, threads, company, [&](const RunOptions& options) {
     return experiment::resume_run(catalogue, arguments.folder, trials, options);
   });
 }

@@ -68,7 +68,7 @@ CLI::App* add_learn(CLI::App& app, LearnArguments& arguments) {
   add(command, "--trials", arguments.trials, "How often the plant may be used. Default: 10", "N");
   add(command, "--seed", arguments.seed, "Of all random numbers: the same seed gives the same run. Default: 1", "S");
   add(command, "--threads", arguments.threads,
-      "Threads to compute with; results do not depend on it. Default: all cores", "K");
+      "Threads to compute with, with mpirun of each process; results do not depend on it. Default: all cores", "K");
   add(command, "--out", arguments.out,
       "The run folder, which must not exist. Default: runs/SCENARIO-LEARNER-PRIOR-SEED", "DIR");
   add(command, "--set", arguments.set, "Set an option of `rehearse list --options`; may be repeated", "KEY=VALUE")
@@ -93,7 +93,13 @@ CLI::App* add_campaign(CLI::App& app, CampaignArguments& arguments) {
   add(command, "--out", arguments.out,
       "The folder of the campaign; one that was begun is continued. Default: runs/ and the file's name", "DIR");
   add(command, "--threads", arguments.threads,
-      "Threads to compute with in all, one a run where there are enough runs. Default: all cores", "K");
+      "Threads to compute with in all, one a run where there are enough runs; with mpirun, of each process. Default: "
+      "all cores",
+      "K");
+  add(command, "--share", arguments.share,
+      "Of N processes that work on the folder at the same time, be the K-th and do every N-th run; the same command "
+      "without it, when all have ended, writes the tables",
+      "K/N");
   command->add_flag("--dry-run", arguments.dry_run, "Check the file and say what would be done, without doing it");
   command->add_flag("--check-claims", arguments.check_claims, "Exit with status 1 if a claim fails");
   command->footer(kCampaignExample);
@@ -128,7 +134,7 @@ void check_command(const CLI::App& app, int argc, char** argv) {
                                  fmt::join(known, ", ")));
 }
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, const Company& company) {
   CLI::App app(kAbout, "rehearse");
   app.footer(kExample);
   app.set_version_flag("--version", "rehearse " REHEARSE_VERSION, "Show the version");
@@ -149,39 +155,64 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    if (error.get_exit_code() == 0) return company.leads() ? app.exit(error) : kSuccess;  // --help, --version
     throw InvalidInput(error.what());
   }
+  if (learn_command->parsed()) return learn(catalogue(), learn_arguments, company);
+  if (resume_command->parsed()) return resume(catalogue(), resume_arguments, company);
+  if (campaign_command->parsed()) return campaign(catalogue(), campaign_arguments, company);
+  if (!company.leads()) return kSuccess;
   if (list_command->parsed()) return list(catalogue(), list_arguments);
-  if (learn_command->parsed()) return learn(catalogue(), learn_arguments);
-  if (resume_command->parsed()) return resume(catalogue(), resume_arguments);
-  if (campaign_command->parsed()) return campaign(catalogue(), campaign_arguments);
   if (report_command->parsed()) return report(report_arguments);
   return replay(replay_arguments);
 }
 
 /// One line on standard error for each line of the message.
-void complain(const char* message) {
-  std::string_view rest = message;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    fmt::print(stderr, "rehearse: {}\n", rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+void complain(std::string_view message) {
+  while (!message.empty()) {
+    const std::size_t end = std::min(message.find('\n'), message.size());
+    fmt::print(stderr, "rehearse: {}\n", message.substr(0, end));
+    message.remove_prefix(std::min(end + 1, message.size()));
   }
+}
+
+/// How a program ends.
+struct End {
+  int code = kSuccess;
+  std::string message;
+};
+
+template <class Command>
+End end_of(Command command) {
+  try {
+    return {command(), ""};
+  } catch (const InvalidInput& error) {
+    return {kWrongInput, error.what()};
+  } catch (const std::exception& error) {
+    return {kFailed, error.what()};
+  }
+}
+
+/// Waits for the other ranks; what went wrong on one of them alone is said, too.
+End end_with(Ranks& ranks, End end) {
+  for (const Ranks::End& other : ranks.leave(end.code, end.message))
+    if (end.code == kSuccess && other.code != kSuccess)
+      end = {other.code, fmt::format("rank {} failed: {}", other.rank, other.message)};
+  return end;
 }
 
 }  // namespace
 }  // namespace rehearse::apps
 
 int main(int argc, char** argv) {
-  using namespace rehearse;
-  try {
-    return apps::run(argc, argv);
-  } catch (const InvalidInput& error) {
-    apps::complain(error.what());
-    return apps::kWrongInput;
-  } catch (const std::exception& error) {
-    apps::complain(error.what());
-    return apps::kFailed;
-  }
+  using namespace rehearse::apps;
+  const Launch started = launch();
+  Company company;
+  End end = end_of([&] {
+    company = join(started, argc, argv);
+    return run(argc, argv, company);
+  });
+  if (company.ranks) end = end_with(*company.ranks, end);
+  if (started.rank == 0) complain(end.message);
+  return end.code;
 }

@@ -19,4 +19,6 @@ void catch_signals() {
 
 int caught_signal() { return remembered; }
 
+int exit_code_of_signal() { return 128 + (remembered != 0 ? remembered : SIGTERM); }
+
 }  // namespace rehearse::apps

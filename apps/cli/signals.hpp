@@ -9,4 +9,7 @@ void catch_signals();
 /// 0 if there was none.
 int caught_signal();
 
+/// Of a process that stopped because of it, or because another rank was told to.
+int exit_code_of_signal();
+
 }  // namespace rehearse::apps

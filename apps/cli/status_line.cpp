@@ -6,6 +6,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "apps/cli/ranks.hpp"
+
 namespace rehearse::apps {
 namespace {
 
@@ -22,7 +24,8 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-StatusLine::StatusLine() : terminal_(::isatty(STDOUT_FILENO) == 1) {}
+// mpirun shows rank 0 a terminal even where its own output goes to a file.
+StatusLine::StatusLine() : terminal_(::isatty(STDOUT_FILENO) == 1 && launch().size == 1) {}
 
 void StatusLine::print(const std::string& line) {
   clear();

@@ -1,62 +1,18 @@
 #include "rehearse/experiment/campaign.hpp"
 
-#include <chrono>
+#include <future>
 #include <memory>
-#include <mutex>
+
+#include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/experiment/campaign_folder.hpp"
+#include "rehearse/experiment/campaign_ledger.hpp"
 #include "rehearse/experiment/run.hpp"
 
 namespace rehearse::experiment {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// The state of a campaign, shared by the threads that work on it.
-class Ledger {
- public:
-  Ledger(const CampaignFolder& folder, Campaign& campaign, const CampaignOptions& options)
-      : folder_(folder), campaign_(campaign), options_(options) {}
-
-  bool stopped() const { return options_.stop && options_.stop(); }
-
-  /// The next run to do, in the order of the plan.
-  std::optional<std::size_t> next() {
-    const std::lock_guard lock(mutex_);
-    while (next_ < campaign_.runs.size() && campaign_.runs[next_].state != RunState::unfinished) ++next_;
-    if (stopped() || next_ >= campaign_.runs.size()) return std::nullopt;
-    return next_++;
-  }
-
-  template <class Tell>
-  void tell(Tell tell) {
-    const std::lock_guard lock(mutex_);
-    if (options_.listener) tell(*options_.listener);
-  }
-
-  void update(std::size_t run, RunOutcome outcome) {
-    const std::lock_guard lock(mutex_);
-    campaign_.runs[run] = std::move(outcome);
-    if (Clock::now() < next_write_) return;
-    const auto begin = Clock::now();
-    try {
-      folder_.write(campaign_);
-    } catch (const std::runtime_error&) {  // a full disk: the last write says so, if it still is
-    }
-    const auto end = Clock::now();
-    next_write_ = end + std::max<Clock::duration>(std::chrono::seconds(1), 20 * (end - begin));
-  }
-
- private:
-  const CampaignFolder& folder_;
-  Campaign& campaign_;
-  const CampaignOptions& options_;
-  std::mutex mutex_;
-  std::size_t next_ = 0;
-  Clock::time_point next_write_;
-};
 
 /// Passes on what one run says.
 class Reporter final : public RunListener {
@@ -64,14 +20,10 @@ class Reporter final : public RunListener {
   Reporter(const CampaignFolder& folder, Ledger& ledger, const PlannedRun& planned, std::size_t run)
       : folder_(folder), ledger_(ledger), planned_(planned), run_(run) {}
 
-  void started(const Resolved&, const std::filesystem::path&, Index done) override {
-    ledger_.tell([&](CampaignListener& listener) { listener.run_started(run_, done); });
-  }
-  void progress(Index trial, const Progress& progress) override {
-    ledger_.tell([&](CampaignListener& listener) { listener.progress(run_, trial, progress); });
-  }
+  void started(const Resolved&, const std::filesystem::path&, Index done) override { ledger_.run_started(run_, done); }
+  void progress(Index trial, const Progress& progress) override { ledger_.progress(run_, trial, progress); }
   void trial_done(const TrialRecord& record) override {
-    if (record.trial < planned_.spec.trials) ledger_.update(run_, folder_.read(planned_));
+    if (record.trial < planned_.spec.trials) ledger_.trial_done(run_, folder_.read(planned_));
   }
 
  private:
@@ -81,34 +33,37 @@ class Reporter final : public RunListener {
   std::size_t run_;
 };
 
-/// The threads that do the runs.
+/// How many runs go on at once, here and in all, and with how many threads here.
+struct Places {
+  Index here = 0, in_all = 0;
+  int threads = 1;
+};
+
+/// The threads that do the runs, of one process.
 class Crew {
  public:
-  Crew(const Catalogue& catalogue, const CampaignFolder& folder, const Campaign& campaign, Ledger& ledger)
-      : catalogue_(catalogue), folder_(folder), campaign_(campaign), ledger_(ledger) {}
+  Crew(const Catalogue& catalogue, const CampaignFolder& folder, const CampaignPlan& plan, Ledger& ledger)
+      : catalogue_(catalogue), folder_(folder), plan_(plan), ledger_(ledger) {}
 
   /// Runs at once; each with its share of the threads if there are more of these.
-  void work(Index workers, int threads) {
+  void work(const Places& places) {
+    if (places.here == 0) return;
     std::vector<std::shared_ptr<const Evaluator>> evaluators;
-    for (Index i = 0; i < workers; ++i) {
-      const int share = threads / static_cast<int>(workers) + (i < threads % workers);
-      evaluators.push_back(make_thread_evaluator(share));
-    }
-    make_thread_evaluator(static_cast<int>(workers))->for_each(workers, [&](Index i) {
+    const int workers = static_cast<int>(places.here);
+    for (int i = 0; i < workers; ++i)
+      evaluators.push_back(make_thread_evaluator(places.threads / workers + (i < places.threads % workers)));
+    make_thread_evaluator(workers)->for_each(workers, [&](Index i) {
       while (const auto run = ledger_.next()) do_run(*run, evaluators[static_cast<std::size_t>(i)]);
     });
   }
 
  private:
   void do_run(std::size_t index, const std::shared_ptr<const Evaluator>& evaluator) {
-    const PlannedRun& planned = campaign_.plan.runs[index];
+    const PlannedRun& planned = plan_.runs[index];
     Reporter reporter(folder_, ledger_, planned, index);
     const RunOptions options{
         .evaluator = evaluator, .listener = &reporter, .stop = [this] { return ledger_.stopped(); }};
-    const RunOutcome outcome = outcome_of_run(planned, options);
-    ledger_.update(index, outcome);
-    if (outcome.state != RunState::unfinished)
-      ledger_.tell([&](CampaignListener& listener) { listener.run_ended(index, outcome); });
+    ledger_.run_ended(index, outcome_of_run(planned, options));
   }
 
   RunOutcome outcome_of_run(const PlannedRun& planned, const RunOptions& options) const {
@@ -137,27 +92,123 @@ class Crew {
 
   const Catalogue& catalogue_;
   const CampaignFolder& folder_;
-  const Campaign& campaign_;
+  const CampaignPlan& plan_;
   Ledger& ledger_;
 };
+
+/// As many places as there are threads, but no more than runs; on every rank in proportion to its threads.
+Places places_of(const CampaignOptions& options, Index runs) {
+  Places places{.threads = options.threads > 0 ? options.threads : make_thread_evaluator(0)->concurrency()};
+  const auto given = options.ranks ? options.ranks->exchange("threads", std::to_string(places.threads))
+                                   : std::vector{std::to_string(places.threads)};
+  Index all = 0, before = 0;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const Index threads = std::stoi(given[i]);
+    all += threads;
+    if (options.ranks && static_cast<int>(i) < options.ranks->rank()) before += threads;
+  }
+  places.in_all = std::min(all, runs);
+  places.here = places.in_all * (before + places.threads) / all - places.in_all * before / all;
+  return places;
+}
+
+/// Leaves the plan the runs of a share.
+void keep(const Share& share, CampaignPlan& plan) {
+  std::vector<PlannedRun> own;
+  for (auto i = static_cast<std::size_t>(share.number - 1); i < plan.runs.size();
+       i += static_cast<std::size_t>(share.of))
+    own.push_back(std::move(plan.runs[i]));
+  plan.runs = std::move(own);
+}
+
+/// The other ranks' part of the work, while this one does its own.
+class Answering {
+ public:
+  Answering(const CampaignOptions& options, OwnLedger& ledger) : ledger_(ledger) {
+    if (options.ranks)
+      done_ =
+          std::async(std::launch::async, [&ranks = *options.ranks, &ledger] { answer_distant_ledgers(ranks, ledger); });
+  }
+  ~Answering() {
+    if (done_.valid()) ledger_.stop();  // an exception is under way: they need not go on
+  }
+  Answering(const Answering&) = delete;
+  Answering& operator=(const Answering&) = delete;
+  void finish() {
+    if (done_.valid()) done_.get();
+  }
+
+ private:
+  OwnLedger& ledger_;
+  std::future<void> done_;
+};
+
+/// Rank 0's part, or that of a process that is alone.
+class Leader {
+ public:
+  Leader(const Catalogue& catalogue, CampaignPlan plan, const CampaignOptions& options)
+      : catalogue_(catalogue), options_(options), campaign_{.plan = std::move(plan)} {}
+
+  Campaign work(std::string_view text, const std::filesystem::path& path) {
+    const auto open = [&] { return open_folder(text, path), std::to_string(campaign_.count(RunState::unfinished)); };
+    const std::string unfinished = options_.ranks ? options_.ranks->once(open) : open();
+    const Places places = places_of(options_, std::stoi(unfinished));
+    if (options_.listener) options_.listener->started(campaign_, places.in_all);
+    OwnLedger ledger(*folder_, campaign_, options_);
+    Answering answering(options_, ledger);
+    Crew(catalogue_, *folder_, campaign_.plan, ledger).work(places);
+    answering.finish();
+    write_tables();
+    return std::move(campaign_);
+  }
+
+ private:
+  void open_folder(std::string_view text, const std::filesystem::path& path) {
+    const bool whole = options_.share.of == 1;
+    folder_.emplace(CampaignFolder::open(catalogue_, path, text, campaign_.plan,
+                                         whole ? FolderLock::Kind::exclusive : FolderLock::Kind::shared));
+    keep(options_.share, campaign_.plan);
+    folder_->remove_unborn(campaign_.plan);
+    if (whole) campaign_.skipped = folder_->strangers(campaign_.plan);
+    for (const PlannedRun& run : campaign_.plan.runs) campaign_.runs.push_back(folder_->read(run));
+    write_tables();
+  }
+
+  void write_tables() const {
+    if (options_.share.of == 1) folder_->write(campaign_);
+  }
+
+  const Catalogue& catalogue_;
+  const CampaignOptions& options_;
+  Campaign campaign_;
+  std::optional<CampaignFolder> folder_;
+};
+
+/// The part of the other ranks.
+void follow(const Catalogue& catalogue, CampaignPlan plan, std::string_view text, const std::filesystem::path& path,
+            const CampaignOptions& options) {
+  keep(options.share, plan);
+  const std::string unfinished = options.ranks->once({});
+  const CampaignFolder folder = CampaignFolder::join(path, text);
+  const Places places = places_of(options, std::stoi(unfinished));
+  DistantLedger ledger(*options.ranks, options.stop);
+  try {
+    Crew(catalogue, folder, plan, ledger).work(places);
+  } catch (...) {
+    ledger.close();
+    throw;
+  }
+  ledger.close();
+}
 
 }  // namespace
 
 Campaign run_campaign(const Catalogue& catalogue, std::string_view text, const std::string& source,
                       const std::filesystem::path& path, const CampaignOptions& options) {
-  Campaign campaign{.plan = plan_campaign(catalogue, text, source)};
-  const CampaignFolder folder = CampaignFolder::open(catalogue, path, text, campaign.plan);
-  for (const PlannedRun& run : campaign.plan.runs) campaign.runs.push_back(folder.read(run));
-  campaign.skipped = folder.strangers(campaign.plan);
-  folder.write(campaign);
-
-  Ledger ledger(folder, campaign, options);
-  const int threads = options.threads > 0 ? options.threads : make_thread_evaluator(0)->concurrency();
-  const Index workers = std::min<Index>(threads, campaign.count(RunState::unfinished));
-  ledger.tell([&](CampaignListener& listener) { listener.started(campaign, workers); });
-  if (workers > 0) Crew(catalogue, folder, campaign, ledger).work(workers, threads);
-  folder.write(campaign);
-  return campaign;
+  CampaignPlan plan = plan_campaign(catalogue, text, source);
+  if (!options.ranks || options.ranks->rank() == 0) return Leader(catalogue, std::move(plan), options).work(text, path);
+  follow(catalogue, plan, text, path, options);
+  return {.plan = std::move(plan)};
 }
 
 }  // namespace rehearse::experiment

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "rehearse/core/events.hpp"
+#include "rehearse/core/ranks.hpp"
 #include "rehearse/experiment/campaign_results.hpp"
 
 namespace rehearse::experiment {
@@ -20,16 +21,26 @@ class CampaignListener {
   virtual void run_ended(std::size_t /*run*/, const RunOutcome&) {}
 };
 
+/// Every `of`-th run of a campaign, from number `number` on: that of one of several processes that work in the same
+/// folder and need not know of each other.
+struct Share {
+  Index number = 1, of = 1;
+};
+
 /// What does not decide results.
 struct CampaignOptions {
-  int threads = 0;                       // in all; 0: as many as cores
+  int threads = 0;                       // in all, on this rank; 0: as many as cores
   CampaignListener* listener = nullptr;  // null: nobody listens
   std::function<bool()> stop;            // polled; once true, the campaign stops where it can be continued
+  Share share;                           // other than 1 of 1: only these runs, and no tables
+  Ranks* ranks = nullptr;  // that share the runs, all with the same arguments; null: this process is alone
 };
 
 /// Does what is left to do of the campaign in a folder, which is made if it is not there. A run that fails is recorded
 /// and does not stop the others. text: the campaign file's; source: its name, for messages. Throws InvalidInput before
-/// anything runs; std::runtime_error if the tables cannot be written. After a stop, some runs are unfinished.
+/// anything runs; std::runtime_error if the tables cannot be written. After a stop, some runs are unfinished. Of a
+/// share the result has only its own runs, which cannot be judged. With ranks, rank 0 hands out the runs, writes the
+/// tables and has the listener; on the others the result has no runs.
 Campaign run_campaign(const Catalogue& catalogue, std::string_view text, const std::string& source,
                       const std::filesystem::path& folder, const CampaignOptions& options);
 

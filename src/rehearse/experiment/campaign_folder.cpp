@@ -1,9 +1,12 @@
 #include "rehearse/experiment/campaign_folder.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
+#include <thread>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/campaign_summary.hpp"
@@ -15,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *kFile = "campaign.toml", *kRuns = "runs";
+constexpr std::chrono::seconds kUntilVisible{30};  // network file systems may show an old state for a while
 
 fs::path without_slash(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
 
@@ -84,19 +88,34 @@ bool is_unborn(const std::string& name, const CampaignPlan& plan) {
   });
 }
 
-void remove_unborn(const fs::path& runs, const CampaignPlan& plan) {
-  std::vector<fs::path> unborn;
-  for (const auto& entry : fs::directory_iterator(runs))
-    if (is_unborn(entry.path().filename().string(), plan)) unborn.push_back(entry.path());
-  for (const fs::path& path : unborn) fs::remove_all(path);
-}
-
 std::string complaint_about_spec(const fs::path& file, const PlannedRun& run) {
   try {
     if (fingerprint(from_toml(read_file(file), file.string())) == fingerprint(run.spec)) return {};
     return fmt::format("{} has other options: it is of another campaign or version", file.string());
   } catch (const InvalidInput& error) {
     return error.what();
+  }
+}
+
+/// The file of a folder is replaced in one step even where several processes do so at once.
+void write_campaign_file(const fs::path& path, std::string_view text) {
+  char host[256] = {};
+  ::gethostname(host, sizeof host - 1);
+  const fs::path own = path / fmt::format("{}.{}.{}.tmp", kFile, host, ::getpid());
+  write_file(own, text, Durability::power);
+  fs::rename(own, path / kFile);
+}
+
+/// What `plan` needs to be there, in a folder that is locked.
+void begin(const Catalogue& catalogue, const fs::path& path, std::string_view text, const CampaignPlan& plan) {
+  const fs::path file = path / kFile;
+  const std::string begun = fs::exists(file) ? read_file(file) : "";
+  if (!begun.empty() && begun != text) check_only_adds(begun_plan(catalogue, file, begun), plan, path);
+  try {
+    if (begun != text) write_campaign_file(path, text);
+    fs::create_directories(path / kRuns);
+  } catch (const fs::filesystem_error& error) {
+    throw InvalidInput(fmt::format("cannot write in {}: {}", path.string(), error.code().message()));
   }
 }
 
@@ -111,21 +130,34 @@ RunOutcome rows_of(const fs::path& file, Index trials) {
 
 }  // namespace
 
+void CampaignFolder::remove_unborn(const CampaignPlan& plan) const {
+  std::vector<fs::path> unborn;
+  for (const auto& entry : fs::directory_iterator(path_ / kRuns))
+    if (is_unborn(entry.path().filename().string(), plan)) unborn.push_back(entry.path());
+  for (const fs::path& path : unborn) fs::remove_all(path);
+}
+
 CampaignFolder CampaignFolder::open(const Catalogue& catalogue, const fs::path& given, std::string_view text,
-                                    const CampaignPlan& plan) {
-  const fs::path path = without_slash(given), file = path / kFile;
+                                    const CampaignPlan& plan, FolderLock::Kind kind) {
+  const fs::path path = without_slash(given);
   make_folder(path);
-  FolderLock lock(path);
-  const std::string begun = fs::exists(file) ? read_file(file) : "";
-  if (!begun.empty() && begun != text) check_only_adds(begun_plan(catalogue, file, begun), plan, path);
-  if (begun != text) write_file(file, text, Durability::power);
-  try {
-    fs::create_directories(path / kRuns);
-    remove_unborn(path / kRuns, plan);
-  } catch (const fs::filesystem_error& error) {
-    throw InvalidInput(fmt::format("cannot write in {}: {}", path.string(), error.code().message()));
-  }
+  FolderLock lock(path, kind);
+  begin(catalogue, path, text, plan);
   return {path, std::move(lock)};
+}
+
+CampaignFolder CampaignFolder::join(const fs::path& given, std::string_view text) {
+  const fs::path path = without_slash(given), file = path / kFile;
+  const auto until = std::chrono::steady_clock::now() + kUntilVisible;
+  while (!fs::exists(file) || read_file(file) != text) {
+    if (std::chrono::steady_clock::now() > until)
+      throw InvalidInput(
+          fmt::format("this process does not see what rank 0 wrote to {}; the folder must be on a file system that all "
+                      "machines share",
+                      file.string()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return {path, std::nullopt};
 }
 
 RunOutcome CampaignFolder::read(const PlannedRun& run) const {

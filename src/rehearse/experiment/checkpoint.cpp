@@ -174,4 +174,12 @@ History from_checkpoint(std::string_view bytes, std::uint64_t spec_fingerprint) 
   }
 }
 
+std::string to_bytes(const Episode& episode) {
+  std::string bytes;
+  json::to_cbor(from_episode(episode), bytes);
+  return bytes;
+}
+
+Episode to_episode(std::string_view bytes) { return to_episode(json::from_cbor(bytes)); }
+
 }  // namespace rehearse::experiment

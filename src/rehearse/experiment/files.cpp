@@ -95,11 +95,12 @@ std::uint64_t checksum(std::string_view bytes) {
   return hash;
 }
 
-FolderLock::FolderLock(const std::filesystem::path& folder)
+FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind)
     : file_(::open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
   if (file_ < 0) throw InvalidInput(fmt::format("cannot write in {}: {}", folder.string(), std::strerror(errno)));
   for (int attempt = 0; attempt < 40; ++attempt) {  // a process that was just killed may take a moment to go
-    if (::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+    if (::flock(file_, (kind == Kind::shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0) return;
+    if (errno != EWOULDBLOCK && errno != EINTR) return;  // the file system has no locks
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   ::close(file_);

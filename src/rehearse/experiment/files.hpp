@@ -24,10 +24,12 @@ bool rename_new(const std::filesystem::path& from, const std::filesystem::path& 
 /// 64 bits that tell accidental changes (FNV-1a).
 std::uint64_t checksum(std::string_view bytes);
 
-/// Held by the one process that may write a folder; given back when it dies, however it dies. Movable.
+/// Held by the one process that may write a folder, or by several that share it; given back when it dies, however it
+/// dies. Nothing on a file system that has no locks. Movable.
 class FolderLock {
  public:
-  explicit FolderLock(const std::filesystem::path& folder);  // throws InvalidInput if another process holds it
+  enum class Kind { exclusive, shared };
+  explicit FolderLock(const std::filesystem::path& folder, Kind kind = Kind::exclusive);  // InvalidInput: it is in use
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&&) = delete;

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/checkpoint.hpp"
 #include "rehearse/experiment/evaluation.hpp"
 #include "rehearse/experiment/forecast.hpp"
 #include "rehearse/experiment/motion.hpp"
 #include "rehearse/experiment/run_folder.hpp"
+#include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/experiment/tables.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/rollout/imagine.hpp"
@@ -15,6 +17,11 @@ namespace rehearse::experiment {
 namespace {
 
 constexpr Index kPredictionParticles = 100;
+
+std::shared_ptr<const Evaluator> evaluator_of(const RunOptions& options) {
+  return options.evaluator ? options.evaluator
+                           : std::shared_ptr<const Evaluator>(&serial_evaluator(), [](const Evaluator*) {});
+}
 
 /// Everything of a run but its folder: makes the learner and the plant, so that wrong input is found first.
 class Participants {
@@ -30,7 +37,13 @@ class Participants {
   const policy::Policy& policy() const { return *resolved_.scenario.policy; }
   learners::Learner& learner() const { return *learner_; }
 
-  /// Connected when it is first needed.
+  /// Work with the plant or the folder: on rank 0 alone; its failure is that of every rank.
+  template <class Work>
+  void lead(Work work) const {
+    evaluator_of(options_)->once([&] { return work(), std::string(); });
+  }
+
+  /// Connected when it is first needed; rank 0's.
   system::Plant& plant() {
     if (!plant_) plant_ = resolved_.scenario.make_plant();
     return *plant_;
@@ -45,12 +58,11 @@ class Participants {
 
  private:
   learners::Setting setting() {
-    const auto serial = std::shared_ptr<const Evaluator>(&serial_evaluator(), [](const Evaluator*) {});
     return {.task = task(),
             .policy = resolved_.scenario.policy,
             .prior = resolved_.prior,
             .seed = static_cast<std::uint64_t>(resolved_.spec.seed),
-            .evaluator = options_.evaluator ? options_.evaluator : serial,
+            .evaluator = evaluator_of(options_),
             .progress = [this](const Progress& progress) { report(progress); }};
   }
 
@@ -84,23 +96,29 @@ Matrix mean_states(const rollout::Recorded& recorded) {
   return means;
 }
 
-/// ask → execute → tell, and the folder.
+std::string bytes_of(const Vector& v) {
+  return {reinterpret_cast<const char*>(v.data()), static_cast<std::size_t>(v.size()) * sizeof(double)};
+}
+
+/// ask → execute → tell, and the folder. Every rank does the same; the folder is rank 0's.
 class Run {
  public:
-  Run(Participants& participants, RunFolder& folder, History history)
+  Run(Participants& participants, const std::optional<RunFolder>& folder, History history)
       : with_(participants), folder_(folder), history_(std::move(history)) {}
 
   RunResult finish() {
-    if (with_.options().listener) with_.options().listener->started(with_.resolved(), folder_.path(), history_.done());
-    folder_.write_tables(history_, with_.resolved());
+    if (with_.options().listener) with_.options().listener->started(with_.resolved(), path(), history_.done());
+    with_.lead([&] { folder_->write_tables(history_, with_.resolved()); });
     if (!complete()) catch_up();
     while (!complete()) one_trial(history_.done() + 1);
-    folder_.mark_done(true);
+    with_.lead([&] { folder_->mark_done(true); });
     return result();
   }
 
  private:
-  bool complete() const { return history_.done() >= folder_.spec().trials; }
+  bool complete() const { return history_.done() >= with_.resolved().spec.trials; }
+
+  std::filesystem::path path() const { return folder_ ? folder_->path() : std::filesystem::path(); }
 
   /// Brings a new learner to where the history ends.
   void catch_up() {
@@ -130,23 +148,31 @@ class Run {
       history_.learner = with_.learner().save();
     });
     ++history_.told;
-    folder_.write_checkpoint(history_);
+    with_.lead([&] { folder_->write_checkpoint(history_); });
   }
 
   void one_trial(Index trial) {
     const learners::Proposal& proposal = ask(trial);
-    if (proposal.model) predict(trial, proposal);
-    const Episode episode = named_failure(trial, "plant", [&] {
-      return rollout::execute(with_.plant(), with_.policy(), proposal.theta, with_.task(),
-                              Rng({.seed = seed(), .trial = number(trial), .purpose = Purpose::start_state}));
-    });
+    if (proposal.model) with_.lead([&] { predict(trial, proposal); });
+    const Episode episode = named_failure(trial, "plant", [&] { return execute(trial, proposal.theta); });
     keep(record(trial, proposal, episode), episode);
+  }
+
+  /// Rank 0's episode, on every rank.
+  Episode execute(Index trial, const Vector& theta) const {
+    return to_episode(evaluator_of(with_.options())->once([&] {
+      const Rng rng({.seed = seed(), .trial = number(trial), .purpose = Purpose::start_state});
+      return to_bytes(rollout::execute(with_.plant(), with_.policy(), theta, with_.task(), rng));
+    }));
   }
 
   const learners::Proposal& checked(const learners::Proposal& proposal) const {
     const Index size = proposal.theta.size(), wanted = with_.policy().parameters();
     if (size != wanted || !proposal.theta.allFinite())
       throw std::runtime_error(fmt::format("it proposed {} parameters, the policy has {} finite ones", size, wanted));
+    const std::string own = bytes_of(proposal.theta);
+    if (evaluator_of(with_.options())->once([&] { return own; }) != own)  // or ranks would go on with different runs
+      throw std::runtime_error("it proposes another policy than that of rank 0");
     return proposal;
   }
 
@@ -155,13 +181,13 @@ class Run {
     const rollout::ImagineOptions unclipped{.noise_clip = 0};
     const auto recorded = rollout::imagine_recorded(*proposal.model, with_.policy(), with_.task(), proposal.theta,
                                                     kPredictionParticles, key, unclipped);
-    folder_.write_prediction(trial, prediction_csv(with_.task(), recorded));
+    folder_->write_prediction(trial, prediction_csv(with_.task(), recorded));
     draw("prediction", trial, mean_states(recorded));
   }
 
   void draw(const char* kind, Index trial, const Matrix& states) const {
     const auto& drawing = with_.resolved().scenario.drawing;
-    if (drawing) folder_.write_motion(kind, trial, motion_json(*drawing, states));
+    if (drawing) folder_->write_motion(kind, trial, motion_json(*drawing, states));
   }
 
   TrialRecord record(Index trial, const learners::Proposal& proposal, const Episode& episode) const {
@@ -180,8 +206,9 @@ class Run {
                        .model_s = proposal.model_s,
                        .search_s = proposal.search_s};
     if (task.solved) record.solved = task.solved(episode);
-    record.expected_return =
-        named_failure(trial, "plant", [&] { return expected_return(with_.resolved(), trial, proposal.theta); });
+    named_failure(trial, "plant", [&] {
+      with_.lead([&] { record.expected_return = expected_return(with_.resolved(), trial, proposal.theta); });
+    });
     if (proposal.model) record.forecast = forecast_errors(*proposal.model, task, episode);
     return record;
   }
@@ -203,41 +230,43 @@ class Run {
 
   /// The episode is on the disk before the learner is told of it, because a robot does not repeat it.
   void keep(TrialRecord record, const Episode& episode) {
-    folder_.write_trajectory(record.trial, trajectory_csv(with_.task(), episode));
-    draw("trial", record.trial, episode.true_states);
+    const Index trial = record.trial;
     history_.trials.push_back(std::move(record));
     history_.episodes.push_back(episode);
-    folder_.write_checkpoint(history_);
-    folder_.write_tables(history_, with_.resolved());
+    with_.lead([&] {
+      folder_->write_trajectory(trial, trajectory_csv(with_.task(), episode));
+      draw("trial", trial, episode.true_states);
+      folder_->write_checkpoint(history_);
+      folder_->write_tables(history_, with_.resolved());
+    });
     tell_last();
     if (with_.options().listener) with_.options().listener->trial_done(history_.trials.back());
   }
 
   RunResult result() const {
-    RunResult result{.folder = folder_.path(), .trials = history_.done()};
+    RunResult result{.folder = path(), .trials = history_.done()};
     result.best_return = best_trial(history_.trials).total_reward;
     for (const TrialRecord& trial : history_.trials)
       if (!result.solved_at && trial.solved.value_or(false)) result.solved_at = trial.trial;
     return result;
   }
 
-  std::uint64_t seed() const { return number(folder_.spec().seed); }
+  std::uint64_t seed() const { return number(with_.resolved().spec.seed); }
   static std::uint64_t number(Index index) { return static_cast<std::uint64_t>(index); }
 
   Participants& with_;
-  RunFolder& folder_;
+  const std::optional<RunFolder>& folder_;
   History history_;
 };
 
-/// The folder's spec, for another number of trials if given.
-Spec extended_spec(const RunFolder& folder, std::optional<Index> trials, Index done) {
-  Spec spec = folder.spec();
+/// A begun run's spec, for another number of trials if given.
+Spec extended_spec(Spec spec, const std::filesystem::path& path, std::optional<Index> trials, Index done) {
   if (!trials) return spec;
   spec.trials = *trials;
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { spec.fields(v); })) violations.add(line);
   violations.require(*trials >= done,
-                     fmt::format("trials = {}, but {} trials of {} are done", *trials, done, folder.path().string()));
+                     fmt::format("trials = {}, but {} trials of {} are done", *trials, done, path.string()));
   violations.throw_if_any();
   return spec;
 }
@@ -247,17 +276,24 @@ Spec extended_spec(const RunFolder& folder, std::optional<Index> trials, Index d
 RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::filesystem::path& path,
                     const RunOptions& options) {
   Participants participants(resolve(catalogue, spec), options);
-  RunFolder folder = RunFolder::create(path, participants.resolved().spec);
+  std::optional<RunFolder> folder;
+  participants.lead([&] { folder.emplace(RunFolder::create(path, participants.resolved().spec)); });
   return Run(participants, folder, {}).finish();
 }
 
 RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& path, std::optional<Index> trials,
                      const RunOptions& options) {
-  RunFolder folder = RunFolder::open(path);
-  History history = folder.load();
-  const Spec spec = extended_spec(folder, trials, history.done());
-  Participants participants(resolve(catalogue, spec), options);
-  folder.change_trials(spec.trials);
+  std::optional<RunFolder> folder;
+  const std::string begun = evaluator_of(options)->once([&] {
+    folder.emplace(RunFolder::open(path));
+    return to_toml(folder->spec()) + '\0' + to_checkpoint(folder->load(), fingerprint(folder->spec()));
+  });
+  const std::size_t middle = begun.find('\0');
+  const Spec spec = from_toml(begun.substr(0, middle), path.string());
+  History history = from_checkpoint(std::string_view(begun).substr(middle + 1), fingerprint(spec));
+  const Spec extended = extended_spec(spec, path, trials, history.done());
+  Participants participants(resolve(catalogue, extended), options);
+  participants.lead([&] { folder->change_trials(extended.trials); });
   return Run(participants, folder, std::move(history)).finish();
 }
 

@@ -1,0 +1,92 @@
+#include "apps/cli/ranks.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "apps/cli/signals.hpp"
+#include "rehearse/core/errors.hpp"
+#ifdef REHEARSE_MPI
+#include "rehearse/mpi/ranks.hpp"
+#endif
+
+namespace rehearse::apps {
+namespace {
+
+int number_in(const char* variable, int otherwise) {
+  const char* text = std::getenv(variable);
+  return text ? std::atoi(text) : otherwise;
+}
+
+#ifdef REHEARSE_MPI
+
+void check_arguments(Ranks& ranks, int argc, char** argv) {
+  std::string line;
+  for (int i = 1; i < argc; ++i) line += fmt::format(" {}", argv[i]);
+  const std::vector<std::string> lines = ranks.exchange("arguments", line);
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    if (lines[i] != lines[0])
+      throw InvalidInput(
+          fmt::format("processes that are started together need the same arguments, but rank 0 has '{}' "
+                      "and rank {} '{}'",
+                      lines[0].substr(1), i, lines[i].substr(1)));
+}
+
+std::string difference_between(const std::vector<std::string>& processors) {
+  for (std::size_t i = 1; i < processors.size(); ++i)
+    if (processors[i] != processors[0])
+      return fmt::format("rank 0 computes with {}, rank {} with {}", processors[0], i, processors[i]);
+  return {};
+}
+
+#endif
+
+}  // namespace
+
+// srun sets the last pair for every step; mpirun on Slurm starts its own helpers by srun, so its own come first.
+Launch launch() {
+  if (std::getenv("OMPI_COMM_WORLD_SIZE"))
+    return {"mpirun", number_in("OMPI_COMM_WORLD_RANK", 0), number_in("OMPI_COMM_WORLD_SIZE", 1)};
+  if (std::getenv("PMI_SIZE")) return {"mpirun or srun", number_in("PMI_RANK", 0), number_in("PMI_SIZE", 1)};
+  return {"srun", number_in("SLURM_PROCID", 0), number_in("SLURM_STEP_NUM_TASKS", 1)};
+}
+
+int Company::threads(Index asked) const {
+  if (asked > 0) return static_cast<int>(asked);
+  return std::max(1, make_thread_evaluator(0)->concurrency() / sharing);
+}
+
+#ifdef REHEARSE_MPI
+
+Company join(const Launch& launch, int argc, char** argv) {
+  if (launch.size <= 1) return {};
+  Company company;
+  company.ranks = mpi::join([] { return caught_signal() != 0; });
+  Ranks& ranks = *company.ranks;
+  if (ranks.size() != launch.size)
+    throw InvalidInput(
+        fmt::format("{} started this {} times, but Open MPI joins {} of them; start it with Open MPI's "
+                    "mpirun, or srun --mpi=pmix",
+                    launch.by, launch.size, ranks.size()));
+  check_arguments(ranks, argc, argv);
+  const std::string own = mpi::cores();
+  const std::vector<std::string> cores = ranks.exchange("cores", own);
+  company.sharing = static_cast<int>(std::count(cores.begin(), cores.end(), own));
+  company.difference = difference_between(ranks.exchange("arithmetic", mpi::arithmetic()));
+  return company;
+}
+
+#else
+
+Company join(const Launch& launch, int, char**) {
+  if (launch.size <= 1) return {};
+  throw InvalidInput(
+      fmt::format("{} started this {} times, but it was built without MPI (Open MPI was not found) and "
+                  "they cannot work together; start it without {}",
+                  launch.by, launch.size, launch.by));
+}
+
+#endif
+
+}  // namespace rehearse::apps

@@ -1,0 +1,35 @@
+#pragma once
+// The processes that mpirun or srun started together: they work on one run or one campaign.
+
+#include <memory>
+#include <string>
+
+#include "rehearse/core/evaluator.hpp"
+#include "rehearse/core/ranks.hpp"
+
+namespace rehearse::apps {
+
+/// How this process was started, as the launcher's variables say; without a launcher it is the only one.
+struct Launch {
+  std::string by;  // "mpirun"
+  int rank = 0;
+  int size = 1;
+};
+Launch launch();
+
+/// Those that this process works with.
+struct Company {
+  std::unique_ptr<Ranks> ranks;  // null: it is alone, and MPI was not initialised
+  int sharing = 1;               // how many processes, this one included, may use the same cores
+  std::string difference;        // of processors that may give other last bits; empty: there is none
+
+  bool leads() const { return !ranks || ranks->rank() == 0; }
+
+  /// Of this process; asked: 0 for its share of the cores.
+  int threads(Index asked) const;
+};
+
+/// Throws InvalidInput if the processes that were started together cannot work together.
+Company join(const Launch& launch, int argc, char** argv);
+
+}  // namespace rehearse::apps

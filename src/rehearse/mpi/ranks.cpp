@@ -1,0 +1,154 @@
+#include "rehearse/mpi/ranks.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gnu/libc-version.h>
+#include <hwy/highway.h>
+#include <mpi.h>
+#include <sched.h>
+#include <unistd.h>
+
+extern "C" char* openblas_get_corename();
+
+namespace rehearse::mpi {
+namespace {
+
+constexpr int kQuestion = 1, kAnswer = 2;
+constexpr std::size_t kBlock = 4096, kInBlock = kBlock - sizeof(int);
+
+std::string receive(int source, int tag, const MPI_Status& probed) {
+  int size = 0;
+  MPI_Get_count(&probed, MPI_BYTE, &size);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  MPI_Recv(bytes.data(), size, MPI_BYTE, source, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  return bytes;
+}
+
+void send(const std::string& bytes, int to, int tag) {
+  MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, to, tag, MPI_COMM_WORLD);
+}
+
+/// MPI's own waiting takes a whole core, which may be needed: by other ranks where there are fewer cores, and by
+/// anybody while rank 0 waits for a robot.
+void wait(MPI_Request& request) {
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  int done = 0;
+  while (MPI_Test(&request, &done, MPI_STATUS_IGNORE), done == 0) {
+    const auto waited = Clock::now() - begin;
+    if (waited > std::chrono::milliseconds(20))
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    else if (waited > std::chrono::microseconds(20))
+      std::this_thread::yield();
+  }
+}
+
+/// An error of MPI itself ends all ranks, as is its default.
+class MpiRanks final : public Ranks {
+ public:
+  explicit MpiRanks(std::function<bool()> stop) : Ranks(std::move(stop)) {
+    int provided = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
+    if (provided < MPI_THREAD_SERIALIZED) throw std::runtime_error("this MPI cannot be used from several threads");
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  }
+  ~MpiRanks() override { MPI_Finalize(); }
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+
+  /// Sleeps between looks, because a blocking receive would take a whole core for the time of a run.
+  std::string ask(const std::string& question) override {
+    const std::lock_guard lock(asking_);
+    send(question, 0, kQuestion);
+    while (true) {
+      int there = 0;
+      MPI_Status status;
+      MPI_Iprobe(0, kAnswer, MPI_COMM_WORLD, &there, &status);
+      if (there) return receive(0, kAnswer, status);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  bool answer(const std::function<std::string(const std::string&)>& reply) override {
+    int there = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, kQuestion, MPI_COMM_WORLD, &there, &status);
+    if (there) send(reply(receive(status.MPI_SOURCE, kQuestion, status)), status.MPI_SOURCE, kAnswer);
+    return there != 0;
+  }
+
+ protected:
+  /// In blocks of one size, because to wait for the others is what costs; what does not fit follows.
+  std::vector<std::string> carry(const std::string& bytes) override {
+    const auto ranks = static_cast<std::size_t>(size_);
+    const int own = static_cast<int>(bytes.size());
+    std::string block(kBlock, '\0'), blocks(kBlock * ranks, '\0');
+    std::memcpy(block.data(), &own, sizeof own);
+    bytes.copy(block.data() + sizeof own, kInBlock);
+    MPI_Request request;
+    MPI_Iallgather(block.data(), kBlock, MPI_BYTE, blocks.data(), kBlock, MPI_BYTE, MPI_COMM_WORLD, &request);
+    wait(request);
+
+    std::vector<std::string> given;
+    std::vector<int> rest, offsets = {0};
+    for (std::size_t i = 0; i < ranks; ++i) {
+      int size = 0;
+      std::memcpy(&size, blocks.data() + i * kBlock, sizeof size);
+      given.push_back(blocks.substr(i * kBlock + sizeof size, std::min(static_cast<std::size_t>(size), kInBlock)));
+      rest.push_back(std::max(0, size - static_cast<int>(kInBlock)));
+      offsets.push_back(offsets.back() + rest.back());
+    }
+    if (offsets.back() > 0) carry_rest(bytes, rest, offsets, given);
+    return given;
+  }
+
+ private:
+  void carry_rest(const std::string& bytes, const std::vector<int>& sizes, const std::vector<int>& offsets,
+                  std::vector<std::string>& given) const {
+    std::string all(static_cast<std::size_t>(offsets.back()), '\0');
+    const char* own = bytes.data() + std::min(bytes.size(), kInBlock);
+    MPI_Request request;
+    MPI_Iallgatherv(own, sizes[static_cast<std::size_t>(rank_)], MPI_BYTE, all.data(), sizes.data(), offsets.data(),
+                    MPI_BYTE, MPI_COMM_WORLD, &request);
+    wait(request);
+    for (std::size_t i = 0; i < given.size(); ++i)
+      given[i].append(all, static_cast<std::size_t>(offsets[i]), static_cast<std::size_t>(sizes[i]));
+  }
+
+  int rank_ = 0, size_ = 1;
+  std::mutex asking_;
+};
+
+}  // namespace
+
+std::unique_ptr<Ranks> join(std::function<bool()> stop) { return std::make_unique<MpiRanks>(std::move(stop)); }
+
+std::string arithmetic() {
+  const auto best = std::int64_t{1} << std::countr_zero(static_cast<std::uint64_t>(hwy::SupportedTargets()));
+  return fmt::format("Highway {}, OpenBLAS {}, glibc {}", hwy::TargetName(best), openblas_get_corename(),
+                     gnu_get_libc_version());
+}
+
+std::string cores() {
+  char host[256] = {};
+  ::gethostname(host, sizeof host - 1);
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  ::sched_getaffinity(0, sizeof set, &set);
+  std::string text = host;
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu)
+    if (CPU_ISSET(cpu, &set)) text += fmt::format(" {}", cpu);
+  return text;
+}
+
+}  // namespace rehearse::mpi
