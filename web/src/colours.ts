@@ -20,6 +20,7 @@ const LOOKS: Record<string, Look> = {
 
 export const REAL = 'var(--vermillion)'
 export const PREDICTED = 'var(--blue)'
+export const EXPECTED = 'var(--orange)'
 
 /** Learners that are not in the list take the looks that are free, in order. */
 export function looks(learners: string[]): (learner: string) => Look {

@@ -1,6 +1,6 @@
 // The page of one run, and that of one trial of it.
 import { chart, fit, heights, type Point, type Series } from './chart'
-import { PREDICTED, REAL } from './colours'
+import { EXPECTED, PREDICTED, REAL } from './colours'
 import {
   column,
   indexOfMax,
@@ -17,6 +17,7 @@ import type { Row } from './export'
 import { figure, tableFigure, type Panel } from './figure'
 import { count, duration, number } from './format'
 import { beside, head, problems, sections, tiles, type Tile } from './layout'
+import type { LegendEntry } from './legend'
 import { player } from './player'
 
 const TRIAL = { label: 'trial', whole: true }
@@ -93,21 +94,26 @@ function returns({ trials }: Run): Child {
   const solved = trials['solved'] ?? []
   const real = pointsOf(trials, 'return').map((p, i) => ({ ...p, hollow: solved[i] !== 1 }))
   const predicted = pointsOf(trials, 'predicted_return')
+  const expected = pointsOf(trials, 'expected_return')
   const series: Series[] = [
     { label: 'predicted', colour: PREDICTED, points: predicted, dash: '6 3', symbol: 'square' },
+    { label: 'expected', colour: EXPECTED, points: expected, dash: '2 3', symbol: 'triangle' },
     { label: 'robot', colour: REAL, points: real, symbol: 'circle' },
   ]
+  const evaluated = expected.length > 0
+  const legend: LegendEntry[] = [
+    { label: 'on the robot, solved', colour: REAL, symbol: 'circle' },
+    { label: 'on the robot, not solved', colour: REAL, symbol: 'circle', hollow: true },
+    { label: 'predicted before the trial', colour: PREDICTED, symbol: 'square', dash: '6 3' },
+  ]
+  if (evaluated) legend.push({ label: 'mean of more episodes', colour: EXPECTED, symbol: 'triangle', dash: '2 3' })
   return figure({
     name: 'returns-by-trial',
     title: 'Return, predicted and real',
     about:
       'Before each trial the model says what return it expects of the policy. ' +
       'The closer the two, the better it knows the robot.',
-    legend: [
-      { label: 'on the robot, solved', colour: REAL, symbol: 'circle' },
-      { label: 'on the robot, not solved', colour: REAL, symbol: 'circle', hollow: true },
-      { label: 'predicted before the trial', colour: PREDICTED, symbol: 'square', dash: '6 3' },
-    ],
+    legend,
     panels: () => [
       {
         title: '',
@@ -121,7 +127,10 @@ function returns({ trials }: Run): Child {
           }),
       },
     ],
-    table: () => rowsOf(trials, ['trial', 'interaction_s', 'return', 'solved', 'predicted_return']),
+    table: () => {
+      const names = ['trial', 'interaction_s', 'return', 'solved', 'predicted_return']
+      return rowsOf(trials, evaluated ? [...names, 'expected_return'] : names)
+    },
     maxWidth: 1200,
   }).element
 }
