@@ -22,17 +22,22 @@ double standard_deviation(const Vector& y) {
   return (y.array() - y.mean()).matrix().norm() / std::sqrt(std::max<double>(1, static_cast<double>(y.size() - 1)));
 }
 
-/// What a GP with zero mean is fitted to, and the way back: r = y, or r = exp(y + offset) − floor.
+/// What a GP with zero mean is fitted to, and the way back: r = y, or r = exp(min(y + offset, highest)) − floor.
 struct Targets {
   Vector y;
   RewardScale scale = RewardScale::linear;
-  double offset = 0, floor = 0;
+  double offset = 0, highest = 0, floor = 0;
   double log_jacobian = 0;  // ln |dy/dr|, all rows together
 };
 
-Targets logarithmic(const Vector& rewards, double floor) {
+Targets logarithmic(const Vector& rewards, double floor, double ceiling) {
   const Vector logs = (rewards.array() + floor).log();
-  return {(logs.array() - logs.mean()).matrix(), RewardScale::logarithmic, logs.mean(), floor, -logs.sum()};
+  return {.y = (logs.array() - logs.mean()).matrix(),
+          .scale = RewardScale::logarithmic,
+          .offset = logs.mean(),
+          .highest = logs.maxCoeff() + std::log(ceiling),
+          .floor = floor,
+          .log_jacobian = -logs.sum()};
 }
 
 struct Fitted {
@@ -52,7 +57,7 @@ Fitted best_fit(const Vector& rewards, const gp::Inputs& inputs, const RewardOpt
   const double floor = options.floor * rewards.maxCoeff();
   const bool has_logarithm = rewards.minCoeff() >= 0 && floor >= std::numeric_limits<double>::min();
   if (options.scale == RewardScale::linear || !has_logarithm) return fitted({.y = rewards}, inputs, options.fit);
-  Fitted logs = fitted(logarithmic(rewards, floor), inputs, options.fit);
+  Fitted logs = fitted(logarithmic(rewards, floor, options.ceiling), inputs, options.fit);
   if (options.scale == RewardScale::logarithmic) return logs;
   Fitted plain = fitted({.y = rewards}, inputs, options.fit);
   const bool logs_likelier = logs.log_evidence() >= plain.log_evidence();  // NaN where a fit failed
@@ -60,15 +65,17 @@ Fitted best_fit(const Vector& rewards, const gp::Inputs& inputs, const RewardOpt
 }
 
 Reward mean_of(std::shared_ptr<const gp::Posterior> posterior, const FeatureMap& features, const Targets& targets) {
+  // The way back alone: the targets have as many rows as the data.
   const bool logarithmic = targets.scale == RewardScale::logarithmic;
-  return [=, posterior = std::move(posterior), offset = targets.offset, floor = targets.floor](
-             const ConstMatrixView&, const ConstMatrixView& U, const ConstMatrixView& X_next, VectorView rewards) {
+  const double offset = targets.offset, highest = targets.highest, floor = targets.floor;
+  return [=, posterior = std::move(posterior)](const ConstMatrixView&, const ConstMatrixView& U,
+                                               const ConstMatrixView& X_next, VectorView rewards) {
     thread_local Matrix inputs;
     inputs.resize(X_next.rows(), features.features() + U.cols());
     gp_inputs(features, X_next, U, inputs);
     posterior->predict_mean(inputs, rewards);
     if (!logarithmic) return;
-    rewards.array() += offset;
+    rewards = (rewards.array() + offset).min(highest);
     vector_exp(rewards.data(), rewards.data(), rewards.size());
     rewards.array() -= floor;
   };

@@ -23,7 +23,8 @@ enum class RewardScale {
 struct RewardOptions {
   bool learned = false;  // the task's reward is not told, but learned from what the trials earned
   RewardScale scale = RewardScale::evidence;
-  double floor = 1e-8;  // of the logarithm, as a fraction of the largest reward
+  double floor = 1e-8;   // of the logarithm, as a fraction of the largest reward
+  double ceiling = 100;  // of what the logarithm predicts, in largest rewards: beyond the data it may go on for ever
   gp::FitOptions fit;
   double tolerance = 0.01;                                              // as that of the dynamics (GpOptions)
   RewardOptions() { fit.penalties.length = fit.penalties.snr = true; }  // the authors' code
@@ -31,6 +32,7 @@ struct RewardOptions {
     v.boolean("learned", learned);
     v.choice("scale", scale, {"linear", "logarithmic", "evidence"});
     v.number("floor", floor, above(0));
+    v.number("ceiling", ceiling, at_least(1));
     v.group("fit", fit);
     v.number("tolerance", tolerance, between(0, 1));
   }

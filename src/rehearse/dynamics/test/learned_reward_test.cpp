@@ -112,6 +112,22 @@ TEST(LearnedReward, OfSaturatingRewardsTheLogarithmGoesOnBeyondTheData) {
             0.5 * held_out_error(learn(low, RewardScale::linear).reward));
 }
 
+TEST(LearnedReward, NoPredictionIsAboveTheCeiling) {
+  Dataset data{.states = Matrix::Zero(20, 4), .actions = Matrix::Zero(20, 1), .changes = Matrix::Zero(20, 4)};
+  data.changes.col(0).setLinSpaced(0, 1);  // the reward doubles every 0.2 m
+  data.rewards = (3.5 * data.changes.col(0)).array().exp();
+  RewardOptions options{};
+  options.scale = RewardScale::logarithmic;
+  const auto highest = [&](double ceiling) {
+    options.ceiling = ceiling;
+    Dataset beyond = data;
+    beyond.changes.col(0).setLinSpaced(0, 3);
+    return rewards_of(learn_reward(data, cartpole().feature_map(), options).reward, beyond).maxCoeff();
+  };
+  EXPECT_GT(highest(100), 2.1 * data.rewards.maxCoeff());
+  EXPECT_NEAR(highest(2), 2 * data.rewards.maxCoeff(), 1e-6 * data.rewards.maxCoeff());
+}
+
 TEST(LearnedReward, NegativeRewardsAreLearnedLinearly) {
   Dataset data = steps(50, 1);
   data.rewards.array() -= 0.5;
