@@ -83,7 +83,7 @@ void OwnLedger::run_ended(std::size_t run, RunOutcome outcome) {
 void OwnLedger::update(std::size_t run, RunOutcome outcome) {
   const std::lock_guard lock(mutex_);
   campaign_.runs[run] = std::move(outcome);
-  if (Clock::now() < next_write_) return;
+  if (options_.share.of > 1 || Clock::now() < next_write_) return;
   const auto begin = Clock::now();
   try {
     folder_.write(campaign_);
