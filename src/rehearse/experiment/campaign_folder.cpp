@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <random>
 #include <thread>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/campaign_summary.hpp"
@@ -97,11 +97,10 @@ std::string complaint_about_spec(const fs::path& file, const PlannedRun& run) {
   }
 }
 
-/// The file of a folder is replaced in one step even where several processes do so at once.
+/// Replaces the file of a folder in one step, even where several processes do so at once.
 void write_campaign_file(const fs::path& path, std::string_view text) {
-  char host[256] = {};
-  ::gethostname(host, sizeof host - 1);
-  const fs::path own = path / fmt::format("{}.{}.{}.tmp", kFile, host, ::getpid());
+  std::random_device random;
+  const fs::path own = path / fmt::format("{}.{:08x}{:08x}.tmp", kFile, random(), random());
   write_file(own, text, Durability::power);
   fs::rename(own, path / kFile);
 }
