@@ -105,6 +105,10 @@ expect 0 "--check-claims" - campaign --help
 expect 2 "FILE is required" 1 campaign
 expect 2 "cannot read nothing.toml" 1 campaign nothing.toml
 expect 2 "--threads = 0, must be between 1 and" 1 campaign nothing.toml --threads 0
+for share in 4/3 0/3 3 x/3 1/ /3 1/2/3; do
+  expect 2 "--share = $share, must be K/N with K from 1 to N" 1 campaign nothing.toml --share $share
+done
+expect 2 "--check-claims needs all runs" 1 campaign nothing.toml --share 1/3 --check-claims
 printf 'format = 1\nscenario = "pendubot"\nlearners = "mi"\nseeds = 1\ntrails = 2\n[set]\nplant.b9 = 1\n' >wrong.toml
 expect 2 "wrong.toml: line 5: unknown key 'trails', did you mean 'trials'?" 2 campaign wrong.toml --out wrong
 expect 2 "wrong.toml: line 7: unknown option 'plant.b9', did you mean 'plant.b" 2 campaign wrong.toml --out wrong

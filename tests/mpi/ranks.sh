@@ -1,0 +1,126 @@
+#!/usr/bin/env bash
+# ranks.sh PROGRAM MPIRUN: campaigns and runs on two and three ranks against one process; ranks that are killed; wrong
+# input; shares of a campaign at the same time.
+set -u
+program=$(realpath "$1")
+mpirun=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+ranks() { # ranks N ARGS…
+  (ranks_alone "$@")
+}
+ranks_alone() { # the same, as this process itself
+  local n=$1
+  shift
+  exec "$mpirun" --oversubscribe --bind-to none -n "$n" "$program" "$@"
+}
+# same A B FILES…
+same() {
+  local a=$1 b=$2
+  shift 2
+  for file in "$@"; do cmp "$a/$file" "$b/$file" || fail "$b/$file"; done
+}
+# kill_rank RANK UNTIL-COMMAND… : of the ranks_alone that were started with "&" last
+kill_rank() {
+  local parent=$! rank=$1 child=
+  shift
+  until "$@" || ! kill -0 $parent 2>/dev/null; do sleep 0.002; done
+  for process in $(pgrep -P $parent); do
+    tr '\0' '\n' <"/proc/$process/environ" 2>/dev/null | grep -qx "OMPI_COMM_WORLD_RANK=$rank" && child=$process
+  done
+  [ -n "$child" ] && kill -KILL "$child"
+  wait $parent && fail "mpirun does not tell that a rank was killed"
+}
+
+cat >c.toml <<'TOML'
+format = 1
+scenario = "pendubot"
+learners = ["mi", "black-drops-prior", "pilco"]
+priors = ["misleading"]
+seeds = "1-3"
+trials = 2
+
+[set]
+search.race.max_evaluations = 800
+search.race.descents = 2
+search.selection = 10
+model.subplex.max_evaluations = 100
+TOML
+tables=(campaign.csv summary.json)
+
+"$program" campaign c.toml --out one >/dev/null || fail "the campaign of one process"
+ranks 3 campaign c.toml --out three >output 2>&1 || fail "the campaign of three ranks: $(cat output)"
+same one three "${tables[@]}"
+[ "$(grep -c '^c: 6 runs' output)" = 1 ] || fail "not one rank alone speaks: $(cat output)"
+[ "$(grep -c '^\[./6\]' output)" = 6 ] || fail "not every run is told of once: $(cat output)"
+
+done_runs() { [ "$(find "$1/runs" -name done 2>/dev/null | wc -l)" -ge "$2" ]; }
+for rank in 0 1; do
+  run=killed-$rank
+  ranks_alone 2 campaign c.toml --out $run >/dev/null 2>&1 &
+  kill_rank $rank done_runs $run $((1 + rank))
+  echo "rank $rank killed with $(find $run/runs -name done | wc -l) of 6 runs done"
+  for done in "$run"/runs/*/done; do echo mine >"${done%done}timings.csv"; done
+  finished=$(grep -lx mine $run/runs/*/timings.csv | wc -l)
+  ranks 2 campaign c.toml --out $run >output 2>&1 || fail "starting $run again: $(cat output)"
+  same one $run "${tables[@]}"
+  [ "$(grep -lx mine $run/runs/*/timings.csv | wc -l)" = "$finished" ] || fail "$run repeats a finished run"
+done
+
+for share in 1 2 3; do
+  "$program" campaign c.toml --out shares --share $share/3 >output-$share 2>&1 &
+done
+wait
+for share in 1 2 3; do
+  grep -q "share $share of 3, 2 runs" output-$share || fail "share $share says $(cat output-$share)"
+done
+[ -e shares/campaign.csv ] && fail "a share writes tables"
+"$program" campaign c.toml --out shares >output || fail "the tables of the shares"
+grep -q "6 of 6 runs done already" output || fail "the shares leave runs to do: $(cat output)"
+same one shares "${tables[@]}"
+
+learn=(pendubot --learner gp-mi --prior misleading --seed 5 --trials 3 --set search.race.max_evaluations=3000
+  --set search.race.descents=2 --set search.selection=20 --set model.subplex.max_evaluations=15)
+files=(spec.toml trials.csv errors.csv policy.json done trajectories/trial-003.csv predictions/trial-003.csv)
+"$program" learn "${learn[@]}" --out alone --threads 1 >/dev/null || fail "the run of one process"
+ranks 2 learn "${learn[@]}" --out two --threads 1 >output 2>&1 || fail "the run of two ranks: $(cat output)"
+same alone two "${files[@]}"
+[ "$(grep -c '^trial ' output)" = 3 ] || fail "not one rank alone tells of the trials: $(cat output)"
+ranks 3 learn "${learn[@]}" --out three-ranks --threads 2 >output 2>&1 || fail "three ranks, two threads: $(cat output)"
+same alone three-ranks "${files[@]}"
+
+trials() { [ "$(cat killed/trials.csv 2>/dev/null | wc -l)" -gt "$1" ]; }
+ranks_alone 2 learn "${learn[@]}" --out killed --threads 1 >/dev/null 2>&1 &
+kill_rank 1 trials 1
+[ -e killed/done ] || echo "killed after $(($(wc -l <killed/trials.csv) - 1)) trials"
+ranks 3 resume killed >output 2>&1 || fail "resuming on three ranks: $(cat output)"
+same alone killed "${files[@]}"
+
+# refused PATTERN ARGS… : exit 2 and one message
+refused() {
+  local pattern=$1
+  shift
+  ranks 3 "$@" >output 2>&1
+  [ $? = 2 ] || fail "$*: not 2"
+  [ "$(grep -c '^rehearse: ' output)" = 1 ] && grep -q "^rehearse: .*$pattern" output || fail "$* says $(cat output)"
+}
+refused "threads = x" learn pendubot --learner mi --threads x
+refused "already exists" learn "${learn[@]}" --out two
+refused "is not a folder" resume nowhere
+refused "is not the folder of a campaign" campaign c.toml --out two
+[ "$(ranks 3 --help | grep -c '^Usage')" = 1 ] || fail "help is printed by several"
+"$mpirun" --oversubscribe -n 2 bash -c "'$program' learn pendubot --learner mi --out x\$OMPI_COMM_WORLD_RANK" >output 2>&1
+grep -q "^rehearse: .*need the same arguments" output || fail "different arguments: $(cat output)"
+SLURM_STEP_NUM_TASKS=2 "$program" list >output 2>&1
+[ $? = 2 ] && grep -q "Open MPI joins 1 of them" output || fail "a launcher that MPI does not know: $(cat output)"
+
+echo "$failures failures"
+exit $((failures > 0))
