@@ -64,22 +64,38 @@ Fitted best_fit(const Vector& rewards, const gp::Inputs& inputs, const RewardOpt
   return logs_likelier || std::isnan(plain.log_evidence()) ? logs : plain;
 }
 
-Reward mean_of(std::shared_ptr<const gp::Posterior> posterior, const FeatureMap& features, const Targets& targets) {
-  // The way back alone: the targets have as many rows as the data.
-  const bool logarithmic = targets.scale == RewardScale::logarithmic;
-  const double offset = targets.offset, highest = targets.highest, floor = targets.floor;
-  return [=, posterior = std::move(posterior)](const ConstMatrixView&, const ConstMatrixView& U,
-                                               const ConstMatrixView& X_next, VectorView rewards) {
+/// The way back from the posterior of the targets.
+class Believed {
+ public:
+  Believed(std::shared_ptr<const gp::Posterior> posterior, FeatureMap features, const Targets& targets, double caution)
+      : posterior_(std::move(posterior)),
+        features_(std::move(features)),
+        logarithmic_(targets.scale == RewardScale::logarithmic),
+        offset_(targets.offset),
+        highest_(targets.highest),
+        floor_(targets.floor),
+        caution_(caution) {}
+
+  void operator()(const ConstMatrixView&, const ConstMatrixView& U, const ConstMatrixView& X_next,
+                  VectorView rewards) const {
     thread_local Matrix inputs;
-    inputs.resize(X_next.rows(), features.features() + U.cols());
-    gp_inputs(features, X_next, U, inputs);
-    posterior->predict_mean(inputs, rewards);
-    if (!logarithmic) return;
-    rewards = (rewards.array() + offset).min(highest);
+    thread_local Vector variance;
+    inputs.resize(X_next.rows(), features_.features() + U.cols());
+    gp_inputs(features_, X_next, U, inputs);
+    if (!logarithmic_) return posterior_->predict_mean(inputs, rewards);
+    variance.resize(X_next.rows());
+    posterior_->predict(inputs, rewards, variance);
+    rewards = (rewards.array() - caution_ * variance.array() + offset_).min(highest_);
     vector_exp(rewards.data(), rewards.data(), rewards.size());
-    rewards.array() -= floor;
-  };
-}
+    rewards.array() -= floor_;
+  }
+
+ private:
+  std::shared_ptr<const gp::Posterior> posterior_;
+  FeatureMap features_;
+  bool logarithmic_;
+  double offset_, highest_, floor_, caution_;
+};
 
 }  // namespace
 
@@ -93,7 +109,7 @@ LearnedReward learn_reward(const Dataset& data, const FeatureMap& features, cons
     learned.notes.push_back("the kernel of the reward could not be fitted");
   const auto posterior =
       std::make_shared<gp::Posterior>(inputs, best.targets.y, std::vector{best.fit.hyperparameters}, options.tolerance);
-  learned.reward = mean_of(posterior, features, best.targets);
+  learned.reward = Believed(posterior, features, best.targets, options.caution);
   return learned;
 }
 

@@ -25,6 +25,7 @@ struct RewardOptions {
   RewardScale scale = RewardScale::evidence;
   double floor = 1e-8;   // of the logarithm, as a fraction of the largest reward
   double ceiling = 100;  // of what the logarithm predicts, in largest rewards: beyond the data it may go on for ever
+  double caution = 1;    // the logarithm's mean less so many of its variances: 1 the mode of the reward, 0 its median
   gp::FitOptions fit;
   double tolerance = 0.01;                                              // as that of the dynamics (GpOptions)
   RewardOptions() { fit.penalties.length = fit.penalties.snr = true; }  // the authors' code
@@ -33,6 +34,7 @@ struct RewardOptions {
     v.choice("scale", scale, {"linear", "logarithmic", "evidence"});
     v.number("floor", floor, above(0));
     v.number("ceiling", ceiling, at_least(1));
+    v.number("caution", caution, at_least(0));
     v.group("fit", fit);
     v.number("tolerance", tolerance, between(0, 1));
   }

@@ -128,6 +128,23 @@ TEST(LearnedReward, NoPredictionIsAboveTheCeiling) {
   EXPECT_NEAR(highest(2), 2 * data.rewards.maxCoeff(), 1e-6 * data.rewards.maxCoeff());
 }
 
+// Of what is predicted at 300 other steps, in all: hardly less from 300 steps, far less from 8.
+TEST(LearnedReward, CautionCostsLittleWhereThereAreDataAndMuchElsewhere) {
+  const Dataset elsewhere = steps(300, 2);
+  const auto share_left = [&](Index n) {
+    RewardOptions mode, median;
+    mode.scale = median.scale = RewardScale::logarithmic;
+    median.caution = 0;
+    const auto total = [&](const RewardOptions& options) {
+      return rewards_of(learn_reward(steps(n, 1), cartpole().feature_map(), options).reward, elsewhere).sum();
+    };
+    return total(mode) / total(median);
+  };
+  EXPECT_GT(share_left(300), 0.98);
+  EXPECT_LE(share_left(300), 1);
+  EXPECT_LT(share_left(8), 0.7);
+}
+
 TEST(LearnedReward, NegativeRewardsAreLearnedLinearly) {
   Dataset data = steps(50, 1);
   data.rewards.array() -= 0.5;
