@@ -64,6 +64,7 @@ expect 2 "plant.m1 = heavy, must be a number" 1 learn pendubot --learner gp-mi -
 expect 2 "plant.m1 = -1, must be > 0" 1 learn pendubot --learner gp-mi --set plant.m1=-1
 expect 2 "l2 = 99, must be between" 1 learn pendubot --learner gp-mi --set prior.l2=99
 expect 2 "--seed = x" 4 learn pendubot --learner gp-mi --seed x --trials -1 --set colour=red --prior usful
+expect 2 "the scenario gives no initial_reward" 1 learn pendubot --learner gp-mi --set reward.learned=true
 expect 2 "cannot read nothing.toml" 1 learn nothing.toml
 echo 'not = [toml' >broken.toml
 expect 2 "broken.toml: line" 1 learn broken.toml

@@ -80,6 +80,15 @@ TEST(HoldsAtTheEnd, LooksAtEveryStateOfTheLastSeconds) {
   EXPECT_FALSE(solved(cut));
 }
 
+TEST(InitialReward, HasTheWidthThatIsAskedFor) {
+  const auto squared_distance = [](const ConstMatrixView& X, VectorView d2) { d2 = X.col(0).array().square(); };
+  EXPECT_FALSE(initial_reward(squared_distance, {}));
+  Vector reward(1);
+  const Matrix x{{3, 0}}, u{{0}};
+  initial_reward(squared_distance, {.initial_reward_width = 2})(x, u, x, reward);
+  EXPECT_NEAR(reward(0), std::exp(-9.0 / 8), 1e-15);
+}
+
 TEST(HoldsAtTheEnd, OfAShortEpisodeLooksAtAll) {
   const auto solved = holds_at_the_end(oscillator::task({.horizon = 2}), 1, [](const auto& x) { return x(0) > 0; });
   Episode episode{.true_states = Matrix::Ones(3, 2), .actions = Matrix::Zero(2, 1)};
