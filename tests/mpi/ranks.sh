@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ranks.sh PROGRAM MPIRUN: campaigns and runs on two and three ranks against one process; ranks that are killed; wrong
-# input; shares of a campaign at the same time.
+# input.
 set -u
 program=$(realpath "$1")
 mpirun=$2
@@ -74,18 +74,6 @@ for rank in 0 1; do
   same one $run "${tables[@]}"
   [ "$(grep -lx mine $run/runs/*/timings.csv | wc -l)" = "$finished" ] || fail "$run repeats a finished run"
 done
-
-for share in 1 2 3; do
-  "$program" campaign c.toml --out shares --share $share/3 >output-$share 2>&1 &
-done
-wait
-for share in 1 2 3; do
-  grep -q "share $share of 3, 2 runs" output-$share || fail "share $share says $(cat output-$share)"
-done
-[ -e shares/campaign.csv ] && fail "a share writes tables"
-"$program" campaign c.toml --out shares >output || fail "the tables of the shares"
-grep -q "6 of 6 runs done already" output || fail "the shares leave runs to do: $(cat output)"
-same one shares "${tables[@]}"
 
 learn=(pendubot --learner gp-mi --prior misleading --seed 5 --trials 3 --set search.race.max_evaluations=3000
   --set search.race.descents=2 --set search.selection=20 --set model.subplex.max_evaluations=15)
