@@ -5,12 +5,6 @@
 namespace rehearse::dynamics {
 namespace {
 
-std::vector<std::vector<double>> choices_of(const ParameterSpace& space, const std::vector<Index>& discrete) {
-  std::vector<std::vector<double>> choices;
-  for (Index i : discrete) choices.push_back(space[i].choices);
-  return choices;
-}
-
 std::vector<Interval> box_of(const ParameterSpace& space, const std::vector<Index>& continuous) {
   std::vector<Interval> box;
   for (Index i : continuous) box.push_back(space[i].box);
@@ -18,6 +12,12 @@ std::vector<Interval> box_of(const ParameterSpace& space, const std::vector<Inde
 }
 
 }  // namespace
+
+std::vector<Vector> choices_of(const ParameterSpace& space, const std::vector<Index>& discrete) {
+  std::vector<std::vector<double>> choices;
+  for (Index i : discrete) choices.push_back(space[i].choices);
+  return optim::combinations(choices);
+}
 
 Identified identify(const ParameterSpace& space, const std::optional<Vector>& start,
                     const optim::ScalarObjective& score, const optim::SubplexOptions& options) {
@@ -29,7 +29,7 @@ Identified identify(const ParameterSpace& space, const std::optional<Vector>& st
     best.evaluations += evaluations;
     if (value > best.score) best.score = value, best.phi = phi;
   };
-  for (const Vector& choice : optim::combinations(choices_of(space, discrete))) {
+  for (const Vector& choice : choices_of(space, discrete)) {
     Vector phi = first;
     phi(discrete) = choice;
     if (continuous.empty()) {

@@ -2,11 +2,15 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "rehearse/core/parameters.hpp"
 #include "rehearse/optim/derivative_free.hpp"
 
 namespace rehearse::dynamics {
+
+/// Every combination of the values of these discrete parameters.
+std::vector<Vector> choices_of(const ParameterSpace& space, const std::vector<Index>& discrete);
 
 struct Identified {
   Vector phi;

@@ -12,6 +12,7 @@
 #include "rehearse/core/feature_map.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/dynamics/score.hpp"
 #include "rehearse/gp/fit.hpp"
 #include "rehearse/optim/derivative_free.hpp"
 #include "rehearse/prior/prior.hpp"
@@ -28,9 +29,6 @@ struct GpOptions {
     v.choice("variance", variance, {"latent", "noisy"});
   }
 };
-
-/// How the outputs' likelihoods make one score of a φ (Chatzilygeroudis 2018, section IV-B).
-enum class Score { sum, product, harmonic };
 
 /// GPs with zero mean: Black-DROPS (Chatzilygeroudis 2017).
 struct ZeroMean {
@@ -52,18 +50,26 @@ struct Mi {
   void fields(FieldVisitor& v) { v.group("subplex", subplex); }
 };
 
-/// The prior's parameters and the GPs' kernels learned together (Chatzilygeroudis 2018, Algorithm 2).
+/// How GP-MI looks for the φ of the highest score.
+enum class PhiSearch {
+  alternating,  // φ with the kernels held and kernels with φ held, by turns (alternating.hpp)
+  nested,       // Subplex, each φ with kernels fitted anew (Chatzilygeroudis 2018, Algorithm 2)
+};
+
+/// The prior's parameters and the GPs' kernels learned together (Chatzilygeroudis 2018).
 struct GpMi {
   GpOptions gp;
-  Score score = Score::sum;
-  optim::SubplexOptions subplex;
-  bool least_squares_start = true;  // start from MI's φ where its score is better than that of the last φ: along
-                                    // valleys of the score (m up, l down) the local search alone stops far from the end
+  Score score = Score::product;
+  PhiSearch search = PhiSearch::alternating;
+  optim::SubplexOptions subplex;    // of the nested search
+  bool least_squares_start = true;  // start from MI's φ too: along valleys of the score (m up, l down) a local search
+                                    // alone stops far from the end
   Mi least_squares;
-  GpMi() { gp.fit.method = gp::FitMethod::lbfgs; }  // as good as Rprop here, with a third of the evaluations
+  GpMi() { gp.fit.starts = 1, gp.fit.part_rows = 0; }  // the search sees to it
   void fields(FieldVisitor& v) {
     v.group("gp", gp);
     v.choice("score", score, {"sum", "product", "harmonic"});
+    v.choice("search", search, {"alternating", "nested"});
     v.group("subplex", subplex);
     v.boolean("least_squares_start", least_squares_start);
     v.group("least_squares", least_squares);
@@ -82,6 +88,7 @@ struct Learned {
   std::shared_ptr<const DynamicsModel> model;
   WarmStart state;                     // kernels and φ found
   std::optional<double> log_evidence;  // of all outputs together, nats; none without GPs
+  std::optional<double> score;         // GP-MI's, nats
   Index left_out_rows = 0;             // rows whose prior mean was not finite
   Index evaluations = 0;               // of φ
   std::vector<std::string> notes;      // numerical failures survived
@@ -90,8 +97,5 @@ struct Learned {
 /// Throws InvalidInput if the kind needs a prior and none is given, or the data set has no usable row.
 Learned learn(const Dataset& data, const FeatureMap& features, const prior::Prior* prior, const Kind& kind,
               const WarmStart& start, const Evaluator& evaluator);
-
-/// log of the sum (product, harmonic mean) of likelihoods given as log likelihoods, without over- or underflow.
-double score_of(const Vector& log_likelihoods, Score score);
 
 }  // namespace rehearse::dynamics

@@ -34,16 +34,20 @@ Residuals::Residuals(const Dataset& data, const FeatureMap& features)
       all_(data.size() == 0 ? nullptr : std::make_shared<gp::Inputs>(inputs_)),
       scale_(standard_deviations(data.changes)) {}
 
-Residuals::Rows Residuals::at(const prior::Prior* prior, const Vector& phi) const {
-  if (!prior) return {all_, data_.changes, 0};
+Matrix Residuals::targets(const prior::Prior& prior, const Vector& phi) const {
   Matrix mean(data_.size(), data_.states.cols());
-  const Index failed = prior->mean(data_.states, data_.actions, phi, mean);
-  const Matrix targets = data_.changes - mean;
-  if (failed == 0) return {all_, targets, 0};
-  const std::vector<Index> rows = finite_rows(targets);
-  if (rows.empty()) return {nullptr, {}, size()};
+  prior.mean(data_.states, data_.actions, phi, mean);
+  return data_.changes - mean;
+}
+
+Residuals::Rows Residuals::at(const prior::Prior* prior, const Vector& phi) const {
+  if (!prior) return {all_, data_.changes, 0, {}};
+  Matrix targets = this->targets(*prior, phi);
+  if (targets.allFinite()) return {all_, std::move(targets), 0, {}};
+  std::vector<Index> rows = finite_rows(targets);
+  if (rows.empty()) return {nullptr, {}, size(), {}};
   return {std::make_shared<gp::Inputs>(Matrix(inputs_(rows, Eigen::all))), targets(rows, Eigen::all),
-          size() - static_cast<Index>(rows.size())};
+          size() - static_cast<Index>(rows.size()), std::move(rows)};
 }
 
 }  // namespace rehearse::dynamics

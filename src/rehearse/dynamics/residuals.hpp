@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/feature_map.hpp"
@@ -19,11 +20,16 @@ class Residuals {
     std::shared_ptr<const gp::Inputs> inputs;  // null if no row is left
     Matrix targets;                            // rows × dx
     Index left_out = 0;
+    std::vector<Index> kept;  // which rows of the data set; empty if none was left out
   };
   /// Without a prior (null): the state changes themselves.
   Rows at(const prior::Prior* prior, const Vector& phi) const;
 
+  /// Changes minus the prior mean of every row (n × dx); a row that fails is not finite.
+  Matrix targets(const prior::Prior& prior, const Vector& phi) const;
+
   const Vector& scale() const { return scale_; }  // dx, standard deviation of the raw changes
+  const Dataset& data() const { return data_; }
   Index size() const { return data_.size(); }
 
  private:

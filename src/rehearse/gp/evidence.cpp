@@ -33,10 +33,23 @@ double solve(Index n, const double* tiles, double* b) {
   return quadratic;
 }
 
-double half_log_determinant(Index n, const double* tiles) {
+/// Scales the inputs and factorises K/σ_f² into the workspace's tiles; returns the jitter, NaN if that is not possible.
+double factorise_at(const Inputs& inputs, const ConstVectorView& flat, Workspace& workspace) {
+  const Index n = inputs.size(), D = inputs.dimensions();
+  workspace.resize(n, D);
+  workspace.factors() = inputs.half_range().array() * (-flat.head(D)).array().exp();
+  const double noise_ratio = std::exp(2 * (flat(D + 1) - flat(D)));
+  if (!workspace.factors().allFinite() || !std::isfinite(noise_ratio) || !std::isfinite(std::exp(-flat(D))))
+    return kNaN;
+  scale_inputs(inputs.unit().data(), n, D, workspace.factors().data(), workspace.scaled());
+  return factorise(workspace.scaled(), n, D, noise_ratio, workspace.tiles());
+}
+
+/// −½ ln |K| − n/2 ln 2π, from the factor of K/σ_f².
+double log_constant(Index n, const double* tiles, double log_signal) {
   double sum = 0;
   for (Index i = 0; i < n; ++i) sum += std::log(tiles[entry_offset(i, i)]);
-  return sum;
+  return -sum - static_cast<double>(n) * (log_signal + kLogTwoPi / 2);
 }
 
 /// The workspace holds the factor, b and the scaled inputs; K = σ_f² (C + (noise_ratio + jitter) I).
@@ -70,25 +83,37 @@ Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVec
                   Vector* gradient) {
   const Index n = inputs.size(), D = inputs.dimensions();
   if (gradient) gradient->resize(D + 2);
-  workspace.resize(n, D);
-  workspace.factors() = inputs.half_range().array() * (-flat.head(D)).array().exp();
-  const double log_signal = flat(D), noise_ratio = std::exp(2 * (flat(D + 1) - log_signal));
-  const double inverse_signal = std::exp(-log_signal);
-  if (!workspace.factors().allFinite() || !std::isfinite(noise_ratio) || !std::isfinite(inverse_signal) ||
-      !y.allFinite())
-    return failure(gradient);
-
-  scale_inputs(inputs.unit().data(), n, D, workspace.factors().data(), workspace.scaled());
-  const double jitter = factorise(workspace.scaled(), n, D, noise_ratio, workspace.tiles());
+  const double jitter = y.allFinite() ? factorise_at(inputs, flat, workspace) : kNaN;
   if (std::isnan(jitter)) return failure(gradient);
-  Eigen::Map<Vector>(workspace.weights(), n) = y * inverse_signal;
+  Eigen::Map<Vector>(workspace.weights(), n) = y * std::exp(-flat(D));
   Eigen::Map<Vector>(workspace.weights() + n, padded(n) - n).setZero();
   const double quadratic = solve(n, workspace.tiles(), workspace.weights());
-  const double value = -quadratic / 2 - half_log_determinant(n, workspace.tiles()) -
-                       static_cast<double>(n) * (log_signal + kLogTwoPi / 2);
+  const double value = log_constant(n, workspace.tiles(), flat(D)) - quadratic / 2;
   if (!std::isfinite(value)) return failure(gradient);
+  const double noise_ratio = std::exp(2 * (flat(D + 1) - flat(D)));
   if (gradient && !differentiate(n, D, noise_ratio, jitter, workspace, *gradient)) return failure(gradient);
   return {.value = value, .jitter = jitter};
+}
+
+Whitening::Whitening(const Inputs& inputs, const Hyperparameters& kernel)
+    : size_(inputs.size()), inverse_signal_(std::exp(-kernel.log_signal)) {
+  Workspace workspace;
+  const double jitter = factorise_at(inputs, kernel.flat(), workspace);
+  log_constant_ = std::isnan(jitter) ? kNaN : log_constant(size_, workspace.tiles(), kernel.log_signal);
+  tiles_ = std::move(workspace).release_tiles();
+}
+
+bool Whitening::ok() const { return std::isfinite(log_constant_); }
+
+Matrix Whitening::operator()(const ConstMatrixView& Y) const {
+  Matrix whitened = Matrix::Zero(padded(size_), Y.cols());
+  whitened.topRows(size_) = Y * inverse_signal_;
+  tiles_solve(size_, tiles_.data(), whitened.data(), Y.cols());
+  return whitened.topRows(size_);
+}
+
+double Whitening::log_evidence(const ConstVectorView& whitened) const {
+  return log_constant_ - whitened.squaredNorm() / 2;
 }
 
 double penalty(const Inputs& inputs, const ConstVectorView& flat, const Penalties& penalties, Vector* gradient) {

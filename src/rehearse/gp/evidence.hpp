@@ -1,9 +1,11 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/types.hpp"
+#include "rehearse/gp/hyperparameters.hpp"
 #include "rehearse/gp/inputs.hpp"
 
 namespace rehearse::gp {
@@ -32,6 +34,7 @@ class Workspace {
   double* weights() { return weights_.data(); }  // padded(n)
   double* sums() { return sums_.data(); }        // 8 (D + 1)
   Vector& factors() { return factors_; }         // D
+  std::vector<double> release_tiles() && { return std::move(tiles_); }
 
  private:
   std::vector<double> tiles_, scaled_, weights_, sums_;
@@ -49,6 +52,22 @@ struct Evidence {
 /// gradient NaN.
 Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVectorView& flat, Workspace& workspace,
                   Vector* gradient = nullptr);
+
+/// An output's kernel held while its targets change. With K = L Lᵀ, whitened targets are w = L⁻¹ y, and the log
+/// evidence of y is a constant less ‖w‖²/2. Immutable; any thread.
+class Whitening {
+ public:
+  Whitening(const Inputs& inputs, const Hyperparameters& kernel);
+
+  bool ok() const;                                             // K could be factorised
+  Matrix operator()(const ConstMatrixView& Y) const;           // n × any, as Y
+  double log_evidence(const ConstVectorView& whitened) const;  // n
+
+ private:
+  Index size_;
+  std::vector<double> tiles_;
+  double inverse_signal_, log_constant_;
+};
 
 /// The value of the penalties, ≤ 0; adds their gradient unless null.
 double penalty(const Inputs& inputs, const ConstVectorView& flat, const Penalties& penalties,

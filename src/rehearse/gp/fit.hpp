@@ -9,21 +9,34 @@
 
 namespace rehearse::gp {
 
-enum class FitMethod { rprop, lbfgs };
+enum class FitMethod { rprop, bfgs };
 
 struct FitOptions {
-  FitMethod method = FitMethod::rprop;  // Chatzilygeroudis 2018; L-BFGS needs about a tenth of the evaluations
+  FitMethod method = FitMethod::bfgs;  // rprop: Chatzilygeroudis 2018; BFGS needs about a fifth of the evaluations
   optim::RpropOptions rprop;
-  optim::LbfgsOptions lbfgs;
+  optim::BfgsOptions bfgs;
+  // The evidence of small residuals has several optima.
+  Index starts = 4;       // the better of the given start and the default one; then noisier, smoother, rougher ones
+                          // (the authors: 1)
+  Index part_rows = 200;  // with at least twice as many rows, all starts are tried on a part of about so many, and the
+                          // best is continued on all rows; 0: never (the authors)
   Penalties penalties;
   Bounds bounds;
   void fields(FieldVisitor& v) {
-    v.choice("method", method, {"rprop", "lbfgs"});
+    v.choice("method", method, {"rprop", "bfgs"});
     v.group("rprop", rprop);
-    v.group("lbfgs", lbfgs);
+    v.group("bfgs", bfgs);
+    v.integer("starts", starts, at_least(1));
+    v.integer("part_rows", part_rows, at_least(0));
     v.group("penalties", penalties);
     v.group("bounds", bounds);
   }
+};
+
+/// What a fit may begin with.
+struct FitStart {
+  Hyperparameters hyperparameters;
+  Matrix curvature;  // of an earlier fit of nearly the same data; may be empty
 };
 
 struct Fit {
@@ -37,8 +50,9 @@ struct Fit {
   double penalty = 0;       // ≤ 0
   double jitter = 0;        // of the ladder, at the solution
   Status status = Status::failed;
-  std::string stop;  // why the maximiser stopped
-  Index evaluations = 0;
+  std::string stop;       // why the maximiser stopped
+  Index evaluations = 0;  // of the evidence of all rows
+  Matrix curvature;       // for FitStart; empty after Rprop
 };
 
 /// ℓ = spread(x), σ_f = std(y), σ_n = σ_f/10 (PILCO), inside the bounds; σ_f at least a tenth of the
@@ -46,10 +60,14 @@ struct Fit {
 Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, double scale, const Bounds& bounds = {});
 
 /// Maximises the (penalised) log evidence of targets y (n) from `start`, which a warm start takes from an earlier fit,
-/// or from the default start where that is better: data may have changed so much that a warm start is hopeless. Never
-/// returns worse than the start moved inside the bounds. `scale` > 0: see Bounds. Throws InvalidInput only if sizes do
-/// not agree. Any thread; the workspace is the thread's own.
-Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const Hyperparameters& start,
+/// or from the default start where that is better: data may have changed so much that a warm start is hopeless; then
+/// from other starts. Never returns worse than the start moved inside the bounds. `scale` > 0: see Bounds. Throws
+/// InvalidInput only if sizes do not agree. Any thread; the workspace is the thread's own.
+Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitStart& start,
         const FitOptions& options = {});
+inline Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const Hyperparameters& start,
+               const FitOptions& options = {}) {
+  return fit(inputs, y, scale, FitStart{start, {}}, options);
+}
 
 }  // namespace rehearse::gp

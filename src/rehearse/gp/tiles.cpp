@@ -134,15 +134,21 @@ HWY_INLINE void subtract_product(const double* a, const double* x, Size inner, d
   }
 }
 
-void SolveKernel(Size n, const double* tiles, double* x) {
+HWY_INLINE void divide_vector_by_diagonal(const double* diagonal, Size rows, double* x) {
+  for (Size c = 0; c < rows; ++c) {
+    x[c] /= diagonal[c * kTile + c];
+    for (Size r = c + 1; r < rows; ++r) x[r] -= diagonal[c * kTile + r] * x[c];
+  }
+}
+
+void SolveKernel(Size n, const double* tiles, Size columns, double* x) {
+  const Size height = padded(n);
   for (Size i = 0; i < tile_count(n); ++i) {
-    double* xi = x + i * kTile;
-    for (Size j = 0; j < i; ++j) subtract_product(tiles + tile_offset(i, j), x + j * kTile, kTile, xi);
-    const double* diagonal = tiles + tile_offset(i, i);
-    for (Size c = 0; c < tile_rows(n, i); ++c) {
-      xi[c] /= diagonal[c * kTile + c];
-      for (Size r = c + 1; r < tile_rows(n, i); ++r) xi[r] -= diagonal[c * kTile + r] * xi[c];
-    }
+    for (Size j = 0; j < i; ++j)
+      for (Size c = 0; c < columns; ++c)
+        subtract_product(tiles + tile_offset(i, j), x + c * height + j * kTile, kTile, x + c * height + i * kTile);
+    for (Size c = 0; c < columns; ++c)
+      divide_vector_by_diagonal(tiles + tile_offset(i, i), tile_rows(n, i), x + c * height + i * kTile);
   }
 }
 
@@ -229,7 +235,9 @@ HWY_EXPORT(InvertFactorKernel);
 HWY_EXPORT(MultiplyInverseKernel);
 
 bool tiles_cholesky(Size n, double* tiles) { return HWY_DYNAMIC_DISPATCH(CholeskyKernel)(n, tiles); }
-void tiles_solve(Size n, const double* tiles, double* x) { HWY_DYNAMIC_DISPATCH(SolveKernel)(n, tiles, x); }
+void tiles_solve(Size n, const double* tiles, double* x, Size columns) {
+  HWY_DYNAMIC_DISPATCH(SolveKernel)(n, tiles, columns, x);
+}
 void tiles_solve_transposed(Size n, const double* tiles, double* x) {
   HWY_DYNAMIC_DISPATCH(SolveTransposedKernel)(n, tiles, x);
 }

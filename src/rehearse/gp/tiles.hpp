@@ -29,8 +29,8 @@ constexpr Size entry_offset(Size row, Size column) {
 /// A = L Lᵀ: the lower triangle of A becomes L, what is above it undefined. False if A is not positive definite.
 bool tiles_cholesky(Size n, double* tiles);
 
-/// x ← L⁻¹ x and x ← L⁻ᵀ x; x: padded(n).
-void tiles_solve(Size n, const double* tiles, double* x);
+/// x ← L⁻¹ x and x ← L⁻ᵀ x; x: padded(n), or as many columns of that length.
+void tiles_solve(Size n, const double* tiles, double* x, Size columns = 1);
 void tiles_solve_transposed(Size n, const double* tiles, double* x);
 
 /// L becomes L⁻¹, each tile transposed: entry (row, column) of L⁻¹ is at transposed_offset(row, column).

@@ -36,6 +36,22 @@ struct RpropOptions {
 };
 GradientResult maximise_rprop(const Differentiable& objective, const Vector& start, const RpropOptions& options);
 
+/// BFGS with a dense matrix (Nocedal and Wright 2006, algorithm 6.1), for up to some 100 coordinates.
+struct BfgsOptions {
+  Index max_evaluations = 200;
+  double relative_tolerance = 1e-8;  // of the value: what the next step promises to gain
+  void fields(FieldVisitor& v) {
+    v.integer("max_evaluations", max_evaluations, at_least(1));
+    v.number("relative_tolerance", relative_tolerance, at_least(0));
+  }
+};
+
+/// `curvature`, unless null, is the inverse of the negative Hessian: where it is n × n the search begins with it, and
+/// it ends with what was learned of it. A search for nearly the same maximum needs a quarter of the evaluations with
+/// it.
+GradientResult maximise_bfgs(const Differentiable& objective, const Vector& start, const BfgsOptions& options,
+                             Matrix* curvature = nullptr);
+
 /// L-BFGS of NLopt within a box (low, high: as start; may be infinite).
 struct LbfgsOptions {
   Index max_evaluations = 200;

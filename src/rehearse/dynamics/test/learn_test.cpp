@@ -84,7 +84,7 @@ TEST(Learn, GpMiAndMiIdentifyContinuousParameters) {
     const Learned learned = learn_swing(data, kind, &prior);
     EXPECT_NEAR((*learned.state.phi)(0), 0.8, 0.008);
     EXPECT_NEAR((*learned.state.phi)(1), 0.3, 0.01);
-    EXPECT_GT(learned.evaluations, 10);
+    EXPECT_GT(learned.evaluations, 1);
   }
 }
 
@@ -142,6 +142,36 @@ TEST(Learn, GpMiIdentifiesThePendubotFromOneEpisode) {
     const Learned learned = learn(data, s.task.feature_map(), &prior, GpMi{}, {}, serial_evaluator());
     for (Index i = 0; i < 4; ++i) EXPECT_NEAR((*learned.state.phi)(i), 0.5, 0.01) << "seed " << seed << " φ " << i;
   }
+}
+
+// The alternating search has many chances to stop lower than the plain one; seed 1, with and without noise.
+TEST(Learn, GpMiFindsNoLowerScoreThanTheNestedSearch) {
+  for (const double noise : {0.0, 0.01}) {
+    robots::pendubot::Options options;
+    options.ode.measurement_noise = noise;
+    const scenario::Scenario s = robots::pendubot::make(options);
+    const Dataset data = one_episode(s, 1);
+    for (const auto& guess : s.priors) {
+      if (guess.name != "misleading" && guess.name != "partial") continue;
+      const prior::Prior prior{guess.name, guess.simulator, guess.parameters};
+      GpMi nested;
+      nested.search = PhiSearch::nested;
+      const auto score = [&](const GpMi& kind) {
+        return *learn(data, s.task.feature_map(), &prior, kind, {}, serial_evaluator()).score;
+      };
+      EXPECT_GT(score(GpMi{}), score(nested) - 0.01) << guess.name << " noise " << noise;
+    }
+  }
+}
+
+TEST(Learn, GpMiIsNeverWorseThanWhereItStarts) {
+  const Dataset data = swing::data(25, 1);
+  const prior::Prior prior = swing::prior({swing::length(), swing::friction()});
+  const Learned first = learn_swing(data, GpMi{}, &prior);
+  GpMi hurried;  // one that finds little by itself
+  hurried.least_squares_start = false;
+  hurried.gp.fit.bfgs.max_evaluations = 1;
+  EXPECT_GE(*learn_swing(data, hurried, &prior, first.state).score, *first.score - 1e-6);
 }
 
 TEST(Learn, AnyScoreIdentifiesTheSwing) {
@@ -247,27 +277,6 @@ TEST(Learn, OneRowAndRepeatedRowsAreEnoughToGoOn) {
       EXPECT_TRUE(p.mean.allFinite() && p.variance.allFinite()) << data.size() << " " << kind.index();
     }
   }
-}
-
-TEST(ScoreOf, AgreesWithTheFormulas) {
-  const Vector log_p{{-1.5, 0.3, 2}};
-  const Eigen::ArrayXd p = log_p.array().exp();
-  EXPECT_NEAR(score_of(log_p, Score::sum), std::log(p.sum()), 1e-14);
-  EXPECT_NEAR(score_of(log_p, Score::product), std::log(p.prod()), 1e-14);
-  EXPECT_NEAR(score_of(log_p, Score::harmonic), std::log(3 / (1 / p).sum()), 1e-14);
-}
-
-TEST(ScoreOf, NeitherOverflowsNorUnderflows) {
-  const Vector far{{1e5, -1e5, 1e5 - 1}};
-  EXPECT_NEAR(score_of(far, Score::sum), 1e5 + std::log1p(std::exp(-1.0)), 1e-9);
-  EXPECT_NEAR(score_of(far, Score::product), 1e5 - 1, 1e-9);
-  EXPECT_NEAR(score_of(far, Score::harmonic), std::log(3.0) - 1e5, 1e-9);
-}
-
-TEST(ScoreOf, WhatIsNotFiniteIsTheWorst) {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-    for (const Score score : {Score::sum, Score::product, Score::harmonic})
-      EXPECT_EQ(score_of(Vector{{1, bad}}, score), -std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

@@ -92,6 +92,23 @@ TEST(Evidence, GradientIsUsableAtTheLargestSignalToNoiseRatio) {
   EXPECT_LT((gradient - expected).norm(), 1e-3 * expected.norm());
 }
 
+TEST(Whitening, GivesTheEvidenceOfAnyTargets) {
+  for (const Index n : {1, 17, 100}) {
+    const Matrix X = naive::normals(n, 3, 13);
+    const Hyperparameters theta = naive::hyperparameters(3, 1.5, 4, 0.3);
+    const Whitening whiten(Inputs(X), theta);
+    ASSERT_TRUE(whiten.ok());
+    const Matrix Y = naive::normals(n, 3, 14), whitened = whiten(Y);
+    for (Index k = 0; k < 3; ++k) {
+      EXPECT_EQ(whiten(Y.col(k)), whitened.col(k)) << "one by one as together";
+      EXPECT_NEAR(whiten.log_evidence(whitened.col(k)), naive::evidence(X, Y.col(k), theta), 1e-9);
+    }
+  }
+  Hyperparameters impossible = naive::hyperparameters(3, 1, 1, 0.1);
+  impossible.log_lengths(1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(Whitening(Inputs(naive::normals(5, 3, 15)), impossible).ok());
+}
+
 TEST(Evidence, DoesNotDependOnTheUnits) {
   const Matrix X = naive::normals(40, 2, 6);
   const Hyperparameters theta = naive::hyperparameters(2, 1, 1, 0.1);

@@ -1,0 +1,49 @@
+#include "rehearse/dynamics/estimate.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace rehearse::dynamics {
+
+void Estimation::refit(Estimate& estimate, const gp::FitOptions& options) const {
+  const Residuals::Rows rows = residuals.at(prior, estimate.phi);
+  estimate.left_out = rows.left_out;
+  estimate.score = -std::numeric_limits<double>::infinity();
+  if (!rows.inputs) return;
+  const auto outputs = static_cast<Index>(estimate.kernels.size());
+  estimate.log_evidences.resize(outputs);
+  evaluator.for_each(outputs, [&](Index e) {
+    gp::FitStart& kernel = estimate.kernels[static_cast<std::size_t>(e)];
+    if (kernel.hyperparameters.inputs() == 0)
+      kernel.hyperparameters =
+          gp::default_start(*rows.inputs, rows.targets.col(e), residuals.scale()(e), options.bounds);
+    gp::Fit fit = gp::fit(*rows.inputs, rows.targets.col(e), residuals.scale()(e), kernel, options);
+    kernel = {std::move(fit.hyperparameters), std::move(fit.curvature)};
+    estimate.log_evidences(e) = fit.log_evidence;
+  });
+  estimate.score = charged_score(estimate.log_evidences, estimate.left_out);
+}
+
+double Estimation::charged_score(const Vector& log_evidences, Index left_out) const {
+  Vector total = log_evidences;
+  for (Index e = 0; e < total.size(); ++e) {
+    const double spread = std::max(residuals.scale()(e), 1e-300);
+    const double uninformed = -0.5 - std::log(spread) - 0.5 * std::log(2 * std::numbers::pi);
+    total(e) += static_cast<double>(left_out) * uninformed;
+  }
+  return score_of(total, score);
+}
+
+Estimate unfitted(const Vector& phi, Index outputs, const std::vector<gp::Hyperparameters>& kernels) {
+  Estimate estimate{.phi = phi, .kernels = std::vector<gp::FitStart>(static_cast<std::size_t>(outputs))};
+  for (std::size_t e = 0; e < kernels.size(); ++e) estimate.kernels[e].hyperparameters = kernels[e];
+  return estimate;
+}
+
+std::vector<gp::Hyperparameters> hyperparameters(const Estimate& estimate) {
+  std::vector<gp::Hyperparameters> kernels;
+  for (const gp::FitStart& kernel : estimate.kernels) kernels.push_back(kernel.hyperparameters);
+  return kernels;
+}
+
+}  // namespace rehearse::dynamics

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "rehearse/dynamics/estimate.hpp"
+#include "rehearse/dynamics/score_step.hpp"
+#include "rehearse/gp/evidence.hpp"
+
+namespace rehearse::dynamics {
+
+/// The score as a function of the continuous parameters alone, the kernels of an estimate held: a nonlinear
+/// least-squares problem in the whitened residuals, each φ of which costs a triangular solve an output. Coordinates z
+/// are in [0, 1], fractions of the boxes.
+class HeldKernels {
+ public:
+  /// The estimate must have been fitted with a finite score. Both must outlive this.
+  HeldKernels(const Estimation& estimation, const Estimate& estimate);
+
+  struct At {
+    Matrix targets, whitened;  // rows × outputs
+    Vector log_evidences;      // outputs
+    double score;              // −∞ if a row fails that did not at the estimate's φ
+  };
+  At at(const Vector& z) const;
+
+  /// Around z, by differences of the prior; a parameter that cannot be moved without failure has slope 0.
+  Quadratics quadratics(const Vector& z, const At& at) const;
+
+  Vector start() const;  // z of the estimate's φ
+  Vector phi(const Vector& z) const;
+  const Estimation& estimation() const { return estimation_; }
+  double score(const Vector& log_evidences) const { return estimation_.charged_score(log_evidences, left_out_); }
+
+ private:
+  Matrix targets(const Vector& z) const;
+  Matrix slope(const Vector& z, const Matrix& targets, Index i) const;
+
+  const Estimation& estimation_;
+  const Estimate& estimate_;
+  std::vector<Index> kept_;  // rows; empty: all
+  Index left_out_;           // the others
+  std::vector<gp::Whitening> whitenings_;
+  std::vector<Index> continuous_;
+  Vector low_, width_;
+};
+
+/// The score at the estimate's φ with its kernels as they are; −∞ if it has none.
+double held_score(const Estimation& estimation, const Estimate& estimate);
+
+/// Moves φ to where the score is highest nearby with the kernels held, by Gauss–Newton steps with Levenberg's damping,
+/// and by Subplex where the prior is not smooth enough for differences. The score becomes that with the kernels held.
+void climb(const Estimation& estimation, Estimate& estimate);
+
+}  // namespace rehearse::dynamics

@@ -1,0 +1,98 @@
+#include "rehearse/dynamics/held_kernels.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "swing.hpp"
+
+namespace rehearse::dynamics {
+namespace {
+
+constexpr Score kScores[] = {Score::sum, Score::product, Score::harmonic};
+
+/// GPs fitted to what the swing of wrong parameters leaves of 30 steps.
+struct HeldKernelsTest : testing::Test {
+  Estimation estimation(Score score) const { return {residuals, &prior, score, {}, serial_evaluator()}; }
+  Estimate fitted(const Estimation& at, const Vector& phi) const {
+    Estimate estimate = unfitted(phi, 2, {});
+    at.refit(estimate);
+    return estimate;
+  }
+  const Dataset data = swing::data(30, 1);
+  const Residuals residuals{data, swing::features()};
+  prior::Prior prior = swing::prior({swing::length(), swing::friction()});
+};
+
+TEST_F(HeldKernelsTest, TheScoreAtTheStartIsThatOfTheFit) {
+  for (const Score score : kScores) {
+    const Estimation at = estimation(score);
+    const Estimate estimate = fitted(at, Vector{{0.9, 0.2}});
+    EXPECT_NEAR(held_score(at, estimate), estimate.score, 1e-8);
+    const HeldKernels held(at, estimate);
+    EXPECT_LT((held.phi(held.start()) - estimate.phi).norm(), 1e-14);
+  }
+}
+
+TEST_F(HeldKernelsTest, QuadraticsAgreeWithFiniteDifferences) {
+  const Estimation at = estimation(Score::product);
+  const Estimate estimate = fitted(at, Vector{{0.9, 0.2}});
+  const HeldKernels held(at, estimate);
+  const Vector z = held.start();
+  const Quadratics q = held.quadratics(z, held.at(z));
+  for (Index i = 0; i < 2; ++i) {
+    const Vector step = 1e-4 * Vector::Unit(2, i);
+    const Vector slopes = (held.at(z + step).log_evidences - held.at(z - step).log_evidences) / 2e-4;
+    for (Index e = 0; e < 2; ++e)
+      EXPECT_NEAR(q.gradients(i, e), slopes(e), 2e-3 * std::abs(slopes(e)) + 0.01) << i << " " << e;
+  }
+}
+
+TEST_F(HeldKernelsTest, ClimbingFindsNoHigherScoreNearby) {
+  for (const Score score : kScores) {
+    const Estimation at = estimation(score);
+    const Estimate start = fitted(at, Vector{{0.9, 0.2}});
+    Estimate found = start;
+    climb(at, found);
+    EXPECT_GT(found.score, start.score + 1);
+    const HeldKernels held(at, start);
+    Estimate around = found;
+    for (const double d : {-0.01, 0.01})
+      for (const Index i : {0, 1}) {
+        around.phi = found.phi + d * Vector::Unit(2, i);
+        EXPECT_LT(held_score(at, around), found.score + 0.01);
+      }
+  }
+}
+
+// A step of the length's box is 0.17; rounded so, the prior has no slope that differences could see.
+TEST_F(HeldKernelsTest, ClimbsAPriorThatIsNotSmooth) {
+  prior = swing::prior({swing::length(), swing::friction()},
+                       [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
+                         const Vector rounded{{std::round(phi(0) * 50) / 50, phi(1)}};
+                         swing::ode(x, u, rounded, dxdt);
+                       });
+  const Estimation at = estimation(Score::product);
+  Estimate found = fitted(at, Vector{{0.85, 0.3}});
+  const double before = found.score;
+  climb(at, found);
+  EXPECT_GE(found.score, before);
+  EXPECT_TRUE(std::isfinite(found.score));
+}
+
+TEST_F(HeldKernelsTest, AStepToWhereRowsFailIsNotMade) {
+  prior = swing::prior({swing::length(), swing::friction()},
+                       [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
+                         swing::ode(x, u, phi, dxdt);
+                         if (phi(0) < 0.85) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
+                       });
+  const Estimation at = estimation(Score::product);
+  Estimate found = fitted(at, Vector{{1.2, 0.2}});
+  climb(at, found);
+  EXPECT_GE(found.phi(0), 0.85);
+  EXPECT_LT(found.phi(0), 1) << "as near to the truth, 0.8, as it gets";
+}
+
+}  // namespace
+}  // namespace rehearse::dynamics
