@@ -93,7 +93,7 @@ void evidence_and_gradient(benchmark::State& state) {
   Vector gradient;
   for (auto _ : state) benchmark::DoNotOptimize(gp::evidence(inputs, y, flat, workspace, &gradient));
 }
-BENCHMARK(evidence_and_gradient)->Arg(50)->Arg(200)->Arg(500)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK(evidence_and_gradient)->Arg(50)->Arg(200)->Arg(500)->Arg(1000)->Arg(1300)->Unit(benchmark::kMillisecond);
 
 /// The factorisation and the inverse that the gradient needs, of the same kind of matrix.
 void dpotrf_and_dpotri(benchmark::State& state) {
@@ -110,9 +110,9 @@ void dpotrf_and_dpotri(benchmark::State& state) {
     dpotri_("L", &n, work.data(), &n, &info);
   }
 }
-BENCHMARK(dpotrf_and_dpotri)->Arg(50)->Arg(200)->Arg(500)->Arg(1000)->Unit(benchmark::kMillisecond);
+BENCHMARK(dpotrf_and_dpotri)->Arg(50)->Arg(200)->Arg(500)->Arg(1000)->Arg(1300)->Unit(benchmark::kMillisecond);
 
-/// One output from the default start; the second argument is the method (0 Rprop, 1 L-BFGS), the third whether the
+/// One output from the default start; the second argument is the method (0 Rprop, 1 BFGS), the third whether the
 /// start is the optimum for slightly different targets, as in the search over a simulator's parameters.
 void fit(benchmark::State& state) {
   const Matrix X = normals(state.range(0), kInputs, 1);

@@ -145,6 +145,20 @@ class Correlations {
   double means_[gp::kChunk] = {};
 };
 
+/// A plain vectorised exp of as many entries.
+class Exponentials {
+ public:
+  explicit Exponentials(const gp::Posterior& gp)
+      : outputs_(gp.outputs()), exponents_(-Matrix::Random(kRows, gp.size()).cwiseAbs()), values_(kRows, gp.size()) {}
+  void operator()() {
+    for (Index e = 0; e < outputs_; ++e) vector_exp(exponents_.data(), values_.data(), values_.size());
+  }
+
+ private:
+  Index outputs_;
+  Matrix exponents_, values_;
+};
+
 /// The products by OpenBLAS, 64 columns at a time; each output has its own matrix.
 class Dtrmm {
  public:
@@ -196,6 +210,7 @@ std::vector<Part> parts_of(const Setup& s, Outputs& out) {
       {"dtrmm", Dtrmm(gp)},
       chunked("gp", [&] { gp.predict(s.inputs, out.mean, out.variance); }),
       chunked("correlations", Correlations(gp)),
+      chunked("exp", Exponentials(gp)),
       chunked("gp_mean", [&] { gp.predict_mean(s.inputs, out.mean); }),
       chunked("features", [&] { s.features.apply(s.X, out.features); }),
       chunked("policy", [&, Theta] { s.pendubot.policy->act(Theta, s.X, 0, out.U); }),
@@ -233,6 +248,7 @@ void parts(benchmark::State& state) {
   for (std::size_t i = 0; i < all.size(); ++i) counters[all[i].name] = least[i];
   const auto ns = [&](const char* name) { return counters[name].value; };
   counters["over_products"] = ns("rollout") / std::min(ns("products"), ns("wide_products"));
+  counters["correlations_over_exp"] = ns("correlations") / ns("exp");
   counters["over_dtrmm"] = ns("rollout") / ns("dtrmm");
   counters["share_of_small_parts"] =
       ((with_prior ? ns("prior") : 0) + ns("policy") + ns("reward") + ns("normals")) / ns("rollout");
