@@ -107,6 +107,18 @@ refused "is not the folder of a campaign" campaign c.toml --out two
 [ "$(ranks 3 --help | grep -c '^Usage')" = 1 ] || fail "help is printed by several"
 "$mpirun" --oversubscribe -n 2 bash -c "'$program' learn pendubot --learner mi --out x\$OMPI_COMM_WORLD_RANK" >output 2>&1
 grep -q "^rehearse: .*need the same arguments" output || fail "different arguments: $(cat output)"
+
+# Ranks on different processors: OpenBLAS is told that it is on another.
+differently() {
+  "$mpirun" --oversubscribe --bind-to none -n 1 -x OPENBLAS_CORETYPE=Haswell "$program" "$@" : \
+    -n 1 -x OPENBLAS_CORETYPE=Nehalem "$program" "$@" >output 2>&1
+}
+differently learn pendubot --learner mi --out x
+[ $? = 2 ] && grep -q "^rehearse: the processes compute differently (.*Haswell.*Nehalem" output ||
+  fail "a run on different processors: $(cat output)"
+differently campaign c.toml --out three || fail "a campaign on different processors: $(cat output)"
+grep -q "^rehearse: the last bits of a run depend on the machine" output || fail "no warning: $(cat output)"
+
 SLURM_STEP_NUM_TASKS=2 "$program" list >output 2>&1
 [ $? = 2 ] && grep -q "Open MPI joins 1 of them" output || fail "a launcher that MPI does not know: $(cat output)"
 
