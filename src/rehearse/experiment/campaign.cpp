@@ -49,6 +49,7 @@ class Crew {
   void work(const Places& places) {
     if (places.here == 0) return;
     std::vector<std::shared_ptr<const Evaluator>> evaluators;
+    evaluators.reserve(static_cast<std::size_t>(places.here));
     const int workers = static_cast<int>(places.here);
     for (int i = 0; i < workers; ++i)
       evaluators.push_back(make_thread_evaluator(places.threads / workers + (i < places.threads % workers)));
@@ -150,10 +151,15 @@ class Leader {
       : catalogue_(catalogue), options_(options), campaign_{.plan = std::move(plan)} {}
 
   Campaign work(std::string_view text, const std::filesystem::path& path) {
-    const auto open = [&] { return open_folder(text, path), std::to_string(campaign_.count(RunState::unfinished)); };
-    const std::string unfinished = options_.ranks ? options_.ranks->once(open) : open();
+    const std::string unfinished = once([&] {
+      open_folder(text, path);
+      return std::to_string(campaign_.count(RunState::unfinished));
+    });
     const Places places = places_of(options_, std::stoi(unfinished));
-    if (options_.listener) options_.listener->started(campaign_, places.in_all);
+    once([&] {
+      if (options_.listener) options_.listener->started(campaign_, places.in_all);
+      return std::string();
+    });
     OwnLedger ledger(*folder_, campaign_, options_);
     Answering answering(options_, ledger);
     Crew(catalogue_, *folder_, campaign_.plan, ledger).work(places);
@@ -163,6 +169,11 @@ class Leader {
   }
 
  private:
+  /// What fails here fails on all ranks, which wait for it.
+  std::string once(const std::function<std::string()>& work) const {
+    return options_.ranks ? options_.ranks->once(work) : work();
+  }
+
   void open_folder(std::string_view text, const std::filesystem::path& path) {
     const bool whole = options_.share.of == 1;
     folder_.emplace(CampaignFolder::open(catalogue_, path, text, campaign_.plan,
@@ -191,6 +202,7 @@ void follow(const Catalogue& catalogue, CampaignPlan plan, std::string_view text
   const std::string unfinished = options.ranks->once({});
   const CampaignFolder folder = CampaignFolder::join(path, text);
   const Places places = places_of(options, std::stoi(unfinished));
+  options.ranks->once({});  // until the listener knows of the campaign
   DistantLedger ledger(*options.ranks, options.stop);
   try {
     Crew(catalogue, folder, plan, ledger).work(places);
@@ -205,6 +217,9 @@ void follow(const Catalogue& catalogue, CampaignPlan plan, std::string_view text
 
 Campaign run_campaign(const Catalogue& catalogue, std::string_view text, const std::string& source,
                       const std::filesystem::path& path, const CampaignOptions& options) {
+  const auto [number, of] = options.share;
+  if (number < 1 || number > of)
+    throw InvalidInput(fmt::format("share = {}/{}, must be K/N with K from 1 to N", number, of));
   CampaignPlan plan = plan_campaign(catalogue, text, source);
   if (!options.ranks || options.ranks->rank() == 0) return Leader(catalogue, std::move(plan), options).work(text, path);
   follow(catalogue, plan, text, path, options);

@@ -33,7 +33,7 @@ void make_folder(const fs::path& path) {
   try {
     if (!fs::exists(path)) fs::create_directories(path);
     if (!fs::is_directory(path)) throw InvalidInput(fmt::format("{} is not a folder", path.string()));
-    if (!fs::exists(path / kFile) && !is_blank(path))
+    if (!is_blank(path) && !fs::exists(path / kFile))  // in this order: another share may begin it meanwhile
       throw InvalidInput(
           fmt::format("{} already exists and is not the folder of a campaign; name another", path.string()));
   } catch (const fs::filesystem_error& error) {

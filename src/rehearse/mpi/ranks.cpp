@@ -38,11 +38,11 @@ void send(const std::string& bytes, int to, int tag) {
 
 /// MPI's own waiting takes a whole core, which may be needed: by other ranks where there are fewer cores, and by
 /// anybody while rank 0 waits for a robot.
-void wait(MPI_Request& request) {
+void wait_gently(const MPI_Request& request) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   int done = 0;
-  while (MPI_Test(&request, &done, MPI_STATUS_IGNORE), done == 0) {
+  while (MPI_Request_get_status(request, &done, MPI_STATUS_IGNORE), done == 0) {
     const auto waited = Clock::now() - begin;
     if (waited > std::chrono::milliseconds(20))
       std::this_thread::sleep_for(std::chrono::microseconds(200));
@@ -97,7 +97,8 @@ class MpiRanks final : public Ranks {
     bytes.copy(block.data() + sizeof own, kInBlock);
     MPI_Request request;
     MPI_Iallgather(block.data(), kBlock, MPI_BYTE, blocks.data(), kBlock, MPI_BYTE, MPI_COMM_WORLD, &request);
-    wait(request);
+    wait_gently(request);
+    MPI_Wait(&request, MPI_STATUS_IGNORE);
 
     std::vector<std::string> given;
     std::vector<int> rest, offsets = {0};
@@ -120,7 +121,8 @@ class MpiRanks final : public Ranks {
     MPI_Request request;
     MPI_Iallgatherv(own, sizes[static_cast<std::size_t>(rank_)], MPI_BYTE, all.data(), sizes.data(), offsets.data(),
                     MPI_BYTE, MPI_COMM_WORLD, &request);
-    wait(request);
+    wait_gently(request);
+    MPI_Wait(&request, MPI_STATUS_IGNORE);
     for (std::size_t i = 0; i < given.size(); ++i)
       given[i].append(all, static_cast<std::size_t>(offsets[i]), static_cast<std::size_t>(sizes[i]));
   }

@@ -73,6 +73,7 @@ class RankThread final : public Ranks {
 void on_rank_threads(int size, const std::function<void(Ranks&)>& work, const std::function<bool(int)>& stop) {
   Shared shared(size);
   std::vector<std::thread> threads;
+  threads.reserve(static_cast<std::size_t>(size));
   for (int rank = 0; rank < size; ++rank)
     threads.emplace_back([&, rank] {
       RankThread own(rank, shared, stop);

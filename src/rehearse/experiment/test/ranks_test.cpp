@@ -252,17 +252,33 @@ TEST(CampaignOnRanks, WrongInputOnAll) {
   EXPECT_EQ(ends.all(), folder.string() + " already exists and is not the folder of a campaign; name another");
 }
 
+/// Throws at the start, or when a run ends.
 class Thrower final : public CampaignListener {
  public:
+  explicit Thrower(bool at_start) : at_start_(at_start) {}
+  void started(const Campaign&, Index) override {
+    if (at_start_) throw std::runtime_error("there is no terminal");
+  }
   void run_ended(std::size_t, const RunOutcome&) override { throw std::runtime_error("the terminal is gone"); }
+
+ private:
+  bool at_start_;
 };
+
+TEST(CampaignOnRanks, AListenerThatThrowsAtTheStartEndsItOnAll) {
+  const fs::path folder = fake::test_folder();
+  Thrower thrower(true);
+  const Ends ends([&](Ranks& ranks, const RunOptions&) {
+    campaign(folder / "c", {.threads = 1, .listener = ranks.rank() == 0 ? &thrower : nullptr, .ranks = &ranks});
+  });
+  EXPECT_EQ(ends.all(), "there is no terminal");
+}
 
 TEST(CampaignOnRanks, AListenerThatThrowsEndsItOnAll) {
   const fs::path folder = fake::test_folder();
-  Thrower thrower;
+  Thrower thrower(false);
   const Ends ends([&](Ranks& ranks, const RunOptions&) {
-    const bool leads = ranks.rank() == 0;
-    campaign(folder / "c", {.threads = 1, .listener = leads ? &thrower : nullptr, .ranks = &ranks});
+    campaign(folder / "c", {.threads = 1, .listener = ranks.rank() == 0 ? &thrower : nullptr, .ranks = &ranks});
   });
   EXPECT_EQ(ends.all(), "done | the terminal is gone") << "only rank 0 knows, and nobody waits for ever";
 }
@@ -282,6 +298,13 @@ TEST(Shares, TogetherAreTheCampaign) {
   EXPECT_TRUE(campaign(folder / "shares", {.threads = 1, .listener = &counter}).complete());
   EXPECT_EQ(counter.begun, 0) << "no run is left";
   EXPECT_EQ(campaign_results(folder / "shares"), campaign_results(folder / "alone"));
+}
+
+TEST(Shares, AreNumberedFromOne) {
+  const fs::path folder = fake::test_folder() / "shares";
+  for (const Share share : {Share{0, 3}, Share{4, 3}, Share{0, 0}, Share{-1, -1}})
+    EXPECT_THROW(campaign(folder, {.threads = 1, .share = share}), InvalidInput);
+  EXPECT_FALSE(fs::exists(folder));
 }
 
 TEST(Shares, LeaveAloneWhatOthersAreMaking) {
