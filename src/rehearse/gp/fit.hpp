@@ -14,7 +14,7 @@ enum class FitMethod { rprop, bfgs };
 struct FitOptions {
   FitMethod method = FitMethod::bfgs;  // rprop: Chatzilygeroudis 2018; BFGS needs about a fifth of the evaluations
   optim::RpropOptions rprop;
-  optim::BfgsOptions bfgs;
+  optim::BfgsOptions bfgs{.relative_tolerance = 1e-7};  // of a thousand nats: less than a hundredth nat is left
   // The evidence of small residuals has several optima.
   Index starts = 4;       // the better of the given start and the default one; then noisier, smoother, rougher ones
                           // (the authors: 1)
