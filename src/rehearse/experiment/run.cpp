@@ -170,8 +170,8 @@ class Run {
     const Index size = proposal.theta.size(), wanted = with_.policy().parameters();
     if (size != wanted || !proposal.theta.allFinite())
       throw std::runtime_error(fmt::format("it proposed {} parameters, the policy has {} finite ones", size, wanted));
-    const std::string own = bytes_of(proposal.theta);
-    if (evaluator_of(with_.options())->once([&] { return own; }) != own)  // or ranks would go on with different runs
+    const auto bytes = [&] { return bytes_of(proposal.theta); };
+    if (evaluator_of(with_.options())->once(bytes) != bytes())  // or ranks would go on with different runs
       throw std::runtime_error("it proposes another policy than that of rank 0");
     return proposal;
   }
