@@ -1,31 +1,10 @@
 #!/usr/bin/env bash
 # kill.sh PROGRAM: kills a short campaign with SIGKILL at instants spread over its length, starts each again, and compares
 # the tables with those of one that was never interrupted; then threads, damage, claims and Ctrl-C.
-set -u
-program=$(realpath "$1")
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
+source "$(dirname "$0")/../prelude.sh"
 
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-
-cat >c.toml <<'TOML'
-format = 1
-scenario = "pendubot"
-learners = ["mi", "black-drops-prior", "pilco"]
-priors = ["misleading"]
-seeds = "1-3"
-trials = 2
-
-[set]
-search.race.max_evaluations = 800
-search.race.descents = 2
-search.selection = 10
-model.subplex.max_evaluations = 100
+short_campaign '["mi", "black-drops-prior", "pilco"]' 1-3 >c.toml
+cat >>c.toml <<'TOML'
 
 [[claim]]
 text = "nobody solves it with so few rollouts"
@@ -34,8 +13,6 @@ solved_by = 2
 at_least_runs = 3
 TOML
 
-milliseconds() { echo $(($(date +%s%N) / 1000000)); }
-same() { cmp "$1/campaign.csv" "$2/campaign.csv" && cmp "$1/summary.json" "$2/summary.json" || fail "$2 differs from $1"; }
 
 begin=$(milliseconds)
 "$program" campaign c.toml --out whole --threads 2 >output || fail "the whole campaign: $(cat output)"
@@ -59,12 +36,12 @@ for instant in 1 3 5 7; do
   done
   finished=$(grep -lx mine $run/runs/*/timings.csv 2>/dev/null | wc -l)
   "$program" campaign c.toml --out $run --threads 2 >/dev/null || fail "starting $run again"
-  same whole $run
+  same whole $run "${tables[@]}"
   [ "$(grep -lx mine $run/runs/*/timings.csv 2>/dev/null | wc -l)" = "$finished" ] || fail "$run repeats a finished run"
 done
 
 "$program" campaign c.toml --out one --threads 1 >/dev/null
-same whole one
+same whole one "${tables[@]}"
 
 "$program" campaign c.toml --out whole --check-claims >/dev/null
 [ $? = 1 ] || fail "a claim that fails does not make --check-claims fail"
@@ -90,7 +67,6 @@ code=$?
 [ $code = 130 ] || fail "an interrupted campaign exits with $code: $(cat output)"
 grep -q "give the same command again" output || fail "an interrupted campaign says: $(cat output)"
 "$program" campaign c.toml --out stopped >/dev/null || fail "continuing after Ctrl-C"
-same whole stopped
+same whole stopped "${tables[@]}"
 
-echo "$failures failures"
-exit $((failures > 0))
+finish

@@ -1,34 +1,11 @@
 #!/usr/bin/env bash
 # shares.sh PROGRAM ARRAY: the tasks of a Slurm job array, started at the same time in one folder; some of them are killed,
 # and all are started again. ARRAY: the file of the array.
-set -u
-REHEARSE=$(realpath "$1")
-export REHEARSE
 array=$(realpath "$2")
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
+source "$(dirname "$0")/../prelude.sh"
+export REHEARSE=$program
 
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-
-cat >c.toml <<'TOML'
-format = 1
-scenario = "pendubot"
-learners = ["mi", "black-drops-prior"]
-priors = ["misleading"]
-seeds = "1-4"
-trials = 2
-
-[set]
-search.race.max_evaluations = 800
-search.race.descents = 2
-search.selection = 10
-model.subplex.max_evaluations = 100
-TOML
+short_campaign '["mi", "black-drops-prior"]' 1-4 >c.toml
 
 submit() { # every task in the background; their processes in `tasks`
   tasks=()
@@ -37,9 +14,8 @@ submit() { # every task in the background; their processes in `tasks`
     tasks+=($!)
   done
 }
-same() { for file in campaign.csv summary.json; do cmp one/$file shares/$file || fail "$file"; done; }
 
-"$REHEARSE" campaign c.toml --out one >/dev/null || fail "the campaign of one process"
+"$program" campaign c.toml --out one >/dev/null || fail "the campaign of one process"
 
 submit
 until [ "$(find shares/runs -name trial-001.csv -path '*trajectories*' 2>/dev/null | wc -l)" -ge 2 ]; do sleep 0.002; done
@@ -52,9 +28,8 @@ for task in 1 2 3; do
   grep -q "share $task of 3, $((task < 3 ? 3 : 2)) runs" output-$task || fail "task $task says $(cat output-$task)"
 done
 [ -e shares/campaign.csv ] && fail "a share writes tables"
-"$REHEARSE" campaign c.toml --out shares >output || fail "the tables of the shares"
+"$program" campaign c.toml --out shares >output || fail "the tables of the shares"
 grep -q "8 of 8 runs done already" output || fail "the shares leave runs to do: $(cat output)"
-same
+same one shares "${tables[@]}"
 
-echo "$failures failures"
-exit $((failures > 0))
+finish

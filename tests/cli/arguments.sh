@@ -1,17 +1,7 @@
 #!/usr/bin/env bash
 # arguments.sh PROGRAM: what the command line accepts and refuses, with which exit code and words.
-set -u
-program=$(realpath "$1")
 campaigns=$(realpath "$(dirname "$0")/../../campaigns")
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+source "$(dirname "$0")/../prelude.sh"
 
 # expect CODE PATTERN LINES ARGS…: the exit code, a pattern that standard error must hold (stdout for code 0), and how
 # many lines there must be (- for any).
@@ -128,5 +118,4 @@ code=$?
 grep -q "to continue: rehearse resume stopped" stderr || fail "an interrupted run says: $(cat stderr)"
 expect 2 "trials = 0" 1 resume stopped --trials 0
 
-[ $failures = 0 ] && echo "all as expected"
-exit $((failures > 0))
+finish

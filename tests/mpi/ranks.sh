@@ -1,20 +1,11 @@
 #!/usr/bin/env bash
 # ranks.sh PROGRAM MPIRUN: campaigns and runs on two and three ranks against one process; ranks that are killed; wrong
 # input.
-set -u
-program=$(realpath "$1")
+source "$(dirname "$0")/../prelude.sh"
 mpirun=$2
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export ASAN_OPTIONS=detect_leaks=0 # Open MPI leaks
 
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
 ranks() { # ranks N ARGS…
   (ranks_alone "$@")
 }
@@ -22,12 +13,6 @@ ranks_alone() { # the same, as this process itself
   local n=$1
   shift
   exec "$mpirun" --oversubscribe --bind-to none -n "$n" "$program" "$@"
-}
-# same A B FILES…
-same() {
-  local a=$1 b=$2
-  shift 2
-  for file in "$@"; do cmp "$a/$file" "$b/$file" || fail "$b/$file"; done
 }
 # kill_rank RANK UNTIL-COMMAND… : of the ranks_alone that were started with "&" last
 kill_rank() {
@@ -42,21 +27,7 @@ kill_rank() {
   wait $parent && fail "mpirun does not tell that a rank was killed"
 }
 
-cat >c.toml <<'TOML'
-format = 1
-scenario = "pendubot"
-learners = ["mi", "black-drops-prior", "pilco"]
-priors = ["misleading"]
-seeds = "1-3"
-trials = 2
-
-[set]
-search.race.max_evaluations = 800
-search.race.descents = 2
-search.selection = 10
-model.subplex.max_evaluations = 100
-TOML
-tables=(campaign.csv summary.json)
+short_campaign '["mi", "black-drops-prior", "pilco"]' 1-3 >c.toml
 
 "$program" campaign c.toml --out one >/dev/null || fail "the campaign of one process"
 ranks 3 campaign c.toml --out three >output 2>&1 || fail "the campaign of three ranks: $(cat output)"
@@ -124,5 +95,4 @@ grep -q "^rehearse: the last bits of a run depend on the machine" output || fail
 SLURM_STEP_NUM_TASKS=2 "$program" list >output 2>&1
 [ $? = 2 ] && grep -q "Open MPI joins 1 of them" output || fail "a launcher that MPI does not know: $(cat output)"
 
-echo "$failures failures"
-exit $((failures > 0))
+finish

@@ -1,16 +1,6 @@
 #!/usr/bin/env bash
 # without.sh PROGRAM: a program that was built without MPI works alone, and refuses to be one of several.
-set -u
-program=$(realpath "$1")
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
+source "$(dirname "$0")/../prelude.sh"
 
 # refuses WHO VARIABLES… : one sentence from the first process, nothing from the others, exit 2, no folder
 refuses() {
@@ -34,5 +24,4 @@ refuses srun SLURM_PROCID=0 SLURM_PROCID=1 SLURM_STEP_NUM_TASKS=3
 OMPI_COMM_WORLD_SIZE=1 SLURM_STEP_NUM_TASKS=3 "$program" list | grep -q gp-mi || fail "mpirun -n 1 is refused"
 "$program" list | grep -q gp-mi || fail "it does not work alone"
 
-echo "$failures failures"
-exit $((failures > 0))
+finish

@@ -1,13 +1,8 @@
 #!/usr/bin/env bash
 # kill.sh PROGRAM LEARNER: kills a short run with SIGKILL at ten instants spread over its length, resumes each, and
 # compares what is left with the run that was never interrupted; then compares numbers of threads and of trials.
-set -u
-program=$(realpath "$1")
+source "$(dirname "$0")/../prelude.sh"
 learner=$2
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
 
 arguments=(pendubot --learner "$learner" --seed 5 --set search.race.max_evaluations=6000 --set search.race.descents=2
   --set search.selection=20)
@@ -16,17 +11,6 @@ arguments=(pendubot --learner "$learner" --seed 5 --set search.race.max_evaluati
 learn() { # learn FOLDER ARGS…
   "$program" learn "${arguments[@]}" --out "$@" >/dev/null
 }
-
-# same A B FILES…
-same() {
-  local a=$1 b=$2
-  shift 2
-  for file in "$@"; do
-    cmp "$a/$file" "$b/$file" || failures=$((failures + 1))
-  done
-}
-
-milliseconds() { echo $(($(date +%s%N) / 1000000)); }
 
 begin=$(milliseconds)
 learn whole --trials 3 --threads 2 || exit 1
@@ -44,17 +28,16 @@ for instant in 1 2 3 4 5 6 7 8 9 10; do
   finished="and was complete"
   [ -e $run/done ] || finished="after $(($(wc -l <$run/trials.csv 2>/dev/null || echo 1) - 1)) trials"
   echo "killed at instant $instant, $finished"
-  "$program" resume $run >/dev/null || failures=$((failures + 1))
+  "$program" resume $run >/dev/null || fail "resuming $run"
   same whole $run spec.toml trials.csv errors.csv notes.csv policy.json done trajectories/trial-00{1,2,3}.csv
 done
 
 learn one-thread --trials 3 --threads 1
 same whole one-thread trials.csv errors.csv policy.json
 learn fewer --trials 2 --threads 2
-head -c "$(wc -c <fewer/trials.csv)" whole/trials.csv | cmp - fewer/trials.csv || failures=$((failures + 1))
-"$program" resume fewer --trials 3 >/dev/null || failures=$((failures + 1))
+head -c "$(wc -c <fewer/trials.csv)" whole/trials.csv | cmp - fewer/trials.csv || fail "rows of two trials"
+"$program" resume fewer --trials 3 >/dev/null || fail "resuming with more trials"
 same whole fewer spec.toml trials.csv
 
 cat whole/trials.csv
-echo "$failures differences"
-exit $((failures > 0))
+finish

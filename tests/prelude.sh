@@ -1,0 +1,45 @@
+# Sourced by every test of the program with its arguments, the first of which is the program: works in a folder of its own
+# and counts failures.
+set -u
+program=$(realpath "$1")
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+finish() {
+  echo "$failures failures"
+  exit $((failures > 0))
+}
+
+# same A B FILES… : the same bytes in both folders
+same() {
+  local a=$1 b=$2 file
+  shift 2
+  for file in "$@"; do cmp "$a/$file" "$b/$file" || fail "$b/$file differs from $a's"; done
+}
+
+# short_campaign LEARNERS SEEDS: a campaign file of two trials and few rollouts, to which more may be added
+short_campaign() {
+  cat <<TOML
+format = 1
+scenario = "pendubot"
+learners = $1
+priors = ["misleading"]
+seeds = "$2"
+trials = 2
+
+[set]
+search.race.max_evaluations = 800
+search.race.descents = 2
+search.selection = 10
+model.subplex.max_evaluations = 100
+TOML
+}
+tables=(campaign.csv summary.json)
+milliseconds() { echo $(($(date +%s%N) / 1000000)); }
