@@ -16,7 +16,6 @@ constexpr double kSettled = 0.01;  // nats: a turn, or other kernels, that gain 
 constexpr int kMostTurns = 40, kMostRounds = 3;
 constexpr Index kFewestRows = 60, kThinning = 3;  // parts: every third row of the next larger one, while so many remain
 constexpr Index kManyRows = 450;                  // from here on one estimate goes on, and from its kernels alone
-constexpr std::size_t kFinalists = 3;
 constexpr Index kOtherKernels = 6;  // starts of the fits that look for other kernels; up to 30 more with few rows
 constexpr double kSame = 1e-3, kSameScore = 0.1;  // fractions of the boxes and nats: the same maximum
 
@@ -88,7 +87,7 @@ class Search {
       levels_.back().refit(result);
     else
       result = no_worse_than(given, search(given));
-    result.evaluations = evaluations_ + 1;
+    result.evaluations += evaluations_ + 1;
     return result;
   }
 
@@ -102,10 +101,10 @@ class Search {
       part.refit(estimate);
       alternate(part, estimate);
     });
-    estimates = best_of(std::move(estimates), kFinalists);
+    estimates = best_of(std::move(estimates));
     for_each(estimates,
              [&](Estimate& estimate) { settle(part, estimate, kOtherKernels + more_kernels(), kMostRounds); });
-    estimates = best_of(std::move(estimates), kFinalists);
+    estimates = best_of(std::move(estimates));
     for (std::size_t i = 1; i < levels_.size(); ++i) estimates = refined(std::move(estimates), levels_[i]);
     return estimates.front();
   }
@@ -113,7 +112,6 @@ class Search {
   /// The given φ on all rows with its kernels as they are, and from there if that is better.
   Estimate no_worse_than(Estimate given, Estimate found) const {
     const Estimation& all = levels_.back();
-    if (given.kernels.front().hyperparameters.inputs() == 0) return found;
     given.score = held_score(all, given);
     if (!better(given, found)) return found;
     all.refit(given);
@@ -139,16 +137,17 @@ class Search {
   std::vector<Estimate> refined(std::vector<Estimate> estimates, const Estimation& estimation) {
     const bool many = estimation.residuals.size() > kManyRows;
     for (Estimate& estimate : estimates)
-      for (gp::FitStart& kernel : estimate.kernels) kernel.curvature /= static_cast<double>(kThinning);
+      for (gp::FitStart& kernel : estimate.kernels) kernel.inverse_hessian /= static_cast<double>(kThinning);
     if (many) {
       for_each(estimates, [&](Estimate& estimate) { estimate.score = held_score(estimation, estimate); });
-      estimates = best_of(std::move(estimates), 1);
+      estimates = best_of(std::move(estimates));
+      estimates.resize(1);
     }
     for_each(estimates, [&](Estimate& estimate) {
       estimation.refit(estimate);
       alternate(estimation, estimate);
     });
-    estimates = best_of(std::move(estimates), kFinalists);
+    estimates = best_of(std::move(estimates));
     if (!many) settle(estimation, estimates.front(), kOtherKernels, 1);
     return estimates;
   }
@@ -167,13 +166,14 @@ class Search {
     return true;
   }
 
-  std::vector<Estimate> best_of(std::vector<Estimate> estimates, std::size_t most) {
+  /// The highest first, each maximum once.
+  std::vector<Estimate> best_of(std::vector<Estimate> estimates) {
     for (Estimate& estimate : estimates) evaluations_ += std::exchange(estimate.evaluations, 0);
     std::stable_sort(estimates.begin(), estimates.end(), better);
     std::vector<Estimate> best;
     for (Estimate& estimate : estimates) {
       const auto known = [&](const Estimate& other) { return same(estimate, other); };
-      if (best.size() < most && std::none_of(best.begin(), best.end(), known)) best.push_back(std::move(estimate));
+      if (std::none_of(best.begin(), best.end(), known)) best.push_back(std::move(estimate));
     }
     return best;
   }

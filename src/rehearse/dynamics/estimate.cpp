@@ -18,7 +18,7 @@ void Estimation::refit(Estimate& estimate, const gp::FitOptions& options) const 
       kernel.hyperparameters =
           gp::default_start(*rows.inputs, rows.targets.col(e), residuals.scale()(e), options.bounds);
     gp::Fit fit = gp::fit(*rows.inputs, rows.targets.col(e), residuals.scale()(e), kernel, options);
-    kernel = {std::move(fit.hyperparameters), std::move(fit.curvature)};
+    kernel = {std::move(fit.hyperparameters), std::move(fit.inverse_hessian)};
     estimate.log_evidences(e) = fit.log_evidence;
   });
   estimate.score = charged_score(estimate.log_evidences, estimate.left_out);
@@ -27,7 +27,7 @@ void Estimation::refit(Estimate& estimate, const gp::FitOptions& options) const 
 double Estimation::charged_score(const Vector& log_evidences, Index left_out) const {
   Vector total = log_evidences;
   for (Index e = 0; e < total.size(); ++e) {
-    const double spread = std::max(residuals.scale()(e), 1e-300);
+    const double scale = residuals.scale()(e), spread = scale > 0 ? scale : 1;  // as gp::SoftBounds
     const double uninformed = -0.5 - std::log(spread) - 0.5 * std::log(2 * std::numbers::pi);
     total(e) += static_cast<double>(left_out) * uninformed;
   }

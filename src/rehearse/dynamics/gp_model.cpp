@@ -7,6 +7,12 @@ void gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const Const
   F.rightCols(U.cols()) = U;
 }
 
+Matrix gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U) {
+  Matrix F(X.rows(), features.features() + U.cols());
+  gp_inputs(features, X, U, F);
+  return F;
+}
+
 void GpModel::predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const {
   thread_local Matrix inputs, prior_mean;
   inputs.resize(X.rows(), features_.features() + U.cols());

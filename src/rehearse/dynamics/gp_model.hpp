@@ -22,6 +22,7 @@ struct Mean {
 
 /// The GP inputs of a batch: features of the states, then actions (n × (features + du)).
 void gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U, MatrixView F);
+Matrix gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U);
 
 /// State changes = prior mean + independent GPs.
 class GpModel final : public DynamicsModel {

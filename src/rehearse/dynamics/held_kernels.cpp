@@ -10,8 +10,8 @@
 namespace rehearse::dynamics {
 namespace {
 
-constexpr double kDifference = 1e-5;  // of a box, for slopes
-constexpr double kGain = 1e-3;        // nats: steps that promise or gain less are not made
+constexpr double kDifferences[] = {1e-5, 0.02};  // of a box, for slopes; the larger where the smaller moves nothing
+constexpr double kGain = 1e-3;                   // nats: steps that promise or gain less are not made
 constexpr double kLeastDamping = 1e-9, kFirstDamping = 1e-6;
 constexpr int kMostSteps = 30, kMostDampings = 10;
 
@@ -139,11 +139,13 @@ HeldKernels::At HeldKernels::at(const Vector& z) const {
 /// The derivative of the targets with respect to z_i.
 Matrix HeldKernels::slope(const Vector& z, const Matrix& targets, Index i) const {
   const double inwards = z(i) < 0.5 ? 1 : -1;
-  for (const double direction : {inwards, -inwards}) {
-    Vector other = z;
-    other(i) = std::clamp(z(i) + direction * kDifference, 0.0, 1.0);
-    const Matrix difference = this->targets(other) - targets;
-    if (other(i) != z(i) && difference.allFinite()) return difference / (other(i) - z(i));
+  for (const double size : kDifferences) {
+    for (const double direction : {inwards, -inwards}) {
+      Vector other = z;
+      other(i) = std::clamp(z(i) + direction * size, 0.0, 1.0);
+      const Matrix difference = this->targets(other) - targets;
+      if (difference.allFinite() && !difference.isZero(0)) return difference / (other(i) - z(i));
+    }
   }
   return Matrix::Zero(targets.rows(), targets.cols());
 }
@@ -164,7 +166,9 @@ Quadratics HeldKernels::quadratics(const Vector& z, const At& at) const {
 }
 
 double held_score(const Estimation& estimation, const Estimate& estimate) {
-  if (!estimation.residuals.at(estimation.prior, estimate.phi).inputs) return -std::numeric_limits<double>::infinity();
+  if (estimate.kernels.front().hyperparameters.inputs() == 0 ||
+      !estimation.residuals.at(estimation.prior, estimate.phi).inputs)
+    return -std::numeric_limits<double>::infinity();
   const HeldKernels held(estimation, estimate);
   return held.at(held.start()).score;
 }

@@ -23,7 +23,8 @@ class HeldKernels {
   };
   At at(const Vector& z) const;
 
-  /// Around z, by differences of the prior; a parameter that cannot be moved without failure has slope 0.
+  /// Around z, by differences of the prior; a parameter that cannot be moved without failure, or moves nothing, has
+  /// slope 0.
   Quadratics quadratics(const Vector& z, const At& at) const;
 
   Vector start() const;  // z of the estimate's φ
@@ -44,7 +45,7 @@ class HeldKernels {
   Vector low_, width_;
 };
 
-/// The score at the estimate's φ with its kernels as they are; −∞ if it has none.
+/// The score at the estimate's φ with its kernels as they are; −∞ if it has none, or they were never fitted.
 double held_score(const Estimation& estimation, const Estimate& estimate);
 
 /// Moves φ to where the score is highest nearby with the kernels held, by Gauss–Newton steps with Levenberg's damping,

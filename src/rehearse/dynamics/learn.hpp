@@ -65,7 +65,7 @@ struct GpMi {
   bool least_squares_start = true;  // start from MI's φ too: along valleys of the score (m up, l down) a local search
                                     // alone stops far from the end
   Mi least_squares;
-  GpMi() { gp.fit.starts = 1, gp.fit.part_rows = 0; }  // the search sees to it
+  GpMi() { gp.fit.starts = 1, gp.fit.part_rows = 0; }  // the alternating search tries other kernels itself
   void fields(FieldVisitor& v) {
     v.group("gp", gp);
     v.choice("score", score, {"sum", "product", "harmonic"});

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/vector_math.hpp"
@@ -12,14 +15,11 @@
 namespace rehearse::dynamics {
 namespace {
 
-Matrix inputs_of(const Dataset& data, const FeatureMap& features) {
-  Matrix F(data.size(), features.features() + data.actions.cols());
-  gp_inputs(features, data.states + data.changes, data.actions, F);
-  return F;
-}
-
-double standard_deviation(const Vector& y) {
-  return (y.array() - y.mean()).matrix().norm() / std::sqrt(std::max<double>(1, static_cast<double>(y.size() - 1)));
+std::vector<Index> finite_rows(const Vector& rewards) {
+  std::vector<Index> rows;
+  for (Index i = 0; i < rewards.size(); ++i)
+    if (std::isfinite(rewards(i))) rows.push_back(i);
+  return rows;
 }
 
 /// What a GP with zero mean is fitted to, and the way back: r = y, or r = exp(min(y + offset, highest)) − floor.
@@ -47,7 +47,7 @@ struct Fitted {
 };
 
 Fitted fitted(Targets targets, const gp::Inputs& inputs, const gp::FitOptions& options) {
-  const double scale = standard_deviation(targets.y);
+  const double scale = gp::standard_deviation(targets.y);
   const auto start = gp::default_start(inputs, targets.y, scale, options.bounds);
   gp::Fit fit = gp::fit(inputs, targets.y, scale, start, options);
   return {std::move(targets), std::move(fit)};
@@ -100,11 +100,13 @@ class Believed {
 }  // namespace
 
 LearnedReward learn_reward(const Dataset& data, const FeatureMap& features, const RewardOptions& options) {
-  if (data.size() == 0) throw InvalidInput("the data set has no row to learn the reward from");
-  const gp::Inputs inputs(inputs_of(data, features));
-  const Fitted best = best_fit(data.rewards, inputs, options);
-  LearnedReward learned{
-      .scale = best.targets.scale, .kernel = best.fit.hyperparameters, .log_evidence = best.log_evidence()};
+  const std::vector<Index> rows = finite_rows(data.rewards);
+  if (rows.empty()) throw InvalidInput("the data set has no row with a finite reward to learn it from");
+  const gp::Inputs inputs(Matrix(gp_inputs(features, data.states + data.changes, data.actions)(rows, Eigen::all)));
+  const Fitted best = best_fit(data.rewards(rows), inputs, options);
+  LearnedReward learned{.scale = best.targets.scale, .log_evidence = best.log_evidence()};
+  if (static_cast<Index>(rows.size()) < data.size())
+    learned.notes.push_back(fmt::format("{} rewards are not finite and were left out", data.size() - inputs.size()));
   if (best.fit.status == gp::Fit::Status::failed)
     learned.notes.push_back("the kernel of the reward could not be fitted");
   const auto posterior =

@@ -23,7 +23,7 @@ enum class RewardScale {
 struct RewardOptions {
   bool learned = false;  // the task's reward is not told, but learned from what the trials earned
   RewardScale scale = RewardScale::evidence;
-  double floor = 1e-8;   // of the logarithm, as a fraction of the largest reward
+  double floor = 1e-8;   // of the logarithm, as a fraction of the largest reward; 0: linear
   double ceiling = 100;  // of what the logarithm predicts, in largest rewards: beyond the data it may go on for ever
   double caution = 1;    // the logarithm's mean less so many of its variances: 1 the mode of the reward, 0 its median
   gp::FitOptions fit;
@@ -32,7 +32,7 @@ struct RewardOptions {
   void fields(FieldVisitor& v) {
     v.boolean("learned", learned);
     v.choice("scale", scale, {"linear", "logarithmic", "evidence"});
-    v.number("floor", floor, above(0));
+    v.number("floor", floor, between(0, 1));
     v.number("ceiling", ceiling, at_least(1));
     v.number("caution", caution, at_least(0));
     v.group("fit", fit);
@@ -43,13 +43,12 @@ struct RewardOptions {
 struct LearnedReward {
   Reward reward;  // the posterior mean (of the logarithm); any thread, no allocation after a thread's first call
   RewardScale scale = RewardScale::linear;  // chosen
-  gp::Hyperparameters kernel;
-  double log_evidence = 0;         // of the rewards, nats
-  std::vector<std::string> notes;  // numerical failures survived
+  double log_evidence = 0;                  // of the rewards, nats
+  std::vector<std::string> notes;           // numerical failures survived
 };
 
 /// A GP with zero mean from (features of the state reached, action) to the reward of a step, as in the authors' code.
-/// Throws InvalidInput if the data set is empty.
+/// Rows whose reward is not finite are left out. Throws InvalidInput if none is left.
 LearnedReward learn_reward(const Dataset& data, const FeatureMap& features, const RewardOptions& options);
 
 }  // namespace rehearse::dynamics

@@ -7,16 +7,10 @@
 namespace rehearse::dynamics {
 namespace {
 
-Matrix inputs_of(const Dataset& data, const FeatureMap& features) {
-  Matrix F(data.size(), features.features() + data.actions.cols());
-  gp_inputs(features, data.states, data.actions, F);
-  return F;
-}
-
 Vector standard_deviations(const Matrix& Y) {
-  const Matrix centred = Y.rowwise() - Y.colwise().mean();
-  return (centred.colwise().squaredNorm().transpose() / std::max<double>(1, static_cast<double>(Y.rows() - 1)))
-      .cwiseSqrt();
+  Vector deviations(Y.cols());
+  for (Index e = 0; e < Y.cols(); ++e) deviations(e) = gp::standard_deviation(Y.col(e));
+  return deviations;
 }
 
 std::vector<Index> finite_rows(const Matrix& Y) {
@@ -30,7 +24,7 @@ std::vector<Index> finite_rows(const Matrix& Y) {
 
 Residuals::Residuals(const Dataset& data, const FeatureMap& features)
     : data_(data),
-      inputs_(inputs_of(data, features)),
+      inputs_(gp_inputs(features, data.states, data.actions)),
       all_(data.size() == 0 ? nullptr : std::make_shared<gp::Inputs>(inputs_)),
       scale_(standard_deviations(data.changes)) {}
 

@@ -103,8 +103,6 @@ Whitening::Whitening(const Inputs& inputs, const Hyperparameters& kernel)
   tiles_ = std::move(workspace).release_tiles();
 }
 
-bool Whitening::ok() const { return std::isfinite(log_constant_); }
-
 Matrix Whitening::operator()(const ConstMatrixView& Y) const {
   Matrix whitened = Matrix::Zero(padded(size_), Y.cols());
   whitened.topRows(size_) = Y * inverse_signal_;

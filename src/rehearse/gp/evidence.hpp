@@ -59,9 +59,8 @@ class Whitening {
  public:
   Whitening(const Inputs& inputs, const Hyperparameters& kernel);
 
-  bool ok() const;                                             // K could be factorised
   Matrix operator()(const ConstMatrixView& Y) const;           // n × any, as Y
-  double log_evidence(const ConstVectorView& whitened) const;  // n
+  double log_evidence(const ConstVectorView& whitened) const;  // n; NaN if K could not be factorised
 
  private:
   Index size_;

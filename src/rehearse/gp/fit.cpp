@@ -22,7 +22,7 @@ struct Point {
   Vector flat;
   Evidence evidence{.value = kNaN, .jitter = kNaN};
   double penalty = 0;
-  Matrix curvature = {};  // as in FitStart
+  Matrix inverse_hessian = {};  // as in FitStart
   std::string stop = "";
   double value() const { return evidence.value + penalty; }
 };
@@ -88,22 +88,22 @@ struct Problem {
       if (better(point, best)) best = point;
       return point.value();
     };
-    Matrix curvature = start.curvature;
+    Matrix inverse_hessian = start.inverse_hessian;
     const Vector u = bounds.free(start.flat);
     optim::BfgsOptions bfgs = options.bfgs;
     optim::RpropOptions rprop = options.rprop;
     bfgs.max_evaluations = std::min(bfgs.max_evaluations, most);
     rprop.max_evaluations = std::min(rprop.max_evaluations, most);
-    best.stop = options.method == FitMethod::bfgs ? optim::maximise_bfgs(objective, u, bfgs, &curvature).stop
+    best.stop = options.method == FitMethod::bfgs ? optim::maximise_bfgs(objective, u, bfgs, &inverse_hessian).stop
                                                   : optim::maximise_rprop(objective, u, rprop).stop;
-    best.curvature = std::move(curvature);
+    best.inverse_hessian = std::move(inverse_hessian);
     return best;
   }
 
   /// The given start, or the default one if that is better.
   Point first_start(const FitStart& start) {
     Point given = at(bounds.clamped(start.hyperparameters.flat())), other = at(standard);
-    given.curvature = start.curvature;
+    given.inverse_hessian = start.inverse_hessian;
     return better(other, given) ? other : given;
   }
 
@@ -127,10 +127,11 @@ Point start_by_part(Problem& all, double scale, const FitStart& start, Index str
   const Vector y = all.y(Eigen::seq(0, all.y.size() - 1, stride));
   Problem part(inputs, y, scale, all.options);
   std::vector<Point> points{all.first_start(start)};
-  for (const Point& begin : part.starts(start)) {
+  const FitStart part_start{start.hyperparameters, start.inverse_hessian * static_cast<double>(stride)};
+  for (const Point& begin : part.starts(part_start)) {
     const Point found = part.maximise(begin);
     Point point = all.at(all.bounds.clamped(found.flat));
-    point.curvature = found.curvature / static_cast<double>(stride);  // the evidence grows with the number of rows
+    point.inverse_hessian = found.inverse_hessian / static_cast<double>(stride);
     const auto same = [&](const Point& other) { return (other.flat - point.flat).cwiseAbs().maxCoeff() < kSame; };
     if (std::none_of(points.begin(), points.end(), same)) points.push_back(std::move(point));
   }
@@ -157,8 +158,7 @@ Fit failure(const Hyperparameters& start, std::string stop, Index evaluations) {
 
 Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, double scale, const Bounds& bounds) {
   const double size = static_cast<double>(y.size());
-  const double deviation = (y.array() - y.mean()).matrix().norm() / std::sqrt(std::max(size - 1, 1.0));
-  const double signal = std::max(deviation, 0.1 * y.norm() / std::sqrt(size));
+  const double signal = std::max(standard_deviation(y), 0.1 * y.norm() / std::sqrt(size));
   Vector flat(inputs.dimensions() + 2);
   flat << inputs.spread().array().log().matrix(), std::log(signal), std::log(signal / 10);
   return Hyperparameters::from_flat(SoftBounds(bounds, inputs, scale).clamped(flat));
@@ -171,7 +171,7 @@ Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitS
   if (!y.allFinite()) return failure(start.hyperparameters, "the targets are not finite", 0);
   Problem problem(inputs, y, scale, options);
   const Vector inside = problem.bounds.clamped(start.hyperparameters.flat());
-  const Index rows = options.part_rows, stride = rows > 0 && inputs.size() >= 2 * rows ? inputs.size() / rows : 1;
+  const Index rows = options.part_rows, stride = rows > 0 && inputs.size() / 2 >= rows ? inputs.size() / rows : 1;
   std::vector<Point> points =
       stride == 1 ? problem.starts(start) : std::vector{start_by_part(problem, scale, start, stride)};
   for (Point& point : points) point = problem.maximise(point);
@@ -184,7 +184,7 @@ Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitS
           (best.flat - inside).cwiseAbs().maxCoeff() > 1e-9 ? Fit::Status::improved : Fit::Status::unchanged,
           best.stop,
           problem.evaluations,
-          best.curvature};
+          best.inverse_hessian};
 }
 
 }  // namespace rehearse::gp

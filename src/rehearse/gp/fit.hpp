@@ -26,8 +26,8 @@ struct FitOptions {
     v.choice("method", method, {"rprop", "bfgs"});
     v.group("rprop", rprop);
     v.group("bfgs", bfgs);
-    v.integer("starts", starts, at_least(1));
-    v.integer("part_rows", part_rows, at_least(0));
+    v.integer("starts", starts, between(1, 1000));
+    v.integer("part_rows", part_rows, between(0, 1e6));
     v.group("penalties", penalties);
     v.group("bounds", bounds);
   }
@@ -36,7 +36,8 @@ struct FitOptions {
 /// What a fit may begin with.
 struct FitStart {
   Hyperparameters hyperparameters;
-  Matrix curvature;  // of an earlier fit of nearly the same data; may be empty
+  Matrix inverse_hessian;  // of minus the evidence, in the free coordinates of SoftBounds: of an earlier fit of nearly
+                           // the same data, where it falls as 1/n with the rows; may be empty
 };
 
 struct Fit {
@@ -50,9 +51,9 @@ struct Fit {
   double penalty = 0;       // ≤ 0
   double jitter = 0;        // of the ladder, at the solution
   Status status = Status::failed;
-  std::string stop;       // why the maximiser stopped
-  Index evaluations = 0;  // of the evidence of all rows
-  Matrix curvature;       // for FitStart; empty after Rprop
+  std::string stop;        // why the maximiser stopped
+  Index evaluations = 0;   // of the evidence of all rows
+  Matrix inverse_hessian;  // for FitStart; empty after Rprop
 };
 
 /// ℓ = spread(x), σ_f = std(y), σ_n = σ_f/10 (PILCO), inside the bounds; σ_f at least a tenth of the

@@ -23,12 +23,12 @@ void require_finite(const ConstMatrixView& X) {
   wrong.throw_if_any();
 }
 
-double sample_deviation(const ConstVectorView& x) {
+}  // namespace
+
+double standard_deviation(const ConstVectorView& x) {
   if (x.size() < 2) return 0;
   return (x.array() - x.mean()).matrix().norm() / std::sqrt(static_cast<double>(x.size() - 1));
 }
-
-}  // namespace
 
 Inputs::Inputs(const ConstMatrixView& X) : unit_(X.rows(), X.cols()), center_(X.cols()), half_range_(X.cols()) {
   require_finite(X);
@@ -40,7 +40,7 @@ Inputs::Inputs(const ConstMatrixView& X) : unit_(X.rows(), X.cols()), center_(X.
     const bool constant = half_range_(d) <= std::max(kConstant * std::abs(center_(d)), kSmallest);
     if (constant) half_range_(d) = std::max(std::abs(center_(d)), 1.0);
     unit_.col(d) = (X.col(d).array() - center_(d)) * (1 / half_range_(d));
-    spread_(d) = constant ? half_range_(d) : sample_deviation(unit_.col(d)) * half_range_(d);
+    spread_(d) = constant ? half_range_(d) : standard_deviation(unit_.col(d)) * half_range_(d);
   }
 }
 

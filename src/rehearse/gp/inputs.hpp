@@ -4,6 +4,9 @@
 
 namespace rehearse::gp {
 
+/// Of a sample (n − 1); 0 of fewer than two values.
+double standard_deviation(const ConstVectorView& x);
+
 /// The training inputs that all outputs share. Kept centred and divided by each column's half-range, so that no
 /// finite value, however large, overflows a squared distance. Immutable; any thread.
 class Inputs {

@@ -10,7 +10,7 @@
 namespace rehearse::optim {
 namespace {
 
-constexpr double kFirstStep = 1;              // length of the first step without curvature
+constexpr double kFirstStep = 1;              // length of the first step where nothing is known
 constexpr double kLongestStep = 4;            // of a coordinate, at the beginning of a line search
 constexpr double kRise = 1e-4, kSlope = 0.9;  // Nocedal and Wright 2006, eq. 3.6, for a maximum
 constexpr int kTrials = 20;                   // of a line search
@@ -48,18 +48,19 @@ class Search {
  public:
   Search(const Differentiable& objective, const BfgsOptions& options) : objective_(objective), options_(options) {}
 
-  GradientResult run(const Vector& start, Matrix* curvature) {
+  GradientResult run(const Vector& start, Matrix* inverse_hessian) {
     at_ = evaluate(start);
     const Index n = start.size();
-    if (curvature && curvature->rows() == n && curvature->cols() == n && curvature->allFinite()) inverse_ = *curvature;
+    if (inverse_hessian && inverse_hessian->rows() == n && inverse_hessian->cols() == n && inverse_hessian->allFinite())
+      inverse_ = *inverse_hessian;
     const std::string stop = at_.ok() ? climb() : "no finite value";
-    if (curvature) *curvature = inverse_;
+    if (inverse_hessian) *inverse_hessian = inverse_;
     return {at_.x, at_.value, evaluations_, stop};
   }
 
  private:
   std::string climb() {
-    bool updated = false;  // before, what the curvature promises is not to be trusted
+    bool updated = false;  // before, what the inverse Hessian promises is not to be trusted
     while (evaluations_ < options_.max_evaluations) {
       if (inverse_.size() == 0) forget();
       Vector direction = inverse_ * at_.gradient;
@@ -141,9 +142,9 @@ class Search {
 }  // namespace
 
 GradientResult maximise_bfgs(const Differentiable& objective, const Vector& start, const BfgsOptions& options,
-                             Matrix* curvature) {
+                             Matrix* inverse_hessian) {
   check(start, options);
-  return Search(objective, options).run(start, curvature);
+  return Search(objective, options).run(start, inverse_hessian);
 }
 
 }  // namespace rehearse::optim

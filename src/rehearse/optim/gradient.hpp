@@ -46,22 +46,10 @@ struct BfgsOptions {
   }
 };
 
-/// `curvature`, unless null, is the inverse of the negative Hessian: where it is n × n the search begins with it, and
+/// `inverse_hessian`, unless null, is that of the negative objective: where it is n × n the search begins with it, and
 /// it ends with what was learned of it. A search for nearly the same maximum needs a quarter of the evaluations with
 /// it.
 GradientResult maximise_bfgs(const Differentiable& objective, const Vector& start, const BfgsOptions& options,
-                             Matrix* curvature = nullptr);
-
-/// L-BFGS of NLopt within a box (low, high: as start; may be infinite).
-struct LbfgsOptions {
-  Index max_evaluations = 200;
-  double relative_tolerance = 1e-8;  // of the value
-  void fields(FieldVisitor& v) {
-    v.integer("max_evaluations", max_evaluations, at_least(1));
-    v.number("relative_tolerance", relative_tolerance, at_least(0));
-  }
-};
-GradientResult maximise_lbfgs(const Differentiable& objective, const Vector& start, const Vector& low,
-                              const Vector& high, const LbfgsOptions& options);
+                             Matrix* inverse_hessian = nullptr);
 
 }  // namespace rehearse::optim

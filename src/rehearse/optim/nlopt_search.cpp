@@ -31,10 +31,10 @@ void NloptSearch::maximise(const Vector& start, Index max_evaluations) {
 }
 
 // Exceptions must not cross NLopt, which is C.
-double NloptSearch::call(unsigned n, const double* x, double* gradient, void* self_pointer) {
+double NloptSearch::call(unsigned n, const double* x, double*, void* self_pointer) {
   auto& self = *static_cast<NloptSearch*>(self_pointer);
   try {
-    return self.evaluate(Eigen::Map<const Vector>(x, n), gradient);
+    return self.evaluate(Eigen::Map<const Vector>(x, n));
   } catch (...) {
     self.thrown_ = std::current_exception();
     nlopt_force_stop(self.opt_.get());
@@ -42,30 +42,15 @@ double NloptSearch::call(unsigned n, const double* x, double* gradient, void* se
   }
 }
 
-double NloptSearch::evaluate(const Vector& x, double* gradient) {
-  Vector slope = Vector::Zero(gradient ? x.size() : 0);
-  const double value = objective_(x, gradient ? &slope : nullptr);
+double NloptSearch::evaluate(const Vector& x) {
+  const double value = objective_(x);
   ++evaluations;
-  if (!std::isfinite(value) || !slope.allFinite()) return penalised(x, gradient);
+  if (!std::isfinite(value)) return -HUGE_VAL;
   if (!(value <= best_value)) {
     best_value = value;
     best_x = x;
   }
-  if (gradient) Vector::Map(gradient, x.size()) = slope;
   return value;
-}
-
-// A line search interpolates: it gets the straight line that falls from the best point to here, and comes back.
-double NloptSearch::penalised(const Vector& x, double* gradient) {
-  if (!gradient) return -HUGE_VAL;
-  if (!std::isfinite(best_value)) {
-    nlopt_force_stop(opt_.get());
-    return 0;
-  }
-  const double fall = 1 + std::abs(best_value);
-  const Vector back = best_x - x;
-  Vector::Map(gradient, x.size()) = back * (fall / std::max(back.squaredNorm(), 1e-300));
-  return best_value - fall;
 }
 
 }  // namespace rehearse::optim

@@ -14,8 +14,7 @@ namespace rehearse::optim {
 
 class NloptSearch {
  public:
-  /// Value at x; the gradient only if it is asked for.
-  using Objective = std::function<double(const Vector& x, Vector* gradient)>;
+  using Objective = std::function<double(const Vector& x)>;
 
   NloptSearch(nlopt_algorithm algorithm, Objective objective, const Vector& low, const Vector& high);
 
@@ -31,8 +30,7 @@ class NloptSearch {
 
  private:
   static double call(unsigned n, const double* x, double* gradient, void* self);
-  double evaluate(const Vector& x, double* gradient);
-  double penalised(const Vector& x, double* gradient);
+  double evaluate(const Vector& x);
 
   std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> opt_;
   Objective objective_;

@@ -24,8 +24,7 @@ ScalarResult search_once(const ScalarObjective& objective, const Vector& start, 
     low(i) = box[static_cast<std::size_t>(i)].low;
     high(i) = box[static_cast<std::size_t>(i)].high;
   }
-  NloptSearch search(
-      NLOPT_LN_SBPLX, [&](const Vector& x, Vector*) { return objective(x); }, low, high);
+  NloptSearch search(NLOPT_LN_SBPLX, objective, low, high);
   const Vector first = options.first_step * (high - low);
   nlopt_set_initial_step(search.settings(), first.data());
   nlopt_set_xtol_rel(search.settings(), options.x_tolerance);

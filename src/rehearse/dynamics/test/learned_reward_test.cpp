@@ -1,6 +1,7 @@
 #include "rehearse/dynamics/learned_reward.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -149,6 +150,20 @@ TEST(LearnedReward, NegativeRewardsAreLearnedLinearly) {
   Dataset data = steps(50, 1);
   data.rewards.array() -= 0.5;
   EXPECT_EQ(learn(data, RewardScale::logarithmic).scale, RewardScale::linear);
+}
+
+TEST(LearnedReward, LeavesOutWhatIsNotFiniteAndSaysSo) {
+  Dataset data = steps(60, 1);
+  const Vector expected = rewards_of(learn({data.states.topRows(58), data.actions.topRows(58), data.changes.topRows(58),
+                                            Vector(data.rewards.head(58))})
+                                         .reward,
+                                     data);
+  data.rewards(58) = std::numeric_limits<double>::quiet_NaN();
+  data.rewards(59) = std::numeric_limits<double>::infinity();
+  const LearnedReward learned = learn(data);
+  EXPECT_EQ(rewards_of(learned.reward, data), expected);
+  ASSERT_EQ(learned.notes.size(), 1u);
+  EXPECT_EQ(learned.notes.front(), "2 rewards are not finite and were left out");
 }
 
 TEST(LearnedReward, NeedsData) { EXPECT_THROW(learn({}), InvalidInput); }

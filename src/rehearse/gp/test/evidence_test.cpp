@@ -97,7 +97,6 @@ TEST(Whitening, GivesTheEvidenceOfAnyTargets) {
     const Matrix X = naive::normals(n, 3, 13);
     const Hyperparameters theta = naive::hyperparameters(3, 1.5, 4, 0.3);
     const Whitening whiten(Inputs(X), theta);
-    ASSERT_TRUE(whiten.ok());
     const Matrix Y = naive::normals(n, 3, 14), whitened = whiten(Y);
     for (Index k = 0; k < 3; ++k) {
       EXPECT_EQ(whiten(Y.col(k)), whitened.col(k)) << "one by one as together";
@@ -106,7 +105,7 @@ TEST(Whitening, GivesTheEvidenceOfAnyTargets) {
   }
   Hyperparameters impossible = naive::hyperparameters(3, 1, 1, 0.1);
   impossible.log_lengths(1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(Whitening(Inputs(naive::normals(5, 3, 15)), impossible).ok());
+  EXPECT_TRUE(std::isnan(Whitening(Inputs(naive::normals(5, 3, 15)), impossible).log_evidence(Vector::Zero(5))));
 }
 
 TEST(Evidence, DoesNotDependOnTheUnits) {

@@ -54,6 +54,22 @@ TEST(Fit, RecoversHyperparametersAndMethodsAgree) {
   EXPECT_NEAR(values[0], values[1], 1e-3);
 }
 
+// 450 rows: the starts are tried on 225 of them. A signal that varies fast, which the default start takes for noise.
+TEST(Fit, StartsOnAPartOfTheRowsFindWhatStartsOnAllDo) {
+  const Matrix X = naive::normals(450, 2, 21);
+  const Vector y = naive::draw(X, naive::hyperparameters(2, 0.15, 1, 0.05), 22);
+  const Inputs inputs(X);
+  FitOptions one;
+  one.starts = 1, one.part_rows = 0;
+  const Hyperparameters start = default_start(inputs, y, 1);
+  const Fit all = fit(inputs, y, 1, start), plain = fit(inputs, y, 1, start, one);
+  EXPECT_GE(all.log_evidence, plain.log_evidence - 0.01);
+  EXPECT_NEAR(all.log_evidence, naive::evidence(X, y, all.hyperparameters), 1e-6);
+  FitOptions many;
+  many.starts = 12, many.part_rows = 0;
+  EXPECT_NEAR(all.log_evidence, fit(inputs, y, 1, start, many).log_evidence, 0.5);
+}
+
 TEST(Fit, WarmStartIsNeverMadeWorse) {
   const Matrix X = naive::normals(60, 2, 3);
   const Vector y = naive::draw(X, naive::hyperparameters(2, 1, 1, 0.1), 4);

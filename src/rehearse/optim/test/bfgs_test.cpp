@@ -16,13 +16,13 @@ TEST(Bfgs, FindsTheMaximum) {
 }
 
 TEST(Bfgs, LearnsTheCurvatureAndProfitsFromIt) {
-  Matrix curvature;
+  Matrix inverse_hessian;
   const BfgsOptions exact{.relative_tolerance = 1e-14};
-  const GradientResult first = maximise_bfgs(test::quadratic, Vector::Constant(8, -3), exact, &curvature);
+  const GradientResult first = maximise_bfgs(test::quadratic, Vector::Constant(8, -3), exact, &inverse_hessian);
   Vector expected(8);  // the Hessian is −2 (i + 1) on its diagonal
   for (Index i = 0; i < 8; ++i) expected(i) = 1 / (2.0 * static_cast<double>(i + 1));
-  EXPECT_LT((curvature.diagonal() - expected).cwiseAbs().maxCoeff(), 0.1);
-  const GradientResult again = maximise_bfgs(test::quadratic, Vector::Constant(8, 5), exact, &curvature);
+  EXPECT_LT((inverse_hessian.diagonal() - expected).cwiseAbs().maxCoeff(), 0.1);
+  const GradientResult again = maximise_bfgs(test::quadratic, Vector::Constant(8, 5), exact, &inverse_hessian);
   EXPECT_LT((again.x - Vector::Ones(8)).norm(), 1e-3);
   EXPECT_LE(2 * again.evaluations, first.evaluations) << again.evaluations << " " << first.evaluations;
 }
