@@ -1,14 +1,18 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
+#include "rehearse/core/evaluator.hpp"
 #include "rehearse/experiment/spec.hpp"
 
 namespace rehearse::experiment {
 
 /// Mean return of the policy θ over the scenario's `evaluations` episodes, on a plant made for them and from random
 /// streams of their own: the trial, and whatever follows it, never notices. Empty if the scenario asks for none.
-/// Throws what the plant throws.
-std::optional<double> expected_return(const Resolved& resolved, Index trial, const Vector& theta);
+/// Every rank calls it; rank 0 has the plant. before_each: called before every episode; may throw, to stop. Throws what
+/// the plant throws.
+std::optional<double> expected_return(const Resolved& resolved, Index trial, const Vector& theta,
+                                      const Evaluator& evaluator, const std::function<void()>& before_each);
 
 }  // namespace rehearse::experiment

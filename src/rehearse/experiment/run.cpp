@@ -108,7 +108,8 @@ class Run {
 
   RunResult finish() {
     if (with_.options().listener) with_.options().listener->started(with_.resolved(), path(), history_.done());
-    with_.lead([&] { folder_->write_tables(history_, with_.resolved()); });
+    publish();
+    if (history_.done() > 0) evaluate_last();
     if (!complete()) catch_up();
     while (!complete()) one_trial(history_.done() + 1);
     with_.lead([&] { folder_->mark_done(true); });
@@ -206,9 +207,6 @@ class Run {
                        .model_s = proposal.model_s,
                        .search_s = proposal.search_s};
     if (task.solved) record.solved = task.solved(episode);
-    named_failure(trial, "plant", [&] {
-      with_.lead([&] { record.expected_return = expected_return(with_.resolved(), trial, proposal.theta); });
-    });
     if (proposal.model) record.forecast = forecast_errors(*proposal.model, task, episode);
     return record;
   }
@@ -228,19 +226,41 @@ class Run {
     return values;
   }
 
-  /// The episode is on the disk before the learner is told of it, because a robot does not repeat it.
+  /// The episode is on the disk before anything that may take long or fail: a robot does not repeat it.
   void keep(TrialRecord record, const Episode& episode) {
-    const Index trial = record.trial;
     history_.trials.push_back(std::move(record));
     history_.episodes.push_back(episode);
+    with_.lead([&] { folder_->write_checkpoint(history_); });
+    publish();
+    evaluate_last();
+    tell_last();
+    if (with_.options().listener) with_.options().listener->trial_done(history_.trials.back());
+  }
+
+  /// What follows from the history: the tables, and the last trial's episode.
+  void publish() const {
     with_.lead([&] {
-      folder_->write_trajectory(trial, trajectory_csv(with_.task(), episode));
-      draw("trial", trial, episode.true_states);
+      folder_->write_tables(history_, with_.resolved());
+      if (history_.done() == 0) return;
+      const Episode& last = history_.episodes.back();
+      folder_->write_trajectory(history_.done(), trajectory_csv(with_.task(), last));
+      draw("trial", history_.done(), last.true_states);
+    });
+  }
+
+  /// Unless that was done before a kill.
+  void evaluate_last() {
+    TrialRecord& last = history_.trials.back();
+    if (last.expected_return) return;
+    last.expected_return = named_failure(last.trial, "plant of the evaluations", [&] {
+      return expected_return(with_.resolved(), last.trial, last.theta, *evaluator_of(with_.options()),
+                             [&] { with_.stop_if_asked(); });
+    });
+    if (!last.expected_return) return;
+    with_.lead([&] {
       folder_->write_checkpoint(history_);
       folder_->write_tables(history_, with_.resolved());
     });
-    tell_last();
-    if (with_.options().listener) with_.options().listener->trial_done(history_.trials.back());
   }
 
   RunResult result() const {

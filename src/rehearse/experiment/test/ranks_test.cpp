@@ -107,14 +107,15 @@ TEST(RunOnRanks, SameBytesAndOnePlant) {
 
 TEST(RunOnRanks, StoppedAnywhereAndResumed) {
   const fs::path folder = fake::test_folder();
-  start_run(fake::catalogue(), line_spec(4), folder / "alone", {});
+  Spec spec = line_spec(4);
+  spec.options = {{"evaluations", "2"}};
+  start_run(fake::catalogue(), spec, folder / "alone", {});
   int interrupted = 0;
   for (int stops = 0; stops < 30; stops += 3) {
     const fs::path run = folder / std::to_string(stops);
     std::atomic<int> polls{0};
-    const Ends first(
-        [&](Ranks&, const RunOptions& options) { start_run(fake::catalogue(), line_spec(4), run, options); },
-        [&](int rank) { return rank == 1 && polls++ == stops; });
+    const Ends first([&](Ranks&, const RunOptions& options) { start_run(fake::catalogue(), spec, run, options); },
+                     [&](int rank) { return rank == 1 && polls++ == stops; });
     interrupted += first.all() == "interrupted";
     EXPECT_TRUE(first.all() == "interrupted" || first.all() == "done") << first.all();
     const Ends second([&](Ranks&, const RunOptions& options) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -136,6 +137,67 @@ TEST(Run, ExpectedReturnsSurviveAResume) {
   EXPECT_EQ(read_file(folder / "resumed/trials.csv"), read_file(folder / "whole/trials.csv"));
 }
 
+/// The line whose every plant but the first of a run, the robot, fails in its first step; the robot's episodes count.
+Catalogue evaluations_fail(Index& robot_episodes) {
+  class Plant final : public system::Plant {
+   public:
+    Plant(std::unique_ptr<system::Plant> line, Index* robot_episodes)
+        : line_(std::move(line)), robot_episodes_(robot_episodes) {}
+    Vector reset(Rng& rng) override {
+      if (robot_episodes_) ++*robot_episodes_;
+      return line_->reset(rng);
+    }
+    Vector step(const Vector& u) override {
+      if (!robot_episodes_) throw std::runtime_error("no second robot");
+      return line_->step(u);
+    }
+    Vector truth() const override { return line_->truth(); }
+
+   private:
+    std::unique_ptr<system::Plant> line_;
+    Index* robot_episodes_;
+  };
+  class Builder final : public scenario::ScenarioBuilder {
+   public:
+    explicit Builder(Index& robot_episodes) : robot_episodes_(robot_episodes) {}
+    std::string name() const override { return line_.name(); }
+    std::string summary() const override { return line_.summary(); }
+    std::vector<std::string> prior_names() const override { return line_.prior_names(); }
+    void fields(FieldVisitor& v) override { line_.fields(v); }
+    scenario::Scenario build() const override {
+      scenario::Scenario scenario = line_.build();
+      scenario.make_plant = [&count = robot_episodes_, make = scenario.make_plant, first = true]() mutable {
+        return std::make_unique<Plant>(make(), std::exchange(first, false) ? &count : nullptr);
+      };
+      return scenario;
+    }
+
+   private:
+    fake::LineBuilder line_;
+    Index& robot_episodes_;
+  };
+  Catalogue catalogue = fake::catalogue();
+  catalogue.scenarios = {[&robot_episodes] { return std::make_unique<Builder>(robot_episodes); }};
+  return catalogue;
+}
+
+TEST(Run, AFailingEvaluationLosesNoEpisode) {
+  const fs::path folder = fake::test_folder();
+  Spec spec = line_spec(4);
+  spec.options = {{"evaluations", "5"}};
+  Index robot_episodes = 0;
+  const auto message =
+      fake::message_of<RunFailed>([&] { start_run(evaluations_fail(robot_episodes), spec, folder / "failed", {}); });
+  EXPECT_EQ(message, "trial 1: the plant of the evaluations failed: no second robot");
+  EXPECT_EQ(robot_episodes, 1);
+  EXPECT_EQ(RunFolder::open(folder / "failed").load().episodes.size(), 1u);
+  EXPECT_EQ(column_of(folder / "failed", "expected_return"), std::vector<std::string>{""});
+
+  resume_run(fake::catalogue(), folder / "failed", {}, {});
+  start_run(fake::catalogue(), spec, folder / "whole", {});
+  EXPECT_EQ(results_of(folder / "failed"), results_of(folder / "whole"));
+}
+
 TEST(Run, FewerTrialsAreAPrefixOfMore) {
   const fs::path folder = fake::test_folder();
   start_run(fake::catalogue(), line_spec(5), folder / "five", {});
@@ -171,7 +233,9 @@ TEST(Run, WrongInputLeavesNoFolder) {
 
 TEST(Resume, AfterAStopAnywhereGivesTheSameBytes) {
   const fs::path folder = fake::test_folder();
-  start_run(fake::catalogue(), line_spec(4), folder / "whole", {});
+  Spec spec = line_spec(4);
+  spec.options = {{"evaluations", "5"}};
+  start_run(fake::catalogue(), spec, folder / "whole", {});
   const std::string expected = results_of(folder / "whole");
   bool stopped = true;
   Index stops = 0;
@@ -180,15 +244,16 @@ TEST(Resume, AfterAStopAnywhereGivesTheSameBytes) {
     Index polls = 0;
     stopped = false;
     try {
-      start_run(fake::catalogue(), line_spec(4), run, {.stop = [&] { return polls++ == stops; }});
+      start_run(fake::catalogue(), spec, run, {.stop = [&] { return polls++ == stops; }});
     } catch (const Interrupted&) {
       stopped = true;
       EXPECT_FALSE(fs::exists(run / "done"));
+      EXPECT_EQ(RunFolder::open(run).load().done(), (stops + 5) / 8) << "stops: three for a policy, five for episodes";
       resume_run(fake::catalogue(), run, {}, {});
     }
     EXPECT_EQ(results_of(run), expected) << stops;
   }
-  EXPECT_GE(stops, 12);
+  EXPECT_EQ(stops, 4 * 8 + 1);
 }
 
 /// Runs in a process of its own that kills itself; true if it did.
