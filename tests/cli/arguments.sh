@@ -103,6 +103,8 @@ expect 2 "--check-claims needs all runs" 1 campaign nothing.toml --share 1/3 --c
 printf 'format = 1\nscenario = "pendubot"\nlearners = "mi"\nseeds = 1\ntrails = 2\n[set]\nplant.b9 = 1\n' >wrong.toml
 expect 2 "wrong.toml: line 5: unknown key 'trails', did you mean 'trials'?" 2 campaign wrong.toml --out wrong
 expect 2 "wrong.toml: line 7: unknown option 'plant.b9', did you mean 'plant.b" 2 campaign wrong.toml --out wrong
+printf 'format = 1\nscenario = "pendubot"\nlearners = ["black-drops", "mi"]\nseeds = 1\n[set]\nreward.learned = true\n' >wrong.toml
+expect 2 "wrong.toml: line 6: reward.learned = true, but the scenario gives no initial_reward" 1 campaign wrong.toml --dry-run
 [ -e wrong ] && fail "a wrong campaign file leaves a folder"
 for file in "$campaigns"/*.toml; do expect 0 " runs (" - campaign "$file" --dry-run; done
 expect 2 "is not the folder of a campaign" 1 campaign "$campaigns/pendulum.toml" --out $run

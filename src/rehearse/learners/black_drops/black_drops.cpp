@@ -180,6 +180,15 @@ class BlackDrops final : public Learner {
   std::optional<Proposal> proposal_;
 };
 
+bool needs_prior(const Options& options) { return !std::holds_alternative<dynamics::ZeroMean>(options.model); }
+
+std::vector<std::string> violations_with(const Options& options, const Task& task) {
+  if (!options.reward.learned || !needs_prior(options) || task.initial_reward) return {};
+  return {
+      "reward.learned = true, but the scenario gives no initial_reward for the first search, on the prior: give it one "
+      "(of those built in: initial_reward_width), or choose a learner without a prior"};
+}
+
 class Builder final : public LearnerBuilder {
  public:
   Builder(std::string name, std::string summary, dynamics::Kind model)
@@ -188,14 +197,13 @@ class Builder final : public LearnerBuilder {
   }
   std::string name() const override { return name_; }
   std::string summary() const override { return summary_; }
-  PriorUse prior_use() const override {
-    return std::holds_alternative<dynamics::ZeroMean>(options_.model) ? PriorUse::none : PriorUse::required;
-  }
+  PriorUse prior_use() const override { return needs_prior(options_) ? PriorUse::required : PriorUse::none; }
   bool chooses_priors() const override {
     return std::holds_alternative<dynamics::GpMi>(options_.model) ||
            std::holds_alternative<dynamics::Mi>(options_.model);
   }
   void fields(FieldVisitor& v) override { options_.fields(v); }
+  std::vector<std::string> violations(const Task& task) const override { return violations_with(options_, task); }
   std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }
 
  private:
@@ -219,15 +227,11 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { options.fields(v); })) violations.add(line);
   for (const auto& line : setting.task.violations()) violations.add(line);
-  const bool needs_prior = !std::holds_alternative<dynamics::ZeroMean>(options.model);
-  violations.require(!needs_prior || setting.prior, "this learner needs a prior");
+  for (const auto& line : violations_with(options, setting.task)) violations.add(line);
+  violations.require(!needs_prior(options) || setting.prior, "this learner needs a prior");
   violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
-  violations.require(
-      !options.reward.learned || !needs_prior || setting.task.initial_reward,
-      "reward.learned = true, but the scenario gives no initial_reward for the first search, on the "
-      "prior: give it one (of those built in: initial_reward_width), or choose a learner without a prior");
   violations.throw_if_any();
-  if (!needs_prior) setting.prior.reset();
+  if (!needs_prior(options)) setting.prior.reset();
   if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
   return std::make_unique<BlackDrops>(std::move(setting), std::move(options));
 }
