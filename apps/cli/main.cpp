@@ -196,7 +196,7 @@ End end_of(Command command) {
 /// Waits for the other ranks; what went wrong on one of them alone is said, too.
 End end_with(Ranks& ranks, End end) {
   for (const Ranks::End& other : ranks.leave(end.code, end.message))
-    if (end.code == kSuccess && other.code != kSuccess)
+    if (end.message.empty() && !other.message.empty())
       end = {other.code, fmt::format("rank {} failed: {}", other.rank, other.message)};
   return end;
 }

@@ -67,13 +67,16 @@ class Crew {
     ledger_.run_ended(index, outcome_of_run(planned, options));
   }
 
+  /// Unfinished only after a stop.
   RunOutcome outcome_of_run(const PlannedRun& planned, const RunOptions& options) const {
     RunOutcome outcome;
     try {
       start_or_resume(planned, options);
-      return folder_.read(planned);
+      outcome = folder_.read(planned);
+      if (outcome.state == RunState::unfinished)
+        outcome.fail(fmt::format("{} does not show what was written to it", folder_.path_of(planned).string()));
     } catch (const Interrupted&) {
-      return folder_.read(planned);
+      outcome = folder_.read(planned);
     } catch (const InvalidInput& error) {  // a damaged folder: its rows cannot be trusted
       outcome.fail(error.what());
     } catch (const std::exception& error) {
@@ -206,11 +209,14 @@ void follow(const Catalogue& catalogue, CampaignPlan plan, std::string_view text
   DistantLedger ledger(*options.ranks, options.stop);
   try {
     Crew(catalogue, folder, plan, ledger).work(places);
+  } catch (const std::exception& error) {
+    ledger.close(fmt::format("rank {} failed: {}", options.ranks->rank(), error.what()));
+    throw;
   } catch (...) {
-    ledger.close();
+    ledger.close(fmt::format("rank {} failed", options.ranks->rank()));
     throw;
   }
-  ledger.close();
+  ledger.close("");
 }
 
 }  // namespace

@@ -159,8 +159,9 @@ CampaignFolder CampaignFolder::join(const fs::path& given, std::string_view text
   return {path, std::nullopt};
 }
 
-RunOutcome CampaignFolder::read(const PlannedRun& run) const {
-  const fs::path folder = path_of(run);
+namespace {
+
+RunOutcome contents_of(const fs::path& folder, const PlannedRun& run) {
   if (!fs::exists(fs::symlink_status(folder))) return {};
   RunOutcome outcome;
   const std::string complaint = complaint_about_spec(folder / "spec.toml", run);
@@ -171,6 +172,18 @@ RunOutcome CampaignFolder::read(const PlannedRun& run) const {
   outcome = rows_of(folder / "trials.csv", run.spec.trials);
   if (outcome.done() == run.spec.trials && fs::exists(folder / "done")) outcome.state = RunState::done;
   return outcome;
+}
+
+}  // namespace
+
+RunOutcome CampaignFolder::read(const PlannedRun& run) const {
+  try {
+    return contents_of(path_of(run), run);
+  } catch (const fs::filesystem_error& error) {
+    RunOutcome unreadable;
+    unreadable.fail(fmt::format("cannot read {}: {}", error.path1().string(), error.code().message()));
+    return unreadable;
+  }
 }
 
 std::vector<Skipped> CampaignFolder::strangers(const CampaignPlan& plan) const {

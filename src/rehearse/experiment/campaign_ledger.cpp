@@ -1,6 +1,7 @@
 #include "rehearse/experiment/campaign_ledger.hpp"
 
 #include <exception>
+#include <stdexcept>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -123,7 +124,7 @@ void DistantLedger::run_ended(std::size_t run, RunOutcome outcome) {
   ask({{"do", "run_ended"}, {"run", run}, {"outcome", to_json(outcome)}});
 }
 
-void DistantLedger::close() { ask({{"do", "close"}}); }
+void DistantLedger::close(const std::string& failure) { ask({{"do", "close"}, {"failure", failure}}); }
 
 namespace {
 
@@ -139,6 +140,7 @@ json perform(const json& question, OwnLedger& ledger) {
     ledger.progress(question.at("run"), question.at("trial"), to_progress(question.at("progress")));
   if (what == "trial_done") ledger.trial_done(question.at("run"), to_outcome(question.at("outcome")));
   if (what == "run_ended") ledger.run_ended(question.at("run"), to_outcome(question.at("outcome")));
+  if (what == "close" && question.at("failure") != "") throw std::runtime_error(question.at("failure"));
   return {};
 }
 
@@ -154,7 +156,7 @@ void answer_distant_ledgers(Ranks& ranks, OwnLedger& ledger) {
       open -= question.at("do") == "close";
       run = perform(question, ledger);
     } catch (...) {
-      failure = std::current_exception();
+      if (!failure) failure = std::current_exception();
       ledger.stop();
     }
     return to_bytes({{"run", run}, {"stop", ledger.stopped()}});

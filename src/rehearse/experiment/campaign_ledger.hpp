@@ -66,8 +66,8 @@ class DistantLedger final : public Ledger {
   void trial_done(std::size_t run, RunOutcome so_far) override;
   void run_ended(std::size_t run, RunOutcome outcome) override;
 
-  /// This rank asks no more.
-  void close();
+  /// This rank asks no more. failure: why, unless all is well; then everybody stops.
+  void close(const std::string& failure);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -80,8 +80,8 @@ class DistantLedger final : public Ledger {
   std::atomic<Clock::time_point> next_progress_{};
 };
 
-/// On rank 0: answers the distant ledgers until all of them are closed. An exception of the listener stops everybody,
-/// and is thrown at the end.
+/// On rank 0: answers the distant ledgers until all of them are closed. An exception of the listener, or the failure of
+/// a rank, stops everybody, and is thrown at the end.
 void answer_distant_ledgers(Ranks& ranks, OwnLedger& ledger);
 
 }  // namespace rehearse::experiment

@@ -213,6 +213,18 @@ TEST(Campaign, DamagedFoldersAreNamedAndLeftAlone) {
   EXPECT_EQ(summary_of(folder)["groups"][0]["failed"], 2);
 }
 
+TEST(Campaign, AFolderThatCannotBeReadIsAFailedRun) {
+  const Campaign campaign = after(fake::test_folder() / "campaign", [](const fs::path& runs) {
+    fs::remove(runs / "line-echo-near-2/trials.csv");
+    fs::create_symlink("trials.csv", runs / "line-echo-near-2/trials.csv");  // to itself
+  });
+  EXPECT_EQ(campaign.count(RunState::failed), 1);
+  EXPECT_EQ(campaign.runs[1].state, RunState::failed);
+  EXPECT_NE(campaign.runs[1].reason.find("line-echo-near-2/trials.csv: Too many levels of symbolic links"),
+            std::string::npos)
+      << campaign.runs[1].reason;
+}
+
 TEST(Campaign, StrangersAreNamedAndSkipped) {
   const fs::path folder = fake::test_folder() / "campaign";
   const Campaign campaign = after(folder, [](const fs::path& runs) {

@@ -228,6 +228,18 @@ TEST(CampaignOnRanks, FailedRunsAreRecorded) {
   EXPECT_EQ(campaign_results(folder / "ranks"), campaign_results(folder / "alone"));
 }
 
+TEST(CampaignOnRanks, ARankThatFailsEndsItOnTheFirstToo) {
+  const fs::path folder = fake::test_folder() / "c";
+  const Ends ends([&](Ranks& ranks, const RunOptions&) {
+    const auto stop = [&] {
+      if (ranks.rank() == 1) throw std::runtime_error("out of memory");
+      return false;
+    };
+    campaign(folder, {.threads = 1, .stop = stop, .ranks = &ranks});
+  });
+  EXPECT_EQ(ends.all(), "done | out of memory | rank 1 failed: out of memory");
+}
+
 TEST(CampaignOnRanks, StoppedAndContinued) {
   const fs::path folder = fake::test_folder();
   campaign(folder / "alone", {.threads = 1});
