@@ -14,7 +14,7 @@ namespace rehearse::gp {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSame = 0.01;         // largest difference of flat hyperparameters that lead to the same optimum
+constexpr double kSame = 0.5;          // nats: one optimum, though lengths that hardly matter may differ
 constexpr std::size_t kFinalists = 2;  // that climb on all rows for kShortClimb evaluations, before the best goes on
 constexpr Index kShortClimb = 12;
 
@@ -132,7 +132,7 @@ Point start_by_part(Problem& all, double scale, const FitStart& start, Index str
     const Point found = part.maximise(begin);
     Point point = all.at(all.bounds.clamped(found.flat));
     point.inverse_hessian = found.inverse_hessian / static_cast<double>(stride);
-    const auto same = [&](const Point& other) { return (other.flat - point.flat).cwiseAbs().maxCoeff() < kSame; };
+    const auto same = [&](const Point& other) { return std::abs(other.value() - point.value()) < kSame; };
     if (std::none_of(points.begin(), points.end(), same)) points.push_back(std::move(point));
   }
   std::stable_sort(points.begin(), points.end(), better);

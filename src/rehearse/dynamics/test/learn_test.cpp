@@ -180,7 +180,9 @@ TEST(Learn, GpMiOnManyRowsIsNoWorseThanNestedAndTheSameForAnyNumberOfThreads) {
     GpMi nested;
     nested.search = PhiSearch::nested;
     const Learned learned = learn_swing(data, GpMi{}, &prior);
-    if (rows == 200) EXPECT_GT(*learned.score, *learn_swing(data, nested, &prior).score - 0.01);  // else it takes long
+    if (rows == 200) {  // else it takes long
+      EXPECT_GT(*learned.score, *learn_swing(data, nested, &prior).score - 0.01);
+    }
     const Learned same = learn_swing(data, GpMi{}, &prior, {}, *threads);
     EXPECT_EQ(same.state.phi, learned.state.phi);
     EXPECT_EQ(same.score, learned.score);
