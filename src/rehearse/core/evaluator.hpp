@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "rehearse/core/types.hpp"
 
@@ -23,8 +24,9 @@ class Evaluator {
   virtual void for_each(Index n, const std::function<void(Index)>& task) const = 0;
 
   /// What `work` returns, called once in all: with ranks on rank 0 alone, and every rank returns what it returned or
-  /// throws what it threw. For what cannot be shared, the plant and files. Not from within a task.
-  virtual std::string once(const std::function<std::string()>& work) const { return work(); }
+  /// throws what it threw. For what cannot be shared, the plant and files. step: what it is, "episode 3"; ranks that
+  /// are at different steps all throw. Not from within a task.
+  virtual std::string once(std::string_view /*step*/, const std::function<std::string()>& work) const { return work(); }
 
   /// How many tasks run at once; must not decide results.
   virtual int concurrency() const = 0;

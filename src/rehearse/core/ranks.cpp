@@ -93,7 +93,7 @@ void Ranks::check_steps(std::string_view step, const std::vector<std::string>& s
                                            : fmt::format("rank {} failed: {}", which, message));
 }
 
-std::string Ranks::once(const std::function<std::string()>& work) {
+std::string Ranks::once(std::string_view step, const std::function<std::string()>& work) {
   std::string mine;
   if (rank() == 0) {
     try {
@@ -102,7 +102,7 @@ std::string Ranks::once(const std::function<std::string()>& work) {
       mine = to_bytes(std::current_exception());
     }
   }
-  std::string first = std::move(exchange("once", mine).front());
+  std::string first = std::move(exchange(step, mine).front());
   if (first.front() != 'v') throw_from(first);
   first.erase(0, 1);
   return first;
@@ -162,7 +162,9 @@ class RankEvaluator final : public Evaluator {
     });
   }
 
-  std::string once(const std::function<std::string()>& work) const override { return ranks_.once(work); }
+  std::string once(std::string_view step, const std::function<std::string()>& work) const override {
+    return ranks_.once(step, work);
+  }
 
   int concurrency() const override { return ends_.back(); }
 

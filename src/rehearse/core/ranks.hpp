@@ -26,11 +26,11 @@ class Ranks {
   virtual int rank() const = 0;  // 0 leads
   virtual int size() const = 0;
 
-  /// What every rank gives, in order of rank. step: what all are at; the same everywhere, or all throw.
+  /// What every rank gives, in order of rank. step: what all are at, "episode 3"; the same everywhere, or all throw.
   std::vector<std::string> exchange(std::string_view step, std::string_view bytes);
 
   /// What `work` returns on rank 0, on every rank; only rank 0 calls it. Its exception is thrown everywhere.
-  std::string once(const std::function<std::string()>& work);
+  std::string once(std::string_view step, const std::function<std::string()>& work);
 
   /// Whether a rank was asked to stop (`stop` of the constructor) before the last call that all made: the same answer
   /// everywhere.

@@ -14,6 +14,8 @@
 namespace rehearse::experiment {
 namespace {
 
+constexpr const char *kOpen = "open the folder", *kStart = "start";  // steps of all ranks
+
 /// Passes on what one run says.
 class Reporter final : public RunListener {
  public:
@@ -154,12 +156,12 @@ class Leader {
       : catalogue_(catalogue), options_(options), campaign_{.plan = std::move(plan)} {}
 
   Campaign work(std::string_view text, const std::filesystem::path& path) {
-    const std::string unfinished = once([&] {
+    const std::string unfinished = once(kOpen, [&] {
       open_folder(text, path);
       return std::to_string(campaign_.count(RunState::unfinished));
     });
     const Places places = places_of(options_, std::stoi(unfinished));
-    once([&] {
+    once(kStart, [&] {
       if (options_.listener) options_.listener->started(campaign_, places.in_all);
       return std::string();
     });
@@ -173,8 +175,8 @@ class Leader {
 
  private:
   /// What fails here fails on all ranks, which wait for it.
-  std::string once(const std::function<std::string()>& work) const {
-    return options_.ranks ? options_.ranks->once(work) : work();
+  std::string once(const char* step, const std::function<std::string()>& work) const {
+    return options_.ranks ? options_.ranks->once(step, work) : work();
   }
 
   void open_folder(std::string_view text, const std::filesystem::path& path) {
@@ -202,10 +204,10 @@ class Leader {
 void follow(const Catalogue& catalogue, CampaignPlan plan, std::string_view text, const std::filesystem::path& path,
             const CampaignOptions& options) {
   keep(options.share, plan);
-  const std::string unfinished = options.ranks->once({});
+  const std::string unfinished = options.ranks->once(kOpen, {});
   const CampaignFolder folder = CampaignFolder::join(path, text);
   const Places places = places_of(options, std::stoi(unfinished));
-  options.ranks->once({});  // until the listener knows of the campaign
+  options.ranks->once(kStart, {});  // until the listener knows of the campaign
   DistantLedger ledger(*options.ranks, options.stop);
   try {
     Crew(catalogue, folder, plan, ledger).work(places);

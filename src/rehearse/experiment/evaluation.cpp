@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include <fmt/format.h>
+
 #include "rehearse/rollout/execute.hpp"
 
 namespace rehearse::experiment {
@@ -18,9 +20,9 @@ double return_of_episode(const Resolved& resolved, system::Plant& plant, Index t
 }
 
 /// What `number` returns on rank 0, on every rank.
-double once(const Evaluator& evaluator, const std::function<double()>& number) {
+double once(const Evaluator& evaluator, const std::string& step, const std::function<double()>& number) {
   double value = 0;
-  const std::string bytes = evaluator.once([&] {
+  const std::string bytes = evaluator.once(step, [&] {
     value = number();
     return std::string(reinterpret_cast<const char*>(&value), sizeof value);
   });
@@ -38,7 +40,7 @@ std::optional<double> expected_return(const Resolved& resolved, Index trial, con
   Vector returns(scenario.evaluations);
   for (Index i = 0; i < returns.size(); ++i) {
     before_each();
-    returns(i) = once(evaluator, [&] {
+    returns(i) = once(evaluator, fmt::format("evaluation {} of trial {}", i + 1, trial), [&] {
       if (!plant) plant = scenario.make_plant();
       return return_of_episode(resolved, *plant, trial, theta, i);
     });

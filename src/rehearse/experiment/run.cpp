@@ -39,8 +39,8 @@ class Participants {
 
   /// Work with the plant or the folder: on rank 0 alone; its failure is that of every rank.
   template <class Work>
-  void lead(Work work) const {
-    evaluator_of(options_)->once([&] { return work(), std::string(); });
+  void lead(std::string_view step, Work work) const {
+    evaluator_of(options_)->once(step, [&] { return work(), std::string(); });
   }
 
   /// Connected when it is first needed; rank 0's.
@@ -112,11 +112,14 @@ class Run {
     if (history_.done() > 0) evaluate_last();
     if (!complete()) catch_up();
     while (!complete()) one_trial(history_.done() + 1);
-    with_.lead([&] { folder_->mark_done(true); });
+    with_.lead("end", [&] { folder_->mark_done(true); });
     return result();
   }
 
  private:
+  /// A step, for ranks to find out when they are at different ones.
+  static std::string named(const char* step, Index trial) { return fmt::format("{} {}", step, trial); }
+
   bool complete() const { return history_.done() >= with_.resolved().spec.trials; }
 
   std::filesystem::path path() const { return folder_ ? folder_->path() : std::filesystem::path(); }
@@ -137,8 +140,8 @@ class Run {
   const learners::Proposal& ask(Index trial) {
     with_.begin_trial(trial);
     with_.stop_if_asked();
-    const auto& proposal =
-        named_failure(trial, "learner", [&]() -> const learners::Proposal& { return checked(with_.learner().ask()); });
+    const auto& proposal = named_failure(
+        trial, "learner", [&]() -> const learners::Proposal& { return checked(trial, with_.learner().ask()); });
     with_.stop_if_asked();
     return proposal;
   }
@@ -149,30 +152,31 @@ class Run {
       history_.learner = with_.learner().save();
     });
     ++history_.told;
-    with_.lead([&] { folder_->write_checkpoint(history_); });
+    with_.lead(named("checkpoint", history_.told), [&] { folder_->write_checkpoint(history_); });
   }
 
   void one_trial(Index trial) {
     const learners::Proposal& proposal = ask(trial);
-    if (proposal.model) with_.lead([&] { predict(trial, proposal); });
+    if (proposal.model) with_.lead(named("prediction", trial), [&] { predict(trial, proposal); });
     const Episode episode = named_failure(trial, "plant", [&] { return execute(trial, proposal.theta); });
     keep(record(trial, proposal, episode), episode);
   }
 
   /// Rank 0's episode, on every rank.
   Episode execute(Index trial, const Vector& theta) const {
-    return to_episode(evaluator_of(with_.options())->once([&] {
+    return to_episode(evaluator_of(with_.options())->once(named("episode", trial), [&] {
       const Rng rng({.seed = seed(), .trial = number(trial), .purpose = Purpose::start_state});
       return to_bytes(rollout::execute(with_.plant(), with_.policy(), theta, with_.task(), rng));
     }));
   }
 
-  const learners::Proposal& checked(const learners::Proposal& proposal) const {
+  const learners::Proposal& checked(Index trial, const learners::Proposal& proposal) const {
     const Index size = proposal.theta.size(), wanted = with_.policy().parameters();
     if (size != wanted || !proposal.theta.allFinite())
       throw std::runtime_error(fmt::format("it proposed {} parameters, the policy has {} finite ones", size, wanted));
     const auto bytes = [&] { return bytes_of(proposal.theta); };
-    if (evaluator_of(with_.options())->once(bytes) != bytes())  // or ranks would go on with different runs
+    const std::string leading = evaluator_of(with_.options())->once(named("policy", trial), bytes);
+    if (leading != bytes())  // or ranks would go on with different runs
       throw std::runtime_error("it proposes another policy than that of rank 0");
     return proposal;
   }
@@ -230,7 +234,7 @@ class Run {
   void keep(TrialRecord record, const Episode& episode) {
     history_.trials.push_back(std::move(record));
     history_.episodes.push_back(episode);
-    with_.lead([&] { folder_->write_checkpoint(history_); });
+    with_.lead(named("save", history_.done()), [&] { folder_->write_checkpoint(history_); });
     publish();
     evaluate_last();
     tell_last();
@@ -239,7 +243,7 @@ class Run {
 
   /// What follows from the history: the tables, and the last trial's episode.
   void publish() const {
-    with_.lead([&] {
+    with_.lead(named("publish", history_.done()), [&] {
       folder_->write_tables(history_, with_.resolved());
       if (history_.done() == 0) return;
       const Episode& last = history_.episodes.back();
@@ -257,7 +261,7 @@ class Run {
                              [&] { with_.stop_if_asked(); });
     });
     if (!last.expected_return) return;
-    with_.lead([&] {
+    with_.lead(named("save evaluation", last.trial), [&] {
       folder_->write_checkpoint(history_);
       folder_->write_tables(history_, with_.resolved());
     });
@@ -297,14 +301,14 @@ RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::fil
                     const RunOptions& options) {
   Participants participants(resolve(catalogue, spec), options);
   std::optional<RunFolder> folder;
-  participants.lead([&] { folder.emplace(RunFolder::create(path, participants.resolved().spec)); });
+  participants.lead("create", [&] { folder.emplace(RunFolder::create(path, participants.resolved().spec)); });
   return Run(participants, folder, {}).finish();
 }
 
 RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& path, std::optional<Index> trials,
                      const RunOptions& options) {
   std::optional<RunFolder> folder;
-  const std::string begun = evaluator_of(options)->once([&] {
+  const std::string begun = evaluator_of(options)->once("open", [&] {
     folder.emplace(RunFolder::open(path));
     return to_toml(folder->spec()) + '\0' + to_checkpoint(folder->load(), fingerprint(folder->spec()));
   });
@@ -313,7 +317,7 @@ RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& pa
   History history = from_checkpoint(std::string_view(begun).substr(middle + 1), fingerprint(spec));
   const Spec extended = extended_spec(spec, path, trials, history.done());
   Participants participants(resolve(catalogue, extended), options);
-  participants.lead([&] { folder->change_trials(extended.trials); });
+  participants.lead(fmt::format("continue to {}", extended.trials), [&] { folder->change_trials(extended.trials); });
   return Run(participants, folder, std::move(history)).finish();
 }
 

@@ -62,11 +62,12 @@ TEST(Ranks, OnceOnTheFirstRankAlone) {
   std::atomic<int> calls{0};
   Words words;
   on_rank_threads(3, [&](Ranks& ranks) {
-    words.add(ranks, ranks.once([&] { return ++calls, std::string("a\0b", 3); }));
-    words.add(ranks, ranks.once([&] { return std::string(); }));
-    words.add(ranks, caught([&] { ranks.once([]() -> std::string { throw InvalidInput("no such folder"); }); }));
-    words.add(ranks, caught([&] { ranks.once([]() -> std::string { throw std::range_error("too far"); }); }));
-    words.add(ranks, caught([&] { ranks.once([]() -> std::string { throw Interrupted{}; }); }));
+    words.add(ranks, ranks.once("step", [&] { return ++calls, std::string("a\0b", 3); }));
+    words.add(ranks, ranks.once("step", [&] { return std::string(); }));
+    words.add(ranks,
+              caught([&] { ranks.once("step", []() -> std::string { throw InvalidInput("no such folder"); }); }));
+    words.add(ranks, caught([&] { ranks.once("step", []() -> std::string { throw std::range_error("too far"); }); }));
+    words.add(ranks, caught([&] { ranks.once("step", []() -> std::string { throw Interrupted{}; }); }));
   });
   EXPECT_EQ(calls, 1);
   EXPECT_EQ(words.all(),
@@ -95,8 +96,8 @@ TEST(Ranks, WhoLeavesEarlyIsNotWaitedFor) {
     if (ranks.rank() == 1) {
       EXPECT_EQ(ranks.leave(1, "out of memory").size(), 1u);
     } else {
-      words.add(ranks, caught([&] { ranks.once([] { return ""; }); }));
-      words.add(ranks, caught([&] { ranks.once([] { return ""; }); }));
+      words.add(ranks, caught([&] { ranks.once("step", [] { return ""; }); }));
+      words.add(ranks, caught([&] { ranks.once("step", [] { return ""; }); }));
     }
     EXPECT_EQ(ranks.leave(1, "").size(), 1u);
   });
@@ -123,6 +124,17 @@ TEST(Ranks, WhoComputesSomethingElseIsFoundOut) {
     EXPECT_EQ(ranks.leave(1, "").size(), 1u);
   });
   EXPECT_EQ(words.all(), Words::same(3, "error: the ranks do not compute the same:"));
+}
+
+TEST(Ranks, WorkOnceIsTheSameWork) {
+  Words words;
+  on_rank_threads(2, [&](Ranks& ranks) {
+    words.add(ranks, caught([&] { ranks.once(ranks.rank() == 0 ? "episode 3" : "episode 4", [] { return ""; }); }));
+    EXPECT_EQ(ranks.leave(1, "").size(), 1u);
+  });
+  const std::string differ = "error: the ranks do not compute the same: ";
+  EXPECT_EQ(words.all(), (std::map<int, std::string>{{0, differ + "rank 0 is at 'episode 3', rank 1 at 'episode 4'"},
+                                                     {1, differ + "rank 1 is at 'episode 4', rank 0 at 'episode 3'"}}));
 }
 
 TEST(Ranks, QuestionsFromAllThreads) {
@@ -219,14 +231,14 @@ TEST_P(RankEvaluators, CallsWithinTasksStayInTheProcess) {
     };
     EXPECT_EQ(sum_of(6, nested), 15 * 10 * 6);
     evaluator.for_each(6, [&](Index i) { EXPECT_EQ(nested(i), static_cast<double>(i * 10 * 6)); });
-    EXPECT_EQ(ranks.once([] { return "still in step"; }), "still in step");
+    EXPECT_EQ(ranks.once("step", [] { return "still in step"; }), "still in step");
   });
 }
 
 TEST_P(RankEvaluators, WorkOnce) {
   std::atomic<int> calls{0};
   on_all([&](Ranks&, const Evaluator& evaluator) {
-    EXPECT_EQ(evaluator.once([&] { return ++calls, "episode"; }), "episode");
+    EXPECT_EQ(evaluator.once("step", [&] { return ++calls, "episode"; }), "episode");
   });
   EXPECT_EQ(calls, 1);
 }
