@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
-#include <random>
 #include <thread>
 
 #include <fmt/format.h>
@@ -19,8 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr const char *kFile = "campaign.toml", *kRuns = "runs";
 constexpr std::chrono::seconds kUntilVisible{30};  // network file systems may show an old state for a while
-
-fs::path without_slash(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
 
 /// Whether nothing of anybody's is in a folder: what is left of a start that was killed counts as nothing.
 bool is_blank(const fs::path& folder) {
@@ -97,24 +94,27 @@ std::string complaint_about_spec(const fs::path& file, const PlannedRun& run) {
   }
 }
 
-/// Replaces the file of a folder in one step, even where several processes do so at once.
-void write_campaign_file(const fs::path& path, std::string_view text) {
-  std::random_device random;
-  const fs::path own = path / fmt::format("{}.{:08x}{:08x}.tmp", kFile, random(), random());
-  write_file(own, text, Durability::power);
-  fs::rename(own, path / kFile);
-}
-
 /// What `plan` needs to be there, in a folder that is locked.
-void begin(const Catalogue& catalogue, const fs::path& path, std::string_view text, const CampaignPlan& plan) {
+void begin(const Catalogue& catalogue, const fs::path& path, std::string_view text, const CampaignPlan& plan,
+           FolderLock::Kind kind) {
   const fs::path file = path / kFile;
   const std::string begun = fs::exists(file) ? read_file(file) : "";
   if (!begun.empty() && begun != text) check_only_adds(begun_plan(catalogue, file, begun), plan, path);
   try {
-    if (begun != text) write_campaign_file(path, text);
+    if (kind == FolderLock::Kind::exclusive) remove_temporaries(file);
+    if (begun != text) write_shared_file(file, text);
     fs::create_directories(path / kRuns);
   } catch (const fs::filesystem_error& error) {
     throw InvalidInput(fmt::format("cannot write in {}: {}", path.string(), error.code().message()));
+  }
+}
+
+/// Whether this machine sees a file with this text; not while it is being replaced.
+bool shows(const fs::path& file, std::string_view text) {
+  try {
+    return read_file(file) == text;
+  } catch (const InvalidInput&) {
+    return false;
   }
 }
 
@@ -141,14 +141,14 @@ CampaignFolder CampaignFolder::open(const Catalogue& catalogue, const fs::path& 
   const fs::path path = without_slash(given);
   make_folder(path);
   FolderLock lock(path, kind);
-  begin(catalogue, path, text, plan);
+  begin(catalogue, path, text, plan, kind);
   return {path, std::move(lock)};
 }
 
 CampaignFolder CampaignFolder::join(const fs::path& given, std::string_view text) {
   const fs::path path = without_slash(given), file = path / kFile;
   const auto until = std::chrono::steady_clock::now() + kUntilVisible;
-  while (!fs::exists(file) || read_file(file) != text) {
+  while (!shows(file, text)) {
     if (std::chrono::steady_clock::now() > until)
       throw InvalidInput(
           fmt::format("this process does not see what rank 0 wrote to {}; the folder must be on a file system that all "

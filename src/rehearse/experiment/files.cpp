@@ -6,9 +6,11 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -55,7 +57,22 @@ void sync_folder(const std::filesystem::path& path) {
   if (descriptor.open()) descriptor.sync();  // some file systems cannot; the rename is still in one step
 }
 
+void replace(const std::filesystem::path& path, const std::filesystem::path& temporary, std::string_view bytes,
+             Durability durability) {
+  const bool durable = durability == Durability::power;
+  {
+    const Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+    if (!file.open() || !file.write(bytes) || (durable && !file.sync())) cannot("write", temporary);
+  }
+  if (::rename(temporary.c_str(), path.c_str()) != 0) cannot("write", path);
+  if (durable) sync_folder(path);
+}
+
 }  // namespace
+
+std::filesystem::path without_slash(const std::filesystem::path& path) {
+  return path.has_filename() ? path : path.parent_path();
+}
 
 std::string read_file(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -66,15 +83,26 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes, Durability durability) {
-  const bool durable = durability == Durability::power;
   std::filesystem::path temporary = path;
   temporary += ".tmp";
-  {
-    const Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-    if (!file.open() || !file.write(bytes) || (durable && !file.sync())) cannot("write", temporary);
+  replace(path, temporary, bytes, durability);
+}
+
+void write_shared_file(const std::filesystem::path& path, std::string_view bytes) {
+  std::random_device random;
+  std::filesystem::path temporary = path;
+  temporary += fmt::format(".{:08x}{:08x}.tmp", random(), random());
+  replace(path, temporary, bytes, Durability::power);
+}
+
+void remove_temporaries(const std::filesystem::path& path) {
+  const std::string prefix = path.filename().string() + ".";
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(path.parent_path())) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(prefix) && name.ends_with(".tmp")) found.push_back(entry.path());
   }
-  if (::rename(temporary.c_str(), path.c_str()) != 0) cannot("write", path);
-  if (durable) sync_folder(path);
+  for (const auto& temporary : found) std::filesystem::remove(temporary);
 }
 
 bool rename_new(const std::filesystem::path& from, const std::filesystem::path& to) {

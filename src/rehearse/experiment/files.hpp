@@ -7,6 +7,9 @@
 
 namespace rehearse::experiment {
 
+/// A folder's path without a "/" at its end.
+std::filesystem::path without_slash(const std::filesystem::path& path);
+
 /// A whole file. Throws InvalidInput if it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
@@ -17,6 +20,11 @@ enum class Durability {
 
 /// Replaces a file in one step. Throws std::runtime_error (a full disk).
 void write_file(const std::filesystem::path& path, std::string_view bytes, Durability durability = Durability::process);
+
+/// The same for a file that several processes may replace at once, durably. Who is killed leaves a file of its own,
+/// which `remove_temporaries` removes where nobody else is at work.
+void write_shared_file(const std::filesystem::path& path, std::string_view bytes);
+void remove_temporaries(const std::filesystem::path& path);
 
 /// Renames a folder unless something of that name exists; then returns false.
 bool rename_new(const std::filesystem::path& from, const std::filesystem::path& to);

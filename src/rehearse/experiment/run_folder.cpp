@@ -17,8 +17,6 @@ constexpr const char *kSpec = "spec.toml", *kCheckpoint = "checkpoint", *kDone =
 
 fs::path trial_file(const fs::path& folder, Index trial) { return folder / fmt::format("trial-{:03}.csv", trial); }
 
-fs::path without_slash(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
-
 /// A folder beside `path`, on the same file system, that is renamed once it is complete.
 fs::path make_unborn(const fs::path& path) {
   const fs::path unborn = path.parent_path() / fmt::format(".{}.{}", path.filename().string(), ::getpid());

@@ -1,6 +1,8 @@
 #include "rehearse/experiment/campaign.hpp"
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -8,6 +10,7 @@
 
 #include "fake.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/campaign_folder.hpp"
 #include "rehearse/experiment/campaign_summary.hpp"
 #include "rehearse/experiment/files.hpp"
 #include "rehearse/experiment/run.hpp"
@@ -238,6 +241,29 @@ TEST(Campaign, StrangersAreNamedAndSkipped) {
   EXPECT_EQ(summary_of(folder)["skipped"][0]["reason"], "not a run of this campaign");
   EXPECT_TRUE(fs::exists(folder / "runs/notes.txt"));
   EXPECT_FALSE(fs::exists(folder / "runs/.line-echo-near-1.12345"));
+}
+
+TEST(Campaign, TemporariesOfAKilledStartGoWhenNobodyElseIsAtWork) {
+  const fs::path folder = fake::test_folder() / "campaign";
+  fs::create_directories(folder);
+  write_file(folder / "campaign.toml.0123abcd.tmp", "for");
+  run_campaign(fake::catalogue(), kGrid, "c.toml", folder, {.threads = 1, .share = {.number = 1, .of = 4}});
+  EXPECT_TRUE(fs::exists(folder / "campaign.toml.0123abcd.tmp")) << "another share may be writing it";
+  run(folder);
+  EXPECT_FALSE(fs::exists(folder / "campaign.toml.0123abcd.tmp"));
+}
+
+// A link to itself stands for whatever a network file system says while a file is replaced.
+TEST(Campaign, ARankThatJoinsWaitsUntilItSeesTheFile) {
+  const fs::path folder = fake::test_folder();
+  fs::create_symlink("campaign.toml", folder / "campaign.toml");
+  std::thread first([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    write_file(folder / "campaign.toml", "old");
+    write_file(folder / "campaign.toml", kGrid);
+  });
+  EXPECT_EQ(CampaignFolder::join(folder, kGrid).path(), folder);
+  first.join();
 }
 
 TEST(Campaign, AFileThatOnlyAddsExtendsTheFolder) {
