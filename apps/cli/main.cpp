@@ -206,7 +206,7 @@ End end_with(Ranks& ranks, End end) {
 
 int main(int argc, char** argv) {
   using namespace rehearse::apps;
-  const Launch started = launch();
+  const Launch started = launch(argc, argv);
   Company company;
   End end = end_of([&] {
     company = join(started, argc, argv);

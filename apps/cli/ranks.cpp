@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,12 @@
 
 namespace rehearse::apps {
 namespace {
+
+bool does_a_share(int argc, char** argv) {
+  return std::any_of(argv, argv + argc, [](const std::string_view argument) {
+    return argument == "--share" || argument.starts_with("--share=");
+  });
+}
 
 int number_in(const char* variable, int otherwise) {
   const char* text = std::getenv(variable);
@@ -51,6 +58,8 @@ Launch launch() {
   if (std::getenv("PMI_SIZE")) return {"mpirun or srun", number_in("PMI_RANK", 0), number_in("PMI_SIZE", 1)};
   return {"srun", number_in("SLURM_PROCID", 0), number_in("SLURM_STEP_NUM_TASKS", 1)};
 }
+
+Launch launch(int argc, char** argv) { return does_a_share(argc, argv) ? Launch{} : launch(); }
 
 int Company::threads(Index asked) const {
   if (asked > 0) return static_cast<int>(asked);

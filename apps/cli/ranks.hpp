@@ -17,6 +17,9 @@ struct Launch {
 };
 Launch launch();
 
+/// With --share, which says what its part of the work is, it works alone however it was started.
+Launch launch(int argc, char** argv);
+
 /// Those that this process works with.
 struct Company {
   std::unique_ptr<Ranks> ranks;  // null: it is alone, and MPI was not initialised
