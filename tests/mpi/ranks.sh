@@ -35,6 +35,13 @@ same one three "${tables[@]}"
 [ "$(grep -c '^c: 6 runs' output)" = 1 ] || fail "not one rank alone speaks: $(cat output)"
 [ "$(grep -c '^\[./6\]' output)" = 6 ] || fail "not every run is told of once: $(cat output)"
 
+"$mpirun" --oversubscribe -n 2 bash -c \
+  "'$program' campaign c.toml --out shares --threads 1 --share \$((OMPI_COMM_WORLD_RANK + 1))/2" >output 2>&1 ||
+  fail "shares that mpirun started: $(cat output)"
+"$program" campaign c.toml --out shares >output || fail "the tables of shares that mpirun started"
+grep -q "6 of 6 runs done already" output || fail "the shares leave runs to do: $(cat output)"
+same one shares "${tables[@]}"
+
 done_runs() { [ "$(find "$1/runs" -name done 2>/dev/null | wc -l)" -ge "$2" ]; }
 for rank in 0 1; do
   run=killed-$rank
