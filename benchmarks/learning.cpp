@@ -9,33 +9,23 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <time.h>
 
+#include "cpu_time.hpp"
+#include "episodes.hpp"
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/dynamics/learn.hpp"
 #include "rehearse/optim/blas.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
-#include "rehearse/rollout/execute.hpp"
 
 namespace {
 
 using namespace rehearse;
+using benchmarks::random_episodes;
 
 scenario::Scenario pendubot(double noise) {
   robots::pendubot::Options options;
   options.ode.measurement_noise = noise;
   return robots::pendubot::make(options);
-}
-
-Dataset random_episodes(const scenario::Scenario& pendubot, Index rows, std::uint64_t seed) {
-  Dataset data;
-  const auto plant = pendubot.make_plant();
-  for (std::uint64_t e = 0; data.size() < rows; ++e) {
-    Rng rng({.seed = seed, .trial = e, .purpose = Purpose::random_policy});
-    const Vector theta = Vector::NullaryExpr(pendubot.policy->parameters(), [&] { return rng.uniform(-5, 5); });
-    data.append(rollout::execute(*plant, *pendubot.policy, theta, pendubot.task, rng));
-  }
-  return {data.states.topRows(rows), data.actions.topRows(rows), data.changes.topRows(rows)};
 }
 
 /// What there is to learn from.
@@ -96,12 +86,6 @@ void gp_mi(benchmark::State& state, const char* prior, dynamics::PhiSearch searc
   learn(state, kind, prior, threads);
 }
 
-double cpu_s() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// What a search reached: the score, φ, the time.
 struct Reached {
   double score, error, cpu_s;
@@ -109,9 +93,9 @@ struct Reached {
 
 Reached reach(const Problem& problem, dynamics::GpMi kind, dynamics::PhiSearch search) {
   kind.search = search;
-  const double start = ::cpu_s();
+  const double start = benchmarks::cpu_s();
   const dynamics::Learned learned = problem.learn(kind, serial_evaluator());
-  return {learned.score.value(), error_of(learned), ::cpu_s() - start};
+  return {learned.score.value(), error_of(learned), benchmarks::cpu_s() - start};
 }
 
 double median(std::vector<double> values) {

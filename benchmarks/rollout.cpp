@@ -10,8 +10,9 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <time.h>
 
+#include "cpu_time.hpp"
+#include "episodes.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
@@ -30,27 +31,12 @@ void dtrmm_(const char* side, const char* uplo, const char* transa, const char* 
 namespace {
 
 using namespace rehearse;
+using benchmarks::cpu_s, benchmarks::random_episodes, benchmarks::random_theta;
 
 constexpr Index kCandidates = 32 * 17;       // descents × population
 constexpr Index kStates = kCandidates * 50;  // of all their steps
 constexpr Index kRows = 64;                  // of a chunk of rollouts, see rollout/imagine.cpp
 constexpr StreamKey kKey{.purpose = Purpose::imagined_noise};
-
-Vector random_theta(const policy::Policy& policy, Rng& rng) {
-  return Vector::NullaryExpr(policy.parameters(), [&] { return rng.uniform(-5, 5); });
-}
-
-/// What random policies meet on the plant, `size` steps of it.
-Dataset random_episodes(const scenario::Scenario& pendubot, Index size) {
-  Dataset data;
-  const auto plant = pendubot.make_plant();
-  for (std::uint64_t e = 0; data.size() < size; ++e) {
-    Rng rng({.trial = e, .purpose = Purpose::random_policy});
-    const Vector theta = random_theta(*pendubot.policy, rng);
-    data.append(rollout::execute(*plant, *pendubot.policy, theta, pendubot.task, rng));
-  }
-  return data;
-}
 
 gp::Posterior condition(const Matrix& inputs, const Matrix& targets) {
   std::vector<gp::Hyperparameters> hyperparameters;
@@ -67,11 +53,11 @@ gp::Posterior condition(const Matrix& inputs, const Matrix& targets) {
 struct Setup {
   Setup(Index points, bool with_prior) {
     const Dataset data = random_episodes(pendubot, points);
-    Matrix F(points, features.features() + 1), targets = data.changes.topRows(points);
-    dynamics::gp_inputs(features, data.states.topRows(points), data.actions.topRows(points), F);
+    Matrix F(points, features.features() + 1), targets = data.changes;
+    dynamics::gp_inputs(features, data.states, data.actions, F);
     if (with_prior) {
       Matrix expected(points, 4);
-      prior.mean(data.states.topRows(points), data.actions.topRows(points), prior.space.values(), expected);
+      prior.mean(data.states, data.actions, prior.space.values(), expected);
       targets -= expected;
       mean = dynamics::Mean{prior, prior.space.values()};
     }
@@ -218,12 +204,6 @@ std::vector<Part> parts_of(const Setup& s, Outputs& out) {
       chunked("reward", [&] { s.pendubot.task.reward(s.X, s.U, s.X, out.reward); }),
       chunked("normals", [&, names] { fill_normals(kKey, names.data(), names.data(), 3, out.mean); }),
   };
-}
-
-double cpu_s() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// Arguments: training points; whether there is a prior. Counters: ns of CPU time a state (`gp` is mean and variance,

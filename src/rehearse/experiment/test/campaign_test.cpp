@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "counting_listener.hpp"
 #include "fake.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/campaign_folder.hpp"
@@ -318,18 +319,9 @@ TEST(Campaign, OfMissingLearnersAloneHasNoRuns) {
   EXPECT_EQ(statistics::read_csv(read_file(folder / "campaign.csv")).rows.size(), 0u);
 }
 
-class Counter final : public CampaignListener {
- public:
-  Index at_once = -1, begun = 0, progressed = 0, ended = 0;
-  void started(const Campaign&, Index runs) override { at_once = runs; }
-  void run_started(std::size_t, Index) override { ++begun; }
-  void progress(std::size_t, Index, const Progress&) override { ++progressed; }
-  void run_ended(std::size_t, const RunOutcome&) override { ++ended; }
-};
-
 TEST(Campaign, TellsItsListener) {
   const fs::path folder = fake::test_folder() / "campaign";
-  Counter first, second;
+  fake::CountingListener first, second;
   run(folder, kGrid, {.threads = 2, .listener = &first});
   EXPECT_EQ(first.at_once, 2);
   EXPECT_EQ(first.begun, 6);

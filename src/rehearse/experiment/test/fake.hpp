@@ -4,7 +4,9 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -79,8 +81,12 @@ inline Task line_task() {
           .solved = [](const Episode& e) { return std::abs(e.true_states(e.steps(), 0)) < 0.1; }};
 }
 
+using MakePlant = std::function<std::unique_ptr<system::Plant>()>;
+
 class LineBuilder final : public scenario::ScenarioBuilder {
  public:
+  /// `wrap`: what becomes of the way in which plants are made.
+  explicit LineBuilder(std::function<MakePlant(MakePlant)> wrap = {}) : wrap_(std::move(wrap)) {}
   std::string name() const override { return "line"; }
   std::string summary() const override { return "a cart on a line goes to zero"; }
   std::vector<std::string> prior_names() const override { return {"near", "far"}; }
@@ -92,9 +98,10 @@ class LineBuilder final : public scenario::ScenarioBuilder {
   }
   scenario::Scenario build() const override {
     const auto simulator = std::make_shared<LineSimulator>();
+    const MakePlant make_plant = [*this] { return std::make_unique<LinePlant>(gain_, noise_, breaks_); };
     return {.name = "line",
             .task = line_task(),
-            .make_plant = [*this] { return std::make_unique<LinePlant>(gain_, noise_, breaks_); },
+            .make_plant = wrap_ ? wrap_(make_plant) : make_plant,
             .priors = {{"near", simulator, line_parameters(1.2)}, {"far", simulator, line_parameters(3)}},
             .oracle = simulator,
             .policy = std::make_shared<LinePolicy>(),
@@ -105,6 +112,7 @@ class LineBuilder final : public scenario::ScenarioBuilder {
   double gain_ = 1, noise_ = 0.01;
   bool breaks_ = false;
   Index evaluations_ = 0;
+  std::function<MakePlant(MakePlant)> wrap_;
 };
 
 /// Predicts with the simulator's gain.
@@ -213,6 +221,13 @@ inline Catalogue catalogue(Killer killer = {}) {
   }};
   catalogue.not_built = {{"hexapod", "DART 6.12 was not found"}, {"pilco", "not written yet"}};
   return catalogue;
+}
+
+/// The same, with another way to make the plant of each run.
+inline Catalogue catalogue_with(const std::function<MakePlant(MakePlant)>& wrap) {
+  Catalogue wrapped = catalogue();
+  wrapped.scenarios = {[wrap] { return std::make_unique<LineBuilder>(wrap); }};
+  return wrapped;
 }
 
 /// Removes folders when the program ends.

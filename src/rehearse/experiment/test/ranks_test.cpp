@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "counting_listener.hpp"
 #include "fake.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/campaign.hpp"
@@ -70,26 +71,7 @@ class Ends {
 
 /// The catalogue, in which the plants that are made are counted.
 Catalogue counting_catalogue(std::atomic<int>& plants) {
-  class Counting final : public scenario::ScenarioBuilder {
-   public:
-    explicit Counting(std::atomic<int>& plants) : plants_(plants) {}
-    std::string name() const override { return line_.name(); }
-    std::string summary() const override { return line_.summary(); }
-    std::vector<std::string> prior_names() const override { return line_.prior_names(); }
-    void fields(FieldVisitor& v) override { line_.fields(v); }
-    scenario::Scenario build() const override {
-      scenario::Scenario scenario = line_.build();
-      scenario.make_plant = [&plants = plants_, make = scenario.make_plant] { return ++plants, make(); };
-      return scenario;
-    }
-
-   private:
-    fake::LineBuilder line_;
-    std::atomic<int>& plants_;
-  };
-  Catalogue catalogue = fake::catalogue();
-  catalogue.scenarios = {[&plants] { return std::make_unique<Counting>(plants); }};
-  return catalogue;
+  return fake::catalogue_with([&plants](fake::MakePlant make) { return [&plants, make] { return ++plants, make(); }; });
 }
 
 TEST(RunOnRanks, SameBytesAndOnePlant) {
@@ -188,19 +170,10 @@ Campaign campaign(const fs::path& folder, const CampaignOptions& options, const 
   return run_campaign(fake::catalogue(), text, "c.toml", folder, options);
 }
 
-class Counter final : public CampaignListener {
- public:
-  Index at_once = -1, begun = 0, progressed = 0, ended = 0;
-  void started(const Campaign&, Index runs) override { at_once = runs; }
-  void run_started(std::size_t, Index) override { ++begun; }
-  void progress(std::size_t, Index, const Progress&) override { ++progressed; }
-  void run_ended(std::size_t, const RunOutcome& outcome) override { ended += outcome.done() == 2; }
-};
-
 TEST(CampaignOnRanks, SameTablesAndAllNewsToRankZero) {
   const fs::path folder = fake::test_folder();
   campaign(folder / "alone", {.threads = 1});
-  Counter counter;
+  fake::CountingListener counter;
   const auto work = [&](Ranks& ranks, const RunOptions&) {
     campaign(folder / "ranks",
              {.threads = 1 + ranks.rank(), .listener = ranks.rank() == 0 ? &counter : nullptr, .ranks = &ranks});
@@ -307,7 +280,7 @@ TEST(Shares, TogetherAreTheCampaign) {
     });
   for (std::thread& process : processes) process.join();
   EXPECT_FALSE(fs::exists(folder / "shares/campaign.csv"));
-  Counter counter;
+  fake::CountingListener counter;
   EXPECT_TRUE(campaign(folder / "shares", {.threads = 1, .listener = &counter}).complete());
   EXPECT_EQ(counter.begun, 0) << "no run is left";
   EXPECT_EQ(campaign_results(folder / "shares"), campaign_results(folder / "alone"));

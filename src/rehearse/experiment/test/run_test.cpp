@@ -157,28 +157,11 @@ Catalogue evaluations_fail(Index& robot_episodes) {
     std::unique_ptr<system::Plant> line_;
     Index* robot_episodes_;
   };
-  class Builder final : public scenario::ScenarioBuilder {
-   public:
-    explicit Builder(Index& robot_episodes) : robot_episodes_(robot_episodes) {}
-    std::string name() const override { return line_.name(); }
-    std::string summary() const override { return line_.summary(); }
-    std::vector<std::string> prior_names() const override { return line_.prior_names(); }
-    void fields(FieldVisitor& v) override { line_.fields(v); }
-    scenario::Scenario build() const override {
-      scenario::Scenario scenario = line_.build();
-      scenario.make_plant = [&count = robot_episodes_, make = scenario.make_plant, first = true]() mutable {
-        return std::make_unique<Plant>(make(), std::exchange(first, false) ? &count : nullptr);
-      };
-      return scenario;
-    }
-
-   private:
-    fake::LineBuilder line_;
-    Index& robot_episodes_;
-  };
-  Catalogue catalogue = fake::catalogue();
-  catalogue.scenarios = {[&robot_episodes] { return std::make_unique<Builder>(robot_episodes); }};
-  return catalogue;
+  return fake::catalogue_with([&robot_episodes](fake::MakePlant make) {
+    return [&robot_episodes, make, first = true]() mutable {
+      return std::make_unique<Plant>(make(), std::exchange(first, false) ? &robot_episodes : nullptr);
+    };
+  });
 }
 
 TEST(Run, AFailingEvaluationLosesNoEpisode) {
