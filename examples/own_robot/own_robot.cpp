@@ -54,7 +54,7 @@ int main() {
   for (std::uint64_t trial = 1; trial <= 3; ++trial) {
     const learners::Proposal proposal = learner->ask();
     Rng rng({.seed = setting.seed, .trial = trial, .purpose = Purpose::start_state});
-    const Episode episode = rollout::execute(*robot, *setting.policy, proposal.theta, task, rng);
+    const Episode episode = rollout::execute(*robot, *proposal.policy, proposal.theta, task, rng);
     std::printf("trial %d: return %.2f, mass %.3f kg\n", static_cast<int>(trial), episode.total_reward(),
                 (*proposal.phi)(0));
     learner->tell(episode);

@@ -20,6 +20,12 @@ std::vector<std::string> Task::state_names() const {
   return names;
 }
 
+std::vector<Interval> Task::action_bounds() const {
+  std::vector<Interval> bounds;
+  for (const ActionVariable& action : actions) bounds.push_back(action.bounds);
+  return bounds;
+}
+
 std::vector<std::string> Task::violations() const {
   Violations found;
   found.require(!states.empty(), "task has no states");

@@ -48,6 +48,7 @@ struct Task {
   double episode_s() const { return static_cast<double>(horizon) * dt_s; }
   FeatureMap feature_map() const;
   std::vector<std::string> state_names() const;
+  std::vector<Interval> action_bounds() const;
 
   /// A line for everything that is missing or contradicts itself.
   std::vector<std::string> violations() const;

@@ -85,6 +85,7 @@ json from_record(const TrialRecord& r) {
           {"failed_rollouts", r.failed_rollouts},
           {"log_evidence", from_optional(r.log_evidence)},
           {"phi", r.phi},
+          {"policy", r.policy},
           {"theta", from_vector(r.theta)},
           {"forecast", forecast},
           {"left_out_rows", r.left_out_rows},
@@ -105,6 +106,7 @@ TrialRecord to_record(const json& j) {
   j.at("failed_rollouts").get_to(r.failed_rollouts);
   to_optional(j.at("log_evidence"), r.log_evidence);
   j.at("phi").get_to(r.phi);
+  r.policy = j.value("policy", "");
   r.theta = to_vector(j.at("theta"));
   for (const json& f : j.at("forecast")) r.forecast.push_back(to_forecast(f));
   j.at("left_out_rows").get_to(r.left_out_rows);

@@ -31,6 +31,7 @@ struct TrialRecord {
   Index failed_rollouts = 0;
   std::optional<double> log_evidence;
   std::vector<double> phi;  // of the tunable parameters
+  std::string policy;       // the name of the one that theta are the parameters of
   Vector theta;
   std::vector<ForecastError> forecast;
   Index left_out_rows = 0;

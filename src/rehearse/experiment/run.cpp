@@ -34,7 +34,6 @@ class Participants {
   const RunOptions& options() const { return options_; }
   const Resolved& resolved() const { return resolved_; }
   const Task& task() const { return resolved_.scenario.task; }
-  const policy::Policy& policy() const { return *resolved_.scenario.policy; }
   learners::Learner& learner() const { return *learner_; }
 
   /// Work with the plant or the folder: on rank 0 alone; its failure is that of every rank.
@@ -158,20 +157,21 @@ class Run {
   void one_trial(Index trial) {
     const learners::Proposal& proposal = ask(trial);
     if (proposal.model) with_.lead(named("prediction", trial), [&] { predict(trial, proposal); });
-    const Episode episode = named_failure(trial, "plant", [&] { return execute(trial, proposal.theta); });
+    const Episode episode = named_failure(trial, "plant", [&] { return execute(trial, proposal); });
     keep(record(trial, proposal, episode), episode);
   }
 
   /// Rank 0's episode, on every rank.
-  Episode execute(Index trial, const Vector& theta) const {
+  Episode execute(Index trial, const learners::Proposal& proposal) const {
     return to_episode(evaluator_of(with_.options())->once(named("episode", trial), [&] {
       const Rng rng({.seed = seed(), .trial = number(trial), .purpose = Purpose::start_state});
-      return to_bytes(rollout::execute(with_.plant(), with_.policy(), theta, with_.task(), rng));
+      return to_bytes(rollout::execute(with_.plant(), *proposal.policy, proposal.theta, with_.task(), rng));
     }));
   }
 
   const learners::Proposal& checked(Index trial, const learners::Proposal& proposal) const {
-    const Index size = proposal.theta.size(), wanted = with_.policy().parameters();
+    if (!proposal.policy) throw std::runtime_error("it proposed no policy");
+    const Index size = proposal.theta.size(), wanted = proposal.policy->parameters();
     if (size != wanted || !proposal.theta.allFinite())
       throw std::runtime_error(fmt::format("it proposed {} parameters, the policy has {} finite ones", size, wanted));
     const auto bytes = [&] { return bytes_of(proposal.theta); };
@@ -184,7 +184,7 @@ class Run {
   void predict(Index trial, const learners::Proposal& proposal) const {
     const StreamKey key{.seed = seed(), .trial = number(trial), .purpose = Purpose::prediction};
     const rollout::ImagineOptions unclipped{.noise_clip = 0};
-    const auto recorded = rollout::imagine_recorded(*proposal.model, with_.policy(), with_.task(), proposal.theta,
+    const auto recorded = rollout::imagine_recorded(*proposal.model, *proposal.policy, with_.task(), proposal.theta,
                                                     kPredictionParticles, key, unclipped);
     folder_->write_prediction(trial, prediction_csv(with_.task(), recorded));
     draw("prediction", trial, mean_states(recorded));
@@ -205,6 +205,7 @@ class Run {
                        .failed_rollouts = proposal.failed_rollouts,
                        .log_evidence = proposal.log_evidence,
                        .phi = tunable_values(proposal),
+                       .policy = proposal.policy->name(),
                        .theta = proposal.theta,
                        .left_out_rows = proposal.left_out_rows,
                        .notes = proposal.notes,

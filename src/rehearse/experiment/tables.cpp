@@ -101,13 +101,13 @@ std::string notes_csv(const std::vector<TrialRecord>& trials) {
 
 std::string policies_json(const std::vector<TrialRecord>& trials, const Resolved& resolved) {
   const auto entry = [](const TrialRecord& t) {
-    return nlohmann::ordered_json{
-        {"trial", t.trial}, {"return", t.total_reward}, {"theta", std::vector<double>(t.theta.begin(), t.theta.end())}};
+    return nlohmann::ordered_json{{"trial", t.trial},
+                                  {"return", t.total_reward},
+                                  {"policy", t.policy},
+                                  {"theta", std::vector<double>(t.theta.begin(), t.theta.end())}};
   };
-  nlohmann::ordered_json all = {{"format", 1},
-                                {"scenario", resolved.spec.scenario},
-                                {"learner", resolved.spec.learner},
-                                {"policy", resolved.scenario.policy->name()}};
+  nlohmann::ordered_json all = {
+      {"format", 1}, {"scenario", resolved.spec.scenario}, {"learner", resolved.spec.learner}};
   if (!trials.empty()) all["best"] = entry(best_trial(trials));
   all["trials"] = nlohmann::ordered_json::array();
   for (const TrialRecord& t : trials) all["trials"].push_back(entry(t));

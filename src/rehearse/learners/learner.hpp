@@ -20,6 +20,7 @@ namespace rehearse::learners {
 
 /// The policy to try next, and what the learner knew when it chose it. What does not apply is empty.
 struct Proposal {
+  std::shared_ptr<const policy::Policy> policy;  // whose parameters theta are: mostly the setting's
   Vector theta;
   std::optional<double> predicted_return;
   Index rollouts = 0;                                    // imagined to choose this policy

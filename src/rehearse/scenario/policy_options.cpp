@@ -13,8 +13,7 @@ void PolicyOptions::fields(FieldVisitor& v) {
 }
 
 std::shared_ptr<const policy::Policy> make_policy(const PolicyOptions& options, const Task& task, const Vector& scale) {
-  std::vector<Interval> bounds;
-  for (const ActionVariable& action : task.actions) bounds.push_back(action.bounds);
+  const std::vector<Interval> bounds = task.action_bounds();
   const policy::Squash squash{bounds, options.policy_gain};
   switch (options.policy) {
     case PolicyOptions::Kind::rbf:

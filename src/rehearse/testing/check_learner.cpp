@@ -24,12 +24,15 @@ bool same_optional(const std::optional<T>& a, const std::optional<T>& b) {
   return a.has_value() == b.has_value() && (!a || same(*a, *b));
 }
 
+std::string name_of(const Proposal& proposal) { return proposal.policy ? proposal.policy->name() : ""; }
+
 /// Names of what differs; the model is compared by what it predicted, times not at all.
 std::string difference(const Proposal& a, const Proposal& b) {
   std::string names;
   const auto compare = [&](bool equal, const char* name) {
     if (!equal) names += (names.empty() ? "" : ", ") + std::string(name);
   };
+  compare(name_of(a) == name_of(b), "policy");
   compare(same(a.theta, b.theta), "theta");
   compare(same_optional(a.predicted_return, b.predicted_return), "predicted_return");
   compare(same_optional(a.log_evidence, b.log_evidence), "log_evidence");
@@ -70,13 +73,21 @@ class LearnerCheck {
     run.saved.push_back(learner->save().dump());
     for (Index k = 1; k <= trials_; ++k) {
       run.proposals.push_back(learner->ask());
+      check_policy_of(run.proposals.back(), k);
       const std::string names = difference(run.proposals.back(), learner->ask());
       found_.require(names.empty(), fmt::format("trial {}: asked again, another {} is proposed", k, names));
-      run.episodes.push_back(run_trial_(run.proposals.back().theta, static_cast<std::uint64_t>(k)));
+      run.episodes.push_back(run_trial_(run.proposals.back(), static_cast<std::uint64_t>(k)));
       learner->tell(run.episodes.back());
       run.saved.push_back(learner->save().dump());
     }
     return run;
+  }
+
+  void check_policy_of(const Proposal& proposal, Index trial) {
+    const Index wanted = proposal.policy ? proposal.policy->parameters() : 0;
+    found_.require(proposal.policy != nullptr, fmt::format("trial {}: a proposal without a policy", trial));
+    found_.require(!proposal.policy || proposal.theta.size() == wanted,
+                   fmt::format("trial {}: {} parameters, the policy takes {}", trial, proposal.theta.size(), wanted));
   }
 
   /// Goes on from what was saved after `told` episodes, to the end.

@@ -8,11 +8,12 @@
 
 namespace rehearse::testing {
 
-/// One trial of the policy θ; the same episode for the same θ and trial (1, 2, …).
-using RunTrial = std::function<Episode(const Vector& theta, std::uint64_t trial)>;
+/// One trial of the policy proposed; the same episode for the same policy, θ and trial (1, 2, …).
+using RunTrial = std::function<Episode(const learners::Proposal& proposal, std::uint64_t trial)>;
 
 /// The laws of a learner, tried on `trials` trials. Returns a line for each law that is broken:
 ///
+/// - a proposal has a policy, and as many parameters as that takes;
 /// - `ask` is idempotent: until the next `tell` it returns the same proposal;
 /// - the same bytes on one and on two threads;
 /// - a learner that loads what was saved after any episode, as text, goes on with the same proposals.

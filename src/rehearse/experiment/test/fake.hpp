@@ -146,6 +146,7 @@ class EchoLearner final : public learners::Learner {
   const learners::Proposal& ask() override {
     killer_.pass(Killer::Place::ask, told_);
     if (setting_.progress) setting_.progress({.phase = "search", .done = 0.5, .best = memory_, .rollouts = 10});
+    proposal_.policy = setting_.policy;
     proposal_.theta = Vector::Zero(2);
     proposal_.theta << -step_ * static_cast<double>(told_ + 1), std::sin(memory_ + static_cast<double>(setting_.seed));
     proposal_.rollouts = 100 + told_;

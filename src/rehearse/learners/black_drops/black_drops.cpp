@@ -7,6 +7,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/policy/schedule.hpp"
 
 namespace rehearse::learners::black_drops {
 namespace {
@@ -84,9 +85,9 @@ class BlackDrops final : public Learner {
   std::uint64_t trial() const { return returns_.size() + 1; }
 
   Proposal propose() {
-    Proposal proposal;
+    Proposal proposal{.policy = setting_.policy};
     if (returns_.empty() && !setting_.prior) {
-      proposal.theta = random_policy(*setting_.policy, options_.search, setting_.seed, trial());
+      propose_at_random(proposal);
       return proposal;
     }
     // What an interruption must not leave behind is assigned last.
@@ -101,6 +102,16 @@ class BlackDrops final : public Learner {
     state_ = std::move(state);
     carried_ = std::move(carried);
     return proposal;
+  }
+
+  void propose_at_random(Proposal& proposal) const {
+    if (options_.first_trial == FirstTrial::policy) {
+      proposal.theta = random_policy(*setting_.policy, options_.search, setting_.seed, trial());
+      return;
+    }
+    const Task& task = setting_.task;
+    proposal.policy = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
+    proposal.theta = random_schedule(task, setting_.seed, trial());
   }
 
   void learn_model(Proposal& proposal, dynamics::WarmStart& state) {
@@ -162,8 +173,10 @@ class BlackDrops final : public Learner {
   /// Where descents start: the best policy observed, and good ones of the last search.
   std::vector<Vector> known_policies() const {
     std::vector<Vector> starts;
-    if (options_.start_from_best && !returns_.empty()) {
-      const auto best = std::max_element(returns_.begin(), returns_.end()) - returns_.begin();
+    const bool scheduled = !setting_.prior && options_.first_trial == FirstTrial::actions;  // trial 1 had no policy
+    const auto first = returns_.begin() + (scheduled && !returns_.empty());
+    if (options_.start_from_best && first != returns_.end()) {
+      const auto best = std::max_element(first, returns_.end()) - returns_.begin();
       starts.push_back(policies_[static_cast<std::size_t>(best)]);
     }
     starts.insert(starts.end(), carried_.begin(), carried_.end());
@@ -217,6 +230,7 @@ void Options::fields(FieldVisitor& v) {
   std::visit([&](auto& kind) { v.group("model", kind); }, model);
   v.group("reward", reward);
   v.group("search", search);
+  v.choice("first_trial", first_trial, {"actions", "policy"});
   v.boolean("start_from_best", start_from_best);
   v.integer("carried", carried, at_least(0));
   v.integer("prior_searches", prior_searches, at_least(1));

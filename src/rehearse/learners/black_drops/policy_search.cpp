@@ -123,4 +123,14 @@ Vector random_policy(const policy::Policy& policy, const SearchOptions& options,
   return theta;
 }
 
+Vector random_schedule(const Task& task, std::uint64_t seed, std::uint64_t trial) {
+  Rng rng({.seed = seed, .trial = trial, .purpose = Purpose::random_policy});
+  Vector theta(task.horizon * task.action_size());
+  for (Index i = 0; i < theta.size(); ++i) {
+    const Interval& bounds = task.actions[static_cast<std::size_t>(i / task.horizon)].bounds;
+    theta(i) = rng.uniform(bounds.low, bounds.high);
+  }
+  return theta;
+}
+
 }  // namespace rehearse::learners::black_drops

@@ -4,11 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "rehearse/core/random.hpp"
+#include "rehearse/policy/schedule.hpp"
 
 namespace rehearse::testing {
 namespace {
 
-enum class Fault { none, asks_anew, counts_threads, forgets };
+enum class Fault { none, asks_anew, counts_threads, forgets, no_policy, wrong_size };
 
 /// Proposes the sum of all returns and a number of tells that only `save` keeps.
 class Adding final : public learners::Learner {
@@ -18,7 +19,9 @@ class Adding final : public learners::Learner {
   const learners::Proposal& ask() override {
     if (fault_ == Fault::asks_anew) ++extra_;
     const double threads = fault_ == Fault::counts_threads ? setting_.evaluator->concurrency() : 0;
+    if (fault_ != Fault::no_policy) proposal_.policy = policy::make_schedule({{0, 1}}, 1, 2);
     proposal_.theta = Vector{{sum_ + extra_ + threads, tells_}};
+    if (fault_ == Fault::wrong_size) proposal_.theta.conservativeResize(1);
     return proposal_;
   }
   void tell(const Episode& episode) override {
@@ -54,11 +57,11 @@ class Builder final : public learners::LearnerBuilder {
   Fault fault_;
 };
 
-Episode run_trial(const Vector& theta, std::uint64_t trial) {
+Episode run_trial(const learners::Proposal& proposal, std::uint64_t trial) {
   return {.states = Matrix::Zero(2, 1),
           .true_states = Matrix::Zero(2, 1),
           .actions = Matrix::Zero(1, 1),
-          .rewards = Vector{{0.1 * static_cast<double>(trial) + 0.01 * theta(0)}}};
+          .rewards = Vector{{0.1 * static_cast<double>(trial) + 0.01 * proposal.theta(0)}}};
 }
 
 std::string check(Fault fault) {
@@ -72,6 +75,8 @@ TEST(CheckLearner, AcceptsAGoodOne) { EXPECT_EQ(check(Fault::none), ""); }
 TEST(CheckLearner, FindsFaults) {
   EXPECT_NE(check(Fault::asks_anew).find("trial 1: asked again, another theta is proposed"), std::string::npos);
   EXPECT_NE(check(Fault::counts_threads).find("trial 1: two threads give another theta"), std::string::npos);
+  EXPECT_NE(check(Fault::no_policy).find("trial 1: a proposal without a policy"), std::string::npos);
+  EXPECT_NE(check(Fault::wrong_size).find("trial 1: 1 parameters, the policy takes 2"), std::string::npos);
   EXPECT_NE(check(Fault::forgets).find("loaded after 1 episodes, trial 2 has another theta"), std::string::npos);
 }
 

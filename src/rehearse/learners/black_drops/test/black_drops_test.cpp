@@ -26,7 +26,7 @@ History learn(Learner& learner, std::uint64_t trials) {
   History history;
   for (std::uint64_t trial = 1; trial <= trials; ++trial) {
     history.proposals.push_back(learner.ask());
-    const Episode episode = run_trial(history.proposals.back().theta, trial);
+    const Episode episode = run_trial(history.proposals.back(), trial);
     history.returns.push_back(episode.total_reward());
     learner.tell(episode);
   }
@@ -125,16 +125,28 @@ TEST(BlackDrops, TheFirstSearchOnAPriorUsesTheInitialReward) {
 }
 
 TEST(BlackDrops, WithoutAPriorTheFirstTrialIsRandomAndReproducible) {
-  const auto first_theta = [](std::uint64_t seed) {
-    const auto learner = builder("black-drops")->build(setting({}, seed));
-    const Proposal proposal = learner->ask();
-    EXPECT_EQ(proposal.rollouts, 0);
-    EXPECT_FALSE(proposal.predicted_return || proposal.log_evidence || proposal.phi || proposal.model);
-    EXPECT_LE(proposal.theta.cwiseAbs().maxCoeff(), SearchOptions().box);
-    return proposal.theta;
-  };
-  EXPECT_EQ(first_theta(1), first_theta(1));
-  EXPECT_NE(first_theta(1), first_theta(2));
+  for (const char* first_trial : {"actions", "policy"}) {
+    const auto first_theta = [&](std::uint64_t seed) {
+      const auto with = builder("black-drops");
+      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "first_trial", first_trial));
+      const Proposal proposal = with->build(setting({}, seed))->ask();
+      EXPECT_EQ(proposal.policy->name(), std::string(first_trial) == "policy" ? "linear" : "schedule");
+      EXPECT_EQ(proposal.rollouts, 0);
+      EXPECT_FALSE(proposal.predicted_return || proposal.log_evidence || proposal.phi || proposal.model);
+      return proposal.theta;
+    };
+    EXPECT_EQ(first_theta(1), first_theta(1));
+    EXPECT_NE(first_theta(1), first_theta(2));
+  }
+}
+
+TEST(BlackDrops, RandomActionsFillTheirBoundsAtEveryStep) {
+  const Proposal proposal = builder("black-drops")->build(setting({}))->ask();
+  const Matrix actions = run_trial(proposal, 1).actions;
+  EXPECT_EQ(actions, proposal.theta);
+  EXPECT_LE(actions.cwiseAbs().maxCoeff(), 1);
+  EXPECT_LT(actions.minCoeff(), -0.3);
+  EXPECT_GT(actions.maxCoeff(), 0.3);
 }
 
 TEST(BlackDrops, WithoutAPriorIgnoresTheOneItIsGiven) {
@@ -150,7 +162,7 @@ TEST(BlackDrops, WithAPriorTheFirstTrialIsTheBestOnIt) {
     EXPECT_EQ(*proposal.phi, slider::prior(1.5).space.values());
     EXPECT_GE(proposal.rollouts, 250);
     EXPECT_FALSE(proposal.log_evidence.has_value());
-    const double value = run_trial(proposal.theta, 1).total_reward();
+    const double value = run_trial(proposal, 1).total_reward();
     EXPECT_GT(value, 7) << name;
     EXPECT_NEAR(value, *proposal.predicted_return, 1.5) << name;
   }
@@ -159,7 +171,7 @@ TEST(BlackDrops, WithAPriorTheFirstTrialIsTheBestOnIt) {
 TEST(BlackDrops, IdentifiesThePriorsParametersAfterOneTrial) {
   for (const char* name : {"gp-mi", "mi"}) {
     const auto learner = builder(name)->build(setting());
-    learner->tell(run_trial(learner->ask().theta, 1));
+    learner->tell(run_trial(learner->ask(), 1));
     const Proposal& second = learner->ask();
     EXPECT_LT((*second.phi - slider::kTruth).cwiseAbs().maxCoeff(), 0.02) << name;
     EXPECT_EQ(second.log_evidence.has_value(), std::string(name) == "gp-mi");
@@ -236,7 +248,7 @@ struct Listened {
       if (stop && progress.phase == "search") throw Interrupted{};
     };
     learner = builder("gp-mi")->build(with_listener);
-    learner->tell(run_trial(learner->ask().theta, 1));
+    learner->tell(run_trial(learner->ask(), 1));
   }
 };
 
@@ -246,7 +258,7 @@ TEST(BlackDrops, ReportsProgressAndCanBeInterrupted) {
   interrupted.stop = true;
   EXPECT_THROW(interrupted.learner->ask(), Interrupted);
   interrupted.stop = false;
-  EXPECT_GT(run_trial(interrupted.learner->ask().theta, 2).total_reward(), 7);
+  EXPECT_GT(run_trial(interrupted.learner->ask(), 2).total_reward(), 7);
 }
 
 TEST(BlackDrops, AnInterruptedProposalLeavesNoTrace) {
@@ -277,7 +289,7 @@ TEST(BlackDrops, SaysEverythingThatIsWrongAtOnce) {
 
 TEST(BlackDrops, RefusesAStateThatDoesNotFitTheEpisodes) {
   const auto learner = builder("black-drops")->build(setting());
-  const Episode episode = run_trial(learner->ask().theta, 1);
+  const Episode episode = run_trial(learner->ask(), 1);
   learner->tell(episode);
   EXPECT_THROW(builder("black-drops")->build(setting())->load({episode, episode}, learner->save()), InvalidInput);
 }

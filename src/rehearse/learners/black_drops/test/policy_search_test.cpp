@@ -31,7 +31,8 @@ SearchResult search(const std::vector<Vector>& starts, const SearchOptions& opti
 TEST(SearchPolicy, FindsAPolicyAsGoodAsPredicted) {
   const SearchResult found = search({}, small());
   EXPECT_GT(found.predicted_return, 7);
-  EXPECT_NEAR(slider::run_trial(found.theta, 1).total_reward(), found.predicted_return, 1);
+  EXPECT_NEAR(slider::run_trial({.policy = slider::policy(), .theta = found.theta}, 1).total_reward(),
+              found.predicted_return, 1);
   EXPECT_LE(found.theta.cwiseAbs().maxCoeff(), small().box);
   EXPECT_GE(found.rollouts, 300);
   EXPECT_LE(found.rollouts, 400 + small().finalists * small().selection);

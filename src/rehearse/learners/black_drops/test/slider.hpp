@@ -59,7 +59,7 @@ inline Setting setting(std::optional<prior::Prior> prior = slider::prior(), std:
 }
 
 /// One trial on the true slider.
-inline Episode run_trial(const Vector& theta, std::uint64_t trial) {
+inline Episode run_trial(const Proposal& proposal, std::uint64_t trial) {
   const Task task = slider::task();
   const auto plant = system::make_ode_plant({.ode = ode,
                                              .phi = kTruth,
@@ -67,7 +67,8 @@ inline Episode run_trial(const Vector& theta, std::uint64_t trial) {
                                              .start_mean = task.start_mean,
                                              .start_std = task.start_std,
                                              .tolerance = 1e-9});
-  return rollout::execute(*plant, *policy(), theta, task, Rng({.trial = trial, .purpose = Purpose::start_state}));
+  return rollout::execute(*plant, *proposal.policy, proposal.theta, task,
+                          Rng({.trial = trial, .purpose = Purpose::start_state}));
 }
 
 /// The learner of this name, with a small budget of rollouts.

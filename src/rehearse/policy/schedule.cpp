@@ -1,0 +1,52 @@
+#include "rehearse/policy/schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::policy {
+namespace {
+
+class Schedule final : public Policy {
+ public:
+  Schedule(std::vector<Interval> bounds, double dt_s, Index steps)
+      : bounds_(std::move(bounds)), dt_s_(dt_s), steps_(steps) {}
+
+  std::string name() const override { return "schedule"; }
+  Index parameters() const override { return steps_ * actions(); }
+  Index actions() const override { return static_cast<Index>(bounds_.size()); }
+
+  void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double t_s, MatrixView U) const override {
+    const Index step = std::clamp<Index>(std::lround(t_s / dt_s_), 0, steps_ - 1);
+    for (Index row = 0; row < X.rows(); ++row) {
+      const bool lost = X.row(row).array().isNaN().any();
+      for (Index a = 0; a < actions(); ++a) {
+        const auto [low, high] = bounds_[static_cast<std::size_t>(a)];
+        U(row, a) =
+            lost ? std::numeric_limits<double>::quiet_NaN() : std::clamp(Theta(row, a * steps_ + step), low, high);
+      }
+    }
+  }
+
+ private:
+  std::vector<Interval> bounds_;
+  double dt_s_;
+  Index steps_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Policy> make_schedule(std::vector<Interval> bounds, double dt_s, Index steps) {
+  Violations violations;
+  violations.require(dt_s > 0, fmt::format("schedule dt_s = {}, must be > 0", dt_s));
+  violations.require(steps >= 1, fmt::format("schedule steps = {}, must be ≥ 1", steps));
+  violations.require(!bounds.empty(), "policy has no actions");
+  violations.throw_if_any();
+  return std::make_shared<Schedule>(std::move(bounds), dt_s, steps);
+}
+
+}  // namespace rehearse::policy

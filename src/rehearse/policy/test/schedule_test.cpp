@@ -1,0 +1,40 @@
+#include "rehearse/policy/schedule.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fixture.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/testing/check_policy.hpp"
+
+namespace rehearse::policy {
+namespace {
+
+TEST(Schedule, ActsByTheClock) {
+  const auto policy = make_schedule({{-1, 1}, {0, 5}}, 0.1, 3);
+  ASSERT_EQ(policy->parameters(), 6);
+  const Matrix Theta{{0.1, 0.2, 7, 1, 2, -3}, {-0.1, -0.2, -0.3, 4, 5, 6}}, X = Matrix::Random(2, 1);
+  Matrix U(2, 2);
+  const auto at = [&](double t_s) {
+    policy->act(Theta, X, t_s, U);
+    return U;
+  };
+  EXPECT_EQ(at(0), (Matrix{{0.1, 1}, {-0.1, 4}}));
+  EXPECT_EQ(at(0.1), (Matrix{{0.2, 2}, {-0.2, 5}}));
+  EXPECT_EQ(at(3 * 0.1 - 0.1), (Matrix{{1, 0}, {-0.3, 5}})) << "inside the bounds";
+  EXPECT_EQ(at(9), at(0.2)) << "the last action is held";
+}
+
+TEST(Schedule, KeepsTheLawsOfPolicies) {
+  const Task task = fixture::task();
+  const auto policy = make_schedule(fixture::kBounds, task.dt_s, task.horizon);
+  EXPECT_EQ(testing::check_policy(*policy, task), std::vector<std::string>{});
+}
+
+TEST(Schedule, SaysWhatIsWrong) {
+  EXPECT_THROW(make_schedule({}, 0.1, 3), InvalidInput);
+  EXPECT_THROW(make_schedule({{0, 1}}, 0, 3), InvalidInput);
+  EXPECT_THROW(make_schedule({{0, 1}}, 0.1, 0), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rehearse::policy
