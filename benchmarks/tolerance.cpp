@@ -116,7 +116,7 @@ std::shared_ptr<const dynamics::GpModel> model_of(const Experience& experience, 
   };
   std::visit(set, kind);
   auto learned =
-      dynamics::learn(experience.data, scenario.task.feature_map(), prior ? &*prior : nullptr, kind, {}, evaluator);
+      dynamics::learn(experience.data, scenario.task.feature_map(), scenario.task.kinematics(), prior ? &*prior : nullptr, kind, {}, evaluator);
   return std::dynamic_pointer_cast<const dynamics::GpModel>(learned.model);
 }
 

@@ -7,11 +7,30 @@
 #include "rehearse/core/errors.hpp"
 
 namespace rehearse {
+namespace {
+
+/// −1: there is none.
+Index index_of(const std::vector<StateVariable>& states, const std::string& name) {
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (states[i].name == name) return static_cast<Index>(i);
+  return -1;
+}
+
+}  // namespace
 
 FeatureMap Task::feature_map() const {
   std::vector<StateKind> kinds;
   for (const StateVariable& state : states) kinds.push_back(state.kind);
   return FeatureMap(std::move(kinds));
+}
+
+Kinematics Task::kinematics() const {
+  Kinematics kinematics{.dt_s = dt_s};
+  for (Index position = 0; position < state_size(); ++position) {
+    const Index rate = index_of(states, states[static_cast<std::size_t>(position)].rate);
+    if (rate >= 0) kinematics.pairs.push_back({position, rate});
+  }
+  return kinematics;
 }
 
 std::vector<std::string> Task::state_names() const {
@@ -30,6 +49,9 @@ std::vector<std::string> Task::violations() const {
   Violations found;
   found.require(!states.empty(), "task has no states");
   found.require(!actions.empty(), "task has no actions");
+  for (const StateVariable& state : states)
+    found.require(state.rate.empty() || (index_of(states, state.rate) >= 0 && state.rate != state.name),
+                  fmt::format("state {}: its rate {} is not another state", state.name, state.rate));
   for (const ActionVariable& action : actions)
     found.require(
         std::isfinite(action.bounds.low) && std::isfinite(action.bounds.high) && action.bounds.low < action.bounds.high,

@@ -6,6 +6,7 @@
 
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/feature_map.hpp"
+#include "rehearse/core/kinematics.hpp"
 #include "rehearse/core/types.hpp"
 
 namespace rehearse {
@@ -14,6 +15,7 @@ struct StateVariable {
   std::string name;
   std::string unit;
   StateKind kind = StateKind::plain;
+  std::string rate;  // name of the state that is its derivative by time; empty: none is
 };
 
 struct ActionVariable {
@@ -47,6 +49,7 @@ struct Task {
   Index action_size() const { return static_cast<Index>(actions.size()); }
   double episode_s() const { return static_cast<double>(horizon) * dt_s; }
   FeatureMap feature_map() const;
+  Kinematics kinematics() const;
   std::vector<std::string> state_names() const;
   std::vector<Interval> action_bounds() const;
 

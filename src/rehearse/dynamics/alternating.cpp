@@ -27,17 +27,18 @@ Dataset thin(const Dataset& data) {
 
 /// A part of the rows and their residuals.
 struct Part {
-  Part(Dataset rows, const FeatureMap& features) : data(std::move(rows)), residuals(data, features) {}
+  Part(Dataset rows, const FeatureMap& features, const Kinematics& kinematics)
+      : data(std::move(rows)), residuals(data, features, kinematics) {}
   const Dataset data;
   const Residuals residuals;
 };
 
 /// The largest first.
-std::vector<std::unique_ptr<Part>> parts_of(const Dataset& data, const FeatureMap& features) {
+std::vector<std::unique_ptr<Part>> parts_of(const Residuals& residuals, const FeatureMap& features) {
   std::vector<std::unique_ptr<Part>> parts;
-  const Dataset* last = &data;
+  const Dataset* last = &residuals.data();
   while (last->size() >= kThinning * kFewestRows) {
-    parts.push_back(std::make_unique<Part>(thin(*last), features));
+    parts.push_back(std::make_unique<Part>(thin(*last), features, residuals.kinematics()));
     last = &parts.back()->data;
   }
   return parts;
@@ -197,7 +198,7 @@ prior::Prior fixed(const prior::Prior& prior, const std::vector<Index>& discrete
 
 Estimate search_by_turns(const GpMi& kind, const Estimation& estimation, const FeatureMap& features,
                          const WarmStart& start) {
-  const auto parts = parts_of(estimation.residuals.data(), features);
+  const auto parts = parts_of(estimation.residuals, features);
   const ParameterSpace& space = estimation.prior->space;
   const std::vector<Index> discrete = space.of_kind(Parameter::Kind::discrete);
   Estimate best;

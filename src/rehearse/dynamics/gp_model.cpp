@@ -1,5 +1,7 @@
 #include "rehearse/dynamics/gp_model.hpp"
 
+#include "rehearse/dynamics/integration.hpp"
+
 namespace rehearse::dynamics {
 
 void gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U, MatrixView F) {
@@ -19,6 +21,7 @@ void GpModel::predict(const ConstMatrixView& X, const ConstMatrixView& U, Matrix
   gp_inputs(features_, X, U, inputs);
   posterior_.predict(inputs, mean, variance);
   if (variance_ == PredictedVariance::noisy) variance.rowwise() += posterior_.noise_variances().transpose();
+  add_integrals(kinematics_, X, mean_.has_value(), mean, variance);
   if (!mean_) return;
   prior_mean.resize(X.rows(), X.cols());
   mean_->prior.mean(X, U, mean_->phi, prior_mean);

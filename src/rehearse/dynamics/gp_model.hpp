@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "rehearse/core/feature_map.hpp"
+#include "rehearse/core/kinematics.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
 #include "rehearse/gp/posterior.hpp"
 #include "rehearse/prior/prior.hpp"
@@ -24,11 +25,16 @@ struct Mean {
 void gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U, MatrixView F);
 Matrix gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U);
 
-/// State changes = prior mean + independent GPs.
+/// State changes = prior mean + independent GPs, those of positions after integration.hpp.
 class GpModel final : public DynamicsModel {
  public:
-  GpModel(FeatureMap features, std::optional<Mean> mean, gp::Posterior posterior, PredictedVariance variance)
-      : features_(std::move(features)), mean_(std::move(mean)), posterior_(std::move(posterior)), variance_(variance) {}
+  GpModel(FeatureMap features, Kinematics kinematics, std::optional<Mean> mean, gp::Posterior posterior,
+          PredictedVariance variance)
+      : features_(std::move(features)),
+        kinematics_(std::move(kinematics)),
+        mean_(std::move(mean)),
+        posterior_(std::move(posterior)),
+        variance_(variance) {}
 
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override;
 
@@ -36,6 +42,7 @@ class GpModel final : public DynamicsModel {
 
  private:
   FeatureMap features_;
+  Kinematics kinematics_;
   std::optional<Mean> mean_;
   gp::Posterior posterior_;
   PredictedVariance variance_;

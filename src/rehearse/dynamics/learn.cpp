@@ -23,8 +23,8 @@ Learned model_of(const Residuals& residuals, const FeatureMap& features, const p
   Learned learned;
   learned.state.kernels = hyperparameters(estimate);
   learned.model = std::make_shared<GpModel>(
-      features, mean, gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance),
-      options.variance);
+      features, residuals.kinematics(), mean,
+      gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance), options.variance);
   if (prior) learned.state.phi = estimate.phi;
   learned.log_evidence = estimate.log_evidences.sum();
   learned.left_out_rows = rows.left_out;
@@ -111,14 +111,23 @@ Learned learn_kind(const Mi& kind, const Residuals& residuals, const FeatureMap&
   return learned;
 }
 
+template <class GpKind>
+bool integrates(const GpKind& kind) {
+  return kind.gp.integrate_rates;
+}
+bool integrates(const Mi&) { return false; }
+
 }  // namespace
 
-Learned learn(const Dataset& data, const FeatureMap& features, const prior::Prior* prior, const Kind& kind,
-              const WarmStart& start, const Evaluator& evaluator) {
+Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics, const prior::Prior* prior,
+              const Kind& kind, const WarmStart& start, const Evaluator& evaluator) {
   if (!prior && !std::holds_alternative<ZeroMean>(kind)) throw InvalidInput("this dynamics model needs a prior");
   if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
-  const Residuals residuals(data, features);
-  return std::visit([&](const auto& k) { return learn_kind(k, residuals, features, prior, start, evaluator); }, kind);
+  const auto learn_this = [&](const auto& k) {
+    const Residuals residuals(data, features, integrates(k) ? kinematics : Kinematics{});
+    return learn_kind(k, residuals, features, prior, start, evaluator);
+  };
+  return std::visit(learn_this, kind);
 }
 
 }  // namespace rehearse::dynamics

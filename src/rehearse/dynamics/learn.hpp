@@ -22,9 +22,11 @@ namespace rehearse::dynamics {
 struct GpOptions {
   gp::FitOptions fit;
   PredictedVariance variance = PredictedVariance::latent;
-  double tolerance = 0.01;  // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
+  bool integrate_rates = false;  // positions follow from their rates, GPs learn what is left (integration.hpp)
+  double tolerance = 0.01;       // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
   void fields(FieldVisitor& v) {
     v.group("fit", fit);
+    v.boolean("integrate_rates", integrate_rates);
     v.number("tolerance", tolerance, between(0, 1));
     v.choice("variance", variance, {"latent", "noisy"});
   }
@@ -33,7 +35,10 @@ struct GpOptions {
 /// GPs with zero mean: Black-DROPS (Chatzilygeroudis 2017).
 struct ZeroMean {
   GpOptions gp;
-  ZeroMean() { gp.fit.penalties.length = gp.fit.penalties.snr = true; }  // the authors' code, without a prior only
+  ZeroMean() {
+    gp.fit.penalties.length = gp.fit.penalties.snr = true;  // the authors' code, without a prior only
+    gp.integrate_rates = true;
+  }
   void fields(FieldVisitor& v) { v.group("gp", gp); }
 };
 
@@ -95,7 +100,7 @@ struct Learned {
 };
 
 /// Throws InvalidInput if the kind needs a prior and none is given, or the data set has no usable row.
-Learned learn(const Dataset& data, const FeatureMap& features, const prior::Prior* prior, const Kind& kind,
-              const WarmStart& start, const Evaluator& evaluator);
+Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics, const prior::Prior* prior,
+              const Kind& kind, const WarmStart& start, const Evaluator& evaluator);
 
 }  // namespace rehearse::dynamics

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/dynamics/integration.hpp"
 
 namespace rehearse::dynamics {
 namespace {
@@ -22,8 +23,9 @@ std::vector<Index> finite_rows(const Matrix& Y) {
 
 }  // namespace
 
-Residuals::Residuals(const Dataset& data, const FeatureMap& features)
+Residuals::Residuals(const Dataset& data, const FeatureMap& features, Kinematics kinematics)
     : data_(data),
+      kinematics_(std::move(kinematics)),
       inputs_(gp_inputs(features, data.states, data.actions)),
       all_(data.size() == 0 ? nullptr : std::make_shared<gp::Inputs>(inputs_)),
       scale_(standard_deviations(data.changes)) {}
@@ -31,11 +33,17 @@ Residuals::Residuals(const Dataset& data, const FeatureMap& features)
 Matrix Residuals::targets(const prior::Prior& prior, const Vector& phi) const {
   Matrix mean(data_.size(), data_.states.cols());
   prior.mean(data_.states, data_.actions, phi, mean);
-  return data_.changes - mean;
+  Matrix targets = data_.changes - mean;
+  subtract_integrals(kinematics_, data_.states, true, targets);
+  return targets;
 }
 
 Residuals::Rows Residuals::at(const prior::Prior* prior, const Vector& phi) const {
-  if (!prior) return {all_, data_.changes, 0, {}};
+  if (!prior) {
+    Matrix targets = data_.changes;
+    subtract_integrals(kinematics_, data_.states, false, targets);
+    return {all_, std::move(targets), 0, {}};
+  }
   Matrix targets = this->targets(*prior, phi);
   if (targets.allFinite()) return {all_, std::move(targets), 0, {}};
   std::vector<Index> rows = finite_rows(targets);

@@ -5,16 +5,17 @@
 
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/feature_map.hpp"
+#include "rehearse/core/kinematics.hpp"
 #include "rehearse/gp/inputs.hpp"
 #include "rehearse/prior/prior.hpp"
 
 namespace rehearse::dynamics {
 
-/// What the GPs are trained on: inputs, and targets minus the prior mean. Rows whose prior mean is not finite are left
-/// out. Const methods may run concurrently.
+/// What the GPs are trained on: inputs, and targets minus the prior mean and integration.hpp. Rows whose prior mean is
+/// not finite are left out. Const methods may run concurrently.
 class Residuals {
  public:
-  Residuals(const Dataset& data, const FeatureMap& features);
+  Residuals(const Dataset& data, const FeatureMap& features, Kinematics kinematics = {});
 
   struct Rows {
     std::shared_ptr<const gp::Inputs> inputs;  // null if no row is left
@@ -22,18 +23,20 @@ class Residuals {
     Index left_out = 0;
     std::vector<Index> kept;  // which rows of the data set; empty if none was left out
   };
-  /// Without a prior (null): the state changes themselves.
+  /// Without a prior (null): the state changes themselves; of both what integrals of the rates leave.
   Rows at(const prior::Prior* prior, const Vector& phi) const;
 
-  /// Changes minus the prior mean of every row (n × dx); a row that fails is not finite.
+  /// Those of every row (n × dx); a row that fails is not finite.
   Matrix targets(const prior::Prior& prior, const Vector& phi) const;
 
   const Vector& scale() const { return scale_; }  // dx, standard deviation of the raw changes
   const Dataset& data() const { return data_; }
+  const Kinematics& kinematics() const { return kinematics_; }
   Index size() const { return data_.size(); }
 
  private:
   const Dataset& data_;
+  Kinematics kinematics_;
   Matrix inputs_;
   std::shared_ptr<const gp::Inputs> all_;
   Vector scale_;

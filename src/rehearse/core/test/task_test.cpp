@@ -47,9 +47,22 @@ TEST(Task, EachViolationIsNamed) {
               t.actions[0].bounds = {1, 1};
             }),
             Lines{"action u: bounds must be finite with low < high"});
+  EXPECT_EQ(after([](Task& t) { t.states[0].rate = "speed"; }),
+            Lines{"state " + task().states[0].name + ": its rate speed is not another state"});
   EXPECT_EQ(after([](Task& t) { t.start_mean = Vector{{1}}; }),
             Lines{"start_mean has 1 entries, must have 2 finite ones"});
   EXPECT_EQ(after([](Task& t) { t.start_std(0) = -1; }), Lines{"start_std has 2 entries, must have 2 of them, ≥ 0"});
+}
+
+TEST(Task, KnowsWhichStatesAreRates) {
+  Task moving = task();
+  EXPECT_TRUE(moving.kinematics().pairs.empty());
+  moving.states[1].rate = moving.states[0].name;
+  const Kinematics kinematics = moving.kinematics();
+  ASSERT_EQ(kinematics.pairs.size(), 1u);
+  EXPECT_EQ(kinematics.pairs[0].position, 1);
+  EXPECT_EQ(kinematics.pairs[0].rate, 0);
+  EXPECT_EQ(kinematics.dt_s, moving.dt_s);
 }
 
 TEST(Task, AnEmptyOneLacksEverything) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/dynamics/residuals.hpp"
 #include "swing.hpp"
 
 namespace rehearse::dynamics {
@@ -40,18 +41,48 @@ TEST(GpInputs, AreFeaturesThenActions) {
 TEST(GpModel, IsPriorMeanPlusPosterior) {
   const Dataset data = swing::data(20, 1), at = swing::data(30, 2);
   const prior::Prior prior = swing::prior_at(swing::kTruth);
-  const GpModel without(swing::features(), {}, posterior(data, data.changes), PredictedVariance::latent);
-  const GpModel with(swing::features(), Mean{prior, swing::kTruth}, posterior(data, data.changes),
+  const GpModel without(swing::features(), {}, {}, posterior(data, data.changes), PredictedVariance::latent);
+  const GpModel with(swing::features(), {}, Mean{prior, swing::kTruth}, posterior(data, data.changes),
                      PredictedVariance::latent);
   const Prediction a = predict(without, at.states, at.actions), b = predict(with, at.states, at.actions);
   EXPECT_LT((b.mean - a.mean - at.changes).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_EQ(a.variance, b.variance);
 }
 
+// What GPs predict is added to what they were not asked to learn, with a prior and without.
+TEST(GpModel, GivesBackTheIntegralsOfTheRates) {
+  const Dataset data = swing::data(20, 1);
+  const prior::Prior prior = swing::prior_at(Vector{{0.6, 0}});
+  for (const prior::Prior* around : {static_cast<const prior::Prior*>(nullptr), &prior}) {
+    const Vector phi = around ? around->space.values() : Vector();
+    const Matrix targets = Residuals(data, swing::features(), swing::kinematics()).at(around, phi).targets;
+    const gp::Hyperparameters exact{.log_lengths = Vector::Zero(4), .log_signal = 0, .log_noise = std::log(1e-4)};
+    const gp::Posterior posterior(gp::Inputs(gp_inputs(swing::features(), data.states, data.actions)), targets,
+                                  {exact, exact});
+    std::optional<Mean> mean;
+    if (around) mean = Mean{prior, phi};
+    const Prediction p =
+        predict(GpModel(swing::features(), swing::kinematics(), mean, posterior, PredictedVariance::latent),
+                data.states, data.actions);
+    EXPECT_LT((p.mean - data.changes).cwiseAbs().maxCoeff(), 1e-4);
+  }
+}
+
+TEST(GpModel, AnUncertainRateMakesThePositionUncertain) {
+  const Dataset data = swing::data(20, 1), at = swing::data(30, 2);
+  const auto variance = [&](const Kinematics& kinematics) {
+    const GpModel model(swing::features(), kinematics, {}, posterior(data, data.changes), PredictedVariance::latent);
+    return predict(model, at.states, at.actions).variance;
+  };
+  const Matrix without = variance({}), with = variance(swing::kinematics());
+  EXPECT_EQ(with.col(0), without.col(0));
+  EXPECT_LT((with.col(1) - without.col(1) - 0.0025 * without.col(0)).cwiseAbs().maxCoeff(), 1e-15);
+}
+
 TEST(GpModel, NoisyVarianceIsLatentPlusNoise) {
   const Dataset data = swing::data(20, 1), at = swing::data(30, 2);
-  const GpModel latent(swing::features(), {}, posterior(data, data.changes), PredictedVariance::latent);
-  const GpModel noisy(swing::features(), {}, posterior(data, data.changes), PredictedVariance::noisy);
+  const GpModel latent(swing::features(), {}, {}, posterior(data, data.changes), PredictedVariance::latent);
+  const GpModel noisy(swing::features(), {}, {}, posterior(data, data.changes), PredictedVariance::noisy);
   const Matrix difference =
       predict(noisy, at.states, at.actions).variance - predict(latent, at.states, at.actions).variance;
   EXPECT_LT((difference.array() - 0.01).abs().maxCoeff(), 1e-12);
@@ -61,7 +92,7 @@ TEST(GpModel, FailedRowsAreNanAndDisturbNoOther) {
   const Dataset data = swing::data(20, 1);
   Dataset at = swing::data(200, 2);
   const prior::Prior prior = swing::prior_at(swing::kTruth);
-  const GpModel model(swing::features(), Mean{prior, swing::kTruth}, posterior(data, data.changes),
+  const GpModel model(swing::features(), {}, Mean{prior, swing::kTruth}, posterior(data, data.changes),
                       PredictedVariance::latent);
   const Prediction clean = predict(model, at.states, at.actions);
   at.states(7, 0) = std::numeric_limits<double>::quiet_NaN();
@@ -81,7 +112,7 @@ TEST(GpModel, FailedRowsAreNanAndDisturbNoOther) {
 TEST(GpModel, RowsDoNotDependOnTheBatch) {
   const Dataset data = swing::data(20, 1), at = swing::data(40, 2);
   const prior::Prior prior = swing::prior_at(swing::kTruth);
-  const GpModel model(swing::features(), Mean{prior, swing::kTruth}, posterior(data, data.changes),
+  const GpModel model(swing::features(), {}, Mean{prior, swing::kTruth}, posterior(data, data.changes),
                       PredictedVariance::latent);
   const Prediction all = predict(model, at.states, at.actions);
   for (Index i = 0; i < 40; ++i) {

@@ -15,7 +15,7 @@ namespace {
 
 Learned learn_swing(const Dataset& data, const Kind& kind, const prior::Prior* prior = nullptr,
                     const WarmStart& start = {}, const Evaluator& evaluator = serial_evaluator()) {
-  return learn(data, swing::features(), prior, kind, start, evaluator);
+  return learn(data, swing::features(), {}, prior, kind, start, evaluator);
 }
 
 struct Prediction {
@@ -139,7 +139,8 @@ TEST(Learn, GpMiIdentifiesThePendubotFromOneEpisode) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Dataset data = one_episode(s, seed);
     ASSERT_EQ(data.size(), 50);
-    const Learned learned = learn(data, s.task.feature_map(), &prior, GpMi{}, {}, serial_evaluator());
+    const Learned learned =
+        learn(data, s.task.feature_map(), s.task.kinematics(), &prior, GpMi{}, {}, serial_evaluator());
     for (Index i = 0; i < 4; ++i) EXPECT_NEAR((*learned.state.phi)(i), 0.5, 0.01) << "seed " << seed << " φ " << i;
   }
 }
@@ -157,7 +158,7 @@ TEST(Learn, GpMiFindsNoLowerScoreThanTheNestedSearch) {
       GpMi nested;
       nested.search = PhiSearch::nested;
       const auto score = [&](const GpMi& kind) {
-        return *learn(data, s.task.feature_map(), &prior, kind, {}, serial_evaluator()).score;
+        return *learn(data, s.task.feature_map(), s.task.kinematics(), &prior, kind, {}, serial_evaluator()).score;
       };
       EXPECT_GT(score(GpMi{}), score(nested) - 0.01) << guess.name << " noise " << noise;
     }

@@ -38,6 +38,16 @@ TEST(Residuals, SubtractThePriorMean) {
   EXPECT_EQ(Residuals(data, swing::features()).at(&prior, phi).targets, data.changes - mean);
 }
 
+TEST(Residuals, OfPositionsAreWhatIntegralsOfTheRatesLeave) {
+  const Dataset data = swing::data(20, 1);
+  const Matrix plain = Residuals(data, swing::features()).at(nullptr, {}).targets;
+  const Matrix integrated = Residuals(data, swing::features(), swing::kinematics()).at(nullptr, {}).targets;
+  const Vector trapezoid = 0.1 * (data.states.col(0) + 0.5 * data.changes.col(0));
+  EXPECT_EQ(integrated.col(0), plain.col(0));
+  EXPECT_LT((integrated.col(1) - (plain.col(1) - trapezoid)).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT(integrated.col(1).cwiseAbs().maxCoeff(), 0.03 * plain.col(1).cwiseAbs().maxCoeff());
+}
+
 TEST(Residuals, RowsThatFailAreLeftOut) {
   const Dataset data = swing::data(20, 1);
   const auto fails = [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {

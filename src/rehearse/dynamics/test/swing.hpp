@@ -6,6 +6,7 @@
 
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/feature_map.hpp"
+#include "rehearse/core/kinematics.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/prior/prior.hpp"
 #include "rehearse/system/ode.hpp"
@@ -32,6 +33,8 @@ inline prior::Prior prior_at(const Vector& phi) {
   result.space = result.space.fixed_at(phi);
   return result;
 }
+
+inline Kinematics kinematics() { return {.dt_s = 0.1, .pairs = {{.position = 1, .rate = 0}}}; }
 
 inline FeatureMap features() { return FeatureMap({StateKind::plain, StateKind::angle}); }
 

@@ -118,8 +118,9 @@ class BlackDrops final : public Learner {
     if (setting_.progress) setting_.progress({.phase = "model"});
     if (returns_.empty()) return trust_prior(proposal, options_.prior_variance);
     try {
-      dynamics::Learned learned = dynamics::learn(data_, features_, setting_.prior ? &*setting_.prior : nullptr,
-                                                  options_.model, state, *setting_.evaluator);
+      dynamics::Learned learned =
+          dynamics::learn(data_, features_, setting_.task.kinematics(), setting_.prior ? &*setting_.prior : nullptr,
+                          options_.model, state, *setting_.evaluator);
       proposal.model = learned.model;
       proposal.phi = learned.state.phi;
       proposal.log_evidence = learned.log_evidence;

@@ -37,7 +37,10 @@ void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
 
 Task make_task(const Options& options) {
   Task task;
-  task.states = {{"x", "m"}, {"dx", "m/s"}, {"dtheta", "rad/s"}, {"theta", "rad", StateKind::angle}};
+  task.states = {{"x", "m", StateKind::plain, "dx"},
+                 {"dx", "m/s"},
+                 {"dtheta", "rad/s"},
+                 {"theta", "rad", StateKind::angle, "dtheta"}};
   task.actions = {{"u", "N", {-kForce, kForce}}};
   task.start_mean = Vector::Zero(4);
   task.start_std = Vector::Constant(4, options.ode.start_noise);

@@ -63,8 +63,8 @@ Task make_task(const Options& options) {
   Task task;
   task.states = {{"dtheta1", "rad/s"},
                  {"dtheta2", "rad/s"},
-                 {"theta1", "rad", StateKind::angle},
-                 {"theta2", "rad", StateKind::angle}};
+                 {"theta1", "rad", StateKind::angle, "dtheta1"},
+                 {"theta2", "rad", StateKind::angle, "dtheta2"}};
   task.actions = {{"u", "N m", {-kTorque, kTorque}}};
   task.start_mean = Vector{{0, 0, std::numbers::pi, std::numbers::pi}};
   task.start_std = Vector::Constant(4, options.ode.start_noise);

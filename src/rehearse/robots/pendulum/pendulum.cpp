@@ -35,7 +35,7 @@ void squared_distance(const ConstMatrixView& X, VectorView d2) {
 
 Task make_task(const Options& options) {
   Task task;
-  task.states = {{"dtheta", "rad/s"}, {"theta", "rad", StateKind::angle}};
+  task.states = {{"dtheta", "rad/s"}, {"theta", "rad", StateKind::angle, "dtheta"}};
   task.actions = {{"u", "N m", {-kTorque, kTorque}}};
   task.start_mean = Vector::Zero(2);
   task.start_std = Vector::Constant(2, options.ode.start_noise);

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "rehearse/core/kinematics.hpp"
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::dynamics {
+
+// Positions follow from their rates by the trapezoid rule; GPs of positions learn what it leaves (after Amadio 2022,
+// whose positions are integrals alone). X: n × dx states, Y: n × dx changes or their means. Without a prior the
+// position moves by dt·v + dt/2·Δv; around a prior the residual of v adds dt/2 of itself to that of the position.
+
+/// Targets of the GPs from changes (without a prior) or from changes minus the prior mean.
+void subtract_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool has_prior, MatrixView Y);
+
+/// The inverse, for what the GPs predict; adds the variance that the rates bring.
+void add_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool has_prior, MatrixView mean,
+                   MatrixView variance);
+
+}  // namespace rehearse::dynamics
