@@ -105,13 +105,13 @@ class BlackDrops final : public Learner {
   }
 
   void propose_at_random(Proposal& proposal) const {
-    if (options_.first_trial == FirstTrial::policy) {
+    if (options_.first_trial.kind == FirstTrial::Kind::policy) {
       proposal.theta = random_policy(*setting_.policy, options_.search, setting_.seed, trial());
       return;
     }
     const Task& task = setting_.task;
     proposal.policy = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
-    proposal.theta = random_schedule(task, setting_.seed, trial());
+    proposal.theta = random_schedule(task, options_.first_trial.hold_s, setting_.seed, trial());
   }
 
   void learn_model(Proposal& proposal, dynamics::WarmStart& state) {
@@ -174,7 +174,8 @@ class BlackDrops final : public Learner {
   /// Where descents start: the best policy observed, and good ones of the last search.
   std::vector<Vector> known_policies() const {
     std::vector<Vector> starts;
-    const bool scheduled = !setting_.prior && options_.first_trial == FirstTrial::actions;  // trial 1 had no policy
+    const bool scheduled =
+        !setting_.prior && options_.first_trial.kind == FirstTrial::Kind::actions;  // trial 1 had no policy
     const auto first = returns_.begin() + (scheduled && !returns_.empty());
     if (options_.start_from_best && first != returns_.end()) {
       const auto best = std::max_element(first, returns_.end()) - returns_.begin();
@@ -227,11 +228,16 @@ class Builder final : public LearnerBuilder {
 
 }  // namespace
 
+void FirstTrial::fields(FieldVisitor& v) {
+  v.choice("kind", kind, {"actions", "policy"});
+  v.number("hold_s", hold_s, at_least(0));
+}
+
 void Options::fields(FieldVisitor& v) {
   std::visit([&](auto& kind) { v.group("model", kind); }, model);
   v.group("reward", reward);
   v.group("search", search);
-  v.choice("first_trial", first_trial, {"actions", "policy"});
+  v.group("first_trial", first_trial);
   v.boolean("start_from_best", start_from_best);
   v.integer("carried", carried, at_least(0));
   v.integer("prior_searches", prior_searches, at_least(1));

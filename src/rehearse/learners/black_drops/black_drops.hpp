@@ -13,16 +13,21 @@
 namespace rehearse::learners::black_drops {
 
 /// What the first trial without a prior does.
-enum class FirstTrial {
-  actions,  // actions uniform in their bounds, anew at every step: the authors' code, PILCO
-  policy,   // θ uniform in its box (Chatzilygeroudis 2018, Algorithm 1)
+struct FirstTrial {
+  enum class Kind {
+    actions,  // uniform in their bounds (PILCO, the authors' code)
+    policy,   // θ uniform in its box (Chatzilygeroudis 2018, Algorithm 1)
+  };
+  Kind kind = Kind::actions;
+  double hold_s = 0.2;  // an action is held so long (PILCO, the authors' code: one step)
+  void fields(FieldVisitor& v);
 };
 
 struct Options {
   dynamics::Kind model = dynamics::GpMi{};
   dynamics::RewardOptions reward;
   SearchOptions search;
-  FirstTrial first_trial = FirstTrial::actions;
+  FirstTrial first_trial;
   bool start_from_best = true;  // one descent starts from the best policy observed; the authors' code
   Index carried = 3;            // and so many from the best other policies of the search before
   Index prior_searches = 1;     // searches on the prior before the first trial, each from the best of the one before

@@ -128,7 +128,7 @@ TEST(BlackDrops, WithoutAPriorTheFirstTrialIsRandomAndReproducible) {
   for (const char* first_trial : {"actions", "policy"}) {
     const auto first_theta = [&](std::uint64_t seed) {
       const auto with = builder("black-drops");
-      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "first_trial", first_trial));
+      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "first_trial.kind", first_trial));
       const Proposal proposal = with->build(setting({}, seed))->ask();
       EXPECT_EQ(proposal.policy->name(), std::string(first_trial) == "policy" ? "linear" : "schedule");
       EXPECT_EQ(proposal.rollouts, 0);
