@@ -54,6 +54,7 @@ struct LeastSquares {
 /// The prior's parameters alone, by the squared one-step error; variance 0.
 struct Mi : LeastSquares {
   PhiPosteriorOptions posterior;
+  Mi() { posterior.misfit_observations = 1; }  // φ takes more of the misfit upon it where no GP does
   void fields(FieldVisitor& v) {
     LeastSquares::fields(v);
     v.group("posterior", posterior);

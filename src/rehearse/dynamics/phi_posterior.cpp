@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -46,13 +47,29 @@ Spread spread_of_gp(const gp::Inputs& inputs, const gp::Hyperparameters& kernel,
   return {std::move(whiten), misfit};
 }
 
-Spread spread_of_white(const ConstVectorView& y, double scale, Index parameters) {
-  const Index n = y.size();
+/// The row nearest to each in the space of the inputs; of equals the first. There must be two rows.
+std::vector<Index> nearest_rows(const gp::Inputs& inputs) {
+  const Matrix X = (inputs.unit() * inputs.half_range().cwiseQuotient(inputs.spread()).asDiagonal()).transpose();
+  std::vector<Index> nearest;
+  for (Index i = 0; i < X.cols(); ++i) {
+    Vector distances = (X.colwise() - X.col(i)).colwise().squaredNorm();
+    distances(i) = std::numeric_limits<double>::infinity();
+    Index row = 0;
+    distances.minCoeff(&row);
+    nearest.push_back(row);
+  }
+  return nearest;
+}
+
+/// Of y that is white around a smooth function of the inputs: half the mean squared difference of nearest rows is the
+/// variance of what is white (the delta test; Pi and Peterson 1994).
+Spread spread_of_white(const ConstVectorView& y, double scale, Index parameters, const std::vector<Index>& nearest) {
+  const double n = static_cast<double>(y.size());
   const double floor = kLeastDeviation * (scale > 0 ? scale : 1);
-  const double variance = y.squaredNorm() / static_cast<double>(std::max<Index>(n - parameters, 1));
+  const double variance = y.squaredNorm() / std::max(n - static_cast<double>(parameters), 1.0);
   const double deviation = std::sqrt(std::max(variance, floor * floor));
-  const double shared = n < 2 ? 0 : y.head(n - 1).dot(y.tail(n - 1)) / static_cast<double>(n - 1);
-  return {[deviation](const Matrix& Y) { return Matrix(Y / deviation); }, std::max(0.0, shared)};
+  const double white = 0.5 * (y - y(nearest)).squaredNorm();
+  return {[deviation](const Matrix& Y) { return Matrix(Y / deviation); }, std::max(0.0, y.squaredNorm() - white) / n};
 }
 
 /// What an output says of z near a point: the precision, and the gradient of its log evidence.
@@ -211,8 +228,9 @@ std::optional<PhiPosterior> phi_posterior(const Residuals& residuals, const prio
   const Residuals::Rows rows = residuals.at(&prior, phi);
   if (!rows.inputs) return {};
   const auto parameters = static_cast<Index>(prior.space.of_kind(Parameter::Kind::continuous).size());
+  const std::vector<Index> nearest = nearest_rows(*rows.inputs);
   const auto spread_of = [&](Index e) {
-    return spread_of_white(rows.targets.col(e), residuals.scale()(e), parameters);
+    return spread_of_white(rows.targets.col(e), residuals.scale()(e), parameters, nearest);
   };
   return posterior_of(residuals, prior, phi, rows, spread_of, options, evaluator);
 }

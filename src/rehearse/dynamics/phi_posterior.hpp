@@ -42,8 +42,8 @@ struct PhiPosteriorOptions {
 std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Estimate& estimate,
                                           const PhiPosteriorOptions& options);
 
-/// The same around a φ of least squares, without GPs: the residuals' variance takes the place of K_e, and what
-/// consecutive residuals have in common is the misfit.
+/// The same around a φ of least squares, without GPs: the residuals' variance takes the place of K_e, and the misfit is
+/// what rows of nearly the same input have in common.
 std::optional<PhiPosterior> phi_posterior(const Residuals& residuals, const prior::Prior& prior, const Vector& phi,
                                           const PhiPosteriorOptions& options, const Evaluator& evaluator);
 
