@@ -78,13 +78,18 @@ struct Told {
   Vector gradient;
 };
 
-/// Jᵀ C⁻¹ J and −Jᵀ C⁻¹ y, with C = K + extra Q Qᵀ and Q an orthonormal basis of the columns of J (n × q).
+/// Jᵀ C⁻¹ J and −Jᵀ C⁻¹ y, with C = K + extra Q Qᵀ and Q an orthonormal basis of the columns of J (n × q). NaN if it
+/// cannot be computed.
 Told told_by(const Matrix& J, const Vector& y, const Spread& spread, double extra) {
   const Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Index rank = svd.rank();
   if (rank == 0) return {Matrix::Zero(J.cols(), J.cols()), Vector::Zero(J.cols())};
   const Matrix whitened = spread.whiten(svd.matrixU().leftCols(rank));
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(whitened.transpose() * whitened);
+  if (!whitened.allFinite() || eigen.info() != Eigen::Success) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    return {Matrix::Constant(J.cols(), J.cols(), nan), Vector::Constant(J.cols(), nan)};
+  }
   const Vector precisions = eigen.eigenvalues().cwiseMax(0);
   const Vector shrink = (1 + extra * precisions.array()).inverse();
   const Matrix turned =
@@ -94,14 +99,16 @@ Told told_by(const Matrix& J, const Vector& y, const Spread& spread, double extr
           -turned * shrink.cwiseProduct(pull)};
 }
 
-/// Of z; where the search stopped short of the best z, the way that is left counts as a standard deviation.
-Matrix covariance_of(const std::vector<Told>& all, Index q) {
+/// Of z (q); where the search stopped short of the best z in the box, the way that is left counts as a standard
+/// deviation. Empty if it cannot be computed.
+Matrix covariance_of(const std::vector<Told>& all, const Vector& z) {
+  const Index q = z.size();
   Matrix precision = kBoxPrecision * Matrix::Identity(q, q);
   Vector gradient = Vector::Zero(q);
   for (const Told& told : all) precision += told.precision, gradient += told.gradient;
   const Eigen::LLT<Matrix> factor(precision);
   if (!precision.allFinite() || factor.info() != Eigen::Success) return {};
-  const Vector left = factor.solve(gradient);
+  const Vector left = (z + factor.solve(gradient)).cwiseMax(0).cwiseMin(1) - z;
   return factor.solve(Matrix::Identity(q, q)) + left * left.transpose();
 }
 
@@ -125,7 +132,7 @@ std::optional<PhiPosterior> posterior_of(const Residuals& residuals, const prior
     const double extra = spread.misfit * static_cast<double>(J.rows()) / options.misfit_observations;
     told[static_cast<std::size_t>(e)] = told_by(J, rows.targets.col(e), spread, extra);
   });
-  const Matrix covariance = covariance_of(told, q);
+  const Matrix covariance = covariance_of(told, coordinates.start());
   if (covariance.size() == 0 || !covariance.allFinite()) return {};
   const auto scale = coordinates.widths().asDiagonal();
   PhiPosterior posterior{.mean = phi(coordinates.parameters()), .covariance = scale * covariance * scale};

@@ -200,6 +200,30 @@ TEST(PhiPosterior, AParameterThatMovesNothingCouldBeAnything) {
   }
 }
 
+TEST(PhiPosterior, AtTheEndOfTheBoxWhatLiesBeyondWidensNothing) {
+  const Dataset data = data_with_noise(60, 2, 0.005);
+  const prior::Prior prior =
+      swing::prior({Parameter::continuous("length", 0.5, {0.3, 0.7}), swing::friction()});  // the truth is 0.8
+  Mi kind;
+  kind.posterior = kClassical;
+  const auto posterior = learn(data, swing::features(), &prior, kind, {}, serial_evaluator()).posterior;
+  EXPECT_NEAR(posterior->mean(0), 0.7, 1e-6);
+  EXPECT_EQ(posterior->intervals()[0].high, 0.7);
+  EXPECT_GT(posterior->intervals()[0].low, 0.65);
+  EXPECT_EQ(posterior->doubts().back(), "length is at the end of its box, 0.7: a better value may lie beyond");
+}
+
+TEST(PhiPosterior, WhereNumbersOverflowThereIsNone) {
+  const Dataset data = data_with_noise(20, 2, 0.005);
+  const prior::Prior prior = swing::prior({swing::length(), swing::friction()},
+                                          [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
+                                            swing::ode(x, u, phi, dxdt);
+                                            dxdt(0) += 1e300 * (phi(1) - 0.1);
+                                          });
+  const Residuals residuals(data, swing::features());
+  EXPECT_FALSE(phi_posterior(residuals, prior, Vector{{0.5, 0.9}}, {}, serial_evaluator()));
+}
+
 TEST(PhiPosterior, ParametersThatOnlyActTogetherCannotBeToldApart) {
   const Dataset data = data_with_noise(60, 2, 0.005);
   const prior::Prior prior =
