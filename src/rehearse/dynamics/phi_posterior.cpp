@@ -47,16 +47,14 @@ Spread spread_of_gp(const gp::Inputs& inputs, const gp::Hyperparameters& kernel,
   return {std::move(whiten), misfit};
 }
 
-/// The row nearest to each in the space of the inputs; of equals the first. There must be two rows.
+/// The row nearest to each in the space of the inputs, of equals the first; of a single row itself.
 std::vector<Index> nearest_rows(const gp::Inputs& inputs) {
   const Matrix X = (inputs.unit() * inputs.half_range().cwiseQuotient(inputs.spread()).asDiagonal()).transpose();
-  std::vector<Index> nearest;
+  std::vector<Index> nearest(static_cast<std::size_t>(X.cols()));
   for (Index i = 0; i < X.cols(); ++i) {
     Vector distances = (X.colwise() - X.col(i)).colwise().squaredNorm();
     distances(i) = std::numeric_limits<double>::infinity();
-    Index row = 0;
-    distances.minCoeff(&row);
-    nearest.push_back(row);
+    distances.minCoeff(&nearest[static_cast<std::size_t>(i)]);
   }
   return nearest;
 }
@@ -187,11 +185,11 @@ std::vector<std::vector<Index>> groups_of(std::vector<Index> parameters, const M
 }  // namespace
 
 std::vector<Interval> PhiPosterior::intervals() const {
-  std::vector<Interval> all;
+  std::vector<Interval> all(parameters.size());
   for (Index i = 0; i < mean.size(); ++i) {
-    const Interval box = parameters[static_cast<std::size_t>(i)].box;
+    const auto k = static_cast<std::size_t>(i);
     const double half = kNormal * std::sqrt(covariance(i, i));
-    all.push_back({std::max(box.low, mean(i) - half), std::min(box.high, mean(i) + half)});
+    all[k] = {std::max(parameters[k].box.low, mean(i) - half), std::min(parameters[k].box.high, mean(i) + half)};
   }
   return all;
 }
