@@ -61,8 +61,8 @@ struct Setup {
       targets -= expected;
       mean = dynamics::Mean{prior, prior.space.values()};
     }
-    model =
-        std::make_unique<dynamics::GpModel>(features, mean, condition(F, targets), dynamics::PredictedVariance::latent);
+    model = std::make_unique<dynamics::GpModel>(features, Kinematics{}, mean, condition(F, targets),
+                                                dynamics::PredictedVariance::latent);
     Rng rng({.seed = 2});
     for (auto theta : Theta.colwise()) theta = random_theta(*pendubot.policy, rng);
     for (Index i = 0; i < kRows; ++i) {

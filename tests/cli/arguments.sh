@@ -63,7 +63,8 @@ expect 2 "broken.toml: line" 1 learn broken.toml
 expect 0 "best return" 3 learn pendubot --learner gp-mi "${quick[@]}"
 run=runs/pendubot-gp-mi-useful-1
 [ -f $run/done ] || fail "the default folder is not $run"
-header=trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence,phi.m1,phi.m2,phi.l1,phi.l2
+header=trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence
+for name in m1 m2 l1 l2; do header+=,phi.$name,phi.$name.low,phi.$name.high; done
 [ "$(head -1 $run/trials.csv)" = $header ] || fail "trials.csv begins with $(head -1 $run/trials.csv)"
 
 before=$(cat $run/* 2>/dev/null | cksum)

@@ -1,6 +1,6 @@
 // Lines with bands over a number, which is what nearly every figure here is.
 import * as Plot from '@observablehq/plot'
-import type { Symbol } from './colours'
+import { INTERVAL_OPACITY, type Symbol } from './colours'
 import { number } from './format'
 
 export interface Point {
@@ -127,7 +127,7 @@ export function fit(values: number[], { zero = false, span = 0 } = {}): Domain {
 
 /** What a series draws up and down. */
 export function heights({ points }: { points: Point[] }): number[] {
-  return points.flatMap(({ y, band }) => [y, ...(band ?? [])])
+  return points.flatMap(({ y, band, interval }) => [y, ...(band ?? []), ...(interval ?? [])])
 }
 
 function axis(of: ChartOptions['x'] | ChartOptions['y'], ticks: number): Plot.ScaleOptions {
@@ -201,7 +201,7 @@ function lines({
           y1: (p: Point) => p.interval?.[0],
           y2: (p: Point) => p.interval?.[1],
           stroke: colour,
-          strokeOpacity: 0.55,
+          strokeOpacity: INTERVAL_OPACITY,
           strokeWidth: 2,
         })
       : null,

@@ -21,6 +21,8 @@ const LOOKS: Record<string, Look> = {
 export const REAL = 'var(--vermillion)'
 export const PREDICTED = 'var(--blue)'
 export const EXPECTED = 'var(--orange)'
+/** Of the vertical bars of intervals. */
+export const INTERVAL_OPACITY = 0.55
 
 /** Learners that are not in the list take the looks that are free, in order. */
 export function looks(learners: string[]): (learner: string) => Look {

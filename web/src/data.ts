@@ -27,6 +27,8 @@ export interface Run {
   timings?: Columns
   errors?: Columns
   notes?: { trial: number[]; note: string[] }
+  /** Not there in the folders of older versions. */
+  doubts?: { trial: number[]; doubt: string[] }
   truth?: Record<string, number>
   episodes: Episode[]
 }

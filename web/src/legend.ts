@@ -8,7 +8,7 @@ import {
   symbolTriangle,
   symbolWye,
 } from 'd3-shape'
-import type { Symbol } from './colours'
+import { INTERVAL_OPACITY, type Symbol } from './colours'
 import { h, s } from './dom'
 
 export interface LegendEntry {
@@ -20,6 +20,8 @@ export interface LegendEntry {
   line?: boolean
   /** Opacity of a filled band. */
   band?: number
+  /** A vertical bar, of intervals. */
+  interval?: boolean
 }
 
 export function legend(entries: LegendEntry[]): HTMLElement {
@@ -33,6 +35,8 @@ export function entryMarks(entry: LegendEntry): SVGElement[] {
   const stroke = { stroke: entry.colour, 'stroke-width': 2, fill: 'none', 'stroke-dasharray': entry.dash ?? 'none' }
   const marks: SVGElement[] = []
   if (entry.band) marks.push(s('rect', { x: 2, y: -6, width: 24, height: 12, fill: entry.colour, opacity: entry.band }))
+  if (entry.interval)
+    marks.push(s('line', { x1: 14, x2: 14, y1: -8, y2: 8, ...stroke, 'stroke-opacity': INTERVAL_OPACITY }))
   if (entry.line !== false) marks.push(s('line', { x1: 0, x2: 28, ...stroke }))
   if (entry.symbol)
     marks.push(

@@ -149,15 +149,17 @@ function replay(run: Run): Child {
   })
 }
 
-function parameters({ trials, truth = {} }: Run): Child {
-  const names = Object.keys(trials ?? {}).filter((name) => name.startsWith('phi.'))
+function parameters({ trials, truth = {}, doubts }: Run): Child {
+  const columns = Object.keys(trials ?? {}).filter((name) => name.startsWith('phi.'))
+  const isEnd = (name: string) => /\.(low|high)$/.test(name) && columns.includes(name.replace(/\.[a-z]+$/, ''))
+  const names = columns.filter((name) => !isEnd(name))
   if (!trials || names.length === 0 || !trials['trial']?.length) return null
   const panel = (column: string): Panel => {
     const name = column.slice(4)
     const known = truth[name]
-    const points = pointsOf(trials, column)
+    const points = withIntervals(pointsOf(trials, column), trials, column)
     const series = [{ label: name, colour: PREDICTED, points, symbol: 'circle' as const }]
-    const values = [...points.map(({ y }) => y), ...(present(known) ? [known] : [])]
+    const values = [...heights({ points }), ...(present(known) ? [known] : [])]
     return {
       title: name,
       draw: (width) =>
@@ -174,14 +176,40 @@ function parameters({ trials, truth = {} }: Run): Child {
   return figure({
     name: 'parameters-by-trial',
     title: 'Parameters of the prior',
-    about:
+    about: h(
+      'div',
+      {},
       'With these values the model chose each trial’s policy; in trial 1 they are those of the prior as given. ' +
-      'Dashed: the robot’s own, where the scenario says them.',
+        'Dashed: the robot’s own, where the scenario says them.',
+      doubtList(doubts, trials['trial']?.at(-1)),
+    ),
+    ...(columns.length > names.length ? { legend: INTERVAL_LEGEND } : {}),
     panels: () => names.map(panel),
-    table: () => rowsOf(trials, ['trial', ...names]).map((row) => ({ ...row, ...prefixed('truth.', truth) })),
+    table: () => rowsOf(trials, ['trial', ...columns]).map((row) => ({ ...row, ...prefixed('truth.', truth) })),
     minWidth: 220,
     columns: 2,
   }).element
+}
+
+const INTERVAL_LEGEND: LegendEntry[] = [
+  { label: 'learned', colour: PREDICTED, symbol: 'circle' },
+  { label: '95 % interval', colour: PREDICTED, interval: true, line: false },
+]
+
+function withIntervals(points: Point[], trials: Columns, column: string): Point[] {
+  return points.map((point) => {
+    const row = trials['trial']?.indexOf(point.x) ?? -1
+    const [low, high] = ['low', 'high'].map((end) => trials[`${column}.${end}`]?.[row])
+    if (!present(low) || !present(high)) return point
+    const tip = `trial ${point.x}\n${number(point.y)}\n${number(low)} to ${number(high)}`
+    return { ...point, interval: [low, high], tip }
+  })
+}
+
+/** What the data of the last model could not tell. */
+function doubtList(doubts: Run['doubts'], trial: Cell | undefined): Child {
+  const last = (doubts?.doubt ?? []).filter((_, i) => doubts?.trial[i] === trial)
+  return last.length > 0 && h('ul', { class: 'doubts' }, ...last.map((doubt) => h('li', {}, `${doubt}.`)))
 }
 
 /** One panel a state, one line a trial. */

@@ -91,6 +91,13 @@ await open(runPage, {}, async (page) => {
   const csv = (await saved(page, 'Save “Return, predicted and real” as CSV')).trim().split('\n')
   assert.equal(csv[0], 'trial,interaction_s,return,solved,predicted_return')
   assert.equal(csv.length, 3)
+  const identified = page.locator('#parameters-by-trial')
+  await identified.scrollIntoViewIfNeeded()
+  await identified.locator('.panel').first().waitFor()
+  assert.equal(await identified.locator('.panel').count(), 4) // none for the intervals
+  assert.match(await identified.textContent(), /95 % interval/)
+  const parameters = await saved(page, 'Save “Parameters of the prior” as CSV')
+  assert.match(parameters, /^trial,phi\.m1,phi\.m1\.low,phi\.m1\.high,phi\.m2,/)
 })
 
 await open(replayPage, { colorScheme: 'dark' }, async (page) => {

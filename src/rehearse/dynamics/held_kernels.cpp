@@ -10,8 +10,7 @@
 namespace rehearse::dynamics {
 namespace {
 
-constexpr double kDifferences[] = {1e-5, 0.02};  // of a box, for slopes; the larger where the smaller moves nothing
-constexpr double kGain = 1e-3;                   // nats: steps that promise or gain less are not made
+constexpr double kGain = 1e-3;  // nats: steps that promise or gain less are not made
 constexpr double kLeastDamping = 1e-9, kFirstDamping = 1e-6;
 constexpr int kMostSteps = 30, kMostDampings = 10;
 
@@ -83,9 +82,7 @@ class Climb {
 }  // namespace
 
 HeldKernels::HeldKernels(const Estimation& estimation, const Estimate& estimate)
-    : estimation_(estimation),
-      estimate_(estimate),
-      continuous_(estimation.prior->space.of_kind(Parameter::Kind::continuous)) {
+    : estimation_(estimation), coordinates_(estimation.prior->space, estimate.phi) {
   const Residuals::Rows rows = estimation.residuals.at(estimation.prior, estimate.phi);
   kept_ = rows.kept;
   left_out_ = rows.left_out;
@@ -95,23 +92,6 @@ HeldKernels::HeldKernels(const Estimation& estimation, const Estimate& estimate)
     made[k].emplace(*rows.inputs, estimate.kernels[k].hyperparameters);
   });
   for (auto& whitening : made) whitenings_.push_back(std::move(*whitening));
-  low_.resize(static_cast<Index>(continuous_.size()));
-  width_.resize(low_.size());
-  for (Index i = 0; i < low_.size(); ++i) {
-    const Interval box = estimation.prior->space[continuous_[static_cast<std::size_t>(i)]].box;
-    low_(i) = box.low;
-    width_(i) = box.high - box.low;
-  }
-}
-
-Vector HeldKernels::start() const {
-  return ((estimate_.phi(continuous_) - low_).array() / width_.array()).max(0).min(1);
-}
-
-Vector HeldKernels::phi(const Vector& z) const {
-  Vector phi = estimate_.phi;
-  phi(continuous_) = low_ + z.cwiseProduct(width_);
-  return phi;
 }
 
 /// Of the rows of the estimate.
@@ -136,24 +116,9 @@ HeldKernels::At HeldKernels::at(const Vector& z) const {
   return at;
 }
 
-/// The derivative of the targets with respect to z_i.
-Matrix HeldKernels::slope(const Vector& z, const Matrix& targets, Index i) const {
-  const double inwards = z(i) < 0.5 ? 1 : -1;
-  for (const double size : kDifferences) {
-    for (const double direction : {inwards, -inwards}) {
-      Vector other = z;
-      other(i) = std::clamp(z(i) + direction * size, 0.0, 1.0);
-      const Matrix difference = this->targets(other) - targets;
-      if (difference.allFinite() && !difference.isZero(0)) return difference / (other(i) - z(i));
-    }
-  }
-  return Matrix::Zero(targets.rows(), targets.cols());
-}
-
 Quadratics HeldKernels::quadratics(const Vector& z, const At& at) const {
   const Index q = z.size(), outputs = at.targets.cols();
-  std::vector<Matrix> slopes;  // q of rows × outputs
-  for (Index i = 0; i < q; ++i) slopes.push_back(slope(z, at.targets, i));
+  const auto slopes = dynamics::slopes([this](const Vector& other) { return targets(other); }, z, at.targets);
   Quadratics result{at.log_evidences, Matrix(q, outputs), std::vector<Matrix>(static_cast<std::size_t>(outputs))};
   estimation_.evaluator.for_each(outputs, [&](Index e) {
     Matrix jacobian(at.targets.rows(), q);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "rehearse/dynamics/coordinates.hpp"
 #include "rehearse/dynamics/estimate.hpp"
 #include "rehearse/dynamics/score_step.hpp"
 #include "rehearse/gp/evidence.hpp"
@@ -13,7 +14,7 @@ namespace rehearse::dynamics {
 /// are in [0, 1], fractions of the boxes.
 class HeldKernels {
  public:
-  /// The estimate must have been fitted with a finite score. Both must outlive this.
+  /// The estimate must have been fitted with a finite score. The estimation must outlive this.
   HeldKernels(const Estimation& estimation, const Estimate& estimate);
 
   struct At {
@@ -27,22 +28,19 @@ class HeldKernels {
   /// slope 0.
   Quadratics quadratics(const Vector& z, const At& at) const;
 
-  Vector start() const;  // z of the estimate's φ
-  Vector phi(const Vector& z) const;
+  Vector start() const { return coordinates_.start(); }  // z of the estimate's φ
+  Vector phi(const Vector& z) const { return coordinates_.phi(z); }
   const Estimation& estimation() const { return estimation_; }
   double score(const Vector& log_evidences) const { return estimation_.charged_score(log_evidences, left_out_); }
 
  private:
   Matrix targets(const Vector& z) const;
-  Matrix slope(const Vector& z, const Matrix& targets, Index i) const;
 
   const Estimation& estimation_;
-  const Estimate& estimate_;
+  Coordinates coordinates_;
   std::vector<Index> kept_;  // rows; empty: all
   Index left_out_;           // the others
   std::vector<gp::Whitening> whitenings_;
-  std::vector<Index> continuous_;
-  Vector low_, width_;
 };
 
 /// The score at the estimate's φ with its kernels as they are; −∞ if it has none, or they were never fitted.

@@ -53,6 +53,13 @@ Learned learn_kind(const FixedPrior& kind, const Residuals& residuals, const Fea
   return learn_gps(residuals, features, prior, prior->space.values(), kind.gp, start, evaluator);
 }
 
+/// Fails where the prior tunes something and a number is not finite.
+void add_posterior(Learned& learned, const prior::Prior& prior, std::optional<PhiPosterior> posterior) {
+  learned.posterior = std::move(posterior);
+  if (!learned.posterior && !prior.space.of_kind(Parameter::Kind::continuous).empty())
+    learned.notes.emplace_back("how sure the parameters are could not be computed");
+}
+
 /// Algorithm 2 of Chatzilygeroudis 2018: every φ's kernels are fitted again, from where the best φ so far had them.
 class NestedSearch {
  public:
@@ -97,17 +104,19 @@ Learned learn_kind(const GpMi& kind, const Residuals& residuals, const FeatureMa
   if (!std::isfinite(found.score)) estimation.refit(found);
   Learned learned = model_of(residuals, features, prior, kind.gp, found);
   learned.score = found.score;
+  add_posterior(learned, *prior, phi_posterior(estimation, found, kind.posterior));
   return learned;
 }
 
 Learned learn_kind(const Mi& kind, const Residuals& residuals, const FeatureMap&, const prior::Prior* prior,
-                   const WarmStart& start, const Evaluator&) {
+                   const WarmStart& start, const Evaluator& evaluator) {
   const Identified identified = least_squares(residuals, *prior, start.phi, kind.subplex);
   Learned learned;
   learned.model = std::make_shared<SimulatorModel>(*prior, identified.phi);
   learned.state.phi = identified.phi;
   learned.evaluations = identified.evaluations;
   learned.left_out_rows = residuals.at(prior, identified.phi).left_out;
+  add_posterior(learned, *prior, phi_posterior(residuals, *prior, identified.phi, kind.posterior, evaluator));
   return learned;
 }
 

@@ -12,6 +12,7 @@
 #include "rehearse/core/feature_map.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/dynamics/phi_posterior.hpp"
 #include "rehearse/dynamics/score.hpp"
 #include "rehearse/gp/fit.hpp"
 #include "rehearse/optim/derivative_free.hpp"
@@ -48,11 +49,21 @@ struct FixedPrior {
   void fields(FieldVisitor& v) { v.group("gp", gp); }
 };
 
-/// The prior's parameters alone, by the squared one-step error; variance 0.
-struct Mi {
+/// How the φ of the least squared one-step error is found.
+struct LeastSquares {
   // The authors' code: 2000 evaluations, tolerances 1e-6, not repeated.
   optim::SubplexOptions subplex{.max_evaluations = 4000, .x_tolerance = 1e-6, .value_tolerance = 1e-6, .repeat = true};
   void fields(FieldVisitor& v) { v.group("subplex", subplex); }
+};
+
+/// The prior's parameters alone, by the squared one-step error; variance 0.
+struct Mi : LeastSquares {
+  PhiPosteriorOptions posterior;
+  Mi() { posterior.misfit_observations = 1; }  // φ takes more of the misfit upon it where no GP does
+  void fields(FieldVisitor& v) {
+    LeastSquares::fields(v);
+    v.group("posterior", posterior);
+  }
 };
 
 /// How GP-MI looks for the φ of the highest score.
@@ -69,7 +80,8 @@ struct GpMi {
   optim::SubplexOptions subplex;    // of the nested search
   bool least_squares_start = true;  // start from MI's φ too: along valleys of the score (m up, l down) a local search
                                     // alone stops far from the end
-  Mi least_squares;
+  LeastSquares least_squares;
+  PhiPosteriorOptions posterior;
   GpMi() { gp.fit.starts = 1, gp.fit.part_rows = 0; }  // the alternating search tries other kernels itself
   void fields(FieldVisitor& v) {
     v.group("gp", gp);
@@ -78,6 +90,7 @@ struct GpMi {
     v.group("subplex", subplex);
     v.boolean("least_squares_start", least_squares_start);
     v.group("least_squares", least_squares);
+    v.group("posterior", posterior);
   }
 };
 
@@ -91,12 +104,13 @@ struct WarmStart {
 
 struct Learned {
   std::shared_ptr<const DynamicsModel> model;
-  WarmStart state;                     // kernels and φ found
-  std::optional<double> log_evidence;  // of all outputs together, nats; none without GPs
-  std::optional<double> score;         // GP-MI's, nats
-  Index left_out_rows = 0;             // rows whose prior mean was not finite
-  Index evaluations = 0;               // of φ
-  std::vector<std::string> notes;      // numerical failures survived
+  WarmStart state;                        // kernels and φ found
+  std::optional<double> log_evidence;     // of all outputs together, nats; none without GPs
+  std::optional<double> score;            // GP-MI's, nats
+  std::optional<PhiPosterior> posterior;  // of GP-MI and MI
+  Index left_out_rows = 0;                // rows whose prior mean was not finite
+  Index evaluations = 0;                  // of φ
+  std::vector<std::string> notes;         // numerical failures survived
 };
 
 /// Throws InvalidInput if the kind needs a prior and none is given, or the data set has no usable row.

@@ -72,6 +72,21 @@ ForecastError to_forecast(const json& j) {
           to_vector(j.at("rms"))};
 }
 
+json from_intervals(const std::vector<std::optional<Interval>>& intervals) {
+  json all = json::array();
+  for (const auto& interval : intervals) all.push_back(interval ? json{interval->low, interval->high} : json());
+  return all;
+}
+
+std::vector<std::optional<Interval>> to_intervals(const json& j) {
+  std::vector<std::optional<Interval>> intervals;
+  for (const json& interval : j)
+    intervals.push_back(interval.is_null()
+                            ? std::nullopt
+                            : std::optional<Interval>({interval.at(0).get<double>(), interval.at(1).get<double>()}));
+  return intervals;
+}
+
 json from_record(const TrialRecord& r) {
   json forecast = json::array();
   for (const ForecastError& f : r.forecast) forecast.push_back(from_forecast(f));
@@ -85,6 +100,8 @@ json from_record(const TrialRecord& r) {
           {"failed_rollouts", r.failed_rollouts},
           {"log_evidence", from_optional(r.log_evidence)},
           {"phi", r.phi},
+          {"phi_intervals", from_intervals(r.phi_intervals)},
+          {"doubts", r.doubts},
           {"policy", r.policy},
           {"theta", from_vector(r.theta)},
           {"forecast", forecast},
@@ -106,6 +123,8 @@ TrialRecord to_record(const json& j) {
   j.at("failed_rollouts").get_to(r.failed_rollouts);
   to_optional(j.at("log_evidence"), r.log_evidence);
   j.at("phi").get_to(r.phi);
+  r.phi_intervals = to_intervals(j.value("phi_intervals", json::array()));
+  r.doubts = j.value("doubts", std::vector<std::string>());
   r.policy = j.value("policy", "");
   r.theta = to_vector(j.at("theta"));
   for (const json& f : j.at("forecast")) r.forecast.push_back(to_forecast(f));

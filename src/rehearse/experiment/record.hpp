@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rehearse/core/episode.hpp"
+#include "rehearse/core/types.hpp"
 
 namespace rehearse::experiment {
 
@@ -30,8 +31,10 @@ struct TrialRecord {
   Index rollouts = 0;
   Index failed_rollouts = 0;
   std::optional<double> log_evidence;
-  std::vector<double> phi;  // of the tunable parameters
-  std::string policy;       // the name of the one that theta are the parameters of
+  std::vector<double> phi;                             // of the tunable parameters
+  std::vector<std::optional<Interval>> phi_intervals;  // 95 %, as phi; none: of a discrete or a given value
+  std::vector<std::string> doubts;                     // what the trials before cannot tell of φ, a sentence each
+  std::string policy;                                  // the name of the one that theta are the parameters of
   Vector theta;
   std::vector<ForecastError> forecast;
   Index left_out_rows = 0;

@@ -211,6 +211,7 @@ class Run {
                        .notes = proposal.notes,
                        .model_s = proposal.model_s,
                        .search_s = proposal.search_s};
+    add_posterior(record, proposal);
     if (task.solved) record.solved = task.solved(episode);
     if (proposal.model) record.forecast = forecast_errors(*proposal.model, task, episode);
     return record;
@@ -229,6 +230,17 @@ class Run {
     for (Index i = 0; i < space.size() && i < proposal.phi->size(); ++i)
       if (space[i].tunable()) values.push_back((*proposal.phi)(i));
     return values;
+  }
+
+  void add_posterior(TrialRecord& record, const learners::Proposal& proposal) const {
+    if (!proposal.posterior || record.phi.empty()) return;
+    const auto intervals = proposal.posterior->intervals();
+    for (const std::string& name : tunable_names(with_.resolved().prior)) {
+      record.phi_intervals.emplace_back();
+      for (std::size_t i = 0; i < intervals.size(); ++i)
+        if (proposal.posterior->parameters[i].name == name) record.phi_intervals.back() = intervals[i];
+    }
+    record.doubts = proposal.posterior->doubts();
   }
 
   /// The episode is on the disk before anything that may take long or fail: a robot does not repeat it.
@@ -271,6 +283,7 @@ class Run {
   RunResult result() const {
     RunResult result{.folder = path(), .trials = history_.done()};
     result.best_return = best_trial(history_.trials).total_reward;
+    result.doubts = history_.trials.back().doubts;
     for (const TrialRecord& trial : history_.trials)
       if (!result.solved_at && trial.solved.value_or(false)) result.solved_at = trial.trial;
     return result;

@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
@@ -35,6 +37,7 @@ struct RunResult {
   Index trials = 0;
   std::optional<Index> solved_at;  // the first trial that solved the task
   double best_return = 0;
+  std::vector<std::string> doubts;  // what the trials could not tell of φ, as of the last trial's model
 };
 
 /// The plant or the learner failed in a trial. What was done before is kept, and the run can be resumed.

@@ -28,6 +28,16 @@ void add_numbers(Row& row, const RowOfMatrix& numbers) {
   for (Index i = 0; i < numbers.size(); ++i) row.push_back(Csv::cell(double{numbers(i)}));
 }
 
+/// Three cells a parameter: its value and the ends of its interval.
+void add_parameters(Row& row, const TrialRecord& trial) {
+  for (std::size_t i = 0; i < trial.phi.size(); ++i) {
+    row.push_back(Csv::cell(trial.phi[i]));
+    const auto interval = i < trial.phi_intervals.size() ? trial.phi_intervals[i] : std::nullopt;
+    row.push_back(interval ? Csv::cell(interval->low) : "");
+    row.push_back(interval ? Csv::cell(interval->high) : "");
+  }
+}
+
 std::optional<Index> as_number(const std::optional<bool>& flag) {
   return flag ? std::optional<Index>(*flag ? 1 : 0) : std::nullopt;
 }
@@ -47,7 +57,8 @@ std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector
   Row header = {"trial",    "interaction_s",   "return",      "solved", "predicted_return",
                 "rollouts", "failed_rollouts", "log_evidence"};
   if (evaluated) header.push_back("expected_return");
-  for (const std::string& name : phi_names) header.push_back("phi." + name);
+  for (const std::string& name : phi_names)
+    for (const char* end : {"", ".low", ".high"}) header.push_back("phi." + name + end);
   Csv csv(header);
   for (const TrialRecord& t : trials) {
     Row row = {Csv::cell(t.trial),
@@ -59,7 +70,7 @@ std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector
                Csv::cell(t.failed_rollouts),
                Csv::cell(t.log_evidence)};
     if (evaluated) row.push_back(Csv::cell(t.expected_return));
-    for (double value : t.phi) row.push_back(Csv::cell(value));
+    add_parameters(row, t);
     row.resize(header.size());
     csv.row(row);
   }
@@ -96,6 +107,13 @@ std::string notes_csv(const std::vector<TrialRecord>& trials) {
       csv.row({Csv::cell(t.trial),
                fmt::format("{} training rows left out: the prior's prediction was not finite", t.left_out_rows)});
   }
+  return csv.text();
+}
+
+std::string doubts_csv(const std::vector<TrialRecord>& trials) {
+  Csv csv({"trial", "doubt"});
+  for (const TrialRecord& t : trials)
+    for (const std::string& doubt : t.doubts) csv.row({Csv::cell(t.trial), doubt});
   return csv.text();
 }
 

@@ -15,13 +15,17 @@ namespace rehearse::experiment {
 /// Names of the tunable parameters of a prior; empty without one.
 std::vector<std::string> tunable_names(const std::optional<prior::Prior>& prior);
 
-/// With a column for the expected return where the scenario evaluates policies.
+/// With three columns a parameter: its value and the ends of its interval. With one for the expected return where the
+/// scenario evaluates policies.
 std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector<std::string>& phi_names,
                        bool evaluated = false);
 std::string timings_csv(const std::vector<TrialRecord>& trials);
 
 /// Forecast errors: one row per trial and horizon.
 std::string errors_csv(const std::vector<TrialRecord>& trials, const Task& task);
+
+/// What the trials before could not tell of the prior's parameters: one row per doubt.
+std::string doubts_csv(const std::vector<TrialRecord>& trials);
 
 /// What went wrong and was survived: one row per note.
 std::string notes_csv(const std::vector<TrialRecord>& trials);

@@ -13,6 +13,7 @@
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/dynamics/phi_posterior.hpp"
 #include "rehearse/policy/policy.hpp"
 #include "rehearse/prior/prior.hpp"
 
@@ -27,6 +28,7 @@ struct Proposal {
   Index failed_rollouts = 0;                             // of these, ended by a failed simulation
   std::optional<double> log_evidence;                    // of the data under the model
   std::optional<Vector> phi;                             // of the prior, in the order of its space
+  std::optional<dynamics::PhiPosterior> posterior;       // of its continuous parameters, where it was learned
   std::shared_ptr<const dynamics::DynamicsModel> model;  // that predicted the return; null before there is one
   Index left_out_rows = 0;                               // training rows whose prior mean was not finite
   std::vector<std::string> notes;                        // numerical failures survived, a line each

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -156,9 +157,14 @@ RunSpec read_spec(const fs::path& folder) {
 
 std::vector<std::string> parameter_names(const statistics::Table& trials) {
   constexpr std::string_view kPrefix = "phi.";
+  const std::set<std::string> columns(trials.header.begin(), trials.header.end());
+  const auto is_end = [&](const std::string& column) {  // of the interval of a parameter
+    return (column.ends_with(".low") || column.ends_with(".high")) &&
+           columns.contains(column.substr(0, column.rfind('.')));
+  };
   std::vector<std::string> names;
   for (const std::string& column : trials.header)
-    if (column.starts_with(kPrefix)) names.push_back(column.substr(kPrefix.size()));
+    if (column.starts_with(kPrefix) && !is_end(column)) names.push_back(column.substr(kPrefix.size()));
   return names;
 }
 
@@ -187,8 +193,10 @@ Json read_run(const fs::path& folder, std::optional<Index> only, Problems& probl
     run["trials"] = columns(*table);
     run["truth"] = truths(spec, *table);
   }
-  for (const char* name : {"timings", "errors", "notes"}) {
-    const fs::path path = fmt::format("{}.csv", name);
+  std::vector<std::string> tables{"timings", "errors", "notes"};
+  if (fs::exists(folder / "doubts.csv")) tables.emplace_back("doubts");  // not in the folders of older versions
+  for (const std::string& name : tables) {
+    const fs::path path = name + ".csv";
     if (const auto table = problems.value_or_problem(path, [&] { return read_table(folder / path); }))
       run[name] = columns(*table);
   }

@@ -26,6 +26,10 @@ bool same_optional(const std::optional<T>& a, const std::optional<T>& b) {
 
 std::string name_of(const Proposal& proposal) { return proposal.policy ? proposal.policy->name() : ""; }
 
+std::optional<Matrix> covariance(const Proposal& proposal) {
+  return proposal.posterior ? std::optional(proposal.posterior->covariance) : std::nullopt;
+}
+
 /// Names of what differs; the model is compared by what it predicted, times not at all.
 std::string difference(const Proposal& a, const Proposal& b) {
   std::string names;
@@ -37,6 +41,7 @@ std::string difference(const Proposal& a, const Proposal& b) {
   compare(same_optional(a.predicted_return, b.predicted_return), "predicted_return");
   compare(same_optional(a.log_evidence, b.log_evidence), "log_evidence");
   compare(same_optional(a.phi, b.phi), "phi");
+  compare(same_optional(covariance(a), covariance(b)), "the covariance of phi");
   compare(a.rollouts == b.rollouts, "rollouts");
   compare(a.failed_rollouts == b.failed_rollouts, "failed_rollouts");
   compare(a.left_out_rows == b.left_out_rows, "left_out_rows");

@@ -45,9 +45,10 @@ TEST(Campaign, CsvHasARowForEveryTrialInTheOrderOfTheFile) {
   const fs::path folder = fake::test_folder() / "campaign";
   EXPECT_TRUE(run(folder).complete());
   const statistics::Table table = statistics::read_csv(read_file(folder / "campaign.csv"));
-  EXPECT_EQ(table.header, (std::vector<std::string>{"run", "scenario", "learner", "prior", "variant", "seed", "trial",
-                                                    "interaction_s", "return", "solved", "predicted_return", "rollouts",
-                                                    "failed_rollouts", "log_evidence", "phi.gain"}));
+  EXPECT_EQ(table.header,
+            (std::vector<std::string>{"run", "scenario", "learner", "prior", "variant", "seed", "trial",
+                                      "interaction_s", "return", "solved", "predicted_return", "rollouts",
+                                      "failed_rollouts", "log_evidence", "phi.gain", "phi.gain.low", "phi.gain.high"}));
   ASSERT_EQ(table.rows.size(), 12u);
   EXPECT_EQ(table.rows[3][0], "line-echo-near-2");
   EXPECT_EQ(table.rows[3][6], "2");

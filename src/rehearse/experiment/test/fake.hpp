@@ -177,6 +177,8 @@ class EchoLearner final : public learners::Learner {
     (*proposal_.phi)(0) += 0.01 * memory_;
     proposal_.predicted_return = memory_ / 3;
     if (told_ > 0) proposal_.log_evidence = -memory_;
+    if (told_ > 0)
+      proposal_.posterior = {{setting_.prior->space[0]}, proposal_.phi->head(1), Matrix::Constant(1, 1, 9)};
     proposal_.model = std::make_shared<LineModel>((*proposal_.phi)(0));
     proposal_.notes = {"a note, with a comma"};
     proposal_.left_out_rows = told_;

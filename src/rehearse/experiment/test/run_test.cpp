@@ -35,7 +35,8 @@ std::vector<std::string> lines_of(const fs::path& path) {
 /// Bytes of everything in a run folder that must not depend on how the run came about.
 std::string results_of(const fs::path& folder) {
   std::string bytes;
-  for (const std::string name : {"spec.toml", "trials.csv", "errors.csv", "notes.csv", "policy.json", "done"})
+  for (const std::string name :
+       {"spec.toml", "trials.csv", "errors.csv", "doubts.csv", "notes.csv", "policy.json", "done"})
     bytes += name + "\n" + read_file(folder / name);
   for (const std::string name : {"trajectories/trial-001.csv", "predictions/trial-003.csv"})
     bytes += name + "\n" + read_file(folder / name);
@@ -50,9 +51,12 @@ TEST(Run, FolderHoldsWhatTheContractSays) {
   const auto trials = lines_of(folder / "trials.csv");
   ASSERT_EQ(trials.size(), 4u);
   EXPECT_EQ(trials[0],
-            "trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence,phi.gain");
+            "trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence,phi.gain,"
+            "phi.gain.low,phi.gain.high");
   EXPECT_TRUE(trials[1].starts_with("1,1.2,")) << trials[1];
   EXPECT_NE(trials[1].find(",100,0,,1.2"), std::string::npos) << trials[1];  // no evidence before data
+  EXPECT_TRUE(trials[1].ends_with(",,")) << trials[1] << ": nor is anything known of φ";
+  EXPECT_TRUE(trials[2].ends_with(",0.1,4")) << trials[2];  // deviation 3: all of the box
 
   EXPECT_EQ(lines_of(folder / "timings.csv")[0], "trial,model_s,search_s,rollouts_per_s");
   const auto trajectory = lines_of(folder / "trajectories/trial-002.csv");
@@ -65,6 +69,10 @@ TEST(Run, FolderHoldsWhatTheContractSays) {
   EXPECT_EQ(lines_of(folder / "errors.csv")[0], "trial,horizon,compared,failed,rms x [m]");
   EXPECT_EQ(lines_of(folder / "errors.csv").size(), 1u + 3 * 4);
   EXPECT_EQ(lines_of(folder / "notes.csv")[1], "1,\"a note, with a comma\"");
+  EXPECT_EQ(lines_of(folder / "doubts.csv"),
+            (std::vector<std::string>{"trial,doubt", "2,gain is not determined by these trials: 0.1 to 4",
+                                      "3,gain is not determined by these trials: 0.1 to 4"}));
+  EXPECT_EQ(result.doubts, std::vector<std::string>{"gain is not determined by these trials: 0.1 to 4"});
 
   const auto policies = nlohmann::json::parse(read_file(folder / "policy.json"));
   EXPECT_EQ(policies["trials"].size(), 3u);

@@ -123,6 +123,7 @@ class BlackDrops final : public Learner {
                           options_.model, state, *setting_.evaluator);
       proposal.model = learned.model;
       proposal.phi = learned.state.phi;
+      proposal.posterior = std::move(learned.posterior);
       proposal.log_evidence = learned.log_evidence;
       proposal.left_out_rows = learned.left_out_rows;
       proposal.notes = std::move(learned.notes);

@@ -37,11 +37,13 @@ class ReportTest : public ::testing::Test {
                       "trials = 2\nseed = {}\n[scenario]\nplant.m = 1.5\nkind = \"a\"\n[learner]\nx = 2\n",
                       seed));
     write(run / "trials.csv",
-          "trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence,phi.m,phi.k\n"
-          "1,2.5,0.123456789,0,,0,0,,,\n2,5,3,1,2.75,1234567,1,12.5,1.4,0.25\n");
+          "trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence,phi.m,phi.m.low,"
+          "phi.m.high,phi.k\n"
+          "1,2.5,0.123456789,0,,0,0,,,,,\n2,5,3,1,2.75,1234567,1,12.5,1.4,1.25,1.6,0.25\n");
     write(run / "timings.csv", fmt::format("trial,model_s,search_s,rollouts_per_s\n1,0.5,2,10\n2,1,{},10\n", 2 + seed));
     write(run / "errors.csv", "trial,horizon,compared,failed,rms x [m]\n2,1,50,0,0.01\n");
     write(run / "notes.csv", "trial,note\n2,\"a fit, failed\"\n");
+    write(run / "doubts.csv", "trial,doubt\n2,m is not determined by these trials\n");
     for (int trial : {1, 2})
       write(run / fmt::format("trajectories/trial-00{}.csv", trial),
             "time [s],x [m],true x [m],u [N],reward\n0,0,0,1,\n0.1,0.5,0.4,,1\n");
@@ -69,12 +71,12 @@ class ReportTest : public ::testing::Test {
   /// Four runs: three done, one failed.
   void write_campaign() const {
     json summary = {{"format", 1}, {"title", "t"}, {"skipped", json::array()}, {"runs", json::array()}};
-    std::string rows = "run,scenario,learner,prior,variant,seed,trial,phi.m\n";
+    std::string rows = "run,scenario,learner,prior,variant,seed,trial,phi.m,phi.m.low,phi.m.high\n";
     for (int seed : {1, 2, 3}) {
       const std::string name = fmt::format("run-{}", seed);
       write_run(folder_ / "runs" / name, seed);
       summary["runs"].push_back(run_entry(name, seed, "done"));
-      rows += fmt::format("{0},slider,gp-mi,light,,{1},1,\n{0},slider,gp-mi,light,,{1},2,{2}\n", name, seed,
+      rows += fmt::format("{0},slider,gp-mi,light,,{1},1,,,\n{0},slider,gp-mi,light,,{1},2,{2},1,2\n", name, seed,
                           1 + 0.1 * seed);
     }
     summary["runs"].push_back(run_entry("run-4", 4, "failed"));
@@ -116,6 +118,8 @@ TEST_F(ReportTest, ARunHasItsTablesAsColumns) {
   EXPECT_EQ(run["trials"]["predicted_return"], json::parse("[null, 2.75]"));
   EXPECT_EQ(run["truth"], json::parse(R"({"m": 1.5})"));  // k is not the plant's
   EXPECT_EQ(run["notes"]["note"], json::parse(R"(["a fit, failed"])"));
+  EXPECT_EQ(run["trials"]["phi.m.high"], json::parse("[null, 1.6]"));
+  EXPECT_EQ(run["doubts"]["doubt"], json::parse(R"(["m is not determined by these trials"])"));
   ASSERT_EQ(run["episodes"].size(), 2u);
   EXPECT_EQ(run["episodes"][0]["trajectory"]["true x [m]"], json::parse("[0, 0.4]"));
   EXPECT_TRUE(run["episodes"][0]["prediction"].is_null());
@@ -123,6 +127,14 @@ TEST_F(ReportTest, ARunHasItsTablesAsColumns) {
   EXPECT_EQ(run["episodes"][1]["prediction"]["x mean [m]"], json::parse("[0, null]"));
   EXPECT_EQ(run["episodes"][1]["motion"]["frames"], json::parse("[[1.23457]]"));
   EXPECT_EQ(run["episodes"][1]["motion"]["predicted"], json::parse("[[null]]"));
+}
+
+TEST_F(ReportTest, ARunOfAnOlderVersionHasNoDoubts) {
+  write_run(folder_);
+  fs::remove(folder_ / "doubts.csv");
+  const Report report = read_folder(folder_);
+  EXPECT_EQ(problems_of(report), Lines{});
+  EXPECT_FALSE(json::parse(report.json)["run"].contains("doubts"));
 }
 
 TEST_F(ReportTest, AReplayHasOneEpisode) {

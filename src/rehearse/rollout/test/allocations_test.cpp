@@ -77,7 +77,8 @@ TEST(Allocations, NoneWithThePendubotsGpsAndPriors) {
   for (const prior::Prior& prior : {priors[2], prior::choice(priors)})
     for (const auto variance : {dynamics::PredictedVariance::latent, dynamics::PredictedVariance::noisy})
       expect_none_in_time_loop(
-          dynamics::GpModel(features, dynamics::Mean{prior, prior.space.values()}, posterior(features), variance),
+          dynamics::GpModel(features, pendubot.task.kinematics(), dynamics::Mean{prior, prior.space.values()},
+                            posterior(features), variance),
           *pendubot.policy, pendubot.task);
 }
 

@@ -1,0 +1,50 @@
+#pragma once
+// How sure the data leave us of φ.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/parameters.hpp"
+#include "rehearse/dynamics/estimate.hpp"
+
+namespace rehearse::dynamics {
+
+/// What the data say of the prior's continuous parameters: a normal distribution around the φ learned.
+struct PhiPosterior {
+  std::vector<Parameter> parameters;  // q: the continuous ones, with their boxes
+  Vector mean;                        // q, the φ learned
+  Matrix covariance;                  // q × q, positive definite
+
+  /// 95 %, of each parameter whatever the others are, inside its box.
+  std::vector<Interval> intervals() const;
+
+  /// What the data cannot tell, a sentence each: parameters that only together fit or do not, those that could be
+  /// nearly anything, and those at the end of their box.
+  std::vector<std::string> doubts() const;
+};
+
+struct PhiPosteriorOptions {
+  // What the prior cannot explain counts as so many observations of each output, however many there are. Large: as
+  // many as there are, which is overconfident where a parameter that is not tuned is wrong (docs/results.md).
+  double misfit_observations = 4;
+  void fields(FieldVisitor& v) { v.number("misfit_observations", misfit_observations, above(0)); }
+};
+
+/// Laplace's approximation around the estimate with its kernels K_e held: with J_e the derivatives of the prior mean of
+/// output e, the precision is the sum over the outputs of J_eᵀ K_e⁻¹ J_e (Gauss and Newton's; Rasmussen 2006, section
+/// 2.7), plus that of a uniform distribution in the box. What φ cannot explain looks like the prior's own doing, so
+/// that GPs alone take it for far less than it is (Brynjarsdóttir and O'Hagan 2014): K_e has the misfit's mean
+/// square × rows / misfit_observations added in each direction of J_e. The misfit is the part of the residuals that
+/// the GP predicts from other rows. Empty if the prior has no continuous parameter or the estimate no finite score, or
+/// if a number is not finite.
+std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Estimate& estimate,
+                                          const PhiPosteriorOptions& options);
+
+/// The same around a φ of least squares, without GPs: the residuals' variance takes the place of K_e, and the misfit is
+/// what rows of nearly the same input have in common.
+std::optional<PhiPosterior> phi_posterior(const Residuals& residuals, const prior::Prior& prior, const Vector& phi,
+                                          const PhiPosteriorOptions& options, const Evaluator& evaluator);
+
+}  // namespace rehearse::dynamics
