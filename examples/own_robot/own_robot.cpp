@@ -26,7 +26,7 @@ int main() {
 
   // The task: from rest at 1 m to the origin within 2 s.
   Task task;
-  task.states = {{"velocity", "m/s"}, {"position", "m"}};
+  task.states = {{"velocity", "m/s"}, {.name = "position", .unit = "m", .rate = "velocity"}};
   task.actions = {{"force", "N", {-5, 5}}};
   task.start_mean = Vector{{0, 1}};
   task.start_std = Vector::Zero(2);

@@ -263,7 +263,7 @@ std::vector<std::unique_ptr<LearnerBuilder>> builders() {
   const auto add = [&](const char* name, const char* summary, dynamics::Kind kind) {
     all.push_back(std::make_unique<Builder>(name, summary, std::move(kind)));
   };
-  add("black-drops", "GPs from data alone; the first trial is a random policy", dynamics::ZeroMean{});
+  add("black-drops", "GPs from data alone; the first trial is random actions", dynamics::ZeroMean{});
   add("black-drops-prior", "GPs around the prior as it is given", dynamics::FixedPrior{});
   add("gp-mi", "GPs around the prior, its parameters identified together with the GPs", dynamics::GpMi{});
   add("mi", "the prior's parameters identified from data, no GP", dynamics::Mi{});
