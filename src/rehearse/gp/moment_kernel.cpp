@@ -174,12 +174,18 @@ struct Loops {
 template <template <int> class Call, class... Arguments>
 HWY_INLINE void dispatch(Index D, Arguments&&... arguments) {
   switch (D) {
-    case 3: return Call<3>::run(arguments...);
-    case 4: return Call<4>::run(arguments...);
-    case 5: return Call<5>::run(arguments...);
-    case 6: return Call<6>::run(arguments...);
-    case 7: return Call<7>::run(arguments...);
-    default: return Call<0>::run(arguments...);
+    case 3:
+      return Call<3>::run(arguments...);
+    case 4:
+      return Call<4>::run(arguments...);
+    case 5:
+      return Call<5>::run(arguments...);
+    case 6:
+      return Call<6>::run(arguments...);
+    case 7:
+      return Call<7>::run(arguments...);
+    default:
+      return Call<0>::run(arguments...);
   }
 }
 

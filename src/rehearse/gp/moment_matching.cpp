@@ -289,8 +289,8 @@ void MomentMatching::pair_adjoint(const Gaussian& input, const MomentTape& tape,
     const auto& rows = tape.rows[at(2 * p + k)];
     const double scale = factor * g.shrinkage.scale;
     const Matrix weighted_rows = scale * term(own).weights.asDiagonal() * rows.topRows(n);
-    const Matrix spread = weighted_rows.col(0).asDiagonal() *
-                          tape.points[at(centres_of_[at(own)])].topRows(n) * A.asDiagonal();
+    const Matrix spread =
+        weighted_rows.col(0).asDiagonal() * tape.points[at(centres_of_[at(own)])].topRows(n) * A.asDiagonal();
     TermAdjoint& adjoint = adjoints[at(own)];
     adjoint.centres += 2 * (spread + weighted_rows.rightCols(D) * B.asDiagonal()) * (g.Q * A.asDiagonal()) - spread;
     adjoint.weights += scale * rows.col(0).head(n);

@@ -24,8 +24,7 @@ MomentTerm mean_term(const Posterior& posterior, Index e) {
 /// σ_f² c(a, b) of the rows of A and B divided by the length scales.
 Matrix covariance(const Matrix& A, const Matrix& B, double signal_variance) {
   Matrix K(A.rows(), B.rows());
-  for (Index j = 0; j < B.rows(); ++j)
-    K.col(j) = -0.5 * (A.rowwise() - B.row(j)).rowwise().squaredNorm();
+  for (Index j = 0; j < B.rows(); ++j) K.col(j) = -0.5 * (A.rowwise() - B.row(j)).rowwise().squaredNorm();
   vector_exp(K.data(), K.data(), K.size());
   return signal_variance * K;
 }
@@ -94,9 +93,9 @@ std::vector<MomentTerm> mean_terms(const Posterior& posterior, double jitter) {
 std::vector<MomentTerm> fitc_terms(const ConstMatrixView& X, const ConstMatrixView& Y, const ConstMatrixView& Z,
                                    const std::vector<Hyperparameters>& hyperparameters, double ridge) {
   Violations violations;
-  violations.require(Z.rows() >= 1 && Z.cols() == X.cols(),
-                     fmt::format("fitc: the inducing inputs are {} × {}, must be m × {} with m ≥ 1", Z.rows(), Z.cols(),
-                                 X.cols()));
+  violations.require(
+      Z.rows() >= 1 && Z.cols() == X.cols(),
+      fmt::format("fitc: the inducing inputs are {} × {}, must be m × {} with m ≥ 1", Z.rows(), Z.cols(), X.cols()));
   violations.require(Y.rows() == X.rows() && Y.rows() >= 1,
                      fmt::format("fitc: {} targets for {} inputs, must be as many and ≥ 1", Y.rows(), X.rows()));
   violations.require(static_cast<Index>(hyperparameters.size()) == Y.cols(),

@@ -94,7 +94,8 @@ Vector ExpectedReturn::differentiate(const RbfPolicy& policy, const ReturnWorksp
 
 Return ExpectedReturn::operator()(const ConstVectorView& theta, Vector* gradient, ReturnWorkspace& workspace,
                                   const Evaluator& evaluator) const {
-  Return result{.value = kNaN, .rewards = Vector::Constant(horizon_, kNaN), .variances = Vector::Constant(horizon_, kNaN)};
+  Return result{
+      .value = kNaN, .rewards = Vector::Constant(horizon_, kNaN), .variances = Vector::Constant(horizon_, kNaN)};
   if (gradient) gradient->setConstant(theta.size(), kNaN);
   const RbfPolicy policy(policy_, theta);
   if (!policy.ok() || !roll_out(policy, workspace, result, evaluator)) return result;

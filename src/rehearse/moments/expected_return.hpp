@@ -18,11 +18,11 @@ struct ReturnWorkspace {
 };
 
 struct Return {
-  double value = 0;      // Σ E[r_t], t = 1..T; NaN if it could not be computed
-  Vector rewards;        // E[r_t]
-  Vector variances;      // of the rewards
-  Index steps = 0;       // that could be computed: T, or fewer where the moments were lost
-  bool ok() const;       // the value is finite
+  double value = 0;  // Σ E[r_t], t = 1..T; NaN if it could not be computed
+  Vector rewards;    // E[r_t]
+  Vector variances;  // of the rewards
+  Index steps = 0;   // that could be computed: T, or fewer where the moments were lost
+  bool ok() const;   // the value is finite
 };
 
 /// θ ↦ Σ_t E[r(x_t)], x_0 ~ start, under the policy at θ on `dynamics`. Immutable; any thread.

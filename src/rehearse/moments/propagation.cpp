@@ -41,8 +41,8 @@ void Propagation::adjoint(const Gaussian& state, const Transformed& features, co
   Gaussian of_features = Gaussian::zero(F);
   policy_.adjoint({features.mean, features.covariance}, tape.policy, action, of_features, policy);
   features_adjoint.mean += inputs.mean.head(F) + of_features.mean;
-  features_adjoint.covariance += inputs.covariance.topLeftCorner(F, F) + of_features.covariance +
-                                 by_cross * tape.action.gain.transpose();
+  features_adjoint.covariance +=
+      inputs.covariance.topLeftCorner(F, F) + of_features.covariance + by_cross * tape.action.gain.transpose();
   features_adjoint.gain += by_gain.leftCols(F) + by_action_gain * tape.action.gain.transpose();
 }
 

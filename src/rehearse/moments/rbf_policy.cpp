@@ -41,7 +41,8 @@ RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& t
       scale_(options.scale),
       squash_(options.bounds) {
   const Index size = inputs_ * actions_ + centres_ * (inputs_ + actions_);
-  if (theta.size() != size) throw InvalidInput(fmt::format("policy: θ has {} numbers, must have {}", theta.size(), size));
+  if (theta.size() != size)
+    throw InvalidInput(fmt::format("policy: θ has {} numbers, must have {}", theta.size(), size));
   if (!theta.allFinite()) return;
   unscaled_ = theta.segment(centres_at(), centres_ * inputs_).reshaped(inputs_, centres_).transpose();
   std::vector<double> scaled(at(gp::padded(centres_) * inputs_));

@@ -39,7 +39,6 @@ class RbfPolicy {
   Vector gradient(const std::vector<gp::TermAdjoint>& networks) const;
 
  private:
-
   Index lengths_at(Index action) const { return action * inputs_; }
   Index centres_at() const { return actions_ * inputs_; }
   Index targets_at(Index action) const { return centres_at() + centres_ * inputs_ + action * centres_; }

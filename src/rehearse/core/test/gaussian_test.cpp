@@ -11,8 +11,8 @@ TEST(AffineMoments, AgreeWithSamplesAndTheirAdjointWithDifferences) {
   const Gaussian x = tools::random_gaussian(4, 0.5, 1);
   const Matrix A = tools::normals(2, 4, 2);
   const Vector b = tools::normals(2, 1, 3);
-  tools::expect_samples([&](const Vector& at, const Vector&) { return Vector(A * at + b); }, x,
-                        affine_moments(A, b, x), 4);
+  tools::expect_samples([&](const Vector& at, const Vector&) { return Vector(A * at + b); }, x, affine_moments(A, b, x),
+                        4);
 
   const Transformed by = tools::random_adjoint(4, 2, 5);
   Gaussian x_adjoint = Gaussian::zero(4);

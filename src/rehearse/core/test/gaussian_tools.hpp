@@ -38,9 +38,8 @@ inline double slope(const std::function<double(double)>& f, double step) {
 }
 
 inline Vector slopes(const std::function<double(const Vector&)>& f, const Vector& x, double step) {
-  return Vector::NullaryExpr(x.size(), [&](Index i) {
-    return slope([&](double h) { return f(x + h * Vector::Unit(x.size(), i)); }, step);
-  });
+  return Vector::NullaryExpr(
+      x.size(), [&](Index i) { return slope([&](double h) { return f(x + h * Vector::Unit(x.size(), i)); }, step); });
 }
 
 /// Compares an adjoint with differences of f: those by the mean, and those by the entries of a covariance that stays

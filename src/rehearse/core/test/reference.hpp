@@ -20,7 +20,8 @@ inline nlohmann::json load(const std::string& file) {
 inline Matrix matrix(const nlohmann::json& rows) {
   if (rows.is_number()) return Matrix::Constant(1, 1, rows.get<double>());
   const auto size = static_cast<Index>(rows.size());
-  if (!rows[0].is_array()) return Matrix::NullaryExpr(size, 1, [&](Index i) { return rows[static_cast<std::size_t>(i)].get<double>(); });
+  if (!rows[0].is_array())
+    return Matrix::NullaryExpr(size, 1, [&](Index i) { return rows[static_cast<std::size_t>(i)].get<double>(); });
   Matrix m(size, static_cast<Index>(rows[0].size()));
   for (Index i = 0; i < m.rows(); ++i)
     for (Index j = 0; j < m.cols(); ++j) m(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "naive.hpp"
-#include "rehearse/core/test/reference.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/test/reference.hpp"
 
 namespace rehearse::gp {
 namespace {

@@ -36,8 +36,8 @@ void expect_agreement(const MomentMatching& matching, const nlohmann::json& test
   const Transformed result = moments(matching, {reference::vector(test["m"]), reference::matrix(test["s"])});
   EXPECT_LT(reference::error(result.mean, reference::matrix(expected["M"])), tolerance) << test["hyp"] << test["m"];
   const Matrix covariance = reference::matrix(expected["S"]);
-  // Of a known function at a known input only the 1e-6 are left that PILCO adds: what comes before is rounding, of which
-  // PILCO's own number has 2e-12.
+  // Of a known function at a known input only the 1e-6 are left that PILCO adds: what comes before is rounding, of
+  // which PILCO's own number has 2e-12.
   const double largest = std::max(covariance.cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_LT((result.covariance - covariance).cwiseAbs().maxCoeff(), tolerance * largest) << test["hyp"] << test["m"];
   EXPECT_LT(reference::error(result.gain, reference::matrix(expected["V"])), tolerance) << test["hyp"] << test["m"];
@@ -61,7 +61,8 @@ std::vector<MomentTerm> mixture(Index D, Index n = 12) {
   const std::vector<Hyperparameters> theta{naive::hyperparameters(D, 1.5, 1.2, 0.3),
                                            naive::hyperparameters(D, 2.5, 0.8, 0.2)};
   Matrix Y(n, 2);
-  for (Index e = 0; e < 2; ++e) Y.col(e) = naive::draw(X, theta[static_cast<std::size_t>(e)], 2 + static_cast<std::uint64_t>(e));
+  for (Index e = 0; e < 2; ++e)
+    Y.col(e) = naive::draw(X, theta[static_cast<std::size_t>(e)], 2 + static_cast<std::uint64_t>(e));
   std::vector<MomentTerm> terms = exact_terms({Inputs(X), Y, theta});
   for (Index e = 0; e < 2; ++e)
     terms.push_back({.output = e,

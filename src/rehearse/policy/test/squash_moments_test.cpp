@@ -46,8 +46,12 @@ TEST(SquashMoments, AgreeWithPilcoIncludingDerivatives) {
       squash.adjoint(a, by, adjoint);
       const auto derivative = [&](const std::string& variable) {
         const Matrix matrix = reference::matrix(expected["d" + of + "d" + variable]);
-        return Matrix(matrix.reshaped(of == "M" ? E : of == "V" ? E * E : m.size() * E,
-                                      variable == "m" ? m.size() : m.size() * m.size()).row(row));
+        return Matrix(matrix
+                          .reshaped(of == "M"   ? E
+                                    : of == "V" ? E * E
+                                                : m.size() * E,
+                                    variable == "m" ? m.size() : m.size() * m.size())
+                          .row(row));
       };
       EXPECT_LT(reference::error(adjoint.mean, derivative("m").reshaped()(indices)), 1e-9) << test["name"] << of << row;
       EXPECT_LT(reference::error(adjoint.covariance + adjoint.covariance.transpose(),

@@ -20,7 +20,8 @@ Matrix symmetric(const Matrix& A) { return A + A.transpose(); }
 
 TEST(SaturatingMoments, AgreeWithPilcoIncludingDerivatives) {
   for (const auto& test : reference::load("d_losses.json")["lossSat"]) {
-    const SaturatingReward reward{.goal = reference::vector(test["z"]), .distances = root(reference::matrix(test["W"]))};
+    const SaturatingReward reward{.goal = reference::vector(test["z"]),
+                                  .distances = root(reference::matrix(test["W"]))};
     const RewardMoments moments =
         saturating_moments(reward, {reference::vector(test["m"]), reference::matrix(test["s"])});
     EXPECT_NEAR(1 - moments.mean, test["L"].get<double>(), 1e-8);
@@ -56,13 +57,12 @@ TEST(SaturatingMoments, AgreeWithPilcosTipDistances) {
   const auto losses = reference::load("d_losses.json");
   const double width = 0.25, l = 0.5;
   expect_agreement(FeatureMap({plain, plain, plain, angle}),
-                   {.goal = Vector{{0, 0, 0, -1, 0}},
-                    .distances = Matrix{{1, 0, 0, 0, l}, {0, 0, 0, l, 0}} / width},
+                   {.goal = Vector{{0, 0, 0, -1, 0}}, .distances = Matrix{{1, 0, 0, 0, l}, {0, 0, 0, l, 0}} / width},
                    losses["loss_cp"]);
-  expect_agreement(FeatureMap({plain, plain, angle, angle}),
-                   {.goal = Vector{{0, 0, 1, 0, 1, 0}},
-                    .distances = Matrix{{0, 0, l, 0, l, 0}, {0, 0, 0, l, 0, l}} / width},
-                   losses["loss_pendubot"]);
+  expect_agreement(
+      FeatureMap({plain, plain, angle, angle}),
+      {.goal = Vector{{0, 0, 1, 0, 1, 0}}, .distances = Matrix{{0, 0, l, 0, l, 0}, {0, 0, 0, l, 0, l}} / width},
+      losses["loss_pendubot"]);
 }
 
 TEST(SaturatingMoments, AgreeWithSamplesAndTheirDerivativesWithDifferences) {
@@ -73,8 +73,7 @@ TEST(SaturatingMoments, AgreeWithSamplesAndTheirDerivativesWithDifferences) {
     return Vector::Constant(1, std::exp(-(reward.distances * (at - reward.goal)).squaredNorm() / 2)).eval();
   };
   tools::expect_samples(
-      value, f,
-      {Vector::Constant(1, moments.mean), Matrix::Constant(1, 1, moments.variance), moments.by_mean.mean}, 5);
+      value, f, {Vector::Constant(1, moments.mean), Matrix::Constant(1, 1, moments.variance), moments.by_mean.mean}, 5);
   tools::expect_slopes([&](const Gaussian& at) { return saturating_moments(reward, at).mean; }, f, moments.by_mean);
 }
 

@@ -38,8 +38,7 @@ void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
 /// The same: the tip is at (x + l sin θ, −l cos θ), the goal at (0, l).
 SaturatingReward saturating_reward() {
   const double l = kRewardLength;
-  return {.goal = Vector{{0, 0, 0, -1, 0}},
-          .distances = Matrix{{1, 0, 0, 0, l}, {0, 0, 0, l, 0}} / kRewardWidth};
+  return {.goal = Vector{{0, 0, 0, -1, 0}}, .distances = Matrix{{1, 0, 0, 0, l}, {0, 0, 0, l, 0}} / kRewardWidth};
 }
 
 Task make_task(const Options& options) {
