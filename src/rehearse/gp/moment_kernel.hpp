@@ -34,18 +34,22 @@ struct PairForm {
   const double *A, *B, *C;  // D × D; A and B symmetric
 };
 
-/// Sums of G_ij = w_i w_j L_ij, or (w_i w_j − N_ij) L_ij with N given.
+/// Sums of G_ij = w_i w_j L_ij, or W_ij L_ij with a symmetric W, of which pair_weights() makes `weights`.
 struct PairSums {
   PointSums a;    // of Σ_j G_ij over i
-  PointSums b;    // of Σ_i G_ij over j; b.first null: not wanted (a network with itself, where they are those of a)
+  PointSums b;    // of Σ_i G_ij over j; b.first null: not wanted, as those of a network with itself are those of a
   double* cross;  // Σ_ij G_ij z_i z_jᵀ, D × D
-  double* rows;   // null or D + 1 columns of a.stride: Σ_j w_j L_ij, Σ_j w_j L_ij z_j (without N)
+  double* rows;   // null or D + 1 columns of a.stride: Σ_j w_j L_ij, Σ_j w_j L_ij z_j; not with W
 };
 
-/// weights: null, or w_i w_j − N_ij in columns of a.stride, b.size of them. scratch: pair_scratch(b) doubles.
+/// weights: null, or for a network with itself what pair_weights() gave. scratch: pair_scratch(b) doubles.
 void pair_sums(const WeightedPoints& a, const WeightedPoints& b, Index D, const PairForm& form, const double* weights,
                PairSums& sums, double* scratch);
-constexpr Index pair_scratch(const WeightedPoints& b) { return 10 * b.stride; }
+constexpr Index pair_scratch(const WeightedPoints& b) { return 9 * b.stride; }
+
+/// W in columns of its stride, padded with zeros: blocks of 8 × 8 below the diagonal as they are, those on it halved,
+/// those above it left out.
+Matrix pair_weights(const Matrix& W);
 
 /// The most dimensions that the loops take.
 constexpr Index kMostMomentInputs = 32;

@@ -116,8 +116,7 @@ MomentMatching::MomentMatching(std::vector<MomentTerm> terms, Index outputs, boo
     weights_.push_back(Vector::Zero(stride));
     weights_.back().head(n) = t.weights;
     if (t.reduction.size() == 0) continue;
-    pair_weights_[at(a)] = Matrix::Zero(stride, n);
-    pair_weights_[at(a)].topRows(n) = t.weights * t.weights.transpose() - t.reduction;
+    pair_weights_[at(a)] = pair_weights(t.weights * t.weights.transpose() - t.reduction);
   }
 }
 
@@ -193,10 +192,10 @@ bool MomentMatching::pair(const Gaussian& input, Index p, MomentTape& tape) cons
               scratch.data());
   }
   if (parameters_) sums.rows = rows(0, points_a);
-  const Matrix& pair_weights = pair_weights_[at(a)];
+  const Matrix& own_weights = pair_weights_[at(a)];
   pair_sums(points_a, points_b, D, {form_a.data(), form_b.data(), form_c.data()},
-            a == b && pair_weights.size() > 0 ? pair_weights.data() : nullptr, sums, scratch.data());
-  if (a == b) first_b = first_a, bb = aa;
+            a == b && own_weights.size() > 0 ? own_weights.data() : nullptr, sums, scratch.data());
+  if (a == b) first_b = first_a, bb = aa;  // a network with itself
 
   const double scale = g.shrinkage.scale, total = scale * sums.a.total;
   aa *= scale, bb *= scale, ab *= scale;

@@ -80,7 +80,7 @@ class MomentMatching {
   std::vector<const Matrix*> centres_;  // distinct
   std::vector<Index> centres_of_;       // a term: where its own are
   std::vector<Vector> weights_;         // a term, padded
-  std::vector<Matrix> pair_weights_;    // of terms with reduction: w wᵀ − N, padded
+  std::vector<Matrix> pair_weights_;    // of terms with reduction, of w wᵀ − N
 };
 
 }  // namespace rehearse::gp
