@@ -14,6 +14,7 @@
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/gp/fit.hpp"
+#include "rehearse/gp/fitc.hpp"
 #include "rehearse/moments/expected_return.hpp"
 #include "rehearse/policy/rbf.hpp"
 #include "rehearse/robots/cartpole/cartpole.hpp"

@@ -29,10 +29,4 @@ std::vector<MomentTerm> exact_terms(const Posterior& posterior);
 /// PILCO's policies, which add `jitter` = 1e-6 to the variance of each output.
 std::vector<MomentTerm> mean_terms(const Posterior& posterior, double jitter = 0);
 
-/// GPs of Y (n × E) at inputs X (n × D) by FITC with the inducing inputs Z (m × D) that the outputs share (Snelson
-/// 2006; PILCO: for more than 300 rows, m = 300): like a GP with m points. `ridge` is added to the covariance of the
-/// inducing inputs (PILCO: 1e-6). Throws InvalidInput on wrong sizes, and where a matrix cannot be factorised.
-std::vector<MomentTerm> fitc_terms(const ConstMatrixView& X, const ConstMatrixView& Y, const ConstMatrixView& Z,
-                                   const std::vector<Hyperparameters>& hyperparameters, double ridge = 1e-6);
-
 }  // namespace rehearse::gp

@@ -6,6 +6,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/test/gaussian_tools.hpp"
 #include "rehearse/core/test/reference.hpp"
+#include "rehearse/gp/fitc.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -206,20 +207,6 @@ TEST(MomentMatching, RefusesWhatDoesNotFit) {
   terms[0].weights(0) = std::nan("");
   EXPECT_THROW(MomentMatching(terms, 2), InvalidInput);
   EXPECT_THROW(MomentMatching({}, 2), InvalidInput);
-  const Matrix X = naive::normals(5, 2, 1), Z = naive::normals(3, 3, 2);
-  EXPECT_THROW(fitc_terms(X, X, Z, {2, naive::hyperparameters(2, 1, 1, 0.1)}), InvalidInput);
-}
-
-TEST(Fitc, WithAllInputsInducingIsTheGp) {
-  const Matrix X = naive::normals(20, 3, 71);
-  const Hyperparameters theta = naive::hyperparameters(3, 1, 1, 0.3);
-  const Matrix Y = naive::draw(X, theta, 72);
-  const Gaussian x = tools::random_gaussian(3, 0.5, 73);
-  const Transformed fitc = moments({fitc_terms(X, Y, X, {theta}, 1e-10), 1}, x);
-  const Transformed exact = moments({exact_terms({Inputs(X), Y, {theta}}), 1}, x);
-  EXPECT_LT((fitc.mean - exact.mean).norm(), 1e-7);
-  EXPECT_LT((fitc.covariance - exact.covariance).norm(), 1e-7);
-  EXPECT_LT((fitc.gain - exact.gain).norm(), 1e-7);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "fixture.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/gp/fitc.hpp"
 #include "rehearse/robots/cartpole/cartpole.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
