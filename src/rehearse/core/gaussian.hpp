@@ -31,7 +31,7 @@ struct Transformed {
   Index outputs() const { return mean.size(); }
 };
 
-/// A x + b: the moments of a linear policy (Deisenroth 2010, eq. 3.36). A: E × D, b: E.
+/// A x + b: the moments of a linear policy (Deisenroth 2010, section 3.5). A: E × D, b: E.
 inline Transformed affine_moments(const Matrix& A, const Vector& b, const Gaussian& x) {
   return {A * x.mean + b, A * x.covariance * A.transpose(), A.transpose()};
 }

@@ -18,7 +18,10 @@ constexpr double kWorthSpreading = 30000;  // kernel values
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-SmallVector inverse_squares(const Vector& log_lengths) { return (-2 * log_lengths).array().exp(); }
+/// Kept away from 0 and infinity, beyond which an input is as good as irrelevant or all points are far.
+SmallVector inverse_squares(const Vector& log_lengths) {
+  return (-2 * log_lengths).array().exp().max(1e-200).min(1e200);
+}
 
 /// (I + D^½ s D^½)⁻¹ for a diagonal D, with 1/√det of what is inverted. Not ok if that is not positive definite.
 struct Shrinkage {
@@ -72,7 +75,7 @@ void check(const std::vector<MomentTerm>& terms, Index outputs, bool parameters)
 
 /// Of the pair of terms a and b: with A and B the diagonal inverse squared lengths and S = A + B,
 /// L_ij = exp(−½ z_iᵀ A z_i − ½ z_jᵀ B z_j + v_ijᵀ Q v_ij), v_ij = A z_i + B z_j, and E[c_i c_j] = scale · L_ij
-/// (Deisenroth 2010, eqs 2.53 and 2.54).
+/// (Deisenroth 2010, section 2.3).
 struct MomentMatching::Geometry {
   Geometry(const Gaussian& input, const MomentTerm& a, const MomentTerm& b)
       : A(inverse_squares(a.log_lengths)), B(inverse_squares(b.log_lengths)), shrinkage(input.covariance, A + B) {
@@ -144,7 +147,7 @@ void MomentMatching::prepare(const Gaussian& input, MomentTape& tape) const {
   tape.rows.resize(2 * pairs_.size());
 }
 
-/// q_i = w_i E[c(x, x_i)]: mean Σ q_i, gain B⁻¹ Σ q_i z_i (Deisenroth 2010, eqs 2.34 and 2.70).
+/// q_i = w_i E[c(x, x_i)]: mean Σ q_i, gain B⁻¹ Σ q_i z_i (Deisenroth 2010, section 2.3).
 bool MomentMatching::mean(const Gaussian& input, Index a, MomentTape& tape) const {
   thread_local Vector q;
   const MeanGeometry g(input, term(a));

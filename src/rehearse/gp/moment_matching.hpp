@@ -1,5 +1,5 @@
 #pragma once
-// The moments of GPs and radial basis functions of a Gaussian input, in closed form (Deisenroth 2010, eqs 2.34 to 2.70;
+// The moments of GPs and radial basis functions of a Gaussian input, in closed form (Deisenroth 2010, section 2.3;
 // Quiñonero-Candela 2003), and their adjoint.
 
 #include <vector>

@@ -17,7 +17,7 @@ struct PolicyTape {
 };
 
 /// The moments of a policy of policy::make_rbf at θ, where its features are Gaussian: of the mean of a GP with σ_f = 1
-/// (Deisenroth 2010, eqs 3.15, 3.46), squashed. PILCO adds 1e-6 to the variance of each action before the squash.
+/// (Deisenroth 2010, section 3.5), squashed. PILCO adds 1e-6 to the variance of each action before the squash.
 /// Immutable; any thread.
 class RbfPolicy {
  public:

@@ -6,8 +6,8 @@
 
 namespace rehearse::policy {
 
-/// The moments of PILCO's squash, centre + half width · (9 sin a + sin 3a)/8 for each action (Deisenroth 2010, eqs 3.43
-/// to 3.46), which keeps actions inside their bounds. Immutable; any thread.
+/// The moments of PILCO's squash, centre + half width · (9 sin a + sin 3a)/8 for each action (Deisenroth 2010,
+/// section 3.5), which keeps actions inside their bounds. Immutable; any thread.
 class SquashMoments {
  public:
   explicit SquashMoments(const std::vector<Interval>& bounds);

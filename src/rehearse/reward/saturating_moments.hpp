@@ -12,7 +12,7 @@ struct RewardMoments {
   Gaussian by_mean;     // the derivatives of the mean by those of f; the first is also s⁻¹ cov[f, reward]
 };
 
-/// Deisenroth 2010, eqs 3.18 to 3.20 (PILCO's lossSat is 1 − reward). Not finite where the covariance is far from
+/// Deisenroth 2010, section 3.7 (PILCO's lossSat is 1 − reward). Not finite where the covariance is far from
 /// positive semi-definite.
 RewardMoments saturating_moments(const SaturatingReward& reward, const Gaussian& features);
 
