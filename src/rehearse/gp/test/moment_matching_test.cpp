@@ -200,6 +200,19 @@ TEST(MomentMatching, SaysWhatIsNoGaussian) {
   }
 }
 
+TEST(MomentMatching, LengthScalesOutOfAllProportionStayFinite) {
+  std::vector<MomentTerm> terms = mixture(3);
+  const Gaussian x = tools::random_gaussian(3, 1, 63);
+  for (MomentTerm& term : terms) term.log_lengths(2) = 400;  // an input that does not matter
+  const Transformed result = moments({terms, 2}, x);
+  for (MomentTerm& term : terms) term.log_lengths(2) = 20;
+  const Transformed nearly = moments({terms, 2}, x);
+  EXPECT_LT((result.mean - nearly.mean).norm(), 1e-12);
+  EXPECT_LT((result.covariance - nearly.covariance).norm(), 1e-12);
+  for (MomentTerm& term : terms) term.log_lengths(2) = -400;  // no two points are alike
+  EXPECT_LT(moments({terms, 2}, x).mean.norm(), 1e-90);
+}
+
 TEST(MomentMatching, RefusesWhatDoesNotFit) {
   std::vector<MomentTerm> terms = mixture(3);
   EXPECT_THROW(MomentMatching(terms, 1), InvalidInput);
