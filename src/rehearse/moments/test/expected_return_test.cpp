@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "fixture.hpp"
+#include "naive.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/gp/fitc.hpp"
+#include "rehearse/reward/saturating_moments.hpp"
 #include "rehearse/robots/cartpole/cartpole.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
@@ -51,6 +53,31 @@ std::vector<Vector> random_directions(Index size, Index count) {
   for (Index k = 0; k < count; ++k)
     list.push_back(tools::normals(size, 1, 100 + static_cast<std::uint64_t>(k)).normalized());
   return list;
+}
+
+double largest_difference(const Matrix& a, const Matrix& b) {
+  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
+
+TEST(ExpectedReturn, IsThatOfPlainFormulas) {
+  for (const scenario::Scenario& scenario : {robots::cartpole::make({}), robots::pendubot::make({})}) {
+    const Task& task = scenario.task;
+    Problem problem(scenario, 30, 12);
+    const Vector theta = fixture::random_theta(*problem.policy);
+    const Return result = problem.expected(theta, nullptr, problem.workspace);
+    const fixture::Data data = fixture::random_data(scenario, 30);
+    const naive::Gp dynamics{data.inputs, data.changes, fixture::plain_hyperparameters(data)};
+    Gaussian state{task.start_mean, 0.01 * Matrix::Identity(4, 4)};
+    for (Index t = 0; t < task.horizon; ++t) {
+      state = naive::propagate(task.feature_map(), dynamics, *problem.policy->analytic(), theta, state);
+      const Gaussian& ours = problem.workspace.states[static_cast<std::size_t>(t + 1)];
+      ASSERT_LT(largest_difference(ours.mean, state.mean), 1e-8) << t;
+      ASSERT_LT(largest_difference(ours.covariance, state.covariance), 1e-8) << t;
+      const Transformed f = FeatureMoments(task.feature_map())(state);
+      EXPECT_NEAR(result.rewards(t), reward::saturating_moments(*task.saturating_reward, {f.mean, f.covariance}).mean,
+                  1e-8);
+    }
+  }
 }
 
 TEST(ExpectedReturn, GradientOfTheCartPoleAgreesWithDifferences) {
