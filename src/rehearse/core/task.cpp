@@ -63,6 +63,13 @@ std::vector<std::string> Task::violations() const {
   found.require(dt_s > 0 && std::isfinite(dt_s), fmt::format("dt_s = {}, must be > 0", dt_s));
   found.require(horizon >= 1, fmt::format("horizon = {}, must be ≥ 1", horizon));
   found.require(static_cast<bool>(reward), "task has no reward");
+  if (saturating_reward) {
+    const Index features = feature_map().features();
+    const auto& [goal, distances] = *saturating_reward;
+    found.require(goal.size() == features && distances.cols() == features && goal.allFinite() && distances.allFinite(),
+                  fmt::format("saturating_reward is of {} and {} features, must be of {} and finite", goal.size(),
+                              distances.cols(), features));
+  }
   found.require(std::isfinite(reward_floor), fmt::format("reward_floor = {}, must be finite", reward_floor));
   return found.list();
 }

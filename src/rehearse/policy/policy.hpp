@@ -6,6 +6,8 @@
 
 namespace rehearse::policy {
 
+struct RbfOptions;
+
 /// Deterministic u = π(x; θ), u inside its bounds for every θ and x. Immutable; any thread.
 ///
 /// A batch may hold a different θ in each row: candidates are compared in lockstep.
@@ -16,6 +18,9 @@ class Policy {
   virtual std::string name() const = 0;  // "mlp"
   virtual Index parameters() const = 0;  // of θ
   virtual Index actions() const = 0;     // du
+
+  /// What the policy is made of if its actions have analytic moments (moments/rbf_policy.hpp), else null.
+  virtual const RbfOptions* analytic() const { return nullptr; }
 
   /// Theta: n × parameters(), one policy a row; X: n × dx; t_s: time since the episode's start; U: n × du, written.
   /// A row with a NaN state gets a NaN action.

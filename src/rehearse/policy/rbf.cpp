@@ -24,32 +24,32 @@ void check(const RbfOptions& options) {
 class Rbf final : public Policy {
  public:
   explicit Rbf(RbfOptions options)
-      : features_(std::move(options.features)),
-        inverse_scale_(options.scale.cwiseInverse()),
-        bounds_(std::move(options.bounds)),
-        shape_{features_.features(), options.centres, static_cast<Index>(bounds_.size()), options.noise} {}
+      : options_(std::move(options)),
+        inverse_scale_(options_.scale.cwiseInverse()),
+        shape_{options_.features.features(), options_.centres, static_cast<Index>(options_.bounds.size()),
+               options_.noise} {}
 
   std::string name() const override { return "rbf"; }
   Index actions() const override { return shape_.actions; }
   Index parameters() const override { return shape_.parameters(); }
+  const RbfOptions* analytic() const override { return &options_; }
 
   void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double, MatrixView U) const override {
     thread_local Matrix inputs;
     const Index rows = X.rows();
     inputs.resize(rows, shape_.inputs);
-    features_.apply(X, inputs);
+    options_.features.apply(X, inputs);
     for (Index i = 0; i < shape_.inputs; ++i) inputs.col(i) *= inverse_scale_(i);
     rbf(shape_, Theta.data(), Theta.outerStride(), inputs.data(), rows, U.data(), U.outerStride(), rows);
     for (Index a = 0; a < shape_.actions; ++a) {
-      const auto [low, high] = bounds_[static_cast<std::size_t>(a)];
+      const auto [low, high] = options_.bounds[static_cast<std::size_t>(a)];
       for (double& u : U.col(a)) u = std::clamp((low + high) / 2 + (high - low) / 2 * u, low, high);  // a NaN stays
     }
   }
 
  private:
-  FeatureMap features_;
+  RbfOptions options_;
   Vector inverse_scale_;
-  std::vector<Interval> bounds_;
   RbfShape shape_;
 };
 

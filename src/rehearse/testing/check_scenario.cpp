@@ -1,5 +1,7 @@
 #include "rehearse/testing/check_scenario.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "rehearse/rollout/execute.hpp"
@@ -18,6 +20,22 @@ std::vector<std::string> check_drawing(const scenario::Drawing& drawing, const M
       return {fmt::format("{} lines for {} bodies", lines.size(), drawing.bodies.size())};
     for (const scenario::Line& line : lines)
       if (!line.from.allFinite() || !line.to.allFinite()) return {fmt::format("not finite in state {}", t)};
+  }
+  return {};
+}
+
+/// The analytic form of the reward gives what the reward gives.
+std::vector<std::string> check_saturating_reward(const Task& task, const Dataset& data) {
+  Vector rewards(data.size());
+  task.reward(data.states, data.actions, data.states, rewards);
+  const FeatureMap features = task.feature_map();
+  Matrix F(data.size(), features.features());
+  features.apply(data.states, F);
+  const auto& [goal, distances] = *task.saturating_reward;
+  for (Index t = 0; t < data.size(); ++t) {
+    const double value = std::exp(-(distances * (F.row(t).transpose() - goal)).squaredNorm() / 2);
+    if (!(std::abs(value - rewards(t)) <= 1e-12))
+      return {fmt::format("{} in state {}, where the reward is {}", value, t, rewards(t))};
   }
   return {};
 }
@@ -50,6 +68,7 @@ std::vector<std::string> check_scenario(const scenario::Scenario& scenario) {
     add("prior " + prior.name, check_simulator(*prior.simulator, data.states, data.actions, prior.parameters.values()));
   if (scenario.oracle)
     add("oracle", check_simulator(*scenario.oracle, data.states, data.actions, scenario.oracle->parameters().values()));
+  if (scenario.task.saturating_reward) add("saturating_reward", check_saturating_reward(scenario.task, data));
   if (scenario.drawing) add("drawing", check_drawing(*scenario.drawing, data.states));
   return found;
 }

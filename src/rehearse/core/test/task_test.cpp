@@ -51,6 +51,10 @@ TEST(Task, EachViolationIsNamed) {
             Lines{"state " + task().states[0].name + ": its rate speed is not another state"});
   EXPECT_EQ(after([](Task& t) { t.start_mean = Vector{{1}}; }),
             Lines{"start_mean has 1 entries, must have 2 finite ones"});
+  EXPECT_EQ(after([](Task& t) {
+              t.saturating_reward = {Vector::Zero(3), Matrix::Ones(2, 4)};
+            }),
+            Lines{"saturating_reward is of 3 and 4 features, must be of 3 and finite"});
   EXPECT_EQ(after([](Task& t) { t.start_std(0) = -1; }), Lines{"start_std has 2 entries, must have 2 of them, ≥ 0"});
 }
 

@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "naive.hpp"
-#include "reference.hpp"
+#include "rehearse/core/test/reference.hpp"
 
 namespace rehearse::gp {
 namespace {
 
 TEST(Evidence, AgreesWithPilco) {
-  const auto reference = reference::load();
+  const auto reference = reference::load("a_gp_nlml.json");
   const Inputs inputs(reference::matrix(reference["inputs"]["X"]));
   const Matrix Y = reference::matrix(reference["inputs"]["Y"]);
   const Penalties penalties{.length = true, .length_limit = 100, .snr = true, .snr_limit = 1000};

@@ -144,6 +144,7 @@ class BlackDrops final : public Learner {
     }
     dynamics::LearnedReward learned = dynamics::learn_reward(data_, features_, options_.reward);
     task.reward = std::move(learned.reward);
+    task.saturating_reward.reset();
     if (proposal.log_evidence) *proposal.log_evidence += learned.log_evidence;
     for (std::string& note : learned.notes) proposal.notes.push_back(std::move(note));
   }

@@ -60,6 +60,13 @@ TEST(Rbf, IsItsFormula) {
   }
 }
 
+TEST(Rbf, SaysWhatItIsMadeOf) {
+  const policy::RbfOptions* options = rbf(7)->analytic();
+  ASSERT_NE(options, nullptr);
+  EXPECT_EQ(options->centres, 7);
+  EXPECT_EQ(make_rbf(*options)->parameters(), rbf(7)->parameters());
+}
+
 TEST(Rbf, PassesThroughItsTargetsWhereCentresAreFarApart) {
   const auto policy = make_rbf(
       {.features = FeatureMap({StateKind::plain}), .scale = Vector::Ones(1), .centres = 2, .bounds = {{-1, 1}}});

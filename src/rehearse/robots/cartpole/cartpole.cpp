@@ -35,6 +35,12 @@ void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
       x * (x + 2 * kRewardLength * trig.col(0).array()) + 2 * kRewardLength * kRewardLength * (1 + trig.col(1).array());
 }
 
+/// The same: the tip is at (x + l sin θ, −l cos θ), the goal at (0, l).
+SaturatingReward saturating_reward() {
+  const double l = kRewardLength;
+  return {.goal = Vector{{0, 0, 0, -1, 0}}, .distances = Matrix{{1, 0, 0, 0, l}, {0, 0, 0, l, 0}} / kRewardWidth};
+}
+
 Task make_task(const Options& options) {
   Task task;
   task.states = {{"x", "m", StateKind::plain, "dx"},
@@ -47,6 +53,7 @@ Task make_task(const Options& options) {
   task.dt_s = options.dt_s;
   task.horizon = options.horizon;
   task.reward = reward::saturating(squared_tip_distance, kRewardWidth);
+  task.saturating_reward = saturating_reward();
   task.initial_reward = scenario::initial_reward(squared_tip_distance, options.ode);
   task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
     return std::abs(state(0)) <= kSolvedDistance && -std::cos(state(3)) >= std::cos(kSolvedAngle);

@@ -46,6 +46,12 @@ void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
   d2 = x.square() + y.square();
 }
 
+SaturatingReward saturating_reward() {
+  const double l = kRewardLength;
+  return {.goal = Vector{{0, 0, 1, 0, 1, 0}},
+          .distances = Matrix{{0, 0, l, 0, l, 0}, {0, 0, 0, l, 0, l}} / kRewardWidth};
+}
+
 Eigen::Vector2d tip(const ConstVectorView& state) {
   return kRewardLength *
          Eigen::Vector2d{-std::sin(state(2)) - std::sin(state(3)), std::cos(state(2)) + std::cos(state(3))};
@@ -71,6 +77,7 @@ Task make_task(const Options& options) {
   task.dt_s = kDt;
   task.horizon = kHorizon;
   task.reward = reward::saturating(squared_tip_distance, kRewardWidth);
+  task.saturating_reward = saturating_reward();
   task.initial_reward = scenario::initial_reward(squared_tip_distance, options.ode);
   task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
     return (tip(state) - Eigen::Vector2d{0, 1}).norm() <= kSolvedDistance;

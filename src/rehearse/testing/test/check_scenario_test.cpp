@@ -24,6 +24,11 @@ TEST(CheckScenario, NamesThePartThatBreaksALaw) {
   scenario.drawing->bodies.pop_back();
   EXPECT_EQ(check_scenario(scenario), Lines{"drawing: 2 lines for 1 bodies"});
 
+  scenario = robots::pendubot::make({});
+  scenario.task.saturating_reward->distances *= 1.001;
+  ASSERT_EQ(check_scenario(scenario).size(), 1u);
+  EXPECT_TRUE(check_scenario(scenario).front().starts_with("saturating_reward: "));
+
   scenario.task.actions.front().bounds = {-1, 1};  // the policy's are wider
   ASSERT_FALSE(check_scenario(scenario).empty());
   EXPECT_TRUE(check_scenario(scenario).front().starts_with("policy: "));

@@ -1,0 +1,113 @@
+#include "rehearse/moments/expected_return.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/reward/saturating_moments.hpp"
+
+namespace rehearse::moments {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+void check(const Task& task, const policy::Policy& policy, const gp::MomentMatching& dynamics, const Gaussian& start) {
+  Violations violations;
+  violations.require(policy.analytic() != nullptr,
+                     fmt::format("policy = {}: its actions have no analytic moments, must be rbf", policy.name()));
+  violations.require(task.saturating_reward.has_value(),
+                     "the task's reward has no analytic moments: it must be a saturating one of distances that are "
+                     "linear in the features (Task::saturating_reward)");
+  const Index inputs = task.feature_map().features() + task.action_size(), states = task.state_size();
+  violations.require(dynamics.inputs() == inputs && dynamics.outputs() == states,
+                     fmt::format("dynamics: {} inputs and {} outputs, must be {} and {}", dynamics.inputs(),
+                                 dynamics.outputs(), inputs, states));
+  violations.require(start.size() == states && start.covariance.rows() == states && start.covariance.cols() == states,
+                     fmt::format("start: {} states, must be {}", start.size(), states));
+  violations.require(task.horizon >= 1, fmt::format("horizon = {}, must be ≥ 1", task.horizon));
+  violations.throw_if_any();
+}
+
+Gaussian start_of(const Task& task) { return {task.start_mean, Matrix(task.start_std.cwiseAbs2().asDiagonal())}; }
+
+}  // namespace
+
+bool Return::ok() const { return std::isfinite(value); }
+
+ExpectedReturn::ExpectedReturn(const Task& task, const policy::Policy& policy,
+                               std::shared_ptr<const gp::MomentMatching> dynamics, std::optional<Gaussian> start)
+    : features_(task.feature_map()),
+      dynamics_(std::move(dynamics)),
+      start_(start ? std::move(*start) : start_of(task)),
+      horizon_(task.horizon) {
+  check(task, policy, *dynamics_, start_);
+  policy_ = *policy.analytic();
+  reward_ = *task.saturating_reward;
+}
+
+bool ExpectedReturn::roll_out(const RbfPolicy& policy, ReturnWorkspace& workspace, Return& result,
+                              const Evaluator& evaluator) const {
+  const Propagation propagation(*dynamics_, policy, evaluator);
+  workspace.states.resize(at(horizon_ + 1)), workspace.features.resize(at(horizon_ + 1));
+  workspace.steps.resize(at(horizon_));
+  workspace.states[0] = start_;
+  workspace.features[0] = features_(start_);
+  for (Index t = 0; t < horizon_; ++t, ++result.steps) {
+    Gaussian& next = workspace.states[at(t + 1)];
+    if (!propagation.forward(workspace.states[at(t)], workspace.features[at(t)], workspace.steps[at(t)], next))
+      return false;
+    Transformed& f = workspace.features[at(t + 1)];
+    f = features_(next);
+    const reward::RewardMoments moments = reward::saturating_moments(reward_, {f.mean, f.covariance});
+    if (!std::isfinite(moments.mean)) return false;
+    result.rewards(t) = moments.mean;
+    result.variances(t) = moments.variance;
+  }
+  return true;
+}
+
+Vector ExpectedReturn::differentiate(const RbfPolicy& policy, const ReturnWorkspace& workspace,
+                                     const Evaluator& evaluator) const {
+  const Propagation propagation(*dynamics_, policy, evaluator);
+  std::vector<gp::TermAdjoint> networks = policy.zero_adjoints();
+  const Index dx = start_.size();
+  Gaussian later = Gaussian::zero(dx);  // the adjoint of x_{t+1} by what comes after its reward
+  Transformed features_later = Transformed::zero(dx, workspace.features[0].outputs());
+  for (Index t = horizon_ - 1; t >= 0; --t) {
+    const Transformed& f = workspace.features[at(t + 1)];
+    const reward::RewardMoments moments = reward::saturating_moments(reward_, {f.mean, f.covariance});
+    features_later.mean += moments.by_mean.mean;
+    features_later.covariance += moments.by_mean.covariance;
+    features_.adjoint(workspace.states[at(t + 1)], f, features_later, later);
+    Gaussian state = Gaussian::zero(dx);
+    features_later = Transformed::zero(dx, f.outputs());
+    propagation.adjoint(workspace.states[at(t)], workspace.features[at(t)], workspace.steps[at(t)], later, state,
+                        features_later, networks);
+    later = std::move(state);
+  }
+  return policy.gradient(networks);
+}
+
+Return ExpectedReturn::operator()(const ConstVectorView& theta, Vector* gradient, ReturnWorkspace& workspace,
+                                  const Evaluator& evaluator) const {
+  Return result{
+      .value = kNaN, .rewards = Vector::Constant(horizon_, kNaN), .variances = Vector::Constant(horizon_, kNaN)};
+  if (gradient) gradient->setConstant(theta.size(), kNaN);
+  const RbfPolicy policy(policy_, theta);
+  if (!policy.ok() || !roll_out(policy, workspace, result, evaluator)) return result;
+  if (gradient) {
+    *gradient = differentiate(policy, workspace, evaluator);
+    if (!gradient->allFinite()) {
+      gradient->setConstant(kNaN);
+      return result;
+    }
+  }
+  result.value = result.rewards.sum();
+  return result;
+}
+
+}  // namespace rehearse::moments

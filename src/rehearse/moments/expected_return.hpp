@@ -1,0 +1,53 @@
+#pragma once
+// The expected return of a policy on GPs by moment matching, and its gradient (Deisenroth 2011: PILCO's value).
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "rehearse/core/task.hpp"
+#include "rehearse/moments/propagation.hpp"
+
+namespace rehearse::moments {
+
+/// Buffers that evaluations reuse. Not shared between threads.
+struct ReturnWorkspace {
+  std::vector<Gaussian> states;       // T + 1
+  std::vector<Transformed> features;  // of these
+  std::vector<StepTape> steps;        // T
+};
+
+struct Return {
+  double value = 0;  // Σ E[r_t], t = 1..T; NaN if it could not be computed
+  Vector rewards;    // E[r_t]
+  Vector variances;  // of the rewards
+  Index steps = 0;   // that could be computed: T, or fewer where the moments were lost
+  bool ok() const;   // the value is finite
+};
+
+/// θ ↦ Σ_t E[r(x_t)], x_0 ~ start, under the policy at θ on `dynamics`. Immutable; any thread.
+class ExpectedReturn {
+ public:
+  /// Throws InvalidInput with what to use instead if policy or reward have no analytic moments, and if sizes do not
+  /// agree. `start`: where not the task's.
+  ExpectedReturn(const Task& task, const policy::Policy& policy, std::shared_ptr<const gp::MomentMatching> dynamics,
+                 std::optional<Gaussian> start = {});
+
+  /// The gradient by θ in reverse mode, unless null; NaN where the value is. The result is the same for any number of
+  /// threads. No θ throws but one of another size.
+  Return operator()(const ConstVectorView& theta, Vector* gradient, ReturnWorkspace& workspace,
+                    const Evaluator& evaluator = serial_evaluator()) const;
+
+ private:
+  bool roll_out(const RbfPolicy& policy, ReturnWorkspace& workspace, Return& result, const Evaluator& evaluator) const;
+  Vector differentiate(const RbfPolicy& policy, const ReturnWorkspace& workspace, const Evaluator& evaluator) const;
+
+  FeatureMoments features_;
+  policy::RbfOptions policy_;
+  SaturatingReward reward_;
+  std::shared_ptr<const gp::MomentMatching> dynamics_;
+  Gaussian start_;
+  Index horizon_;
+};
+
+}  // namespace rehearse::moments

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "rehearse/core/feature_moments.hpp"
+#include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/moments/rbf_policy.hpp"
+
+namespace rehearse::moments {
+
+/// What the adjoint of a step needs of the forward pass.
+struct StepTape {
+  PolicyTape policy;
+  Transformed action;
+  Gaussian inputs;  // of the dynamics: features of the state, then actions
+  Matrix gain;      // of the inputs, dx × (features + du)
+  gp::MomentTape dynamics;
+  Transformed change;
+};
+
+/// One control step of a Gaussian state under a policy: features → action → inputs of the dynamics → change of the
+/// state → next state (Deisenroth 2011, section 2.2; PILCO's propagate). `dynamics` is of (features, actions), its
+/// outputs are the changes of all states. References must outlive it. Any thread.
+class Propagation {
+ public:
+  Propagation(const gp::MomentMatching& dynamics, const RbfPolicy& policy, const Evaluator& evaluator)
+      : dynamics_(dynamics), policy_(policy), evaluator_(evaluator) {}
+
+  /// features: of the state. False, and `next` undefined, where there are no moments.
+  bool forward(const Gaussian& state, const Transformed& features, StepTape& tape, Gaussian& next) const;
+
+  /// Adds to the adjoints of the state, of its features and of the policy what the adjoint of the next state brings.
+  void adjoint(const Gaussian& state, const Transformed& features, const StepTape& tape, const Gaussian& next_adjoint,
+               Gaussian& state_adjoint, Transformed& features_adjoint, std::vector<gp::TermAdjoint>& policy) const;
+
+ private:
+  const gp::MomentMatching& dynamics_;
+  const RbfPolicy& policy_;
+  const Evaluator& evaluator_;
+};
+
+}  // namespace rehearse::moments

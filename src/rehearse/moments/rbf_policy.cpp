@@ -1,0 +1,125 @@
+#include "rehearse/moments/rbf_policy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/vector_math.hpp"
+#include "rehearse/gp/cholesky.hpp"
+#include "rehearse/gp/kernel.hpp"
+
+namespace rehearse::moments {
+namespace {
+
+constexpr double kLargestLogLength = 20;  // as the policy itself has it
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Vector clamped(const ConstVectorView& log_lengths) {
+  return log_lengths.cwiseMax(-kLargestLogLength).cwiseMin(kLargestLogLength);
+}
+
+/// (L Lᵀ)⁻¹ y
+Vector solve(const std::vector<double>& tiles, const ConstVectorView& y) {
+  const Index n = y.size();
+  Vector x = Vector::Zero(gp::padded(n));
+  x.head(n) = y;
+  gp::tiles_solve(n, tiles.data(), x.data());
+  gp::tiles_solve_transposed(n, tiles.data(), x.data());
+  return x.head(n);
+}
+
+}  // namespace
+
+RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& theta, double jitter)
+    : inputs_(options.features.features()),
+      centres_(options.centres),
+      actions_(static_cast<Index>(options.bounds.size())),
+      theta_(theta),
+      scale_(options.scale),
+      squash_(options.bounds) {
+  const Index size = inputs_ * actions_ + centres_ * (inputs_ + actions_);
+  if (theta.size() != size)
+    throw InvalidInput(fmt::format("policy: θ has {} numbers, must have {}", theta.size(), size));
+  if (!theta.allFinite()) return;
+  unscaled_ = theta.segment(centres_at(), centres_ * inputs_).reshaped(inputs_, centres_).transpose();
+  std::vector<double> scaled(at(gp::padded(centres_) * inputs_));
+  std::vector<gp::MomentTerm> terms;
+  for (Index a = 0; a < actions_; ++a) {
+    const Vector log_lengths = clamped(theta.segment(lengths_at(a), inputs_));
+    inverse_lengths_.push_back((-log_lengths).array().exp());
+    factors_.emplace_back(at(gp::tiles_size(centres_)));
+    gp::scale_inputs(unscaled_.data(), centres_, inputs_, inverse_lengths_.back().data(), scaled.data());
+    const double jitter_of_ladder =
+        gp::factorise(scaled.data(), centres_, inputs_, options.noise * options.noise, factors_.back().data());
+    if (std::isnan(jitter_of_ladder)) return;
+    terms.push_back({.output = a,
+                     .centres = unscaled_ * scale_.asDiagonal(),
+                     .log_lengths = log_lengths.array() + scale_.array().log(),
+                     .weights = solve(factors_.back(), theta.segment(targets_at(a), centres_)),
+                     .variance = jitter});
+    if (!terms.back().weights.allFinite() || !terms.back().centres.allFinite()) return;
+  }
+  network_.emplace(std::move(terms), actions_, true);
+  ok_ = true;
+}
+
+bool RbfPolicy::forward(const Gaussian& features, PolicyTape& tape, Transformed& action,
+                        const Evaluator& evaluator) const {
+  if (!network_->forward(features, tape.network, tape.before, evaluator)) return false;
+  tape.squash = squash_({tape.before.mean, tape.before.covariance});
+  action.mean = tape.squash.mean;
+  action.covariance = tape.squash.covariance;
+  action.gain = tape.before.gain * tape.squash.gain;
+  return action.mean.allFinite() && action.covariance.allFinite() && action.gain.allFinite();
+}
+
+void RbfPolicy::adjoint(const Gaussian& features, const PolicyTape& tape, const Transformed& adjoint,
+                        Gaussian& features_adjoint, std::vector<gp::TermAdjoint>& networks) const {
+  Gaussian before = Gaussian::zero(actions_);
+  squash_.adjoint({tape.before.mean, tape.before.covariance},
+                  {adjoint.mean, adjoint.covariance, tape.before.gain.transpose() * adjoint.gain}, before);
+  network_->adjoint(features, tape.network, tape.before,
+                    {before.mean, before.covariance, adjoint.gain * tape.squash.gain.transpose()}, features_adjoint,
+                    &networks);
+}
+
+/// With ȳ = K⁻¹ w̄, the adjoint of K is −ȳ wᵀ. In coordinates s = c/ℓ, and with P_ij = (ȳ_i w_j + w_i ȳ_j) c(s_i, s_j)
+/// and T = diag(P 1) S − P S: that of the centres T/ℓ, that of ln ℓ_d −Σ_i S_id T_id.
+void RbfPolicy::add_covariance_gradient(Index action, const Vector& by_targets, Matrix& centres,
+                                        Vector& log_lengths) const {
+  const Matrix S = unscaled_ * inverse_lengths_[at(action)].asDiagonal();
+  const Vector& weights = network_->terms()[at(action)].weights;
+  Matrix P(centres_, centres_);
+  for (Index j = 0; j < centres_; ++j) {
+    auto column = P.col(j);
+    column.setZero();
+    for (Index d = 0; d < inputs_; ++d) column.array() -= (S.col(d).array() - S(j, d)).square() / 2;
+  }
+  vector_exp(P.data(), P.data(), P.size());
+  P.array() *= (by_targets * weights.transpose() + weights * by_targets.transpose()).array();
+  const Matrix T = P.rowwise().sum().asDiagonal() * S - P * S;
+  centres += T * inverse_lengths_[at(action)].asDiagonal();
+  log_lengths -= S.cwiseProduct(T).colwise().sum().transpose();
+}
+
+Vector RbfPolicy::gradient(const std::vector<gp::TermAdjoint>& networks) const {
+  Vector gradient(theta_.size());
+  Matrix centres = Matrix::Zero(centres_, inputs_);
+  for (Index a = 0; a < actions_; ++a) {
+    const gp::TermAdjoint& network = networks[at(a)];
+    const Vector by_targets = solve(factors_[at(a)], network.weights);
+    Vector log_lengths = network.log_lengths;
+    centres += network.centres * scale_.asDiagonal();
+    add_covariance_gradient(a, by_targets, centres, log_lengths);
+    const auto given = theta_.segment(lengths_at(a), inputs_).array();
+    gradient.segment(lengths_at(a), inputs_) = (given.abs() <= kLargestLogLength).select(log_lengths.array(), 0);
+    gradient.segment(targets_at(a), centres_) = by_targets;
+  }
+  gradient.segment(centres_at(), centres_ * inputs_) = centres.transpose().reshaped();
+  return gradient;
+}
+
+}  // namespace rehearse::moments

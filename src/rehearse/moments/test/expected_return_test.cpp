@@ -1,0 +1,173 @@
+#include "rehearse/moments/expected_return.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fixture.hpp"
+#include "naive.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/gp/fitc.hpp"
+#include "rehearse/reward/saturating_moments.hpp"
+#include "rehearse/robots/cartpole/cartpole.hpp"
+#include "rehearse/robots/pendubot/pendubot.hpp"
+
+namespace rehearse::moments {
+namespace {
+
+struct Problem {
+  Problem(scenario::Scenario made, Index rows, Index centres, std::shared_ptr<const gp::MomentMatching> dynamics = {})
+      : scenario(std::move(made)),
+        policy(fixture::rbf(scenario.task, centres)),
+        expected(scenario.task, *policy, dynamics ? dynamics : fixture::random_dynamics(scenario, rows),
+                 Gaussian{scenario.task.start_mean, 0.01 * Matrix::Identity(4, 4)}) {}
+
+  double value(const Vector& theta) {
+    const Return result = expected(theta, nullptr, workspace);
+    EXPECT_TRUE(result.ok());
+    return result.value;
+  }
+
+  /// Directions as long as their errors are comparable: single coordinates, or all together.
+  void expect_gradient(const Vector& theta, const std::vector<Vector>& directions, double step = 1e-3) {
+    Vector gradient;
+    ASSERT_TRUE(expected(theta, &gradient, workspace).ok());
+    for (const Vector& direction : directions) {
+      const double slope = tools::slope([&](double h) { return value(theta + h * direction); }, step);
+      EXPECT_NEAR(gradient.dot(direction), slope, 1e-5 * std::max(std::abs(slope), gradient.norm() * 0.1));
+    }
+  }
+
+  scenario::Scenario scenario;
+  std::shared_ptr<const policy::Policy> policy;
+  ExpectedReturn expected;
+  ReturnWorkspace workspace;
+};
+
+std::vector<Vector> coordinates(Index size, Index every = 1) {
+  std::vector<Vector> list;
+  for (Index k = 0; k < size; k += every) list.push_back(Vector::Unit(size, k));
+  return list;
+}
+
+std::vector<Vector> random_directions(Index size, Index count) {
+  std::vector<Vector> list;
+  for (Index k = 0; k < count; ++k)
+    list.push_back(tools::normals(size, 1, 100 + static_cast<std::uint64_t>(k)).normalized());
+  return list;
+}
+
+double largest_difference(const Matrix& a, const Matrix& b) {
+  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
+
+TEST(ExpectedReturn, IsThatOfPlainFormulas) {
+  for (const scenario::Scenario& scenario : {robots::cartpole::make({}), robots::pendubot::make({})}) {
+    const Task& task = scenario.task;
+    Problem problem(scenario, 30, 12);
+    const Vector theta = fixture::random_theta(*problem.policy);
+    const Return result = problem.expected(theta, nullptr, problem.workspace);
+    const fixture::Data data = fixture::random_data(scenario, 30);
+    const naive::Gp dynamics{data.inputs, data.changes, fixture::plain_hyperparameters(data)};
+    Gaussian state{task.start_mean, 0.01 * Matrix::Identity(4, 4)};
+    for (Index t = 0; t < task.horizon; ++t) {
+      state = naive::propagate(task.feature_map(), dynamics, *problem.policy->analytic(), theta, state);
+      const Gaussian& ours = problem.workspace.states[static_cast<std::size_t>(t + 1)];
+      ASSERT_LT(largest_difference(ours.mean, state.mean), 1e-8) << t;
+      ASSERT_LT(largest_difference(ours.covariance, state.covariance), 1e-8) << t;
+      const Transformed f = FeatureMoments(task.feature_map())(state);
+      EXPECT_NEAR(result.rewards(t), reward::saturating_moments(*task.saturating_reward, {f.mean, f.covariance}).mean,
+                  1e-8);
+    }
+  }
+}
+
+TEST(ExpectedReturn, GradientOfTheCartPoleAgreesWithDifferences) {
+  Problem cartpole(robots::cartpole::make({}), 40, 10);
+  const Vector theta = fixture::random_theta(*cartpole.policy);
+  ASSERT_EQ(theta.size(), 65);
+  cartpole.expect_gradient(theta, coordinates(65));
+  cartpole.expect_gradient(theta, random_directions(65, 5));
+}
+
+TEST(ExpectedReturn, GradientOfThePendubotAgreesWithDifferences) {
+  for (const Index centres : {50, 200}) {
+    Problem pendubot(robots::pendubot::make({}), 30, centres);
+    const Vector theta = fixture::random_theta(*pendubot.policy);
+    pendubot.expect_gradient(theta, random_directions(theta.size(), 3), 1e-4);
+    pendubot.expect_gradient(theta, coordinates(theta.size(), theta.size() / 7), 1e-3);
+  }
+}
+
+TEST(ExpectedReturn, GradientWithFitcAndAPriorMeanAgreesWithDifferences) {
+  const scenario::Scenario scenario = robots::cartpole::make({});
+  const fixture::Data data = fixture::random_data(scenario, 60);
+  const auto hyperparameters = fixture::plain_hyperparameters(data);
+  auto terms = gp::fitc_terms(data.inputs, data.changes, data.inputs.topRows(20), hyperparameters);
+  const gp::Posterior prior(gp::Inputs(data.inputs.bottomRows(15)), 0.1 * data.changes.bottomRows(15), hyperparameters);
+  for (gp::MomentTerm& term : gp::mean_terms(prior)) terms.push_back(std::move(term));
+  Problem cartpole(scenario, 0, 5, std::make_shared<gp::MomentMatching>(std::move(terms), 4));
+  const Vector theta = fixture::random_theta(*cartpole.policy);
+  cartpole.expect_gradient(theta, random_directions(theta.size(), 5));
+}
+
+TEST(ExpectedReturn, IsTheSumOfWhatTheStepsGive) {
+  Problem cartpole(robots::cartpole::make({}), 40, 10);
+  const Return result = cartpole.expected(fixture::random_theta(*cartpole.policy), nullptr, cartpole.workspace);
+  EXPECT_EQ(result.rewards.size(), 40);
+  EXPECT_EQ(result.steps, 40);
+  EXPECT_EQ(result.value, result.rewards.sum());
+  EXPECT_TRUE((result.rewards.array() > 0).all() && (result.rewards.array() < 1).all());
+  EXPECT_TRUE((result.variances.array() >= 0).all());
+}
+
+TEST(ExpectedReturn, IsTheSameForAnyNumberOfThreads) {
+  Problem cartpole(robots::cartpole::make({}), 70, 10);
+  const Vector theta = fixture::random_theta(*cartpole.policy);
+  Vector one, three;
+  const double value = cartpole.expected(theta, &one, cartpole.workspace).value;
+  const auto threads = make_thread_evaluator(3);
+  ReturnWorkspace workspace;
+  EXPECT_EQ(cartpole.expected(theta, &three, workspace, *threads).value, value);
+  EXPECT_EQ(one, three);
+}
+
+TEST(ExpectedReturn, NoParametersEscapeAsNan) {
+  Problem cartpole(robots::cartpole::make({}), 20, 5);
+  const Vector theta = fixture::random_theta(*cartpole.policy);
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e300, -1e300, 1e20, 1e6, -1e6}) {
+    for (Index k = 0; k < theta.size(); k += 3) {
+      Vector spoilt = theta, gradient;
+      spoilt(k) = bad;
+      const Return result = cartpole.expected(spoilt, &gradient, cartpole.workspace);
+      ASSERT_EQ(gradient.size(), theta.size());
+      if (result.ok()) {
+        EXPECT_TRUE(gradient.allFinite()) << bad << " " << k;
+      } else {
+        EXPECT_TRUE(std::isnan(result.value) && gradient.array().isNaN().all());
+      }
+      EXPECT_EQ(cartpole.expected(spoilt, nullptr, cartpole.workspace).steps == 40, result.steps == 40);
+    }
+  }
+}
+
+TEST(ExpectedReturn, RefusesWhatHasNoAnalyticMoments) {
+  const scenario::Scenario scenario = robots::cartpole::make({});
+  const auto dynamics = fixture::random_dynamics(scenario, 10);
+  const auto refusal = [&](const Task& task, const policy::Policy& policy) -> std::string {
+    try {
+      ExpectedReturn(task, policy, dynamics);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(scenario.task, *fixture::rbf(scenario.task, 3)), "");
+  EXPECT_EQ(refusal(scenario.task, *scenario.policy),
+            "policy = mlp: its actions have no analytic moments, must be rbf");
+  Task other = scenario.task;
+  other.saturating_reward.reset();
+  EXPECT_NE(refusal(other, *fixture::rbf(other, 3)).find("the task's reward has no analytic moments"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace rehearse::moments

@@ -1,0 +1,65 @@
+#pragma once
+// Tasks, models of their dynamics from random data, and policies.
+
+#include <memory>
+
+#include "rehearse/core/test/gaussian_tools.hpp"
+#include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/gp/fit.hpp"
+#include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/policy/rbf.hpp"
+#include "rehearse/scenario/scenario.hpp"
+
+namespace rehearse::moments::fixture {
+
+/// States about the start, random actions and the changes that follow.
+struct Data {
+  Matrix inputs, changes;
+};
+inline Data random_data(const scenario::Scenario& scenario, Index rows) {
+  const Task& task = scenario.task;
+  Matrix X = tools::normals(rows, task.state_size(), 1), U(rows, task.action_size());
+  X.rowwise() += task.start_mean.transpose();
+  Rng rng({.seed = 2});
+  for (Index a = 0; a < U.cols(); ++a) {
+    const Interval bounds = task.actions[static_cast<std::size_t>(a)].bounds;
+    for (double& u : U.col(a)) u = rng.uniform(bounds.low, bounds.high);
+  }
+  Data data{dynamics::gp_inputs(task.feature_map(), X, U), Matrix(rows, task.state_size())};
+  scenario.oracle->change(X, U, scenario.oracle->parameters().values(), data.changes);
+  return data;
+}
+
+inline std::vector<gp::Hyperparameters> plain_hyperparameters(const Data& data) {
+  std::vector<gp::Hyperparameters> list;
+  for (Index e = 0; e < data.changes.cols(); ++e)
+    list.push_back(gp::default_start(gp::Inputs(data.inputs), data.changes.col(e), 1));
+  return list;
+}
+
+inline gp::Posterior random_posterior(const scenario::Scenario& scenario, Index rows) {
+  const Data data = random_data(scenario, rows);
+  return {gp::Inputs(data.inputs), data.changes, plain_hyperparameters(data)};
+}
+
+inline std::shared_ptr<const gp::MomentMatching> random_dynamics(const scenario::Scenario& scenario, Index rows) {
+  return std::make_shared<gp::MomentMatching>(gp::exact_terms(random_posterior(scenario, rows)),
+                                              scenario.task.state_size());
+}
+
+inline std::shared_ptr<const policy::Policy> rbf(const Task& task, Index centres) {
+  std::vector<Interval> bounds;
+  for (const ActionVariable& action : task.actions) bounds.push_back(action.bounds);
+  const FeatureMap features = task.feature_map();
+  return policy::make_rbf({.features = features,
+                           .scale = Vector::LinSpaced(features.features(), 1, 2),
+                           .centres = centres,
+                           .bounds = bounds});
+}
+
+/// Centres where the features are, targets that use much of the actions.
+inline Vector random_theta(const policy::Policy& policy, std::uint64_t seed = 3) {
+  return 0.7 * tools::normals(policy.parameters(), 1, seed);
+}
+
+}  // namespace rehearse::moments::fixture

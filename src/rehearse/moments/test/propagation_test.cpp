@@ -1,0 +1,70 @@
+#include "rehearse/moments/propagation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fixture.hpp"
+#include "rehearse/robots/pendubot/pendubot.hpp"
+
+namespace rehearse::moments {
+namespace {
+
+class PropagationTest : public ::testing::Test {
+ protected:
+  struct Step {
+    Gaussian next;
+    Transformed features;
+    StepTape tape;
+  };
+  Step step(const Gaussian& state, const gp::MomentMatching& dynamics) const {
+    Step result;
+    result.features = features_(state);
+    const Propagation propagation(dynamics, policy_, serial_evaluator());
+    EXPECT_TRUE(propagation.forward(state, result.features, result.tape, result.next));
+    return result;
+  }
+
+  scenario::Scenario scenario_ = robots::pendubot::make({});
+  gp::Posterior posterior_ = fixture::random_posterior(scenario_, 40);
+  std::shared_ptr<const policy::Policy> rbf_ = fixture::rbf(scenario_.task, 10);
+  RbfPolicy policy_{*rbf_->analytic(), fixture::random_theta(*rbf_), 0};
+  FeatureMoments features_{scenario_.task.feature_map()};
+  Vector mean_{{0.4, -0.3, 2.9, 3.3}};
+};
+
+/// Of a model that is sure: this needs every covariance between state, features, action and change.
+TEST_F(PropagationTest, OfANearlyKnownStateIsTheLinearisedStep) {
+  const gp::MomentMatching dynamics(gp::mean_terms(posterior_), 4);
+  Matrix slopes(4, 4);
+  for (Index d = 0; d < 4; ++d) {
+    const auto moved = [&](double h) {
+      return step({mean_ + h * Vector::Unit(4, d), Matrix::Zero(4, 4)}, dynamics).next.mean;
+    };
+    slopes.col(d) = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+  }
+  const Matrix covariance = 1e-6 * tools::random_gaussian(4, 1, 1).covariance;
+  const Matrix next = step({mean_, covariance}, dynamics).next.covariance;
+  const Matrix expected = slopes * covariance * slopes.transpose();
+  EXPECT_LT((next - expected).norm(), 1e-4 * expected.norm());
+  EXPECT_EQ(next, next.transpose());
+}
+
+TEST_F(PropagationTest, AdjointAgreesWithDifferences) {
+  const Gaussian state{mean_, tools::random_gaussian(4, 0.2, 2).covariance};
+  const Gaussian by{tools::normals(4, 1, 3), tools::normals(4, 4, 4)};
+  const gp::MomentMatching dynamics(gp::exact_terms(posterior_), 4);
+  const Step taken = step(state, dynamics);
+  Gaussian adjoint = Gaussian::zero(4);
+  Transformed features = Transformed::zero(4, 6);
+  auto networks = policy_.zero_adjoints();
+  Propagation(dynamics, policy_, serial_evaluator())
+      .adjoint(state, taken.features, taken.tape, by, adjoint, features, networks);
+  features_.adjoint(state, taken.features, features, adjoint);
+  const auto f = [&](const Gaussian& at) {
+    const Gaussian next = step(at, dynamics).next;
+    return by.mean.dot(next.mean) + by.covariance.cwiseProduct(next.covariance).sum();
+  };
+  tools::expect_slopes(f, state, adjoint, 1e-3, 1e-6);
+}
+
+}  // namespace
+}  // namespace rehearse::moments
