@@ -183,6 +183,8 @@ class BlackDrops final : public Learner {
       const auto best = std::max_element(first, returns_.end()) - returns_.begin();
       starts.push_back(policies_[static_cast<std::size_t>(best)]);
     }
+    if (options_.start_from_last && first != returns_.end() && (starts.empty() || starts.back() != policies_.back()))
+      starts.push_back(policies_.back());
     starts.insert(starts.end(), carried_.begin(), carried_.end());
     return starts;
   }
@@ -241,6 +243,7 @@ void Options::fields(FieldVisitor& v) {
   v.group("search", search);
   v.group("first_trial", first_trial);
   v.boolean("start_from_best", start_from_best);
+  v.boolean("start_from_last", start_from_last);
   v.integer("carried", carried, at_least(0));
   v.integer("prior_searches", prior_searches, at_least(1));
   v.number("prior_variance", prior_variance, at_least(0));

@@ -29,6 +29,7 @@ struct Options {
   SearchOptions search;
   FirstTrial first_trial;
   bool start_from_best = true;  // one descent starts from the best policy observed; the authors' code
+  bool start_from_last = true;  // and one from the last policy tried: its trial told most of where it fails
   Index carried = 3;            // and so many from the best other policies of the search before
   Index prior_searches = 1;     // searches on the prior before the first trial, each from the best of the one before
                                 // (the authors' code: 2)
