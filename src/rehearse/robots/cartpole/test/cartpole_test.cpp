@@ -36,11 +36,12 @@ TEST(Cartpole, DerivativeIsThePublishedEquation) {
   }
 }
 
-/// Error of a control step of the simulator, at every state that 100 random policies reach.
+/// Error of a control step of the simulator, at every state that 25 random policies reach. (The adaptive
+/// integrator takes long where the cart is far away.)
 double worst_error(Options options) {
   options.ode.start_noise = options.ode.measurement_noise = 0;
   const scenario::Scenario s = make(options);
-  const Dataset data = testing::random_episodes(s, 100);
+  const Dataset data = testing::random_episodes(s, 25);
   EXPECT_GT(data.states.col(2).cwiseAbs().maxCoeff(), 10) << "the episodes must visit fast motions";
   Matrix dX(data.size(), 4);
   s.oracle->change(data.states, data.actions, s.oracle->parameters().values(), dX);
