@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# report.sh PROGRAM BUILD BROWSER_TEST CHROMIUM: reports of a run, a trial and a damaged campaign, opened in a browser.
+# report.sh PROGRAM BUILD BROWSER_TEST CHROMIUM: reports of a run, a trial, a damaged campaign and a robot in space,
+# opened in a browser.
 # Exits with 77 where the page is not built or there is no browser.
 set -euo pipefail
+walker=$(realpath "$(dirname "$0")")/walker.mjs
 program=$(realpath "$1") build=$2 browser_test=$3 chromium=$4
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -69,4 +71,7 @@ done
 [ "$(wc -l <stderr)" = 3 ] || fail "the report names other problems: $(cat stderr)"
 
 [ -x "$chromium" ] || { echo "there is no chromium"; exit 77; }
-node "$browser_test" "$chromium" "$build/web/page" run/report.html replay.html campaign/report.html
+cp -r run walker
+for trial in 1 2; do node "$walker" walker $trial 50; done
+"$program" report walker >/dev/null
+node "$browser_test" "$chromium" "$build/web/page" {run/report,replay,campaign/report,walker/report}.html

@@ -40,13 +40,37 @@ export interface Episode {
   motion: Motion | null
 }
 
-/** motion/trial-003.json: a robot as straight bodies in a plane. A frame has both ends (x, y, x, y) of every body. */
-export interface Motion {
+/** motion/trial-003.json: a frame for every state of the trial. */
+export type Motion = LineMotion | SolidMotion
+
+/** A robot as straight bodies in a plane. A frame has both ends (x, y, x, y) of every body. */
+export interface LineMotion {
+  dimensions?: undefined
   unit: string
   goal: [number, number] | null
   bodies: { name: string; width: number }[]
   frames: Cell[][]
   predicted?: Cell[][] | null
+}
+
+/** A robot as rigid bodies in space. A frame has the pose (x, y, z, then the quaternion w, x, y, z) of every body. */
+export interface SolidMotion {
+  dimensions: 3
+  unit: string
+  floor: Cell
+  bodies: Solid[]
+  frames: Cell[][]
+  predicted?: Cell[][] | null
+}
+
+export type Solid = { name: string } & (
+  | { shape: 'box'; size: [number, number, number] }
+  | { shape: 'sphere'; radius: number }
+  | { shape: 'capsule'; radius: number; length: number }
+)
+
+export function isSolid(motion: Motion): motion is SolidMotion {
+  return motion.dimensions === 3
 }
 
 export interface GroupKey {

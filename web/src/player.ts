@@ -1,13 +1,25 @@
 // One trial: the robot moving, and every state with what the model had expected, under one time slider.
 import { chart, fit, heights, moveCursor, type Domain, type Point, type Series } from './chart'
 import { PREDICTED, REAL } from './colours'
-import { column, present, variables, withUnit, type Cell, type Columns, type Episode, type Variable } from './data'
+import {
+  column,
+  isSolid,
+  present,
+  variables,
+  withUnit,
+  type Cell,
+  type Columns,
+  type Episode,
+  type Motion,
+  type Variable,
+} from './data'
 import { h } from './dom'
 import type { Row } from './export'
 import { figure, type Figure, type Panel } from './figure'
 import { number } from './format'
 import type { LegendEntry } from './legend'
 import { stage, type Stage } from './stage'
+import { stage3d } from './stage3d'
 
 const SPEEDS = [0.25, 0.5, 1, 2]
 
@@ -44,7 +56,7 @@ class Player {
   ) {
     this.episode = start
     const motions = episodes.flatMap((one) => (one.motion ? [one.motion] : []))
-    this.picture = motions.length > 0 ? stage(motions) : null
+    this.picture = motions.length > 0 ? pictureOf(motions) : null
     this.states = this.stateFigure()
     this.trials = h(
       'select',
@@ -148,6 +160,12 @@ class Player {
       else this.tick(now)
     })
   }
+}
+
+/** The robots of a run are all drawn in one way. */
+function pictureOf(motions: Motion[]): Stage {
+  const solid = motions.filter(isSolid)
+  return solid.length > 0 ? stage3d(solid) : stage(motions.filter((motion) => !isSolid(motion)))
 }
 
 function legendOf({ trajectory, prediction }: Episode): LegendEntry[] {

@@ -1,11 +1,11 @@
-// The robot, drawn from the bodies in a motion.
-import { present, type Motion } from './data'
+// The robot in a plane, drawn from the bodies in a motion.
+import { isSolid, present, type LineMotion, type Motion } from './data'
 import { REAL, PREDICTED } from './colours'
 import { s } from './dom'
 
 export interface Stage {
-  element: SVGSVGElement
-  /** Shows a motion at a frame, which may lie between two. */
+  element: Element
+  /** Shows a motion of its own kind at a frame, which may lie between two. */
   show: (motion: Motion, frame: number) => void
 }
 
@@ -17,7 +17,7 @@ interface Bounds {
 }
 
 /** One that has room for all these motions; where they go far along the ground, it follows the robot. */
-export function stage(motions: Motion[]): Stage {
+export function stage(motions: LineMotion[]): Stage {
   const bounds = boundsOf(motions)
   const height = bounds.top - bounds.bottom
   const width = Math.min(bounds.right - bounds.left, 1.6 * height)
@@ -39,6 +39,7 @@ export function stage(motions: Motion[]): Stage {
   return {
     element,
     show(motion, frame) {
+      if (isSolid(motion)) return
       const now = frameAt(motion.frames, frame)
       world.setAttribute('transform', `translate(${-leftOf(bounds, width, motion.goal, now)}, 0)`)
       goal.replaceChildren(...goalMarks(motion.goal, size))
@@ -50,7 +51,7 @@ export function stage(motions: Motion[]): Stage {
 }
 
 /** The left end of what is seen: the goal in the middle, unless the robot would leave. */
-function leftOf(bounds: Bounds, width: number, goal: Motion['goal'], ends: number[] | null): number {
+function leftOf(bounds: Bounds, width: number, goal: LineMotion['goal'], ends: number[] | null): number {
   const xs = (ends ?? []).filter((_, i) => i % 2 === 0)
   const home = (goal?.[0] ?? (bounds.left + bounds.right) / 2) - width / 2
   if (xs.length === 0) return home
@@ -66,7 +67,7 @@ function ground(bounds: Bounds, size: number, tick: number): SVGElement {
 }
 
 /** Between two frames bodies move in straight lines; none where a number is missing. */
-function frameAt(frames: Motion['frames'] | null | undefined, frame: number): number[] | null {
+function frameAt(frames: LineMotion['frames'] | null | undefined, frame: number): number[] | null {
   if (!frames || frames.length === 0) return null
   const before = frames[Math.min(Math.floor(frame), frames.length - 1)] ?? []
   const after = frames[Math.min(Math.floor(frame) + 1, frames.length - 1)] ?? []
@@ -78,7 +79,7 @@ function frameAt(frames: Motion['frames'] | null | undefined, frame: number): nu
   return numbers.every(Number.isFinite) ? numbers : null
 }
 
-function bodies(motion: Motion, ends: number[] | null, colour: string): SVGElement[] {
+function bodies(motion: LineMotion, ends: number[] | null, colour: string): SVGElement[] {
   if (!ends) return []
   return motion.bodies.map(({ name, width }, i) => {
     const [x1 = 0, y1 = 0, x2 = 0, y2 = 0] = ends.slice(4 * i, 4 * i + 4)
@@ -91,7 +92,7 @@ function bodies(motion: Motion, ends: number[] | null, colour: string): SVGEleme
 }
 
 /** Where a body hangs on the one before it; the first only if it never moves. */
-function joints(motion: Motion, ends: number[] | null, size: number): SVGElement[] {
+function joints(motion: LineMotion, ends: number[] | null, size: number): SVGElement[] {
   if (!ends) return []
   const fixed = motion.frames.every((frame) => frame[0] === motion.frames[0]?.[0] && frame[1] === motion.frames[0]?.[1])
   return motion.bodies.flatMap((_, i) =>
@@ -102,7 +103,7 @@ function joints(motion: Motion, ends: number[] | null, size: number): SVGElement
 }
 
 /** The way of the last body's far end in the last second or so. */
-function trailOf(motion: Motion, frame: number): string {
+function trailOf(motion: LineMotion, frame: number): string {
   const points: string[] = []
   for (let at = Math.max(0, Math.floor(frame) - 20); at <= frame; ++at) {
     const ends = frameAt(motion.frames, at)
@@ -113,7 +114,7 @@ function trailOf(motion: Motion, frame: number): string {
   return points.join(' ')
 }
 
-function goalMarks(goal: Motion['goal'], size: number): SVGElement[] {
+function goalMarks(goal: LineMotion['goal'], size: number): SVGElement[] {
   if (!goal) return []
   const [x, y] = goal
   const r = 0.025 * size
@@ -140,7 +141,7 @@ function scaleBar(bounds: Bounds, size: number, length: number, unit: string): S
   )
 }
 
-function boundsOf(motions: Motion[]): Bounds {
+function boundsOf(motions: LineMotion[]): Bounds {
   const bounds: Bounds = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity }
   const include = (x: number, y: number, room: number) => {
     bounds.left = Math.min(bounds.left, x - room)

@@ -1,14 +1,15 @@
-// browser.mjs CHROMIUM PACKAGES RUN.html REPLAY.html CAMPAIGN.html: a reader's way through real reports. Fails on
-// anything that a page says on the console, on any request, and on what it does not show. PACKAGES: the folder of
-// node_modules.
+// browser.mjs CHROMIUM PACKAGES RUN.html REPLAY.html CAMPAIGN.html WALKER.html: a reader's way through real reports.
+// Fails on anything that a page says on the console, on any request, and on what it does not show. PACKAGES: the folder
+// of node_modules. WALKER: a run whose robot moves in space.
 import assert from 'node:assert/strict'
 import { readFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
 import { pathToFileURL } from 'node:url'
 
-const [chromiumPath, packages, runPage, replayPage, campaignPage] = process.argv.slice(2)
+const [chromiumPath, packages, runPage, replayPage, campaignPage, walkerPage] = process.argv.slice(2)
 const { chromium } = createRequire(`${packages}/`)('playwright-core')
-const browser = await chromium.launch({ executablePath: chromiumPath, args: ['--no-sandbox'] })
+const launch = (...args) => chromium.launch({ executablePath: chromiumPath, args: ['--no-sandbox', ...args] })
+let browser = await launch('--use-angle=swiftshader', '--enable-unsafe-swiftshader') // WebGL without a graphics card
 
 /** Opens a page as a reader would and hands it to `visit`; nothing may have gone wrong when that ends. */
 async function open(file, settings, visit) {
@@ -117,6 +118,47 @@ await open(campaignPage, { viewport: { width: 400, height: 800 } }, async (page)
   await page.locator('#success-by-trial').scrollIntoViewIfNeeded()
   const csv = await saved(page, 'Save “Return against time on the robot” as CSV')
   assert.match(csv, /^learner,prior,variant,trial,runs,interaction_s,return_min,/)
+})
+
+/** What the canvas shows once it has been drawn. */
+async function picture(page) {
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))))
+  return (await page.locator('.stage canvas').screenshot()).toString('base64')
+}
+
+/** What `change` does is seen in the canvas. */
+async function changes(page, what, change) {
+  const before = await picture(page)
+  await change()
+  assert.notEqual(await picture(page), before, `${what} changes nothing in the picture`)
+}
+
+for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme: 'dark' }])
+  await open(walkerPage, settings, async (page) => {
+    const canvas = page.locator('.stage canvas')
+    const slider = page.getByRole('slider', { name: 'Time' })
+    await canvas.scrollIntoViewIfNeeded()
+    assert.equal(await picture(page), await picture(page))
+    await changes(page, 'the slider', () => slider.fill('20'))
+    await changes(page, 'a key on the slider', () => slider.press('ArrowRight'))
+    await changes(page, 'another view', () => page.getByRole('button', { name: 'Nearer' }).click())
+    await changes(page, 'a key on the picture', () => canvas.press('ArrowLeft'))
+    const box = await canvas.boundingBox()
+    await changes(page, 'dragging', async () => {
+      await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2)
+      await page.mouse.down()
+      await page.mouse.move(box.x + box.width / 2 + 60, box.y + box.height / 2 + 10)
+      await page.mouse.up()
+    })
+    await changes(page, 'the theme', () => page.getByRole('button', { name: /^Change to the/ }).press('Enter'))
+    await play(page)
+  })
+await browser.close()
+
+browser = await launch('--disable-3d-apis')
+await open(walkerPage, {}, async (page) => {
+  assert.match(await page.locator('.stage').textContent(), /WebGL 2 is switched off or missing/)
+  await page.getByRole('slider', { name: 'Time' }).fill('20')
 })
 
 await browser.close()

@@ -3,7 +3,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "rehearse/core/types.hpp"
 
@@ -15,8 +18,8 @@ struct Line {
   Point from, to;
 };
 
-/// How a robot looks in a plane, so that its motion can be shown: bodies that are straight from one point to another.
-struct Drawing {
+/// How a robot looks in a plane: bodies that are straight from one point to another.
+struct LineDrawing {
   struct Body {
     std::string name;
     double width_m = 0;
@@ -27,5 +30,37 @@ struct Drawing {
   /// Where the bodies are in a state (dx), one line a body. Any thread.
   std::function<std::vector<Line>(const ConstVectorView& state)> lines;
 };
+
+struct Box {
+  Eigen::Vector3d size_m;  // whole edges
+};
+struct Sphere {
+  double radius_m = 0;
+};
+struct Capsule {
+  double radius_m = 0;
+  double length_m = 0;  // between the centres of its round ends, along the z of its frame
+};
+
+/// From the frame of a body, whose origin is the middle of its shape, to the world: m, z up.
+struct Pose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // of norm 1
+};
+
+/// How a robot looks in space: rigid bodies. What shows it follows the first.
+struct SolidDrawing {
+  struct Body {
+    std::string name;
+    std::variant<Box, Sphere, Capsule> shape;
+  };
+  std::vector<Body> bodies;
+  std::optional<double> floor_m;  // height of the floor
+
+  /// Where the bodies are in a state (dx), one pose a body. Any thread.
+  std::function<std::vector<Pose>(const ConstVectorView& state)> poses;
+};
+
+using Drawing = std::variant<LineDrawing, SolidDrawing>;
 
 }  // namespace rehearse::scenario

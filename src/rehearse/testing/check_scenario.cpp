@@ -13,13 +13,28 @@ namespace rehearse::testing {
 namespace {
 
 /// One finite line a body, in every state.
-std::vector<std::string> check_drawing(const scenario::Drawing& drawing, const Matrix& states) {
+std::vector<std::string> check_drawing(const scenario::LineDrawing& drawing, const Matrix& states) {
   for (Index t = 0; t < states.rows(); ++t) {
     const std::vector<scenario::Line> lines = drawing.lines(Vector(states.row(t)));
     if (lines.size() != drawing.bodies.size())
       return {fmt::format("{} lines for {} bodies", lines.size(), drawing.bodies.size())};
     for (const scenario::Line& line : lines)
       if (!line.from.allFinite() || !line.to.allFinite()) return {fmt::format("not finite in state {}", t)};
+  }
+  return {};
+}
+
+/// One finite pose a body, whose quaternion is a rotation, in every state.
+std::vector<std::string> check_drawing(const scenario::SolidDrawing& drawing, const Matrix& states) {
+  for (Index t = 0; t < states.rows(); ++t) {
+    const std::vector<scenario::Pose> poses = drawing.poses(Vector(states.row(t)));
+    if (poses.size() != drawing.bodies.size())
+      return {fmt::format("{} poses for {} bodies", poses.size(), drawing.bodies.size())};
+    for (const auto& [position, orientation] : poses) {
+      if (!position.allFinite()) return {fmt::format("not finite in state {}", t)};
+      const double norm = orientation.norm();
+      if (!(std::abs(norm - 1) <= 1e-9)) return {fmt::format("a quaternion of norm {} in state {}", norm, t)};
+    }
   }
   return {};
 }
@@ -69,7 +84,8 @@ std::vector<std::string> check_scenario(const scenario::Scenario& scenario) {
   if (scenario.oracle)
     add("oracle", check_simulator(*scenario.oracle, data.states, data.actions, scenario.oracle->parameters().values()));
   if (scenario.task.saturating_reward) add("saturating_reward", check_saturating_reward(scenario.task, data));
-  if (scenario.drawing) add("drawing", check_drawing(*scenario.drawing, data.states));
+  if (scenario.drawing)
+    add("drawing", std::visit([&](const auto& kind) { return check_drawing(kind, data.states); }, *scenario.drawing));
   return found;
 }
 

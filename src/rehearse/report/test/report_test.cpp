@@ -147,6 +147,16 @@ TEST_F(ReportTest, AReplayHasOneEpisode) {
   EXPECT_NE(error_of([&] { read_trial(folder_ / "other", 1); }).find("is not a run folder"), std::string::npos);
 }
 
+TEST_F(ReportTest, AMotionInSpaceIsCarriedWhole) {
+  write_run(folder_);
+  json motion = json::parse(R"({"format":1,"dimensions":3,"unit":"m","floor":0,
+    "bodies":[{"name":"leg","shape":"capsule","radius":0.01,"length":0.1}],"frames":[[1,2,3,1,0,0,0]]})");
+  write(folder_ / "motion/trial-002.json", motion.dump());
+  motion["predicted"] = json::parse("[[4,5,6,0,1,0,null]]");
+  write(folder_ / "motion/prediction-002.json", json{{"frames", motion["predicted"]}}.dump());
+  EXPECT_EQ(json::parse(read_trial(folder_, 2).json)["replay"]["episodes"][0]["motion"], motion);
+}
+
 TEST_F(ReportTest, ADamagedRunIsReportedWithoutWhatIsDamaged) {
   write_run(folder_);
   write(folder_ / "trials.csv", "trial,interaction_s,return\n1,2.5,0.1\n2,5");

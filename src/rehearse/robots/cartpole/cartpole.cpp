@@ -61,7 +61,7 @@ Task make_task(const Options& options) {
   return task;
 }
 
-scenario::Drawing drawing(double l) {
+scenario::LineDrawing drawing(double l) {
   const auto lines = [l](const ConstVectorView& state) {
     const scenario::Point hinge{state(0), 0}, half_cart{0.1, 0};
     const scenario::Point tip = hinge + l * scenario::Point{std::sin(state(3)), -std::cos(state(3))};

@@ -86,7 +86,7 @@ Task make_task(const Options& options) {
   return task;
 }
 
-scenario::Drawing drawing(double l1, double l2) {
+scenario::LineDrawing drawing(double l1, double l2) {
   const auto lines = [=](const ConstVectorView& state) {
     const scenario::Point elbow = l1 * scenario::Point{-std::sin(state(2)), std::cos(state(2))};
     const scenario::Point end = elbow + l2 * scenario::Point{-std::sin(state(3)), std::cos(state(3))};

@@ -53,7 +53,7 @@ Task make_task(const Options& options) {
   return task;
 }
 
-scenario::Drawing drawing(double l) {
+scenario::LineDrawing drawing(double l) {
   const auto lines = [l](const ConstVectorView& state) {
     const scenario::Point tip = l * scenario::Point{std::sin(state(1)), -std::cos(state(1))};
     return std::vector<scenario::Line>{{{0, 0}, tip}};

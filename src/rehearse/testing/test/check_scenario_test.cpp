@@ -1,5 +1,7 @@
 #include "rehearse/testing/check_scenario.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "rehearse/robots/pendubot/pendubot.hpp"
@@ -21,7 +23,7 @@ TEST(CheckScenario, NamesThePartThatBreaksALaw) {
   for (const std::string& line : lines) EXPECT_TRUE(line.starts_with("prior tunable: ")) << line;
 
   scenario = robots::pendubot::make({});
-  scenario.drawing->bodies.pop_back();
+  std::get<scenario::LineDrawing>(*scenario.drawing).bodies.pop_back();
   EXPECT_EQ(check_scenario(scenario), Lines{"drawing: 2 lines for 1 bodies"});
 
   scenario = robots::pendubot::make({});
@@ -35,6 +37,26 @@ TEST(CheckScenario, NamesThePartThatBreaksALaw) {
 
   scenario.task.reward = {};
   EXPECT_EQ(check_scenario(scenario), Lines{"task has no reward"});
+}
+
+TEST(CheckScenario, NamesAPoseThatIsNone) {
+  auto scenario = robots::pendubot::make({});
+  scenario::Pose pose;
+  const auto drawing = [&pose](std::size_t bodies) {
+    return scenario::SolidDrawing{
+        .bodies = std::vector(bodies, scenario::SolidDrawing::Body{"foot", scenario::Sphere{1}}),
+        .poses = [pose](const ConstVectorView&) { return std::vector{pose}; }};
+  };
+  scenario.drawing = drawing(1);
+  EXPECT_EQ(check_scenario(scenario), Lines{});
+  scenario.drawing = drawing(2);
+  EXPECT_EQ(check_scenario(scenario), Lines{"drawing: 1 poses for 2 bodies"});
+  pose.orientation.w() = 2;
+  scenario.drawing = drawing(1);
+  EXPECT_EQ(check_scenario(scenario), Lines{"drawing: a quaternion of norm 2 in state 0"});
+  pose.position.z() = std::nan("");
+  scenario.drawing = drawing(1);
+  EXPECT_EQ(check_scenario(scenario), Lines{"drawing: not finite in state 0"});
 }
 
 TEST(RandomEpisodes, AreWholeAndDifferent) {

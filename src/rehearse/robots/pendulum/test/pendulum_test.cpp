@@ -88,8 +88,9 @@ TEST(Pendulum, IsDrawnWithItsEndWhereTheRewardSeesIt) {
   const scenario::Scenario s = make({});
   const Vector upright{{0, M_PI}};
   const Vector tilted = upright + Vector::Constant(upright.size(), 0.3);
+  const auto& drawing = std::get<scenario::LineDrawing>(*s.drawing);
   for (const Vector& state : {upright, tilted}) {
-    const double distance = (s.drawing->lines(state).back().to - *s.drawing->goal).norm();
+    const double distance = (drawing.lines(state).back().to - *drawing.goal).norm();
     const Matrix X = state.transpose(), U = Matrix::Zero(1, 1);
     Vector reward(1);
     s.task.reward(X, U, X, reward);
