@@ -97,7 +97,7 @@ function orientationOf(frame: number[], body: number): Quaternion {
   return new Quaternion(x, y, z, w).normalize()
 }
 
-/** Just above the floor, so that its lines do not hide the way; null: where there is none, at the height of the body. */
+/** Just above the floor, so that its lines do not hide the way; null, that of the body, where there is no floor. */
 function heightOfWay(motion: SolidMotion): Cell {
   return present(motion.floor) ? motion.floor + 0.01 * sizeOf(motion) : null
 }
