@@ -34,7 +34,8 @@ class Resolver {
     const auto scenario = contained([&] { return scenario_builder_->build(); });
     if (!scenario) violations_.throw_if_any();
     for (const std::string& line : scenario->task.violations()) violations_.add(line);
-    for (const std::string& line : learner_builder_->violations(scenario->task)) violations_.add(line);
+    for (const std::string& line : learner_builder_->violations(scenario->task, *scenario->policy))
+      violations_.add(line);
 
     ChosenPriors priors(*scenario, names, violations_);
     set_prior_values(priors);

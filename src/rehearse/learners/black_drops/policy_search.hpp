@@ -59,8 +59,4 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, std::uint64_t seed,
                      std::uint64_t trial);
 
-/// θ of a policy::make_schedule for the task's whole horizon: actions uniform in their bounds, each held for `hold_s`
-/// (rounded to whole steps, at least one).
-Vector random_schedule(const Task& task, double hold_s, std::uint64_t seed, std::uint64_t trial);
-
 }  // namespace rehearse::learners::black_drops
