@@ -14,8 +14,13 @@ namespace rehearse::policy {
 /// there are no bounds.
 std::shared_ptr<const Policy> make_schedule(std::vector<Interval> bounds, double dt_s, Index steps);
 
-/// θ of such a policy for the task's whole horizon: actions uniform in their bounds, each held for `hold_s` (rounded to
-/// whole steps, at least one). Random numbers come from (seed, trial) alone.
-Vector random_schedule(const Task& task, double hold_s, std::uint64_t seed, std::uint64_t trial);
+enum class RandomActions {
+  uniform,   // in their bounds
+  extremes,  // one bound or the other: a random binary signal, which moves a system most
+};
+
+/// θ of such a policy for the task's whole horizon: random actions, each held for `hold_s` (rounded to whole steps, at
+/// least one). Random numbers come from (seed, trial) alone.
+Vector random_schedule(const Task& task, RandomActions actions, double hold_s, std::uint64_t seed, std::uint64_t trial);
 
 }  // namespace rehearse::policy

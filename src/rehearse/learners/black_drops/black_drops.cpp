@@ -111,7 +111,10 @@ class BlackDrops final : public Learner {
     }
     const Task& task = setting_.task;
     proposal.policy = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
-    proposal.theta = policy::random_schedule(task, options_.first_trial.hold_s, setting_.seed, trial());
+    const bool extremes = options_.first_trial.kind == FirstTrial::Kind::extremes;
+    proposal.theta =
+        policy::random_schedule(task, extremes ? policy::RandomActions::extremes : policy::RandomActions::uniform,
+                                options_.first_trial.hold_s, setting_.seed, trial());
   }
 
   void learn_model(Proposal& proposal, dynamics::WarmStart& state) {
@@ -177,7 +180,7 @@ class BlackDrops final : public Learner {
   std::vector<Vector> known_policies() const {
     std::vector<Vector> starts;
     const bool scheduled =
-        !setting_.prior && options_.first_trial.kind == FirstTrial::Kind::actions;  // trial 1 had no policy
+        !setting_.prior && options_.first_trial.kind != FirstTrial::Kind::policy;  // trial 1 had no policy
     const auto first = returns_.begin() + (scheduled && !returns_.empty());
     if (options_.start_from_best && first != returns_.end()) {
       const auto best = std::max_element(first, returns_.end()) - returns_.begin();
@@ -235,7 +238,7 @@ class Builder final : public LearnerBuilder {
 }  // namespace
 
 void FirstTrial::fields(FieldVisitor& v) {
-  v.choice("kind", kind, {"actions", "policy"});
+  v.choice("kind", kind, {"actions", "extremes", "policy"});
   v.number("hold_s", hold_s, at_least(0));
 }
 

@@ -15,8 +15,9 @@ namespace rehearse::learners::black_drops {
 /// What the first trial without a prior does.
 struct FirstTrial {
   enum class Kind {
-    actions,  // uniform in their bounds (PILCO, the authors' code)
-    policy,   // θ uniform in its box (Chatzilygeroudis 2018, Algorithm 1)
+    actions,   // uniform in their bounds (PILCO, the authors' code)
+    extremes,  // of the actions, at random
+    policy,    // θ uniform in its box (Chatzilygeroudis 2018, Algorithm 1)
   };
   Kind kind = Kind::actions;
   double hold_s = 0.2;  // an action is held so long (PILCO, the authors' code: one step)
@@ -28,12 +29,12 @@ struct Options {
   dynamics::RewardOptions reward;
   SearchOptions search;
   FirstTrial first_trial;
-  bool start_from_best = true;  // one descent starts from the best policy observed; the authors' code
-  bool start_from_last = true;  // and one from the last policy tried: its trial told most of where it fails
-  Index carried = 3;            // and so many from the best other policies of the search before
-  Index prior_searches = 1;     // searches on the prior before the first trial, each from the best of the one before
-                                // (the authors' code: 2)
-  double prior_variance = 0;    // predicted before there are data (the authors' code: 1)
+  bool start_from_best = true;   // one descent starts from the best policy observed; the authors' code
+  bool start_from_last = false;  // and one from the last policy tried: its trial told most of where it fails
+  Index carried = 3;             // and so many from the best other policies of the search before
+  Index prior_searches = 1;      // searches on the prior before the first trial, each from the best of the one before
+                                 // (the authors' code: 2)
+  double prior_variance = 0;     // predicted before there are data (the authors' code: 1)
   void fields(FieldVisitor& v);
 };
 

@@ -84,7 +84,8 @@ class Pilco final : public Learner {
   Proposal random_actions() const {
     const Task& task = setting_.task;
     return {.policy = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon),
-            .theta = policy::random_schedule(task, options_.first_trial_hold_s, setting_.seed, trial())};
+            .theta = policy::random_schedule(task, policy::RandomActions::uniform, options_.first_trial_hold_s,
+                                             setting_.seed, trial())};
   }
 
   Model learn_model() const {

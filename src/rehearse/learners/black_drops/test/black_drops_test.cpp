@@ -126,7 +126,7 @@ TEST(BlackDrops, TheFirstSearchOnAPriorUsesTheInitialReward) {
 }
 
 TEST(BlackDrops, WithoutAPriorTheFirstTrialIsRandomAndReproducible) {
-  for (const char* first_trial : {"actions", "policy"}) {
+  for (const char* first_trial : {"extremes", "actions", "policy"}) {
     const auto first_theta = [&](std::uint64_t seed) {
       const auto with = builder("black-drops");
       EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "first_trial.kind", first_trial));
