@@ -119,7 +119,7 @@ class Planner {
                        .prior = prior,
                        .trials = file_.trials,
                        .seed = file_.seeds.empty() ? 1 : file_.seeds.front()};
-    const auto complete = resolved(bare, {}, line(prior.empty() ? "learners" : "priors"));
+    const auto complete = completed_bare(bare, line(prior.empty() ? "learners" : "priors"));
     if (!complete) return;
     for (const auto& [key, text] : complete->options)
       known_options_.push_back(key.starts_with("prior.") ? key : key.substr(key.find('.') + 1));
@@ -127,13 +127,22 @@ class Planner {
     for (const FileOptions& varied : all_variants(*complete)) add_group(bare, options, varied);
   }
 
+  /// The complete spec without the file's options, or nothing and violations, at this line.
+  std::optional<Spec> completed_bare(const Spec& bare, Index line) {
+    try {
+      return completed(catalogue_, bare);
+    } catch (const InvalidInput& error) {
+      for (const std::string& message : lines_of(error.what())) violations_.add(line, message);
+      return std::nullopt;
+    }
+  }
+
   /// The complete spec, or nothing and violations, at the line of the option that causes each.
-  std::optional<Spec> resolved(const Spec& bare, const FileOptions& options, Index line_without_options) {
+  std::optional<Spec> resolved(const Spec& bare, const FileOptions& options) {
     try {
       return resolve(catalogue_, with_options(bare, options)).spec;
     } catch (const InvalidInput& error) {
-      for (const std::string& message : lines_of(error.what()))
-        violations_.add(line_without_options > 0 ? line_without_options : cause(bare, options, message), message);
+      for (const std::string& message : lines_of(error.what())) violations_.add(cause(bare, options, message), message);
       return std::nullopt;
     }
   }
@@ -143,16 +152,22 @@ class Planner {
     return spec;
   }
 
-  /// The line of the option that is wrong in this way on its own, too; 0 if none is.
+  /// The line of the option that is wrong in this way on its own, too; 0 if none is. That of the learners if without
+  /// options it is just as wrong.
   Index cause(const Spec& bare, const FileOptions& options, const std::string& message) const {
-    for (const FileOption& option : options) {
-      try {
-        resolve(catalogue_, with_options(bare, {option}));
-      } catch (const InvalidInput& error) {
-        if (is_among(message, lines_of(error.what()))) return option.line;
-      }
-    }
+    if (is_wrong(bare, message)) return line("learners");
+    for (const FileOption& option : options)
+      if (is_wrong(with_options(bare, {option}), message)) return option.line;
     return 0;
+  }
+
+  bool is_wrong(const Spec& spec, const std::string& message) const {
+    try {
+      resolve(catalogue_, spec);
+      return false;
+    } catch (const InvalidInput& error) {
+      return is_among(message, lines_of(error.what()));
+    }
   }
 
   /// Of [set] what this cell has, and all of [learner.NAME].
@@ -197,7 +212,7 @@ class Planner {
 
   void add_group(const Spec& bare, FileOptions options, const FileOptions& varied) {
     options.insert(options.end(), varied.begin(), varied.end());
-    const auto complete = resolved(bare, options, 0);
+    const auto complete = resolved(bare, options);
     if (plan_.runs.size() + file_.seeds.size() > kMostRuns) return too_many();
     if (!complete) return;
     const std::string variant = variant_name(varied);

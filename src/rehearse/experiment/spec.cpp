@@ -28,13 +28,15 @@ class Resolver {
     if (!scenario_builder_ || !learner_builder_) violations_.throw_if_any();
   }
 
-  Resolved resolve() {
+  Resolved resolve(bool ask_learner) {
     for (const auto& [key, text] : spec_.options) set_option(key, text);
     const std::vector<std::string> names = prior_names();
     const auto scenario = contained([&] { return scenario_builder_->build(); });
     if (!scenario) violations_.throw_if_any();
     for (const std::string& line : scenario->task.violations()) violations_.add(line);
-    for (const std::string& line : learner_builder_->violations(scenario->task)) violations_.add(line);
+    if (ask_learner && scenario->policy)  // without a policy the learner complains when it is built
+      for (const std::string& line : learner_builder_->violations(scenario->task, *scenario->policy))
+        violations_.add(line);
 
     ChosenPriors priors(*scenario, names, violations_);
     set_prior_values(priors);
@@ -132,7 +134,9 @@ class Resolver {
 
 }  // namespace
 
-Resolved resolve(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec).resolve(); }
+Resolved resolve(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec).resolve(true); }
+
+Spec completed(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec).resolve(false).spec; }
 
 std::string run_name(const Spec& spec) {
   return fmt::format("{}-{}-{}-{}", spec.scenario, spec.learner, spec.prior.empty() ? "none" : spec.prior, spec.seed);

@@ -41,6 +41,9 @@ struct Resolved {
 /// Throws InvalidInput with a line for everything that is wrong.
 Resolved resolve(const Catalogue& catalogue, const Spec& spec);
 
+/// The complete spec alone, even where the learner cannot do with the task or the policy that it describes so far.
+Spec completed(const Catalogue& catalogue, const Spec& spec);
+
 /// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec; PRIOR is "none" for a learner that takes none.
 std::string run_name(const Spec& spec);
 

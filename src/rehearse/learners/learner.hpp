@@ -74,8 +74,11 @@ class LearnerBuilder {
   virtual PriorUse prior_use() const = 0;
   virtual bool chooses_priors() const = 0;  // `--prior a,b,c` is allowed
   virtual void fields(FieldVisitor& v) = 0;
-  /// What these options cannot do with a task, a line each: wrong input that is known before anything is built.
-  virtual std::vector<std::string> violations(const Task& /*task*/) const { return {}; }
+  /// What these options cannot do with a task or a policy, a line each: wrong input that is known before anything is
+  /// built.
+  virtual std::vector<std::string> violations(const Task& /*task*/, const policy::Policy& /*policy*/) const {
+    return {};
+  }
   virtual std::unique_ptr<Learner> build(Setting setting) const = 0;  // throws InvalidInput
 };
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/random.hpp"
 
 namespace rehearse::policy {
 namespace {
@@ -47,6 +48,23 @@ std::shared_ptr<const Policy> make_schedule(std::vector<Interval> bounds, double
   violations.require(!bounds.empty(), "policy has no actions");
   violations.throw_if_any();
   return std::make_shared<Schedule>(std::move(bounds), dt_s, steps);
+}
+
+Vector random_schedule(const Task& task, RandomActions actions, double hold_s, std::uint64_t seed,
+                       std::uint64_t trial) {
+  const auto hold = std::max<Index>(1, std::lround(hold_s / task.dt_s));
+  Rng rng({.seed = seed, .trial = trial, .purpose = Purpose::random_policy});
+  Vector theta(task.horizon * task.action_size());
+  for (Index i = 0; i < theta.size(); ++i) {
+    const Interval& bounds = task.actions[static_cast<std::size_t>(i / task.horizon)].bounds;
+    const auto draw = [&] {
+      const double action = rng.uniform(bounds.low, bounds.high);
+      if (actions == RandomActions::uniform) return action;
+      return action < 0.5 * (bounds.low + bounds.high) ? bounds.low : bounds.high;
+    };
+    theta(i) = i % task.horizon % hold == 0 ? draw() : theta(i - 1);
+  }
+  return theta;
 }
 
 }  // namespace rehearse::policy

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "rehearse/core/task.hpp"
 #include "rehearse/policy/policy.hpp"
 
 namespace rehearse::policy {
@@ -11,5 +13,14 @@ namespace rehearse::policy {
 /// second, … After the last step the last actions are held. Throws InvalidInput if dt_s or steps is not positive, or
 /// there are no bounds.
 std::shared_ptr<const Policy> make_schedule(std::vector<Interval> bounds, double dt_s, Index steps);
+
+enum class RandomActions {
+  uniform,   // in their bounds
+  extremes,  // one bound or the other: a random binary signal, which moves a system most
+};
+
+/// θ of such a policy for the task's whole horizon: random actions, each held for `hold_s` (rounded to whole steps, at
+/// least one). Random numbers come from (seed, trial) alone.
+Vector random_schedule(const Task& task, RandomActions actions, double hold_s, std::uint64_t seed, std::uint64_t trial);
 
 }  // namespace rehearse::policy

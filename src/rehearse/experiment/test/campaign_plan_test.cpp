@@ -96,6 +96,40 @@ TEST(CampaignPlan, SeveralPriorsOfOneRunAndTheOracle) {
   EXPECT_EQ(option(plan.run(2, 0), "prior.drift"), "0.5");
 }
 
+/// A learner that refuses every task until it is told to be ready.
+class Hesitant final : public fake::EchoBuilder {
+ public:
+  Hesitant() : EchoBuilder(false, {}) {}
+  std::string name() const override { return "hesitant"; }
+  void fields(FieldVisitor& v) override {
+    EchoBuilder::fields(v);
+    v.boolean("ready", ready_);
+  }
+  std::vector<std::string> violations(const Task&, const policy::Policy& policy) const override {
+    if (ready_) return {};
+    return {"not ready for the policy " + policy.name()};
+  }
+
+ private:
+  bool ready_ = false;
+};
+
+TEST(CampaignPlan, ALearnerRefusesWhatItIsGivenNotWhatItWouldBeWithoutOptions) {
+  Catalogue catalogue = fake::catalogue();
+  catalogue.learner_families.push_back([] {
+    std::vector<std::unique_ptr<learners::LearnerBuilder>> family;
+    family.push_back(std::make_unique<Hesitant>());
+    return family;
+  });
+  const auto plan = [&](const std::string& options) {
+    return plan_campaign(catalogue, kHead + "learners = [\"echo\", \"hesitant\"]\n" + options, "c.toml");
+  };
+  EXPECT_EQ(plan("[learner.hesitant]\nready = true\n").runs.size(), 4u);
+  EXPECT_EQ(plan("[set]\nready = true\n").runs.size(), 4u);
+  EXPECT_EQ(fake::message_of<InvalidInput>([&] { plan("[learner.hesitant]\nsearch.step = 2\n"); }),
+            "c.toml: line 5: not ready for the policy line");
+}
+
 TEST(CampaignPlan, ALearnerThatIsNotBuiltIsMissing) {
   const CampaignPlan plan = plan_of("learners = [\"pilco\", \"echo\"]\n[learner.pilco]\ncentres = 200\n");
   ASSERT_EQ(plan.missing.size(), 1u);

@@ -193,7 +193,7 @@ class EchoLearner final : public learners::Learner {
   learners::Proposal proposal_;
 };
 
-class EchoBuilder final : public learners::LearnerBuilder {
+class EchoBuilder : public learners::LearnerBuilder {
  public:
   EchoBuilder(bool takes_prior, Killer killer) : takes_prior_(takes_prior), killer_(killer) {}
   std::string name() const override { return takes_prior_ ? "echo" : "echo-alone"; }

@@ -112,8 +112,9 @@ class BlackDrops final : public Learner {
     const Task& task = setting_.task;
     proposal.policy = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
     const bool extremes = options_.first_trial.kind == FirstTrial::Kind::extremes;
-    proposal.theta = random_schedule(task, extremes ? RandomActions::extremes : RandomActions::uniform,
-                                     options_.first_trial.hold_s, setting_.seed, trial());
+    proposal.theta =
+        policy::random_schedule(task, extremes ? policy::RandomActions::extremes : policy::RandomActions::uniform,
+                                options_.first_trial.hold_s, setting_.seed, trial());
   }
 
   void learn_model(Proposal& proposal, dynamics::WarmStart& state) {
@@ -224,7 +225,9 @@ class Builder final : public LearnerBuilder {
            std::holds_alternative<dynamics::Mi>(options_.model);
   }
   void fields(FieldVisitor& v) override { options_.fields(v); }
-  std::vector<std::string> violations(const Task& task) const override { return violations_with(options_, task); }
+  std::vector<std::string> violations(const Task& task, const policy::Policy&) const override {
+    return violations_with(options_, task);
+  }
   std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }
 
  private:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 
 namespace rehearse::learners::black_drops {
@@ -121,23 +120,6 @@ Vector random_policy(const policy::Policy& policy, const SearchOptions& options,
   Rng rng({.seed = seed, .trial = trial, .purpose = Purpose::random_policy});
   Vector theta(policy.parameters());
   for (double& value : theta) value = rng.uniform(-options.box, options.box);
-  return theta;
-}
-
-Vector random_schedule(const Task& task, RandomActions actions, double hold_s, std::uint64_t seed,
-                       std::uint64_t trial) {
-  const auto hold = std::max<Index>(1, std::lround(hold_s / task.dt_s));
-  Rng rng({.seed = seed, .trial = trial, .purpose = Purpose::random_policy});
-  Vector theta(task.horizon * task.action_size());
-  for (Index i = 0; i < theta.size(); ++i) {
-    const Interval& bounds = task.actions[static_cast<std::size_t>(i / task.horizon)].bounds;
-    const auto draw = [&] {
-      const double action = rng.uniform(bounds.low, bounds.high);
-      if (actions == RandomActions::uniform) return action;
-      return action < 0.5 * (bounds.low + bounds.high) ? bounds.low : bounds.high;
-    };
-    theta(i) = i % task.horizon % hold == 0 ? draw() : theta(i - 1);
-  }
   return theta;
 }
 

@@ -59,13 +59,4 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, std::uint64_t seed,
                      std::uint64_t trial);
 
-enum class RandomActions {
-  uniform,   // in their bounds
-  extremes,  // one bound or the other: a random binary signal, which moves a system most
-};
-
-/// θ of a policy::make_schedule for the task's whole horizon: random actions, each held for `hold_s` (rounded to whole
-/// steps, at least one).
-Vector random_schedule(const Task& task, RandomActions actions, double hold_s, std::uint64_t seed, std::uint64_t trial);
-
 }  // namespace rehearse::learners::black_drops

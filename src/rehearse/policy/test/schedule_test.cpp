@@ -30,6 +30,38 @@ TEST(Schedule, KeepsTheLawsOfPolicies) {
   EXPECT_EQ(testing::check_policy(*policy, task), std::vector<std::string>{});
 }
 
+TEST(RandomSchedule, OfExtremesHasBothBoundsAndNothingElse) {
+  Task task = fixture::task();
+  task.horizon = 50;  // that a bound does not come has a probability of 2⁻⁴⁸
+  const Vector theta = random_schedule(task, RandomActions::extremes, 0, 1, 1);
+  for (Index a = 0; a < 2; ++a) {
+    const auto& [low, high] = task.actions[static_cast<std::size_t>(a)].bounds;
+    const auto actions = theta.segment(a * task.horizon, task.horizon).array();
+    EXPECT_GT((actions == low).count(), 0);
+    EXPECT_EQ((actions == low).count() + (actions == high).count(), task.horizon);
+    EXPECT_LT((actions == low).count(), task.horizon);
+  }
+}
+
+TEST(RandomSchedule, HoldsEachActionForItsTime) {
+  Task task = fixture::task();
+  task.actions = {{"pull", "N", {-1, 1}}, {"push", "N", {2, 3}}};
+  task.dt_s = 0.2;
+  task.horizon = 12;
+  for (const auto& [hold_s, steps] : std::vector<std::pair<double, Index>>{{0, 1}, {0.2, 1}, {0.64, 3}}) {
+    const Vector theta = random_schedule(task, RandomActions::uniform, hold_s, 1, 1);
+    ASSERT_EQ(theta.size(), 2 * task.horizon);
+    EXPECT_EQ(theta, random_schedule(task, RandomActions::uniform, hold_s, 1, 1));
+    EXPECT_NE(theta, random_schedule(task, RandomActions::uniform, hold_s, 2, 1));
+    for (Index i = 0; i < theta.size(); ++i) {
+      const Index t = i % task.horizon;
+      EXPECT_EQ(t % steps > 0, t > 0 && theta(i) == theta(i - 1)) << i;
+      const Interval& bounds = task.actions[static_cast<std::size_t>(i / task.horizon)].bounds;
+      EXPECT_TRUE(bounds.low <= theta(i) && theta(i) <= bounds.high) << i;
+    }
+  }
+}
+
 TEST(Schedule, SaysWhatIsWrong) {
   EXPECT_THROW(make_schedule({}, 0.1, 3), InvalidInput);
   EXPECT_THROW(make_schedule({{0, 1}}, 0, 3), InvalidInput);

@@ -95,36 +95,5 @@ TEST(RandomPolicy, IsUniformInTheBoxAndReproducible) {
   EXPECT_GT(largest, 1.9);
 }
 
-TEST(RandomSchedule, OfExtremesHasBothBoundsAndNothingElse) {
-  Task task = slider::task();
-  task.actions.push_back({"push", "N", {2, 3}});
-  task.horizon = 50;  // that a bound does not come has a probability of 2⁻⁴⁸
-  const Vector theta = random_schedule(task, RandomActions::extremes, 0, 1, 1);
-  for (Index a = 0; a < 2; ++a) {
-    const auto& [low, high] = task.actions[static_cast<std::size_t>(a)].bounds;
-    const auto actions = theta.segment(a * task.horizon, task.horizon).array();
-    EXPECT_GT((actions == low).count(), 0);
-    EXPECT_EQ((actions == low).count() + (actions == high).count(), task.horizon);
-    EXPECT_LT((actions == low).count(), task.horizon);
-  }
-}
-
-TEST(RandomSchedule, HoldsEachActionForItsTime) {
-  Task task = slider::task();
-  task.actions.push_back({"push", "N", {2, 3}});
-  for (const auto& [hold_s, steps] :
-       std::vector<std::pair<double, Index>>{{0, 1}, {slider::kDt, 1}, {3.2 * slider::kDt, 3}}) {
-    const Vector theta = random_schedule(task, RandomActions::uniform, hold_s, 1, 1);
-    ASSERT_EQ(theta.size(), 2 * task.horizon);
-    EXPECT_EQ(theta, random_schedule(task, RandomActions::uniform, hold_s, 1, 1));
-    for (Index i = 0; i < theta.size(); ++i) {
-      const Index t = i % task.horizon;
-      EXPECT_EQ(t % steps > 0, t > 0 && theta(i) == theta(i - 1)) << i;
-      const Interval& bounds = task.actions[static_cast<std::size_t>(i / task.horizon)].bounds;
-      EXPECT_TRUE(bounds.low <= theta(i) && theta(i) <= bounds.high) << i;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace rehearse::learners::black_drops

@@ -1,0 +1,93 @@
+#include "rehearse/learners/pilco/model.hpp"
+
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/gp/fitc.hpp"
+#include "rehearse/gp/posterior.hpp"
+#include "rehearse/optim/cautious_bfgs.hpp"
+
+namespace rehearse::learners::pilco {
+namespace {
+
+/// Inducing inputs for GPs of Y at X: rows spread evenly, then moved to where the sum of the outputs' evidence is
+/// higher, in units of the inputs' spread.
+Matrix inducing_inputs(const gp::Inputs& inputs, const Matrix& X, const Matrix& Y, const ModelOptions& options,
+                       const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator) {
+  const Index m = options.inducing, D = X.cols();
+  Matrix Z(m, D);
+  for (Index i = 0; i < m; ++i) Z.row(i) = X.row(i * X.rows() / m);
+  if (options.inducing_line_searches == 0) return Z;
+  const auto spread = inputs.spread().asDiagonal();
+  const auto evidence = [&](const Vector& z, Vector& gradient) {
+    const Matrix at = z.reshaped(m, D) * spread;
+    std::vector<Matrix> gradients(kernels.size());
+    Vector values(Y.cols());
+    evaluator.for_each(Y.cols(), [&](Index e) {
+      const auto output = static_cast<std::size_t>(e);
+      values(e) = gp::fitc_evidence(X, Y.col(e), at, kernels[output], &gradients[output]);
+    });
+    Matrix sum = Matrix::Zero(m, D);
+    for (const Matrix& each : gradients) sum += each;
+    gradient = (sum * spread).reshaped();
+    return values.sum();
+  };
+  const Vector start = (Z * inputs.spread().cwiseInverse().asDiagonal()).reshaped();
+  const optim::GradientResult found =
+      optim::maximise_cautious_bfgs(evidence, start, {.line_searches = options.inducing_line_searches});
+  return found.x.reshaped(m, D) * spread;
+}
+
+std::vector<gp::MomentTerm> terms(const Matrix& X, const Matrix& Y, const ModelOptions& options,
+                                  const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
+                                  std::vector<std::string>& notes) {
+  const gp::Inputs inputs(X);
+  if (X.rows() > options.inducing) {
+    try {
+      return gp::fitc_terms(X, Y, inducing_inputs(inputs, X, Y, options, kernels, evaluator), kernels);
+    } catch (const InvalidInput& error) {
+      notes.push_back(fmt::format("all rows are used instead of inducing inputs: {}", error.what()));
+    }
+  }
+  return gp::exact_terms(gp::Posterior(inputs, Y, kernels));
+}
+
+dynamics::Kind kind(const ModelOptions& options) {
+  dynamics::ZeroMean zero;
+  zero.gp.fit = options.fit;
+  zero.gp.integrate_rates = false;  // each state has a GP of its own
+  return zero;
+}
+
+}  // namespace
+
+void ModelOptions::fields(FieldVisitor& v) {
+  v.group("fit", fit);
+  v.integer("inducing", inducing, at_least(1));
+  v.integer("inducing_line_searches", inducing_line_searches, at_least(0));
+}
+
+Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
+            const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator) {
+  Model model{.kernels = start, .log_evidence = std::numeric_limits<double>::quiet_NaN()};
+  const FeatureMap features = task.feature_map();
+  try {
+    dynamics::Learned learned =
+        dynamics::learn(data, features, task.kinematics(), nullptr, kind(options), {start, {}}, evaluator);
+    model.notes = std::move(learned.notes);
+    const Matrix X = dynamics::gp_inputs(features, data.states, data.actions);
+    model.moments = std::make_shared<gp::MomentMatching>(
+        terms(X, data.changes, options, learned.state.kernels, evaluator, model.notes), task.state_size());
+    model.model = std::move(learned.model);
+    model.kernels = std::move(learned.state.kernels);
+    model.log_evidence = *learned.log_evidence;
+  } catch (const InvalidInput& nothing_to_learn_from) {
+    model.notes.push_back(fmt::format("no model, so the policy stays: {}", nothing_to_learn_from.what()));
+  }
+  return model;
+}
+
+}  // namespace rehearse::learners::pilco

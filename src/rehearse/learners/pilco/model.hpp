@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/core/evaluator.hpp"
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/task.hpp"
+#include "rehearse/dynamics/learn.hpp"
+#include "rehearse/gp/fit.hpp"
+#include "rehearse/gp/moment_matching.hpp"
+
+namespace rehearse::learners::pilco {
+
+struct ModelOptions {
+  gp::FitOptions fit;
+  Index inducing = 300;               // more rows than so many are summed up by so many inducing inputs: FITC; PILCO
+  Index inducing_line_searches = 10;  // that place them, from rows spread evenly over the trials (PILCO: 500, from
+                                      // random rows)
+  ModelOptions() {
+    fit.penalties.length = fit.penalties.snr = true;
+    fit.penalties.snr_limit = 1000;  // PILCO
+  }
+  void fields(FieldVisitor& v);
+};
+
+/// GPs with zero mean, one for the change of each state.
+struct Model {
+  std::shared_ptr<const gp::MomentMatching> moments;     // what policies are searched on; null: it could not be made
+  std::shared_ptr<const dynamics::DynamicsModel> model;  // the same GPs of all rows, for forecasts
+  std::vector<gp::Hyperparameters> kernels;              // the warm start of the next
+  double log_evidence = 0;                               // of all outputs together, nats; NaN where a fit failed
+  std::vector<std::string> notes;                        // numerical failures survived
+};
+
+/// `start`: the kernels of the model before; may be empty. The same for any number of threads. No data throw.
+Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
+            const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator);
+
+}  // namespace rehearse::learners::pilco

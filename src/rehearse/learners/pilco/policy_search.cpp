@@ -1,0 +1,127 @@
+#include "rehearse/learners/pilco/policy_search.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "rehearse/core/feature_moments.hpp"
+#include "rehearse/core/random.hpp"
+#include "rehearse/moments/expected_return.hpp"
+#include "rehearse/policy/rbf.hpp"
+
+namespace rehearse::learners::pilco {
+namespace {
+
+constexpr double kLength = 1, kAngleLength = 0.7, kTargetStd = 0.1;  // PILCO's cart-pole
+
+/// What θ counts in, one a parameter: a unit of a centre is that of the feature itself. PILCO's policies have features
+/// that are not scaled, and its steps depend on it.
+Vector units_of(const policy::RbfOptions& policy, Index parameters) {
+  const Index D = policy.scale.size(), A = static_cast<Index>(policy.bounds.size());
+  Vector units = Vector::Ones(parameters);
+  units.segment(A * D, policy.centres * D) = policy.scale.cwiseInverse().replicate(policy.centres, 1);
+  return units;
+}
+
+/// The expected return as an objective of θ / units.
+class Objective {
+ public:
+  Objective(const SearchProblem& problem, const SearchOptions& options, Vector units)
+      : problem_(problem),
+        expected_(problem.task, problem.policy, problem.dynamics, start_state(problem.task, options)),
+        units_(std::move(units)),
+        usual_evaluations_(2 * static_cast<double>(options.bfgs.line_searches)) {}
+
+  double operator()(const Vector& x, Vector& gradient) {
+    const Vector theta = x.cwiseProduct(units_);
+    const moments::Return found = expected_(theta, &gradient, workspace_, problem_.evaluator);
+    gradient.array() *= units_.array();
+    ++evaluations_;
+    failed_ += !found.ok();
+    if (found.ok()) best_ = evaluations_ - failed_ == 1 ? found.value : std::max(best_, found.value);
+    report();
+    return found.value;
+  }
+
+  Index evaluations() const { return evaluations_; }
+  Index failed() const { return failed_; }
+
+ private:
+  void report() const {
+    if (!problem_.progress) return;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+    problem_.progress({.phase = "search",
+                       .done = std::min(1.0, static_cast<double>(evaluations_) / usual_evaluations_),
+                       .best = best_,
+                       .rollouts = evaluations_,
+                       .rollouts_per_s = static_cast<double>(evaluations_) / std::max(elapsed.count(), 1e-9)});
+  }
+
+  const SearchProblem& problem_;
+  moments::ExpectedReturn expected_;
+  moments::ReturnWorkspace workspace_;
+  Vector units_;
+  double usual_evaluations_, best_ = 0;
+  Index evaluations_ = 0, failed_ = 0;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// One a feature.
+Vector initial_lengths(const FeatureMap& features) {
+  Vector lengths(features.features());
+  Index next = 0;
+  for (const StateKind kind : features.kinds()) {
+    if (kind == StateKind::plain) lengths(next++) = kLength;
+    if (kind == StateKind::angle) lengths.segment(next, 2).setConstant(kAngleLength), next += 2;
+  }
+  return lengths;
+}
+
+}  // namespace
+
+void SearchOptions::fields(FieldVisitor& v) {
+  bfgs.fields(v);
+  v.number("start_std", start_std, at_least(0));
+  v.number("start_std_angle", start_std_angle, at_least(0));
+}
+
+Gaussian start_state(const Task& task, const SearchOptions& options) {
+  Vector deviations = task.start_std;
+  for (Index i = 0; i < deviations.size(); ++i) {
+    const bool angle = task.states[static_cast<std::size_t>(i)].kind == StateKind::angle;
+    deviations(i) = std::max(deviations(i), angle ? options.start_std_angle : options.start_std);
+  }
+  return {task.start_mean, Matrix(deviations.cwiseAbs2().asDiagonal())};
+}
+
+Vector initial_policy(const policy::Policy& policy, const Task& task, const SearchOptions& options, std::uint64_t seed,
+                      std::uint64_t trial) {
+  const policy::RbfOptions& rbf = *policy.analytic();
+  const Transformed features = FeatureMoments(rbf.features)(start_state(task, options));
+  const Vector lengths = initial_lengths(rbf.features).cwiseQuotient(rbf.scale);
+  const Index D = rbf.scale.size(), A = policy.actions();
+  Rng rng({.seed = seed, .trial = trial, .purpose = Purpose::random_policy});
+  Vector theta(policy.parameters());
+  theta.head(A * D) = lengths.array().log().matrix().replicate(A, 1);
+  for (Index c = 0; c < rbf.centres; ++c)
+    for (Index d = 0; d < D; ++d) {
+      const double deviation = std::sqrt(std::max(features.covariance(d, d), 0.0));
+      theta((A + c) * D + d) = (features.mean(d) + deviation * rng.normal()) / rbf.scale(d);
+    }
+  for (double& target : theta.tail(A * rbf.centres)) target = kTargetStd * rng.normal();
+  return theta;
+}
+
+SearchResult search_policy(const SearchProblem& problem, const Vector& start, const SearchOptions& options) {
+  const Vector units = units_of(*problem.policy.analytic(), start.size());
+  Objective objective(problem, options, units);
+  const optim::GradientResult found =
+      optim::maximise_cautious_bfgs(std::ref(objective), start.cwiseQuotient(units), options.bfgs);
+  SearchResult result{.theta = start, .evaluations = objective.evaluations(), .failed = objective.failed()};
+  if (!std::isfinite(found.value)) return result;
+  result.theta = found.x.cwiseProduct(units);
+  result.predicted_return = found.value;
+  return result;
+}
+
+}  // namespace rehearse::learners::pilco

@@ -1,0 +1,247 @@
+#include "rehearse/learners/pilco/pilco.hpp"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/moments/expected_return.hpp"
+#include "rehearse/policy/network.hpp"
+#include "rehearse/policy/rbf.hpp"
+#include "rehearse/rollout/execute.hpp"
+#include "rehearse/system/ode.hpp"
+#include "rehearse/testing/check_learner.hpp"
+
+namespace rehearse::learners::pilco {
+namespace {
+
+using OptionTexts = std::map<std::string, std::string>;
+
+// A slider on a line to be pulled to 0: the smallest thing that can be learned.
+void ode(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) { dxdt(0) = phi(0) * u(0) - phi(1) * x(0); }
+
+Task task() {
+  Task task;
+  task.states = {{"position", "m"}};
+  task.actions = {{"pull", "N", {-1, 1}}};
+  task.start_mean = Vector{{1}};
+  task.start_std = Vector{{0.02}};
+  task.dt_s = 0.2;
+  task.horizon = 12;
+  task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next, VectorView rewards) {
+    rewards = (-X_next.col(0).array().square() / 0.08).exp();
+  };
+  task.saturating_reward = SaturatingReward{Vector::Zero(1), Matrix::Constant(1, 1, 1 / 0.2)};
+  return task;
+}
+
+std::shared_ptr<const policy::Policy> rbf() {
+  return policy::make_rbf(
+      {.features = task().feature_map(), .scale = Vector::Constant(1, 2), .centres = 5, .bounds = {{-1, 1}}});
+}
+
+Setting setting(std::uint64_t seed = 1) {
+  Setting setting;
+  setting.task = task();
+  setting.policy = rbf();
+  setting.seed = seed;
+  return setting;
+}
+
+Episode run_trial(const Proposal& proposal, std::uint64_t trial) {
+  const Task task = pilco::task();
+  const auto plant = system::make_ode_plant({.ode = ode,
+                                             .phi = Vector{{1.5, 0.2}},
+                                             .dt_s = task.dt_s,
+                                             .start_mean = task.start_mean,
+                                             .start_std = task.start_std,
+                                             .tolerance = 1e-9});
+  return rollout::execute(*plant, *proposal.policy, proposal.theta, task,
+                          Rng({.trial = trial, .purpose = Purpose::start_state}));
+}
+
+std::unique_ptr<LearnerBuilder> builder(const OptionTexts& options = {{"search.line_searches", "20"}}) {
+  auto builder = std::move(builders().front());
+  for (const auto& [name, text] : options)
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { builder->fields(v); }, name, text)) << name;
+  return builder;
+}
+
+std::vector<Proposal> learn(Learner& learner, std::uint64_t trials, std::vector<double>* returns = nullptr) {
+  std::vector<Proposal> proposals;
+  for (std::uint64_t trial = 1; trial <= trials; ++trial) {
+    proposals.push_back(learner.ask());
+    const Episode episode = run_trial(proposals.back(), trial);
+    if (returns) returns->push_back(episode.total_reward());
+    learner.tell(episode);
+  }
+  return proposals;
+}
+
+std::string refusal(const Setting& setting) {
+  try {
+    builder()->build(setting);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Pilco, IsOneLearnerWithoutPrior) {
+  const auto all = builders();
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0]->name(), "pilco");
+  EXPECT_EQ(all[0]->prior_use(), PriorUse::none);
+  EXPECT_TRUE(field_violations([&](FieldVisitor& v) { all[0]->fields(v); }).empty());
+}
+
+TEST(Pilco, KeepsTheLaws) {
+  EXPECT_EQ(testing::check_learner(*builder(), setting(), run_trial), std::vector<std::string>{});
+}
+
+TEST(Pilco, KeepsTheLawsWithInducingInputs) {
+  const auto sparse = builder({{"search.line_searches", "10"}, {"model.inducing", "9"}});
+  EXPECT_EQ(testing::check_learner(*sparse, setting(), run_trial), std::vector<std::string>{});
+}
+
+// A policy that does nothing earns about 0, one that stops at 0 at once about 9.
+TEST(Pilco, LearnsTheSlider) {
+  for (const std::uint64_t seed : {1, 2}) {
+    std::vector<double> returns;
+    const auto proposals = learn(*builder()->build(setting(seed)), 4, &returns);
+    EXPECT_GT(returns.back(), 8) << seed;
+    const Proposal& last = proposals.back();
+    ASSERT_TRUE(last.predicted_return && last.log_evidence && last.model);
+    EXPECT_NEAR(*last.predicted_return, returns.back(), 1) << seed;
+    EXPECT_EQ(last.policy->name(), "rbf");
+    EXPECT_EQ(last.notes, std::vector<std::string>{});
+    EXPECT_GT(last.rollouts, 20);
+  }
+}
+
+TEST(Pilco, TheFirstTrialIsRandomActions) {
+  const auto first = [](std::uint64_t seed, const char* hold_s) {
+    const Proposal proposal = builder({{"first_trial.hold_s", hold_s}})->build(setting(seed))->ask();
+    EXPECT_EQ(proposal.policy->name(), "schedule");
+    EXPECT_FALSE(proposal.predicted_return || proposal.log_evidence || proposal.model);
+    return proposal.theta;
+  };
+  EXPECT_EQ(first(1, "0"), first(1, "0"));
+  EXPECT_NE(first(1, "0"), first(2, "0"));
+  EXPECT_NE(first(1, "0")(0), first(1, "0")(1));
+  EXPECT_EQ(first(1, "0.4")(0), first(1, "0.4")(1));
+}
+
+TEST(Pilco, RefusesWhatHasNoMoments) {
+  Setting plain = setting();
+  plain.policy =
+      policy::make_linear({.features = task().feature_map(), .scale = Vector::Ones(1), .squash = {{{-1, 1}}, 1}});
+  plain.task.saturating_reward.reset();
+  const std::string message = refusal(plain);
+  for (const char* part : {"policy = linear", "--set policy=rbf", "reward", "saturating_reward", "black-drops"})
+    EXPECT_NE(message.find(part), std::string::npos) << part << ": " << message;
+  EXPECT_EQ(builder()->violations(plain.task, *plain.policy).size(), 2U);
+  EXPECT_TRUE(builder()->violations(task(), *rbf()).empty());
+}
+
+// The 24 rows of two trials by 8 inducing inputs: another model than the exact one, and nearly as good.
+TEST(Pilco, SumsUpManyRowsByInducingInputs) {
+  const auto third = [](const char* inducing) {
+    return learn(*builder({{"search.line_searches", "20"}, {"model.inducing", inducing}})->build(setting()), 3).back();
+  };
+  const Proposal exact = third("24"), sparse = third("8");
+  EXPECT_NE(exact.theta, sparse.theta);
+  EXPECT_NEAR(*exact.predicted_return, *sparse.predicted_return, 0.3);
+}
+
+TEST(Model, HasInducingInputsBeyondTheLimitOnly) {
+  const auto learner = builder()->build(setting());
+  Dataset data;
+  for (const std::uint64_t trial : {1, 2}) data.append(run_trial(learner->ask(), trial));
+  const auto points = [&](Index inducing) {
+    ModelOptions options;
+    options.inducing = inducing;
+    const Model model = pilco::learn(task(), data, options, {}, serial_evaluator());
+    EXPECT_EQ(model.notes, std::vector<std::string>{});
+    return model.moments->terms().front().size();
+  };
+  EXPECT_EQ(points(24), 24);
+  EXPECT_EQ(points(23), 23);
+  EXPECT_EQ(points(8), 8);
+}
+
+TEST(Model, SurvivesDataThatTellNothing) {
+  Dataset data;
+  data.states = Matrix::Constant(3, 1, std::numeric_limits<double>::quiet_NaN());
+  data.actions = Matrix::Zero(3, 1);
+  data.changes = data.states;
+  data.rewards = Vector::Zero(3);
+  const Model model = pilco::learn(task(), data, {}, {}, serial_evaluator());
+  EXPECT_FALSE(model.moments || model.model);
+  ASSERT_EQ(model.notes.size(), 1U);
+  EXPECT_NE(model.notes[0].find("the policy stays"), std::string::npos) << model.notes[0];
+}
+
+TEST(PolicySearch, BeginsWithPilcosPolicyWhateverTheScale) {
+  Task task = pilco::task();
+  task.states = {{"rate", ""}, {"angle", "", StateKind::angle}};
+  task.start_mean = Vector{{3, 0}};
+  task.start_std = Vector{{0.5, 0}};
+  const SearchOptions options{.start_std_angle = 0.2};
+  EXPECT_EQ(start_state(task, options).covariance, (Matrix{{0.25, 0}, {0, 0.2 * 0.2}}));
+  const auto theta = [&](const Vector& scale) {
+    const auto policy =
+        policy::make_rbf({.features = task.feature_map(), .scale = scale, .centres = 40, .bounds = {{-1, 1}}});
+    return initial_policy(*policy, task, options, 1, 2);
+  };
+  const Vector one = theta(Vector::Ones(3)), scaled = theta(Vector{{10, 1, 2}});
+  EXPECT_TRUE(one.head(3).isApprox(Vector{{0, std::log(0.7), std::log(0.7)}}));
+  EXPECT_TRUE(scaled.head(3).isApprox(Vector{{-std::log(10), std::log(0.7), std::log(0.35)}}));
+  const auto centres = one.segment(3, 120).reshaped(3, 40);
+  EXPECT_NEAR(centres.row(0).mean(), 3, 0.3);
+  EXPECT_NEAR(centres.row(1).mean(), std::exp(-0.02), 0.02);
+  EXPECT_TRUE(scaled.segment(3, 120).reshaped(3, 40).row(0).isApprox(centres.row(0) / 10));
+  EXPECT_NEAR(std::sqrt(one.tail(40).squaredNorm() / 40), 0.1, 0.04);
+}
+
+// No policy has a value on a model that throws the state out of all numbers.
+TEST(PolicySearch, KeepsTheStartWhereNothingHasAValue) {
+  gp::MomentTerm wild{.centres = Matrix{{1, 0}}, .log_lengths = Vector{{9, 9}}, .weights = Vector{{1e300}}};
+  const auto dynamics = std::make_shared<gp::MomentMatching>(std::vector{wild}, 1);
+  const auto policy = rbf();
+  const Task task = pilco::task();
+  const Vector start = initial_policy(*policy, task, {}, 1, 2);
+  const SearchResult found = search_policy({dynamics, *policy, task, serial_evaluator(), {}}, start, {});
+  EXPECT_EQ(found.theta, start);
+  EXPECT_FALSE(found.predicted_return.has_value());
+  EXPECT_EQ(found.failed, found.evaluations);
+}
+
+TEST(PolicySearch, ReportsProgressAndPassesInterruptions) {
+  const auto learner_with = [](ProgressSink sink) {
+    Setting with = setting();
+    with.progress = std::move(sink);
+    return builder()->build(with);
+  };
+  std::vector<Progress> events;
+  const auto learner = learner_with([&](const Progress& p) { events.push_back(p); });
+  learn(*learner, 2);
+  ASSERT_GT(events.size(), 2U);
+  EXPECT_EQ(events.front().phase, "model");
+  EXPECT_EQ(events.back().phase, "search");
+  EXPECT_EQ(events.back().rollouts, static_cast<Index>(events.size()) - 1);
+
+  bool stop = true;
+  const auto stopped = learner_with([&](const Progress& p) {
+    if (stop && p.phase == "search" && p.rollouts == 3) throw Interrupted();
+  });
+  stopped->tell(run_trial(stopped->ask(), 1));
+  EXPECT_THROW(stopped->ask(), Interrupted);
+  stop = false;
+  EXPECT_EQ(stopped->ask().theta, learn(*learner_with({}), 2).back().theta);
+}
+
+}  // namespace
+}  // namespace rehearse::learners::pilco
