@@ -36,7 +36,7 @@ struct Problem {
       if (named.name == prior_name) prior = prior::Prior{named.name, named.simulator, named.parameters};
   }
   dynamics::Learned learn(const dynamics::Kind& kind, const Evaluator& evaluator) const {
-    return dynamics::learn(data, scenario.task.feature_map(), scenario.task.kinematics(), prior ? &*prior : nullptr,
+    return dynamics::learn(data, scenario.task.model_features(), scenario.task.kinematics(), prior ? &*prior : nullptr,
                            kind, {}, evaluator);
   }
 

@@ -81,7 +81,7 @@ Result measure(const Condition& condition, std::uint64_t seed) {
   const scenario::Scenario scenario = make(condition.scenario, condition.measurement_noise);
   const prior::Prior prior = random_prior(scenario, condition.right_friction, seed);
   const Dataset data = benchmarks::random_episodes(scenario, condition.episodes * scenario.task.horizon, seed);
-  const FeatureMap features = scenario.task.feature_map();
+  const FeatureMap features = scenario.task.model_features();
   const Vector truth = scenario.oracle->parameters().values()(prior.space.of_kind(Parameter::Kind::continuous));
   const dynamics::Residuals residuals(data, features);
   const dynamics::PhiPosteriorOptions classical{.misfit_observations = 1e12};

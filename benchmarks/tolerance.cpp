@@ -71,7 +71,7 @@ Vector some_policy(const std::vector<Vector>& tried, Index which, Rng& rng) {
 /// GP inputs of imagined rollouts.
 Matrix inputs_of_rollouts(const dynamics::GpModel& model, const scenario::Scenario& scenario,
                           const std::vector<Vector>& tried, Index count) {
-  const FeatureMap features = scenario.task.feature_map();
+  const FeatureMap features = scenario.task.model_features();
   const Index particles = 8;
   Matrix F(count, features.features() + scenario.task.action_size());
   Rng rng({.seed = 2});
@@ -115,7 +115,7 @@ std::shared_ptr<const dynamics::GpModel> model_of(const Experience& experience, 
     if constexpr (requires { k.gp; }) k.gp.tolerance = tolerance;
   };
   std::visit(set, kind);
-  auto learned = dynamics::learn(experience.data, scenario.task.feature_map(), scenario.task.kinematics(),
+  auto learned = dynamics::learn(experience.data, scenario.task.model_features(), scenario.task.kinematics(),
                                  prior ? &*prior : nullptr, kind, {}, evaluator);
   return std::dynamic_pointer_cast<const dynamics::GpModel>(learned.model);
 }

@@ -1,11 +1,27 @@
 #include "rehearse/core/feature_map.hpp"
 
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/vector_math.hpp"
 
 namespace rehearse {
 
-FeatureMap::FeatureMap(std::vector<StateKind> kinds) : kinds_(std::move(kinds)) {
-  for (StateKind kind : kinds_) features_ += kind == StateKind::angle ? 2 : kind == StateKind::plain ? 1 : 0;
+FeatureMap::FeatureMap(std::vector<StateKind> kinds, std::vector<JointAngle> joints)
+    : kinds_(std::move(kinds)), joints_(std::move(joints)) {
+  std::vector<Index> first;  // feature of each state
+  for (const StateKind kind : kinds_) {
+    first.push_back(features_);
+    features_ += kind == StateKind::angle ? 2 : kind == StateKind::plain ? 1 : 0;
+  }
+  const auto of_state = [&](Index state) {
+    if (state < 0 || state >= states() || kinds_[static_cast<std::size_t>(state)] != StateKind::angle)
+      throw InvalidInput(fmt::format("a joint is between two angles, but state {} is none", state));
+    const Index cosine = first[static_cast<std::size_t>(state)];
+    return Trigonometry{cosine, cosine + 1};
+  };
+  for (const JointAngle& joint : joints_) joint_features_.push_back({of_state(joint.angle), of_state(joint.carrier)});
+  features_ += 2 * static_cast<Index>(joints_.size());
 }
 
 std::vector<std::string> FeatureMap::names(const std::vector<std::string>& state_names) const {
@@ -16,6 +32,12 @@ std::vector<std::string> FeatureMap::names(const std::vector<std::string>& state
       names.push_back("cos " + state_names[i]);
       names.push_back("sin " + state_names[i]);
     }
+  }
+  for (const JointAngle& joint : joints_) {
+    const std::string angle = state_names[static_cast<std::size_t>(joint.angle)] + " - " +
+                              state_names[static_cast<std::size_t>(joint.carrier)];
+    names.push_back("cos(" + angle + ")");
+    names.push_back("sin(" + angle + ")");
   }
   return names;
 }
@@ -29,6 +51,13 @@ void FeatureMap::apply(const ConstMatrixView& X, MatrixView F) const {
       vector_sin_cos(X.col(s).data(), F.col(column + 1).data(), F.col(column).data(), X.rows());
       column += 2;
     }
+  }
+  for (const auto& [angle, carrier] : joint_features_) {
+    const auto ca = F.col(angle.cosine).array(), sa = F.col(angle.sine).array();
+    const auto cb = F.col(carrier.cosine).array(), sb = F.col(carrier.sine).array();
+    F.col(column) = ca * cb + sa * sb;
+    F.col(column + 1) = sa * cb - ca * sb;
+    column += 2;
   }
 }
 

@@ -14,22 +14,39 @@ enum class StateKind {
   omitted,  // not at all (a translation that the dynamics does not depend on)
 };
 
-/// States → inputs of GPs and policies, state by state in order. A value; any thread.
+/// The angle between a link and the one that carries it: angle − carrier. Both are states of kind angle.
+struct JointAngle {
+  Index angle = 0, carrier = 0;
+};
+
+/// States → inputs of GPs and policies, state by state in order; then cosine and sine of each joint's angle. A value;
+/// any thread.
 class FeatureMap {
  public:
   FeatureMap() = default;
-  explicit FeatureMap(std::vector<StateKind> kinds);
+  /// Throws InvalidInput if a joint's states are not angles.
+  explicit FeatureMap(std::vector<StateKind> kinds, std::vector<JointAngle> joints = {});
 
   Index states() const { return static_cast<Index>(kinds_.size()); }
   Index features() const { return features_; }
   const std::vector<StateKind>& kinds() const { return kinds_; }
+  const std::vector<JointAngle>& joints() const { return joints_; }
   std::vector<std::string> names(const std::vector<std::string>& state_names) const;
 
   /// X: rows × states, F: rows × features.
   void apply(const ConstMatrixView& X, MatrixView F) const;
 
  private:
+  struct Trigonometry {
+    Index cosine, sine;  // features
+  };
+  struct Joint {
+    Trigonometry angle, carrier;
+  };
+
   std::vector<StateKind> kinds_;
+  std::vector<JointAngle> joints_;
+  std::vector<Joint> joint_features_;
   Index features_ = 0;
 };
 

@@ -2,9 +2,12 @@
 
 #include <numbers>
 
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse {
 
 FeatureMoments::FeatureMoments(const FeatureMap& features) : outputs_(features.features()) {
+  if (!features.joints().empty()) throw InvalidInput("no moments of features with joint angles");
   Index output = 0;
   for (Index input = 0; input < features.states(); ++input) {
     const StateKind kind = features.kinds()[static_cast<std::size_t>(input)];

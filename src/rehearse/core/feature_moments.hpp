@@ -9,6 +9,7 @@ namespace rehearse {
 /// (Deisenroth 2010, appendix A.1). Immutable; any thread.
 class FeatureMoments {
  public:
+  /// Throws InvalidInput if there are joint angles: their moments are not implemented.
   explicit FeatureMoments(const FeatureMap& features);
 
   /// state: dx; the result has features.features() outputs.

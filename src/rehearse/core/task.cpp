@@ -24,6 +24,15 @@ FeatureMap Task::feature_map() const {
   return FeatureMap(std::move(kinds));
 }
 
+FeatureMap Task::model_features() const {
+  std::vector<JointAngle> joints;
+  for (Index angle = 0; angle < state_size(); ++angle) {
+    const Index carrier = index_of(states, states[static_cast<std::size_t>(angle)].carrier);
+    if (carrier >= 0) joints.push_back({angle, carrier});
+  }
+  return FeatureMap(feature_map().kinds(), std::move(joints));
+}
+
 Kinematics Task::kinematics() const {
   Kinematics kinematics{.dt_s = dt_s};
   for (Index position = 0; position < state_size(); ++position) {
@@ -52,6 +61,13 @@ std::vector<std::string> Task::violations() const {
   for (const StateVariable& state : states)
     found.require(state.rate.empty() || (index_of(states, state.rate) >= 0 && state.rate != state.name),
                   fmt::format("state {}: its rate {} is not another state", state.name, state.rate));
+  for (const StateVariable& state : states) {
+    const Index carrier = index_of(states, state.carrier);
+    const bool angles = carrier >= 0 && state.kind == StateKind::angle &&
+                        states[static_cast<std::size_t>(carrier)].kind == StateKind::angle;
+    found.require(state.carrier.empty() || (angles && state.carrier != state.name),
+                  fmt::format("state {}: {} cannot carry it, both must be angles", state.name, state.carrier));
+  }
   for (const ActionVariable& action : actions)
     found.require(
         std::isfinite(action.bounds.low) && std::isfinite(action.bounds.high) && action.bounds.low < action.bounds.high,

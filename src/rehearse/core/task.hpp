@@ -16,7 +16,9 @@ struct StateVariable {
   std::string name;
   std::string unit;
   StateKind kind = StateKind::plain;
-  std::string rate;  // name of the state that is its derivative by time; empty: none is
+  std::string rate;     // name of the state that is its derivative by time; empty: none is
+  std::string carrier;  // of an angle: name of the angle of the link that carries this one, both measured from one
+                        // direction; empty: none does
 };
 
 struct ActionVariable {
@@ -57,7 +59,8 @@ struct Task {
   Index state_size() const { return static_cast<Index>(states.size()); }
   Index action_size() const { return static_cast<Index>(actions.size()); }
   double episode_s() const { return static_cast<double>(horizon) * dt_s; }
-  FeatureMap feature_map() const;
+  FeatureMap feature_map() const;    // inputs of policies
+  FeatureMap model_features() const;  // of models: joint angles too
   Kinematics kinematics() const;
   std::vector<std::string> state_names() const;
   std::vector<Interval> action_bounds() const;

@@ -121,10 +121,10 @@ Learned learn_kind(const Mi& kind, const Residuals& residuals, const FeatureMap&
 }
 
 template <class GpKind>
-bool integrates(const GpKind& kind) {
-  return kind.gp.integrate_rates;
+GpOptions gp_options(const GpKind& kind) {
+  return kind.gp;
 }
-bool integrates(const Mi&) { return false; }
+GpOptions gp_options(const Mi&) { return {}; }
 
 }  // namespace
 
@@ -133,8 +133,10 @@ Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics&
   if (!prior && !std::holds_alternative<ZeroMean>(kind)) throw InvalidInput("this dynamics model needs a prior");
   if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
   const auto learn_this = [&](const auto& k) {
-    const Residuals residuals(data, features, integrates(k) ? kinematics : Kinematics{});
-    return learn_kind(k, residuals, features, prior, start, evaluator);
+    const GpOptions gp = gp_options(k);
+    const FeatureMap inputs = gp.joint_angles ? features : FeatureMap(features.kinds());
+    const Residuals residuals(data, inputs, gp.integrate_rates ? kinematics : Kinematics{});
+    return learn_kind(k, residuals, inputs, prior, start, evaluator);
   };
   return std::visit(learn_this, kind);
 }

@@ -23,10 +23,12 @@ namespace rehearse::dynamics {
 struct GpOptions {
   gp::FitOptions fit;
   PredictedVariance variance = PredictedVariance::latent;
+  bool joint_angles = true;      // inputs have those that the task names too
   bool integrate_rates = false;  // positions follow from their rates, GPs learn what is left (integration.hpp)
   double tolerance = 0.01;       // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
   void fields(FieldVisitor& v) {
     v.group("fit", fit);
+    v.boolean("joint_angles", joint_angles);
     v.boolean("integrate_rates", integrate_rates);
     v.number("tolerance", tolerance, between(0, 1));
     v.choice("variance", variance, {"latent", "noisy"});

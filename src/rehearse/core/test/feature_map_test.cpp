@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse {
 namespace {
 
@@ -26,6 +28,27 @@ TEST(FeatureMap, AnglesBecomeCosineAndSine) {
     EXPECT_NEAR(F(i, 2), std::sin(X(i, 2)), 1e-15);
     EXPECT_EQ(F(i, 3), X(i, 3));
   }
+}
+
+TEST(FeatureMap, JointAnglesComeLast) {
+  const FeatureMap map({StateKind::angle, StateKind::plain, StateKind::angle}, {{.angle = 2, .carrier = 0}});
+  EXPECT_EQ(map.features(), 7);
+  EXPECT_EQ(map.names({"a", "v", "b"}),
+            (std::vector<std::string>{"cos a", "sin a", "v", "cos b", "sin b", "cos(b - a)", "sin(b - a)"}));
+  const Matrix X = 4 * Matrix::Random(5, 3);
+  Matrix F(5, 7), without(5, 5);
+  map.apply(X, F);
+  FeatureMap(map.kinds()).apply(X, without);
+  EXPECT_EQ(F.leftCols(5), without);
+  for (Index i = 0; i < 5; ++i) {
+    EXPECT_NEAR(F(i, 5), std::cos(X(i, 2) - X(i, 0)), 1e-15);
+    EXPECT_NEAR(F(i, 6), std::sin(X(i, 2) - X(i, 0)), 1e-15);
+  }
+}
+
+TEST(FeatureMap, RefusesJointsOfOtherStates) {
+  for (const Index wrong : {Index{-1}, Index{1}, Index{3}})
+    EXPECT_THROW(FeatureMap({StateKind::angle, StateKind::plain, StateKind::angle}, {{2, wrong}}), InvalidInput);
 }
 
 TEST(FeatureMap, WorksOnBlocks) {

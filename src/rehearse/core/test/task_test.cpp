@@ -49,6 +49,11 @@ TEST(Task, EachViolationIsNamed) {
             Lines{"action u: bounds must be finite with low < high"});
   EXPECT_EQ(after([](Task& t) { t.states[0].rate = "speed"; }),
             Lines{"state " + task().states[0].name + ": its rate speed is not another state"});
+  const std::string first = task().states[0].name, second = task().states[1].name;
+  EXPECT_EQ(after([&](Task& t) { t.states[0].carrier = second; }),
+            Lines{"state " + first + ": " + second + " cannot carry it, both must be angles"});
+  EXPECT_EQ(after([&](Task& t) { t.states[0].carrier = "nobody"; }),
+            Lines{"state " + first + ": nobody cannot carry it, both must be angles"});
   EXPECT_EQ(after([](Task& t) { t.start_mean = Vector{{1}}; }),
             Lines{"start_mean has 1 entries, must have 2 finite ones"});
   EXPECT_EQ(after([](Task& t) {
@@ -67,6 +72,18 @@ TEST(Task, KnowsWhichStatesAreRates) {
   EXPECT_EQ(kinematics.pairs[0].position, 1);
   EXPECT_EQ(kinematics.pairs[0].rate, 0);
   EXPECT_EQ(kinematics.dt_s, moving.dt_s);
+}
+
+TEST(Task, ModelsSeeTheAnglesOfJoints) {
+  Task chain = task();
+  EXPECT_TRUE(chain.model_features().joints().empty());
+  chain.states = {{"a", "rad", StateKind::angle}, {"b", "rad", StateKind::angle}};
+  chain.states[1].carrier = "a";
+  const FeatureMap features = chain.model_features();
+  ASSERT_EQ(features.joints().size(), 1u);
+  EXPECT_EQ(features.joints()[0].angle, 1);
+  EXPECT_EQ(features.joints()[0].carrier, 0);
+  EXPECT_EQ(chain.feature_map().features(), 4) << "policies do not";
 }
 
 TEST(Task, AnEmptyOneLacksEverything) {

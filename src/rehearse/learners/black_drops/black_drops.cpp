@@ -122,7 +122,7 @@ class BlackDrops final : public Learner {
     if (returns_.empty()) return trust_prior(proposal, options_.prior_variance);
     try {
       dynamics::Learned learned =
-          dynamics::learn(data_, features_, setting_.task.kinematics(), setting_.prior ? &*setting_.prior : nullptr,
+          dynamics::learn(data_, setting_.task.model_features(), setting_.task.kinematics(), setting_.prior ? &*setting_.prior : nullptr,
                           options_.model, state, *setting_.evaluator);
       proposal.model = learned.model;
       proposal.phi = learned.state.phi;

@@ -70,7 +70,7 @@ Task make_task(const Options& options) {
   task.states = {{"dtheta1", "rad/s"},
                  {"dtheta2", "rad/s"},
                  {"theta1", "rad", StateKind::angle, "dtheta1"},
-                 {"theta2", "rad", StateKind::angle, "dtheta2"}};
+                 {"theta2", "rad", StateKind::angle, "dtheta2", "theta1"}};
   task.actions = {{"u", "N m", {-kTorque, kTorque}}};
   task.start_mean = Vector{{0, 0, std::numbers::pi, std::numbers::pi}};
   task.start_std = Vector::Constant(4, options.ode.start_noise);
