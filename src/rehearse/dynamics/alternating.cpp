@@ -27,18 +27,17 @@ Dataset thin(const Dataset& data) {
 
 /// A part of the rows and their residuals.
 struct Part {
-  Part(Dataset rows, const FeatureMap& features, const Kinematics& kinematics)
-      : data(std::move(rows)), residuals(data, features, kinematics) {}
+  Part(Dataset rows, const Residuals& all) : data(std::move(rows)), residuals(all.of(data)) {}
   const Dataset data;
   const Residuals residuals;
 };
 
 /// The largest first.
-std::vector<std::unique_ptr<Part>> parts_of(const Residuals& residuals, const FeatureMap& features) {
+std::vector<std::unique_ptr<Part>> parts_of(const Residuals& residuals) {
   std::vector<std::unique_ptr<Part>> parts;
   const Dataset* last = &residuals.data();
   while (last->size() >= kThinning * kFewestRows) {
-    parts.push_back(std::make_unique<Part>(thin(*last), features, residuals.kinematics()));
+    parts.push_back(std::make_unique<Part>(thin(*last), residuals));
     last = &parts.back()->data;
   }
   return parts;
@@ -196,9 +195,8 @@ prior::Prior fixed(const prior::Prior& prior, const std::vector<Index>& discrete
 
 }  // namespace
 
-Estimate search_by_turns(const GpMi& kind, const Estimation& estimation, const FeatureMap& features,
-                         const WarmStart& start) {
-  const auto parts = parts_of(estimation.residuals, features);
+Estimate search_by_turns(const GpMi& kind, const Estimation& estimation, const WarmStart& start) {
+  const auto parts = parts_of(estimation.residuals);
   const ParameterSpace& space = estimation.prior->space;
   const std::vector<Index> discrete = space.of_kind(Parameter::Kind::discrete);
   Estimate best;

@@ -15,10 +15,12 @@ enum class PredictedVariance {
   noisy,   // plus the learned noise (the authors' code)
 };
 
-/// A prior at fixed parameters as the mean function of GPs. Empty: zero mean.
+/// A prior at fixed parameters as the mean function of GPs.
 struct Mean {
   prior::Prior prior;
   Vector phi;
+  bool midpoint = false;  // the GPs look at the state halfway along the step that the prior predicts: what it lacks acts
+                          // during the whole step, so that there its effect is a simpler function
 };
 
 /// The GP inputs of a batch: features of the states, then actions (n × (features + du)).

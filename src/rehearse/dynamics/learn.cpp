@@ -14,16 +14,16 @@
 namespace rehearse::dynamics {
 namespace {
 
-Learned model_of(const Residuals& residuals, const FeatureMap& features, const prior::Prior* prior,
-                 const GpOptions& options, const Estimate& estimate) {
+Learned model_of(const Residuals& residuals, const prior::Prior* prior, const GpOptions& options,
+                 const Estimate& estimate) {
   const Residuals::Rows rows = residuals.at(prior, estimate.phi);
   if (!rows.inputs) throw InvalidInput("no row of the data set has a finite prior mean: nothing to learn from");
   std::optional<Mean> mean;
-  if (prior) mean = Mean{*prior, estimate.phi};
+  if (prior) mean = Mean{*prior, estimate.phi, residuals.midpoint()};
   Learned learned;
   learned.state.kernels = hyperparameters(estimate);
   learned.model = std::make_shared<GpModel>(
-      features, residuals.kinematics(), mean,
+      residuals.features(), residuals.kinematics(), mean,
       gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance), options.variance);
   if (prior) learned.state.phi = estimate.phi;
   learned.log_evidence = estimate.log_evidences.sum();
@@ -36,21 +36,21 @@ Learned model_of(const Residuals& residuals, const FeatureMap& features, const p
 }
 
 /// GPs around the prior at φ (null: around zero).
-Learned learn_gps(const Residuals& residuals, const FeatureMap& features, const prior::Prior* prior, const Vector& phi,
-                  const GpOptions& options, const WarmStart& start, const Evaluator& evaluator) {
+Learned learn_gps(const Residuals& residuals, const prior::Prior* prior, const Vector& phi, const GpOptions& options,
+                  const WarmStart& start, const Evaluator& evaluator) {
   Estimate estimate = unfitted(phi, residuals.scale().size(), start.kernels);
   Estimation{residuals, prior, Score::product, options.fit, evaluator}.refit(estimate);
-  return model_of(residuals, features, prior, options, estimate);
+  return model_of(residuals, prior, options, estimate);
 }
 
-Learned learn_kind(const ZeroMean& kind, const Residuals& residuals, const FeatureMap& features, const prior::Prior*,
+Learned learn_kind(const ZeroMean& kind, const Residuals& residuals, const prior::Prior*, const WarmStart& start,
+                   const Evaluator& evaluator) {
+  return learn_gps(residuals, nullptr, {}, kind.gp, start, evaluator);
+}
+
+Learned learn_kind(const FixedPrior& kind, const Residuals& residuals, const prior::Prior* prior,
                    const WarmStart& start, const Evaluator& evaluator) {
-  return learn_gps(residuals, features, nullptr, {}, kind.gp, start, evaluator);
-}
-
-Learned learn_kind(const FixedPrior& kind, const Residuals& residuals, const FeatureMap& features,
-                   const prior::Prior* prior, const WarmStart& start, const Evaluator& evaluator) {
-  return learn_gps(residuals, features, prior, prior->space.values(), kind.gp, start, evaluator);
+  return learn_gps(residuals, prior, prior->space.values(), kind.gp, start, evaluator);
 }
 
 /// Fails where the prior tunes something and a number is not finite.
@@ -95,21 +95,21 @@ class NestedSearch {
   Estimate best_;
 };
 
-Learned learn_kind(const GpMi& kind, const Residuals& residuals, const FeatureMap& features, const prior::Prior* prior,
-                   const WarmStart& start, const Evaluator& evaluator) {
+Learned learn_kind(const GpMi& kind, const Residuals& residuals, const prior::Prior* prior, const WarmStart& start,
+                   const Evaluator& evaluator) {
   const Estimation estimation{residuals, prior, kind.score, kind.gp.fit, evaluator};
   const Vector phi = start.phi.value_or(prior->space.values());
   Estimate found = kind.search == PhiSearch::nested ? NestedSearch(estimation).run(kind, phi, start.kernels)
-                                                    : search_by_turns(kind, estimation, features, start);
+                                                    : search_by_turns(kind, estimation, start);
   if (!std::isfinite(found.score)) estimation.refit(found);
-  Learned learned = model_of(residuals, features, prior, kind.gp, found);
+  Learned learned = model_of(residuals, prior, kind.gp, found);
   learned.score = found.score;
   add_posterior(learned, *prior, phi_posterior(estimation, found, kind.posterior));
   return learned;
 }
 
-Learned learn_kind(const Mi& kind, const Residuals& residuals, const FeatureMap&, const prior::Prior* prior,
-                   const WarmStart& start, const Evaluator& evaluator) {
+Learned learn_kind(const Mi& kind, const Residuals& residuals, const prior::Prior* prior, const WarmStart& start,
+                   const Evaluator& evaluator) {
   const Identified identified = least_squares(residuals, *prior, start.phi, kind.subplex);
   Learned learned;
   learned.model = std::make_shared<SimulatorModel>(*prior, identified.phi);
@@ -120,11 +120,24 @@ Learned learn_kind(const Mi& kind, const Residuals& residuals, const FeatureMap&
   return learned;
 }
 
-template <class GpKind>
-GpOptions gp_options(const GpKind& kind) {
-  return kind.gp;
+Residuals residuals_of(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics,
+                       const GpOptions& gp, bool midpoint) {
+  return Residuals(data, gp.joint_angles ? features : FeatureMap(features.kinds()),
+                   gp.integrate_rates ? kinematics : Kinematics{}, midpoint);
 }
-GpOptions gp_options(const Mi&) { return {}; }
+
+template <class GpKind>
+Residuals residuals_of(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics,
+                       const GpKind& kind) {
+  return residuals_of(data, features, kinematics, kind.gp, kind.gp.midpoint);
+}
+Residuals residuals_of(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics,
+                       const ZeroMean& kind) {
+  return residuals_of(data, features, kinematics, kind.gp, false);
+}
+Residuals residuals_of(const Dataset& data, const FeatureMap& features, const Kinematics&, const Mi&) {
+  return Residuals(data, features);
+}
 
 }  // namespace
 
@@ -133,10 +146,7 @@ Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics&
   if (!prior && !std::holds_alternative<ZeroMean>(kind)) throw InvalidInput("this dynamics model needs a prior");
   if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
   const auto learn_this = [&](const auto& k) {
-    const GpOptions gp = gp_options(k);
-    const FeatureMap inputs = gp.joint_angles ? features : FeatureMap(features.kinds());
-    const Residuals residuals(data, inputs, gp.integrate_rates ? kinematics : Kinematics{});
-    return learn_kind(k, residuals, inputs, prior, start, evaluator);
+    return learn_kind(k, residuals_of(data, features, kinematics, k), prior, start, evaluator);
   };
   return std::visit(learn_this, kind);
 }

@@ -45,9 +45,18 @@ struct ZeroMean {
   void fields(FieldVisitor& v) { v.group("gp", gp); }
 };
 
+/// Of GPs around a prior.
+struct ResidualGpOptions : GpOptions {
+  bool midpoint = true;  // inputs are those halfway along the step that the prior predicts (Mean)
+  void fields(FieldVisitor& v) {
+    GpOptions::fields(v);
+    v.boolean("midpoint", midpoint);
+  }
+};
+
 /// GPs whose mean is the prior as given: Black-DROPS with priors.
 struct FixedPrior {
-  GpOptions gp;
+  ResidualGpOptions gp;
   void fields(FieldVisitor& v) { v.group("gp", gp); }
 };
 
@@ -76,7 +85,7 @@ enum class PhiSearch {
 
 /// The prior's parameters and the GPs' kernels learned together (Chatzilygeroudis 2018).
 struct GpMi {
-  GpOptions gp;
+  ResidualGpOptions gp;
   Score score = Score::product;
   PhiSearch search = PhiSearch::alternating;
   optim::SubplexOptions subplex;    // of the nested search

@@ -23,33 +23,49 @@ std::vector<Index> finite_rows(const Matrix& Y) {
 
 }  // namespace
 
-Residuals::Residuals(const Dataset& data, const FeatureMap& features, Kinematics kinematics)
+Residuals::Residuals(const Dataset& data, FeatureMap features, Kinematics kinematics, bool midpoint)
     : data_(data),
+      features_(std::move(features)),
       kinematics_(std::move(kinematics)),
-      inputs_(gp_inputs(features, data.states, data.actions)),
-      all_(data.size() == 0 ? nullptr : std::make_shared<gp::Inputs>(inputs_)),
+      midpoint_(midpoint),
+      at_start_(data.size() == 0
+                    ? nullptr
+                    : std::make_shared<gp::Inputs>(gp_inputs(features_, data.states, data.actions))),
       scale_(standard_deviations(data.changes)) {}
 
-Matrix Residuals::targets(const prior::Prior& prior, const Vector& phi) const {
+Matrix Residuals::prior_mean(const prior::Prior& prior, const Vector& phi) const {
   Matrix mean(data_.size(), data_.states.cols());
   prior.mean(data_.states, data_.actions, phi, mean);
-  Matrix targets = data_.changes - mean;
+  return mean;
+}
+
+Matrix Residuals::targets(const Matrix& prior_mean) const {
+  Matrix targets = data_.changes - prior_mean;
   subtract_integrals(kinematics_, data_.states, true, targets);
   return targets;
+}
+
+Matrix Residuals::targets(const prior::Prior& prior, const Vector& phi) const {
+  return targets(prior_mean(prior, phi));
 }
 
 Residuals::Rows Residuals::at(const prior::Prior* prior, const Vector& phi) const {
   if (!prior) {
     Matrix targets = data_.changes;
     subtract_integrals(kinematics_, data_.states, false, targets);
-    return {all_, std::move(targets), 0, {}};
+    return {at_start_, std::move(targets), 0, {}};
   }
-  Matrix targets = this->targets(*prior, phi);
-  if (targets.allFinite()) return {all_, std::move(targets), 0, {}};
+  const Matrix mean = prior_mean(*prior, phi);
+  Matrix targets = this->targets(mean);
+  const bool all = targets.allFinite();
+  if (all && !midpoint_) return {at_start_, std::move(targets), 0, {}};
   std::vector<Index> rows = finite_rows(targets);
   if (rows.empty()) return {nullptr, {}, size(), {}};
-  return {std::make_shared<gp::Inputs>(Matrix(inputs_(rows, Eigen::all))), targets(rows, Eigen::all),
-          size() - static_cast<Index>(rows.size()), std::move(rows)};
+  Matrix states = data_.states(rows, Eigen::all);
+  if (midpoint_) states += 0.5 * mean(rows, Eigen::all);
+  auto inputs = std::make_shared<gp::Inputs>(gp_inputs(features_, states, data_.actions(rows, Eigen::all)));
+  if (all) return {std::move(inputs), std::move(targets), 0, {}};
+  return {std::move(inputs), targets(rows, Eigen::all), size() - static_cast<Index>(rows.size()), std::move(rows)};
 }
 
 }  // namespace rehearse::dynamics

@@ -15,7 +15,8 @@ namespace rehearse::dynamics {
 /// not finite are left out. Const methods may run concurrently.
 class Residuals {
  public:
-  Residuals(const Dataset& data, const FeatureMap& features, Kinematics kinematics = {});
+  /// `midpoint`: see Mean; nothing without a prior.
+  explicit Residuals(const Dataset& data, FeatureMap features, Kinematics kinematics = {}, bool midpoint = false);
 
   struct Rows {
     std::shared_ptr<const gp::Inputs> inputs;  // null if no row is left
@@ -31,14 +32,23 @@ class Residuals {
 
   const Vector& scale() const { return scale_; }  // dx, standard deviation of the raw changes
   const Dataset& data() const { return data_; }
+  const FeatureMap& features() const { return features_; }
   const Kinematics& kinematics() const { return kinematics_; }
+  bool midpoint() const { return midpoint_; }
   Index size() const { return data_.size(); }
 
+  /// The same of other rows.
+  Residuals of(const Dataset& rows) const { return Residuals(rows, features_, kinematics_, midpoint_); }
+
  private:
+  Matrix prior_mean(const prior::Prior& prior, const Vector& phi) const;
+  Matrix targets(const Matrix& prior_mean) const;
+
   const Dataset& data_;
+  FeatureMap features_;
   Kinematics kinematics_;
-  Matrix inputs_;
-  std::shared_ptr<const gp::Inputs> all_;
+  bool midpoint_;
+  std::shared_ptr<const gp::Inputs> at_start_;  // of all rows
   Vector scale_;
 };
 

@@ -166,22 +166,53 @@ class BlackDrops final : public Learner {
       const std::uint64_t stream = trial() + (static_cast<std::uint64_t>(i) << 24);
       SearchResult found = search_policy(problem, starts, options_.search, setting_.seed, stream);
       starts = {found.theta};
-      proposal.theta = std::move(found.theta);
-      proposal.predicted_return = found.predicted_return;
-      proposal.rollouts += found.rollouts;
-      proposal.failed_rollouts += found.failed_rollouts;
+      count(found, proposal);
+      take(found, proposal);
       carried = std::move(found.runners_up);
       if (static_cast<Index>(carried.size()) > options_.carried)
         carried.resize(static_cast<std::size_t>(options_.carried));
     }
+    const bool tried = first_return() != returns_.end();
+    if (options_.explore > 0 && tried && !improves(*proposal.predicted_return)) explore(problem, proposal);
+  }
+
+  /// Robust policies alone lead no further, so one is tried that does well where the model's doubts are unfounded.
+  void explore(const SearchProblem& problem, Proposal& proposal) const {
+    SearchOptions options = options_.search;
+    if (!options.imagine.sample) return;
+    options.imagine.sample = false;
+    constexpr std::uint64_t kStream = std::uint64_t{1} << 48;
+    const SearchResult found = search_policy(problem, known_policies(), options, setting_.seed, trial() + kStream);
+    count(found, proposal);
+    if (improves(found.predicted_return)) take(found, proposal);
+  }
+
+  static void count(const SearchResult& found, Proposal& proposal) {
+    proposal.rollouts += found.rollouts;
+    proposal.failed_rollouts += found.failed_rollouts;
+  }
+
+  static void take(const SearchResult& found, Proposal& proposal) {
+    proposal.theta = found.theta;
+    proposal.predicted_return = found.predicted_return;
+  }
+
+  bool improves(double promised) const {
+    const double best = *std::max_element(first_return(), returns_.end());
+    return promised - best > options_.explore * std::abs(best);
+  }
+
+  /// Of a trial with a policy.
+  std::vector<double>::const_iterator first_return() const {
+    const bool scheduled =
+        !setting_.prior && options_.first_trial.kind != FirstTrial::Kind::policy;  // trial 1 had no policy
+    return returns_.begin() + (scheduled && !returns_.empty());
   }
 
   /// Where descents start: the best policy observed, and good ones of the last search.
   std::vector<Vector> known_policies() const {
     std::vector<Vector> starts;
-    const bool scheduled =
-        !setting_.prior && options_.first_trial.kind != FirstTrial::Kind::policy;  // trial 1 had no policy
-    const auto first = returns_.begin() + (scheduled && !returns_.empty());
+    const auto first = first_return();
     if (options_.start_from_best && first != returns_.end()) {
       const auto best = std::max_element(first, returns_.end()) - returns_.begin();
       starts.push_back(policies_[static_cast<std::size_t>(best)]);
@@ -249,6 +280,7 @@ void Options::fields(FieldVisitor& v) {
   v.group("first_trial", first_trial);
   v.boolean("start_from_best", start_from_best);
   v.boolean("start_from_last", start_from_last);
+  v.number("explore", explore, at_least(0));
   v.integer("carried", carried, at_least(0));
   v.integer("prior_searches", prior_searches, at_least(1));
   v.number("prior_variance", prior_variance, at_least(0));

@@ -31,6 +31,9 @@ struct Options {
   FirstTrial first_trial;
   bool start_from_best = true;   // one descent starts from the best policy observed; the authors' code
   bool start_from_last = false;  // and one from the last policy tried: its trial told most of where it fails
+  double explore = 0.1;          // where a search promises less than so much more than the best return seen, as a fraction
+                                 // of it, another follows the mean predictions alone; what that promises is tried if it
+                                 // is more (the paper: 0)
   Index carried = 3;             // and so many from the best other policies of the search before
   Index prior_searches = 1;      // searches on the prior before the first trial, each from the best of the one before
                                  // (the authors' code: 2)
