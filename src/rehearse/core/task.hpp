@@ -59,7 +59,7 @@ struct Task {
   Index state_size() const { return static_cast<Index>(states.size()); }
   Index action_size() const { return static_cast<Index>(actions.size()); }
   double episode_s() const { return static_cast<double>(horizon) * dt_s; }
-  FeatureMap feature_map() const;    // inputs of policies
+  FeatureMap feature_map() const;     // inputs of policies
   FeatureMap model_features() const;  // of models: joint angles too
   Kinematics kinematics() const;
   std::vector<std::string> state_names() const;

@@ -16,7 +16,7 @@ void Estimation::refit(Estimate& estimate, const gp::FitOptions& options) const 
     gp::FitStart& kernel = estimate.kernels[static_cast<std::size_t>(e)];
     if (kernel.hyperparameters.inputs() == 0)
       kernel.hyperparameters =
-          gp::default_start(*rows.inputs, rows.targets.col(e), residuals.scale()(e), options.bounds);
+          gp::default_start(*rows.inputs, rows.targets.col(e), residuals.scale()(e), options.bounds, options.trend);
     gp::Fit fit = gp::fit(*rows.inputs, rows.targets.col(e), residuals.scale()(e), kernel, options);
     kernel = {std::move(fit.hyperparameters), std::move(fit.inverse_hessian)};
     estimate.log_evidences(e) = fit.log_evidence;

@@ -19,8 +19,8 @@ enum class PredictedVariance {
 struct Mean {
   prior::Prior prior;
   Vector phi;
-  bool midpoint = false;  // the GPs look at the state halfway along the step that the prior predicts: what it lacks acts
-                          // during the whole step, so that there its effect is a simpler function
+  bool midpoint = false;  // the GPs look at the state halfway along the step that the prior predicts: what it lacks
+                          // acts during the whole step, so that there its effect is a simpler function
 };
 
 /// The GP inputs of a batch: features of the states, then actions (n × (features + du)).

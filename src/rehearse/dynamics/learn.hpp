@@ -28,6 +28,7 @@ struct GpOptions {
   double tolerance = 0.01;       // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
   void fields(FieldVisitor& v) {
     v.group("fit", fit);
+    v.boolean("trend", fit.trend);
     v.boolean("joint_angles", joint_angles);
     v.boolean("integrate_rates", integrate_rates);
     v.number("tolerance", tolerance, between(0, 1));
@@ -48,6 +49,7 @@ struct ZeroMean {
 /// Of GPs around a prior.
 struct ResidualGpOptions : GpOptions {
   bool midpoint = true;  // inputs are those halfway along the step that the prior predicts (Mean)
+  ResidualGpOptions() { fit.trend = true; }
   void fields(FieldVisitor& v) {
     GpOptions::fields(v);
     v.boolean("midpoint", midpoint);

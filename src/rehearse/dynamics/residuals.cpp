@@ -28,9 +28,8 @@ Residuals::Residuals(const Dataset& data, FeatureMap features, Kinematics kinema
       features_(std::move(features)),
       kinematics_(std::move(kinematics)),
       midpoint_(midpoint),
-      at_start_(data.size() == 0
-                    ? nullptr
-                    : std::make_shared<gp::Inputs>(gp_inputs(features_, data.states, data.actions))),
+      at_start_(data.size() == 0 ? nullptr
+                                 : std::make_shared<gp::Inputs>(gp_inputs(features_, data.states, data.actions))),
       scale_(standard_deviations(data.changes)) {}
 
 Matrix Residuals::prior_mean(const prior::Prior& prior, const Vector& phi) const {

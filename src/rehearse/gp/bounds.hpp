@@ -15,21 +15,28 @@ struct Bounds {
   double max_snr = 1e5;        // σ_f / σ_n ≤ this: beyond it double precision has no gradient
   double min_length = 1e-3;    // ℓ_d ≥ this × spread of x_d
   double max_length = 1e4;     // ℓ_d ≤ this × spread of x_d; without it those of irrelevant inputs reach e^400
+  double min_trend = 1e-6;     // τ_0², and τ_d² × magnitude of x_d squared, ≥ this × scale
+  double max_trend = 1e3;      // and ≤ this × scale
   void fields(FieldVisitor& v) {
     v.number("signal_floor", signal_floor, above(0));
     v.number("noise_floor", noise_floor, above(0));
     v.number("max_snr", max_snr, above(1));
     v.number("min_length", min_length, above(0));
     v.number("max_length", max_length, above(0));
+    v.number("min_trend", min_trend, above(0));
+    v.number("max_trend", max_trend, above(0));
   }
 };
 
-/// The bounds as a smooth map from free variables u (D + 2) to flat log hyperparameters that cannot leave them:
+/// The bounds as a smooth map from free variables u (as many as hyperparameters) to flat log hyperparameters that
+/// cannot leave them:
 ///
-///   ℓ_d² = min² + 1 / (1/max² + e^{−2u_d}),   σ_f² = floor² + e^{2u_D},   σ_n² = floor² + σ_f²/max_snr² + e^{2u_{D+1}}
+///   ℓ_d² = min² + 1 / (1/max² + e^{−2u_d}),   τ_d² likewise,
+///   σ_f² = floor² + e^{2u_D},   σ_n² = floor² + (σ_f² + (Σ_d τ_d²)²)/max_snr² + e^{2u_{D+1}}
 ///
-/// Far from a bound it is the identity (ℓ in spreads, σ in scales), and at a bound the gradient vanishes: a maximiser
-/// without bounds stops there by itself. The noise reads as a sum of variances: floor, share of the signal, learned.
+/// Far from a bound it is the identity (ℓ in spreads, 1/τ_d in magnitudes, σ and τ² in scales), and at a bound the
+/// gradient vanishes: a maximiser without bounds stops there by itself. The noise reads as a sum of variances: floor,
+/// share of the signal, learned.
 class SoftBounds {
  public:
   /// `scale` of 0, or not finite, counts as 1.
@@ -47,9 +54,14 @@ class SoftBounds {
   Vector clamped(const Vector& flat) const;
 
  private:
+  Vector trend(const Vector& u) const;
+  double trend_variance(const ConstVectorView& trend) const;
+
   Bounds bounds_;
+  Interval lengths_, trends_;
   Vector log_spread_;  // D
   double log_scale_;
+  Vector log_trend_;  // 1 + D, ln τ of which an input of its magnitude makes a scale of the target
 };
 
 }  // namespace rehearse::gp

@@ -6,9 +6,10 @@
 
 namespace rehearse::gp {
 
-double factorise(const double* scaled, Index n, Index dimensions, double noise_ratio, double* tiles) {
+double factorise(const double* scaled, Index n, Index dimensions, double noise_ratio, double* tiles, const double* z) {
   for (const double jitter : kJitterLadder) {
     correlation_matrix(scaled, n, dimensions, 1 + noise_ratio + jitter, tiles);
+    if (z) add_trend(z, n, dimensions + 1, tiles);
     if (tiles_cholesky(n, tiles)) return jitter;
   }
   return std::numeric_limits<double>::quiet_NaN();

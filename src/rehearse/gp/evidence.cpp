@@ -36,13 +36,18 @@ double solve(Index n, const double* tiles, double* b) {
 /// Scales the inputs and factorises K/σ_f² into the workspace's tiles; returns the jitter, NaN if that is not possible.
 double factorise_at(const Inputs& inputs, const ConstVectorView& flat, Workspace& workspace) {
   const Index n = inputs.size(), D = inputs.dimensions();
-  workspace.resize(n, D);
+  workspace.resize(n, D, flat.size() > D + 2);
   workspace.factors() = inputs.half_range().array() * (-flat.head(D)).array().exp();
+  workspace.trend_factors() = (flat.tail(workspace.trend_factors().size()).array() - flat(D) / 2).exp();
   const double noise_ratio = std::exp(2 * (flat(D + 1) - flat(D)));
-  if (!workspace.factors().allFinite() || !std::isfinite(noise_ratio) || !std::isfinite(std::exp(-flat(D))))
+  if (!workspace.factors().allFinite() || !workspace.trend_factors().allFinite() || !std::isfinite(noise_ratio) ||
+      !std::isfinite(std::exp(-flat(D))))
     return kNaN;
   scale_inputs(inputs.unit().data(), n, D, workspace.factors().data(), workspace.scaled());
-  return factorise(workspace.scaled(), n, D, noise_ratio, workspace.tiles());
+  if (workspace.trend())
+    trend_inputs(inputs.unit().data(), inputs.center().data(), inputs.half_range().data(), n, D,
+                 workspace.trend_factors().data(), workspace.trend());
+  return factorise(workspace.scaled(), n, D, noise_ratio, workspace.tiles(), workspace.trend());
 }
 
 /// −½ ln |K| − n/2 ln 2π, from the factor of K/σ_f².
@@ -63,6 +68,10 @@ bool differentiate(Index n, Index D, double noise_ratio, double jitter, Workspac
   gradient.head(D) = Eigen::Map<const Vector>(workspace.sums(), D);
   gradient(D) = 2 * workspace.sums()[D] + (1 + jitter) * trace;
   gradient(D + 1) = noise_ratio * trace;
+  if (workspace.trend()) {
+    trend_gradient_sums(workspace.trend(), n, D + 1, b, workspace.tiles(), workspace.sums());
+    gradient.tail(D + 1) = 2 * Eigen::Map<const Vector>(workspace.sums(), D + 1);
+  }
   return gradient.allFinite();
 }
 
@@ -70,19 +79,21 @@ bool differentiate(Index n, Index D, double noise_ratio, double jitter, Workspac
 
 bool Evidence::ok() const { return std::isfinite(value); }
 
-void Workspace::resize(Index n, Index dimensions) {
+void Workspace::resize(Index n, Index dimensions, bool trend) {
   const auto rows = static_cast<std::size_t>(padded(n)), columns = static_cast<std::size_t>(dimensions);
   tiles_.resize(static_cast<std::size_t>(tiles_size(n)));
   scaled_.resize(rows * columns);
   weights_.resize(rows);
   sums_.resize(8 * (columns + 1));
   factors_.resize(dimensions);
+  trend_factors_.resize(trend ? dimensions + 1 : 0);
+  trend_.resize(trend ? rows * (columns + 1) : 0);
 }
 
 Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVectorView& flat, Workspace& workspace,
                   Vector* gradient) {
   const Index n = inputs.size(), D = inputs.dimensions();
-  if (gradient) gradient->resize(D + 2);
+  if (gradient) gradient->resize(flat.size());
   const double jitter = y.allFinite() ? factorise_at(inputs, flat, workspace) : kNaN;
   if (std::isnan(jitter)) return failure(gradient);
   Eigen::Map<Vector>(workspace.weights(), n) = y * std::exp(-flat(D));

@@ -27,18 +27,20 @@ struct Penalties {
 /// Buffers that evaluations reuse: none allocates after the first of the same size. Not shared between threads.
 class Workspace {
  public:
-  void resize(Index n, Index dimensions);
+  void resize(Index n, Index dimensions, bool trend);
 
-  double* tiles() { return tiles_.data(); }      // n × n, lower, see tiles.hpp
-  double* scaled() { return scaled_.data(); }    // inputs / ℓ, see kernel.hpp
-  double* weights() { return weights_.data(); }  // padded(n)
-  double* sums() { return sums_.data(); }        // 8 (D + 1)
-  Vector& factors() { return factors_; }         // D
+  double* tiles() { return tiles_.data(); }           // n × n, lower, see tiles.hpp
+  double* scaled() { return scaled_.data(); }         // inputs / ℓ, see kernel.hpp
+  double* weights() { return weights_.data(); }       // padded(n)
+  double* sums() { return sums_.data(); }             // 8 (D + 1)
+  Vector& factors() { return factors_; }              // D
+  Vector& trend_factors() { return trend_factors_; }  // 1 + D, τ/√σ_f; empty without a trend
+  double* trend() { return trend_factors_.size() == 0 ? nullptr : trend_.data(); }  // z, see kernel.hpp
   std::vector<double> release_tiles() && { return std::move(tiles_); }
 
  private:
-  std::vector<double> tiles_, scaled_, weights_, sums_;
-  Vector factors_;
+  std::vector<double> tiles_, scaled_, weights_, sums_, trend_;
+  Vector factors_, trend_factors_;
 };
 
 struct Evidence {
@@ -47,9 +49,9 @@ struct Evidence {
   bool ok() const;    // the value is finite
 };
 
-/// The log evidence of targets y (n) at flat log hyperparameters (D + 2; Rasmussen 2006, eq. 5.8) and, unless null,
-/// its gradient with respect to them (eq. 5.9). No value of `flat` or `y` throws: what cannot be computed has value and
-/// gradient NaN.
+/// The log evidence of targets y (n) at flat log hyperparameters (D + 2, or 2 D + 3; Rasmussen 2006, eq. 5.8) and,
+/// unless null, its gradient with respect to them (eq. 5.9). No value of `flat` or `y` throws: what cannot be computed
+/// has value and gradient NaN.
 Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVectorView& flat, Workspace& workspace,
                   Vector* gradient = nullptr);
 

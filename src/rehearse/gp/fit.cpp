@@ -35,8 +35,7 @@ constexpr struct { double length, noise; } kOtherStarts[] = {{1, 2}, {-2, 2}, {-
 
 /// The default start moved: as above, then by up to a factor of 20 in each length and of 10 in σ_n, spread evenly
 /// (Roberts 2018, the additive recurrence with the generalised golden ratio).
-Vector other_start(const Vector& standard, std::size_t i) {
-  const Index D = standard.size() - 2;
+Vector other_start(const Vector& standard, Index D, std::size_t i) {
   Vector flat = standard;
   if (i < std::size(kOtherStarts)) {
     flat.head(D).array() += kOtherStarts[i].length;
@@ -62,7 +61,7 @@ struct Problem {
         y(targets),
         options(fit_options),
         bounds(options.bounds, X, scale),
-        standard(default_start(X, targets, scale, options.bounds).flat()) {}
+        standard(default_start(X, targets, scale, options.bounds, options.trend).flat()) {}
 
   const Inputs& inputs;
   const ConstVectorView y;
@@ -109,7 +108,8 @@ struct Problem {
 
   std::vector<Point> starts(const FitStart& start) {
     std::vector<Point> all{first_start(start)};
-    for (Index i = 0; i + 1 < options.starts; ++i) all.push_back({other_start(standard, static_cast<std::size_t>(i))});
+    for (Index i = 0; i + 1 < options.starts; ++i)
+      all.push_back({other_start(standard, inputs.dimensions(), static_cast<std::size_t>(i))});
     return all;
   }
 };
@@ -141,12 +141,14 @@ Point start_by_part(Problem& all, double scale, const FitStart& start, Index str
   return *std::min_element(points.begin(), points.end(), better);
 }
 
-void check(const Inputs& inputs, const ConstVectorView& y, const Hyperparameters& start) {
+void check(const Inputs& inputs, const ConstVectorView& y, const Hyperparameters& start, bool trend) {
   Violations wrong;
   wrong.require(y.size() == inputs.size(),
                 fmt::format("gp targets have {} rows, must be {}, those of the inputs", y.size(), inputs.size()));
   wrong.require(start.inputs() == inputs.dimensions(),
                 fmt::format("gp start has {} length scales, must be {}", start.inputs(), inputs.dimensions()));
+  wrong.require(start.has_trend() == trend, fmt::format("gp start has {} trend, must have {}",
+                                                        start.has_trend() ? "a" : "no", trend ? "one" : "none"));
   wrong.throw_if_any();
 }
 
@@ -156,17 +158,20 @@ Fit failure(const Hyperparameters& start, std::string stop, Index evaluations) {
 
 }  // namespace
 
-Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, double scale, const Bounds& bounds) {
+Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, double scale, const Bounds& bounds,
+                              bool trend) {
+  const Index D = inputs.dimensions();
   const double size = static_cast<double>(y.size());
   const double signal = std::max(standard_deviation(y), 0.1 * y.norm() / std::sqrt(size));
-  Vector flat(inputs.dimensions() + 2);
-  flat << inputs.spread().array().log().matrix(), std::log(signal), std::log(signal / 10);
-  return Hyperparameters::from_flat(SoftBounds(bounds, inputs, scale).clamped(flat));
+  Vector flat(trend ? 2 * D + 3 : D + 2);
+  flat.head(D + 2) << inputs.spread().array().log().matrix(), std::log(signal), std::log(signal / 10);
+  if (trend) flat.tail(D + 1) << std::log(signal) / 2, std::log(signal / 10) / 2 - inputs.magnitude().array().log();
+  return Hyperparameters::from_flat(SoftBounds(bounds, inputs, scale).clamped(flat), D);
 }
 
 Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitStart& start,
         const FitOptions& options) {
-  check(inputs, y, start.hyperparameters);
+  check(inputs, y, start.hyperparameters, options.trend);
   if (!start.hyperparameters.flat().allFinite()) return failure(start.hyperparameters, "the start is not finite", 0);
   if (!y.allFinite()) return failure(start.hyperparameters, "the targets are not finite", 0);
   Problem problem(inputs, y, scale, options);
@@ -177,7 +182,7 @@ Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitS
   for (Point& point : points) point = problem.maximise(point);
   const Point& best = *std::min_element(points.begin(), points.end(), better);
   if (!best.evidence.ok()) return failure(start.hyperparameters, best.stop, problem.evaluations);
-  return {Hyperparameters::from_flat(best.flat),
+  return {Hyperparameters::from_flat(best.flat, inputs.dimensions()),
           best.evidence.value,
           best.penalty,
           best.evidence.jitter,

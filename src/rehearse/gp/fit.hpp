@@ -16,6 +16,7 @@ struct FitOptions {
   optim::RpropOptions rprop;
   optim::BfgsOptions bfgs{.relative_tolerance = 1e-7};  // of a thousand nats: less than a hundredth nat is left
   // The evidence of small residuals has several optima.
+  bool trend = false;     // a quadratic one (hyperparameters.hpp); not a field, since not all who fit can use it
   Index starts = 4;       // the better of the given start and the default one; then noisier, smoother, rougher ones
                           // (the authors: 1)
   Index part_rows = 200;  // with at least twice as many rows, all starts are tried on a part of about so many, and the
@@ -57,8 +58,10 @@ struct Fit {
 };
 
 /// ℓ = spread(x), σ_f = std(y), σ_n = σ_f/10 (PILCO), inside the bounds; σ_f at least a tenth of the
-/// root mean square of y, for targets that are little more than an offset.
-Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, double scale, const Bounds& bounds = {});
+/// root mean square of y, for targets that are little more than an offset. A trend has τ_0² = σ_f and τ_d² a tenth of
+/// it for inputs of their magnitude.
+Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, double scale, const Bounds& bounds = {},
+                              bool trend = false);
 
 /// Maximises the (penalised) log evidence of targets y (n) from `start`, which a warm start takes from an earlier fit,
 /// or from the default start where that is better: data may have changed so much that a warm start is hopeless; then

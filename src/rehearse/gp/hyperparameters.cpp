@@ -10,14 +10,16 @@ double Hyperparameters::signal_variance() const { return std::exp(2 * log_signal
 double Hyperparameters::noise_variance() const { return std::exp(2 * log_noise); }
 
 Vector Hyperparameters::flat() const {
-  Vector flat(inputs() + 2);
-  flat << log_lengths, log_signal, log_noise;
+  Vector flat(inputs() + 2 + log_trend.size());
+  flat << log_lengths, log_signal, log_noise, log_trend;
   return flat;
 }
 
-Hyperparameters Hyperparameters::from_flat(const ConstVectorView& flat) {
-  const Index D = flat.size() - 2;
-  return {.log_lengths = flat.head(D), .log_signal = flat(D), .log_noise = flat(D + 1)};
+Hyperparameters Hyperparameters::from_flat(const ConstVectorView& flat, Index inputs) {
+  return {.log_lengths = flat.head(inputs),
+          .log_signal = flat(inputs),
+          .log_noise = flat(inputs + 1),
+          .log_trend = flat.tail(flat.size() - inputs - 2)};
 }
 
 std::vector<std::string> violations(const Hyperparameters& hyperparameters, Index inputs, const std::string& name) {
@@ -31,6 +33,11 @@ std::vector<std::string> violations(const Hyperparameters& hyperparameters, Inde
     require_finite(fmt::format("log_lengths[{}]", d), hyperparameters.log_lengths(d));
   require_finite("log_signal", hyperparameters.log_signal);
   require_finite("log_noise", hyperparameters.log_noise);
+  if (hyperparameters.has_trend() && hyperparameters.log_trend.size() != inputs + 1)
+    list.push_back(
+        fmt::format("{}.log_trend has {} values, must be {}", name, hyperparameters.log_trend.size(), inputs + 1));
+  for (Index d = 0; d < hyperparameters.log_trend.size(); ++d)
+    require_finite(fmt::format("log_trend[{}]", d), hyperparameters.log_trend(d));
   return list;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "rehearse/core/types.hpp"
 
 namespace rehearse::gp {
@@ -20,6 +22,11 @@ class Inputs {
   /// Sample standard deviation (n − 1) of each column, D. A constant column has max(|its value|, 1) instead: no data
   /// tells its length scale, and a penalty or a start must still be finite.
   const Vector& spread() const { return spread_; }
+
+  /// √(centre² + spread²) of each column, D: how far from 0 its values are.
+  Vector magnitude() const {
+    return center_.binaryExpr(spread_, [](double c, double s) { return std::hypot(c, s); });
+  }
 
   const Matrix& unit() const { return unit_; }              // n × D, (X − center) / half_range, in [−1, 1]
   const Vector& center() const { return center_; }          // D

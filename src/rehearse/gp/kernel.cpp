@@ -48,6 +48,63 @@ void CorrelationMatrixKernel(const double* scaled, Size n, Size dimensions, doub
   }
 }
 
+template <int kHeight>
+HWY_INLINE void products(const double* rows, const double* point, Size dimensions, V* out) {
+  for (int v = 0; v < kHeight; ++v) out[v] = hn::Zero(kTag);
+  for (Size d = 0; d < dimensions; ++d)
+    for (int v = 0; v < kHeight; ++v)
+      out[v] = hn::MulAdd(hn::LoadU(kTag, rows + d * kTile + v * lanes()), constant(point[d * kTile]), out[v]);
+}
+
+void AddTrendKernel(const double* z, Size n, Size dimensions, double* tiles) {
+  for (Size i = 0; i < tile_count(n); ++i) {
+    const double* rows = z + i * kTile * dimensions;
+    for (Size k = 0; k < std::min(n, (i + 1) * kTile); ++k) {
+      const Size j = k / kTile, c = k % kTile;
+      double* column = tiles + tile_offset(i, j) + c * kTile;
+      for (Size r = 0; r < kTile; r += kStrip * lanes()) {
+        V s[kStrip];
+        products<kStrip>(rows + r, z + j * kTile * dimensions + c, dimensions, s);
+        for (int v = 0; v < kStrip; ++v) {
+          double* entry = column + r + v * lanes();
+          hn::StoreU(hn::MulAdd(s[v], s[v], hn::LoadU(kTag, entry)), kTag, entry);
+        }
+      }
+    }
+  }
+}
+
+/// Of the tiles below the diagonal every pair counts twice; of those on it the entries above the diagonal are not
+/// there, so that those below count twice and the diagonal once.
+void TrendGradientSumsKernel(const double* z, Size n, Size dimensions, const double* b, const double* inverse,
+                             double* sums) {
+  std::fill(sums, sums + 8 * dimensions, 0.0);
+  for (Size i = 0; i < tile_count(n); ++i) {
+    const double* rows = z + i * kTile * dimensions;
+    for (Size k = 0; k < std::min(n, (i + 1) * kTile); ++k) {
+      const Size j = k / kTile, c = k % kTile;
+      const double* point = z + j * kTile * dimensions + c;
+      const double* column = inverse + tile_offset(i, j) + c * kTile;
+      for (Size r = i > j ? 0 : c / lanes() * lanes(); r < kTile; r += lanes()) {
+        V w;
+        products<1>(rows + r, point, dimensions, &w);
+        const V bb = hn::Mul(hn::LoadU(kTag, b + i * kTile + r), constant(b[k]));
+        w = hn::Mul(w, hn::Sub(bb, hn::LoadU(kTag, column + r)));
+        V twice = hn::Add(w, w);
+        if (i == j && r <= c) {
+          twice = hn::IfThenElse(hn::FirstN(kTag, static_cast<size_t>(c + 1 - r)), w, twice);
+          twice = hn::IfThenZeroElse(hn::FirstN(kTag, static_cast<size_t>(c - r)), twice);
+        }
+        for (Size d = 0; d < dimensions; ++d) {
+          const V zz = hn::Mul(hn::LoadU(kTag, rows + d * kTile + r), constant(point[d * kTile]));
+          hn::StoreU(hn::MulAdd(twice, zz, hn::LoadU(kTag, sums + 8 * d)), kTag, sums + 8 * d);
+        }
+      }
+    }
+  }
+  for (Size d = 0; d < dimensions; ++d) sums[d] = hn::GetLane(hn::SumOfLanes(kTag, hn::LoadU(kTag, sums + 8 * d)));
+}
+
 /// What kHeight vectors of rows of column c of a tile add to the sums. kDiagonal: only the rows below c count, of which
 /// the first vector begins at row r.
 template <int kHeight, bool kDiagonal>
@@ -104,6 +161,8 @@ namespace rehearse::gp {
 
 HWY_EXPORT(CorrelationMatrixKernel);
 HWY_EXPORT(GradientSumsKernel);
+HWY_EXPORT(AddTrendKernel);
+HWY_EXPORT(TrendGradientSumsKernel);
 
 void scale_inputs(const double* unit, Size n, Size dimensions, const double* factors, double* scaled) {
   constexpr double kFarAway = 1e100;
@@ -111,8 +170,24 @@ void scale_inputs(const double* unit, Size n, Size dimensions, const double* fac
     for (Size d = 0; d < dimensions; ++d)
       scaled[(i / kTile * dimensions + d) * kTile + i % kTile] = i < n ? unit[d * n + i] * factors[d] : kFarAway;
 }
+void trend_inputs(const double* unit, const double* centers, const double* half_ranges, Size n, Size dimensions,
+                  const double* factors, double* z) {
+  const auto at = [=](Size i, Size d) -> double& { return z[(i / kTile * (dimensions + 1) + d) * kTile + i % kTile]; };
+  for (Size i = 0; i < padded(n); ++i) {
+    at(i, 0) = i < n ? factors[0] : 0;
+    for (Size d = 0; d < dimensions; ++d)
+      at(i, d + 1) = i < n ? (unit[d * n + i] * half_ranges[d] + centers[d]) * factors[d + 1] : 0;
+  }
+}
 void correlation_matrix(const double* scaled, Size n, Size dimensions, double diagonal, double* tiles) {
   HWY_DYNAMIC_DISPATCH(CorrelationMatrixKernel)(scaled, n, dimensions, diagonal, tiles);
+}
+void add_trend(const double* z, Size n, Size dimensions, double* tiles) {
+  HWY_DYNAMIC_DISPATCH(AddTrendKernel)(z, n, dimensions, tiles);
+}
+void trend_gradient_sums(const double* z, Size n, Size dimensions, const double* b, const double* inverse,
+                         double* sums) {
+  HWY_DYNAMIC_DISPATCH(TrendGradientSumsKernel)(z, n, dimensions, b, inverse, sums);
 }
 void gradient_sums(const double* scaled, Size n, Size dimensions, const double* b, const double* inverse,
                    double* sums) {

@@ -1,9 +1,13 @@
 #include "rehearse/gp/moment_term.hpp"
 
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::gp {
 namespace {
 
 MomentTerm mean_term(const Posterior& posterior, Index e) {
+  if (posterior.hyperparameters()[static_cast<std::size_t>(e)].has_trend())
+    throw InvalidInput("no moments of a gp with a trend");
   const Inputs& inputs = posterior.inputs();
   Matrix centres = inputs.unit() * inputs.half_range().asDiagonal();
   centres.rowwise() += inputs.center().transpose();

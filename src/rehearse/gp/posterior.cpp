@@ -28,6 +28,9 @@ void check(const Inputs& inputs, const ConstMatrixView& Y, const std::vector<Hyp
       Y.cols() == static_cast<Index>(hyperparameters.size()),
       fmt::format("gp has {} sets of hyperparameters, must be {}, one per output", hyperparameters.size(), Y.cols()));
   wrong.require(Y.allFinite(), "gp targets are not finite");
+  for (const Hyperparameters& one : hyperparameters)
+    wrong.require(one.has_trend() == hyperparameters.front().has_trend(),
+                  "some outputs of a gp have a trend, some none");
   for (std::size_t e = 0; e < hyperparameters.size(); ++e)
     for (const std::string& line :
          violations(hyperparameters[e], inputs.dimensions(), fmt::format("gp hyperparameters[{}]", e)))
@@ -35,9 +38,10 @@ void check(const Inputs& inputs, const ConstMatrixView& Y, const std::vector<Hyp
   wrong.throw_if_any();
 }
 
-/// The lower triangle of the correlations of the inputs that `evidence` has scaled.
+/// The lower triangle of the covariances over σ_f² of the inputs that `evidence` has scaled.
 Matrix correlations(Index n, Index D, Workspace& workspace) {
   correlation_matrix(workspace.scaled(), n, D, 1, workspace.tiles());
+  if (workspace.trend()) add_trend(workspace.trend(), n, D + 1, workspace.tiles());
   Matrix C(n, n);
   for (Index j = 0; j < n; ++j)
     for (Index i = j; i < n; ++i) C(i, j) = workspace.tiles()[entry_offset(i, j)];
@@ -89,15 +93,16 @@ Matrix probes(const Inputs& inputs) {
 
 /// Buffers of one thread for one chunk of queries.
 struct Posterior::Scratch {
-  std::vector<double> unit, scaled, columns;  // D × kChunk, D × kChunk, n × kChunk
-  bool missing[kChunk];                       // the row has a NaN
-  double means[kChunk], rest[kChunk], norms[kChunk];
+  std::vector<double> unit, scaled, z, columns;  // D × kChunk, D × kChunk, (1 + D) × kChunk, n × kChunk
+  bool missing[kChunk];                          // the row has a NaN
+  double means[kChunk], rest[kChunk], norms[kChunk], priors[kChunk];
 
   void resize(Index n, Index D) {
     const auto enlarge = [](std::vector<double>& v, Index size) {
       v.resize(std::max(v.size(), static_cast<std::size_t>(size)));
     };
     enlarge(unit, D * kChunk), enlarge(scaled, D * kChunk), enlarge(columns, n * kChunk);
+    enlarge(z, (D + 1) * kChunk);
   }
 
   /// Rows of F, as the training inputs are kept; a NaN marks its row and, like the padding, becomes 0.
@@ -121,14 +126,35 @@ struct Posterior::Scratch {
       scaled[static_cast<std::size_t>(k)] = unit[static_cast<std::size_t>(k)] * factors(k / kChunk);
   }
 
+  /// z, and the variance over σ_f² before any data.
+  void expand(const Inputs& inputs, const ConstVectorView& factors) {
+    std::fill(priors, priors + kChunk, 1.0);
+    if (factors.size() == 0) return;
+    double norm[kChunk];
+    std::fill(z.data(), z.data() + kChunk, factors(0));
+    std::fill(norm, norm + kChunk, factors(0) * factors(0));
+    for (Index d = 0; d < inputs.dimensions(); ++d) {
+      const double slope = inputs.half_range()(d) * factors(d + 1), offset = inputs.center()(d) * factors(d + 1);
+      for (Index q = 0; q < kChunk; ++q) {
+        const double value = unit[static_cast<std::size_t>(d * kChunk + q)] * slope + offset;
+        z[static_cast<std::size_t>((d + 1) * kChunk + q)] = value;
+        norm[q] += value * value;
+      }
+    }
+    for (Index q = 0; q < kChunk; ++q) priors[q] += norm[q] * norm[q];
+  }
+
   /// `means`, and unless only these are asked for `norms`, of the first rows.
   void predict(const Output& output, Index rows, bool only_mean) {
     const Index D = output.points.rows(), support = output.support, others = output.weights.size() - support;
-    correlate(output.points.data(), support, D, output.weights.data(), scaled.data(), rows,
-              only_mean ? nullptr : columns.data(), means);
+    const bool trend = output.trend_points.size() > 0;
+    const KernelPoints queries{scaled.data(), trend ? z.data() : nullptr};
+    const auto from = [&](Index i) {
+      return KernelPoints{output.points.data() + i * D, trend ? output.trend_points.data() + i * (D + 1) : nullptr};
+    };
+    correlate(from(0), support, D, output.weights.data(), queries, rows, only_mean ? nullptr : columns.data(), means);
     if (others > 0) {
-      correlate(output.points.col(support).data(), others, D, output.weights.data() + support, scaled.data(), rows,
-                nullptr, rest);
+      correlate(from(support), others, D, output.weights.data() + support, queries, rows, nullptr, rest);
       for (Index q = 0; q < rows; ++q) means[q] += rest[q];
     }
     if (!only_mean) triangular_norms(output.inverse_factor.data(), support, columns.data(), rows, norms);
@@ -136,7 +162,7 @@ struct Posterior::Scratch {
 
   double mean(Index q) const { return missing[q] ? kNaN : means[q]; }
   double variance(Index q, const Output& output) const {
-    return missing[q] ? kNaN : output.signal_variance * std::max(0.0, 1 - norms[q]);
+    return missing[q] ? kNaN : output.signal_variance * std::max(0.0, priors[q] - norms[q]);
   }
 };
 
@@ -164,6 +190,7 @@ Posterior::Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperp
   check(inputs_, Y, hyperparameters_);
   const Index E = outputs();
   factors_.resize(dimensions(), E);
+  trend_factors_.resize(hyperparameters_.empty() ? 0 : hyperparameters_.front().log_trend.size(), E);
   noise_variances_.resize(E), log_evidences_.resize(E), jitters_.resize(E);
   Workspace workspace;
   for (Index e = 0; e < E; ++e) {
@@ -182,13 +209,27 @@ Posterior::Output Posterior::condition(Index e, const ConstVectorView& y, Worksp
   log_evidences_(e) = value.value;
   jitters_(e) = value.jitter;
   factors_.col(e) = workspace.factors();
+  trend_factors_.col(e) = workspace.trend_factors();
   Output output{.points = (inputs_.unit() * workspace.factors().asDiagonal()).transpose(),
+                .trend_points = trend_points(e),
                 .weights = Vector::Map(workspace.weights(), n) * std::exp(theta.log_signal),
                 .support = n,
                 .inverse_factor = {},
                 .signal_variance = theta.signal_variance()};
   output.inverse_factor = packed_inverse(n, workspace.tiles());
   return output;
+}
+
+Matrix Posterior::trend_points(Index e) const {
+  const auto factors = trend_factors_.col(e);
+  Matrix z(factors.size(), size());
+  if (factors.size() == 0) return z;
+  z.row(0).setConstant(factors(0));
+  for (Index d = 0; d < dimensions(); ++d)
+    z.row(d + 1) = (inputs_.unit().col(d).array() * (inputs_.half_range()(d) * factors(d + 1)) +
+                    inputs_.center()(d) * factors(d + 1))
+                       .transpose();
+  return z;
 }
 
 /// The workspace holds the inputs scaled for this output.
@@ -219,6 +260,7 @@ std::optional<Posterior::Output> Posterior::condition(const Summary& summary, co
   tiles_solve(r, workspace.tiles(), weights.data());
   tiles_solve_transposed(r, workspace.tiles(), weights.data());
   return Output{.points = exact.points(Eigen::all, summary.points),
+                .trend_points = exact.trend_points(Eigen::all, summary.points),
                 .weights = weights.head(r),
                 .support = r,
                 .inverse_factor = packed_inverse(r, workspace.tiles()),
@@ -232,6 +274,7 @@ void Posterior::use_all_for_mean(const Output& exact, std::vector<Index> order, 
   for (Index i = 0; i < exact.support; ++i)
     if (!first[static_cast<std::size_t>(i)]) order.push_back(i);
   few.points = exact.points(Eigen::all, order);
+  few.trend_points = exact.trend_points(Eigen::all, order);
   few.weights = exact.weights(order);
 }
 
@@ -240,6 +283,7 @@ double Posterior::deviation_error(Index e, const Output& exact, const Output& ot
   double error = 0;
   for_each_chunk(probes(inputs_), [&](Index, Index rows, Scratch& s) {
     s.scale(factors_.col(e));
+    s.expand(inputs_, trend_factors_.col(e));
     s.predict(exact, rows, false);
     Vector deviation(rows);
     for (Index q = 0; q < rows; ++q) deviation(q) = std::sqrt(s.variance(q, exact));
@@ -253,6 +297,7 @@ void Posterior::predict(const ConstMatrixView& F, MatrixView mean, MatrixView va
   for_each_chunk(F, [&](Index first, Index rows, Scratch& s) {
     for (Index e = 0; e < outputs(); ++e) {
       s.scale(factors_.col(e));
+      s.expand(inputs_, trend_factors_.col(e));
       s.predict(output(e), rows, false);
       for (Index q = 0; q < rows; ++q) {
         mean(first + q, e) = s.mean(q);
@@ -266,6 +311,7 @@ void Posterior::predict_mean(const ConstMatrixView& F, MatrixView mean) const {
   for_each_chunk(F, [&](Index first, Index rows, Scratch& s) {
     for (Index e = 0; e < outputs(); ++e) {
       s.scale(factors_.col(e));
+      s.expand(inputs_, trend_factors_.col(e));
       s.predict(output(e), rows, true);
       for (Index q = 0; q < rows; ++q) mean(first + q, e) = s.mean(q);
     }

@@ -31,7 +31,8 @@ class Posterior {
   Index outputs() const { return static_cast<Index>(hyperparameters_.size()); }
 
   /// F: rows × D; mean, variance: rows × E, written. The variance is that of the latent function, without noise,
-  /// in [0, σ_f²]. A row with a NaN is NaN in both; an infinite or far input gives the prior, 0 and σ_f².
+  /// in [0, σ_f²]. A row with a NaN is NaN in both; an infinite or far input gives the prior, 0 and σ_f². With a trend
+  /// both grow without bound there, and an infinite input gives NaN.
   void predict(const ConstMatrixView& F, MatrixView mean, MatrixView variance) const;
 
   /// The same means, without the work of the variances.
@@ -47,13 +48,15 @@ class Posterior {
   Index mean_points(Index e) const { return output(e).weights.size(); }
   Index variance_points(Index e) const { return output(e).support; }
 
-  // For moment matching, without tolerance; with c the correlations (the covariance without σ_f²) and K/σ_f² = L Lᵀ:
+  // For moment matching, without tolerance or trend; with c the correlations (the covariance without σ_f²) and K/σ_f² =
+  // L Lᵀ:
   const Vector& weights(Index e) const { return output(e).weights; }  // n, w = σ_f² K⁻¹y: the mean is Σ_i w_i c(x, x_i)
   Matrix inverse_factor(Index e) const;                               // n × n, L⁻¹, lower; a copy
 
  private:
   struct Output {
     Matrix points;          // D × m: inputs / ℓ, one a column; the variance needs the first `support`
+    Matrix trend_points;    // 1 + D × m: z of the trend (kernel.hpp); empty without one
     Vector weights;         // m
     Index support = 0;      // s
     Vector inverse_factor;  // packed_size(s): L⁻¹, see prediction_kernel.hpp
@@ -66,6 +69,7 @@ class Posterior {
   std::optional<Output> compress(Index e, const ConstVectorView& y, const Output& exact, double tolerance,
                                  Workspace& workspace) const;
   static std::optional<Output> condition(const Summary& summary, const Output& exact, Workspace& workspace);
+  Matrix trend_points(Index e) const;
   static void use_all_for_mean(const Output& exact, std::vector<Index> order, Output& few);
   double deviation_error(Index e, const Output& exact, const Output& other) const;
   template <class Visit>
@@ -74,7 +78,8 @@ class Posterior {
 
   Inputs inputs_;
   std::vector<Hyperparameters> hyperparameters_;
-  Matrix factors_;  // D × E, from unit inputs to inputs / ℓ
+  Matrix factors_;        // D × E, from unit inputs to inputs / ℓ
+  Matrix trend_factors_;  // 1 + D × E, from inputs to z
   std::vector<Output> outputs_;
   Vector noise_variances_, log_evidences_, jitters_;
 };

@@ -26,54 +26,75 @@ HWY_INLINE void for_each_group(Size rows, Wide wide, Narrow narrow) {
   if (q < rows) narrow(q);
 }
 
+/// (z_i · z_q)² of a training point and a vector of queries.
+HWY_INLINE V trend(const double* point, const double* queries, Size dimensions) {
+  V product = hn::Zero(kTag);
+  for (Size d = 0; d <= dimensions; ++d)
+    product = hn::MulAdd(hn::LoadU(kTag, queries + d * kChunk), constant(point[d]), product);
+  return hn::Mul(product, product);
+}
+
 /// Correlations of kCount training points with kWidth vectors of queries.
-template <int kCount, int kWidth>
-HWY_INLINE void correlate_points(const double* points, Size dimensions, const double* weights, const double* queries,
+template <int kCount, int kWidth, bool kTrend>
+HWY_INLINE void correlate_points(KernelPoints points, Size dimensions, const double* weights, KernelPoints queries,
                                  double* columns, V* means) {
   V squared[kCount][kWidth];
   for (int i = 0; i < kCount; ++i)
     for (int v = 0; v < kWidth; ++v) squared[i][v] = hn::Zero(kTag);
   for (Size d = 0; d < dimensions; ++d) {
     for (int i = 0; i < kCount; ++i) {
-      const V point = constant(points[i * dimensions + d]);
+      const V point = constant(points.scaled[i * dimensions + d]);
       for (int v = 0; v < kWidth; ++v) {
-        const V difference = hn::Sub(hn::LoadU(kTag, queries + d * kChunk + v * lanes()), point);
+        const V difference = hn::Sub(hn::LoadU(kTag, queries.scaled + d * kChunk + v * lanes()), point);
         squared[i][v] = hn::MulAdd(difference, difference, squared[i][v]);
       }
     }
   }
   for (int i = 0; i < kCount; ++i) {
     for (int v = 0; v < kWidth; ++v) {
-      const V c = correlation(squared[i][v]);
+      V c = correlation(squared[i][v]);
+      if (kTrend) c = hn::Add(c, trend(points.z + i * (dimensions + 1), queries.z + v * lanes(), dimensions));
       means[v] = hn::MulAdd(c, constant(weights[i]), means[v]);
       if (columns) hn::StoreU(c, kTag, columns + (i * kWidth + v) * lanes());
     }
   }
 }
 
-template <int kWidth>
-HWY_INLINE void correlate_group(const double* points, Size n, Size dimensions, const double* weights,
-                                const double* queries, double* columns, double* means) {
+template <int kWidth, bool kTrend>
+HWY_INLINE void correlate_group(KernelPoints points, Size n, Size dimensions, const double* weights,
+                                KernelPoints queries, double* columns, double* means) {
   V sums[kWidth];
   for (int v = 0; v < kWidth; ++v) sums[v] = hn::Zero(kTag);
+  const auto from = [=](Size i) HWY_ATTR {
+    return KernelPoints{points.scaled + i * dimensions, kTrend ? points.z + i * (dimensions + 1) : nullptr};
+  };
+  const auto column = [=](Size i) HWY_ATTR { return columns ? columns + i * kWidth * lanes() : nullptr; };
   Size i = 0;
   for (; i + 2 <= n; i += 2)
-    correlate_points<2, kWidth>(points + i * dimensions, dimensions, weights + i, queries,
-                                columns ? columns + i * kWidth * lanes() : nullptr, sums);
-  if (i < n)
-    correlate_points<1, kWidth>(points + i * dimensions, dimensions, weights + i, queries,
-                                columns ? columns + i * kWidth * lanes() : nullptr, sums);
+    correlate_points<2, kWidth, kTrend>(from(i), dimensions, weights + i, queries, column(i), sums);
+  if (i < n) correlate_points<1, kWidth, kTrend>(from(i), dimensions, weights + i, queries, column(i), sums);
   for (int v = 0; v < kWidth; ++v) hn::StoreU(sums[v], kTag, means + v * lanes());
 }
 
-void CorrelateKernel(const double* points, Size n, Size dimensions, const double* weights, const double* queries,
-                     Size rows, double* columns, double* means) {
+template <bool kTrend>
+HWY_INLINE void correlate_all(KernelPoints points, Size n, Size dimensions, const double* weights, KernelPoints queries,
+                              Size rows, double* columns, double* means) {
   const auto group = [=](auto width, Size q) HWY_ATTR {
-    correlate_group<width>(points, n, dimensions, weights, queries + q, columns ? columns + q * n : nullptr, means + q);
+    const KernelPoints these{queries.scaled + q, kTrend ? queries.z + q : nullptr};
+    correlate_group<width, kTrend>(points, n, dimensions, weights, these, columns ? columns + q * n : nullptr,
+                                   means + q);
   };
   for_each_group(
       rows, [&](Size q) HWY_ATTR { group(std::integral_constant<int, kVectors>(), q); },
       [&](Size q) HWY_ATTR { group(std::integral_constant<int, 1>(), q); });
+}
+
+void CorrelateKernel(KernelPoints points, Size n, Size dimensions, const double* weights, KernelPoints queries,
+                     Size rows, double* columns, double* means) {
+  if (points.z)
+    correlate_all<true>(points, n, dimensions, weights, queries, rows, columns, means);
+  else
+    correlate_all<false>(points, n, dimensions, weights, queries, rows, columns, means);
 }
 
 /// Adds to norms the squares of one panel's rows times kWidth vectors of columns, of which `length` entries count.
@@ -118,7 +139,7 @@ namespace rehearse::gp {
 HWY_EXPORT(CorrelateKernel);
 HWY_EXPORT(TriangularNormsKernel);
 
-void correlate(const double* points, Size n, Size dimensions, const double* weights, const double* queries, Size rows,
+void correlate(KernelPoints points, Size n, Size dimensions, const double* weights, KernelPoints queries, Size rows,
                double* columns, double* means) {
   HWY_DYNAMIC_DISPATCH(CorrelateKernel)(points, n, dimensions, weights, queries, rows, columns, means);
 }

@@ -11,10 +11,17 @@ namespace rehearse::gp {
 /// 1000 training points stay in a second-level cache of 2 MiB.
 constexpr Size kChunk = 128;
 
-/// Correlations of `rows` ≤ kChunk queries (D × kChunk, row by row; what is past the rows must be finite) with n
-/// training points (n × D, row by row): means[q] = Σ_i c_qi weights_i. Unless null, `columns` (n × kChunk) receives
-/// them as `triangular_norms` reads them; means: kChunk.
-void correlate(const double* points, Size n, Size dimensions, const double* weights, const double* queries, Size rows,
+/// Points of a kernel: scaled inputs, and unless null the coordinates z of the trend (kernel.hpp). Of training points
+/// n × D and n × (D + 1), row by row; of queries D × kChunk and (D + 1) × kChunk, row by row.
+struct KernelPoints {
+  const double* scaled;
+  const double* z = nullptr;
+};
+
+/// Covariances over σ_f² of `rows` ≤ kChunk queries (what is past the rows must be finite) with n training points:
+/// means[q] = Σ_i c_qi weights_i. Unless null, `columns` (n × kChunk) receives them as `triangular_norms` reads them;
+/// means: kChunk. All points have a trend, or none.
+void correlate(KernelPoints points, Size n, Size dimensions, const double* weights, KernelPoints queries, Size rows,
                double* columns, double* means);
 
 /// Rows of a lower triangular matrix that are multiplied together, interleaved.

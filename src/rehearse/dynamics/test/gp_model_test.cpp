@@ -49,6 +49,21 @@ TEST(GpModel, IsPriorMeanPlusPosterior) {
   EXPECT_EQ(a.variance, b.variance);
 }
 
+TEST(GpModel, LooksHalfwayAlongThePriorsStepIfAskedTo) {
+  const Dataset data = swing::data(20, 1), at = swing::data(30, 2);
+  const Vector phi{{0.6, 0}};
+  const prior::Prior prior = swing::prior_at(phi);
+  const GpModel without(swing::features(), {}, {}, posterior(data, data.changes), PredictedVariance::latent);
+  const GpModel halfway(swing::features(), {}, Mean{prior, phi, true}, posterior(data, data.changes),
+                        PredictedVariance::latent);
+  Matrix mean(30, 2);
+  prior.mean(at.states, at.actions, phi, mean);
+  const Prediction a = predict(without, at.states + 0.5 * mean, at.actions),
+                   b = predict(halfway, at.states, at.actions);
+  EXPECT_EQ(b.mean, a.mean + mean);
+  EXPECT_EQ(a.variance, b.variance);
+}
+
 // What GPs predict is added to what they were not asked to learn, with a prior and without.
 TEST(GpModel, GivesBackTheIntegralsOfTheRates) {
   const Dataset data = swing::data(20, 1);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/dynamics/gp_model.hpp"
 #include "swing.hpp"
 
 namespace rehearse::dynamics {
@@ -46,6 +47,20 @@ TEST(Residuals, OfPositionsAreWhatIntegralsOfTheRatesLeave) {
   EXPECT_EQ(integrated.col(0), plain.col(0));
   EXPECT_LT((integrated.col(1) - (plain.col(1) - trapezoid)).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_LT(integrated.col(1).cwiseAbs().maxCoeff(), 0.03 * plain.col(1).cwiseAbs().maxCoeff());
+}
+
+TEST(Residuals, InputsMayBeHalfwayAlongThePriorsStep) {
+  const Dataset data = swing::data(20, 1);
+  const Vector phi{{0.6, 0}};
+  const prior::Prior prior = swing::prior_at(phi);
+  Matrix mean(20, 2);
+  prior.mean(data.states, data.actions, phi, mean);
+  const Residuals at_start(data, swing::features()), halfway(data, swing::features(), {}, true);
+  const Residuals::Rows rows = halfway.at(&prior, phi);
+  EXPECT_EQ(rows.targets, at_start.at(&prior, phi).targets);
+  const gp::Inputs expected(gp_inputs(swing::features(), data.states + 0.5 * mean, data.actions));
+  EXPECT_EQ(rows.inputs->unit(), expected.unit());
+  EXPECT_EQ(halfway.at(nullptr, {}).inputs->unit(), at_start.at(nullptr, {}).inputs->unit()) << "without a prior";
 }
 
 TEST(Residuals, RowsThatFailAreLeftOut) {

@@ -18,45 +18,60 @@ Vector flat(double length, double signal, double noise) {
   return flat;
 }
 
+/// τ_0² and the others for inputs of their magnitude in units of the scale.
+Vector with_trend(const Vector& flat, double trend) {
+  Vector all(9);
+  all << flat, 0.5 * std::log(0.02 * trend), 0.5 * std::log(0.02 * trend) - kInputs.magnitude().array().log();
+  return all;
+}
+
 TEST(SoftBounds, IsTheIdentityFarFromThem) {
-  const Vector inside = flat(2, 1.5, 0.1);
-  EXPECT_LT((kBounds.flat(kBounds.free(inside)) - inside).norm(), 1e-12);
-  EXPECT_EQ(kBounds.clamped(inside), inside);
-  Vector gradient = Vector::Ones(5);
-  kBounds.to_free(kBounds.free(inside), gradient);
-  EXPECT_LT((gradient - Vector::Ones(5)).norm(), 1e-5);
+  const Vector plain = flat(2, 1.5, 0.1);
+  for (const Vector& inside : {plain, with_trend(plain, 0.3)}) {
+    EXPECT_LT((kBounds.flat(kBounds.free(inside)) - inside).norm(), 1e-12);
+    EXPECT_EQ(kBounds.clamped(inside), inside);
+    const Vector ones = Vector::Ones(inside.size());
+    Vector gradient = ones;
+    kBounds.to_free(kBounds.free(inside), gradient);
+    EXPECT_LT((gradient - ones).norm(), 1e-3);
+  }
 }
 
 TEST(SoftBounds, NothingLeavesThem) {
   for (const double u : {-1e4, -400.0, -20.0, 0.0, 20.0, 300.0}) {
-    const Vector reached = kBounds.flat(Vector::Constant(5, u));
-    EXPECT_TRUE(reached.allFinite()) << u;
-    EXPECT_LT((kBounds.clamped(reached) - reached).norm(), 1e-12) << u;
-    Vector gradient = Vector::Ones(5);
-    kBounds.to_free(Vector::Constant(5, u), gradient);
-    EXPECT_TRUE(gradient.allFinite()) << u;
-    EXPECT_GE(gradient.minCoeff(), 0) << u;
+    for (const Index size : {5, 9}) {
+      const Vector reached = kBounds.flat(Vector::Constant(size, u));
+      EXPECT_TRUE(reached.allFinite()) << u;
+      EXPECT_LT((kBounds.clamped(reached) - reached).norm(), 1e-8) << u;
+      Vector gradient = Vector::Ones(size);
+      kBounds.to_free(Vector::Constant(size, u), gradient);
+      EXPECT_TRUE(gradient.allFinite()) << u;
+      EXPECT_GE(gradient.minCoeff(), 0) << u;
+    }
   }
 }
 
 TEST(SoftBounds, GradientAgreesWithFiniteDifferences) {
   for (const double shift : {-16.0, -7.0, -1.0, 3.0, 9.0}) {
-    const Vector u = Vector::LinSpaced(5, shift, shift + 2);
-    const Vector weights = Vector::LinSpaced(5, 1, 2);
-    Vector gradient = weights;
-    kBounds.to_free(u, gradient);
-    for (Index k = 0; k < 5; ++k) {
-      const Vector step = 1e-5 * Vector::Unit(5, k);
-      const double slope = weights.dot(kBounds.flat(u + step) - kBounds.flat(u - step)) / 2e-5;
-      EXPECT_NEAR(gradient(k), slope, 1e-7) << shift << " " << k;
+    for (const Index size : {5, 9}) {
+      const Vector u = Vector::LinSpaced(size, shift, shift + 2), weights = Vector::LinSpaced(size, 1, 2);
+      Vector gradient = weights;
+      kBounds.to_free(u, gradient);
+      for (Index k = 0; k < size; ++k) {
+        const Vector step = 1e-5 * Vector::Unit(size, k);
+        const double slope = weights.dot(kBounds.flat(u + step) - kBounds.flat(u - step)) / 2e-5;
+        EXPECT_NEAR(gradient(k), slope, 1e-7) << shift << " " << k;
+      }
     }
   }
 }
 
 TEST(SoftBounds, StartsOutsideAreMovedInside) {
-  for (const Vector& outside : {flat(1e-9, 1e-9, 1e-9), flat(1e9, 1e9, 1e-9), flat(1e300, 1, 0)}) {
+  const Vector low = flat(1e-9, 1e-9, 1e-9), high = flat(1e9, 1e9, 1e-9);
+  for (const Vector& outside :
+       {low, high, flat(1e300, 1, 0), with_trend(low, 0), with_trend(high, 1e9), with_trend(high, 1e-9)}) {
     const Vector clamped = kBounds.clamped(outside), reached = kBounds.flat(kBounds.free(outside));
-    EXPECT_LT((reached - clamped).lpNorm<Eigen::Infinity>(), 0.02);
+    EXPECT_LT((reached - clamped).lpNorm<Eigen::Infinity>(), 0.02) << (reached - clamped).transpose();
   }
 }
 

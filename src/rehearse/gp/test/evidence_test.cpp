@@ -48,6 +48,24 @@ TEST(Evidence, AgreesWithTheBook) {
   }
 }
 
+TEST(Evidence, WithATrendAgreesWithTheBook) {
+  Workspace workspace;
+  for (const Index n : {1, 17, 64, 75}) {
+    for (const Index D : {1, 5}) {
+      const Matrix X = 2 * naive::normals(n, D, 1).array() + 1;
+      const Hyperparameters theta = naive::with_trend(naive::hyperparameters(D, 2, 1, 0.3), 0.7);
+      const Vector y = naive::draw(X, theta, 2);
+      const double expected = naive::evidence(X, y, theta);
+      EXPECT_NEAR(evidence(Inputs(X), y, theta.flat(), workspace).value, expected, 1e-8 * (std::abs(expected) + 1))
+          << n << " " << D;
+      const Hyperparameters none = naive::hyperparameters(D, 2, 1, 0.3);
+      EXPECT_NEAR(evidence(Inputs(X), y, none.flat(), workspace).value, naive::evidence(X, y, none),
+                  1e-10 * (std::abs(naive::evidence(X, y, none)) + 1))
+          << "with the same workspace";
+    }
+  }
+}
+
 /// By central differences.
 Vector slopes(const Inputs& inputs, const Vector& y, const Vector& flat, const Penalties& penalties, double step) {
   Workspace workspace;
@@ -77,6 +95,11 @@ TEST(Evidence, GradientAgreesWithFiniteDifferences) {
     penalty(inputs, theta.flat(), penalties, &gradient);
     const Vector expected = slopes(inputs, y, theta.flat(), penalties, 1e-5);
     EXPECT_LT((gradient - expected).norm(), 1e-7 * (1 + expected.norm())) << n;
+    const Vector flat = naive::with_trend(theta, 0.6).flat();
+    evidence(inputs, y, flat, workspace, &gradient);
+    penalty(inputs, flat, penalties, &gradient);
+    const Vector trend = slopes(inputs, y, flat, penalties, 1e-5);
+    EXPECT_LT((gradient - trend).norm(), 1e-7 * (1 + trend.norm())) << "trend " << n;
   }
 }
 

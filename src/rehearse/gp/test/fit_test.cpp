@@ -7,6 +7,7 @@
 #include "naive.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/test/reference.hpp"
+#include "rehearse/gp/posterior.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -68,6 +69,31 @@ TEST(Fit, StartsOnAPartOfTheRowsFindWhatStartsOnAllDo) {
   FitOptions many;
   many.starts = 12, many.part_rows = 0;
   EXPECT_NEAR(all.log_evidence, fit(inputs, y, 1, start, many).log_evidence, 0.5);
+}
+
+/// A product of two inputs and a small wave, known on one side only.
+TEST(Fit, ATrendGoesOnWhereThereAreNoData) {
+  const Matrix X = naive::normals(60, 2, 21), beyond = naive::normals(40, 2, 22).array() + 4;
+  const auto truth = [](const Matrix& at) -> Vector {
+    return at.col(0).array() * at.col(1).array() + 0.5 * at.col(0).array() + 0.05 * (3 * at.col(1).array()).sin();
+  };
+  const Vector y = truth(X), expected = truth(beyond);
+  const Inputs inputs(X);
+  double errors[2], evidences[2];
+  for (const bool trend : {false, true}) {
+    FitOptions options;
+    options.trend = trend;
+    const Fit found = fit(inputs, y, 1, default_start(inputs, y, 1, {}, trend), options);
+    EXPECT_EQ(found.hyperparameters.has_trend(), trend);
+    const Posterior posterior(inputs, y, {found.hyperparameters});
+    Matrix mean(40, 1);
+    posterior.predict_mean(beyond, mean);
+    errors[trend] = (mean.col(0) - expected).norm() / expected.norm();
+    evidences[trend] = found.log_evidence;
+  }
+  EXPECT_GT(evidences[1], evidences[0] + 10);
+  EXPECT_LT(errors[1], 0.02);
+  EXPECT_GT(errors[0], 0.1);
 }
 
 TEST(Fit, WarmStartIsNeverMadeWorse) {

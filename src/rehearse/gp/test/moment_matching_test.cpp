@@ -19,7 +19,7 @@ struct Reference {
   std::vector<Hyperparameters> hyperparameters(const std::string& name) const {
     const Matrix flat = reference::matrix(data["inputs"]["loghyp_" + name]);
     std::vector<Hyperparameters> list;
-    for (Index e = 0; e < flat.cols(); ++e) list.push_back(Hyperparameters::from_flat(flat.col(e)));
+    for (Index e = 0; e < flat.cols(); ++e) list.push_back(Hyperparameters::from_flat(flat.col(e), flat.rows() - 2));
     return list;
   }
   Posterior posterior(const std::string& name) const { return {Inputs(X), Y, hyperparameters(name)}; }

@@ -25,14 +25,26 @@ inline Hyperparameters hyperparameters(Index dimensions, double length, double s
           .log_noise = std::log(noise)};
 }
 
+/// The same with a trend, of τ_0 and other τ_d from one to half of that.
+inline Hyperparameters with_trend(Hyperparameters theta, double trend) {
+  const Index D = theta.inputs();
+  theta.log_trend.resize(D + 1);
+  theta.log_trend << std::log(trend), Vector::LinSpaced(D, std::log(trend), std::log(trend / 2));
+  return theta;
+}
+
 /// n × m covariances of the latent function.
 inline Matrix covariance(const Matrix& A, const Matrix& B, const Hyperparameters& theta) {
   Matrix K(A.rows(), B.rows());
   const Eigen::ArrayXd lengths = theta.lengths();
+  const Eigen::ArrayXd trend = (2 * theta.log_trend.array()).exp();
   for (Index i = 0; i < A.rows(); ++i) {
     for (Index j = 0; j < B.rows(); ++j) {
       const Eigen::ArrayXd difference = (A.row(i) - B.row(j)).transpose().array() / lengths;
       K(i, j) = theta.signal_variance() * std::exp(-0.5 * difference.square().sum());
+      if (!theta.has_trend()) continue;
+      const auto products = A.row(i).transpose().array() * B.row(j).transpose().array();
+      K(i, j) += std::pow(trend(0) + (trend.tail(A.cols()) * products).sum(), 2);
     }
   }
   return K;

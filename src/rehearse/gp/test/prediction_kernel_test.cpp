@@ -40,12 +40,12 @@ TEST(PredictionKernel, MeansAndNorms) {
       Vector means(kChunk), norms(kChunk), means_only(kChunk);
       Matrix columns(n, kChunk);
       const Matrix queries = padded_queries(Q), packed = pack(L), expected = correlations(X, Q);
-      correlate(points.data(), n, D, w.data(), queries.data(), rows, columns.data(), means.data());
+      correlate({points.data()}, n, D, w.data(), {queries.data()}, rows, columns.data(), means.data());
       triangular_norms(packed.data(), n, columns.data(), rows, norms.data());
       EXPECT_LT((means.head(rows) - expected.transpose() * w).norm(), 1e-13 * (1 + w.norm()));
       const Vector expected_norms = (L * expected).colwise().squaredNorm();
       EXPECT_TRUE(norms.head(rows).isApprox(expected_norms, 1e-13)) << n << " " << rows;
-      correlate(points.data(), n, D, w.data(), queries.data(), rows, nullptr, means_only.data());
+      correlate({points.data()}, n, D, w.data(), {queries.data()}, rows, nullptr, means_only.data());
       EXPECT_EQ(means.head(rows), means_only.head(rows));
     }
   }
@@ -67,7 +67,7 @@ TEST(PredictionKernel, CorrelationsAreExactToTheLastDigits) {
     Vector queries(kChunk), means(kChunk);
     for (Index q = 0; q < kChunk; ++q)
       queries(q) = std::sqrt(160.0 * static_cast<double>(block * kChunk + q) / (2000.0 * kChunk));
-    correlate(&origin, 1, 1, &one, queries.data(), kChunk, nullptr, means.data());
+    correlate({&origin}, 1, 1, &one, {queries.data()}, kChunk, nullptr, means.data());
     for (Index q = 0; q < kChunk; ++q) {
       const double expected = std::exp(-0.5 * queries(q) * queries(q));
       worst = std::max(worst, std::abs(means(q) - expected) / expected);
@@ -80,7 +80,7 @@ TEST(PredictionKernel, FarPointsHaveNoCorrelationRatherThanASubnormalOne) {
   const double origin = 0, one = 1;
   Vector queries = Vector::Zero(kChunk), means(kChunk);
   queries.head(4) << 12, 13, 1e200, std::numeric_limits<double>::infinity();
-  correlate(&origin, 1, 1, &one, queries.data(), 4, nullptr, means.data());
+  correlate({&origin}, 1, 1, &one, {queries.data()}, 4, nullptr, means.data());
   EXPECT_DOUBLE_EQ(means(0), std::exp(-72));
   EXPECT_EQ(means.segment(1, 3), Vector(Vector::Zero(3)));
 }

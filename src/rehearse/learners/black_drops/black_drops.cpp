@@ -57,6 +57,7 @@ class BlackDrops final : public Learner {
     for (const Vector& theta : policies_) policies.push_back(to_json(theta));
     for (const Vector& theta : carried_) carried.push_back(to_json(theta));
     return {{"kernels", kernels},
+            {"kernel_inputs", state_.kernels.empty() ? 0 : state_.kernels.front().inputs()},
             {"phi", state_.phi ? to_json(*state_.phi) : json()},
             {"policies", policies},
             {"carried", carried}};
@@ -71,7 +72,7 @@ class BlackDrops final : public Learner {
     carried_ = to_vectors(state.at("carried"));
     state_ = {};
     for (const Vector& flat : to_vectors(state.at("kernels")))
-      state_.kernels.push_back(gp::Hyperparameters::from_flat(flat));
+      state_.kernels.push_back(gp::Hyperparameters::from_flat(flat, state.at("kernel_inputs").get<Index>()));
     if (!state.at("phi").is_null()) state_.phi = to_vector(state.at("phi"));
     if (policies_.size() != episodes.size()) throw InvalidInput("the learner's state does not fit the episodes");
   }
@@ -122,8 +123,8 @@ class BlackDrops final : public Learner {
     if (returns_.empty()) return trust_prior(proposal, options_.prior_variance);
     try {
       dynamics::Learned learned =
-          dynamics::learn(data_, setting_.task.model_features(), setting_.task.kinematics(), setting_.prior ? &*setting_.prior : nullptr,
-                          options_.model, state, *setting_.evaluator);
+          dynamics::learn(data_, setting_.task.model_features(), setting_.task.kinematics(),
+                          setting_.prior ? &*setting_.prior : nullptr, options_.model, state, *setting_.evaluator);
       proposal.model = learned.model;
       proposal.phi = learned.state.phi;
       proposal.posterior = std::move(learned.posterior);
@@ -172,11 +173,11 @@ class BlackDrops final : public Learner {
       if (static_cast<Index>(carried.size()) > options_.carried)
         carried.resize(static_cast<std::size_t>(options_.carried));
     }
-    const bool tried = first_return() != returns_.end();
-    if (options_.explore > 0 && tried && !improves(*proposal.predicted_return)) explore(problem, proposal);
+    const double gain = options_.explore.gain;
+    if (gain > 0 && first_return() != returns_.end() && !promises(*proposal.predicted_return, gain))
+      explore(problem, proposal);
   }
 
-  /// Robust policies alone lead no further, so one is tried that does well where the model's doubts are unfounded.
   void explore(const SearchProblem& problem, Proposal& proposal) const {
     SearchOptions options = options_.search;
     if (!options.imagine.sample) return;
@@ -184,7 +185,7 @@ class BlackDrops final : public Learner {
     constexpr std::uint64_t kStream = std::uint64_t{1} << 48;
     const SearchResult found = search_policy(problem, known_policies(), options, setting_.seed, trial() + kStream);
     count(found, proposal);
-    if (improves(found.predicted_return)) take(found, proposal);
+    if (promises(found.predicted_return, options_.explore.promise)) take(found, proposal);
   }
 
   static void count(const SearchResult& found, Proposal& proposal) {
@@ -197,9 +198,10 @@ class BlackDrops final : public Learner {
     proposal.predicted_return = found.predicted_return;
   }
 
-  bool improves(double promised) const {
+  /// More than the best return seen by a fraction of it.
+  bool promises(double predicted, double gain) const {
     const double best = *std::max_element(first_return(), returns_.end());
-    return promised - best > options_.explore * std::abs(best);
+    return predicted - best > gain * std::abs(best);
   }
 
   /// Of a trial with a policy.
@@ -273,6 +275,11 @@ void FirstTrial::fields(FieldVisitor& v) {
   v.number("hold_s", hold_s, at_least(0));
 }
 
+void Exploration::fields(FieldVisitor& v) {
+  v.number("gain", gain, at_least(0));
+  v.number("promise", promise, at_least(0));
+}
+
 void Options::fields(FieldVisitor& v) {
   std::visit([&](auto& kind) { v.group("model", kind); }, model);
   v.group("reward", reward);
@@ -280,7 +287,7 @@ void Options::fields(FieldVisitor& v) {
   v.group("first_trial", first_trial);
   v.boolean("start_from_best", start_from_best);
   v.boolean("start_from_last", start_from_last);
-  v.number("explore", explore, at_least(0));
+  v.group("explore", explore);
   v.integer("carried", carried, at_least(0));
   v.integer("prior_searches", prior_searches, at_least(1));
   v.number("prior_variance", prior_variance, at_least(0));

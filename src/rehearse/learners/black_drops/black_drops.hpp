@@ -24,6 +24,15 @@ struct FirstTrial {
   void fields(FieldVisitor& v);
 };
 
+/// A search that meets the model's doubts ends near what is known. Where it leads no further, another follows the mean
+/// predictions alone, and its policy is tried if it promises much: the doubts may be unfounded, and if not, the trial
+/// resolves them. Fractions of the best return seen.
+struct Exploration {
+  double gain = 0.1;     // a promise of less is no progress; 0: never explore (the paper)
+  double promise = 0.3;  // that is worth a trial
+  void fields(FieldVisitor& v);
+};
+
 struct Options {
   dynamics::Kind model = dynamics::GpMi{};
   dynamics::RewardOptions reward;
@@ -31,13 +40,11 @@ struct Options {
   FirstTrial first_trial;
   bool start_from_best = true;   // one descent starts from the best policy observed; the authors' code
   bool start_from_last = false;  // and one from the last policy tried: its trial told most of where it fails
-  double explore = 0.1;          // where a search promises less than so much more than the best return seen, as a fraction
-                                 // of it, another follows the mean predictions alone; what that promises is tried if it
-                                 // is more (the paper: 0)
-  Index carried = 3;             // and so many from the best other policies of the search before
-  Index prior_searches = 1;      // searches on the prior before the first trial, each from the best of the one before
-                                 // (the authors' code: 2)
-  double prior_variance = 0;     // predicted before there are data (the authors' code: 1)
+  Exploration explore;
+  Index carried = 3;          // and so many from the best other policies of the search before
+  Index prior_searches = 1;   // searches on the prior before the first trial, each from the best of the one before
+                              // (the authors' code: 2)
+  double prior_variance = 0;  // predicted before there are data (the authors' code: 1)
   void fields(FieldVisitor& v);
 };
 

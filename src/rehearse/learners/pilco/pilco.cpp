@@ -56,7 +56,7 @@ class Pilco final : public Learner {
     kernels_.clear();
     proposal_.reset();
     for (const Episode& episode : episodes) data_.append(episode);
-    for (const json& flat : state.at("kernels")) kernels_.push_back(gp::Hyperparameters::from_flat(to_vector(flat)));
+    for (const json& flat : state.at("kernels")) kernels_.push_back(gp::Hyperparameters::from_flat(to_vector(flat), static_cast<Index>(flat.size()) - 2));
     theta_ = to_vector(state.at("theta"));
     trials_ = state.at("trials").get<std::uint64_t>();
     if (trials_ != episodes.size()) throw InvalidInput("the learner's state does not fit the episodes");

@@ -170,6 +170,27 @@ TEST(BlackDrops, StartsFromTheLastPolicyTried) {
   EXPECT_LT(*without.predicted_return, *with.predicted_return - 0.1);
 }
 
+// With a gain that no search can promise, each is followed by one in the mean predictions.
+TEST(BlackDrops, ExploresWhereASearchLeadsNoFurther) {
+  const auto second = [](const char* gain, const char* promise) {
+    const auto with = builder("black-drops-prior", "100");
+    for (const auto& [name, value] :
+         std::map<std::string, std::string>{{"explore.gain", gain}, {"explore.promise", promise}})
+      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
+    const auto learner = with->build(setting(slider::prior(-1)));
+    learner->tell(run_trial(learner->ask(), 1));
+    return learner->ask();
+  };
+  const Proposal never = second("0", "0"), always = second("1e12", "0"), promising = second("1e12", "1e12");
+  EXPECT_GT(always.rollouts, never.rollouts + 100);
+  EXPECT_NE(always.theta, never.theta);
+  const auto mean = rollout::imagine_recorded(*always.model, *always.policy, slider::task(), always.theta, 100,
+                                              {.seed = 7, .purpose = Purpose::prediction}, {.sample = false});
+  EXPECT_NEAR(*always.predicted_return, mean.returns.mean(), 0.05);
+  EXPECT_EQ(promising.rollouts, always.rollouts) << "searched";
+  EXPECT_EQ(promising.theta, never.theta) << "but not promising enough";
+}
+
 TEST(BlackDrops, WithoutAPriorIgnoresTheOneItIsGiven) {
   const auto with = builder("black-drops")->build(setting()), without = builder("black-drops")->build(setting({}));
   EXPECT_EQ(with->ask().theta, without->ask().theta);
