@@ -1,11 +1,7 @@
 #include "rehearse/experiment/checkpoint.hpp"
 
-#include <cstdio>
-
-#include <fmt/format.h>
-
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/files.hpp"
+#include "rehearse/experiment/seal.hpp"
 #include "rehearse/learners/json.hpp"
 
 namespace rehearse::experiment {
@@ -14,7 +10,7 @@ namespace {
 using learners::to_json, learners::to_vector;
 using nlohmann::json;
 
-constexpr int kFormat = 1;
+constexpr const char* kKind = "checkpoint";
 
 template <class T>
 json from_optional(const std::optional<T>& value) {
@@ -110,26 +106,6 @@ History to_history(const json& j) {
   return history;
 }
 
-/// "rehearse-checkpoint FORMAT BYTES CHECKSUM\n" stands before the bytes.
-std::string header(std::size_t size, std::uint64_t sum) {
-  return fmt::format("rehearse-checkpoint {} {} {:016x}\n", kFormat, size, sum);
-}
-
-std::string_view checked_body(std::string_view bytes) {
-  const std::size_t line = bytes.find('\n');
-  int format = 0;
-  if (line == std::string_view::npos ||
-      std::sscanf(std::string(bytes.substr(0, line)).c_str(), "rehearse-checkpoint %d ", &format) != 1)
-    throw InvalidInput("the checkpoint is truncated or not one of Rehearse");
-  if (format != kFormat)
-    throw InvalidInput(fmt::format("the checkpoint has format {}, of another version of Rehearse (this one reads {})",
-                                   format, kFormat));
-  const std::string_view body = bytes.substr(line + 1);
-  if (bytes.substr(0, line + 1) != header(body.size(), checksum(body)))
-    throw InvalidInput("the checkpoint is truncated or damaged");
-  return body;
-}
-
 }  // namespace
 
 std::string to_checkpoint(const History& history, std::uint64_t spec_fingerprint) {
@@ -143,11 +119,11 @@ std::string to_checkpoint(const History& history, std::uint64_t spec_fingerprint
                     {"learner", history.learner}};
   std::string body;
   json::to_cbor(all, body);
-  return header(body.size(), checksum(body)) + body;
+  return seal(kKind, body);
 }
 
 History from_checkpoint(std::string_view bytes, std::uint64_t spec_fingerprint) {
-  const std::string_view body = checked_body(bytes);
+  const std::string_view body = unseal(kKind, bytes);
   try {
     const json all = json::from_cbor(body);
     if (all.at("spec").get<std::uint64_t>() != spec_fingerprint)
