@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "fake.hpp"
+#include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/files.hpp"
 #include "rehearse/experiment/seal.hpp"
 

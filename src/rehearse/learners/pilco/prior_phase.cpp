@@ -80,6 +80,7 @@ class PriorPhase {
     Setting inner = setting_;
     inner.prior.reset();
     inner.store.reset();
+    if (!inner.evaluator) inner.evaluator = make_thread_evaluator(1);
     if (setting_.progress) inner.progress = [this](const Progress& progress) { report(progress); };
     return inner;
   }

@@ -98,7 +98,9 @@ TEST(PriorPhase, GoesOnFromTheStoreAfterEachEpisode) {
       if (progress.phase == "prior " + std::to_string(stop_after) + "/3: search" && progress.rollouts == 3)
         throw Interrupted();
     };
-    if (stop_after > 0) EXPECT_THROW(learn_on_prior(interrupted, options(), 3), Interrupted);
+    if (stop_after > 0) {
+      EXPECT_THROW(learn_on_prior(interrupted, options(), 3), Interrupted);
+    }
     EXPECT_EQ(store->writes, stop_after);
     std::vector<std::string> phases;
     interrupted.progress = [&](const Progress& progress) { phases.push_back(progress.phase); };
@@ -116,7 +118,7 @@ TEST(PriorPhase, GoesOnFromTheStoreAfterEachEpisode) {
 
 TEST(PriorPhase, BeginsAnewWhereTheStoreHoldsSomethingElse) {
   const PriorKnowledge whole = learn_on_prior(setting(), options(), 1);
-  for (const std::string bytes : {std::string("not CBOR"), std::string("\xa0"), std::string()}) {
+  for (const std::string& bytes : {std::string("not CBOR"), std::string("\xa0"), std::string()}) {
     Setting with_store = setting();
     const auto store = std::make_shared<MemoryStore>();
     store->kept["prior"] = bytes;
@@ -134,8 +136,11 @@ TEST(PriorPhase, SurvivesASimulatorThatFails) {
   broken.prior = prior::Prior{"broken", system::make_simulator(none, fails_on_the_left), none};
   const auto learner = make(broken, options(2, 5));
   EXPECT_EQ(learner->ask().theta.size(), slider::rbf()->parameters());
-  ASSERT_FALSE(learner->ask().notes.empty());
-  EXPECT_NE(learner->ask().notes[0].find("on the prior, episode 1: its simulator failed at step"), std::string::npos);
+  const std::vector<std::string>& notes = learner->ask().notes;
+  ASSERT_FALSE(notes.empty());
+  EXPECT_TRUE(notes[0].starts_with("on the prior, episode ") &&
+              notes[0].find(": its simulator failed at step ") != std::string::npos)
+      << notes[0];
   learner->tell(run_trial(learner->ask(), 1));
   EXPECT_TRUE(learner->ask().model);
 
