@@ -47,11 +47,10 @@ same whole fewer spec.toml trials.csv
 
 if [ "$learner" = pilco-prior ]; then
   REHEARSE_CACHE=cache learn filling --trials 3 --threads 2
-  begin=$(milliseconds)
   REHEARSE_CACHE=cache learn cached --trials 3 --threads 2
-  echo "with the cache the run takes $(($(milliseconds) - begin)) ms"
-  same whole cached spec.toml trials.csv errors.csv notes.csv policy.json kept/prior
-  [ "$(head -n 2 cached/timings.csv | tail -n 1 | cut -d, -f3 | cut -d. -f1)" = 0 ] || fail "the cache was not used"
+  same whole cached spec.toml trials.csv errors.csv notes.csv policy.json
+  [ -e filling/kept/prior ] || fail "nothing was kept in the run folder"
+  [ ! -e cached/kept ] || fail "the cache was not used"
   [ "$(find cache -type f | wc -l)" = 1 ] || fail "the cache holds $(find cache -type f)"
 fi
 
