@@ -18,20 +18,17 @@ constexpr const char* kStored = "prior";
 /// Episodes on the prior draw from trials that no robot ever does.
 constexpr std::uint64_t kFirstTrial = std::uint64_t{1} << 32;
 
-/// Where the phase is; `knowledge` once it is over, and the rest no longer matters.
+/// Where the phase is.
 struct State {
+  PriorKnowledge knowledge;  // its counts and notes so far; all of it once the phase is over
+  bool over = false;         // the rest no longer matters
   std::vector<Episode> episodes;
   json learner;
-  Index evaluations = 0, failed = 0;
-  std::vector<std::string> notes;
-  std::optional<PriorKnowledge> knowledge;
 };
 
 std::string to_bytes(const State& state) {
-  json all = {{"evaluations", state.evaluations}, {"failed", state.failed}, {"notes", state.notes}};
-  if (state.knowledge) {
-    all["knowledge"] = to_json(*state.knowledge);
-  } else {
+  json all = {{"knowledge", to_json(state.knowledge)}, {"over", state.over}};
+  if (!state.over) {
     all["learner"] = state.learner;
     for (const Episode& episode : state.episodes) all["episodes"].push_back(learners::to_json(episode));
   }
@@ -42,14 +39,10 @@ std::string to_bytes(const State& state) {
 
 State to_state(const std::string& bytes) {
   const json all = json::from_cbor(bytes);
-  State state{.evaluations = all.at("evaluations").get<Index>(), .failed = all.at("failed").get<Index>()};
-  all.at("notes").get_to(state.notes);
-  if (all.contains("knowledge")) {
-    state.knowledge = to_knowledge(all.at("knowledge"));
-  } else {
-    state.learner = all.at("learner");
-    for (const json& episode : all.at("episodes")) state.episodes.push_back(to_episode(episode));
-  }
+  State state{.knowledge = to_knowledge(all.at("knowledge")), .over = all.at("over").get<bool>()};
+  if (state.over) return state;
+  state.learner = all.at("learner");
+  for (const json& episode : all.at("episodes")) state.episodes.push_back(to_episode(episode));
   return state;
 }
 
@@ -62,17 +55,16 @@ class PriorPhase {
 
   PriorKnowledge run() {
     restore();
-    if (state_.knowledge) return *state_.knowledge;
+    if (state_.over) return state_.knowledge;
     while (done() < episodes_) one_episode();
     const Proposal& last = asked();
-    state_.knowledge = {.network = gp::mean_terms(trials_.terms()),
-                        .theta = last.theta,
-                        .predicted_return = last.predicted_return,
-                        .evaluations = state_.evaluations,
-                        .failed = state_.failed,
-                        .notes = state_.notes};
+    PriorKnowledge& knowledge = state_.knowledge;
+    knowledge.network = gp::mean_terms(trials_.terms());
+    knowledge.theta = last.theta;
+    knowledge.predicted_return = last.predicted_return;
+    state_.over = true;
     keep();
-    return *state_.knowledge;
+    return knowledge;
   }
 
  private:
@@ -99,12 +91,13 @@ class PriorPhase {
   void restore() {
     const auto bytes = setting_.store ? setting_.store->read(kStored) : std::nullopt;
     if (!bytes) return;
+    const json fresh = trials_.save();
     try {
       State state = to_state(*bytes);
-      if (!state.knowledge) trials_.load(state.episodes, state.learner);
+      if (!state.over) trials_.load(state.episodes, state.learner);
       state_ = std::move(state);
-    } catch (const json::exception&) {  // not one of ours: as if nothing had been kept
-    } catch (const InvalidInput&) {
+    } catch (const std::exception&) {  // not one of ours: as if nothing had been kept
+      trials_.load({}, fresh);
     }
   }
 
@@ -131,16 +124,16 @@ class PriorPhase {
     const Index last = episode.steps();
     const auto& fell = setting_.task.ended;
     if (last == setting_.task.horizon || (fell && fell(episode.true_states.row(last).transpose()))) return;
-    state_.notes.push_back(
+    state_.knowledge.notes.push_back(
         fmt::format("on the prior, episode {}: its simulator failed at step {}", done() + 1, last + 1));
   }
 
   const Proposal& asked() {
     const Proposal& proposal = trials_.ask();
-    state_.evaluations += proposal.rollouts;
-    state_.failed += proposal.failed_rollouts;
+    state_.knowledge.evaluations += proposal.rollouts;
+    state_.knowledge.failed += proposal.failed_rollouts;
     for (const std::string& note : proposal.notes)
-      state_.notes.push_back(fmt::format("on the prior, after {} episodes: {}", done(), note));
+      state_.knowledge.notes.push_back(fmt::format("on the prior, after {} episodes: {}", done(), note));
     return proposal;
   }
 

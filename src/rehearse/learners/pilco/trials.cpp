@@ -73,18 +73,23 @@ void Trials::load(const std::vector<Episode>& episodes, const json& state) {
   if (!fits) throw InvalidInput("the learner's state does not fit the episodes");
 }
 
-Proposal Trials::first_proposal() const {
-  return prior_ ? proposal_of(*prior_, setting_) : random_actions(setting_, options_.first_trial_hold_s, trial());
+Proposal Trials::propose() {
+  Proposal proposal = trials_ == 0 ? first_proposal() : next_proposal();
+  if (prior_) proposal.phi = setting_.prior->space.values();
+  return proposal;
 }
 
-Proposal Trials::propose() {
-  double prior_s = 0;
-  if (options_.prior_episodes && !prior_)
-    prior_s = seconds([&] { prior_ = learn_on_prior(setting_, options_, *options_.prior_episodes); });
-  Proposal proposal = trials_ == 0 ? first_proposal() : Proposal{.policy = setting_.policy};
-  if (prior_) proposal.phi = setting_.prior->space.values();
-  proposal.search_s = prior_s;
-  if (trials_ == 0) return proposal;
+Proposal Trials::first_proposal() {
+  if (!options_.prior_episodes) return random_actions(setting_, options_.first_trial_hold_s, trial());
+  const Stopwatch watch;
+  if (!prior_) prior_ = learn_on_prior(setting_, options_, *options_.prior_episodes);
+  Proposal proposal = proposal_of(*prior_, setting_);
+  proposal.search_s = watch.seconds();
+  return proposal;
+}
+
+Proposal Trials::next_proposal() {
+  Proposal proposal{.policy = setting_.policy};
   Model model;
   proposal.model_s = seconds([&] { model = learn_model(); });
   proposal.model = model.model;

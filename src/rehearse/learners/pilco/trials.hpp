@@ -24,7 +24,8 @@ class Trials final : public Learner {
  private:
   std::uint64_t trial() const { return trials_ + 1; }
   Proposal propose();
-  Proposal first_proposal() const;
+  Proposal first_proposal();
+  Proposal next_proposal();
   Model learn_model() const;
   void search(const Model& model, Proposal& proposal) const;
 

@@ -116,9 +116,25 @@ TEST(PriorPhase, GoesOnFromTheStoreAfterEachEpisode) {
   }
 }
 
+/// What is kept after two of three episodes, with one of them lost.
+std::string contradiction() {
+  Setting with_store = setting();
+  const auto store = std::make_shared<MemoryStore>();
+  with_store.store = store;
+  with_store.progress = [](const Progress& progress) {
+    if (progress.phase == "prior 2/3: search") throw Interrupted();
+  };
+  EXPECT_THROW(learn_on_prior(with_store, options(), 3), Interrupted);
+  nlohmann::json kept = nlohmann::json::from_cbor(store->kept["prior"]);
+  kept["episodes"].erase(0);
+  std::string bytes;
+  nlohmann::json::to_cbor(kept, bytes);
+  return bytes;
+}
+
 TEST(PriorPhase, BeginsAnewWhereTheStoreHoldsSomethingElse) {
   const PriorKnowledge whole = learn_on_prior(setting(), options(), 1);
-  for (const std::string& bytes : {std::string("not CBOR"), std::string("\xa0"), std::string()}) {
+  for (const std::string& bytes : {std::string("not CBOR"), std::string("\xa0"), std::string(), contradiction()}) {
     Setting with_store = setting();
     const auto store = std::make_shared<MemoryStore>();
     store->kept["prior"] = bytes;
