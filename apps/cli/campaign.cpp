@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/cli/arguments.hpp"
+#include "apps/cli/cache.hpp"
 #include "apps/cli/campaign_console.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/signals.hpp"
@@ -70,6 +71,7 @@ int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& ar
                                                   .listener = company.leads() ? &console : nullptr,
                                                   .stop = [] { return caught_signal() != 0; },
                                                   .share = share,
+                                                  .cache = cache_folder,
                                                   .ranks = company.ranks.get()});
   if (!company.leads()) return kSuccess;
   if (done.count(RunState::unfinished) > 0) {

@@ -10,6 +10,7 @@
 #include "rehearse/core/errors.hpp"
 #ifdef REHEARSE_MPI
 #include "rehearse/mpi/ranks.hpp"
+#include "rehearse/optim/arithmetic.hpp"
 #endif
 
 namespace rehearse::apps {
@@ -82,7 +83,7 @@ Company join(const Launch& launch, int argc, char** argv) {
   const std::string own = mpi::cores();
   const std::vector<std::string> cores = ranks.exchange("cores", own);
   company.sharing = static_cast<int>(std::count(cores.begin(), cores.end(), own));
-  company.difference = difference_between(ranks.exchange("arithmetic", mpi::arithmetic()));
+  company.difference = difference_between(ranks.exchange("arithmetic", optim::arithmetic()));
   return company;
 }
 

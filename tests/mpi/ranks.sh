@@ -78,6 +78,17 @@ same alone two "${files[@]}"
 ranks 3 learn "${learn[@]}" --out three-ranks --threads 2 >output 2>&1 || fail "three ranks, two threads: $(cat output)"
 same alone three-ranks "${files[@]}"
 
+# What a learner keeps before its first trial is rank 0's, and known to all.
+prior=(pendulum --learner pilco-prior --set policy=rbf --set pilco.prior_episodes=3 --set search.line_searches=6
+  --trials 2 --seed 7 --threads 1)
+"$program" learn "${prior[@]}" --out prior-alone >/dev/null || fail "the episodes on a prior of one process"
+for run in prior-two prior-cached; do
+  REHEARSE_CACHE=$PWD/cache ranks 2 learn "${prior[@]}" --out $run >output 2>&1 || fail "$run: $(cat output)"
+  same prior-alone $run trials.csv policy.json
+done
+same prior-alone prior-two kept/prior
+[ ! -e prior-cached/kept ] || fail "the second run of two ranks did not find the cache"
+
 first_trial() { [ "$(wc -l <"$1/trials.csv")" -gt 1 ]; } 2>/dev/null
 killed_rank 1 killed first_trial -- learn "${learn[@]}" --threads 1
 [ -e killed/done ] || echo "killed after $(($(wc -l <killed/trials.csv) - 1)) trials"

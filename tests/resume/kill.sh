@@ -1,12 +1,18 @@
 #!/usr/bin/env bash
 # kill.sh PROGRAM LEARNER: kills a short run with SIGKILL at ten instants spread over its length, resumes each, and
-# compares what is left with the run that was never interrupted; then compares numbers of threads and of trials.
+# compares what is left with the run that was never interrupted; then compares numbers of threads and of trials, and runs
+# with a cache.
 source "$(dirname "$0")/../prelude.sh"
 learner=$2
 
-arguments=(pendubot --learner "$learner" --seed 5 --set search.race.max_evaluations=6000 --set search.race.descents=2
-  --set search.selection=20)
-[ "$learner" = black-drops ] || arguments+=(--prior misleading --set model.subplex.max_evaluations=15)
+race=(--set search.race.max_evaluations=6000 --set search.race.descents=2 --set search.selection=20)
+case $learner in
+  black-drops) arguments=(pendubot "${race[@]}") ;;
+  pilco-prior)  # most instants are in the episodes on the prior
+    arguments=(pendulum --set policy=rbf --set pilco.prior_episodes=4 --set search.line_searches=8 --set model.inducing=60) ;;
+  *) arguments=(pendubot --prior misleading --set model.subplex.max_evaluations=15 "${race[@]}") ;;
+esac
+arguments+=(--learner "$learner" --seed 5)
 
 learn() { # learn FOLDER ARGS…
   "$program" learn "${arguments[@]}" --out "$@" >/dev/null
@@ -38,6 +44,15 @@ learn fewer --trials 2 --threads 2
 head -c "$(wc -c <fewer/trials.csv)" whole/trials.csv | cmp - fewer/trials.csv || fail "rows of two trials"
 "$program" resume fewer --trials 3 >/dev/null || fail "resuming with more trials"
 same whole fewer spec.toml trials.csv
+
+if [ "$learner" = pilco-prior ]; then
+  REHEARSE_CACHE=cache learn filling --trials 3 --threads 2
+  REHEARSE_CACHE=cache learn cached --trials 3 --threads 2
+  same whole cached spec.toml trials.csv errors.csv notes.csv policy.json
+  [ -e filling/kept/prior ] || fail "nothing was kept in the run folder"
+  [ ! -e cached/kept ] || fail "the cache was not used"
+  [ "$(find cache -type f | wc -l)" = 1 ] || fail "the cache holds $(find cache -type f)"
+fi
 
 cat whole/trials.csv
 finish

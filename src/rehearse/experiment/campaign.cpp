@@ -44,8 +44,9 @@ struct Places {
 /// The threads that do the runs, of one process.
 class Crew {
  public:
-  Crew(const Catalogue& catalogue, const CampaignFolder& folder, const CampaignPlan& plan, Ledger& ledger)
-      : catalogue_(catalogue), folder_(folder), plan_(plan), ledger_(ledger) {}
+  Crew(const Catalogue& catalogue, const CampaignFolder& folder, const CampaignPlan& plan, const CacheFolder& cache,
+       Ledger& ledger)
+      : catalogue_(catalogue), folder_(folder), plan_(plan), cache_(cache), ledger_(ledger) {}
 
   /// Runs at once; each with its share of the threads if there are more of these.
   void work(const Places& places) {
@@ -65,7 +66,7 @@ class Crew {
     const PlannedRun& planned = plan_.runs[index];
     Reporter reporter(folder_, ledger_, planned, index);
     const RunOptions options{
-        .evaluator = evaluator, .listener = &reporter, .stop = [this] { return ledger_.stopped(); }};
+        .evaluator = evaluator, .listener = &reporter, .stop = [this] { return ledger_.stopped(); }, .cache = cache_};
     ledger_.run_ended(index, outcome_of_run(planned, options));
   }
 
@@ -99,6 +100,7 @@ class Crew {
   const Catalogue& catalogue_;
   const CampaignFolder& folder_;
   const CampaignPlan& plan_;
+  const CacheFolder& cache_;
   Ledger& ledger_;
 };
 
@@ -167,7 +169,7 @@ class Leader {
     });
     OwnLedger ledger(*folder_, campaign_, options_);
     Answering answering(options_, ledger);
-    Crew(catalogue_, *folder_, campaign_.plan, ledger).work(places);
+    Crew(catalogue_, *folder_, campaign_.plan, options_.cache, ledger).work(places);
     answering.finish();
     write_tables();
     return std::move(campaign_);
@@ -210,7 +212,7 @@ void follow(const Catalogue& catalogue, CampaignPlan plan, std::string_view text
   options.ranks->once(kStart, {});  // until the listener knows of the campaign
   DistantLedger ledger(*options.ranks, options.stop);
   try {
-    Crew(catalogue, folder, plan, ledger).work(places);
+    Crew(catalogue, folder, plan, options.cache, ledger).work(places);
   } catch (const std::exception& error) {
     ledger.close(fmt::format("rank {} failed: {}", options.ranks->rank(), error.what()));
     throw;

@@ -8,6 +8,7 @@
 #include "rehearse/core/events.hpp"
 #include "rehearse/core/ranks.hpp"
 #include "rehearse/experiment/campaign_results.hpp"
+#include "rehearse/experiment/run_store.hpp"
 
 namespace rehearse::experiment {
 
@@ -33,6 +34,7 @@ struct CampaignOptions {
   CampaignListener* listener = nullptr;  // null: nobody listens
   std::function<bool()> stop;            // polled; once true, the campaign stops where it can be continued
   Share share;                           // other than 1 of 1: only these runs, and no tables
+  CacheFolder cache;                     // of what learners keep for other runs; null: none
   Ranks* ranks = nullptr;  // that share the runs, all with the same arguments; null: this process is alone
 };
 

@@ -27,7 +27,10 @@ std::shared_ptr<const Evaluator> evaluator_of(const RunOptions& options) {
 class Participants {
  public:
   Participants(Resolved resolved, const RunOptions& options)
-      : options_(options), resolved_(std::move(resolved)), learner_(resolved_.learner->build(setting())) {}
+      : options_(options),
+        resolved_(std::move(resolved)),
+        store_(std::make_shared<RunStore>(evaluator_of(options), resolved_.spec, options.cache)),
+        learner_(resolved_.learner->build(setting())) {}
   Participants(const Participants&) = delete;  // the learner's progress points here
   Participants& operator=(const Participants&) = delete;
 
@@ -52,6 +55,9 @@ class Participants {
     if (options_.stop && options_.stop()) throw Interrupted{};
   }
 
+  /// Where the learner's store is, on rank 0.
+  void open_store(const std::filesystem::path& folder) { store_->open(folder); }
+
   /// Which trial progress is about.
   void begin_trial(Index trial) { trial_ = trial; }
 
@@ -62,7 +68,8 @@ class Participants {
             .prior = resolved_.prior,
             .seed = static_cast<std::uint64_t>(resolved_.spec.seed),
             .evaluator = evaluator_of(options_),
-            .progress = [this](const Progress& progress) { report(progress); }};
+            .progress = [this](const Progress& progress) { report(progress); },
+            .store = store_};
   }
 
   void report(const Progress& progress) const {
@@ -72,6 +79,7 @@ class Participants {
 
   RunOptions options_;
   Resolved resolved_;
+  std::shared_ptr<RunStore> store_;
   std::unique_ptr<learners::Learner> learner_;
   std::unique_ptr<system::Plant> plant_;
   Index trial_ = 1;
@@ -106,6 +114,7 @@ class Run {
       : with_(participants), folder_(folder), history_(std::move(history)) {}
 
   RunResult finish() {
+    if (folder_) with_.open_store(path());
     if (with_.options().listener) with_.options().listener->started(with_.resolved(), path(), history_.done());
     publish();
     if (history_.done() > 0) evaluate_last();

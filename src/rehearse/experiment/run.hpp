@@ -11,6 +11,7 @@
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/experiment/record.hpp"
+#include "rehearse/experiment/run_store.hpp"
 #include "rehearse/experiment/spec.hpp"
 
 namespace rehearse::experiment {
@@ -30,6 +31,7 @@ struct RunOptions {
   std::shared_ptr<const Evaluator> evaluator;  // null: serial
   RunListener* listener = nullptr;             // null: nobody listens
   std::function<bool()> stop;                  // polled; once true, the run ends with Interrupted and can be resumed
+  CacheFolder cache;                           // of what learners keep for other runs; null: none
 };
 
 struct RunResult {

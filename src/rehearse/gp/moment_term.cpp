@@ -1,6 +1,7 @@
 #include "rehearse/gp/moment_term.hpp"
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/gp/correlations.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -39,6 +40,24 @@ std::vector<MomentTerm> mean_terms(const Posterior& posterior, double jitter) {
     terms.back().variance = jitter;
   }
   return terms;
+}
+
+std::vector<MomentTerm> mean_terms(std::vector<MomentTerm> terms, double jitter) {
+  for (MomentTerm& term : terms) {
+    term.variance = jitter;
+    term.reduction.resize(0, 0);
+  }
+  return terms;
+}
+
+Matrix evaluate_means(const std::vector<MomentTerm>& terms, Index outputs, const ConstMatrixView& X) {
+  Matrix means = Matrix::Zero(X.rows(), outputs);
+  for (const MomentTerm& term : terms) {
+    const Vector inverse_lengths = (-term.log_lengths).array().exp();
+    const Matrix C = correlations(X * inverse_lengths.asDiagonal(), term.centres * inverse_lengths.asDiagonal());
+    for (Index i = 0; i < term.size(); ++i) means.col(term.output) += term.weights(i) * C.col(i);
+  }
+  return means;
 }
 
 }  // namespace rehearse::gp

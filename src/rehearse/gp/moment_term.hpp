@@ -29,4 +29,10 @@ std::vector<MomentTerm> exact_terms(const Posterior& posterior);
 /// PILCO's policies, which add `jitter` = 1e-6 to the variance of each output.
 std::vector<MomentTerm> mean_terms(const Posterior& posterior, double jitter = 0);
 
+/// The same of GPs that are given as terms, of inducing inputs too.
+std::vector<MomentTerm> mean_terms(std::vector<MomentTerm> terms, double jitter = 0);
+
+/// The means f(x) (n × outputs) at inputs X (n × D); a row depends on that row alone. Any thread.
+Matrix evaluate_means(const std::vector<MomentTerm>& terms, Index outputs, const ConstMatrixView& X);
+
 }  // namespace rehearse::gp

@@ -14,6 +14,7 @@
 #include "rehearse/core/task.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
 #include "rehearse/dynamics/phi_posterior.hpp"
+#include "rehearse/learners/store.hpp"
 #include "rehearse/policy/policy.hpp"
 #include "rehearse/prior/prior.hpp"
 
@@ -43,7 +44,8 @@ struct Setting {
   std::optional<prior::Prior> prior;
   std::uint64_t seed = 1;
   std::shared_ptr<const Evaluator> evaluator;
-  ProgressSink progress;  // may be empty
+  ProgressSink progress;         // may be empty
+  std::shared_ptr<Store> store;  // may be null
 };
 
 /// Proposes policies and learns from the episodes they make.

@@ -1,7 +1,6 @@
 #include "rehearse/mpi/ranks.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
@@ -10,13 +9,9 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <gnu/libc-version.h>
-#include <hwy/highway.h>
 #include <mpi.h>
 #include <sched.h>
 #include <unistd.h>
-
-extern "C" char* openblas_get_corename();
 
 namespace rehearse::mpi {
 namespace {
@@ -132,12 +127,6 @@ class MpiRanks final : public Ranks {
 }  // namespace
 
 std::unique_ptr<Ranks> join(std::function<bool()> stop) { return std::make_unique<MpiRanks>(std::move(stop)); }
-
-std::string arithmetic() {
-  const auto best = std::int64_t{1} << std::countr_zero(static_cast<std::uint64_t>(hwy::SupportedTargets()));
-  return fmt::format("Highway {}, OpenBLAS {}, glibc {}", hwy::TargetName(best), openblas_get_corename(),
-                     gnu_get_libc_version());
-}
 
 std::string cores() {
   char host[256] = {};

@@ -12,9 +12,6 @@ namespace rehearse::mpi {
 /// stop: whether this process was asked to stop.
 std::unique_ptr<Ranks> join(std::function<bool()> stop);
 
-/// What of this machine's processor decides the last bits of results, in words.
-std::string arithmetic();
-
 /// The cores that this process may use, and on which machine; equal where processes share them.
 std::string cores();
 

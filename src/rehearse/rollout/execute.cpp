@@ -27,16 +27,43 @@ double reward_of(const Task& task, const Episode& episode, Index t) {
   return reward(0);
 }
 
-void truncate(Episode& episode, Index steps) {
+/// Ends an episode after `steps`: the rest earns the reward floor.
+void end(Episode& episode, Index steps, const Task& task) {
+  episode.ended = true;
+  episode.charged = static_cast<double>(task.horizon - steps) * task.reward_floor;
   episode.states.conservativeResize(steps + 1, Eigen::NoChange);
   episode.true_states.conservativeResize(steps + 1, Eigen::NoChange);
   episode.actions.conservativeResize(steps, Eigen::NoChange);
   episode.rewards.conservativeResize(steps);
 }
 
-}  // namespace
+/// A simulator as a plant; the state is NaN after a step that failed.
+class SimulatedPlant final : public system::Plant {
+ public:
+  SimulatedPlant(const system::Simulator& simulator, const Vector& phi, const Task& task)
+      : simulator_(simulator), phi_(phi), task_(task) {}
 
-Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng rng) {
+  Vector reset(Rng& rng) override {
+    state_ = task_.start_mean;
+    for (Index i = 0; i < state_.size(); ++i) state_(i) += task_.start_std(i) * rng.normal();
+    return state_;
+  }
+  Vector step(const Vector& u) override {
+    Matrix change(1, state_.size());
+    system::change_contained(simulator_, state_.transpose(), u.transpose(), phi_, change);
+    return state_ += change.transpose();
+  }
+
+ private:
+  const system::Simulator& simulator_;
+  const Vector& phi_;
+  const Task& task_;
+  Vector state_;
+};
+
+/// contained: a state that is not finite is a fall, and the plant's fault otherwise.
+Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng& rng,
+            bool contained) {
   const Index T = task.horizon;
   Episode episode{.states = Matrix(T + 1, task.state_size()),
                   .true_states = Matrix(T + 1, task.state_size()),
@@ -48,16 +75,31 @@ Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector
   for (Index t = 0; t < T; ++t) {
     policy.act(Theta, episode.states.middleRows(t, 1), static_cast<double>(t) * task.dt_s, u);
     episode.actions.row(t) = u;
-    record_state(episode, t + 1, checked(plant.step(u.transpose()), task.state_size(), t + 1), plant);
+    const Vector next = plant.step(u.transpose());
+    if (contained && !next.allFinite()) {
+      end(episode, t, task);
+      break;
+    }
+    record_state(episode, t + 1, checked(next, task.state_size(), t + 1), plant);
     episode.rewards(t) = reward_of(task, episode, t);
     if (task.ended && task.ended(episode.true_states.row(t + 1).transpose())) {
-      episode.ended = true;
-      episode.charged = static_cast<double>(T - t - 1) * task.reward_floor;
-      truncate(episode, t + 1);
+      end(episode, t + 1, task);
       break;
     }
   }
   return episode;
+}
+
+}  // namespace
+
+Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng rng) {
+  return run(plant, policy, theta, task, rng, false);
+}
+
+Episode execute(const system::Simulator& simulator, const Vector& phi, const policy::Policy& policy,
+                const Vector& theta, const Task& task, Rng rng) {
+  SimulatedPlant plant(simulator, phi, task);
+  return run(plant, policy, theta, task, rng, true);
 }
 
 }  // namespace rehearse::rollout

@@ -4,6 +4,7 @@
 #include "rehearse/core/task.hpp"
 #include "rehearse/policy/policy.hpp"
 #include "rehearse/system/plant.hpp"
+#include "rehearse/system/simulator.hpp"
 
 namespace rehearse::rollout {
 
@@ -11,5 +12,10 @@ namespace rehearse::rollout {
 /// throws or returns a state that is not finite, that exception (or InvalidInput) reaches the caller: a real robot's
 /// silence is not a fall.
 Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng rng);
+
+/// One episode on a simulator at φ in the place of the plant, from the task's start and measured without noise. A step
+/// that cannot be simulated ends it like a fall.
+Episode execute(const system::Simulator& simulator, const Vector& phi, const policy::Policy& policy,
+                const Vector& theta, const Task& task, Rng rng);
 
 }  // namespace rehearse::rollout

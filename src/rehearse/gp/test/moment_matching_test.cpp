@@ -1,5 +1,6 @@
 #include "rehearse/gp/moment_matching.hpp"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "naive.hpp"
@@ -92,6 +93,62 @@ TEST(MomentMatching, AgreesWithSamplesOfAMixture) {
   const Gaussian x = tools::random_gaussian(3, 0.6, 11);
   tools::expect_samples([&](const Vector& at, const Vector& normals) { return draw(terms, at, normals); }, x,
                         moments({terms, 2}, x), 12);
+}
+
+/// cov[f(x), g(x)] of two networks, by the product of two Gaussians and explicit inverses.
+double plain_covariance(const MomentTerm& f, const MomentTerm& g, const Gaussian& x) {
+  const Index D = x.size();
+  const Matrix I = Matrix::Identity(D, D);
+  const auto squares = [](const MomentTerm& t) -> Matrix {
+    return Vector((2 * t.log_lengths).array().exp()).asDiagonal();
+  };
+  const auto expectation = [&](const Matrix& Lambda, const Vector& centre) {
+    const Vector z = centre - x.mean;
+    return std::exp(-0.5 * z.dot((x.covariance + Lambda).inverse() * z)) /
+           std::sqrt((x.covariance * Lambda.inverse() + I).determinant());
+  };
+  const Matrix F = squares(f), G = squares(g), both = (F.inverse() + G.inverse()).inverse();
+  double product = 0, mean_f = 0, mean_g = 0;
+  for (Index i = 0; i < f.size(); ++i) {
+    const Vector a = f.centres.row(i).transpose();
+    mean_f += f.weights(i) * expectation(F, a);
+    for (Index j = 0; j < g.size(); ++j) {
+      const Vector b = g.centres.row(j).transpose(), apart = a - b;
+      const double overlap = std::exp(-0.5 * apart.dot((F + G).inverse() * apart));
+      product += f.weights(i) * g.weights(j) * overlap * expectation(both, both * (F.inverse() * a + G.inverse() * b));
+    }
+  }
+  for (Index j = 0; j < g.size(); ++j) mean_g += g.weights(j) * expectation(G, g.centres.row(j).transpose());
+  return product - mean_f * mean_g;
+}
+
+// Cutler 2015: M = M_gp + M_prior, S = S_gp + S_prior + C + Cᵀ, V = V_gp + V_prior.
+TEST(MomentMatching, OfGpsAroundANetworkIsTheSumOfBothAndWhatTheyShare) {
+  const std::vector<MomentTerm> all = mixture(4), gps(all.begin(), all.begin() + 2),
+                                network(all.begin() + 2, all.end());
+  const Gaussian x = tools::random_gaussian(4, 0.6, 13);
+  const Transformed sum = moments({all, 2}, x), gp = moments({gps, 2}, x), prior = moments({network, 2}, x);
+  Matrix C(2, 2);
+  for (const MomentTerm& f : gps)
+    for (const MomentTerm& g : network) C(f.output, g.output) = plain_covariance(f, g, x);
+  ASSERT_GT(C.cwiseAbs().maxCoeff(), 1e-3);
+  EXPECT_LT((sum.mean - gp.mean - prior.mean).norm(), 1e-12);
+  EXPECT_LT((sum.gain - gp.gain - prior.gain).norm(), 1e-12);
+  EXPECT_LT((sum.covariance - gp.covariance - prior.covariance - C - C.transpose()).norm(), 1e-10);
+}
+
+TEST(MomentMatching, MeanTermsKeepTheMeansOfTermsAlone) {
+  const Reference reference;
+  const auto fitc = fitc_terms(reference.X, reference.Y, reference.Z, reference.hyperparameters("perturbed"));
+  const auto means = mean_terms(fitc, 1e-6);
+  const Matrix at = reference.X.topRows(3), values = evaluate_means(means, 4, at);
+  for (Index i = 0; i < 3; ++i) {
+    const Gaussian x{at.row(i).transpose(), Matrix::Zero(6, 6)};
+    const Transformed full = moments({fitc, 4}, x), mean = moments({means, 4}, x);
+    EXPECT_EQ(full.mean, mean.mean);
+    EXPECT_LT((mean.covariance.diagonal().array() - 1e-6).abs().maxCoeff(), 1e-12);
+    EXPECT_LT((mean.mean - values.row(i).transpose()).norm(), 1e-12);
+  }
 }
 
 TEST(MomentMatching, AdjointAgreesWithDifferencesForAnyNumberOfInputs) {

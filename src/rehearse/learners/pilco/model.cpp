@@ -9,6 +9,7 @@
 #include "rehearse/gp/fitc.hpp"
 #include "rehearse/gp/posterior.hpp"
 #include "rehearse/optim/cautious_bfgs.hpp"
+#include "rehearse/prior/network.hpp"
 
 namespace rehearse::learners::pilco {
 namespace {
@@ -55,11 +56,14 @@ std::vector<gp::MomentTerm> terms(const Matrix& X, const Matrix& Y, const ModelO
   return gp::exact_terms(gp::Posterior(inputs, Y, kernels));
 }
 
-dynamics::Kind kind(const ModelOptions& options) {
-  dynamics::ZeroMean zero;
-  zero.gp.fit = options.fit;
-  zero.gp.integrate_rates = false;  // each state has a GP of its own
-  return zero;
+dynamics::Kind kind(const ModelOptions& options, bool around_a_mean) {
+  const auto adapt = [&](auto kind) {  // each state has a GP of its own, whose moments are known
+    static_cast<dynamics::GpOptions&>(kind.gp) = {};
+    kind.gp.fit = options.fit;
+    if constexpr (requires { kind.gp.midpoint; }) kind.gp.midpoint = false;
+    return dynamics::Kind(kind);
+  };
+  return around_a_mean ? adapt(dynamics::FixedPrior{}) : adapt(dynamics::ZeroMean{});
 }
 
 }  // namespace
@@ -71,16 +75,22 @@ void ModelOptions::fields(FieldVisitor& v) {
 }
 
 Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
-            const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator) {
+            const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator,
+            const std::vector<gp::MomentTerm>& mean) {
   Model model{.kernels = start, .log_evidence = std::numeric_limits<double>::quiet_NaN()};
   const FeatureMap features = task.feature_map();
+  std::optional<prior::Prior> prior;
+  if (!mean.empty()) prior = prior::network("network", features, mean);
   try {
-    dynamics::Learned learned =
-        dynamics::learn(data, features, task.kinematics(), nullptr, kind(options), {start, {}}, evaluator);
+    dynamics::Learned learned = dynamics::learn(data, features, task.kinematics(), prior ? &*prior : nullptr,
+                                                kind(options, !mean.empty()), {start, {}}, evaluator);
     model.notes = std::move(learned.notes);
     const Matrix X = dynamics::gp_inputs(features, data.states, data.actions);
-    model.moments = std::make_shared<gp::MomentMatching>(
-        terms(X, data.changes, options, learned.state.kernels, evaluator, model.notes), task.state_size());
+    Matrix Y = data.changes;
+    if (!mean.empty()) Y -= gp::evaluate_means(mean, Y.cols(), X);
+    auto all = terms(X, Y, options, learned.state.kernels, evaluator, model.notes);
+    all.insert(all.end(), mean.begin(), mean.end());
+    model.moments = std::make_shared<gp::MomentMatching>(std::move(all), task.state_size());
     model.model = std::move(learned.model);
     model.kernels = std::move(learned.state.kernels);
     model.log_evidence = *learned.log_evidence;

@@ -26,7 +26,7 @@ struct ModelOptions {
   void fields(FieldVisitor& v);
 };
 
-/// GPs with zero mean, one for the change of each state.
+/// GPs for the change of each state, around zero or around those learned elsewhere.
 struct Model {
   std::shared_ptr<const gp::MomentMatching> moments;     // what policies are searched on; null: it could not be made
   std::shared_ptr<const dynamics::DynamicsModel> model;  // the same GPs of all rows, for forecasts
@@ -35,8 +35,10 @@ struct Model {
   std::vector<std::string> notes;                        // numerical failures survived
 };
 
-/// `start`: the kernels of the model before; may be empty. The same for any number of threads. No data throw.
+/// `start`: the kernels of the model before; may be empty. `mean`: the mean functions of the GPs, terms without
+/// uncertainty (Cutler 2015); empty: zero. The same for any number of threads. No data throw.
 Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
-            const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator);
+            const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator,
+            const std::vector<gp::MomentTerm>& mean = {});
 
 }  // namespace rehearse::learners::pilco

@@ -109,6 +109,25 @@ TEST(ExpectedReturn, GradientWithFitcAndAPriorMeanAgreesWithDifferences) {
   cartpole.expect_gradient(theta, random_directions(theta.size(), 5));
 }
 
+// PILCO with priors: GPs of what the means of GPs with inducing inputs leave of the changes.
+TEST(ExpectedReturn, GradientAroundTheGpsOfAPriorAgreesWithDifferences) {
+  for (const scenario::Scenario& scenario : {robots::cartpole::make({}), robots::pendubot::make({})}) {
+    const fixture::Data data = fixture::random_data(scenario, 70);
+    const auto hyperparameters = fixture::plain_hyperparameters(data);
+    const Matrix prior_inputs = data.inputs.topRows(45), inputs = data.inputs.bottomRows(25);
+    const auto network = gp::mean_terms(
+        gp::fitc_terms(prior_inputs, 0.7 * data.changes.topRows(45), prior_inputs.topRows(20), hyperparameters));
+    const Matrix left = data.changes.bottomRows(25) - gp::evaluate_means(network, 4, inputs);
+    ASSERT_GT(left.norm(), 0.1 * data.changes.bottomRows(25).norm());
+    auto terms = gp::exact_terms(gp::Posterior(gp::Inputs(inputs), left, hyperparameters));
+    terms.insert(terms.end(), network.begin(), network.end());
+    Problem problem(scenario, 0, 12, std::make_shared<gp::MomentMatching>(std::move(terms), 4));
+    const Vector theta = fixture::random_theta(*problem.policy);
+    problem.expect_gradient(theta, random_directions(theta.size(), 4));
+    problem.expect_gradient(theta, coordinates(theta.size(), theta.size() / 5));
+  }
+}
+
 TEST(ExpectedReturn, IsTheSumOfWhatTheStepsGive) {
   Problem cartpole(robots::cartpole::make({}), 40, 10);
   const Return result = cartpole.expected(fixture::random_theta(*cartpole.policy), nullptr, cartpole.workspace);

@@ -1,5 +1,6 @@
 #include "rehearse/learners/pilco/pilco.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -9,75 +10,21 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/moments/expected_return.hpp"
 #include "rehearse/policy/network.hpp"
-#include "rehearse/policy/rbf.hpp"
-#include "rehearse/rollout/execute.hpp"
-#include "rehearse/system/ode.hpp"
 #include "rehearse/testing/check_learner.hpp"
+#include "slider.hpp"
 
 namespace rehearse::learners::pilco {
 namespace {
 
 using OptionTexts = std::map<std::string, std::string>;
 
-// A slider on a line to be pulled to 0: the smallest thing that can be learned.
-void ode(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) { dxdt(0) = phi(0) * u(0) - phi(1) * x(0); }
-
-Task task() {
-  Task task;
-  task.states = {{"position", "m"}};
-  task.actions = {{"pull", "N", {-1, 1}}};
-  task.start_mean = Vector{{1}};
-  task.start_std = Vector{{0.02}};
-  task.dt_s = 0.2;
-  task.horizon = 12;
-  task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next, VectorView rewards) {
-    rewards = (-X_next.col(0).array().square() / 0.08).exp();
-  };
-  task.saturating_reward = SaturatingReward{Vector::Zero(1), Matrix::Constant(1, 1, 1 / 0.2)};
-  return task;
-}
-
-std::shared_ptr<const policy::Policy> rbf() {
-  return policy::make_rbf(
-      {.features = task().feature_map(), .scale = Vector::Constant(1, 2), .centres = 5, .bounds = {{-1, 1}}});
-}
-
-Setting setting(std::uint64_t seed = 1) {
-  Setting setting;
-  setting.task = task();
-  setting.policy = rbf();
-  setting.seed = seed;
-  return setting;
-}
-
-Episode run_trial(const Proposal& proposal, std::uint64_t trial) {
-  const Task task = pilco::task();
-  const auto plant = system::make_ode_plant({.ode = ode,
-                                             .phi = Vector{{1.5, 0.2}},
-                                             .dt_s = task.dt_s,
-                                             .start_mean = task.start_mean,
-                                             .start_std = task.start_std,
-                                             .tolerance = 1e-9});
-  return rollout::execute(*plant, *proposal.policy, proposal.theta, task,
-                          Rng({.trial = trial, .purpose = Purpose::start_state}));
-}
+using slider::learn, slider::rbf, slider::run_trial, slider::setting, slider::task;
 
 std::unique_ptr<LearnerBuilder> builder(const OptionTexts& options = {{"search.line_searches", "20"}}) {
   auto builder = std::move(builders().front());
   for (const auto& [name, text] : options)
     EXPECT_TRUE(set_field([&](FieldVisitor& v) { builder->fields(v); }, name, text)) << name;
   return builder;
-}
-
-std::vector<Proposal> learn(Learner& learner, std::uint64_t trials, std::vector<double>* returns = nullptr) {
-  std::vector<Proposal> proposals;
-  for (std::uint64_t trial = 1; trial <= trials; ++trial) {
-    proposals.push_back(learner.ask());
-    const Episode episode = run_trial(proposals.back(), trial);
-    if (returns) returns->push_back(episode.total_reward());
-    learner.tell(episode);
-  }
-  return proposals;
 }
 
 std::string refusal(const Setting& setting) {
@@ -89,12 +36,19 @@ std::string refusal(const Setting& setting) {
   return {};
 }
 
-TEST(Pilco, IsOneLearnerWithoutPrior) {
+TEST(Pilco, IsALearnerWithoutAPriorAndOneWith) {
   const auto all = builders();
-  ASSERT_EQ(all.size(), 1U);
+  ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0]->name(), "pilco");
   EXPECT_EQ(all[0]->prior_use(), PriorUse::none);
-  EXPECT_TRUE(field_violations([&](FieldVisitor& v) { all[0]->fields(v); }).empty());
+  EXPECT_EQ(all[1]->name(), "pilco-prior");
+  EXPECT_EQ(all[1]->prior_use(), PriorUse::required);
+  for (const auto& each : all) {
+    EXPECT_TRUE(field_violations([&](FieldVisitor& v) { each->fields(v); }).empty());
+    const auto options = list_fields([&](FieldVisitor& v) { each->fields(v); });
+    const std::pair<std::string, std::string> episodes{"pilco.prior_episodes", "40"};
+    EXPECT_EQ(std::count(options.begin(), options.end(), episodes), each->name() == "pilco-prior");
+  }
 }
 
 TEST(Pilco, KeepsTheLaws) {
@@ -185,7 +139,7 @@ TEST(Model, SurvivesDataThatTellNothing) {
 }
 
 TEST(PolicySearch, BeginsWithPilcosPolicyWhateverTheScale) {
-  Task task = pilco::task();
+  Task task = slider::task();
   task.states = {{"rate", ""}, {"angle", "", StateKind::angle}};
   task.start_mean = Vector{{3, 0}};
   task.start_std = Vector{{0.5, 0}};
@@ -211,7 +165,7 @@ TEST(PolicySearch, KeepsTheStartWhereNothingHasAValue) {
   gp::MomentTerm wild{.centres = Matrix{{1, 0}}, .log_lengths = Vector{{9, 9}}, .weights = Vector{{1e300}}};
   const auto dynamics = std::make_shared<gp::MomentMatching>(std::vector{wild}, 1);
   const auto policy = rbf();
-  const Task task = pilco::task();
+  const Task task = slider::task();
   const Vector start = initial_policy(*policy, task, {}, 1, 2);
   const SearchResult found = search_policy({dynamics, *policy, task, serial_evaluator(), {}}, start, {});
   EXPECT_EQ(found.theta, start);

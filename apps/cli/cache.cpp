@@ -1,0 +1,51 @@
+#include "apps/cli/cache.hpp"
+
+#include <cstdlib>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/files.hpp"
+#include "rehearse/optim/arithmetic.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string_view variable(const char* name) {
+  const char* text = std::getenv(name);
+  return text ? text : "";
+}
+
+fs::path root() {
+  if (std::getenv("REHEARSE_CACHE")) {
+    const std::string_view given = variable("REHEARSE_CACHE");
+    return given == "off" ? fs::path() : fs::path(given);
+  }
+  if (const auto cache = variable("XDG_CACHE_HOME"); !cache.empty()) return fs::path(cache) / "rehearse";
+  if (const auto home = variable("HOME"); !home.empty()) return fs::path(home) / ".cache" / "rehearse";
+  return {};
+}
+
+/// Another program, or another processor, may give other last bits.
+fs::path own_folder() {
+  const fs::path folder = root();
+  if (folder.empty()) return {};
+  try {
+    const std::string program = experiment::read_file("/proc/self/exe");
+    return folder / fmt::format("{:016x}", experiment::checksum(program + optim::arithmetic()));
+  } catch (const InvalidInput&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+fs::path cache_folder() {
+  static const fs::path folder = own_folder();
+  return folder;
+}
+
+}  // namespace rehearse::apps

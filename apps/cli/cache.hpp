@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+
+namespace rehearse::apps {
+
+/// Where learners keep what other runs can begin with: a folder of this very program and this kind of processor, which
+/// need not exist, in $REHEARSE_CACHE or else the user's cache. Empty: nowhere, as $REHEARSE_CACHE = off or none says,
+/// or there is no such place. Any thread.
+std::filesystem::path cache_folder();
+
+}  // namespace rehearse::apps

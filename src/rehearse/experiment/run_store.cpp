@@ -1,0 +1,81 @@
+#include "rehearse/experiment/run_store.hpp"
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/files.hpp"
+#include "rehearse/experiment/seal.hpp"
+#include "rehearse/experiment/spec_file.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kKind = "kept";
+
+/// The spec without its number of trials, which a run may change on the way.
+std::string owner_of(Spec spec) {
+  spec.trials = 0;
+  return to_toml(spec);
+}
+
+/// Of the file's owner; nothing where there is none of that owner.
+std::optional<std::string> read_kept(const fs::path& path, const std::string& owner) {
+  if (path.empty() || !fs::exists(path)) return {};
+  try {
+    const std::string bytes = read_file(path);
+    const std::string_view body = unseal(kKind, bytes);
+    if (!body.starts_with(owner + '\0')) return {};
+    return std::string(body.substr(owner.size() + 1));
+  } catch (const InvalidInput&) {  // a damaged one
+    return {};
+  }
+}
+
+void write_cached(const fs::path& path, const std::string& bytes) {
+  try {
+    fs::create_directories(path.parent_path());
+    write_shared_file(path, bytes);
+  } catch (const std::exception&) {  // a run does not depend on its cache
+  }
+}
+
+}  // namespace
+
+RunStore::RunStore(std::shared_ptr<const Evaluator> evaluator, const Spec& spec, CacheFolder cache)
+    : evaluator_(std::move(evaluator)), owner_(owner_of(spec)), cache_(std::move(cache)) {}
+
+fs::path RunStore::kept(const std::string& name) const {
+  return folder_.empty() ? fs::path() : folder_ / "kept" / name;
+}
+
+fs::path RunStore::cached(const std::string& name) {
+  if (!cache_folder_) cache_folder_ = cache_ ? cache_() : fs::path();
+  if (cache_folder_->empty()) return {};
+  return *cache_folder_ / fmt::format("{}-{:016x}", name, checksum(owner_));
+}
+
+std::optional<std::string> RunStore::read(const std::string& name) {
+  // "1" before the bytes: there are any.
+  const std::string found = evaluator_->once(fmt::format("read {} {}", name, ++steps_), [&] {
+    std::optional<std::string> bytes = read_kept(kept(name), owner_);
+    if (!bytes) bytes = read_kept(cached(name), owner_);
+    return bytes ? "1" + *bytes : std::string();
+  });
+  return found.empty() ? std::nullopt : std::optional(found.substr(1));
+}
+
+void RunStore::write(const std::string& name, const std::string& bytes) {
+  evaluator_->once(fmt::format("keep {} {}", name, ++steps_), [&] {
+    const std::string sealed = seal(kKind, owner_ + '\0' + bytes);
+    if (const fs::path path = kept(name); !path.empty()) {
+      fs::create_directories(path.parent_path());
+      write_file(path, sealed, Durability::power);
+    }
+    if (const fs::path path = cached(name); !path.empty()) write_cached(path, sealed);
+    return std::string();
+  });
+}
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,90 @@
+#include "rehearse/experiment/run_store.hpp"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "fake.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/files.hpp"
+#include "rehearse/experiment/seal.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::shared_ptr<const Evaluator> evaluator() { return make_thread_evaluator(1); }
+
+Spec spec(Index seed = 1, Index trials = 10) {
+  return {.scenario = "line", .learner = "echo", .trials = trials, .seed = seed};
+}
+
+RunStore store(const fs::path& run, const Spec& spec, const fs::path& cache = {}) {
+  RunStore store(evaluator(), spec, [cache] { return cache; });
+  if (!run.empty()) store.open(run);
+  return store;
+}
+
+TEST(RunStore, KeepsBytesInTheRunFolder) {
+  const fs::path run = fake::test_folder();
+  const std::string bytes("two\0lines\n", 10);
+  EXPECT_FALSE(store(run, spec()).read("prior"));
+  store(run, spec()).write("prior", bytes);
+  EXPECT_EQ(store(run, spec()).read("prior"), bytes);
+  EXPECT_EQ(store(run, spec(1, 20)).read("prior"), bytes) << "of a run of more trials";
+  EXPECT_FALSE(store(run, spec(2)).read("prior")) << "of another spec";
+  EXPECT_FALSE(store(run, spec()).read("archive"));
+  store(run, spec()).write("prior", "");
+  EXPECT_EQ(store(run, spec()).read("prior"), "");
+  EXPECT_TRUE(fs::exists(run / "kept" / "prior"));
+}
+
+TEST(RunStore, SharesByTheCache) {
+  const fs::path folder = fake::test_folder(), cache = folder / "not" / "yet";
+  for (const char* run : {"a", "b", "c"}) fs::create_directories(folder / run);
+  store(folder / "a", spec(), cache).write("prior", "learned");
+  EXPECT_EQ(store(folder / "b", spec(1, 3), cache).read("prior"), "learned");
+  EXPECT_FALSE(store(folder / "b", spec(2), cache).read("prior"));
+  EXPECT_FALSE(store(folder / "b", spec()).read("prior")) << "without the cache";
+  store(folder / "c", spec()).write("prior", "its own");
+  EXPECT_EQ(store(folder / "c", spec(), cache).read("prior"), "its own") << "the run folder comes first";
+}
+
+TEST(RunStore, DamagedFilesCountAsNone) {
+  const fs::path folder = fake::test_folder(), cache = folder / "cache", run = folder / "run";
+  fs::create_directories(run);
+  store(run, spec(), cache).write("prior", "learned");
+  const fs::path kept = run / "kept" / "prior";
+  std::string bytes = read_file(kept);
+  bytes.back() ^= 1;
+  std::ofstream(kept, std::ios::binary) << bytes;
+  EXPECT_FALSE(store(run, spec()).read("prior"));
+  EXPECT_EQ(store(run, spec(), cache).read("prior"), "learned");
+}
+
+TEST(RunStore, DoesNotDependOnItsCache) {
+  const fs::path folder = fake::test_folder(), run = folder / "run", file = folder / "file";
+  fs::create_directories(run);
+  std::ofstream(file) << "not a folder";
+  store(run, spec(), file / "below").write("prior", "learned");
+  EXPECT_EQ(store(run, spec(), file / "below").read("prior"), "learned");
+  RunStore without(evaluator(), spec(), {});
+  without.open(run);
+  EXPECT_EQ(without.read("prior"), "learned");
+  store({}, spec(), file / "below").write("prior", "nowhere");
+}
+
+TEST(Seal, TellsWhatIsWhole) {
+  const std::string sealed = seal("kept", "body");
+  EXPECT_EQ(unseal("kept", sealed), "body");
+  const auto refusal = [](std::string_view kind, std::string_view bytes) {
+    return fake::message_of<InvalidInput>([&] { unseal(kind, bytes); });
+  };
+  EXPECT_EQ(refusal("kept", sealed.substr(0, sealed.size() - 1)), "the kept is truncated or damaged");
+  EXPECT_EQ(refusal("checkpoint", sealed), "the checkpoint is truncated or not one of Rehearse");
+  EXPECT_NE(refusal("kept", "rehearse-kept 7 1 0\nx").find("has format 7"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rehearse::experiment

@@ -1,0 +1,184 @@
+#include "rehearse/learners/pilco/prior_phase.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/learners/json.hpp"
+#include "rehearse/learners/pilco/trials.hpp"
+#include "rehearse/rollout/execute.hpp"
+
+namespace rehearse::learners::pilco {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kStored = "prior";
+
+/// Episodes on the prior draw from trials that no robot ever does.
+constexpr std::uint64_t kFirstTrial = std::uint64_t{1} << 32;
+
+/// Where the phase is.
+struct State {
+  PriorKnowledge knowledge;  // its counts and notes so far; all of it once the phase is over
+  bool over = false;         // the rest no longer matters
+  std::vector<Episode> episodes;
+  json learner;
+};
+
+std::string to_bytes(const State& state) {
+  json all = {{"knowledge", to_json(state.knowledge)}, {"over", state.over}};
+  if (!state.over) {
+    all["learner"] = state.learner;
+    for (const Episode& episode : state.episodes) all["episodes"].push_back(learners::to_json(episode));
+  }
+  std::string bytes;
+  json::to_cbor(all, bytes);
+  return bytes;
+}
+
+State to_state(const std::string& bytes) {
+  const json all = json::from_cbor(bytes);
+  State state{.knowledge = to_knowledge(all.at("knowledge")), .over = all.at("over").get<bool>()};
+  if (state.over) return state;
+  state.learner = all.at("learner");
+  for (const json& episode : all.at("episodes")) state.episodes.push_back(to_episode(episode));
+  return state;
+}
+
+class PriorPhase {
+ public:
+  PriorPhase(const Setting& setting, const Options& options, Index episodes)
+      : setting_(setting), episodes_(episodes), trials_(inner_setting(), inner_options(options)) {}
+  PriorPhase(const PriorPhase&) = delete;  // the progress of its trials points here
+  PriorPhase& operator=(const PriorPhase&) = delete;
+
+  PriorKnowledge run() {
+    restore();
+    if (state_.over) return state_.knowledge;
+    while (done() < episodes_) one_episode();
+    const Proposal& last = asked();
+    PriorKnowledge& knowledge = state_.knowledge;
+    knowledge.network = gp::mean_terms(trials_.terms());
+    knowledge.theta = last.theta;
+    knowledge.predicted_return = last.predicted_return;
+    state_.over = true;
+    keep();
+    return knowledge;
+  }
+
+ private:
+  Setting inner_setting() {
+    Setting inner = setting_;
+    inner.prior.reset();
+    inner.store.reset();
+    if (!inner.evaluator) inner.evaluator = make_thread_evaluator(1);
+    if (setting_.progress) inner.progress = [this](const Progress& progress) { report(progress); };
+    return inner;
+  }
+  static Options inner_options(Options options) {
+    options.prior_episodes.reset();
+    return options;
+  }
+
+  Index done() const { return static_cast<Index>(state_.episodes.size()); }
+
+  void report(Progress progress) const {
+    progress.phase = fmt::format("prior {}/{}: {}", done(), episodes_, progress.phase);
+    setting_.progress(progress);
+  }
+
+  void restore() {
+    const auto bytes = setting_.store ? setting_.store->read(kStored) : std::nullopt;
+    if (!bytes) return;
+    const json fresh = trials_.save();
+    try {
+      State state = to_state(*bytes);
+      if (!state.over) trials_.load(state.episodes, state.learner);
+      state_ = std::move(state);
+    } catch (const std::exception&) {  // not one of ours: as if nothing had been kept
+      trials_.load({}, fresh);
+    }
+  }
+
+  void keep() const {
+    if (setting_.store) setting_.store->write(kStored, to_bytes(state_));
+  }
+
+  void one_episode() {
+    const Proposal& proposal = asked();
+    const StreamKey key{.seed = setting_.seed,
+                        .trial = kFirstTrial + static_cast<std::uint64_t>(done()),
+                        .purpose = Purpose::start_state};
+    const prior::Prior& prior = *setting_.prior;
+    const Episode episode = rollout::execute(*prior.simulator, prior.space.values(), *proposal.policy, proposal.theta,
+                                             setting_.task, Rng(key));
+    note_failure(episode);
+    trials_.tell(episode);
+    state_.episodes.push_back(episode);
+    state_.learner = trials_.save();
+    keep();
+  }
+
+  void note_failure(const Episode& episode) {
+    const Index last = episode.steps();
+    const auto& fell = setting_.task.ended;
+    if (last == setting_.task.horizon || (fell && fell(episode.true_states.row(last).transpose()))) return;
+    state_.knowledge.notes.push_back(
+        fmt::format("on the prior, episode {}: its simulator failed at step {}", done() + 1, last + 1));
+  }
+
+  const Proposal& asked() {
+    const Proposal& proposal = trials_.ask();
+    state_.knowledge.evaluations += proposal.rollouts;
+    state_.knowledge.failed += proposal.failed_rollouts;
+    for (const std::string& note : proposal.notes)
+      state_.knowledge.notes.push_back(fmt::format("on the prior, after {} episodes: {}", done(), note));
+    return proposal;
+  }
+
+  const Setting& setting_;
+  Index episodes_;
+  State state_;
+  Trials trials_;
+};
+
+}  // namespace
+
+/// The terms of a model have the same centres.
+json to_json(const PriorKnowledge& knowledge) {
+  json terms = json::array();
+  for (const gp::MomentTerm& term : knowledge.network)
+    terms.push_back({{"output", term.output},
+                     {"log_lengths", learners::to_json(term.log_lengths)},
+                     {"weights", learners::to_json(term.weights)}});
+  const Matrix centres = knowledge.network.empty() ? Matrix() : knowledge.network.front().centres;
+  return {{"centres", learners::to_json(centres)},
+          {"terms", terms},
+          {"theta", learners::to_json(knowledge.theta)},
+          {"predicted_return", knowledge.predicted_return ? json(*knowledge.predicted_return) : json()},
+          {"evaluations", knowledge.evaluations},
+          {"failed", knowledge.failed},
+          {"notes", knowledge.notes}};
+}
+
+PriorKnowledge to_knowledge(const json& j) {
+  PriorKnowledge knowledge{.theta = to_vector(j.at("theta")),
+                           .evaluations = j.at("evaluations").get<Index>(),
+                           .failed = j.at("failed").get<Index>()};
+  j.at("notes").get_to(knowledge.notes);
+  if (!j.at("predicted_return").is_null()) knowledge.predicted_return = j.at("predicted_return").get<double>();
+  const Matrix centres = to_matrix(j.at("centres"));
+  for (const json& term : j.at("terms"))
+    knowledge.network.push_back({.output = term.at("output").get<Index>(),
+                                 .centres = centres,
+                                 .log_lengths = to_vector(term.at("log_lengths")),
+                                 .weights = to_vector(term.at("weights"))});
+  return knowledge;
+}
+
+PriorKnowledge learn_on_prior(const Setting& setting, const Options& options, Index episodes) {
+  return PriorPhase(setting, options, episodes).run();
+}
+
+}  // namespace rehearse::learners::pilco

@@ -1,0 +1,127 @@
+#include "rehearse/learners/pilco/trials.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/stopwatch.hpp"
+#include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/learners/json.hpp"
+#include "rehearse/policy/schedule.hpp"
+#include "rehearse/prior/network.hpp"
+
+namespace rehearse::learners::pilco {
+namespace {
+
+using learners::to_json;
+using nlohmann::json;
+
+/// A policy that was learned on the prior, before anything is known of the robot.
+Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting) {
+  const prior::Prior& given = *setting.prior;
+  const prior::Prior model =
+      knowledge.network.empty() ? given : prior::network(given.name, setting.task.feature_map(), knowledge.network);
+  return {.policy = setting.policy,
+          .theta = knowledge.theta,
+          .predicted_return = knowledge.predicted_return,
+          .rollouts = knowledge.evaluations,
+          .failed_rollouts = knowledge.failed,
+          .model = std::make_shared<dynamics::SimulatorModel>(model, model.space.values()),
+          .notes = knowledge.notes};
+}
+
+Proposal random_actions(const Setting& setting, double hold_s, std::uint64_t trial) {
+  const Task& task = setting.task;
+  return {.policy = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon),
+          .theta = policy::random_schedule(task, policy::RandomActions::uniform, hold_s, setting.seed, trial)};
+}
+
+}  // namespace
+
+const Proposal& Trials::ask() {
+  if (!proposal_) proposal_ = propose();
+  return *proposal_;
+}
+
+void Trials::tell(const Episode& episode) {
+  if (const Proposal& asked = ask(); asked.policy == setting_.policy) theta_ = asked.theta;
+  data_.append(episode);
+  ++trials_;
+  proposal_.reset();
+}
+
+json Trials::save() const {
+  json kernels = json::array();
+  for (const auto& kernel : kernels_) kernels.push_back(to_json(kernel.flat()));
+  json state = {{"trials", trials_}, {"kernels", kernels}, {"theta", to_json(theta_)}};
+  if (prior_) state["prior"] = to_json(*prior_);
+  return state;
+}
+
+void Trials::load(const std::vector<Episode>& episodes, const json& state) {
+  data_ = {};
+  kernels_.clear();
+  prior_.reset();
+  proposal_.reset();
+  for (const Episode& episode : episodes) data_.append(episode);
+  for (const Vector& flat : to_vectors(state.at("kernels")))
+    kernels_.push_back(gp::Hyperparameters::from_flat(flat, flat.size() - 2));
+  theta_ = to_vector(state.at("theta"));
+  trials_ = state.at("trials").get<std::uint64_t>();
+  if (state.contains("prior")) prior_ = to_knowledge(state.at("prior"));
+  const bool fits = trials_ == episodes.size() && (trials_ == 0 || !options_.prior_episodes || prior_);
+  if (!fits) throw InvalidInput("the learner's state does not fit the episodes");
+}
+
+Proposal Trials::propose() {
+  Proposal proposal = trials_ == 0 ? first_proposal() : next_proposal();
+  if (prior_) proposal.phi = setting_.prior->space.values();
+  return proposal;
+}
+
+Proposal Trials::first_proposal() {
+  if (!options_.prior_episodes) return random_actions(setting_, options_.first_trial_hold_s, trial());
+  const Stopwatch watch;
+  if (!prior_) prior_ = learn_on_prior(setting_, options_, *options_.prior_episodes);
+  Proposal proposal = proposal_of(*prior_, setting_);
+  proposal.search_s = watch.seconds();
+  return proposal;
+}
+
+Proposal Trials::next_proposal() {
+  Proposal proposal{.policy = setting_.policy};
+  Model model;
+  proposal.model_s = seconds([&] { model = learn_model(); });
+  proposal.model = model.model;
+  proposal.notes = std::move(model.notes);
+  if (std::isfinite(model.log_evidence)) proposal.log_evidence = model.log_evidence;
+  proposal.theta = theta_.size() > 0
+                       ? theta_
+                       : initial_policy(*setting_.policy, setting_.task, options_.search, setting_.seed, trial());
+  if (model.moments) proposal.search_s = seconds([&] { search(model, proposal); });
+  moments_ = model.moments;
+  kernels_ = std::move(model.kernels);  // last: an interruption must not leave it behind
+  return proposal;
+}
+
+Model Trials::learn_model() const {
+  if (setting_.progress) setting_.progress({.phase = "model"});
+  const auto mean = prior_ ? prior_->network : std::vector<gp::MomentTerm>();
+  return learn(setting_.task, data_, options_.model, kernels_, *setting_.evaluator, mean);
+}
+
+/// From the proposal's θ.
+void Trials::search(const Model& model, Proposal& proposal) const {
+  SearchResult found =
+      search_policy({model.moments, *setting_.policy, setting_.task, *setting_.evaluator, setting_.progress},
+                    proposal.theta, options_.search);
+  proposal.theta = std::move(found.theta);
+  proposal.predicted_return = found.predicted_return;
+  proposal.rollouts = found.evaluations;
+  proposal.failed_rollouts = found.failed;
+  if (!found.predicted_return)
+    proposal.notes.emplace_back("the policy stays: its expected return on the model could not be computed");
+}
+
+}  // namespace rehearse::learners::pilco

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "rehearse/learners/pilco/prior_phase.hpp"
+
+namespace rehearse::learners::pilco {
+
+/// The trials of PILCO on one system, the robot or, before, the prior. With `Options::prior_episodes` they begin with
+/// what those on the prior taught, else with random actions.
+class Trials final : public Learner {
+ public:
+  Trials(Setting setting, Options options) : setting_(std::move(setting)), options_(std::move(options)) {}
+
+  const Proposal& ask() override;
+  void tell(const Episode& episode) override;
+  nlohmann::json save() const override;
+  void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override;
+
+  /// The GPs behind the proposal of `ask`; empty: there are none.
+  std::vector<gp::MomentTerm> terms() const { return moments_ ? moments_->terms() : std::vector<gp::MomentTerm>(); }
+
+ private:
+  std::uint64_t trial() const { return trials_ + 1; }
+  Proposal propose();
+  Proposal first_proposal();
+  Proposal next_proposal();
+  Model learn_model() const;
+  void search(const Model& model, Proposal& proposal) const;
+
+  Setting setting_;
+  Options options_;
+  std::optional<PriorKnowledge> prior_;  // once it is learned
+  Dataset data_;
+  std::uint64_t trials_ = 0;
+  Vector theta_;  // of the last trial; empty before there was one of the setting's policy
+  std::vector<gp::Hyperparameters> kernels_;
+  std::shared_ptr<const gp::MomentMatching> moments_;
+  std::optional<Proposal> proposal_;
+};
+
+}  // namespace rehearse::learners::pilco
