@@ -7,7 +7,7 @@
 namespace rehearse::qd {
 namespace {
 
-constexpr Index kLeaf = 6;  // points
+constexpr Index kLeaf = 10;  // points
 
 Index middle(Index begin, Index end) { return begin + (end - begin) / 2; }
 
@@ -32,11 +32,46 @@ Index widest(Index begin, Index end, const ConstMatrixView& points, const std::v
 
 }  // namespace
 
+/// The search for one query; D is the number of dimensions, or Eigen::Dynamic.
+template <int D>
 struct KdTree::Search {
+  const KdTree& tree;
   const double* query;
   double best = std::numeric_limits<double>::infinity();  // squared distance
   Index found = std::numeric_limits<Index>::max();
-  double offsets[kMostDimensions] = {};  // of the query from the cell that is visited, along each axis
+  double offsets[D > 0 ? D : kMostDimensions];  // of the query from the cell that is visited, along each axis
+
+  Search(const KdTree& of, const double* from) : tree(of), query(from) { std::fill_n(offsets, dimensions(), 0.0); }
+
+  Index dimensions() const { return D > 0 ? D : tree.dimensions(); }
+
+  // The distance to a cell is kept up to date axis by axis (Arya 1993).
+  void visit(Index begin, Index end, double cell_distance) {
+    if (end - begin <= kLeaf) return scan(begin, end);
+    const Index mid = middle(begin, end);
+    const auto [axis, at] = tree.planes_[static_cast<std::size_t>(mid)];
+    const double offset = query[axis] - at;
+    const bool left = offset < 0;
+    visit(left ? begin : mid, left ? mid : end, cell_distance);
+    const double old = offsets[axis], other = cell_distance - old * old + offset * offset;
+    if (other > best * (1 + 1e-12)) return;  // rounding must not hide an equal distance
+    offsets[axis] = offset;
+    visit(left ? mid : begin, left ? end : mid, other);
+    offsets[axis] = old;
+  }
+
+  void scan(Index begin, Index end) {
+    const double* point = tree.points_.data() + begin * dimensions();
+    for (Index i = begin; i < end; ++i, point += dimensions()) {
+      double distance = 0;
+      for (Index d = 0; d < dimensions(); ++d) distance += (query[d] - point[d]) * (query[d] - point[d]);
+      if (distance > best) continue;
+      const Index index = tree.original_[static_cast<std::size_t>(i)];
+      if (distance == best && index > found) continue;
+      best = distance;
+      found = index;
+    }
+  }
 };
 
 KdTree::KdTree(const ConstMatrixView& points)
@@ -59,41 +94,25 @@ void KdTree::split(Index begin, Index end, const ConstMatrixView& points, std::v
   split(mid, end, points, order);
 }
 
-Index KdTree::nearest(const double* query) const {
-  Search search{.query = query};
-  visit(0, size(), 0, search);
+template <int D>
+Index KdTree::nearest_of(const double* query) const {
+  Search<D> search(*this, query);
+  search.visit(0, size(), 0);
   return search.found;
 }
 
-// The distance to a cell is kept up to date axis by axis (Arya 1993).
-void KdTree::visit(Index begin, Index end, double cell_distance, Search& search) const {
-  if (end - begin <= kLeaf) return scan(begin, end, search);
-  const Index mid = middle(begin, end);
-  const auto [axis, at] = planes_[static_cast<std::size_t>(mid)];
-  const double offset = search.query[axis] - at;
-  const bool left = offset < 0;
-  visit(left ? begin : mid, left ? mid : end, cell_distance, search);
-  const double old = search.offsets[axis], other = cell_distance - old * old + offset * offset;
-  if (other > search.best * (1 + 1e-12)) return;  // rounding must not hide an equal distance
-  search.offsets[axis] = offset;
-  visit(left ? mid : begin, left ? end : mid, other, search);
-  search.offsets[axis] = old;
-}
-
-void KdTree::scan(Index begin, Index end, Search& search) const {
-  const Index D = dimensions();
-  const double* point = points_.data() + begin * D;
-  for (Index i = begin; i < end; ++i, point += D) {
-    double distance = 0;
-    for (Index d = 0; d < D; ++d) {
-      const double offset = search.query[d] - point[d];
-      distance += offset * offset;
-    }
-    const Index index = original_[static_cast<std::size_t>(i)];
-    if (distance < search.best || (distance == search.best && index < search.found)) {
-      search.best = distance;
-      search.found = index;
-    }
+Index KdTree::nearest(const double* query) const {
+  switch (dimensions()) {  // those worth loops of a known length
+    case 1:
+      return nearest_of<1>(query);
+    case 2:
+      return nearest_of<2>(query);
+    case 3:
+      return nearest_of<3>(query);
+    case 6:
+      return nearest_of<6>(query);
+    default:
+      return nearest_of<Eigen::Dynamic>(query);
   }
 }
 

@@ -23,6 +23,7 @@ class KdTree {
   Index nearest(const double* query) const;
 
  private:
+  template <int D>
   struct Search;
   struct Plane {
     Index axis = 0;
@@ -30,8 +31,8 @@ class KdTree {
   };
 
   void split(Index begin, Index end, const ConstMatrixView& points, std::vector<Index>& order);
-  void visit(Index begin, Index end, double cell_distance, Search& search) const;
-  void scan(Index begin, Index end, Search& search) const;
+  template <int D>
+  Index nearest_of(const double* query) const;
 
   Matrix points_;                // D × n in the order of the leaves
   std::vector<Index> original_;  // n, the columns that they were
