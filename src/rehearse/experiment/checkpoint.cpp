@@ -7,32 +7,15 @@
 #include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/files.hpp"
+#include "rehearse/learners/json.hpp"
 
 namespace rehearse::experiment {
 namespace {
 
+using learners::to_json, learners::to_vector;
 using nlohmann::json;
 
 constexpr int kFormat = 1;
-
-// CBOR keeps every double, NaN and infinities included, which JSON cannot.
-json from_vector(const Vector& v) { return std::vector<double>(v.begin(), v.end()); }
-
-Vector to_vector(const json& j) {
-  const auto values = j.get<std::vector<double>>();
-  return Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size()));
-}
-
-json from_matrix(const Matrix& m) {
-  return {{"rows", m.rows()}, {"values", std::vector<double>(m.data(), m.data() + m.size())}};
-}
-
-Matrix to_matrix(const json& j) {
-  const auto values = j.at("values").get<std::vector<double>>();
-  const Index rows = j.at("rows").get<Index>(), size = static_cast<Index>(values.size());
-  if (rows < 0 || (rows == 0 ? size != 0 : size % rows != 0)) throw InvalidInput("a matrix has a wrong size");
-  return Eigen::Map<const Matrix>(values.data(), rows, rows == 0 ? 0 : size / rows);
-}
 
 template <class T>
 json from_optional(const std::optional<T>& value) {
@@ -44,28 +27,8 @@ void to_optional(const json& j, std::optional<T>& value) {
   if (!j.is_null()) value = j.get<T>();
 }
 
-json from_episode(const Episode& e) {
-  return {{"states", from_matrix(e.states)},
-          {"true_states", from_matrix(e.true_states)},
-          {"actions", from_matrix(e.actions)},
-          {"rewards", from_vector(e.rewards)},
-          {"charged", e.charged},
-          {"ended", e.ended}};
-}
-
-Episode to_episode(const json& j) {
-  Episode e;
-  e.states = to_matrix(j.at("states"));
-  e.true_states = to_matrix(j.at("true_states"));
-  e.actions = to_matrix(j.at("actions"));
-  e.rewards = to_vector(j.at("rewards"));
-  e.charged = j.at("charged").get<double>();
-  e.ended = j.at("ended").get<bool>();
-  return e;
-}
-
 json from_forecast(const ForecastError& f) {
-  return {{"horizon", f.horizon}, {"compared", f.compared}, {"failed", f.failed}, {"rms", from_vector(f.rms)}};
+  return {{"horizon", f.horizon}, {"compared", f.compared}, {"failed", f.failed}, {"rms", to_json(f.rms)}};
 }
 
 ForecastError to_forecast(const json& j) {
@@ -104,7 +67,7 @@ json from_record(const TrialRecord& r) {
           {"phi_intervals", from_intervals(r.phi_intervals)},
           {"doubts", r.doubts},
           {"policy", r.policy},
-          {"theta", from_vector(r.theta)},
+          {"theta", to_json(r.theta)},
           {"forecast", forecast},
           {"left_out_rows", r.left_out_rows},
           {"notes", r.notes},
@@ -139,7 +102,7 @@ TrialRecord to_record(const json& j) {
 History to_history(const json& j) {
   History history;
   for (const json& r : j.at("trials")) history.trials.push_back(to_record(r));
-  for (const json& e : j.at("episodes")) history.episodes.push_back(to_episode(e));
+  for (const json& e : j.at("episodes")) history.episodes.push_back(learners::to_episode(e));
   history.told = j.at("told").get<Index>();
   history.learner = j.at("learner");
   if (history.episodes.size() != history.trials.size() || history.told > history.done() ||
@@ -173,7 +136,7 @@ std::string_view checked_body(std::string_view bytes) {
 std::string to_checkpoint(const History& history, std::uint64_t spec_fingerprint) {
   json trials = json::array(), episodes = json::array();
   for (const TrialRecord& record : history.trials) trials.push_back(from_record(record));
-  for (const Episode& episode : history.episodes) episodes.push_back(from_episode(episode));
+  for (const Episode& episode : history.episodes) episodes.push_back(to_json(episode));
   const json all = {{"spec", spec_fingerprint},
                     {"trials", trials},
                     {"episodes", episodes},
@@ -198,10 +161,10 @@ History from_checkpoint(std::string_view bytes, std::uint64_t spec_fingerprint) 
 
 std::string to_bytes(const Episode& episode) {
   std::string bytes;
-  json::to_cbor(from_episode(episode), bytes);
+  json::to_cbor(to_json(episode), bytes);
   return bytes;
 }
 
-Episode to_episode(std::string_view bytes) { return to_episode(json::from_cbor(bytes)); }
+Episode to_episode(std::string_view bytes) { return learners::to_episode(json::from_cbor(bytes)); }
 
 }  // namespace rehearse::experiment

@@ -10,6 +10,8 @@
 
 namespace rehearse::gp {
 
+inline constexpr double kLogTwoPi = 1.8378770664093454836;
+
 /// Keep hyperparameters in range: smooth walls added to the log evidence (PILCO; the code of Chatzilygeroudis 2018).
 struct Penalties {
   bool length = false;        // −Σ_d ((ln ℓ_d − ln std(x_d)) / ln length_limit)^30

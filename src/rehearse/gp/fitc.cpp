@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/core/vector_math.hpp"
+#include "rehearse/gp/correlations.hpp"
+#include "rehearse/gp/evidence.hpp"
 #include "rehearse/optim/blas.hpp"
 
 namespace rehearse::gp {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kOne = 1;
-constexpr double kLogTwoPi = 1.8378770664093454836;
 
 int size(Index n) { return static_cast<int>(n); }
 
@@ -44,15 +44,6 @@ bool factorise(Matrix& A) {
   return info == 0 && A.allFinite();
 }
 
-/// σ_f² c(a, b) of the rows of A and B divided by the length scales.
-Matrix covariance(const Matrix& A, const Matrix& B, double signal_variance) {
-  Matrix K = Matrix::Zero(A.rows(), B.rows());
-  for (Index j = 0; j < B.rows(); ++j)
-    for (Index d = 0; d < A.cols(); ++d) K.col(j).array() -= (A.col(d).array() - B(j, d)).square() / 2;
-  vector_exp(K.data(), K.data(), K.size());
-  return signal_variance * K;
-}
-
 /// With Q = K_nm K_mm⁻¹ K_mn, the covariance of y is taken to be Q + Λ, Λ = diag(K_nn − Q) + σ_n² I (Snelson 2006, eq.
 /// 9). K_mm = L Lᵀ, V = L⁻¹ K_mn, so that Q = Vᵀ V; B = I + V Λ⁻¹ Vᵀ = F Fᵀ.
 struct Fitc {
@@ -60,8 +51,8 @@ struct Fitc {
       : inverse_lengths((-theta.log_lengths).array().exp()),
         points(Z * inverse_lengths.asDiagonal()),
         inputs(X * inverse_lengths.asDiagonal()),
-        Kmm(covariance(points, points, theta.signal_variance())),
-        Kmn(covariance(points, inputs, theta.signal_variance())),
+        Kmm(theta.signal_variance() * correlations(points, points)),
+        Kmn(theta.signal_variance() * correlations(points, inputs)),
         L(Kmm) {
     optim::use_one_blas_thread();
     L.diagonal().array() += ridge;

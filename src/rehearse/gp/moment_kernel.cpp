@@ -33,31 +33,21 @@ constexpr int kGroup = 4;  // points of b taken together: their long chains of d
 
 /// That of kGroup vectors at once, with short_exp's polynomial as even and odd powers, two chains half as long.
 HWY_INLINE void exponentials(V* x) {
-  const hn::Repartition<std::int64_t, Tag> bits;
-  const V cut = constant(-80), magic = constant(0x1.8p52);
+  const V cut = constant(-80);
   V r[kGroup], square[kGroup], even[kGroup], odd[kGroup], shifted[kGroup];
   for (int g = 0; g < kGroup; ++g) {
-    r[g] = hn::Max(x[g], cut);
-    shifted[g] = hn::MulAdd(r[g], constant(1.4426950408889634074), magic);
-    const V k = hn::Sub(shifted[g], magic);
-    r[g] = hn::NegMulAdd(k, constant(6.93147180369123816490e-01), r[g]);
-    r[g] = hn::NegMulAdd(k, constant(1.90821492927058770002e-10), r[g]);
+    r[g] = reduce(hn::Max(x[g], cut), shifted[g]);
     square[g] = hn::Mul(r[g], r[g]);
-    odd[g] = constant(2.5110037605963777e-08);
-    even[g] = constant(2.763263963904103e-07);
+    odd[g] = constant(kExpCoefficients[0]);
+    even[g] = constant(kExpCoefficients[1]);
   }
-  constexpr double kOdd[] = {2.755724091857897e-06, 0.00019841269890047113, 0.008333333333319601, 0.1666666666666668,
-                             1.0};
-  constexpr double kEven[] = {2.4801485482328494e-05, 0.0013888888952314775, 0.0416666666664881, 0.5000000000000019,
-                              1.0};
-  for (int power = 0; power < 5; ++power)
+  for (int i = 2; i < kExpDegree; i += 2)
     for (int g = 0; g < kGroup; ++g) {
-      odd[g] = hn::MulAdd(odd[g], square[g], constant(kOdd[power]));
-      even[g] = hn::MulAdd(even[g], square[g], constant(kEven[power]));
+      odd[g] = hn::MulAdd(odd[g], square[g], constant(kExpCoefficients[i]));
+      even[g] = hn::MulAdd(even[g], square[g], constant(kExpCoefficients[i + 1]));
     }
   for (int g = 0; g < kGroup; ++g) {
-    const auto exponent = hn::ShiftLeft<52>(hn::BitCast(bits, shifted[g]));
-    const V value = hn::BitCast(kTag, hn::Add(hn::BitCast(bits, hn::MulAdd(odd[g], r[g], even[g])), exponent));
+    const V value = scale_by_power(hn::MulAdd(odd[g], r[g], even[g]), shifted[g]);
     x[g] = hn::IfThenElseZero(hn::Gt(x[g], cut), value);
   }
 }

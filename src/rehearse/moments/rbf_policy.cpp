@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/core/vector_math.hpp"
 #include "rehearse/gp/cholesky.hpp"
+#include "rehearse/gp/correlations.hpp"
 #include "rehearse/gp/kernel.hpp"
 
 namespace rehearse::moments {
@@ -92,13 +92,7 @@ void RbfPolicy::add_covariance_gradient(Index action, const Vector& by_targets, 
                                         Vector& log_lengths) const {
   const Matrix S = unscaled_ * inverse_lengths_[at(action)].asDiagonal();
   const Vector& weights = network_->terms()[at(action)].weights;
-  Matrix P(centres_, centres_);
-  for (Index j = 0; j < centres_; ++j) {
-    auto column = P.col(j);
-    column.setZero();
-    for (Index d = 0; d < inputs_; ++d) column.array() -= (S.col(d).array() - S(j, d)).square() / 2;
-  }
-  vector_exp(P.data(), P.data(), P.size());
+  Matrix P = gp::correlations(S, S);
   P.array() *= (by_targets * weights.transpose() + weights * by_targets.transpose()).array();
   const Matrix T = P.rowwise().sum().asDiagonal() * S - P * S;
   centres += T * inverse_lengths_[at(action)].asDiagonal();

@@ -1,38 +1,19 @@
 #include "rehearse/learners/black_drops/black_drops.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include <nlohmann/json.hpp>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/learners/json.hpp"
 #include "rehearse/policy/schedule.hpp"
 
 namespace rehearse::learners::black_drops {
 namespace {
 
 using nlohmann::json;
-
-template <class F>
-double seconds(F&& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-json to_json(const Vector& v) { return std::vector<double>(v.begin(), v.end()); }
-
-Vector to_vector(const json& j) {
-  const auto values = j.get<std::vector<double>>();
-  return Vector::Map(values.data(), static_cast<Index>(values.size()));
-}
-
-std::vector<Vector> to_vectors(const json& j) {
-  std::vector<Vector> vectors;
-  for (const json& element : j) vectors.push_back(to_vector(element));
-  return vectors;
-}
 
 class BlackDrops final : public Learner {
  public:
@@ -122,8 +103,8 @@ class BlackDrops final : public Learner {
     if (returns_.empty()) return trust_prior(proposal, options_.prior_variance);
     try {
       dynamics::Learned learned =
-          dynamics::learn(data_, setting_.task.model_features(), setting_.task.kinematics(), setting_.prior ? &*setting_.prior : nullptr,
-                          options_.model, state, *setting_.evaluator);
+          dynamics::learn(data_, setting_.task.model_features(), setting_.task.kinematics(),
+                          setting_.prior ? &*setting_.prior : nullptr, options_.model, state, *setting_.evaluator);
       proposal.model = learned.model;
       proposal.phi = learned.state.phi;
       proposal.posterior = std::move(learned.posterior);

@@ -1,8 +1,9 @@
 #include "rehearse/learners/black_drops/policy_search.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
+
+#include "rehearse/core/stopwatch.hpp"
 
 namespace rehearse::learners::black_drops {
 namespace {
@@ -30,17 +31,6 @@ class ImaginedReturn {
   const SearchOptions& options_;
   StreamKey key_;
   Index rollouts_ = 0, failed_ = 0;
-};
-
-class Speedometer {
- public:
-  double per_s(Index count) const {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    return static_cast<double>(count) / std::max(elapsed.count(), 1e-9);
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 using Box = std::vector<Interval>;
@@ -94,7 +84,7 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
                            const SearchOptions& options, std::uint64_t seed, std::uint64_t trial) {
   const StreamKey key{.seed = seed, .trial = trial, .purpose = Purpose::imagined_noise};
   ImaginedReturn objective(problem, options, key);
-  const Speedometer speed;
+  const Stopwatch watch;
   const Index budget = options.method == Method::race ? options.race.max_evaluations : options.restarts.max_evaluations;
   const auto report = [&](Index evaluations, double best) {
     if (!problem.progress) return;
@@ -102,7 +92,7 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
                       .done = static_cast<double>(evaluations) / static_cast<double>(budget),
                       .best = best,
                       .rollouts = objective.rollouts(),
-                      .rollouts_per_s = speed.per_s(objective.rollouts())});
+                      .rollouts_per_s = watch.per_s(objective.rollouts())});
   };
   const Box box(static_cast<std::size_t>(problem.policy.parameters()), {-options.box, options.box});
   std::vector<Vector> found = find(std::ref(objective), starts, box, problem, options,

@@ -1,33 +1,20 @@
 #include "rehearse/learners/pilco/pilco.hpp"
 
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/stopwatch.hpp"
 #include "rehearse/gp/moment_kernel.hpp"
+#include "rehearse/learners/json.hpp"
 #include "rehearse/policy/schedule.hpp"
 
 namespace rehearse::learners::pilco {
 namespace {
 
 using nlohmann::json;
-
-template <class F>
-double seconds(F&& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-json to_json(const Vector& v) { return std::vector<double>(v.begin(), v.end()); }
-
-Vector to_vector(const json& j) {
-  const auto values = j.get<std::vector<double>>();
-  return Vector::Map(values.data(), static_cast<Index>(values.size()));
-}
 
 class Pilco final : public Learner {
  public:

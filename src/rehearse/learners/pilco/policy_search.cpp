@@ -1,11 +1,11 @@
 #include "rehearse/learners/pilco/policy_search.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "rehearse/core/feature_moments.hpp"
 #include "rehearse/core/random.hpp"
+#include "rehearse/core/stopwatch.hpp"
 #include "rehearse/moments/expected_return.hpp"
 #include "rehearse/policy/rbf.hpp"
 
@@ -49,12 +49,11 @@ class Objective {
  private:
   void report() const {
     if (!problem_.progress) return;
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
     problem_.progress({.phase = "search",
                        .done = std::min(1.0, static_cast<double>(evaluations_) / usual_evaluations_),
                        .best = best_,
                        .rollouts = evaluations_,
-                       .rollouts_per_s = static_cast<double>(evaluations_) / std::max(elapsed.count(), 1e-9)});
+                       .rollouts_per_s = watch_.per_s(evaluations_)});
   }
 
   const SearchProblem& problem_;
@@ -63,7 +62,7 @@ class Objective {
   Vector units_;
   double usual_evaluations_, best_ = 0;
   Index evaluations_ = 0, failed_ = 0;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
 };
 
 /// One a feature.

@@ -1,0 +1,52 @@
+#include "rehearse/learners/json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::learners {
+
+using nlohmann::json;
+
+json to_json(const Vector& v) { return std::vector<double>(v.begin(), v.end()); }
+
+json to_json(const Matrix& m) {
+  return {{"rows", m.rows()}, {"values", std::vector<double>(m.data(), m.data() + m.size())}};
+}
+
+json to_json(const Episode& e) {
+  return {{"states", to_json(e.states)},   {"true_states", to_json(e.true_states)},
+          {"actions", to_json(e.actions)}, {"rewards", to_json(e.rewards)},
+          {"charged", e.charged},          {"ended", e.ended}};
+}
+
+Vector to_vector(const json& j) {
+  const auto values = j.get<std::vector<double>>();
+  return Vector::Map(values.data(), static_cast<Index>(values.size()));
+}
+
+std::vector<Vector> to_vectors(const json& j) {
+  std::vector<Vector> vectors;
+  for (const json& element : j) vectors.push_back(to_vector(element));
+  return vectors;
+}
+
+Matrix to_matrix(const json& j) {
+  const auto values = j.at("values").get<std::vector<double>>();
+  const Index rows = j.at("rows").get<Index>(), size = static_cast<Index>(values.size());
+  if (rows < 0 || (rows == 0 ? size != 0 : size % rows != 0)) throw InvalidInput("a matrix has a wrong size");
+  return Matrix::Map(values.data(), rows, rows == 0 ? 0 : size / rows);
+}
+
+Episode to_episode(const json& j) {
+  Episode e;
+  e.states = to_matrix(j.at("states"));
+  e.true_states = to_matrix(j.at("true_states"));
+  e.actions = to_matrix(j.at("actions"));
+  e.rewards = to_vector(j.at("rewards"));
+  e.charged = j.at("charged").get<double>();
+  e.ended = j.at("ended").get<bool>();
+  return e;
+}
+
+}  // namespace rehearse::learners

@@ -1,0 +1,23 @@
+#pragma once
+// What learners and runs save, as JSON values. As CBOR they keep every double; as text NaN and infinities are lost.
+
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::learners {
+
+nlohmann::json to_json(const Vector& v);
+nlohmann::json to_json(const Matrix& m);
+nlohmann::json to_json(const Episode& e);
+
+/// These throw nlohmann::json::exception, or InvalidInput, where something else was saved.
+Vector to_vector(const nlohmann::json& j);
+std::vector<Vector> to_vectors(const nlohmann::json& j);
+Matrix to_matrix(const nlohmann::json& j);
+Episode to_episode(const nlohmann::json& j);
+
+}  // namespace rehearse::learners
