@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "rehearse/core/cache.hpp"
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
@@ -32,6 +33,7 @@ struct Proposal {
   std::shared_ptr<const dynamics::DynamicsModel> model;  // that predicted the return; null before there is one
   Index left_out_rows = 0;                               // training rows whose prior mean was not finite
   std::vector<std::string> notes;                        // numerical failures survived, a line each
+  std::shared_ptr<const std::string> archive;            // of elites, as bytes (qd/archive_bytes.hpp)
   double model_s = 0;                                    // time spent learning the model
   double search_s = 0;                                   // and searching the policy
 };
@@ -43,7 +45,9 @@ struct Setting {
   std::optional<prior::Prior> prior;
   std::uint64_t seed = 1;
   std::shared_ptr<const Evaluator> evaluator;
-  ProgressSink progress;  // may be empty
+  ProgressSink progress;               // may be empty
+  std::string identity;                // of the task, the policy and the prior, in words; empty: nobody knows
+  std::shared_ptr<const Cache> cache;  // of what depends on these; may be null
 };
 
 /// Proposes policies and learns from the episodes they make.
