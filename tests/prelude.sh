@@ -5,6 +5,7 @@ program=$(realpath "$1")
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
+export REHEARSE_CACHE=$folder/cache
 failures=0
 
 fail() {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/cli/arguments.hpp"
+#include "apps/cli/cache.hpp"
 #include "apps/cli/campaign_console.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/signals.hpp"
@@ -68,6 +69,7 @@ int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& ar
   const Campaign done = experiment::run_campaign(catalogue, text, arguments.file, folder,
                                                  {.threads = company.threads(threads),
                                                   .listener = company.leads() ? &console : nullptr,
+                                                  .cache = cache(),
                                                   .stop = [] { return caught_signal() != 0; },
                                                   .share = share,
                                                   .ranks = company.ranks.get()});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/cli/arguments.hpp"
+#include "apps/cli/cache.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/signals.hpp"
@@ -83,6 +84,7 @@ int run_on_console(const std::filesystem::path& folder, Index threads, const Com
   catch_signals();
   const RunOptions options{.evaluator = evaluator_of(company, threads),
                            .listener = company.leads() ? &console : nullptr,
+                           .cache = cache(),
                            .stop = [&] { return company.ranks ? company.ranks->stopped() : caught_signal() != 0; }};
   try {
     const RunResult result = start(options);

@@ -44,8 +44,9 @@ struct Places {
 /// The threads that do the runs, of one process.
 class Crew {
  public:
-  Crew(const Catalogue& catalogue, const CampaignFolder& folder, const CampaignPlan& plan, Ledger& ledger)
-      : catalogue_(catalogue), folder_(folder), plan_(plan), ledger_(ledger) {}
+  Crew(const Catalogue& catalogue, const CampaignFolder& folder, const CampaignPlan& plan, Ledger& ledger,
+       std::shared_ptr<const Cache> cache)
+      : catalogue_(catalogue), folder_(folder), plan_(plan), ledger_(ledger), cache_(std::move(cache)) {}
 
   /// Runs at once; each with its share of the threads if there are more of these.
   void work(const Places& places) {
@@ -65,7 +66,7 @@ class Crew {
     const PlannedRun& planned = plan_.runs[index];
     Reporter reporter(folder_, ledger_, planned, index);
     const RunOptions options{
-        .evaluator = evaluator, .listener = &reporter, .stop = [this] { return ledger_.stopped(); }};
+        .evaluator = evaluator, .listener = &reporter, .cache = cache_, .stop = [this] { return ledger_.stopped(); }};
     ledger_.run_ended(index, outcome_of_run(planned, options));
   }
 
@@ -100,6 +101,7 @@ class Crew {
   const CampaignFolder& folder_;
   const CampaignPlan& plan_;
   Ledger& ledger_;
+  std::shared_ptr<const Cache> cache_;
 };
 
 /// As many places as there are threads, but no more than runs; on every rank in proportion to its threads.
@@ -167,7 +169,7 @@ class Leader {
     });
     OwnLedger ledger(*folder_, campaign_, options_);
     Answering answering(options_, ledger);
-    Crew(catalogue_, *folder_, campaign_.plan, ledger).work(places);
+    Crew(catalogue_, *folder_, campaign_.plan, ledger, options_.cache).work(places);
     answering.finish();
     write_tables();
     return std::move(campaign_);
@@ -210,7 +212,7 @@ void follow(const Catalogue& catalogue, CampaignPlan plan, std::string_view text
   options.ranks->once(kStart, {});  // until the listener knows of the campaign
   DistantLedger ledger(*options.ranks, options.stop);
   try {
-    Crew(catalogue, folder, plan, ledger).work(places);
+    Crew(catalogue, folder, plan, ledger, options.cache).work(places);
   } catch (const std::exception& error) {
     ledger.close(fmt::format("rank {} failed: {}", options.ranks->rank(), error.what()));
     throw;

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 
+#include "rehearse/core/cache.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/core/ranks.hpp"
 #include "rehearse/experiment/campaign_results.hpp"
@@ -31,6 +33,7 @@ struct Share {
 struct CampaignOptions {
   int threads = 0;                       // in all, on this rank; 0: as many as cores
   CampaignListener* listener = nullptr;  // null: nobody listens
+  std::shared_ptr<const Cache> cache;    // as in RunOptions
   std::function<bool()> stop;            // polled; once true, the campaign stops where it can be continued
   Share share;                           // other than 1 of 1: only these runs, and no tables
   Ranks* ranks = nullptr;  // that share the runs, all with the same arguments; null: this process is alone

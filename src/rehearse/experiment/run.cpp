@@ -62,7 +62,9 @@ class Participants {
             .prior = resolved_.prior,
             .seed = static_cast<std::uint64_t>(resolved_.spec.seed),
             .evaluator = evaluator_of(options_),
-            .progress = [this](const Progress& progress) { report(progress); }};
+            .progress = [this](const Progress& progress) { report(progress); },
+            .identity = identity(resolved_.spec),
+            .cache = options_.cache};
   }
 
   void report(const Progress& progress) const {
@@ -157,6 +159,7 @@ class Run {
   void one_trial(Index trial) {
     const learners::Proposal& proposal = ask(trial);
     if (proposal.model) with_.lead(named("prediction", trial), [&] { predict(trial, proposal); });
+    if (proposal.archive) with_.lead(named("archive", trial), [&] { folder_->write_archive(*proposal.archive); });
     const Episode episode = named_failure(trial, "plant", [&] { return execute(trial, proposal); });
     keep(record(trial, proposal, episode), episode);
   }

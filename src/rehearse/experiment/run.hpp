@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/core/cache.hpp"
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/experiment/record.hpp"
@@ -29,6 +30,7 @@ class RunListener {
 struct RunOptions {
   std::shared_ptr<const Evaluator> evaluator;  // null: serial
   RunListener* listener = nullptr;             // null: nobody listens
+  std::shared_ptr<const Cache> cache;          // of what takes learners long before their first trial; null: none
   std::function<bool()> stop;                  // polled; once true, the run ends with Interrupted and can be resumed
 };
 

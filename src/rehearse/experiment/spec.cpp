@@ -138,6 +138,13 @@ Resolved resolve(const Catalogue& catalogue, const Spec& spec) { return Resolver
 
 Spec completed(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec).resolve(false).spec; }
 
+std::string identity(const Spec& spec) {
+  std::string text = fmt::format("scenario = {}\nprior = {}\n", spec.scenario, spec.prior);
+  for (const auto& [key, value] : spec.options)
+    if (key.starts_with(kScenario) || key.starts_with(kPrior)) text += fmt::format("{} = {}\n", key, value);
+  return text;
+}
+
 std::string run_name(const Spec& spec) {
   return fmt::format("{}-{}-{}-{}", spec.scenario, spec.learner, spec.prior.empty() ? "none" : spec.prior, spec.seed);
 }

@@ -44,6 +44,10 @@ Resolved resolve(const Catalogue& catalogue, const Spec& spec);
 /// The complete spec alone, even where the learner cannot do with the task or the policy that it describes so far.
 Spec completed(const Catalogue& catalogue, const Spec& spec);
 
+/// What a complete spec says of the scenario and the prior, in words: all that a learner's setting depends on but its
+/// seed.
+std::string identity(const Spec& spec);
+
 /// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec; PRIOR is "none" for a learner that takes none.
 std::string run_name(const Spec& spec);
 

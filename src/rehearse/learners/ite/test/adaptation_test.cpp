@@ -1,7 +1,10 @@
 #include "rehearse/learners/ite/adaptation.hpp"
 
 #include <cmath>
+#include <functional>
+#include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "rehearse/core/random.hpp"
@@ -99,8 +102,8 @@ struct Outcome {
 };
 
 /// Trials whose performance is measured with the noise that the GP assumes, σ² = 0.001.
-Outcome adapt(const Map& map, double stop_ratio, std::uint64_t seed) {
-  Adaptation adaptation(map.centres, map.promised, {.stop_ratio = stop_ratio, .max_trials = 15});
+Outcome adapt(const Map& map, double length, double stop_ratio, std::uint64_t seed) {
+  Adaptation adaptation(map.centres, map.promised, {.length = length, .stop_ratio = stop_ratio, .max_trials = 15});
   Rng noise({.seed = seed, .purpose = Purpose::measurement_noise});
   const double reachable = map.real.maxCoeff();
   Outcome outcome;
@@ -114,23 +117,32 @@ Outcome adapt(const Map& map, double stop_ratio, std::uint64_t seed) {
   return outcome;
 }
 
-// Seeds 1 to 20. 19 of 20 is what is asked for; the trials themselves are printed.
+/// How many of seeds 1 to 20 come within 90 % of the best reachable without the stopping rule; prints at which trial
+/// (0: none), and where the rule stops and what it has by then.
+int reached(const char* name, double length, const std::function<Map(std::uint64_t seed)>& map_of) {
+  int reached = 0;
+  std::string trials, stops;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Map map = map_of(seed);
+    const Outcome off = adapt(map, length, 0, seed), on = adapt(map, length, 0.9, seed);
+    reached += off.reached > 0;
+    trials += fmt::format(" {}", off.reached);
+    stops += fmt::format(" {} ({:.2f})", on.stopped, on.best);
+  }
+  fmt::print("{}, ρ = {}: {} of 20, at trial{}\n  with the rule: stops after{}\n", name, length, reached, trials,
+             stops);
+  return reached;
+}
+
+// What is asked for is 19 of 20. The ρ of the authors' code, 0.4, is two bins: what fails condemns its neighbours,
+// among which the best that is left is. With half a bin it is found by going through them.
 TEST(Adaptation, FindsWhatWorksOnADamagedRobot) {
   const Map map = synthetic_map();
-  for (const bool thin : {false, true}) {
-    int reached = 0;
-    std::string trials, stops;
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      const Map known = thin ? thinned(map, seed) : map;
-      const Outcome off = adapt(known, 0, seed), on = adapt(known, 0.9, seed);
-      reached += off.reached > 0;
-      trials += " " + std::to_string(off.reached);
-      stops += " " + std::to_string(on.stopped) + " (" + std::to_string(on.best).substr(0, 4) + ")";
-    }
-    std::cout << (thin ? "13200 cells" : "all cells") << ": within 90 % at trial" << trials << "\n  stops at" << stops
-              << "\n";
-    EXPECT_GE(reached, 19) << (thin ? "13200 cells" : "all cells");
-  }
+  const auto whole = [&](std::uint64_t) { return map; };
+  const auto thin = [&](std::uint64_t seed) { return thinned(map, seed); };
+  EXPECT_GE(reached("all cells", 0.1, whole), 19);
+  EXPECT_GE(reached("13 200 cells", 0.1, thin), 19);
+  EXPECT_LE(reached("all cells", 0.4, whole), 1) << "docs/ite.md says otherwise";
 }
 
 }  // namespace

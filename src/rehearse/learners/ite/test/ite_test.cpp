@@ -117,18 +117,18 @@ TEST(Ite, KeepsTheLaws) {
   EXPECT_EQ(testing::check_learner(*grid, setting(), run_trial, 4), std::vector<std::string>{});
 }
 
-// The prior pulls far too well, or the wrong way. Doing nothing earns 0.6, stopping at 0 at once about 9.
+// Doing nothing earns 0.6; the best policies on the plant itself, whose gain is 0.6, some 7.
 TEST(Ite, FindsAPolicyThatWorksOnTheSliderToo) {
-  for (const double gain : {2.0, 1.0}) {
-    std::vector<double> returns;
-    const auto proposals = learn(*builder()->build(setting(gain)), 8, &returns);
-    EXPECT_GT(*std::max_element(returns.begin(), returns.end()), returns.front() + (gain == 2 ? 0.2 : 0)) << gain;
-    EXPECT_GT(*std::max_element(returns.begin(), returns.end()), 6) << gain;
-    EXPECT_EQ(proposals.front().rollouts, 2048);
-    EXPECT_EQ(proposals[1].rollouts, 0);
-    EXPECT_GT(*proposals.front().predicted_return, 8);
-    ASSERT_TRUE(proposals.front().archive && proposals.front().model && proposals.front().phi);
-  }
+  std::vector<double> near, wrong_way;
+  const auto proposals = learn(*builder()->build(setting(1)), 4, &near);
+  EXPECT_GT(near.front(), 6.5);
+  EXPECT_EQ(proposals.front().rollouts, 2048);
+  EXPECT_EQ(proposals[1].rollouts, 0);
+  EXPECT_GT(*proposals.front().predicted_return, 8);
+  EXPECT_TRUE(proposals.front().archive && proposals.front().model && proposals.front().phi);
+  learn(*builder()->build(setting(-0.5)), 10, &wrong_way);
+  EXPECT_LT(wrong_way.front(), 0.1) << "its prior pulls the other way";
+  EXPECT_GT(*std::max_element(wrong_way.begin(), wrong_way.end()), 3);
 }
 
 TEST(Ite, TheFirstPolicyIsTheArchivesBest) {
@@ -142,13 +142,12 @@ TEST(Ite, TheFirstPolicyIsTheArchivesBest) {
 }
 
 TEST(Ite, OnceItStopsTheBestPolicyIsRepeated) {
-  const auto learner = builder({{"adaptation.stop_ratio", "0"}, {"adaptation.max_trials", "3"}})->build(setting(2));
+  const auto learner = builder({{"adaptation.stop_ratio", "0"}, {"adaptation.max_trials", "3"}})->build(setting(-0.5));
   std::vector<double> returns;
   const auto proposals = learn(*learner, 6, &returns);
   const auto best = std::max_element(returns.begin(), returns.begin() + 3) - returns.begin();
   for (std::size_t trial = 3; trial < 6; ++trial)
     EXPECT_EQ(proposals[trial].theta, proposals[static_cast<std::size_t>(best)].theta);
-  EXPECT_NE(proposals[0].theta, proposals[1].theta);
   EXPECT_TRUE(proposals[2].notes.empty() && proposals[4].notes.empty());
   ASSERT_EQ(proposals[3].notes.size(), 1U);
   EXPECT_EQ(proposals[3].notes[0], "the best policy is tried again from now on: after trial 3: adaptation.max_trials");
