@@ -116,4 +116,21 @@ Index KdTree::nearest(const double* query) const {
   }
 }
 
+void KdTree::within(const double* query, double radius, std::vector<Index>& found) const {
+  within(0, size(), query, radius, found);
+}
+
+void KdTree::within(Index begin, Index end, const double* query, double radius, std::vector<Index>& found) const {
+  if (end - begin > kLeaf) {
+    const Index mid = middle(begin, end);
+    const auto [axis, at] = planes_[static_cast<std::size_t>(mid)];
+    if (query[axis] - radius <= at) within(begin, mid, query, radius, found);
+    if (query[axis] + radius >= at) within(mid, end, query, radius, found);
+    return;
+  }
+  const auto here = Vector::Map(query, dimensions());
+  for (Index i = begin; i < end; ++i)
+    if ((points_.col(i) - here).norm() <= radius) found.push_back(original_[static_cast<std::size_t>(i)]);
+}
+
 }  // namespace rehearse::qd

@@ -22,6 +22,9 @@ class KdTree {
   /// The column of the point nearest to `query` (D numbers, finite); of several the first.
   Index nearest(const double* query) const;
 
+  /// Adds the columns of all points no farther than `radius`, in no order.
+  void within(const double* query, double radius, std::vector<Index>& found) const;
+
  private:
   template <int D>
   struct Search;
@@ -31,6 +34,7 @@ class KdTree {
   };
 
   void split(Index begin, Index end, const ConstMatrixView& points, std::vector<Index>& order);
+  void within(Index begin, Index end, const double* query, double radius, std::vector<Index>& found) const;
   template <int D>
   Index nearest_of(const double* query) const;
 

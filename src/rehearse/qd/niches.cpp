@@ -131,16 +131,21 @@ Niches::Niches(std::vector<Interval> bounds, Matrix centroids)
                                  centroids_.rows(), dimensions()));
   violations.throw_if_any();
   per_unit_ = inverse_widths(bounds_);
-  tree_ = KdTree(Matrix(centroids_.array().colwise() * per_unit_.array()));
+  Matrix unit(dimensions(), size_);
+  for (Index niche = 0; niche < size_; ++niche) unit.col(niche) = to_unit(centroids_.col(niche));
+  tree_ = KdTree(unit);
+  if (NearestTable::worthwhile(dimensions(), size_)) table_ = NearestTable(tree_, std::move(unit));
 }
 
 Index Niches::find(const double* descriptor) const {
   double unit[KdTree::kMostDimensions];
   for (Index d = 0; d < dimensions(); ++d) {
     if (!std::isfinite(descriptor[d])) return -1;
-    unit[d] = descriptor[d] * per_unit_(d);
+    unit[d] = (descriptor[d] - bounds_[static_cast<std::size_t>(d)].low) * per_unit_(d);
   }
-  return is_grid() ? find_box(descriptor) : tree_.nearest(unit);
+  if (is_grid()) return find_box(descriptor);
+  const Index found = table_.empty() ? -1 : table_.nearest(unit);
+  return found >= 0 ? found : tree_.nearest(unit);
 }
 
 Index Niches::find_box(const double* descriptor) const {

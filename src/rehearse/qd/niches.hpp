@@ -8,6 +8,7 @@
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/types.hpp"
 #include "rehearse/qd/kd_tree.hpp"
+#include "rehearse/qd/nearest_table.hpp"
 
 namespace rehearse::qd {
 
@@ -62,8 +63,9 @@ class Niches {
   std::vector<Interval> bounds_;
   std::vector<Index> bins_;
   Matrix centroids_;
-  Vector per_unit_;  // D, 1 / width
-  KdTree tree_;      // of the centroids, in units of the widths
+  Vector per_unit_;     // D, 1 / width
+  KdTree tree_;         // of the centroids, from the bounds to [0, 1]
+  NearestTable table_;  // of them, where it is worth it
   Index size_ = 0;
 };
 
