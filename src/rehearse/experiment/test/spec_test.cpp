@@ -33,6 +33,21 @@ TEST(Spec, IsCompleteOnceResolved) {
   EXPECT_EQ(spec.options, expected);
 }
 
+TEST(Spec, IdentityIsTheScenarioAndThePriorAlone) {
+  const auto identity_of = [](const Options& options, Index seed = 1) {
+    Spec spec = spec_of("echo", "far", options);
+    spec.seed = seed;
+    return identity(completed(fake::catalogue(), spec));
+  };
+  const std::string plain = identity_of({});
+  EXPECT_EQ(plain,
+            "scenario = line\nprior = far\nscenario.plant.gain = 1\nscenario.noise = 0\nscenario.breaks = false\n"
+            "scenario.evaluations = 0\nprior.gain = 3\nprior.drift = 0\n");
+  EXPECT_EQ(identity_of({{"search.step", "2"}}, 7), plain);
+  EXPECT_NE(identity_of({{"noise", "0.5"}}), plain);
+  EXPECT_NE(identity_of({{"prior.gain", "2"}}), plain);
+}
+
 TEST(Spec, OptionsReachScenarioLearnerAndPrior) {
   const Resolved resolved =
       resolve(fake::catalogue(),
