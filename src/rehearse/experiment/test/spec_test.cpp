@@ -41,7 +41,7 @@ TEST(Spec, IdentityIsTheScenarioAndThePriorAlone) {
   };
   const std::string plain = identity_of({});
   EXPECT_EQ(plain,
-            "scenario = line\nprior = far\nscenario.plant.gain = 1\nscenario.noise = 0\nscenario.breaks = false\n"
+            "scenario = line\nprior = far\nscenario.plant.gain = 1\nscenario.noise = 0.01\nscenario.breaks = false\n"
             "scenario.evaluations = 0\nprior.gain = 3\nprior.drift = 0\n");
   EXPECT_EQ(identity_of({{"search.step", "2"}}, 7), plain);
   EXPECT_NE(identity_of({{"noise", "0.5"}}), plain);
