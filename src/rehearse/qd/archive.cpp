@@ -19,10 +19,11 @@ Archive::Archive(Niches niches, Index parameters)
 
 bool Archive::add(Index niche, double performance, const double* descriptor, const double* solution, Index stride) {
   if (niche < 0 || !std::isfinite(performance)) return false;
-  Index& elite = elites_[static_cast<std::size_t>(niche)];
+  Index elite = elite_of(niche);
   if (elite >= 0 && !(performance > performances_(elite))) return false;
   if (elite < 0) {
     elite = size();
+    elites_[static_cast<std::size_t>(niche)] = static_cast<std::int32_t>(elite);
     if (elite == performances_.size()) grow();
     filled_.push_back(niche);
   }

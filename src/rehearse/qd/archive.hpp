@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "rehearse/core/types.hpp"
@@ -47,7 +48,7 @@ class Archive {
   void grow();
 
   Niches niches_;
-  std::vector<Index> elites_;  // of each niche
+  std::vector<std::int32_t> elites_;  // of each niche
   std::vector<Index> filled_;
   Vector performances_;             // one an elite, like the columns of
   Matrix descriptors_, solutions_;  // D and P × capacity

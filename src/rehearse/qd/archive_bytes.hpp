@@ -20,7 +20,8 @@ struct Search {
 std::string to_bytes(const Search& search);
 
 /// Throws InvalidInput with one line, which begins with `name`, if the bytes are not an archive, of another version or
-/// byte order, truncated, damaged, or contradict themselves. Nothing is allocated for sizes that the bytes do not have.
+/// byte order, truncated, damaged, or contradict themselves. Nothing is allocated for sizes that the bytes do not have,
+/// but for the niches of a grid.
 Search from_bytes(std::string_view bytes, const std::string& name);
 
 }  // namespace rehearse::qd

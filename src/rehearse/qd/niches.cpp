@@ -11,7 +11,6 @@
 namespace rehearse::qd {
 namespace {
 
-constexpr double kMostNiches = 1e9;
 constexpr Index kChunk = 1024;  // samples
 
 Index chunks_of(Index n) { return (n + kChunk - 1) / kChunk; }
@@ -68,7 +67,7 @@ void check(const Cvt& cvt) {
   Violations violations;
   for (const std::string& line : bounds_violations(cvt.bounds)) violations.add(line);
   violations.require(cvt.niches >= 1 && static_cast<double>(cvt.niches) <= kMostNiches,
-                     fmt::format("niches = {}, must be in [1, 1e9]", cvt.niches));
+                     fmt::format("niches = {}, must be in [1, {:g}]", cvt.niches, kMostNiches));
   violations.require(cvt.samples >= cvt.niches,
                      fmt::format("samples = {}, must be ≥ niches = {}", cvt.samples, cvt.niches));
   violations.require(cvt.iterations >= 0, fmt::format("iterations = {}, must be ≥ 0", cvt.iterations));
@@ -114,7 +113,7 @@ Niches::Niches(Grid grid) : bounds_(std::move(grid.bounds)), bins_(std::move(gri
     violations.require(bins_[d] >= 1, fmt::format("descriptor {}: {} bins, must be ≥ 1", d + 1, bins_[d]));
     size *= static_cast<double>(bins_[d]);
   }
-  violations.require(size <= kMostNiches, fmt::format("the grid has {:g} niches, must be ≤ 1e9", size));
+  violations.require(size <= kMostNiches, fmt::format("the grid has {:g} niches, must be ≤ {:g}", size, kMostNiches));
   violations.throw_if_any();
   per_unit_ = inverse_widths(bounds_);
   size_ = static_cast<Index>(size);

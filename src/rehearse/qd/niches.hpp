@@ -12,6 +12,8 @@
 
 namespace rehearse::qd {
 
+inline constexpr double kMostNiches = 1e8;  // an archive keeps 4 bytes of each, filled or not
+
 /// Boxes of the same size: bins[d] of them along descriptor d. A descriptor outside its bounds counts as on them.
 struct Grid {
   std::vector<Interval> bounds;  // D

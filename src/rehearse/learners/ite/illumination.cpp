@@ -65,7 +65,7 @@ class Illumination {
   qd::Search run() {
     if (auto kept = read(key_); kept && holds(*kept)) return std::move(*kept);
     qd::MapElites search(empty_archive(), {.box = box()}, options_.search, {.seed = setting_.seed});
-    if (auto kept = read(unfinished()); kept && holds(*kept))
+    if (auto kept = read(unfinished()); kept && kept->archive.niches() == search.archive().niches() && holds(*kept))
       search.resume(std::move(kept->archive), kept->evaluations, kept->failed);
     finish(search);
     qd::Search made{search.archive(), search.evaluations(), search.failed(), key_};
@@ -186,7 +186,7 @@ void IlluminationOptions::fields(FieldVisitor& v) {
   v.group("search", search);
 }
 
-std::vector<std::string> descriptor_violations(const Task& task) {
+std::vector<std::string> violations(const IlluminationOptions& options, const Task& task) {
   Violations violations;
   violations.require(static_cast<bool>(task.descriptor),
                      "the scenario says of no trial how it went (its task has no descriptor), which ite needs to tell "
@@ -195,6 +195,10 @@ std::vector<std::string> descriptor_violations(const Task& task) {
   if (task.descriptor)
     for (const std::string& line : qd::bounds_violations(task.descriptor_bounds))
       violations.add("descriptor_bounds of the task, which ite needs: " + line);
+  const double niches = std::pow(options.bins, task.descriptor_bounds.size());
+  violations.require(options.kind != IlluminationOptions::Kind::grid || niches <= qd::kMostNiches,
+                     fmt::format("archive.bins = {} of {} descriptors are {:g} niches, must be ≤ {:g}", options.bins,
+                                 task.descriptor_bounds.size(), niches, qd::kMostNiches));
   return violations.list();
 }
 

@@ -28,7 +28,7 @@ struct IlluminationOptions {
 /// evaluator and its cache) and the options alone. Throws InvalidInput if nothing could be kept.
 std::shared_ptr<const qd::Search> illuminate(const Setting& setting, const IlluminationOptions& options);
 
-/// A line for everything that a task lacks.
-std::vector<std::string> descriptor_violations(const Task& task);
+/// A line for everything that the task lacks or the options cannot do with it.
+std::vector<std::string> violations(const IlluminationOptions& options, const Task& task);
 
 }  // namespace rehearse::learners::ite

@@ -112,7 +112,7 @@ class Builder final : public LearnerBuilder {
   bool chooses_priors() const override { return false; }
   void fields(FieldVisitor& v) override { options_.fields(v); }
   std::vector<std::string> violations(const Task& task, const policy::Policy&) const override {
-    return descriptor_violations(task);
+    return ite::violations(options_.archive, task);
   }
   std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }
 
@@ -131,7 +131,7 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { options.fields(v); })) violations.add(line);
   for (const auto& line : setting.task.violations()) violations.add(line);
-  for (const auto& line : descriptor_violations(setting.task)) violations.add(line);
+  for (const auto& line : ite::violations(options.archive, setting.task)) violations.add(line);
   violations.require(setting.prior.has_value(), "this learner needs a prior");
   violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
   violations.throw_if_any();

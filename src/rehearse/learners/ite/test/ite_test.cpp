@@ -273,6 +273,8 @@ TEST(Ite, RefusesATaskThatDoesNotSayHowItWent) {
 TEST(Ite, TakesThePendubot) {
   const scenario::Scenario pendubot = robots::pendubot::make({});
   EXPECT_EQ(builder()->violations(pendubot.task, *pendubot.policy), std::vector<std::string>{});
+  EXPECT_EQ(builder({{"archive.kind", "grid"}, {"archive.bins", "30"}})->violations(pendubot.task, *pendubot.policy),
+            std::vector<std::string>{"archive.bins = 30 of 6 descriptors are 7.29e+08 niches, must be ≤ 1e+08"});
   Setting setting{.task = pendubot.task, .policy = pendubot.policy};
   setting.prior = prior::Prior{"useful", pendubot.priors[0].simulator, pendubot.priors[0].parameters};
   const Proposal first = builder({{"archive.evaluations", "500"}})->build(setting)->ask();
