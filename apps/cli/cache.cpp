@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/files.hpp"
 #include "rehearse/optim/arithmetic.hpp"
@@ -35,7 +36,7 @@ fs::path own_folder() {
   if (folder.empty()) return {};
   try {
     const std::string program = experiment::read_file("/proc/self/exe");
-    return folder / fmt::format("{:016x}", experiment::checksum(program + optim::arithmetic()));
+    return folder / fmt::format("{:016x}", checksum(program + optim::arithmetic()));
   } catch (const InvalidInput&) {
     return {};
   }

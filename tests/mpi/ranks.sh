@@ -41,7 +41,7 @@ killed_rank() {
   fail "rank $rank ends before it can be killed, six times"
 }
 
-short_campaign '["mi", "black-drops-prior", "ite"]' 1-3 >c.toml
+short_campaign '["mi", "black-drops-prior"]' 1-3 >c.toml
 
 "$program" campaign c.toml --out one >/dev/null || fail "the campaign of one process"
 ranks 3 campaign c.toml --out three >output 2>&1 || fail "the campaign of three ranks: $(cat output)"

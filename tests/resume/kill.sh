@@ -6,10 +6,14 @@ source "$(dirname "$0")/../prelude.sh"
 learner=$2
 
 race=(--set search.race.max_evaluations=6000 --set search.race.descents=2 --set search.selection=20)
+files=()
 case $learner in
   black-drops) arguments=(pendubot "${race[@]}") ;;
   pilco-prior)  # most instants are in the episodes on the prior
     arguments=(pendulum --set policy=rbf --set pilco.prior_episodes=4 --set search.line_searches=8 --set model.inducing=60) ;;
+  ite)
+    arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=60000)
+    files=(archive.bin) ;;
   *) arguments=(pendubot --prior misleading --set model.subplex.max_evaluations=15 "${race[@]}") ;;
 esac
 arguments+=(--learner "$learner" --seed 5)
@@ -35,21 +39,22 @@ for instant in 1 2 3 4 5 6 7 8 9 10; do
   [ -e $run/done ] || finished="after $(($(wc -l <$run/trials.csv 2>/dev/null || echo 1) - 1)) trials"
   echo "killed at instant $instant, $finished"
   "$program" resume $run >/dev/null || fail "resuming $run"
-  same whole $run spec.toml trials.csv errors.csv doubts.csv notes.csv policy.json done trajectories/trial-00{1,2,3}.csv
+  same whole $run spec.toml trials.csv errors.csv doubts.csv notes.csv policy.json done \
+    trajectories/trial-00{1,2,3}.csv "${files[@]}"
 done
 
 learn one-thread --trials 3 --threads 1
-same whole one-thread trials.csv errors.csv policy.json
+same whole one-thread trials.csv errors.csv policy.json "${files[@]}"
 learn fewer --trials 2 --threads 2
 head -c "$(wc -c <fewer/trials.csv)" whole/trials.csv | cmp - fewer/trials.csv || fail "rows of two trials"
 "$program" resume fewer --trials 3 >/dev/null || fail "resuming with more trials"
 same whole fewer spec.toml trials.csv
 
-if [ "$learner" = pilco-prior ]; then
+if [ "$learner" = pilco-prior ] || [ "$learner" = ite ]; then
   REHEARSE_CACHE=cache learn filling --trials 3 --threads 2
   REHEARSE_CACHE=cache learn cached --trials 3 --threads 2
   same whole cached spec.toml trials.csv errors.csv notes.csv policy.json
-  [ -e filling/kept/prior ] || fail "nothing was kept in the run folder"
+  [ -e filling/kept ] || fail "nothing was kept in the run folder"
   [ ! -e cached/kept ] || fail "the cache was not used"
   [ "$(find cache -type f | wc -l)" = 1 ] || fail "the cache holds $(find cache -type f)"
 fi

@@ -23,6 +23,8 @@ enum class Purpose : std::uint32_t {
   test = 10,
   resampling = 11,
   evaluation = 12,
+  tessellation = 13,
+  variation = 14,
 };
 
 /// The name of a stream.

@@ -86,6 +86,10 @@ std::vector<std::string> Task::violations() const {
                   fmt::format("saturating_reward is of {} and {} features, must be of {} and finite", goal.size(),
                               distances.cols(), features));
   }
+  for (std::size_t d = 0; d < descriptor_bounds.size(); ++d)
+    found.require(std::isfinite(descriptor_bounds[d].high - descriptor_bounds[d].low) &&
+                      descriptor_bounds[d].low < descriptor_bounds[d].high,
+                  fmt::format("descriptor_bounds {}: must be finite with low < high", d + 1));
   found.require(std::isfinite(reward_floor), fmt::format("reward_floor = {}, must be finite", reward_floor));
   return found.list();
 }

@@ -54,7 +54,8 @@ struct Task {
 
   std::function<bool(const ConstVectorView& state)> ended;  // a fall; empty: never. Any thread.
   std::function<bool(const Episode&)> solved;               // empty: never known
-  std::function<Vector(const Episode&)> descriptor;         // for quality diversity; empty: none
+  std::function<Vector(const Episode&)> descriptor;  // how it went, for quality diversity; empty: none. Any thread.
+  std::vector<Interval> descriptor_bounds;           // of each number of a descriptor
 
   Index state_size() const { return static_cast<Index>(states.size()); }
   Index action_size() const { return static_cast<Index>(actions.size()); }

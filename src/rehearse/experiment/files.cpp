@@ -117,12 +117,6 @@ bool rename_new(const std::filesystem::path& from, const std::filesystem::path& 
   return true;
 }
 
-std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return hash;
-}
-
 FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind)
     : file_(::open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
   if (file_ < 0) throw InvalidInput(fmt::format("cannot write in {}: {}", folder.string(), std::strerror(errno)));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -28,9 +27,6 @@ void remove_temporaries(const std::filesystem::path& path);
 
 /// Renames a folder unless something of that name exists; then returns false.
 bool rename_new(const std::filesystem::path& from, const std::filesystem::path& to);
-
-/// 64 bits that tell accidental changes (FNV-1a).
-std::uint64_t checksum(std::string_view bytes);
 
 /// Held by the one process that may write a folder, or by several that share it; given back when it dies, however it
 /// dies. Nothing on a file system that has no locks. Movable.

@@ -166,6 +166,7 @@ class Run {
   void one_trial(Index trial) {
     const learners::Proposal& proposal = ask(trial);
     if (proposal.model) with_.lead(named("prediction", trial), [&] { predict(trial, proposal); });
+    if (proposal.archive) with_.lead(named("archive", trial), [&] { folder_->write_archive(*proposal.archive); });
     const Episode episode = named_failure(trial, "plant", [&] { return execute(trial, proposal); });
     keep(record(trial, proposal, episode), episode);
   }

@@ -107,6 +107,11 @@ void RunFolder::write_motion(const char* kind, Index trial, const std::string& j
   write_file(path_ / "motion" / fmt::format("{}-{:03}.json", kind, trial), json);
 }
 
+void RunFolder::write_archive(const std::string& bytes) const {
+  std::error_code none;
+  if (fs::file_size(path_ / "archive.bin", none) != bytes.size() || none) write_file(path_ / "archive.bin", bytes);
+}
+
 void RunFolder::mark_done(bool done) const {
   if (done)
     write_file(path_ / kDone, fmt::format("{} trials\n", spec_.trials));

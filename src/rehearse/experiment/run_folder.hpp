@@ -39,6 +39,9 @@ class RunFolder {
   /// How the robot moved, or how the model expects it to. kind: "trial" or "prediction".
   void write_motion(const char* kind, Index trial, const std::string& json) const;
 
+  /// A learner's archive of policies (qd/archive_bytes.hpp), unless it is there already.
+  void write_archive(const std::string& bytes) const;
+
   /// Marks the run as complete, or as not.
   void mark_done(bool done) const;
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/files.hpp"
 #include "rehearse/experiment/seal.hpp"

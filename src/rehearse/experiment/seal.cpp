@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/files.hpp"
 
 namespace rehearse::experiment {
 namespace {

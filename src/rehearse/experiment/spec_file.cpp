@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/checksum.hpp"
 #include "rehearse/experiment/files.hpp"
 #include "rehearse/experiment/toml_reader.hpp"
 

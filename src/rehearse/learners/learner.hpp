@@ -33,6 +33,7 @@ struct Proposal {
   std::shared_ptr<const dynamics::DynamicsModel> model;  // that predicted the return; null before there is one
   Index left_out_rows = 0;                               // training rows whose prior mean was not finite
   std::vector<std::string> notes;                        // numerical failures survived, a line each
+  std::shared_ptr<const std::string> archive;            // of elites, as bytes (qd/archive_bytes.hpp)
   double model_s = 0;                                    // time spent learning the model
   double search_s = 0;                                   // and searching the policy
 };

@@ -46,6 +46,14 @@ class Chunk {
     b_.particles[static_cast<std::size_t>(row)] = particle;
   }
 
+  void set_rows(const ConstMatrixView& Theta, std::uint64_t first_candidate) {
+    b_.Theta = Theta;
+    for (std::size_t row = 0; row < b_.candidates.size(); ++row) {
+      b_.candidates[row] = options_.common_random_numbers ? 0 : first_candidate + row;
+      b_.particles[row] = 0;
+    }
+  }
+
   void start() {
     StreamKey key = key_;
     key.purpose = Purpose::imagined_start;
@@ -57,13 +65,14 @@ class Chunk {
     }
   }
 
-  /// x_t → x_{t+1} for every row.
-  void step(Index t) {
+  /// x_t → x_{t+1} for every row; what happens is recorded, if it is to be.
+  void step(Index t, Episodes* record = nullptr) {
     policy_.act(b_.Theta, b_.X, static_cast<double>(t) * task_.dt_s, b_.U);
     model_.predict(b_.X, b_.U, b_.next, b_.variance);
     if (options_.sample) add_noise(t);
     b_.next += b_.X;
     task_.reward(b_.X, b_.U, b_.next, b_.reward);
+    if (record) write(t, *record);
     for (Index row = 0; row < b_.X.rows(); ++row) settle(row, t);
     b_.X.swap(b_.next);
   }
@@ -81,16 +90,31 @@ class Chunk {
     b_.next.array() += b_.noise.array() * b_.variance.array().sqrt();
   }
 
+  void write(Index t, Episodes& record) {
+    record.actions[static_cast<std::size_t>(t)] = b_.U;
+    record.states[static_cast<std::size_t>(t + 1)] = b_.next;
+    record.rewards.col(t) = b_.reward;
+    for (Index row = 0; row < b_.X.rows(); ++row) {
+      if (!alive(row)) continue;
+      const auto i = static_cast<std::size_t>(row);
+      record.failed[i] = !finite(row);
+      record.steps[i] += !record.failed[i];
+      record.ended[i] = !record.failed[i] && ended(row);
+    }
+  }
+
+  bool finite(Index row) const { return b_.next.row(row).allFinite() && std::isfinite(b_.reward(row)); }
+
   /// Adds the reward, or ends the rollout. A row that has ended stays at the start, where the model is finite.
   void settle(Index row, Index t) {
     auto& alive = b_.alive[static_cast<std::size_t>(row)];
     if (alive) {
       const auto remaining = static_cast<double>(task_.horizon - t);
-      const bool finite = b_.next.row(row).allFinite() && std::isfinite(b_.reward(row));
-      b_.returns(row) += finite ? b_.reward(row) : remaining * task_.reward_floor;
-      failed_ += !finite;
-      alive = finite;
-      if (finite && ended(row)) {
+      const bool went_on = finite(row);
+      b_.returns(row) += went_on ? b_.reward(row) : remaining * task_.reward_floor;
+      failed_ += !went_on;
+      alive = went_on;
+      if (went_on && ended(row)) {
         b_.returns(row) += (remaining - 1) * task_.reward_floor;
         alive = false;
       }
@@ -161,6 +185,38 @@ Recorded imagine_recorded(const dynamics::DynamicsModel& model, const policy::Po
   }
   recorded.returns = chunk.returns();
   return recorded;
+}
+
+void imagine_episodes(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
+                      const ConstMatrixView& Theta, std::uint64_t first_candidate, const StreamKey& key,
+                      const ImagineOptions& options, Episodes& episodes) {
+  const Index rows = Theta.rows(), T = task.horizon;
+  episodes.states.resize(static_cast<std::size_t>(T + 1));
+  episodes.actions.resize(static_cast<std::size_t>(T));
+  episodes.rewards.resize(rows, T);
+  episodes.reward_floor = task.reward_floor;
+  episodes.steps.assign(static_cast<std::size_t>(rows), 0);
+  episodes.ended.assign(static_cast<std::size_t>(rows), false);
+  episodes.failed.assign(static_cast<std::size_t>(rows), false);
+  Chunk chunk(model, policy, task, key, options, rows, buffers_of_this_thread());
+  chunk.set_rows(Theta, first_candidate);
+  chunk.start();
+  episodes.states.front() = chunk.states();
+  for (Index t = 0; t < T; ++t) chunk.step(t, &episodes);
+  episodes.returns = chunk.returns();
+}
+
+void Episodes::copy(Index row, Episode& episode) const {
+  const auto i = static_cast<std::size_t>(row);
+  const Index T = steps[i];
+  episode.states.resize(T + 1, states.front().cols());
+  episode.actions.resize(T, actions.front().cols());
+  for (Index t = 0; t <= T; ++t) episode.states.row(t) = states[static_cast<std::size_t>(t)].row(row);
+  for (Index t = 0; t < T; ++t) episode.actions.row(t) = actions[static_cast<std::size_t>(t)].row(row);
+  episode.true_states = episode.states;
+  episode.rewards = rewards.row(row).head(T).transpose();
+  episode.charged = static_cast<double>(rewards.cols() - T) * reward_floor;
+  episode.ended = ended[i];
 }
 
 }  // namespace rehearse::rollout

@@ -46,4 +46,26 @@ struct Recorded {
 Recorded imagine_recorded(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
                           const Vector& theta, Index particles, const StreamKey& key, const ImagineOptions& options);
 
+/// Imagined episodes, one a row of a batch.
+struct Episodes {
+  std::vector<Matrix> states;   // T+1 of rows × dx
+  std::vector<Matrix> actions;  // T of rows × du
+  Matrix rewards;               // rows × T
+  Vector returns;               // rows, with what was charged for an early end
+  std::vector<Index> steps;     // made before the end
+  std::vector<char> ended;      // by a fall: its state is the last one
+  std::vector<char> failed;     // by a prediction that was not finite: this one is left out
+  double reward_floor = 0;      // the task's
+
+  Index rows() const { return returns.size(); }
+  /// Allocates only where the episode has another size.
+  void copy(Index row, Episode& episode) const;
+};
+
+/// One episode of each policy (Theta: rows × parameters, one a row) on the calling thread, all rows in lockstep. Row i
+/// is candidate `first_candidate` + i of the stream. No allocation if `episodes` had the same size before.
+void imagine_episodes(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
+                      const ConstMatrixView& Theta, std::uint64_t first_candidate, const StreamKey& key,
+                      const ImagineOptions& options, Episodes& episodes);
+
 }  // namespace rehearse::rollout

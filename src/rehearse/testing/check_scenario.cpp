@@ -55,6 +55,19 @@ std::vector<std::string> check_saturating_reward(const Task& task, const Dataset
   return {};
 }
 
+/// As many finite numbers as they have bounds.
+std::vector<std::string> check_descriptor(const Task& task, const Dataset& data) {
+  const Index T = data.size() - 1;
+  const Vector descriptor = task.descriptor({.states = data.states,
+                                             .true_states = data.states,
+                                             .actions = data.actions.topRows(T),
+                                             .rewards = data.rewards.head(T)});
+  if (descriptor.size() != static_cast<Index>(task.descriptor_bounds.size()))
+    return {fmt::format("{} numbers, but {} descriptor_bounds", descriptor.size(), task.descriptor_bounds.size())};
+  if (!descriptor.allFinite()) return {"not finite"};
+  return {};
+}
+
 }  // namespace
 
 Dataset random_episodes(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) {
@@ -84,6 +97,7 @@ std::vector<std::string> check_scenario(const scenario::Scenario& scenario) {
   if (scenario.oracle)
     add("oracle", check_simulator(*scenario.oracle, data.states, data.actions, scenario.oracle->parameters().values()));
   if (scenario.task.saturating_reward) add("saturating_reward", check_saturating_reward(scenario.task, data));
+  if (scenario.task.descriptor) add("descriptor", check_descriptor(scenario.task, data));
   if (scenario.drawing)
     add("drawing", std::visit([&](const auto& kind) { return check_drawing(kind, data.states); }, *scenario.drawing));
   return found;

@@ -86,6 +86,13 @@ TEST(Task, ModelsSeeTheAnglesOfJoints) {
   EXPECT_EQ(chain.feature_map().features(), 4) << "policies do not";
 }
 
+TEST(Task, DescriptorsHaveFiniteBounds) {
+  Task described = task();
+  described.descriptor_bounds = {{0, 1}, {1, 1}, {-1e308, 1e308}};
+  EXPECT_EQ(described.violations(), (std::vector<std::string>{"descriptor_bounds 2: must be finite with low < high",
+                                                              "descriptor_bounds 3: must be finite with low < high"}));
+}
+
 TEST(Task, AnEmptyOneLacksEverything) {
   EXPECT_EQ(Task().violations().size(), 5u) << "states, actions, dt_s, horizon, reward";
 }

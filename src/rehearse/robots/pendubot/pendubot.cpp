@@ -83,6 +83,7 @@ Task make_task(const Options& options) {
     return (tip(state) - Eigen::Vector2d{0, 1}).norm() <= kSolvedDistance;
   });
   task.descriptor = tip_descriptor;
+  task.descriptor_bounds = std::vector<Interval>(6, {-2 * kRewardLength, 2 * kRewardLength});
   return task;
 }
 

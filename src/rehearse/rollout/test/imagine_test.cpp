@@ -237,5 +237,39 @@ TEST(ImagineRecorded, AfterAnEarlyEndARowIsNan) {
   EXPECT_TRUE(ended);
 }
 
+/// Rows that fail at v > 0.5, and that fall at p < 0.8.
+TEST(ImagineEpisodes, RecordsWhatTheReturnsAreMadeOf) {
+  Task task = cart::task();
+  const cart::Model model(0.01, [](double v, double) { return v > 0.5; });
+  const Matrix Theta = cart::candidates(40);
+  for (const bool falls : {false, true}) {
+    if (falls) task.ended = [](const ConstVectorView& x) { return x(1) < 0.8; };
+    const Imagined imagined = imagine_cart(task, Theta, 1, {}, model, 5);
+    Episodes episodes;
+    imagine_episodes(model, *cart::policy(), task, Theta.transpose(), 5, kKey, {}, episodes);
+    EXPECT_EQ(episodes.returns, imagined.returns.row(0).transpose());
+    Index failed = 0, ended = 0, whole = 0;
+    for (Index row = 0; row < 40; ++row) {
+      Episode episode;
+      episodes.copy(row, episode);
+      EXPECT_NEAR(episode.total_reward(), imagined.returns(0, row), 1e-12);
+      const Index T = episode.steps();
+      ASSERT_EQ(episode.states.rows(), T + 1);
+      EXPECT_TRUE(episode.states.allFinite() && episode.rewards.allFinite());
+      for (Index t = 0; t < T; ++t) EXPECT_EQ(episode.rewards(t), std::exp(-std::pow(episode.states(t + 1, 1), 2)));
+      EXPECT_EQ(episode.ended, T > 0 && task.ended && episode.states(T, 1) < 0.8);
+      EXPECT_EQ(episodes.failed[static_cast<std::size_t>(row)], T < 20 && !episode.ended);
+      EXPECT_EQ(episode.charged, (20 - T) * -0.5);
+      failed += episodes.failed[static_cast<std::size_t>(row)];
+      ended += episode.ended;
+      whole += T == 20;
+    }
+    EXPECT_EQ(failed, imagined.failed);
+    EXPECT_GT(failed, 0);
+    EXPECT_GT(whole, 0);
+    EXPECT_EQ(ended > 0, falls);
+  }
+}
+
 }  // namespace
 }  // namespace rehearse::rollout

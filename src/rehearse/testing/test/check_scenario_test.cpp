@@ -27,6 +27,10 @@ TEST(CheckScenario, NamesThePartThatBreaksALaw) {
   EXPECT_EQ(check_scenario(scenario), Lines{"drawing: 2 lines for 1 bodies"});
 
   scenario = robots::pendubot::make({});
+  scenario.task.descriptor_bounds.pop_back();
+  EXPECT_EQ(check_scenario(scenario), Lines{"descriptor: 6 numbers, but 5 descriptor_bounds"});
+
+  scenario = robots::pendubot::make({});
   scenario.task.saturating_reward->distances *= 1.001;
   ASSERT_EQ(check_scenario(scenario).size(), 1u);
   EXPECT_TRUE(check_scenario(scenario).front().starts_with("saturating_reward: "));

@@ -9,6 +9,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/learners/pilco/model.hpp"
+#include "rehearse/learners/test/memory_store.hpp"
 #include "rehearse/testing/check_learner.hpp"
 #include "slider.hpp"
 
@@ -16,17 +17,6 @@ namespace rehearse::learners::pilco {
 namespace {
 
 using slider::learn, slider::run_trial, slider::task;
-
-/// In memory; remembers how often it was written.
-class MemoryStore final : public Store {
- public:
-  std::optional<std::string> read(const std::string& name) override {
-    return kept.contains(name) ? std::optional(kept[name]) : std::nullopt;
-  }
-  void write(const std::string& name, const std::string& bytes) override { kept[name] = bytes, ++writes; }
-  std::map<std::string, std::string> kept;
-  Index writes = 0;
-};
 
 /// A slider that is thought to be pulled a third as strongly.
 Setting setting(std::uint64_t seed = 1) {

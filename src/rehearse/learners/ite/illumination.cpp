@@ -1,0 +1,204 @@
+#include "rehearse/learners/ite/illumination.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/stopwatch.hpp"
+#include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/rollout/imagine.hpp"
+
+namespace rehearse::learners::ite {
+namespace {
+
+constexpr const char* kKept = "archive";
+constexpr int kRevision = 1;              // of what an archive is made by; another one makes those kept before stale
+constexpr Index kCheckpointRows = 16384;  // evaluations between two states that are kept
+constexpr Index kTriedAgain = 16;         // elites of an archive that was kept
+
+/// Rollouts in the prior.
+class Rollouts {
+ public:
+  explicit Rollouts(const Setting& setting)
+      : model_(*setting.prior, setting.prior->space.values()), policy_(*setting.policy), task_(setting.task) {
+    task_.start_std.setZero();
+  }
+
+  void operator()(const ConstMatrixView& X, VectorView performances, MatrixView descriptors) const {
+    thread_local rollout::Episodes episodes;
+    thread_local Episode episode;
+    rollout::imagine_episodes(model_, policy_, task_, X, 0, {}, {.sample = false}, episodes);
+    for (Index i = 0; i < X.rows(); ++i) {
+      performances(i) = std::numeric_limits<double>::quiet_NaN();
+      if (episodes.failed[static_cast<std::size_t>(i)]) continue;
+      episodes.copy(i, episode);
+      const Vector descriptor = task_.descriptor(episode);
+      if (descriptor.size() != descriptors.cols())
+        throw InvalidInput(fmt::format("the task's descriptor has {} numbers, its descriptor_bounds {}",
+                                       descriptor.size(), descriptors.cols()));
+      performances(i) = episodes.returns(i);
+      descriptors.row(i) = descriptor.transpose();
+    }
+  }
+
+ private:
+  dynamics::SimulatorModel model_;
+  const policy::Policy& policy_;
+  Task task_;
+};
+
+/// What an archive's file says that it is.
+std::string about(const Setting& setting, IlluminationOptions options) {
+  std::string text = fmt::format("ite archive {}\nseed = {}\n", kRevision, setting.seed);
+  for (const auto& [name, value] : list_fields([&](FieldVisitor& v) { options.fields(v); }))
+    text += fmt::format("{} = {}\n", name, value);
+  return text;
+}
+
+class Illumination {
+ public:
+  Illumination(const Setting& setting, const IlluminationOptions& options)
+      : setting_(setting), options_(options), rollouts_(setting), about_(about(setting, options)) {}
+
+  qd::Search run() {
+    auto kept = read();
+    if (kept && !holds(*kept)) kept.reset();
+    if (kept && kept->evaluations >= wanted()) return std::move(*kept);
+    qd::MapElites search(empty_archive(), {.box = box()}, options_.search, {.seed = setting_.seed});
+    if (kept && kept->archive.niches() == search.archive().niches())
+      search.resume(std::move(kept->archive), kept->evaluations, kept->failed);
+    finish(search);
+    keep(search);
+    return state(search);
+  }
+
+ private:
+  std::vector<Interval> box() const {
+    return std::vector<Interval>(static_cast<std::size_t>(setting_.policy->parameters()),
+                                 {-options_.box, options_.box});
+  }
+
+  qd::Archive empty_archive() const {
+    const auto& bounds = setting_.task.descriptor_bounds;
+    const bool grid = options_.kind == IlluminationOptions::Kind::grid;
+    const qd::Cvt cvt{.bounds = bounds,
+                      .niches = options_.niches,
+                      .samples = std::max<Index>(100000, 10 * options_.niches),
+                      .seed = setting_.seed};
+    return {grid ? qd::Niches(qd::Grid{bounds, std::vector<Index>(bounds.size(), options_.bins)})
+                 : qd::Niches(cvt, *setting_.evaluator),
+            setting_.policy->parameters()};
+  }
+
+  void finish(qd::MapElites& search) const {
+    const auto evaluate = [this](const ConstMatrixView& X, std::uint64_t, VectorView performances,
+                                 MatrixView descriptors) { rollouts_(X, performances, descriptors); };
+    const Stopwatch watch;
+    const std::uint64_t before = search.evaluations();
+    std::uint64_t kept = before;
+    while (search.evaluations() < wanted()) {
+      search.step(evaluate, *setting_.evaluator);
+      if (search.evaluations() - kept >= kCheckpointRows && search.evaluations() < wanted()) {
+        kept = search.evaluations();
+        keep(search);
+      }
+      report(search, watch.per_s(static_cast<Index>(search.evaluations() - before)));
+    }
+    if (search.archive().size() == 0)
+      throw InvalidInput(fmt::format("no archive: all {} rollouts in the prior failed", search.evaluations()));
+  }
+
+  void report(const qd::MapElites& search, double per_s) const {
+    if (!setting_.progress) return;
+    const auto done = static_cast<double>(search.evaluations()) / static_cast<double>(options_.evaluations);
+    setting_.progress({.phase = "archive",
+                       .done = std::min(1.0, done),
+                       .best = search.archive().statistics().best,
+                       .rollouts = static_cast<Index>(search.evaluations()),
+                       .rollouts_per_s = per_s});
+  }
+
+  std::uint64_t wanted() const { return static_cast<std::uint64_t>(options_.evaluations); }
+
+  qd::Search state(const qd::MapElites& search) const {
+    return {search.archive(), search.evaluations(), search.failed(), about_};
+  }
+
+  std::optional<qd::Search> read() const {
+    const auto bytes = setting_.store ? setting_.store->read(kKept) : std::nullopt;
+    if (!bytes) return {};
+    try {
+      qd::Search kept = qd::from_bytes(*bytes, kKept);
+      if (kept.about == about_) return kept;
+    } catch (const InvalidInput&) {  // of another version: it is made again
+    }
+    return {};
+  }
+
+  void keep(const qd::MapElites& search) const {
+    if (setting_.store) setting_.store->write(kKept, to_bytes(state(search)));
+  }
+
+  /// Whether some elites, spread evenly, do what they did when they were kept: not after the simulator changed.
+  bool holds(const qd::Search& kept) const {
+    const qd::Archive& archive = kept.archive;
+    if (archive.parameters() != setting_.policy->parameters() || archive.size() == 0) return false;
+    Matrix verdict(1, 1);
+    setting_.evaluator->evaluate([&](Index, VectorView holds) { holds(0) = try_again(archive); }, verdict);
+    return verdict(0, 0) == 1;
+  }
+
+  bool try_again(const qd::Archive& archive) const {
+    const Index n = std::min(kTriedAgain, archive.size());
+    Matrix X(n, archive.parameters()), descriptors(n, archive.niches().dimensions());
+    Vector performances(n);
+    const auto elite = [&](Index i) { return i * archive.size() / n; };
+    for (Index i = 0; i < n; ++i) X.row(i) = archive.solution(elite(i)).transpose();
+    rollouts_(X, performances, descriptors);
+    for (Index i = 0; i < n; ++i)
+      if (performances(i) != archive.performance(elite(i)) ||
+          descriptors.row(i).transpose() != archive.descriptor(elite(i)))
+        return false;
+    return true;
+  }
+
+  const Setting& setting_;
+  const IlluminationOptions& options_;
+  Rollouts rollouts_;
+  std::string about_;
+};
+
+}  // namespace
+
+void IlluminationOptions::fields(FieldVisitor& v) {
+  v.choice("kind", kind, {"cvt", "grid"});
+  v.integer("niches", niches, between(1, 1e7));
+  v.integer("bins", bins, between(1, 1e6));
+  v.integer("evaluations", evaluations, at_least(1));
+  v.number("box", box, above(0));
+  v.group("search", search);
+}
+
+std::vector<std::string> violations(const IlluminationOptions& options, const Task& task) {
+  Violations violations;
+  violations.require(static_cast<bool>(task.descriptor),
+                     "the scenario says of no trial how it went (its task has no descriptor), which ite needs to tell "
+                     "policies apart: give the task a descriptor and descriptor_bounds, or choose the learner gp-mi or "
+                     "black-drops-prior");
+  if (task.descriptor)
+    for (const std::string& line : qd::bounds_violations(task.descriptor_bounds))
+      violations.add("descriptor_bounds of the task, which ite needs: " + line);
+  const double niches = std::pow(options.bins, task.descriptor_bounds.size());
+  violations.require(options.kind != IlluminationOptions::Kind::grid || niches <= qd::kMostNiches,
+                     fmt::format("archive.bins = {} of {} descriptors are {:g} niches, must be ≤ {:g}", options.bins,
+                                 task.descriptor_bounds.size(), niches, qd::kMostNiches));
+  return violations.list();
+}
+
+std::shared_ptr<const qd::Search> illuminate(const Setting& setting, const IlluminationOptions& options) {
+  return std::make_shared<qd::Search>(Illumination(setting, options).run());
+}
+
+}  // namespace rehearse::learners::ite

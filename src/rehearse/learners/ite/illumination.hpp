@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/learners/learner.hpp"
+#include "rehearse/qd/archive_bytes.hpp"
+#include "rehearse/qd/map_elites.hpp"
+
+namespace rehearse::learners::ite {
+
+/// How the archive of policies is made.
+struct IlluminationOptions {
+  enum class Kind { cvt, grid };
+  Kind kind = Kind::cvt;
+  Index niches = 10000;        // of the tessellation (Vassiliades 2018)
+  Index bins = 5;              // of the grid, for each descriptor (Cully 2015)
+  Index evaluations = 200000;  // rollouts in the prior, rounded up to a generation
+  double box = 5;              // θ in [−box, box]; as the other learners
+  qd::MapElitesOptions search;
+  void fields(FieldVisitor& v);
+};
+
+/// The archive of policies by MAP-Elites, each judged by one rollout in the prior as it is given, from the mean start
+/// and without noise: performance is the return, the descriptor the task's. Comes from the setting's store where that
+/// has it, after some elites were tried again; goes on there after an interruption. Depends on the setting (but its
+/// evaluator and its store) and the options alone. Throws InvalidInput if nothing could be kept.
+std::shared_ptr<const qd::Search> illuminate(const Setting& setting, const IlluminationOptions& options);
+
+/// A line for everything that the task lacks or the options cannot do with it.
+std::vector<std::string> violations(const IlluminationOptions& options, const Task& task);
+
+}  // namespace rehearse::learners::ite

@@ -1,0 +1,148 @@
+#include "rehearse/learners/ite/ite.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/stopwatch.hpp"
+#include "rehearse/dynamics/simulator_model.hpp"
+
+namespace rehearse::learners::ite {
+namespace {
+
+using nlohmann::json;
+
+/// What a policy can earn at least: performances are counted from here.
+double floor_of(const Task& task) { return static_cast<double>(task.horizon) * task.reward_floor; }
+
+class Ite final : public Learner {
+ public:
+  Ite(Setting setting, Options options) : setting_(std::move(setting)), options_(std::move(options)) {}
+
+  const Proposal& ask() override {
+    if (!proposal_) proposal_ = propose();
+    return *proposal_;
+  }
+
+  void tell(const Episode& episode) override {
+    ask();
+    tried_.push_back(elite_);
+    returns_.push_back(episode.total_reward());
+    learn(returns_.size() - 1);
+    proposal_.reset();
+  }
+
+  json save() const override { return {{"tried", tried_}}; }
+
+  void load(const std::vector<Episode>& episodes, const json& state) override {
+    state.at("tried").get_to(tried_);
+    if (tried_.size() != episodes.size()) throw InvalidInput("the learner's state does not fit the episodes");
+    returns_.clear();
+    for (const Episode& episode : episodes) returns_.push_back(episode.total_reward());
+    adaptation_.reset();
+    proposal_.reset();
+  }
+
+ private:
+  Proposal propose() {
+    Proposal proposal{.policy = setting_.policy};
+    proposal.search_s = seconds([&] { prepare(); });
+    elite_ = adaptation_->stopped().empty() ? adaptation_->next() : adaptation_->best_observed();
+    proposal.theta = search_->archive.solution(elite_);
+    proposal.predicted_return = floor_of(setting_.task) + unit_ * adaptation_->means()(elite_);
+    proposal.phi = setting_.prior->space.values();
+    proposal.model = std::make_shared<dynamics::SimulatorModel>(*setting_.prior, *proposal.phi);
+    proposal.archive = bytes_;
+    if (returns_.empty()) {
+      proposal.rollouts = static_cast<Index>(search_->evaluations);
+      proposal.failed_rollouts = static_cast<Index>(search_->failed);
+    }
+    if (static_cast<std::size_t>(adaptation_->trials()) == returns_.size() && !adaptation_->stopped().empty())
+      proposal.notes.push_back("the best policy is tried again from now on: " + adaptation_->stopped());
+    return proposal;
+  }
+
+  /// The archive, and what was learned of it so far.
+  void prepare() {
+    if (adaptation_) return;
+    if (!search_) {
+      search_ = illuminate(setting_, options_.archive);
+      bytes_ = std::make_shared<std::string>(to_bytes(*search_));
+    }
+    const qd::Archive& archive = search_->archive;
+    unit_ = archive.statistics().best - floor_of(setting_.task);
+    if (!(unit_ > 0)) unit_ = 1;  // nothing earns more than failing
+    Matrix descriptors(archive.niches().dimensions(), archive.size());
+    Vector promised(archive.size());
+    for (Index e = 0; e < archive.size(); ++e) {
+      descriptors.col(e) = archive.niches().to_unit(archive.descriptor(e));
+      promised(e) = in_units(archive.performance(e));
+    }
+    adaptation_.emplace(std::move(descriptors), std::move(promised), options_.adaptation);
+    for (std::size_t trial = 0; trial < returns_.size(); ++trial) learn(trial);
+  }
+
+  double in_units(double total_reward) const { return (total_reward - floor_of(setting_.task)) / unit_; }
+
+  void learn(std::size_t trial) {
+    if (tried_[trial] < 0 || tried_[trial] >= search_->archive.size())
+      throw InvalidInput(fmt::format("trial {}: the archive has no elite {}", trial + 1, tried_[trial]));
+    adaptation_->observe(tried_[trial], in_units(returns_[trial]));
+  }
+
+  Setting setting_;
+  Options options_;
+  std::shared_ptr<const qd::Search> search_;
+  std::shared_ptr<const std::string> bytes_;  // of the search
+  double unit_ = 1;                           // of performance: the best in the archive
+  std::optional<Adaptation> adaptation_;
+  std::vector<Index> tried_;  // elites
+  std::vector<double> returns_;
+  Index elite_ = 0;  // of the proposal
+  std::optional<Proposal> proposal_;
+};
+
+class Builder final : public LearnerBuilder {
+ public:
+  std::string name() const override { return "ite"; }
+  std::string summary() const override {
+    return "an archive of different policies made on the prior, and Bayesian optimisation among them";
+  }
+  PriorUse prior_use() const override { return PriorUse::required; }
+  bool chooses_priors() const override { return false; }
+  void fields(FieldVisitor& v) override { options_.fields(v); }
+  std::vector<std::string> violations(const Task& task, const policy::Policy&) const override {
+    return ite::violations(options_.archive, task);
+  }
+  std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }
+
+ private:
+  Options options_;
+};
+
+}  // namespace
+
+void Options::fields(FieldVisitor& v) {
+  v.group("archive", archive);
+  v.group("adaptation", adaptation);
+}
+
+std::unique_ptr<Learner> make(Setting setting, Options options) {
+  Violations violations;
+  for (const auto& line : field_violations([&](FieldVisitor& v) { options.fields(v); })) violations.add(line);
+  for (const auto& line : setting.task.violations()) violations.add(line);
+  for (const auto& line : ite::violations(options.archive, setting.task)) violations.add(line);
+  violations.require(setting.prior.has_value(), "this learner needs a prior");
+  violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
+  violations.throw_if_any();
+  if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
+  return std::make_unique<Ite>(std::move(setting), std::move(options));
+}
+
+std::vector<std::unique_ptr<LearnerBuilder>> builders() {
+  std::vector<std::unique_ptr<LearnerBuilder>> all;
+  all.push_back(std::make_unique<Builder>());
+  return all;
+}
+
+}  // namespace rehearse::learners::ite

@@ -1,0 +1,251 @@
+#include "rehearse/learners/ite/ite.hpp"
+
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/learners/test/memory_store.hpp"
+#include "rehearse/policy/network.hpp"
+#include "rehearse/qd/archive_bytes.hpp"
+#include "rehearse/robots/pendubot/pendubot.hpp"
+#include "rehearse/rollout/execute.hpp"
+#include "rehearse/system/ode.hpp"
+#include "rehearse/testing/check_learner.hpp"
+
+namespace rehearse::learners::ite {
+namespace {
+
+using OptionTexts = std::map<std::string, std::string>;
+
+// A slider on a line to be pulled to 0 and no further; how it went is where it was half way and in the end.
+void ode(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) { dxdt(0) = phi(0) * u(0) - phi(1) * x(0); }
+
+Task task() {
+  Task task;
+  task.states = {{"position", "m"}};
+  task.actions = {{"pull", "N", {-1, 1}}};
+  task.start_mean = Vector{{1}};
+  task.start_std = Vector{{0.02}};
+  task.dt_s = 0.2;
+  task.horizon = 12;
+  task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next, VectorView rewards) {
+    rewards = (-X_next.col(0).array().square() / 0.08).exp();
+  };
+  task.descriptor = [](const Episode& e) {
+    return Vector{{e.true_states(e.steps() / 2, 0), e.true_states(e.steps(), 0)}};
+  };
+  task.descriptor_bounds = {{-2, 2}, {-2, 2}};
+  return task;
+}
+
+prior::Prior prior(double gain = 1) {
+  const ParameterSpace space(
+      {Parameter::continuous("gain", gain, {-2, 2}), Parameter::continuous("drag", 0.5, {0, 1})});
+  return {"slider", system::make_ode_simulator(ode, space, task().dt_s, 4), space};
+}
+
+Setting setting(double gain = 1, std::uint64_t seed = 1) {
+  Setting setting;
+  setting.task = task();
+  setting.policy =
+      policy::make_linear({.features = setting.task.feature_map(), .scale = Vector::Ones(1), .squash = {{{-1, 1}}, 1}});
+  setting.prior = prior(gain);
+  setting.seed = seed;
+  return setting;
+}
+
+Episode run_trial(const Proposal& proposal, std::uint64_t trial) {
+  const Task task = ite::task();
+  const auto plant = system::make_ode_plant({.ode = ode,
+                                             .phi = Vector{{0.6, 0.2}},
+                                             .dt_s = task.dt_s,
+                                             .start_mean = task.start_mean,
+                                             .start_std = task.start_std,
+                                             .tolerance = 1e-9});
+  return rollout::execute(*plant, *proposal.policy, proposal.theta, task,
+                          Rng({.trial = trial, .purpose = Purpose::start_state}));
+}
+
+std::unique_ptr<LearnerBuilder> builder(const OptionTexts& options = {}) {
+  auto builder = std::move(builders().front());
+  OptionTexts all{{"archive.niches", "200"},
+                  {"archive.evaluations", "2000"},
+                  {"archive.search.batch", "128"},
+                  {"archive.search.initial", "256"},
+                  {"adaptation.length", "0.1"}};
+  for (const auto& [name, text] : options) all[name] = text;
+  for (const auto& [name, text] : all)
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { builder->fields(v); }, name, text)) << name;
+  return builder;
+}
+
+std::vector<Proposal> learn(Learner& learner, std::uint64_t trials, std::vector<double>* returns = nullptr) {
+  std::vector<Proposal> proposals;
+  for (std::uint64_t trial = 1; trial <= trials; ++trial) {
+    proposals.push_back(learner.ask());
+    const Episode episode = run_trial(proposals.back(), trial);
+    if (returns) returns->push_back(episode.total_reward());
+    learner.tell(episode);
+  }
+  return proposals;
+}
+
+TEST(Ite, KeepsTheLaws) {
+  EXPECT_EQ(testing::check_learner(*builder(), setting(), run_trial, 4), std::vector<std::string>{});
+  const auto grid = builder({{"archive.kind", "grid"}, {"archive.bins", "9"}, {"adaptation.max_trials", "2"}});
+  EXPECT_EQ(testing::check_learner(*grid, setting(), run_trial, 4), std::vector<std::string>{});
+}
+
+// Doing nothing earns 0.6; the best policies on the plant itself, whose gain is 0.6, some 7.
+TEST(Ite, FindsAPolicyThatWorksOnTheSliderToo) {
+  std::vector<double> near, wrong_way;
+  const auto proposals = learn(*builder()->build(setting(1)), 4, &near);
+  EXPECT_GT(near.front(), 6.5);
+  EXPECT_EQ(proposals.front().rollouts, 2048);
+  EXPECT_EQ(proposals[1].rollouts, 0);
+  EXPECT_GT(*proposals.front().predicted_return, 8);
+  EXPECT_TRUE(proposals.front().archive && proposals.front().model && proposals.front().phi);
+  learn(*builder()->build(setting(-0.5)), 10, &wrong_way);
+  EXPECT_LT(wrong_way.front(), 0.1) << "its prior pulls the other way";
+  EXPECT_GT(*std::max_element(wrong_way.begin(), wrong_way.end()), 3);
+}
+
+TEST(Ite, TheFirstPolicyIsTheArchivesBest) {
+  const Proposal first = builder()->build(setting())->ask();
+  const qd::Search search = qd::from_bytes(*first.archive, "archive");
+  const Index best = search.archive.best();
+  EXPECT_EQ(first.theta, search.archive.solution(best));
+  EXPECT_DOUBLE_EQ(*first.predicted_return, search.archive.performance(best));
+  EXPECT_EQ(search.evaluations, 2048U);
+  EXPECT_GT(search.archive.statistics().coverage, 0.1);
+}
+
+TEST(Ite, OnceItStopsTheBestPolicyIsRepeated) {
+  const auto learner = builder({{"adaptation.stop_ratio", "0"}, {"adaptation.max_trials", "3"}})->build(setting(-0.5));
+  std::vector<double> returns;
+  const auto proposals = learn(*learner, 6, &returns);
+  const auto best = std::max_element(returns.begin(), returns.begin() + 3) - returns.begin();
+  for (std::size_t trial = 3; trial < 6; ++trial)
+    EXPECT_EQ(proposals[trial].theta, proposals[static_cast<std::size_t>(best)].theta);
+  EXPECT_TRUE(proposals[2].notes.empty() && proposals[4].notes.empty());
+  ASSERT_EQ(proposals[3].notes.size(), 1U);
+  EXPECT_EQ(proposals[3].notes[0], "the best policy is tried again from now on: after trial 3: adaptation.max_trials");
+}
+
+TEST(Illumination, ComesFromTheStoreAndIsTheSame) {
+  const auto store = std::make_shared<MemoryStore>();
+  Setting with = setting();
+  with.store = store;
+  const std::string fresh = *builder()->build(setting())->ask().archive, first = *builder()->build(with)->ask().archive;
+  EXPECT_EQ(first, fresh);
+  EXPECT_EQ(store->kept.size(), 1U);
+  EXPECT_EQ(store->writes, 1);
+  std::vector<Progress> events;
+  with.progress = [&](const Progress& p) { events.push_back(p); };
+  EXPECT_EQ(*builder()->build(with)->ask().archive, first);
+  EXPECT_EQ(store->writes, 1);
+  EXPECT_TRUE(events.empty()) << "nothing was computed";
+  builder({{"archive.evaluations", "2001"}})->build(with)->ask();
+  EXPECT_EQ(store->writes, 2) << "another archive";
+}
+
+TEST(Illumination, MakesAgainWhatIsDamagedForeignOrStale) {
+  const auto store = std::make_shared<MemoryStore>();
+  Setting with = setting();
+  with.store = store;
+  const std::string good = *builder()->build(with)->ask().archive;
+  std::string& kept = store->kept.begin()->second;
+  Setting stale = setting(1.2);  // a simulator that changed without anybody saying so
+  stale.store = store;
+  builder()->build(stale)->ask();
+  EXPECT_NE(kept, good);
+  for (const std::string& bad : {std::string("foreign"), good.substr(0, good.size() / 2), std::string(kept)}) {
+    kept = bad;
+    EXPECT_EQ(*builder()->build(with)->ask().archive, good);
+    EXPECT_EQ(kept, good);
+  }
+}
+
+// 40 960 evaluations: kept every 16 384.
+TEST(Illumination, GoesOnAfterAnInterruption) {
+  const OptionTexts long_one{{"archive.evaluations", "40000"}};
+  const std::string whole = *builder(long_one)->build(setting())->ask().archive;
+  const auto store = std::make_shared<MemoryStore>();
+  Setting with = setting();
+  with.store = store;
+  with.progress = [](const Progress& p) {
+    if (p.phase == "archive" && p.rollouts > 20000) throw Interrupted();
+  };
+  const auto learner = builder(long_one)->build(with);
+  EXPECT_THROW(learner->ask(), Interrupted);
+  EXPECT_EQ(store->kept.size(), 1U) << "unfinished";
+  Index least = 1 << 30;
+  with.progress = [&](const Progress& p) { least = std::min(least, p.rollouts); };
+  const Proposal resumed = builder(long_one)->build(with)->ask();
+  EXPECT_GT(least, 16384);
+  EXPECT_EQ(whole, *resumed.archive);
+}
+
+TEST(Illumination, CountsRolloutsThatFail) {
+  Setting fragile = setting();
+  const ParameterSpace space = fragile.prior->space;
+  const auto breaks = [](double limit) {
+    return [limit](const ConstMatrixView& X, const ConstMatrixView& U, const Vector&, MatrixView dX) {
+      for (Index i = 0; i < X.rows(); ++i) dX(i, 0) = X(i, 0) < limit ? std::nan("") : 0.2 * U(i, 0);
+    };
+  };
+  fragile.prior->simulator = system::make_simulator(space, breaks(0));
+  const Proposal proposal = builder()->build(fragile)->ask();
+  EXPECT_GT(proposal.failed_rollouts, 0);
+  EXPECT_LT(proposal.failed_rollouts, proposal.rollouts);
+  fragile.prior->simulator = system::make_simulator(space, breaks(10));
+  try {
+    builder()->build(fragile)->ask();
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "no archive: all 2048 rollouts in the prior failed");
+  }
+}
+
+std::string refusal(const Setting& setting) {
+  try {
+    builder()->build(setting)->ask();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Ite, RefusesATaskThatDoesNotSayHowItWent) {
+  Setting mute = setting();
+  mute.task.descriptor = {};
+  EXPECT_NE(refusal(mute).find("its task has no descriptor"), std::string::npos) << refusal(mute);
+  EXPECT_EQ(builder()->violations(mute.task, *mute.policy).size(), 1U);
+  Setting unbounded = setting();
+  unbounded.task.descriptor_bounds.clear();
+  EXPECT_NE(refusal(unbounded).find("descriptor_bounds"), std::string::npos) << refusal(unbounded);
+  Setting other = setting();
+  other.task.descriptor_bounds.resize(1);
+  EXPECT_EQ(refusal(other), "the task's descriptor has 2 numbers, its descriptor_bounds 1");
+  Setting without = setting();
+  without.prior.reset();
+  EXPECT_EQ(refusal(without), "this learner needs a prior");
+}
+
+TEST(Ite, TakesThePendubot) {
+  const scenario::Scenario pendubot = robots::pendubot::make({});
+  EXPECT_EQ(builder()->violations(pendubot.task, *pendubot.policy), std::vector<std::string>{});
+  EXPECT_EQ(builder({{"archive.kind", "grid"}, {"archive.bins", "30"}})->violations(pendubot.task, *pendubot.policy),
+            std::vector<std::string>{"archive.bins = 30 of 6 descriptors are 7.29e+08 niches, must be ≤ 1e+08"});
+  Setting setting{.task = pendubot.task, .policy = pendubot.policy};
+  setting.prior = prior::Prior{"useful", pendubot.priors[0].simulator, pendubot.priors[0].parameters};
+  const Proposal first = builder({{"archive.evaluations", "500"}})->build(setting)->ask();
+  EXPECT_EQ(first.theta.size(), 81);
+  EXPECT_EQ(first.failed_rollouts, 0);
+}
+
+}  // namespace
+}  // namespace rehearse::learners::ite

@@ -1,0 +1,53 @@
+// Making, placing and keeping solutions allocates nothing: a generation of four times the size takes as many
+// allocations.
+
+#include <atomic>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/qd/map_elites.hpp"
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// Eigen allocates by malloc, as operator new does; glibc lets a program define it anew.
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) noexcept {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  return __libc_malloc(size);
+}
+
+namespace rehearse::qd {
+namespace {
+
+void plain(const ConstMatrixView& X, std::uint64_t, VectorView performances, MatrixView descriptors) {
+  performances = X.col(2);
+  descriptors = X.leftCols(2);
+}
+
+/// Of ten generations, once every niche is filled.
+long allocations_of(Index batch, Variation::Kind kind) {
+  const Niches niches(Cvt{.bounds = {{0, 1}, {0, 1}}, .niches = 50, .samples = 500});
+  MapElites search(Archive(niches, 6), {.box = std::vector<Interval>(6, {0, 1})},
+                   {.batch = batch, .variation = {.kind = kind, .iso_sigma = 0.1}}, {});
+  for (int g = 0; g < 40; ++g) search.step(plain, serial_evaluator());
+  EXPECT_EQ(search.archive().size(), 50);
+  const long before = allocations;
+  for (int g = 0; g < 10; ++g) search.step(plain, serial_evaluator());
+  return allocations - before;
+}
+
+TEST(Allocations, NoneForASolution) {
+  EXPECT_GT((delete new int(1), allocations.load()), 0) << "the count works";
+  for (const auto kind : {Variation::Kind::iso_line, Variation::Kind::gaussian, Variation::Kind::reset})
+    EXPECT_EQ(allocations_of(256, kind), allocations_of(1024, kind)) << static_cast<int>(kind);
+}
+
+}  // namespace
+}  // namespace rehearse::qd
+
+#endif
