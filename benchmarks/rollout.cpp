@@ -119,7 +119,7 @@ class Correlations {
   }
   void operator()() {
     for (Index e = 0; e < outputs_; ++e)
-      gp::correlate(points_.data(), points_.cols(), points_.rows(), weights_.data(), queries_.data(), kRows,
+      gp::correlate({points_.data()}, points_.cols(), points_.rows(), weights_.data(), {queries_.data()}, kRows,
                     columns_.data(), means_);
   }
 

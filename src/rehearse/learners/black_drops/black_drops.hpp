@@ -29,7 +29,7 @@ struct FirstTrial {
 /// resolves them. Fractions of the best return seen.
 struct Exploration {
   double gain = 0.1;     // a promise of less is no progress; 0: never explore (the paper)
-  double promise = 0.3;  // that is worth a trial
+  double promise = 0.15;  // that is worth a trial
   void fields(FieldVisitor& v);
 };
 
