@@ -49,9 +49,10 @@ Experience learn_and_try(const scenario::Scenario& scenario, const std::optional
   const auto plant = scenario.make_plant();
   Experience experience;
   for (Index trial = 1; trial <= size.trials; ++trial) {
-    experience.policies.push_back(learner->ask().theta);
+    const learners::Proposal& proposal = learner->ask();
+    if (proposal.policy == scenario.policy) experience.policies.push_back(proposal.theta);  // not a random schedule
     const Rng rng({.seed = 1, .trial = static_cast<std::uint64_t>(trial), .purpose = Purpose::start_state});
-    const Episode episode = rollout::execute(*plant, *scenario.policy, experience.policies.back(), scenario.task, rng);
+    const Episode episode = rollout::execute(*plant, *proposal.policy, proposal.theta, scenario.task, rng);
     learner->tell(episode);
     experience.data.append(episode);
   }
