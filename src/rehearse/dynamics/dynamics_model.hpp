@@ -13,6 +13,12 @@ class DynamicsModel {
   /// that cannot be predicted is NaN in the mean. Variances are ≥ 0.
   virtual void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
                        MatrixView variance) const = 0;
+
+  /// The same means, without the work of the variances.
+  virtual void predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const {
+    Matrix variance(X.rows(), X.cols());
+    predict(X, U, mean, variance);
+  }
 };
 
 }  // namespace rehearse::dynamics

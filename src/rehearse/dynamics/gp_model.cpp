@@ -15,23 +15,44 @@ Matrix gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const Con
   return F;
 }
 
-void GpModel::predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const {
-  thread_local Matrix inputs, prior_mean, middle;
-  inputs.resize(X.rows(), features_.features() + U.cols());
+/// What the prior predicts, and where the GPs are asked; memory of the calling thread.
+struct GpModel::Point {
+  Matrix prior_mean, middle, inputs;
+};
+
+const GpModel::Point& GpModel::look_at(const ConstMatrixView& X, const ConstMatrixView& U) const {
+  thread_local Point point;
+  point.inputs.resize(X.rows(), features_.features() + U.cols());
   if (mean_) {
-    prior_mean.resize(X.rows(), X.cols());
-    mean_->prior.mean(X, U, mean_->phi, prior_mean);
+    point.prior_mean.resize(X.rows(), X.cols());
+    mean_->prior.mean(X, U, mean_->phi, point.prior_mean);
   }
   if (mean_ && mean_->midpoint) {
-    middle = X + 0.5 * prior_mean;
-    gp_inputs(features_, middle, U, inputs);
+    point.middle = X + 0.5 * point.prior_mean;
+    gp_inputs(features_, point.middle, U, point.inputs);
   } else {
-    gp_inputs(features_, X, U, inputs);
+    gp_inputs(features_, X, U, point.inputs);
   }
-  posterior_.predict(inputs, mean, variance);
+  return point;
+}
+
+void GpModel::finish(const Point& point, const ConstMatrixView& X, MatrixView mean) const {
+  add_integrals(kinematics_, X, mean_.has_value(), mean);
+  if (mean_) mean += point.prior_mean;
+}
+
+void GpModel::predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const {
+  const Point& point = look_at(X, U);
+  posterior_.predict(point.inputs, mean, variance);
   if (variance_ == PredictedVariance::noisy) variance.rowwise() += posterior_.noise_variances().transpose();
-  add_integrals(kinematics_, X, mean_.has_value(), mean, variance);
-  if (mean_) mean += prior_mean;
+  add_variances_of_integrals(kinematics_, variance);
+  finish(point, X, mean);
+}
+
+void GpModel::predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const {
+  const Point& point = look_at(X, U);
+  posterior_.predict_mean(point.inputs, mean);
+  finish(point, X, mean);
 }
 
 }  // namespace rehearse::dynamics

@@ -39,10 +39,15 @@ class GpModel final : public DynamicsModel {
         variance_(variance) {}
 
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override;
+  void predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const override;
 
   const gp::Posterior& posterior() const { return posterior_; }
 
  private:
+  struct Point;
+  const Point& look_at(const ConstMatrixView& X, const ConstMatrixView& U) const;
+  void finish(const Point& point, const ConstMatrixView& X, MatrixView mean) const;
+
   FeatureMap features_;
   Kinematics kinematics_;
   std::optional<Mean> mean_;

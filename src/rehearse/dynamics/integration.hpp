@@ -12,8 +12,10 @@ namespace rehearse::dynamics {
 /// Targets of the GPs from changes (without a prior) or from changes minus the prior mean.
 void subtract_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool has_prior, MatrixView Y);
 
-/// The inverse, for what the GPs predict; adds the variance that the rates bring.
-void add_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool has_prior, MatrixView mean,
-                   MatrixView variance);
+/// The inverse, for the means that the GPs predict.
+void add_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool has_prior, MatrixView mean);
+
+/// Adds to the variances of positions what their rates bring.
+void add_variances_of_integrals(const Kinematics& kinematics, MatrixView variance);
 
 }  // namespace rehearse::dynamics

@@ -13,8 +13,11 @@ class SimulatorModel final : public DynamicsModel {
 
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
                MatrixView variance) const override {
-    prior_.mean(X, U, phi_, mean);
+    predict_mean(X, U, mean);
     variance.setConstant(variance_);
+  }
+  void predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const override {
+    prior_.mean(X, U, phi_, mean);
   }
 
  private:

@@ -94,6 +94,7 @@ Matrix probes(const Inputs& inputs) {
 /// Buffers of one thread for one chunk of queries.
 struct Posterior::Scratch {
   std::vector<double> unit, scaled, z, columns;  // D × kChunk, D × kChunk, (1 + D) × kChunk, n × kChunk
+  Index width = 0;                               // rows of the chunk, and padding, which is finite
   bool missing[kChunk];                          // the row has a NaN
   double means[kChunk], rest[kChunk], norms[kChunk], priors[kChunk];
 
@@ -107,7 +108,8 @@ struct Posterior::Scratch {
 
   /// Rows of F, as the training inputs are kept; a NaN marks its row and, like the padding, becomes 0.
   void load(const Inputs& inputs, const ConstMatrixView& F, Index first, Index rows) {
-    std::fill(missing, missing + kChunk, false);
+    width = (rows + kGroup - 1) / kGroup * kGroup;
+    std::fill(missing, missing + rows, false);
     for (Index d = 0; d < inputs.dimensions(); ++d) {
       const double center = inputs.center()(d), factor = 1 / inputs.half_range()(d);
       double* row = unit.data() + d * kChunk;
@@ -117,31 +119,35 @@ struct Posterior::Scratch {
         row[q] = nan ? 0 : value;
         missing[q] |= nan;
       }
-      std::fill(row + rows, row + kChunk, 0.0);
+      std::fill(row + rows, row + width, 0.0);
     }
   }
 
   void scale(const ConstVectorView& factors) {
-    for (Index k = 0; k < factors.size() * kChunk; ++k)
-      scaled[static_cast<std::size_t>(k)] = unit[static_cast<std::size_t>(k)] * factors(k / kChunk);
+    for (Index d = 0; d < factors.size(); ++d) {
+      const double factor = factors(d), *from = unit.data() + d * kChunk;
+      double* to = scaled.data() + d * kChunk;
+      for (Index q = 0; q < width; ++q) to[q] = from[q] * factor;
+    }
   }
 
   /// z, and the variance over σ_f² before any data.
   void expand(const Inputs& inputs, const ConstVectorView& factors) {
-    std::fill(priors, priors + kChunk, 1.0);
+    std::fill(priors, priors + width, 1.0);
     if (factors.size() == 0) return;
     double norm[kChunk];
-    std::fill(z.data(), z.data() + kChunk, factors(0));
-    std::fill(norm, norm + kChunk, factors(0) * factors(0));
+    std::fill(z.data(), z.data() + width, factors(0));
+    std::fill(norm, norm + width, factors(0) * factors(0));
     for (Index d = 0; d < inputs.dimensions(); ++d) {
       const double slope = inputs.half_range()(d) * factors(d + 1), offset = inputs.center()(d) * factors(d + 1);
-      for (Index q = 0; q < kChunk; ++q) {
-        const double value = unit[static_cast<std::size_t>(d * kChunk + q)] * slope + offset;
-        z[static_cast<std::size_t>((d + 1) * kChunk + q)] = value;
-        norm[q] += value * value;
+      const double* from = unit.data() + d * kChunk;
+      double* to = z.data() + (d + 1) * kChunk;
+      for (Index q = 0; q < width; ++q) {
+        to[q] = from[q] * slope + offset;
+        norm[q] += to[q] * to[q];
       }
     }
-    for (Index q = 0; q < kChunk; ++q) priors[q] += norm[q] * norm[q];
+    for (Index q = 0; q < width; ++q) priors[q] += norm[q] * norm[q];
   }
 
   /// `means`, and unless only these are asked for `norms`, of the first rows.

@@ -16,6 +16,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Vectors of queries taken together: with kPanel rows they fill the registers, 24 of 32 with AVX-512, 12 of 16 before.
 constexpr int kVectors = hn::MaxLanes(Tag()) == 8 ? 4 : 2;
 
+static_assert(kVectors * static_cast<int>(hn::MaxLanes(Tag())) <= kGroup);
+
 HWY_INLINE Size lanes() { return static_cast<Size>(hn::Lanes(kTag)); }
 
 /// Calls group<vectors>(q) for groups that cover the queries 0 … rows − 1.

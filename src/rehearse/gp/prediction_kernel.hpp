@@ -11,6 +11,9 @@ namespace rehearse::gp {
 /// 1000 training points stay in a second-level cache of 2 MiB.
 constexpr Size kChunk = 128;
 
+/// Queries go through the loops in groups of at most so many, of which kChunk is a multiple.
+constexpr Size kGroup = 32;
+
 /// Points of a kernel: scaled inputs, and unless null the coordinates z of the trend (kernel.hpp). Of training points
 /// n × D and n × (D + 1), row by row; of queries D × kChunk and (D + 1) × kChunk, row by row.
 struct KernelPoints {
@@ -18,9 +21,9 @@ struct KernelPoints {
   const double* z = nullptr;
 };
 
-/// Covariances over σ_f² of `rows` ≤ kChunk queries (what is past the rows must be finite) with n training points:
-/// means[q] = Σ_i c_qi weights_i. Unless null, `columns` (n × kChunk) receives them as `triangular_norms` reads them;
-/// means: kChunk. All points have a trend, or none.
+/// Covariances over σ_f² of `rows` ≤ kChunk queries (the rest of their last group must be finite) with n training
+/// points: means[q] = Σ_i c_qi weights_i. Unless null, `columns` (n × kChunk) receives them as `triangular_norms` reads
+/// them; means: kChunk. All points have a trend, or none.
 void correlate(KernelPoints points, Size n, Size dimensions, const double* weights, KernelPoints queries, Size rows,
                double* columns, double* means);
 

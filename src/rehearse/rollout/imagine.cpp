@@ -68,8 +68,12 @@ class Chunk {
   /// x_t → x_{t+1} for every row; what happens is recorded, if it is to be.
   void step(Index t, Episodes* record = nullptr) {
     policy_.act(b_.Theta, b_.X, static_cast<double>(t) * task_.dt_s, b_.U);
-    model_.predict(b_.X, b_.U, b_.next, b_.variance);
-    if (options_.sample) add_noise(t);
+    if (options_.sample) {
+      model_.predict(b_.X, b_.U, b_.next, b_.variance);
+      add_noise(t);
+    } else {
+      model_.predict_mean(b_.X, b_.U, b_.next);
+    }
     b_.next += b_.X;
     task_.reward(b_.X, b_.U, b_.next, b_.reward);
     if (record) write(t, *record);

@@ -23,6 +23,10 @@ struct Prediction {
 Prediction predict(const DynamicsModel& model, const Matrix& X, const Matrix& U) {
   Prediction p{Matrix(X.rows(), 2), Matrix(X.rows(), 2)};
   model.predict(X, U, p.mean, p.variance);
+  Matrix mean(X.rows(), 2);
+  model.predict_mean(X, U, mean);
+  for (Index i = 0; i < X.rows(); ++i)
+    EXPECT_TRUE(mean.row(i) == p.mean.row(i) || !p.mean.row(i).allFinite()) << "the mean alone is another, row " << i;
   return p;
 }
 

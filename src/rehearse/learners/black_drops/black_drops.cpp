@@ -15,6 +15,9 @@ namespace {
 
 using nlohmann::json;
 
+/// The searches of a trial differ in their streams.
+constexpr std::uint64_t kScouting = std::uint64_t{1} << 48;
+
 class BlackDrops final : public Learner {
  public:
   BlackDrops(Setting setting, Options options)
@@ -142,31 +145,52 @@ class BlackDrops final : public Learner {
   void search(Proposal& proposal, const Task& task, std::vector<Vector>& carried) const {
     const SearchProblem problem{*proposal.model, *setting_.policy, task, *setting_.evaluator, setting_.progress};
     std::vector<Vector> starts = known_policies();
+    std::optional<SearchResult> scouted;
+    if (options_.scout.policies > 0 && options_.search.imagine.sample && !returns_.empty()) {
+      scouted = search_means(problem, proposal);
+      if (keeps_its_promise(*scouted, problem, proposal)) return carry(std::move(scouted->runners_up), carried);
+      starts.push_back(scouted->theta);
+      const auto others = std::min(options_.scout.policies - 1, static_cast<Index>(scouted->runners_up.size()));
+      starts.insert(starts.end(), scouted->runners_up.begin(), scouted->runners_up.begin() + others);
+    }
     const Index searches = returns_.empty() ? options_.prior_searches : 1;
     for (Index i = 0; i < searches; ++i) {
-      // The searches of a trial differ in their streams.
       const std::uint64_t stream = trial() + (static_cast<std::uint64_t>(i) << 24);
       SearchResult found = search_policy(problem, starts, options_.search, setting_.seed, stream);
       starts = {found.theta};
       count(found, proposal);
       take(found, proposal);
-      carried = std::move(found.runners_up);
-      if (static_cast<Index>(carried.size()) > options_.carried)
-        carried.resize(static_cast<std::size_t>(options_.carried));
+      carry(std::move(found.runners_up), carried);
     }
     const double gain = options_.explore.gain;
-    if (gain > 0 && first_return() != returns_.end() && !promises(*proposal.predicted_return, gain))
-      explore(problem, proposal);
+    if (gain == 0 || !options_.search.imagine.sample || first_return() == returns_.end()) return;
+    if (promises(*proposal.predicted_return, gain)) return;
+    if (!scouted) scouted = search_means(problem, proposal);
+    if (promises(scouted->predicted_return, options_.explore.promise)) take(*scouted, proposal);
   }
 
-  void explore(const SearchProblem& problem, Proposal& proposal) const {
+  /// Whether the model's doubts cost the policy next to nothing; if so it is the proposal.
+  bool keeps_its_promise(const SearchResult& scouted, const SearchProblem& problem, Proposal& proposal) const {
+    const SearchResult judged = judge(problem, scouted.theta, options_.search, setting_.seed, trial() + kScouting);
+    count(judged, proposal);
+    const double promise = scouted.predicted_return;
+    if (judged.predicted_return < promise - options_.scout.tolerance * std::abs(promise)) return false;
+    take(judged, proposal);
+    return true;
+  }
+
+  void carry(std::vector<Vector> policies, std::vector<Vector>& carried) const {
+    carried = std::move(policies);
+    if (static_cast<Index>(carried.size()) > options_.carried)
+      carried.resize(static_cast<std::size_t>(options_.carried));
+  }
+
+  SearchResult search_means(const SearchProblem& problem, Proposal& proposal) const {
     SearchOptions options = options_.search;
-    if (!options.imagine.sample) return;
     options.imagine.sample = false;
-    constexpr std::uint64_t kStream = std::uint64_t{1} << 48;
-    const SearchResult found = search_policy(problem, known_policies(), options, setting_.seed, trial() + kStream);
+    SearchResult found = search_policy(problem, known_policies(), options, setting_.seed, trial() + kScouting);
     count(found, proposal);
-    if (promises(found.predicted_return, options_.explore.promise)) take(found, proposal);
+    return found;
   }
 
   static void count(const SearchResult& found, Proposal& proposal) {
@@ -261,6 +285,11 @@ void Exploration::fields(FieldVisitor& v) {
   v.number("promise", promise, at_least(0));
 }
 
+void Scouting::fields(FieldVisitor& v) {
+  v.integer("policies", policies, at_least(0));
+  v.number("tolerance", tolerance, at_least(0));
+}
+
 void Options::fields(FieldVisitor& v) {
   std::visit([&](auto& kind) { v.group("model", kind); }, model);
   v.group("reward", reward);
@@ -269,6 +298,7 @@ void Options::fields(FieldVisitor& v) {
   v.boolean("start_from_best", start_from_best);
   v.boolean("start_from_last", start_from_last);
   v.group("explore", explore);
+  v.group("scout", scout);
   v.integer("carried", carried, at_least(0));
   v.integer("prior_searches", prior_searches, at_least(1));
   v.number("prior_variance", prior_variance, at_least(0));

@@ -24,11 +24,19 @@ struct FirstTrial {
   void fields(FieldVisitor& v);
 };
 
+/// A search that follows the mean predictions, before the one that meets the model's doubts. It is not lost in noise,
+/// and costs a fraction where the data are many. Its policy is tried at once if the doubts cost it next to nothing.
+struct Scouting {
+  Index policies = 4;       // best ones found, from which descents of the other search start; 0: none (the paper)
+  double tolerance = 0.02;  // of the return that the means promise: what the doubts may cost
+  void fields(FieldVisitor& v);
+};
+
 /// A search that meets the model's doubts ends near what is known. Where it leads no further, another follows the mean
 /// predictions alone, and its policy is tried if it promises much: the doubts may be unfounded, and if not, the trial
 /// resolves them. Fractions of the best return seen.
 struct Exploration {
-  double gain = 0.1;     // a promise of less is no progress; 0: never explore (the paper)
+  double gain = 0.1;      // a promise of less is no progress; 0: never explore (the paper)
   double promise = 0.15;  // that is worth a trial
   void fields(FieldVisitor& v);
 };
@@ -41,6 +49,7 @@ struct Options {
   bool start_from_best = true;   // one descent starts from the best policy observed; the authors' code
   bool start_from_last = false;  // and one from the last policy tried: its trial told most of where it fails
   Exploration explore;
+  Scouting scout;
   Index carried = 3;          // and so many from the best other policies of the search before
   Index prior_searches = 1;   // searches on the prior before the first trial, each from the best of the one before
                               // (the authors' code: 2)

@@ -67,6 +67,12 @@ void select(std::vector<Vector> found, const std::vector<Vector>& starts, Imagin
   result.runners_up = std::move(found);
 }
 
+/// (seed, trial) alone decides what the comparison draws.
+ImaginedReturn comparison(const SearchProblem& problem, const SearchOptions& options, std::uint64_t seed,
+                          std::uint64_t trial) {
+  return {problem, options, {.seed = seed, .trial = trial, .purpose = Purpose::selection}};
+}
+
 }  // namespace
 
 void SearchOptions::fields(FieldVisitor& v) {
@@ -98,11 +104,22 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
   std::vector<Vector> found = find(std::ref(objective), starts, box, problem, options,
                                    {.seed = seed, .trial = trial, .purpose = Purpose::search}, report);
   SearchResult result;
-  ImaginedReturn selection(problem, options, {.seed = seed, .trial = trial, .purpose = Purpose::selection});
+  ImaginedReturn selection = comparison(problem, options, seed, trial);
   select(std::move(found), starts, selection, options, result);
   result.rollouts = objective.rollouts() + selection.rollouts();
   result.failed_rollouts = objective.failed() + selection.failed();
   return result;
+}
+
+SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options, std::uint64_t seed,
+                   std::uint64_t trial) {
+  ImaginedReturn objective = comparison(problem, options, seed, trial);
+  Vector value(1);
+  objective(theta, 0, options.selection, value);
+  return {.theta = theta,
+          .predicted_return = value(0),
+          .rollouts = objective.rollouts(),
+          .failed_rollouts = objective.failed()};
 }
 
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, std::uint64_t seed,

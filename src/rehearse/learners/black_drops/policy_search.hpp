@@ -55,6 +55,10 @@ struct SearchProblem {
 SearchResult search_policy(const SearchProblem& problem, const std::vector<Vector>& starts,
                            const SearchOptions& options, std::uint64_t seed, std::uint64_t trial);
 
+/// The expected return of one policy, from `selection` rollouts.
+SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options, std::uint64_t seed,
+                   std::uint64_t trial);
+
 /// θ uniform in the box.
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, std::uint64_t seed,
                      std::uint64_t trial);

@@ -174,8 +174,8 @@ TEST(BlackDrops, StartsFromTheLastPolicyTried) {
 TEST(BlackDrops, ExploresWhereASearchLeadsNoFurther) {
   const auto second = [](const char* gain, const char* promise) {
     const auto with = builder("black-drops-prior", "100");
-    for (const auto& [name, value] :
-         std::map<std::string, std::string>{{"explore.gain", gain}, {"explore.promise", promise}})
+    for (const auto& [name, value] : std::map<std::string, std::string>{
+             {"scout.policies", "0"}, {"explore.gain", gain}, {"explore.promise", promise}})
       EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
     const auto learner = with->build(setting(slider::prior(-1)));
     learner->tell(run_trial(learner->ask(), 1));
@@ -189,6 +189,30 @@ TEST(BlackDrops, ExploresWhereASearchLeadsNoFurther) {
   EXPECT_NEAR(*always.predicted_return, mean.returns.mean(), 0.05);
   EXPECT_EQ(promising.rollouts, always.rollouts) << "searched";
   EXPECT_EQ(promising.theta, never.theta) << "but not promising enough";
+}
+
+// With seed 2 the doubts cost the scouted policy a little of its promise.
+TEST(BlackDrops, ScoutsInTheMeanPredictionsFirst) {
+  const auto second = [](const char* policies, const char* tolerance) {
+    const auto with = builder("black-drops");
+    for (const auto& [name, value] : std::map<std::string, std::string>{
+             {"scout.policies", policies}, {"scout.tolerance", tolerance}, {"search.imagine.noise_clip", "0"}})
+      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
+    const auto learner = with->build(setting({}, 2));
+    learner->tell(run_trial(learner->ask(), 1));
+    return learner->ask();
+  };
+  const auto expected = [](const Proposal& proposal) {
+    const StreamKey key{.seed = 7, .purpose = Purpose::prediction};
+    return rollout::imagine_recorded(*proposal.model, *proposal.policy, slider::task(), proposal.theta, 1000, key,
+                                     {.noise_clip = 0})
+        .returns.mean();
+  };
+  const Proposal none = second("0", "0"), both = second("3", "0"), alone = second("3", "1e12");
+  EXPECT_NE(both.theta, none.theta);
+  EXPECT_GT(both.rollouts, alone.rollouts + 100) << "a policy that keeps its promise saves the other search";
+  EXPECT_GE(expected(both), expected(alone) - 0.05) << "what was scouted is not lost";
+  EXPECT_NEAR(*alone.predicted_return, expected(alone), 0.2) << "predicted is what the doubts leave";
 }
 
 TEST(BlackDrops, WithoutAPriorIgnoresTheOneItIsGiven) {
