@@ -25,6 +25,7 @@ enum class Purpose : std::uint32_t {
   evaluation = 12,
   tessellation = 13,
   variation = 14,
+  drawn_option = 15,
 };
 
 /// The name of a stream.

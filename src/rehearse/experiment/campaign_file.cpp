@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -55,6 +56,8 @@ class CampaignReader {
     read_grid();
     read_options();
     read_axes();
+    read_variants();
+    read_draws();
     read_claims();
     reader_.finish();
     for (const auto& [key, node] : table_) file_.lines[std::string(key.str())] = line_of(node);
@@ -133,6 +136,46 @@ class CampaignReader {
           violations_.add(axis.line, fmt::format("{} has the value {} twice", key, text));
       if (texts.empty()) violations_.add(axis.line, fmt::format("{} must be a list of values in [vary]", key));
       file_.axes.push_back(std::move(axis));
+    }
+  }
+
+  void read_variants() {
+    const toml::node* variants = reader_.take("variant");
+    if (!variants) return;
+    if (!variants->is_array_of_tables()) return reader_.wrong("variant", "variants are written as [[variant]]");
+    for (const toml::node& variant : *variants->as_array()) read_variant(*variant.as_table());
+  }
+
+  void read_variant(const toml::table& table) {
+    TomlReader reader(table, "[[variant]]", violations_);
+    Variant variant{.line = line_of(table)};
+    if (!reader.take("name", variant.name)) violations_.add(variant.line, "the variant has no name");
+    const bool plain = std::all_of(variant.name.begin(), variant.name.end(), [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) || std::string_view("._+-").find(c) != std::string_view::npos;
+    });
+    if (!plain)
+      violations_.add(variant.line, fmt::format("the variant's name '{}' must be of letters, digits and . _ + - alone",
+                                                variant.name));
+    for (const Variant& other : file_.variants)
+      if (other.name == variant.name)
+        violations_.add(variant.line, fmt::format("there are two variants '{}'", variant.name));
+    if (const toml::table* set = reader.take_table("set")) variant.options = options_of(*set);
+    reader.finish();
+    file_.variants.push_back(std::move(variant));
+  }
+
+  void read_draws() {
+    const toml::table* draws = reader_.take_table("draw");
+    if (!draws) return;
+    for (const auto& [key, node] : leaves(*draws)) {
+      std::vector<double> ends;
+      if (const auto* list = node->as_array())
+        for (const toml::node& element : *list) ends.push_back(element.value<double>().value_or(std::nan("")));
+      const bool ok = ends.size() == 2 && std::isfinite(ends[0]) && std::isfinite(ends[1]) && ends[0] < ends[1];
+      if (ok)
+        file_.draws.push_back({key, ends[0], ends[1], line_of(*node)});
+      else
+        violations_.add(line_of(*node), fmt::format("{} must be [LOW, HIGH] in [draw], LOW below HIGH", key));
     }
   }
 

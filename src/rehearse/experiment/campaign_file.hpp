@@ -26,6 +26,20 @@ struct Axis {
   Index line = 0;
 };
 
+/// Options that go together, under a name.
+struct Variant {
+  std::string name;
+  std::vector<FileOption> options;
+  Index line = 0;
+};
+
+/// An option whose value is drawn for each seed, uniformly.
+struct Draw {
+  std::string key;
+  double low = 0, high = 0;
+  Index line = 0;
+};
+
 enum class Metric { total_reward, best_return, first_success };
 
 /// Until or of this trial, as the metric says.
@@ -74,6 +88,8 @@ struct CampaignFile {
   std::vector<FileOption> options;
   std::map<std::string, std::vector<FileOption>> learner_options;
   std::vector<Axis> axes;
+  std::vector<Variant> variants;
+  std::vector<Draw> draws;
   std::vector<Claim> claims;
   std::map<std::string, Index> lines;  // of the keys outside tables, and "learner.NAME"
 };

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/random.hpp"
 #include "rehearse/experiment/campaign_claim_plan.hpp"
 #include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/toml_reader.hpp"
@@ -36,11 +38,22 @@ bool has_option(const Spec& complete, const std::string& key) {
   return false;
 }
 
-std::string variant_name(const FileOptions& varied) {
+/// What the runs of a group have of [[variant]] and [vary].
+struct Varied {
   std::string name;
-  for (const FileOption& option : varied)
+  FileOptions options;
+
+  void add(const FileOption& option) {
     name += fmt::format("{}{}={}", name.empty() ? "" : ",", option.key, option.text);
-  return name;
+    options.push_back(option);
+  }
+};
+
+/// Depends on the seed and the option's name alone.
+FileOption drawn(const Draw& draw, Index seed) {
+  Rng rng(
+      {.seed = static_cast<std::uint64_t>(seed), .purpose = Purpose::drawn_option, .candidate = checksum(draw.key)});
+  return {draw.key, fmt::to_string(rng.uniform(draw.low, draw.high)), draw.line};
 }
 
 /// A name that is one folder on every file system.
@@ -124,7 +137,7 @@ class Planner {
     for (const auto& [key, text] : complete->options)
       known_options_.push_back(key.starts_with("prior.") ? key : key.substr(key.find('.') + 1));
     const FileOptions options = common_options(*complete);
-    for (const FileOptions& varied : all_variants(*complete)) add_group(bare, options, varied);
+    for (const Varied& varied : all_variants(*complete)) add_group(bare, options, draws_of(*complete), varied);
   }
 
   /// The complete spec without the file's options, or nothing and violations, at this line.
@@ -180,22 +193,41 @@ class Planner {
     return options;
   }
 
-  /// Of [vary], every combination of what this cell has, the last fastest.
-  std::vector<FileOptions> all_variants(const Spec& complete) {
+  std::vector<Draw> draws_of(const Spec& complete) {
+    std::vector<Draw> draws;
+    for (const Draw& draw : file_.draws)
+      if (use(complete, draw.key)) draws.push_back(draw);
+    return draws;
+  }
+
+  /// Of [[variant]], those all of whose options this cell has; one without a name if there are none.
+  std::vector<Varied> named_variants(const Spec& complete) {
+    std::vector<Varied> found;
+    for (const Variant& variant : file_.variants) {
+      bool has_all = true;
+      for (const FileOption& option : variant.options) has_all &= use(complete, option.key);
+      if (has_all) found.push_back({variant.name, variant.options});
+    }
+    if (found.empty()) found.emplace_back();
+    return found;
+  }
+
+  /// Every combination of these and of what this cell has of [vary], the last fastest.
+  std::vector<Varied> all_variants(const Spec& complete) {
     std::vector<Axis> axes;
     for (const Axis& axis : file_.axes)
       if (use(complete, axis.key) && !axis.texts.empty()) axes.push_back(axis);
-    std::vector<FileOptions> variants = {{}};
+    std::vector<Varied> variants = named_variants(complete);
     for (const Axis& axis : axes) {
       if (variants.size() * axis.texts.size() > kMostRuns) {
         too_many();
         return {};
       }
-      std::vector<FileOptions> longer;
-      for (const FileOptions& variant : variants)
+      std::vector<Varied> longer;
+      for (const Varied& variant : variants)
         for (const std::string& text : axis.texts) {
           longer.push_back(variant);
-          longer.back().push_back({axis.key, text, axis.line});
+          longer.back().add({axis.key, text, axis.line});
         }
       variants = std::move(longer);
     }
@@ -210,19 +242,25 @@ class Planner {
     return has;
   }
 
-  void add_group(const Spec& bare, FileOptions options, const FileOptions& varied) {
-    options.insert(options.end(), varied.begin(), varied.end());
-    const auto complete = resolved(bare, options);
+  void add_group(const Spec& bare, FileOptions options, const std::vector<Draw>& draws, const Varied& varied) {
+    options.insert(options.end(), varied.options.begin(), varied.options.end());
+    auto complete = resolved(bare, options);
     if (plan_.runs.size() + file_.seeds.size() > kMostRuns) return too_many();
     if (!complete) return;
-    const std::string variant = variant_name(varied);
-    plan_.groups.push_back({bare.learner, complete->prior, variant, {}});
-    for (const FileOption& option : varied) plan_.groups.back().options.emplace_back(option.key, option.text);
+    plan_.groups.push_back({bare.learner, complete->prior, varied.name, {}});
+    for (const FileOption& option : varied.options) plan_.groups.back().options.emplace_back(option.key, option.text);
     for (Index seed : file_.seeds) {
+      if (!draws.empty()) complete = resolved(bare, with_draws(options, draws, seed));
+      if (!complete) return;
       Spec spec = *complete;
       spec.seed = seed;
-      plan_.runs.push_back({folder_name(spec, variant), plan_.groups.size() - 1, std::move(spec)});
+      plan_.runs.push_back({folder_name(spec, varied.name), plan_.groups.size() - 1, std::move(spec)});
     }
+  }
+
+  static FileOptions with_draws(FileOptions options, const std::vector<Draw>& draws, Index seed) {
+    for (const Draw& draw : draws) options.push_back(drawn(draw, seed));
+    return options;
   }
 
   void check_learners(const Claim& claim) {
@@ -241,6 +279,9 @@ class Planner {
   void check_all_used() {
     for (const FileOption& option : file_.options) check_used(option.key, option.line);
     for (const Axis& axis : file_.axes) check_used(axis.key, axis.line);
+    for (const Draw& draw : file_.draws) check_used(draw.key, draw.line);
+    for (const Variant& variant : file_.variants)
+      for (const FileOption& option : variant.options) check_used(option.key, option.line);
   }
 
   void check_used(const std::string& key, Index line) {

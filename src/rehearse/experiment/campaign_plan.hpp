@@ -14,7 +14,7 @@ namespace rehearse::experiment {
 struct CampaignGroup {
   std::string learner;
   std::string prior;                                         // empty: the learner takes none
-  std::string variant;                                       // "key=value,…"; empty: nothing varies
+  std::string variant;                                       // "NAME,key=value,…"; empty: nothing varies
   std::vector<std::pair<std::string, std::string>> options;  // the varied ones
 };
 

@@ -81,6 +81,80 @@ TEST(CampaignPlan, VariesOptionsAndRunsOnceWhereThereIsNone) {
   EXPECT_EQ(option(plan.run(4, 0), "prior.gain"), "none");
 }
 
+TEST(CampaignPlan, NamedVariantsSetSeveralOptions) {
+  const CampaignPlan plan = plan_of(R"(
+    learners = ["echo", "echo-alone"]
+    [vary]
+    noise = [0, 0.5]
+    [[variant]]
+    name = "default"
+    [[variant]]
+    name = "bold"
+    set.search.step = 2
+    set.prior.gain = 1.5
+  )");
+  std::vector<std::string> variants;
+  for (const CampaignGroup& group : plan.groups) variants.push_back(group.learner + " " + group.variant);
+  EXPECT_EQ(variants, (std::vector<std::string>{"echo default,noise=0", "echo default,noise=0.5", "echo bold,noise=0",
+                                                "echo bold,noise=0.5", "echo-alone default,noise=0",
+                                                "echo-alone default,noise=0.5"}))
+      << "a learner without a prior has not all options of the other";
+  EXPECT_EQ(plan.run(2, 0).name, "line-echo-near-bold,noise=0-4");
+  EXPECT_EQ(option(plan.run(2, 0), "learner.search.step"), "2");
+  EXPECT_EQ(option(plan.run(2, 0), "prior.gain"), "1.5");
+  EXPECT_NE(option(plan.run(0, 0), "prior.gain"), "1.5");
+  EXPECT_EQ(plan.groups[2].options, (std::vector<std::pair<std::string, std::string>>{
+                                        {"search.step", "2"}, {"prior.gain", "1.5"}, {"noise", "0"}}));
+}
+
+TEST(CampaignPlan, DrawsOptionsForEachSeed) {
+  const std::string learners = "learners = [\"echo\", \"echo-alone\"]\n[draw]\n";
+  const CampaignPlan plan = plan_of(learners + "prior.gain = [1, 1.5]\n");
+  ASSERT_EQ(plan.groups.size(), 2u) << "seeds of one group differ";
+  const std::string first = option(plan.run(0, 0), "prior.gain"), second = option(plan.run(0, 1), "prior.gain");
+  EXPECT_NE(first, second);
+  for (const std::string& text : {first, second}) {
+    EXPECT_GE(std::stod(text), 1);
+    EXPECT_LT(std::stod(text), 1.5);
+  }
+  EXPECT_EQ(option(plan.run(1, 0), "prior.gain"), "none");
+  const CampaignPlan more = plan_of(learners + "noise = [0, 1]\nprior.gain = [1, 1.5]\n");
+  EXPECT_EQ(option(more.run(0, 1), "prior.gain"), second) << "whatever else is drawn";
+  EXPECT_EQ(option(more.run(0, 1), "scenario.noise"), option(more.run(1, 1), "scenario.noise"))
+      << "whichever the learner";
+}
+
+TEST(CampaignPlan, SaysWhatIsWrongWithVariantsAndDraws) {
+  EXPECT_EQ(complaint(R"(format = 1
+scenario = "line"
+learners = ["echo"]
+seeds = [4]
+[draw]
+noise = [1]
+prior.gain = [2, 1]
+search.stop = [0, 1]
+[[variant]]
+name = "a b"
+[[variant]]
+set.search.stop = 1
+[[variant]]
+name = "c"
+ste.search.step = 1
+[[variant]]
+name = "c"
+)"),
+            "c.toml: line 6: noise must be [LOW, HIGH] in [draw], LOW below HIGH\n"
+            "c.toml: line 7: prior.gain must be [LOW, HIGH] in [draw], LOW below HIGH\n"
+            "c.toml: line 8: unknown option 'search.stop', did you mean 'search.step'?\n"
+            "c.toml: line 9: the variant's name 'a b' must be of letters, digits and . _ + - alone\n"
+            "c.toml: line 11: the variant has no name\n"
+            "c.toml: line 12: unknown option 'search.stop', did you mean 'search.step'?\n"
+            "c.toml: line 15: unknown key 'ste' in [[variant]], did you mean 'set'? (known: name, set)\n"
+            "c.toml: line 16: there are two variants 'c'");
+  EXPECT_EQ(complaint(kHead + "learners = [\"echo\"]\n[draw]\nnoise = [-2, -1]\n"),
+            "c.toml: line 7: noise = -1.7215323291170614, must be ≥ 0");
+}
+
 TEST(CampaignPlan, SeveralPriorsOfOneRunAndTheOracle) {
   const CampaignPlan plan = plan_of(R"(
     learners = ["echo"]
