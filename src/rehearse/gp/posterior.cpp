@@ -163,7 +163,22 @@ struct Posterior::Scratch {
       correlate(from(support), others, D, output.weights.data() + support, queries, rows, nullptr, rest);
       for (Index q = 0; q < rows; ++q) means[q] += rest[q];
     }
+    add_trend(output.trend_form);
     if (!only_mean) triangular_norms(output.inverse_factor.data(), support, columns.data(), rows, norms);
+  }
+
+  /// zᵀ A z for every row.
+  void add_trend(const Matrix& form) {
+    double product[kChunk];
+    for (Index i = 0; i < form.rows(); ++i) {
+      std::fill(product, product + width, 0.0);
+      for (Index j = 0; j <= i; ++j) {
+        const double entry = (i == j ? 1 : 2) * form(i, j), *zj = z.data() + j * kChunk;
+        for (Index q = 0; q < width; ++q) product[q] += entry * zj[q];
+      }
+      const double* zi = z.data() + i * kChunk;
+      for (Index q = 0; q < width; ++q) means[q] += product[q] * zi[q];
+    }
   }
 
   double mean(Index q) const { return missing[q] ? kNaN : means[q]; }
@@ -203,6 +218,7 @@ Posterior::Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperp
     Output exact = condition(e, Y.col(e), workspace);
     std::optional<Output> few = compress(e, Y.col(e), exact, tolerance, workspace);
     outputs_.push_back(few ? std::move(*few) : std::move(exact));
+    outputs_.back().trend_form = trend_form(outputs_.back());
   }
 }
 
@@ -219,6 +235,7 @@ Posterior::Output Posterior::condition(Index e, const ConstVectorView& y, Worksp
   Output output{.points = (inputs_.unit() * workspace.factors().asDiagonal()).transpose(),
                 .trend_points = trend_points(e),
                 .weights = Vector::Map(workspace.weights(), n) * std::exp(theta.log_signal),
+                .trend_form = {},
                 .support = n,
                 .inverse_factor = {},
                 .signal_variance = theta.signal_variance()};
@@ -236,6 +253,10 @@ Matrix Posterior::trend_points(Index e) const {
                     inputs_.center()(d) * factors(d + 1))
                        .transpose();
   return z;
+}
+
+Matrix Posterior::trend_form(const Output& output) {
+  return output.trend_points * output.weights.asDiagonal() * output.trend_points.transpose();
 }
 
 /// The workspace holds the inputs scaled for this output.
@@ -268,6 +289,7 @@ std::optional<Posterior::Output> Posterior::condition(const Summary& summary, co
   return Output{.points = exact.points(Eigen::all, summary.points),
                 .trend_points = exact.trend_points(Eigen::all, summary.points),
                 .weights = weights.head(r),
+                .trend_form = {},
                 .support = r,
                 .inverse_factor = packed_inverse(r, workspace.tiles()),
                 .signal_variance = exact.signal_variance};

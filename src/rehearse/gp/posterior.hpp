@@ -58,6 +58,7 @@ class Posterior {
     Matrix points;          // D × m: inputs / ℓ, one a column; the variance needs the first `support`
     Matrix trend_points;    // 1 + D × m: z of the trend (kernel.hpp); empty without one
     Vector weights;         // m
+    Matrix trend_form;      // A, 1 + D × 1 + D: the trend's part of the mean is zᵀ A z
     Index support = 0;      // s
     Vector inverse_factor;  // packed_size(s): L⁻¹, see prediction_kernel.hpp
     double signal_variance = 0;
@@ -70,6 +71,7 @@ class Posterior {
                                  Workspace& workspace) const;
   static std::optional<Output> condition(const Summary& summary, const Output& exact, Workspace& workspace);
   Matrix trend_points(Index e) const;
+  static Matrix trend_form(const Output& output);
   static void use_all_for_mean(const Output& exact, std::vector<Index> order, Output& few);
   double deviation_error(Index e, const Output& exact, const Output& other) const;
   template <class Visit>

@@ -55,9 +55,10 @@ HWY_INLINE void correlate_points(KernelPoints points, Size dimensions, const dou
   for (int i = 0; i < kCount; ++i) {
     for (int v = 0; v < kWidth; ++v) {
       V c = correlation(squared[i][v]);
-      if (kTrend) c = hn::Add(c, trend(points.z + i * (dimensions + 1), queries.z + v * lanes(), dimensions));
       means[v] = hn::MulAdd(c, constant(weights[i]), means[v]);
-      if (columns) hn::StoreU(c, kTag, columns + (i * kWidth + v) * lanes());
+      if (!columns) continue;
+      if (kTrend) c = hn::Add(c, trend(points.z + i * (dimensions + 1), queries.z + v * lanes(), dimensions));
+      hn::StoreU(c, kTag, columns + (i * kWidth + v) * lanes());
     }
   }
 }
@@ -93,7 +94,7 @@ HWY_INLINE void correlate_all(KernelPoints points, Size n, Size dimensions, cons
 
 void CorrelateKernel(KernelPoints points, Size n, Size dimensions, const double* weights, KernelPoints queries,
                      Size rows, double* columns, double* means) {
-  if (points.z)
+  if (points.z && columns)
     correlate_all<true>(points, n, dimensions, weights, queries, rows, columns, means);
   else
     correlate_all<false>(points, n, dimensions, weights, queries, rows, columns, means);

@@ -22,8 +22,9 @@ struct KernelPoints {
 };
 
 /// Covariances over σ_f² of `rows` ≤ kChunk queries (the rest of their last group must be finite) with n training
-/// points: means[q] = Σ_i c_qi weights_i. Unless null, `columns` (n × kChunk) receives them as `triangular_norms` reads
-/// them; means: kChunk. All points have a trend, or none.
+/// points. means[q] = Σ_i c_qi weights_i without the trend, which is one quadratic form of z for all points together.
+/// Unless null, `columns` (n × kChunk) receives c, with the trend, as `triangular_norms` reads it; means: kChunk. All
+/// points have a trend, or none.
 void correlate(KernelPoints points, Size n, Size dimensions, const double* weights, KernelPoints queries, Size rows,
                double* columns, double* means);
 
