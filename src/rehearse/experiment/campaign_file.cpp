@@ -56,9 +56,9 @@ class CampaignReader {
     read_grid();
     read_options();
     read_axes();
-    read_variants();
+    each_table("variant", [this](const toml::table& table) { read_variant(table); });
     read_draws();
-    read_claims();
+    each_table("claim", [this](const toml::table& table) { read_claim(table); });
     reader_.finish();
     for (const auto& [key, node] : table_) file_.lines[std::string(key.str())] = line_of(node);
     return std::move(file_);
@@ -139,11 +139,13 @@ class CampaignReader {
     }
   }
 
-  void read_variants() {
-    const toml::node* variants = reader_.take("variant");
-    if (!variants) return;
-    if (!variants->is_array_of_tables()) return reader_.wrong("variant", "variants are written as [[variant]]");
-    for (const toml::node& variant : *variants->as_array()) read_variant(*variant.as_table());
+  /// Every [[key]].
+  template <class Read>
+  void each_table(const std::string& key, Read read) {
+    const toml::node* tables = reader_.take(key);
+    if (!tables) return;
+    if (!tables->is_array_of_tables()) return reader_.wrong(key, fmt::format("{0}s are written as [[{0}]]", key));
+    for (const toml::node& table : *tables->as_array()) read(*table.as_table());
   }
 
   void read_variant(const toml::table& table) {
@@ -177,13 +179,6 @@ class CampaignReader {
       else
         violations_.add(line_of(*node), fmt::format("{} must be [LOW, HIGH] in [draw], LOW below HIGH", key));
     }
-  }
-
-  void read_claims() {
-    const toml::node* claims = reader_.take("claim");
-    if (!claims) return;
-    if (!claims->is_array_of_tables()) return reader_.wrong("claim", "claims are written as [[claim]]");
-    for (const toml::node& claim : *claims->as_array()) read_claim(*claim.as_table());
   }
 
   void read_claim(const toml::table& table) {

@@ -147,7 +147,7 @@ class BlackDrops final : public Learner {
     std::vector<Vector> starts = known_policies();
     std::optional<SearchResult> scouted;
     if (options_.scout.policies > 0 && options_.search.imagine.sample && !returns_.empty()) {
-      scouted = search_means(problem, proposal);
+      scouted = search_means(problem, starts, proposal);
       if (keeps_its_promise(*scouted, problem, proposal)) return carry(std::move(scouted->runners_up), carried);
       starts.push_back(scouted->theta);
       const auto others = std::min(options_.scout.policies - 1, static_cast<Index>(scouted->runners_up.size()));
@@ -165,7 +165,7 @@ class BlackDrops final : public Learner {
     const double gain = options_.explore.gain;
     if (gain == 0 || !options_.search.imagine.sample || first_return() == returns_.end()) return;
     if (promises(*proposal.predicted_return, gain)) return;
-    if (!scouted) scouted = search_means(problem, proposal);
+    if (!scouted) scouted = search_means(problem, known_policies(), proposal);
     if (promises(scouted->predicted_return, options_.explore.promise)) take(*scouted, proposal);
   }
 
@@ -185,10 +185,10 @@ class BlackDrops final : public Learner {
       carried.resize(static_cast<std::size_t>(options_.carried));
   }
 
-  SearchResult search_means(const SearchProblem& problem, Proposal& proposal) const {
+  SearchResult search_means(const SearchProblem& problem, const std::vector<Vector>& starts, Proposal& proposal) const {
     SearchOptions options = options_.search;
     options.imagine.sample = false;
-    SearchResult found = search_policy(problem, known_policies(), options, setting_.seed, trial() + kScouting);
+    SearchResult found = search_policy(problem, starts, options, setting_.seed, trial() + kScouting);
     count(found, proposal);
     return found;
   }

@@ -1,25 +1,13 @@
 // Making, placing and keeping solutions allocates nothing: a generation of four times the size takes as many
 // allocations.
 
-#include <atomic>
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 
 #include "rehearse/qd/map_elites.hpp"
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Eigen allocates by malloc, as operator new does; glibc lets a program define it anew.
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) noexcept {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  return __libc_malloc(size);
-}
+#include "rehearse/core/test/counted_allocations.hpp"
 
 namespace rehearse::qd {
 namespace {

@@ -1,8 +1,5 @@
 // The time loop allocates nothing: an episode of twice the length takes as many allocations.
 
-#include <atomic>
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 
 #include "cart.hpp"
@@ -13,16 +10,7 @@
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Eigen allocates by malloc, as operator new does; glibc lets a program define it anew.
-extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) noexcept {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  return __libc_malloc(size);
-}
+#include "rehearse/core/test/counted_allocations.hpp"
 
 namespace rehearse::rollout {
 namespace {

@@ -16,23 +16,10 @@ namespace rehearse::learners::black_drops {
 namespace {
 
 using slider::builder;
+using slider::History;
+using slider::learn;
 using slider::run_trial;
 using slider::setting;
-
-struct History {
-  std::vector<Proposal> proposals;
-  std::vector<double> returns;
-};
-History learn(Learner& learner, std::uint64_t trials) {
-  History history;
-  for (std::uint64_t trial = 1; trial <= trials; ++trial) {
-    history.proposals.push_back(learner.ask());
-    const Episode episode = run_trial(history.proposals.back(), trial);
-    history.returns.push_back(episode.total_reward());
-    learner.tell(episode);
-  }
-  return history;
-}
 
 TEST(BlackDrops, HasFourLearners) {
   std::vector<std::string> names;

@@ -8,11 +8,10 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/learners/test/memory_store.hpp"
+#include "rehearse/learners/test/slider.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/qd/archive_bytes.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
-#include "rehearse/rollout/execute.hpp"
-#include "rehearse/system/ode.hpp"
 #include "rehearse/testing/check_learner.hpp"
 
 namespace rehearse::learners::ite {
@@ -20,20 +19,9 @@ namespace {
 
 using OptionTexts = std::map<std::string, std::string>;
 
-// A slider on a line to be pulled to 0 and no further; how it went is where it was half way and in the end.
-void ode(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) { dxdt(0) = phi(0) * u(0) - phi(1) * x(0); }
-
+// The slider; how it went is where it was half way and in the end.
 Task task() {
-  Task task;
-  task.states = {{"position", "m"}};
-  task.actions = {{"pull", "N", {-1, 1}}};
-  task.start_mean = Vector{{1}};
-  task.start_std = Vector{{0.02}};
-  task.dt_s = 0.2;
-  task.horizon = 12;
-  task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next, VectorView rewards) {
-    rewards = (-X_next.col(0).array().square() / 0.08).exp();
-  };
+  Task task = slider::task();
   task.descriptor = [](const Episode& e) {
     return Vector{{e.true_states(e.steps() / 2, 0), e.true_states(e.steps(), 0)}};
   };
@@ -41,32 +29,18 @@ Task task() {
   return task;
 }
 
-prior::Prior prior(double gain = 1) {
-  const ParameterSpace space(
-      {Parameter::continuous("gain", gain, {-2, 2}), Parameter::continuous("drag", 0.5, {0, 1})});
-  return {"slider", system::make_ode_simulator(ode, space, task().dt_s, 4), space};
-}
-
 Setting setting(double gain = 1, std::uint64_t seed = 1) {
   Setting setting;
   setting.task = task();
   setting.policy =
       policy::make_linear({.features = setting.task.feature_map(), .scale = Vector::Ones(1), .squash = {{{-1, 1}}, 1}});
-  setting.prior = prior(gain);
+  setting.prior = slider::prior(gain);
   setting.seed = seed;
   return setting;
 }
 
 Episode run_trial(const Proposal& proposal, std::uint64_t trial) {
-  const Task task = ite::task();
-  const auto plant = system::make_ode_plant({.ode = ode,
-                                             .phi = Vector{{0.6, 0.2}},
-                                             .dt_s = task.dt_s,
-                                             .start_mean = task.start_mean,
-                                             .start_std = task.start_std,
-                                             .tolerance = 1e-9});
-  return rollout::execute(*plant, *proposal.policy, proposal.theta, task,
-                          Rng({.trial = trial, .purpose = Purpose::start_state}));
+  return slider::run_trial_on(Vector{{0.6, 0.2}}, proposal, trial);
 }
 
 std::unique_ptr<LearnerBuilder> builder(const OptionTexts& options = {}) {
@@ -82,17 +56,6 @@ std::unique_ptr<LearnerBuilder> builder(const OptionTexts& options = {}) {
   return builder;
 }
 
-std::vector<Proposal> learn(Learner& learner, std::uint64_t trials, std::vector<double>* returns = nullptr) {
-  std::vector<Proposal> proposals;
-  for (std::uint64_t trial = 1; trial <= trials; ++trial) {
-    proposals.push_back(learner.ask());
-    const Episode episode = run_trial(proposals.back(), trial);
-    if (returns) returns->push_back(episode.total_reward());
-    learner.tell(episode);
-  }
-  return proposals;
-}
-
 TEST(Ite, KeepsTheLaws) {
   EXPECT_EQ(testing::check_learner(*builder(), setting(), run_trial, 4), std::vector<std::string>{});
   const auto grid = builder({{"archive.kind", "grid"}, {"archive.bins", "9"}, {"adaptation.max_trials", "2"}});
@@ -101,14 +64,13 @@ TEST(Ite, KeepsTheLaws) {
 
 // Doing nothing earns 0.6; the best policies on the plant itself, whose gain is 0.6, some 7.
 TEST(Ite, FindsAPolicyThatWorksOnTheSliderToo) {
-  std::vector<double> near, wrong_way;
-  const auto proposals = learn(*builder()->build(setting(1)), 4, &near);
+  const auto [proposals, near] = slider::learn(*builder()->build(setting(1)), 4, run_trial);
   EXPECT_GT(near.front(), 6.5);
   EXPECT_EQ(proposals.front().rollouts, 2048);
   EXPECT_EQ(proposals[1].rollouts, 0);
   EXPECT_GT(*proposals.front().predicted_return, 8);
   EXPECT_TRUE(proposals.front().archive && proposals.front().model && proposals.front().phi);
-  learn(*builder()->build(setting(-0.5)), 10, &wrong_way);
+  const std::vector<double> wrong_way = slider::learn(*builder()->build(setting(-0.5)), 10, run_trial).returns;
   EXPECT_LT(wrong_way.front(), 0.1) << "its prior pulls the other way";
   EXPECT_GT(*std::max_element(wrong_way.begin(), wrong_way.end()), 3);
 }
@@ -125,8 +87,7 @@ TEST(Ite, TheFirstPolicyIsTheArchivesBest) {
 
 TEST(Ite, OnceItStopsTheBestPolicyIsRepeated) {
   const auto learner = builder({{"adaptation.stop_ratio", "0"}, {"adaptation.max_trials", "3"}})->build(setting(-0.5));
-  std::vector<double> returns;
-  const auto proposals = learn(*learner, 6, &returns);
+  const auto [proposals, returns] = slider::learn(*learner, 6, run_trial);
   const auto best = std::max_element(returns.begin(), returns.begin() + 3) - returns.begin();
   for (std::size_t trial = 3; trial < 6; ++trial)
     EXPECT_EQ(proposals[trial].theta, proposals[static_cast<std::size_t>(best)].theta);

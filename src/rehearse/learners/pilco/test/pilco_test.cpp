@@ -63,8 +63,7 @@ TEST(Pilco, KeepsTheLawsWithInducingInputs) {
 // A policy that does nothing earns about 0, one that stops at 0 at once about 9.
 TEST(Pilco, LearnsTheSlider) {
   for (const std::uint64_t seed : {1, 2}) {
-    std::vector<double> returns;
-    const auto proposals = learn(*builder()->build(setting(seed)), 4, &returns);
+    const auto [proposals, returns] = learn(*builder()->build(setting(seed)), 4);
     EXPECT_GT(returns.back(), 8) << seed;
     const Proposal& last = proposals.back();
     ASSERT_TRUE(last.predicted_return && last.log_evidence && last.model);
@@ -103,7 +102,8 @@ TEST(Pilco, RefusesWhatHasNoMoments) {
 // The 24 rows of two trials by 8 inducing inputs: another model than the exact one, and nearly as good.
 TEST(Pilco, SumsUpManyRowsByInducingInputs) {
   const auto third = [](const char* inducing) {
-    return learn(*builder({{"search.line_searches", "20"}, {"model.inducing", inducing}})->build(setting()), 3).back();
+    return learn(*builder({{"search.line_searches", "20"}, {"model.inducing", inducing}})->build(setting()), 3)
+        .proposals.back();
   };
   const Proposal exact = third("24"), sparse = third("8");
   EXPECT_NE(exact.theta, sparse.theta);
@@ -194,7 +194,7 @@ TEST(PolicySearch, ReportsProgressAndPassesInterruptions) {
   stopped->tell(run_trial(stopped->ask(), 1));
   EXPECT_THROW(stopped->ask(), Interrupted);
   stop = false;
-  EXPECT_EQ(stopped->ask().theta, learn(*learner_with({}), 2).back().theta);
+  EXPECT_EQ(stopped->ask().theta, learn(*learner_with({}), 2).proposals.back().theta);
 }
 
 }  // namespace

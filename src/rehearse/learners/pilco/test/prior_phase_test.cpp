@@ -67,8 +67,7 @@ TEST(PriorPhase, TheFirstTrialIsThePolicyOfThePrior) {
 
 TEST(PriorPhase, LearnsTheRealSliderFromThere) {
   for (const std::uint64_t seed : {1, 2}) {
-    std::vector<double> returns;
-    const auto proposals = learn(*make(setting(seed), options(3, 40)), 3, &returns);
+    const auto [proposals, returns] = learn(*make(setting(seed), options(3, 40)), 3);
     EXPECT_GT(returns.back(), 8) << seed;
     EXPECT_GE(returns.back(), returns.front()) << seed;
     const Proposal& last = proposals.back();
