@@ -163,22 +163,8 @@ struct Posterior::Scratch {
       correlate(from(support), others, D, output.weights.data() + support, queries, rows, nullptr, rest);
       for (Index q = 0; q < rows; ++q) means[q] += rest[q];
     }
-    add_trend(output.trend_form);
+    if (output.trend_form.size() > 0) add_quadratic_form(output.trend_form.data(), D, unit.data(), rows, means);
     if (!only_mean) triangular_norms(output.inverse_factor.data(), support, columns.data(), rows, norms);
-  }
-
-  /// zᵀ A z for every row.
-  void add_trend(const Matrix& form) {
-    double product[kChunk];
-    for (Index i = 0; i < form.rows(); ++i) {
-      std::fill(product, product + width, 0.0);
-      for (Index j = 0; j <= i; ++j) {
-        const double entry = (i == j ? 1 : 2) * form(i, j), *zj = z.data() + j * kChunk;
-        for (Index q = 0; q < width; ++q) product[q] += entry * zj[q];
-      }
-      const double* zi = z.data() + i * kChunk;
-      for (Index q = 0; q < width; ++q) means[q] += product[q] * zi[q];
-    }
   }
 
   double mean(Index q) const { return missing[q] ? kNaN : means[q]; }
@@ -218,7 +204,7 @@ Posterior::Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperp
     Output exact = condition(e, Y.col(e), workspace);
     std::optional<Output> few = compress(e, Y.col(e), exact, tolerance, workspace);
     outputs_.push_back(few ? std::move(*few) : std::move(exact));
-    outputs_.back().trend_form = trend_form(outputs_.back());
+    outputs_.back().trend_form = trend_form(e, outputs_.back());
   }
 }
 
@@ -243,20 +229,33 @@ Posterior::Output Posterior::condition(Index e, const ConstVectorView& y, Worksp
   return output;
 }
 
-Matrix Posterior::trend_points(Index e) const {
+/// z = M (1, x), x the unit inputs.
+Matrix Posterior::trend_map(Index e) const {
   const auto factors = trend_factors_.col(e);
-  Matrix z(factors.size(), size());
-  if (factors.size() == 0) return z;
-  z.row(0).setConstant(factors(0));
-  for (Index d = 0; d < dimensions(); ++d)
-    z.row(d + 1) = (inputs_.unit().col(d).array() * (inputs_.half_range()(d) * factors(d + 1)) +
-                    inputs_.center()(d) * factors(d + 1))
-                       .transpose();
-  return z;
+  Matrix map = Matrix::Zero(factors.size(), factors.size());
+  if (factors.size() == 0) return map;
+  map(0, 0) = factors(0);
+  for (Index d = 0; d < dimensions(); ++d) {
+    map(d + 1, 0) = inputs_.center()(d) * factors(d + 1);
+    map(d + 1, d + 1) = inputs_.half_range()(d) * factors(d + 1);
+  }
+  return map;
 }
 
-Matrix Posterior::trend_form(const Output& output) {
-  return output.trend_points * output.weights.asDiagonal() * output.trend_points.transpose();
+Matrix Posterior::trend_points(Index e) const {
+  const Matrix map = trend_map(e);
+  if (map.size() == 0) return Matrix(0, size());
+  return (map.rightCols(dimensions()) * inputs_.unit().transpose()).colwise() + map.col(0);
+}
+
+/// Σ_i w_i (z · z_i)² = xᵀ Mᵀ Z W Zᵀ M x.
+Vector Posterior::trend_form(Index e, const Output& output) const {
+  const Matrix Z = trend_map(e).transpose() * output.trend_points, A = Z * output.weights.asDiagonal() * Z.transpose();
+  Vector form(A.rows() * (A.rows() + 1) / 2);
+  double* entry = form.data();
+  for (Index i = 0; i < A.rows(); ++i)
+    for (Index j = 0; j <= i; ++j) *entry++ = i == j ? A(i, i) : A(i, j) + A(j, i);
+  return form;
 }
 
 /// The workspace holds the inputs scaled for this output.
@@ -321,29 +320,28 @@ double Posterior::deviation_error(Index e, const Output& exact, const Output& ot
   return error;
 }
 
-void Posterior::predict(const ConstMatrixView& F, MatrixView mean, MatrixView variance) const {
+/// Calls write(row, its place in the scratch, output, scratch) for each row of F and each output.
+template <class Write>
+void Posterior::predict(const ConstMatrixView& F, bool only_mean, Write write) const {
   for_each_chunk(F, [&](Index first, Index rows, Scratch& s) {
     for (Index e = 0; e < outputs(); ++e) {
       s.scale(factors_.col(e));
-      s.expand(inputs_, trend_factors_.col(e));
-      s.predict(output(e), rows, false);
-      for (Index q = 0; q < rows; ++q) {
-        mean(first + q, e) = s.mean(q);
-        variance(first + q, e) = s.variance(q, output(e));
-      }
+      if (!only_mean) s.expand(inputs_, trend_factors_.col(e));
+      s.predict(output(e), rows, only_mean);
+      for (Index q = 0; q < rows; ++q) write(first + q, q, e, s);
     }
   });
 }
 
-void Posterior::predict_mean(const ConstMatrixView& F, MatrixView mean) const {
-  for_each_chunk(F, [&](Index first, Index rows, Scratch& s) {
-    for (Index e = 0; e < outputs(); ++e) {
-      s.scale(factors_.col(e));
-      s.expand(inputs_, trend_factors_.col(e));
-      s.predict(output(e), rows, true);
-      for (Index q = 0; q < rows; ++q) mean(first + q, e) = s.mean(q);
-    }
+void Posterior::predict(const ConstMatrixView& F, MatrixView mean, MatrixView variance) const {
+  predict(F, false, [&](Index row, Index q, Index e, const Scratch& s) {
+    mean(row, e) = s.mean(q);
+    variance(row, e) = s.variance(q, output(e));
   });
+}
+
+void Posterior::predict_mean(const ConstMatrixView& F, MatrixView mean) const {
+  predict(F, true, [&](Index row, Index q, Index e, const Scratch& s) { mean(row, e) = s.mean(q); });
 }
 
 Matrix Posterior::inverse_factor(Index e) const {

@@ -58,7 +58,7 @@ class Posterior {
     Matrix points;          // D × m: inputs / ℓ, one a column; the variance needs the first `support`
     Matrix trend_points;    // 1 + D × m: z of the trend (kernel.hpp); empty without one
     Vector weights;         // m
-    Matrix trend_form;      // A, 1 + D × 1 + D: the trend's part of the mean is zᵀ A z
+    Vector trend_form;      // the trend's part of the mean, as add_quadratic_form reads it with unit inputs; or empty
     Index support = 0;      // s
     Vector inverse_factor;  // packed_size(s): L⁻¹, see prediction_kernel.hpp
     double signal_variance = 0;
@@ -71,11 +71,14 @@ class Posterior {
                                  Workspace& workspace) const;
   static std::optional<Output> condition(const Summary& summary, const Output& exact, Workspace& workspace);
   Matrix trend_points(Index e) const;
-  static Matrix trend_form(const Output& output);
+  Matrix trend_map(Index e) const;
+  Vector trend_form(Index e, const Output& output) const;
   static void use_all_for_mean(const Output& exact, std::vector<Index> order, Output& few);
   double deviation_error(Index e, const Output& exact, const Output& other) const;
   template <class Visit>
   void for_each_chunk(const ConstMatrixView& F, Visit visit) const;
+  template <class Write>
+  void predict(const ConstMatrixView& F, bool only_mean, Write write) const;
   static Scratch& scratch(Index n, Index D);
 
   Inputs inputs_;

@@ -100,6 +100,30 @@ void CorrelateKernel(KernelPoints points, Size n, Size dimensions, const double*
     correlate_all<false>(points, n, dimensions, weights, queries, rows, columns, means);
 }
 
+template <int kWidth>
+HWY_INLINE void add_form(const double* form, Size dimensions, const double* queries, double* means) {
+  V sums[kWidth];
+  for (int v = 0; v < kWidth; ++v) sums[v] = hn::Add(hn::LoadU(kTag, means + v * lanes()), constant(*form));
+  ++form;
+  for (Size i = 0; i < dimensions; ++i) {
+    V products[kWidth];
+    for (int v = 0; v < kWidth; ++v) products[v] = constant(*form);
+    ++form;
+    for (Size j = 0; j <= i; ++j, ++form)
+      for (int v = 0; v < kWidth; ++v)
+        products[v] = hn::MulAdd(constant(*form), hn::LoadU(kTag, queries + j * kChunk + v * lanes()), products[v]);
+    for (int v = 0; v < kWidth; ++v)
+      sums[v] = hn::MulAdd(products[v], hn::LoadU(kTag, queries + i * kChunk + v * lanes()), sums[v]);
+  }
+  for (int v = 0; v < kWidth; ++v) hn::StoreU(sums[v], kTag, means + v * lanes());
+}
+
+void AddQuadraticFormKernel(const double* form, Size dimensions, const double* queries, Size rows, double* means) {
+  for_each_group(
+      rows, [&](Size q) HWY_ATTR { add_form<kVectors>(form, dimensions, queries + q, means + q); },
+      [&](Size q) HWY_ATTR { add_form<1>(form, dimensions, queries + q, means + q); });
+}
+
 /// Adds to norms the squares of one panel's rows times kWidth vectors of columns, of which `length` entries count.
 template <int kWidth>
 HWY_INLINE void add_panel(const double* panel, Size length, const double* columns, double* norms) {
@@ -140,11 +164,15 @@ HWY_AFTER_NAMESPACE();
 namespace rehearse::gp {
 
 HWY_EXPORT(CorrelateKernel);
+HWY_EXPORT(AddQuadraticFormKernel);
 HWY_EXPORT(TriangularNormsKernel);
 
 void correlate(KernelPoints points, Size n, Size dimensions, const double* weights, KernelPoints queries, Size rows,
                double* columns, double* means) {
   HWY_DYNAMIC_DISPATCH(CorrelateKernel)(points, n, dimensions, weights, queries, rows, columns, means);
+}
+void add_quadratic_form(const double* form, Size dimensions, const double* queries, Size rows, double* means) {
+  HWY_DYNAMIC_DISPATCH(AddQuadraticFormKernel)(form, dimensions, queries, rows, means);
 }
 void triangular_norms(const double* packed, Size n, const double* columns, Size rows, double* norms) {
   HWY_DYNAMIC_DISPATCH(TriangularNormsKernel)(packed, n, columns, rows, norms);

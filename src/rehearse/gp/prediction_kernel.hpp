@@ -28,6 +28,10 @@ struct KernelPoints {
 void correlate(KernelPoints points, Size n, Size dimensions, const double* weights, KernelPoints queries, Size rows,
                double* columns, double* means);
 
+/// means[q] += uᵀ A u, u = (1, x_q), for `rows` ≤ kChunk queries x_q; form: the lower triangle of A row by row, entries
+/// beside the diagonal doubled; queries: dimensions × kChunk, row by row.
+void add_quadratic_form(const double* form, Size dimensions, const double* queries, Size rows, double* means);
+
 /// Rows of a lower triangular matrix that are multiplied together, interleaved.
 constexpr Size kPanel = 6;
 constexpr Size packed_size(Size n) {
