@@ -15,7 +15,7 @@
 namespace rehearse::optim {
 
 struct RaceOptions {
-  Index max_evaluations = 200000;  // of the objective, re-evaluations included
+  Index max_evaluations = 100000;  // of the objective, re-evaluations included
   Index descents = 32;             // that start
   Index rounds = 5;                // of about equal numbers of evaluations
   double survivors = 0.5;          // fraction of the descents that goes on after each round

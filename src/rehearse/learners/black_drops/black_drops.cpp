@@ -254,6 +254,7 @@ class Builder final : public LearnerBuilder {
   Builder(std::string name, std::string summary, dynamics::Kind model)
       : name_(std::move(name)), summary_(std::move(summary)) {
     options_.model = std::move(model);
+    if (!needs_prior(options_)) options_.search.imagine.noise_clip = 0;
   }
   std::string name() const override { return name_; }
   std::string summary() const override { return summary_; }

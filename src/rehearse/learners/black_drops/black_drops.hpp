@@ -16,10 +16,10 @@ namespace rehearse::learners::black_drops {
 struct FirstTrial {
   enum class Kind {
     actions,   // uniform in their bounds (PILCO, the authors' code)
-    extremes,  // of the actions, at random
+    extremes,  // one bound or the other
     policy,    // θ uniform in its box (Chatzilygeroudis 2018, Algorithm 1)
   };
-  Kind kind = Kind::actions;
+  Kind kind = Kind::extremes;
   double hold_s = 0.2;  // an action is held so long (PILCO, the authors' code: one step)
   void fields(FieldVisitor& v);
 };
