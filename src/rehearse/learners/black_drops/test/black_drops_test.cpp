@@ -183,7 +183,7 @@ TEST(BlackDrops, ScoutsInTheMeanPredictionsFirst) {
   const auto second = [](const char* policies, const char* tolerance) {
     const auto with = builder("black-drops");
     for (const auto& [name, value] : std::map<std::string, std::string>{
-             {"scout.policies", policies}, {"scout.tolerance", tolerance}, {"search.imagine.noise_clip", "0"}})
+             {"scout.policies", policies}, {"scout.tolerance", tolerance}, {"search.selection", "1000"}})
       EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
     const auto learner = with->build(setting({}, 2));
     learner->tell(run_trial(learner->ask(), 1));
