@@ -42,6 +42,7 @@ export interface CellsOptions {
 const RADIUS = 8
 /** On every colour of the scale, on light pages and dark ones. */
 const [LIGHT, DARK] = ['#ffffff', '#1b1f24']
+const STRIP = 60
 const MARGIN = { left: 48, right: 14, top: 26, bottom: 40 }
 
 /** The cells that have points, which are given by their coordinates; points beyond the axes count as on their ends. */
@@ -71,20 +72,20 @@ function placeIn({ domain: [low, high], cells }: Axis, cell: number, part: numbe
 }
 
 export function cellChart({ width, x, y, cells, spots, scale, tip }: CellsOptions): SVGSVGElement {
-  const upTo = y ? width - MARGIN.left - MARGIN.right : 60
   const across = width - MARGIN.left - MARGIN.right
+  const up = y ? across : STRIP
   const upright = y ?? { label: '', domain: [0, 1] as [number, number], cells: 1 }
+  const toX = along(x, MARGIN.left, MARGIN.left + across)
+  const toY = along(upright, MARGIN.top + up, MARGIN.top)
+  const places = spots.map((spot) => ({ x: toX.pixel(spot.x), y: toY.pixel(y ? spot.y : 0.5) }))
+  const discs = apart(places, spots, { x: [MARGIN.left, MARGIN.left + across], y: [MARGIN.top, MARGIN.top + up] })
   const tips = [
-    ...cells.map((cell) => ({
-      x: placeIn(x, cell.column, 0.5),
-      y: placeIn(upright, cell.row, 0.5),
-      text: tip(cell),
-    })),
-    ...spots.map((spot) => ({ x: spot.x, y: y ? spot.y : 0.5, text: spot.tip })),
+    ...cells.map((cell) => ({ x: placeIn(x, cell.column, 0.5), y: placeIn(upright, cell.row, 0.5), text: tip(cell) })),
+    ...discs.map((disc, i) => ({ x: toX.value(disc.x), y: toY.value(disc.y), text: spots[i]?.tip })),
   ]
   return Plot.plot({
     width,
-    height: upTo + MARGIN.top + MARGIN.bottom,
+    height: up + MARGIN.top + MARGIN.bottom,
     marginLeft: MARGIN.left,
     marginRight: MARGIN.right,
     marginTop: MARGIN.top,
@@ -93,21 +94,9 @@ export function cellChart({ width, x, y, cells, spots, scale, tip }: CellsOption
     x: { ...axis(x, across), labelAnchor: 'center' },
     y: { ...axis(upright, across), labelAnchor: 'top', ...(y ? {} : { axis: null }) },
     marks: [
-      (_, { x: toX, y: toY }) =>
-        cellMarks(
-          cells,
-          x,
-          upright,
-          (value) => Number(toX?.(value)),
-          (value) => Number(toY?.(value)),
-          scale,
-        ),
+      () => cellMarks(cells, x, upright, toX, toY, scale),
       Plot.frame({ stroke: 'currentColor', strokeOpacity: 0.25 }),
-      (_, { x: toX, y: toY }) => {
-        const places = spots.map((spot) => ({ x: Number(toX?.(spot.x)), y: Number(toY?.(y ? spot.y : 0.5)) }))
-        const frame = { left: MARGIN.left, top: MARGIN.top, right: MARGIN.left + across, bottom: MARGIN.top + upTo }
-        return spotsMarks(spots, places, apart(places, spots, frame), scale)
-      },
+      () => spotsMarks(spots, places, discs, scale),
       Plot.tip(
         tips,
         Plot.pointer({
@@ -124,23 +113,29 @@ export function cellChart({ width, x, y, cells, spots, scale, tip }: CellsOption
   }) as SVGSVGElement
 }
 
+/** From values to pixels and back. */
+interface Along {
+  pixel: (value: number) => number
+  value: (pixel: number) => number
+}
+
+function along({ domain: [low, high] }: Axis, from: number, to: number): Along {
+  return {
+    pixel: (value) => from + ((value - low) / (high - low)) * (to - from),
+    value: (pixel) => low + ((pixel - from) / (to - from)) * (high - low),
+  }
+}
+
 function axis({ label, domain }: Axis, length: number): Plot.ScaleOptions {
   return { type: 'linear', label, domain, ticks: Math.max(3, Math.floor(length / 60)), labelArrow: 'none' }
 }
 
 /** One path a colour, so that a page of many panels stays light. */
-function cellMarks(
-  cells: Cell[],
-  x: Axis,
-  y: Axis,
-  toX: (value: number) => number,
-  toY: (value: number) => number,
-  scale: Scale,
-): SVGElement {
+function cellMarks(cells: Cell[], x: Axis, y: Axis, toX: Along, toY: Along, scale: Scale): SVGElement {
   const paths = new Map<string, string>()
   for (const { column, row, best } of cells) {
-    const [left, right] = [0, 1].map((part) => toX(placeIn(x, column, part)).toFixed(1))
-    const [bottom, top] = [0, 1].map((part) => toY(placeIn(y, row, part)).toFixed(1))
+    const [left, right] = [0, 1].map((part) => toX.pixel(placeIn(x, column, part)).toFixed(1))
+    const [bottom, top] = [0, 1].map((part) => toY.pixel(placeIn(y, row, part)).toFixed(1))
     const colour = scale.colour(best)
     paths.set(colour, `${paths.get(colour) ?? ''}M${left},${bottom}H${right}V${top}H${left}Z`)
   }
@@ -160,7 +155,7 @@ const ROUNDS = 200
 const MOST_PUSHES = 1e6
 
 /** Discs pushed off each other, so that every number can be read, no farther from their places than they must. */
-function apart(places: Place[], spots: Spot[], frame: Record<'left' | 'top' | 'right' | 'bottom', number>): Place[] {
+function apart(places: Place[], spots: Spot[], frame: { x: [number, number]; y: [number, number] }): Place[] {
   const discs = places.map(({ x, y }, i) => ({ x, y: y + (i % 2) - 0.5 })) // or those in a line would stay in it
   const radius = (i: number) => RADIUS + (spots[i]?.again ? 6 : 2)
   const rounds = Math.min(ROUNDS, MOST_PUSHES / places.length ** 2)
@@ -183,8 +178,8 @@ function apart(places: Place[], spots: Spot[], frame: Record<'left' | 'top' | 'r
       }),
     )
     discs.forEach((disc) => {
-      disc.x = Math.min(frame.right, Math.max(frame.left, disc.x))
-      disc.y = Math.min(frame.bottom, Math.max(frame.top, disc.y))
+      disc.x = Math.min(frame.x[1], Math.max(frame.x[0], disc.x))
+      disc.y = Math.min(frame.y[1], Math.max(frame.y[0], disc.y))
     })
   }
   return discs
