@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# report.sh PROGRAM BUILD BROWSER_TEST CHROMIUM: reports of a run, a trial, a damaged campaign and a robot in space,
-# opened in a browser.
+# report.sh PROGRAM BUILD BROWSER_TEST CHROMIUM: reports of a run, a trial, a damaged campaign, a robot in space and an
+# archive, whole and damaged, opened in a browser.
 # Exits with 77 where the page is not built or there is no browser.
 set -euo pipefail
 walker=$(realpath "$(dirname "$0")")/walker.mjs
@@ -70,8 +70,19 @@ for problem in "${runs[0]}/trials.csv: row 3 is cut short" \
 done
 [ "$(wc -l <stderr)" = 3 ] || fail "the report names other problems: $(cat stderr)"
 
+"$program" learn pendubot --learner ite --prior misleading --trials 3 --set archive.niches=400 \
+  --set archive.evaluations=3000 --set adaptation.max_trials=2 --set adaptation.stop_ratio=0 --out ite >/dev/null
+"$program" report ite >/dev/null 2>stderr
+[ ! -s stderr ] || fail "the report of a whole archive complains: $(cat stderr)"
+cp -r ite damaged
+truncate -s -9 damaged/archive.bin
+"$program" report damaged >/dev/null 2>stderr
+grep -q "damaged/archive.bin: it is no usable archive: truncated" stderr || fail "the report says $(cat stderr)"
+[ "$(wc -l <stderr)" = 1 ] || fail "the report names other problems: $(cat stderr)"
+
 [ -x "$chromium" ] || { echo "there is no chromium"; exit 77; }
 cp -r run walker
 for trial in 1 2; do node "$walker" walker $trial 50; done
 "$program" report walker >/dev/null
-node "$browser_test" "$chromium" "$build/web/page" {run/report,replay,campaign/report,walker/report}.html
+node "$browser_test" "$chromium" "$build/web/page" \
+  {run/report,replay,campaign/report,walker/report,ite/report,damaged/report}.html

@@ -13,7 +13,7 @@ case $learner in
     arguments=(pendulum --set policy=rbf --set pilco.prior_episodes=4 --set search.line_searches=8 --set model.inducing=60) ;;
   ite)
     arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=60000)
-    files=(archive.bin) ;;
+    files=(archive.bin elites.csv tried.csv) ;;
   *) arguments=(pendubot --prior misleading --set model.subplex.max_evaluations=15 "${race[@]}") ;;
 esac
 arguments+=(--learner "$learner" --seed 5)

@@ -1,5 +1,6 @@
 // Okabe and Ito's colours, which colour-blind readers tell apart; style.css has their values for light and dark.
 // A learner has the same colour and symbol in every figure and every report.
+import * as Plot from '@observablehq/plot'
 
 export type Symbol = 'circle' | 'square' | 'triangle' | 'diamond2' | 'star' | 'cross' | 'wye'
 
@@ -36,3 +37,29 @@ export function looks(learners: string[]): (learner: string) => Look {
 
 /** Variants of a learner differ in how their lines are drawn. */
 export const DASHES = ['none', '6 3', '2 3', '8 3 2 3']
+
+/** Colours of numbers, from dark and low to bright and high, which grow in lightness: viridis. */
+export interface Scale {
+  low: number
+  high: number
+  colour: (value: number) => string
+  /** That can be read on it. */
+  inkOn: (value: number) => string
+  ramp: string[]
+}
+
+const STEPS = 32
+
+export function scaleOf(low: number, high: number): Scale {
+  const top = low < high ? high : low + 1
+  const part = (value: number) => Math.min(1, Math.max(0, (value - low) / (top - low))) || 0
+  const viridis = Plot.scale({ color: { type: 'linear', scheme: 'viridis', domain: [0, 1] } })
+  const ramp = Array.from({ length: STEPS }, (_, i) => String(viridis.apply(i / (STEPS - 1))))
+  return {
+    low,
+    high,
+    colour: (value) => ramp[Math.round(part(value) * (STEPS - 1))] as string,
+    inkOn: (value) => (part(value) > 0.55 ? '#1b1f24' : '#ffffff'),
+    ramp,
+  }
+}

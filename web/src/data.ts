@@ -30,7 +30,20 @@ export interface Run {
   /** Not there in the folders of older versions. */
   doubts?: { trial: number[]; doubt: string[] }
   truth?: Record<string, number>
+  /** Of a learner that has one. */
+  archive?: Archive
   episodes: Episode[]
+}
+
+/** elites.csv and tried.csv; a value an elite. */
+export interface Archive {
+  descriptors: { name: string; values: number[] }[]
+  promised: number[]
+  expected: number[]
+  /** Of archive.bin, if that is usable; bins: of a grid. */
+  space: { niches: number; bounds: [number, number][]; bins?: number[] } | null
+  /** elite counts from 1. */
+  tried: Columns | null
 }
 
 export interface Episode {

@@ -1,6 +1,6 @@
 // Figures as SVG and tables as CSV.
 import { download, s } from './dom'
-import { entryMarks, type LegendEntry } from './legend'
+import { entryMarks, widthOf, type LegendEntry } from './legend'
 
 export type Row = Record<string, string | number | null | undefined>
 
@@ -68,9 +68,9 @@ function drawnLegend(legend: LegendEntry[]): SVGElement {
   for (const entry of legend) {
     group.append(
       s('g', { transform: `translate(${x}, -4)` }, ...entryMarks(entry)),
-      s('text', { x: x + 34, y: 0 }, entry.label),
+      s('text', { x: x + widthOf(entry) + 6, y: 0 }, entry.label),
     )
-    x += 54 + 6.6 * entry.label.length
+    x += widthOf(entry) + 26 + 6.6 * entry.label.length
   }
   return group
 }

@@ -5,6 +5,8 @@ import { legend, type LegendEntry } from './legend'
 
 export interface Panel {
   title: string
+  /** For readers who do not see it, where the title alone does not say what it shows. */
+  label?: string
   draw: (width: number) => SVGSVGElement
 }
 
@@ -20,6 +22,8 @@ export interface FigureOptions {
   minWidth?: number
   maxWidth?: number
   columns?: number
+  /** So many panels after each other belong together: they stand in one row, or under each other if all fit so. */
+  together?: number
   controls?: HTMLElement
   afterDrawing?: () => void
 }
@@ -40,19 +44,26 @@ export function figure(options: FigureOptions): Figure {
 
   const redraw = () => {
     if (drawnWidth === 0) return
-    const wanted = options.panels()
+    let wanted = options.panels()
     const minWidth = options.minWidth ?? 300
     const fitting = Math.floor((drawnWidth + GAP) / (minWidth + GAP))
+    const together = options.together ?? 1
+    const groups = wanted.length / together
     columns = Math.max(1, Math.min(wanted.length, options.columns ?? 4, fitting))
+    if (together > 1 && groups > 2 && groups <= columns) {
+      columns = groups
+      wanted = wanted.map((_, i) => wanted[(i % groups) * together + Math.floor(i / groups)] as Panel)
+    } else if (columns > together) columns -= columns % together
     const width = Math.min((drawnWidth - GAP * (columns - 1)) / columns, options.maxWidth ?? 720)
-    panels = wanted.map(({ title, draw }) => ({ title, svg: draw(Math.floor(width)) }))
+    panels = wanted.map(({ title, label, draw }) => {
+      const svg = draw(Math.floor(width))
+      svg.setAttribute('role', 'img')
+      svg.setAttribute('aria-label', `${options.title}: ${label ?? title}`)
+      return { title, svg }
+    })
     grid.style.gridTemplateColumns = `repeat(${columns}, minmax(0, ${Math.floor(width)}px))`
     grid.replaceChildren(
-      ...panels.map(({ title, svg }) => {
-        svg.setAttribute('role', 'img')
-        svg.setAttribute('aria-label', `${options.title}: ${title}`)
-        return h('div', { class: 'panel' }, title ? h('h4', {}, title) : null, svg)
-      }),
+      ...panels.map(({ title, svg }) => h('div', { class: 'panel' }, title ? h('h4', {}, title) : null, svg)),
     )
     options.afterDrawing?.()
   }

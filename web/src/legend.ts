@@ -22,16 +22,34 @@ export interface LegendEntry {
   band?: number
   /** A vertical bar, of intervals. */
   interval?: boolean
+  /** A scale of colours, from low to high, and nothing else. */
+  ramp?: string[]
 }
 
 export function legend(entries: LegendEntry[]): HTMLElement {
   const picture = (entry: LegendEntry) =>
-    s('svg', { viewBox: '-2 -8 32 16', width: 32, height: 16, 'aria-hidden': 'true' }, ...entryMarks(entry))
+    s(
+      'svg',
+      { viewBox: `-2 -8 ${widthOf(entry) + 4} 16`, width: widthOf(entry) + 4, height: 16, 'aria-hidden': 'true' },
+      ...entryMarks(entry),
+    )
   return h('ul', { class: 'legend' }, ...entries.map((entry) => h('li', {}, picture(entry), entry.label)))
 }
 
-/** What stands for a series, 28 wide around y = 0. */
+/** Of what stands for it. */
+export function widthOf(entry: LegendEntry): number {
+  return entry.ramp ? 128 : 28
+}
+
+/** What stands for a series, `widthOf` wide around y = 0. */
 export function entryMarks(entry: LegendEntry): SVGElement[] {
+  const { ramp } = entry
+  if (ramp) {
+    const step = widthOf(entry) / ramp.length
+    return ramp.map((fill, i) =>
+      s('rect', { x: i * step, y: -6, width: step, height: 12, fill, 'shape-rendering': 'crispEdges' }),
+    )
+  }
   const stroke = { stroke: entry.colour, 'stroke-width': 2, fill: 'none', 'stroke-dasharray': entry.dash ?? 'none' }
   const marks: SVGElement[] = []
   if (entry.band) marks.push(s('rect', { x: 2, y: -6, width: 24, height: 12, fill: entry.colour, opacity: entry.band }))

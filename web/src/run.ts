@@ -1,4 +1,5 @@
 // The page of one run, and that of one trial of it.
+import { archiveFigures } from './archive'
 import { chart, fit, heights, type Point, type Series } from './chart'
 import { EXPECTED, PREDICTED, REAL } from './colours'
 import {
@@ -33,6 +34,7 @@ export function runPage(report: Report, run: Run): Child[] {
       ...sections([
         { id: 'returns', title: 'Returns', content: [returns(run)] },
         { id: 'replay', title: 'Replay', content: [replay(run)] },
+        { id: 'archive', title: 'The archive', content: archiveFigures(run) },
         { id: 'model', title: 'The model', content: [errors(run), beside(parameters(run), evidence(run))] },
         { id: 'computing', title: 'Computing', content: [beside(times(run), rollouts(run)), notes(run)] },
         { id: 'options', title: 'Options', content: [options(run)] },

@@ -1,12 +1,14 @@
-// browser.mjs CHROMIUM PACKAGES RUN.html REPLAY.html CAMPAIGN.html WALKER.html: a reader's way through real reports.
-// Fails on anything that a page says on the console, on any request, and on what it does not show. PACKAGES: the folder
-// of node_modules. WALKER: a run whose robot moves in space.
+// browser.mjs CHROMIUM PACKAGES RUN.html REPLAY.html CAMPAIGN.html WALKER.html ARCHIVE.html DAMAGED.html: a reader's way
+// through real reports. Fails on anything that a page says on the console, on any request, and on what it does not show.
+// PACKAGES: the folder of node_modules. WALKER: a run whose robot moves in space. ARCHIVE: one of ite, of 3 trials,
+// DAMAGED: with a damaged archive.bin.
 import assert from 'node:assert/strict'
 import { readFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
 import { pathToFileURL } from 'node:url'
 
-const [chromiumPath, packages, runPage, replayPage, campaignPage, walkerPage] = process.argv.slice(2)
+const [chromiumPath, packages, runPage, replayPage, campaignPage, walkerPage, archivePage, damagedPage] =
+  process.argv.slice(2)
 const { chromium } = createRequire(`${packages}/`)('playwright-core')
 const launch = (...args) => chromium.launch({ executablePath: chromiumPath, args: ['--no-sandbox', ...args] })
 let browser = await launch('--use-angle=swiftshader', '--enable-unsafe-swiftshader') // WebGL without a graphics card
@@ -118,6 +120,53 @@ await open(campaignPage, { viewport: { width: 400, height: 800 } }, async (page)
   await page.locator('#success-by-trial').scrollIntoViewIfNeeded()
   const csv = await saved(page, 'Save “Return against time on the robot” as CSV')
   assert.match(csv, /^learner,prior,variant,trial,runs,interaction_s,return_min,/)
+})
+
+const ARCHIVE = 'The archive before and after the trials'
+
+/** The archive, by three pairs of its six descriptors and by all fifteen, and the trials in it. */
+async function readArchive(page) {
+  const figure = page.locator('#archive-of-elites')
+  await figure.scrollIntoViewIfNeeded()
+  await figure.locator('.panel').first().waitFor()
+  const panels = figure.locator('.panel svg')
+  assert.equal(await panels.count(), 6)
+  assert.equal(await figure.locator('h4', { hasText: 'expected after 2 trials' }).count(), 3)
+  assert.match(
+    await panels.first().getAttribute('aria-label'),
+    /promised by the archive by tip x at 0\.8 s \(m\) and tip y/,
+  )
+  assert.ok((await panels.first().locator('[aria-label=cells] path').count()) > 5, 'all cells have the same colours')
+
+  const csv = (await saved(page, 'Save “Which policies of the archive were tried” as CSV')).trim().split('\n')
+  assert.equal(csv[0], 'trial,elite,promised,expected,observed,learned')
+  const trials = csv.slice(1).map((line) => line.split(',').map(Number))
+  assert.equal(trials.map(([trial, , , , , learned]) => `${trial}:${learned}`).join(), '1:1,2:1,3:0')
+  assert.equal(trials[0][2], trials[0][3], 'before the first trial the archive is believed')
+  const labels = await panels.nth(1).locator('[aria-label=trials] text').allTextContents()
+  assert.equal(labels.length, new Set(trials.map(([, elite]) => elite)).size)
+  assert.ok(labels.includes('1'))
+
+  const elites = (await saved(page, `Save “${ARCHIVE}” as CSV`)).trim().split('\n')
+  assert.match(elites[0], /^tip x at 0\.8 s \[m\],.*,promised,expected,trials$/)
+  assert.match(elites[trials[0][1]], /,1( 3)?$/)
+  const svg = await saved(page, `Save “${ARCHIVE}” as SVG`)
+  assert.doesNotMatch(svg, /var\(|light-dark/)
+  await page.getByRole('radio', { name: 'every pair' }).press('Space')
+  assert.equal(await panels.count(), 30)
+  return elites.length - 1
+}
+
+for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme: 'dark' }])
+  await open(archivePage, settings, async (page) => {
+    const elites = await readArchive(page)
+    assert.ok((await page.locator('#archive-of-elites').textContent()).includes(`${elites} elites in 400 niches`))
+    assert.equal(await page.locator('.problems').count(), 0)
+  })
+
+await open(damagedPage, {}, async (page) => {
+  assert.match(await page.locator('.problems').textContent(), /archive\.bin – it is no usable archive/)
+  await readArchive(page)
 })
 
 /** What three.js has drawn, without what the page has under, over and around it. */

@@ -54,6 +54,13 @@ std::vector<Interval> Task::action_bounds() const {
   return bounds;
 }
 
+std::vector<std::string> Task::descriptor_labels() const {
+  if (!descriptor_names.empty()) return descriptor_names;
+  std::vector<std::string> labels;
+  for (std::size_t d = 1; d <= descriptor_bounds.size(); ++d) labels.push_back(fmt::format("descriptor {}", d));
+  return labels;
+}
+
 std::vector<std::string> Task::violations() const {
   Violations found;
   found.require(!states.empty(), "task has no states");
@@ -90,6 +97,9 @@ std::vector<std::string> Task::violations() const {
     found.require(std::isfinite(descriptor_bounds[d].high - descriptor_bounds[d].low) &&
                       descriptor_bounds[d].low < descriptor_bounds[d].high,
                   fmt::format("descriptor_bounds {}: must be finite with low < high", d + 1));
+  found.require(descriptor_names.empty() || descriptor_names.size() == descriptor_bounds.size(),
+                fmt::format("descriptor_names has {} entries, must have {}, as descriptor_bounds, or none",
+                            descriptor_names.size(), descriptor_bounds.size()));
   found.require(std::isfinite(reward_floor), fmt::format("reward_floor = {}, must be finite", reward_floor));
   return found.list();
 }

@@ -56,6 +56,7 @@ struct Task {
   std::function<bool(const Episode&)> solved;               // empty: never known
   std::function<Vector(const Episode&)> descriptor;  // how it went, for quality diversity; empty: none. Any thread.
   std::vector<Interval> descriptor_bounds;           // of each number of a descriptor
+  std::vector<std::string> descriptor_names;         // what each is, with its unit: "tip x at 2.5 s [m]"; or empty
 
   Index state_size() const { return static_cast<Index>(states.size()); }
   Index action_size() const { return static_cast<Index>(actions.size()); }
@@ -65,6 +66,7 @@ struct Task {
   Kinematics kinematics() const;
   std::vector<std::string> state_names() const;
   std::vector<Interval> action_bounds() const;
+  std::vector<std::string> descriptor_labels() const;  // its names; of one without, "descriptor 1", …
 
   /// A line for everything that is missing or contradicts itself.
   std::vector<std::string> violations() const;

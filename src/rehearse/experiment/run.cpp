@@ -118,7 +118,7 @@ class Run {
     if (with_.options().listener) with_.options().listener->started(with_.resolved(), path(), history_.done());
     publish();
     if (history_.done() > 0) evaluate_last();
-    if (!complete()) catch_up();
+    if (!complete() || history_.told < history_.done()) catch_up();
     while (!complete()) one_trial(history_.done() + 1);
     with_.lead("end", [&] { folder_->mark_done(true); });
     return result();
@@ -160,7 +160,10 @@ class Run {
       history_.learner = with_.learner().save();
     });
     ++history_.told;
-    with_.lead(named("checkpoint", history_.told), [&] { folder_->write_checkpoint(history_); });
+    with_.lead(named("checkpoint", history_.told), [&] {  // which says that the tables are there
+      for (const learners::Table& table : with_.learner().tables()) folder_->write_learners_table(table);
+      folder_->write_checkpoint(history_);
+    });
   }
 
   void one_trial(Index trial) {

@@ -112,6 +112,10 @@ void RunFolder::write_archive(const std::string& bytes) const {
   if (fs::file_size(path_ / "archive.bin", none) != bytes.size() || none) write_file(path_ / "archive.bin", bytes);
 }
 
+void RunFolder::write_learners_table(const learners::Table& table) const {
+  write_file(path_ / (table.name + ".csv"), learners_csv(table));
+}
+
 void RunFolder::mark_done(bool done) const {
   if (done)
     write_file(path_ / kDone, fmt::format("{} trials\n", spec_.trials));

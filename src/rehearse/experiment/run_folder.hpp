@@ -6,6 +6,7 @@
 #include "rehearse/experiment/files.hpp"
 #include "rehearse/experiment/record.hpp"
 #include "rehearse/experiment/spec.hpp"
+#include "rehearse/learners/learner.hpp"
 
 namespace rehearse::experiment {
 
@@ -41,6 +42,9 @@ class RunFolder {
 
   /// A learner's archive of policies (qd/archive_bytes.hpp), unless it is there already.
   void write_archive(const std::string& bytes) const;
+
+  /// A learner's own: NAME.csv.
+  void write_learners_table(const learners::Table& table) const;
 
   /// Marks the run as complete, or as not.
   void mark_done(bool done) const;

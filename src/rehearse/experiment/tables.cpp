@@ -132,6 +132,16 @@ std::string policies_json(const std::vector<TrialRecord>& trials, const Resolved
   return all.dump(1) + "\n";
 }
 
+std::string learners_csv(const learners::Table& table) {
+  Csv csv(table.columns);
+  for (Index i = 0; i < table.rows.rows(); ++i) {
+    Row row;
+    add_numbers(row, table.rows.row(i));
+    csv.row(row);
+  }
+  return csv.text();
+}
+
 std::string trajectory_csv(const Task& task, const Episode& episode) {
   Row header = {"time [s]"};
   add_states(header, task, "{}");

@@ -8,6 +8,7 @@
 #include "rehearse/core/task.hpp"
 #include "rehearse/experiment/record.hpp"
 #include "rehearse/experiment/spec.hpp"
+#include "rehearse/learners/learner.hpp"
 #include "rehearse/rollout/imagine.hpp"
 
 namespace rehearse::experiment {
@@ -32,6 +33,9 @@ std::string notes_csv(const std::vector<TrialRecord>& trials);
 
 /// The best observed policy and each trial's.
 std::string policies_json(const std::vector<TrialRecord>& trials, const Resolved& resolved);
+
+/// As a learner has it.
+std::string learners_csv(const learners::Table& table);
 
 std::string trajectory_csv(const Task& task, const Episode& episode);
 

@@ -38,6 +38,13 @@ struct Proposal {
   double search_s = 0;                                   // and searching the policy
 };
 
+/// What a learner makes of its trials, for whoever looks into the run folder: NAME.csv there.
+struct Table {
+  std::string name;                  // "elites"
+  std::vector<std::string> columns;  // with units: "x [m]"
+  Matrix rows;                       // NaN: does not apply
+};
+
 /// Everything a learner is given. It never holds the plant.
 struct Setting {
   Task task;
@@ -53,7 +60,7 @@ struct Setting {
 ///
 /// Laws (checked by testing::check_learner): `ask` is idempotent: until the next `tell` it returns the same proposal.
 /// The same setting, options and episodes give the same bytes, whatever the evaluator. A learner that loaded what
-/// another saved, after being told the same episodes, goes on as that one would.
+/// another saved, after being told the same episodes, goes on as that one would, its tables too.
 class Learner {
  public:
   virtual ~Learner() = default;
@@ -62,6 +69,8 @@ class Learner {
 
   /// What is not in the episodes (warm starts); small. Called between `tell` and `ask`.
   virtual nlohmann::json save() const = 0;
+  /// What it makes of all it was told, if it has such tables. Called after `tell`.
+  virtual std::vector<Table> tables() const { return {}; }
   /// The episodes told so far, in order, and what `save` returned after the last of them.
   virtual void load(const std::vector<Episode>& episodes, const nlohmann::json& state) = 0;
 };

@@ -47,12 +47,12 @@ Json read_json(const std::filesystem::path& path) {
   }
 }
 
-Json rounded(double value) {
+Json rounded(double value, int digits) {
   constexpr double kExact = 9007199254740992.0;  // 2^53
   if (!std::isfinite(value)) return {};
   if (value == std::round(value) && std::abs(value) < kExact) return static_cast<std::int64_t>(value);
   double nearest = 0;
-  from_text(fmt::format("{:.6g}", value), nearest);
+  from_text(fmt::format("{:.{}g}", value, digits), nearest);
   return nearest;
 }
 

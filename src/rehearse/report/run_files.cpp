@@ -10,6 +10,7 @@
 #include <toml++/toml.h>
 
 #include "rehearse/core/options.hpp"
+#include "rehearse/report/archive_files.hpp"
 
 namespace rehearse::report {
 namespace {
@@ -176,6 +177,8 @@ void check_run_folder(const fs::path& folder, const fs::path& where, Index trial
   check("spec.toml", [&] { read_spec(folder); });
   check("checkpoint", [&] { check_checkpoint(folder / "checkpoint"); });
   check("trials.csv", [&] { check_trials(folder / "trials.csv", trials); });
+  for (const char* table : {"elites.csv", "tried.csv"})  // not every learner has them
+    if (fs::exists(folder / table)) check(table, [&] { check_ends_with_line(folder / table); });
   for (Index trial = 1; trial <= trials; ++trial) {
     const fs::path trajectory = trial_file("trajectories", trial), prediction = trial_file("predictions", trial);
     check(trajectory, [&] { check_ends_with_line(folder / trajectory); });
@@ -201,6 +204,10 @@ Json read_run(const fs::path& folder, std::optional<Index> only, Problems& probl
       run[name] = columns(*table);
   }
   problems.value_or_problem("checkpoint", [&] { return check_checkpoint(folder / "checkpoint"), true; });
+  if (!only) {
+    Json archive = read_archive(folder, problems);
+    if (!archive.is_null()) run["archive"] = std::move(archive);
+  }
   run["episodes"] = Json::array();
   for (Index trial = only.value_or(1); trial <= only.value_or(trials); ++trial)
     run["episodes"].push_back(episode(folder, trial, problems));

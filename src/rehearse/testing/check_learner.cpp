@@ -16,7 +16,8 @@ using learners::Proposal;
 struct Run {
   std::vector<Proposal> proposals;  // of trials 1, 2, …
   std::vector<Episode> episodes;
-  std::vector<std::string> saved;  // after 0, 1, … episodes
+  std::vector<std::string> saved;                    // after 0, 1, … episodes
+  std::vector<std::vector<learners::Table>> tables;  // after 1, 2, …
 };
 
 template <class T>
@@ -49,6 +50,12 @@ std::string difference(const Proposal& a, const Proposal& b) {
   return names;
 }
 
+bool same_tables(const std::vector<learners::Table>& a, const std::vector<learners::Table>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
+    return one.name == other.name && one.columns == other.columns && same(one.rows, other.rows);
+  });
+}
+
 class LearnerCheck {
  public:
   LearnerCheck(const learners::LearnerBuilder& builder, const learners::Setting& setting, const RunTrial& run_trial,
@@ -60,6 +67,8 @@ class LearnerCheck {
     for (std::size_t k = 0; k < one.proposals.size(); ++k) {
       const std::string names = difference(one.proposals[k], two.proposals[k]);
       found_.require(names.empty(), fmt::format("trial {}: two threads give another {}", k + 1, names));
+      found_.require(same_tables(one.tables[k], two.tables[k]),
+                     fmt::format("trial {}: two threads give other tables", k + 1));
     }
     for (Index told = 0; told < trials_; ++told) check_loaded(one, told);
     return found_.list();
@@ -84,6 +93,8 @@ class LearnerCheck {
       run.episodes.push_back(run_trial_(run.proposals.back(), static_cast<std::uint64_t>(k)));
       learner->tell(run.episodes.back());
       run.saved.push_back(learner->save().dump());
+      run.tables.push_back(learner->tables());
+      check_tables(run.tables.back(), k);
     }
     return run;
   }
@@ -93,6 +104,13 @@ class LearnerCheck {
     found_.require(proposal.policy != nullptr, fmt::format("trial {}: a proposal without a policy", trial));
     found_.require(!proposal.policy || proposal.theta.size() == wanted,
                    fmt::format("trial {}: {} parameters, the policy takes {}", trial, proposal.theta.size(), wanted));
+  }
+
+  void check_tables(const std::vector<learners::Table>& tables, Index trial) {
+    for (const learners::Table& table : tables)
+      found_.require(table.rows.cols() == static_cast<Index>(table.columns.size()),
+                     fmt::format("trial {}: table {} has {} columns and names of {}", trial, table.name,
+                                 table.rows.cols(), table.columns.size()));
   }
 
   /// Goes on from what was saved after `told` episodes, to the end.
@@ -107,6 +125,8 @@ class LearnerCheck {
       if (!names.empty())
         return found_.add(fmt::format("loaded after {} episodes, trial {} has another {}", told, k + 1, names));
       learner->tell(run.episodes[k]);
+      if (!same_tables(run.tables[k], learner->tables()))
+        return found_.add(fmt::format("loaded after {} episodes, other tables after trial {}", told, k + 1));
     }
   }
 

@@ -16,7 +16,8 @@ using RunTrial = std::function<Episode(const learners::Proposal& proposal, std::
 /// - a proposal has a policy, and as many parameters as that takes;
 /// - `ask` is idempotent: until the next `tell` it returns the same proposal;
 /// - the same bytes on one and on two threads;
-/// - a learner that loads what was saved after any episode, as text, goes on with the same proposals.
+/// - a learner that loads what was saved after any episode, as text, goes on with the same proposals and tables;
+/// - a table has a name for each of its columns.
 ///
 /// The setting's evaluator is ignored. About trials² / 2 + 2 trials proposals are computed: give it a small budget.
 std::vector<std::string> check_learner(const learners::LearnerBuilder& builder, const learners::Setting& setting,

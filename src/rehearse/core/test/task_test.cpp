@@ -93,6 +93,18 @@ TEST(Task, DescriptorsHaveFiniteBounds) {
                                                               "descriptor_bounds 3: must be finite with low < high"}));
 }
 
+TEST(Task, DescriptorsHaveANameEachOrNone) {
+  Task described = task();
+  described.descriptor_bounds = {{0, 1}, {0, 1}};
+  EXPECT_EQ(described.descriptor_labels(), (std::vector<std::string>{"descriptor 1", "descriptor 2"}));
+  described.descriptor_names = {"reach [m]", "height [m]"};
+  EXPECT_EQ(described.descriptor_labels(), described.descriptor_names);
+  EXPECT_EQ(described.violations(), std::vector<std::string>{});
+  described.descriptor_names.pop_back();
+  EXPECT_EQ(described.violations(),
+            std::vector<std::string>{"descriptor_names has 1 entries, must have 2, as descriptor_bounds, or none"});
+}
+
 TEST(Task, AnEmptyOneLacksEverything) {
   EXPECT_EQ(Task().violations().size(), 5u) << "states, actions, dt_s, horizon, reward";
 }

@@ -137,6 +137,8 @@ struct Killer {
   }
 };
 
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
 /// Its next policy depends on everything that it has seen and proposed, by way of what it saves.
 class EchoLearner final : public learners::Learner {
  public:
@@ -160,6 +162,9 @@ class EchoLearner final : public learners::Learner {
     ++told_;
     memory_ = 0.3 * memory_ + episode.states.sum() + proposal_.theta(1);
     asked_ = false;
+  }
+  std::vector<learners::Table> tables() const override {
+    return {{"memories", {"told", "memory [m]"}, Matrix{{static_cast<double>(told_), memory_}, {0, kUnknown}}}};
   }
   nlohmann::json save() const override {
     killer_.pass(Killer::Place::save, told_);

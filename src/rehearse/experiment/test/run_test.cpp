@@ -36,7 +36,7 @@ std::vector<std::string> lines_of(const fs::path& path) {
 std::string results_of(const fs::path& folder) {
   std::string bytes;
   for (const std::string name :
-       {"spec.toml", "trials.csv", "errors.csv", "doubts.csv", "notes.csv", "policy.json", "done"})
+       {"spec.toml", "trials.csv", "errors.csv", "doubts.csv", "notes.csv", "memories.csv", "policy.json", "done"})
     bytes += name + "\n" + read_file(folder / name);
   for (const std::string name : {"trajectories/trial-001.csv", "predictions/trial-003.csv"})
     bytes += name + "\n" + read_file(folder / name);
@@ -73,6 +73,12 @@ TEST(Run, FolderHoldsWhatTheContractSays) {
             (std::vector<std::string>{"trial,doubt", "2,gain is not determined by these trials: 0.1 to 4",
                                       "3,gain is not determined by these trials: 0.1 to 4"}));
   EXPECT_EQ(result.doubts, std::vector<std::string>{"gain is not determined by these trials: 0.1 to 4"});
+
+  const auto memories = lines_of(folder / "memories.csv");  // the learner's own
+  ASSERT_EQ(memories.size(), 3u);
+  EXPECT_EQ(memories[0], "told,memory [m]");
+  EXPECT_TRUE(memories[1].starts_with("3,")) << memories[1];
+  EXPECT_EQ(memories[2], "0,");
 
   const auto policies = nlohmann::json::parse(read_file(folder / "policy.json"));
   EXPECT_EQ(policies["trials"].size(), 3u);

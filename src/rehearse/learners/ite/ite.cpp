@@ -32,6 +32,9 @@ class Ite final : public Learner {
     proposal_.reset();
   }
 
+  /// There is an adaptation after `tell`.
+  std::vector<Table> tables() const override { return {elites(), tried()}; }
+
   json save() const override { return {{"tried", tried_}}; }
 
   void load(const std::vector<Episode>& episodes, const json& state) override {
@@ -80,6 +83,33 @@ class Ite final : public Learner {
     }
     adaptation_.emplace(std::move(descriptors), std::move(promised), options_.adaptation);
     for (std::size_t trial = 0; trial < returns_.size(); ++trial) learn(trial);
+  }
+
+  /// All elites: what the archive promises, and what is expected of them after the trials.
+  Table elites() const {
+    const qd::Archive& archive = search_->archive;
+    const Index D = archive.niches().dimensions();
+    Table table{"elites", setting_.task.descriptor_labels(), Matrix(archive.size(), D + 3)};
+    for (const char* column : {"promised", "expected", "deviation"}) table.columns.emplace_back(column);
+    for (Index e = 0; e < archive.size(); ++e) {
+      table.rows.row(e).head(D) = archive.descriptor(e).transpose();
+      table.rows(e, D) = archive.performance(e);
+    }
+    table.rows.col(D + 1) = (floor_of(setting_.task) + unit_ * adaptation_->means().array()).matrix();
+    table.rows.col(D + 2) = unit_ * adaptation_->deviations();
+    return table;
+  }
+
+  /// Which elite each trial tried, and whether what is expected was learned from it.
+  Table tried() const {
+    const auto trials = static_cast<Index>(tried_.size());
+    Table table{"tried", {"trial", "elite", "promised", "learned"}, Matrix(trials, 4)};
+    for (Index trial = 0; trial < trials; ++trial) {
+      const Index elite = tried_[static_cast<std::size_t>(trial)];
+      table.rows.row(trial) << static_cast<double>(trial + 1), static_cast<double>(elite + 1),
+          search_->archive.performance(elite), trial < adaptation_->trials() ? 1 : 0;
+    }
+    return table;
   }
 
   double in_units(double total_reward) const { return (total_reward - floor_of(setting_.task)) / unit_; }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/reward/saturating.hpp"
 #include "rehearse/robots/pendubot/kernel.hpp"
@@ -57,11 +59,23 @@ Eigen::Vector2d tip(const ConstVectorView& state) {
          Eigen::Vector2d{-std::sin(state(2)) - std::sin(state(3)), std::cos(state(2)) + std::cos(state(3))};
 }
 
-/// Tip positions (x, y) at three equally spaced times, the last at the end.
+constexpr Index kDescribedTimes = 3;  // equally spaced, the last at the end
+
+std::vector<std::string> descriptor_names() {
+  std::vector<std::string> names;
+  for (Index i = 1; i <= kDescribedTimes; ++i)
+    for (const char* axis : {"x", "y"})
+      names.push_back(
+          fmt::format("tip {} at {:g} s [m]", axis, static_cast<double>(kHorizon * i / kDescribedTimes) * kDt));
+  return names;
+}
+
+/// Tip positions (x, y) at these times.
 Vector tip_descriptor(const Episode& episode) {
-  Vector descriptor(6);
-  for (Index i = 0; i < 3; ++i)
-    descriptor.segment<2>(2 * i) = tip(episode.true_states.row(episode.steps() * (i + 1) / 3).transpose());
+  Vector descriptor(2 * kDescribedTimes);
+  for (Index i = 0; i < kDescribedTimes; ++i)
+    descriptor.segment<2>(2 * i) =
+        tip(episode.true_states.row(episode.steps() * (i + 1) / kDescribedTimes).transpose());
   return descriptor;
 }
 
@@ -83,7 +97,8 @@ Task make_task(const Options& options) {
     return (tip(state) - Eigen::Vector2d{0, 1}).norm() <= kSolvedDistance;
   });
   task.descriptor = tip_descriptor;
-  task.descriptor_bounds = std::vector<Interval>(6, {-2 * kRewardLength, 2 * kRewardLength});
+  task.descriptor_bounds = std::vector<Interval>(2 * kDescribedTimes, {-2 * kRewardLength, 2 * kRewardLength});
+  task.descriptor_names = descriptor_names();
   return task;
 }
 

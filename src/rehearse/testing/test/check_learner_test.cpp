@@ -9,7 +9,7 @@
 namespace rehearse::testing {
 namespace {
 
-enum class Fault { none, asks_anew, counts_threads, forgets, no_policy, wrong_size };
+enum class Fault { none, asks_anew, counts_threads, forgets, no_policy, wrong_size, other_tables, unnamed_columns };
 
 /// Proposes the sum of all returns and a number of tells that only `save` keeps.
 class Adding final : public learners::Learner {
@@ -27,6 +27,13 @@ class Adding final : public learners::Learner {
   void tell(const Episode& episode) override {
     sum_ += episode.total_reward();
     ++tells_;
+    ++since_built_;
+  }
+  std::vector<learners::Table> tables() const override {
+    const double since_built = fault_ == Fault::other_tables ? since_built_ : 0;
+    learners::Table table{"sums", {"sum", "since built"}, Matrix{{sum_, since_built}}};
+    if (fault_ == Fault::unnamed_columns) table.columns.pop_back();
+    return {table};
   }
   nlohmann::json save() const override { return {{"tells", tells_}}; }
   void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override {
@@ -38,7 +45,7 @@ class Adding final : public learners::Learner {
   learners::Setting setting_;
   Fault fault_;
   learners::Proposal proposal_;
-  double sum_ = 0, tells_ = 0, extra_ = 0;
+  double sum_ = 0, tells_ = 0, extra_ = 0, since_built_ = 0;
 };
 
 class Builder final : public learners::LearnerBuilder {
@@ -78,6 +85,8 @@ TEST(CheckLearner, FindsFaults) {
   EXPECT_NE(check(Fault::no_policy).find("trial 1: a proposal without a policy"), std::string::npos);
   EXPECT_NE(check(Fault::wrong_size).find("trial 1: 1 parameters, the policy takes 2"), std::string::npos);
   EXPECT_NE(check(Fault::forgets).find("loaded after 1 episodes, trial 2 has another theta"), std::string::npos);
+  EXPECT_NE(check(Fault::other_tables).find("loaded after 1 episodes, other tables after trial 2"), std::string::npos);
+  EXPECT_NE(check(Fault::unnamed_columns).find("trial 1: table sums has 2 columns and names of 1"), std::string::npos);
 }
 
 }  // namespace

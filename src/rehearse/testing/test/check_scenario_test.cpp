@@ -28,6 +28,7 @@ TEST(CheckScenario, NamesThePartThatBreaksALaw) {
 
   scenario = robots::pendubot::make({});
   scenario.task.descriptor_bounds.pop_back();
+  scenario.task.descriptor_names.clear();
   EXPECT_EQ(check_scenario(scenario), Lines{"descriptor: 6 numbers, but 5 descriptor_bounds"});
 
   scenario = robots::pendubot::make({});

@@ -1,5 +1,6 @@
 #include "rehearse/learners/ite/ite.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -83,6 +84,43 @@ TEST(Ite, TheFirstPolicyIsTheArchivesBest) {
   EXPECT_DOUBLE_EQ(*first.predicted_return, search.archive.performance(best));
   EXPECT_EQ(search.evaluations, 2048U);
   EXPECT_GT(search.archive.statistics().coverage, 0.1);
+}
+
+const Table& table(const std::vector<Table>& tables, const std::string& name) {
+  return *std::find_if(tables.begin(), tables.end(), [&](const Table& table) { return table.name == name; });
+}
+
+TEST(Ite, TellsWhatTheArchivePromisesAndWhatIsExpectedNow) {
+  Setting wrong_way = setting(-0.5);
+  wrong_way.task.descriptor_names = {"half way [m]", "end [m]"};
+  const auto learner = builder()->build(wrong_way);
+  const Proposal first = learner->ask();
+  const qd::Archive archive = qd::from_bytes(*first.archive, "archive").archive;
+  const Episode episode = run_trial(first, 1);
+  learner->tell(episode);
+  const auto tables = learner->tables();
+  const Table& elites = table(tables, "elites");
+  EXPECT_EQ(elites.columns, (std::vector<std::string>{"half way [m]", "end [m]", "promised", "expected", "deviation"}));
+  ASSERT_EQ(elites.rows.rows(), archive.size());
+  const Index tried = archive.best();
+  EXPECT_EQ(elites.rows.row(7).head(2), archive.descriptor(7).transpose());
+  EXPECT_EQ(elites.rows(7, 2), archive.performance(7));
+  EXPECT_EQ(table(tables, "tried").rows, (Matrix{{1, double(tried + 1), archive.performance(tried), 1}}));
+  EXPECT_NEAR(elites.rows(tried, 3), episode.total_reward(), 0.01 * archive.performance(tried)) << "σ_n² = 0.001";
+  EXPECT_LT(elites.rows(tried, 4), 0.05 * archive.performance(tried));
+  const Proposal second = learner->ask();
+  Index next = 0;
+  (elites.rows.col(3) + 0.05 * elites.rows.col(4)).maxCoeff(&next);
+  EXPECT_EQ(second.theta, archive.solution(next)) << "κ = 0.05";
+  EXPECT_EQ(*second.predicted_return, elites.rows(next, 3));
+}
+
+TEST(Ite, TheTrialsAfterItStoppedTeachNothing) {
+  const auto learner = builder({{"adaptation.stop_ratio", "0"}, {"adaptation.max_trials", "2"}})->build(setting(-0.5));
+  slider::learn(*learner, 4, run_trial);
+  const Table tried = table(learner->tables(), "tried");
+  EXPECT_EQ(tried.rows.col(3), (Vector{{1, 1, 0, 0}}));
+  EXPECT_EQ(tried.rows(2, 1), tried.rows(3, 1));
 }
 
 TEST(Ite, OnceItStopsTheBestPolicyIsRepeated) {

@@ -1,6 +1,7 @@
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -107,6 +108,19 @@ TEST(Pendubot, IsDrawnWithItsEndWhereTheRewardSeesIt) {
     s.task.reward(X, U, X, reward);
     EXPECT_NEAR(reward(0), std::exp(-distance * distance / (2 * kWidth * kWidth)), 1e-12);
   }
+}
+
+TEST(Pendubot, ItsDescriptorsSayWhereAndWhen) {
+  const Task task = make({}).task;
+  EXPECT_EQ(task.descriptor_labels().size(), task.descriptor_bounds.size());
+  EXPECT_EQ(task.descriptor_labels()[0], "tip x at 0.8 s [m]");
+  EXPECT_EQ(task.descriptor_labels()[3], "tip y at 1.65 s [m]");
+  Episode episode;  // hangs, then stands from the last state on
+  episode.states = episode.true_states = Vector{{0, 0, 1, 1}}.transpose().replicate(51, 1) * std::numbers::pi;
+  episode.true_states.row(50).setZero();
+  episode.actions = Matrix::Zero(50, 1);
+  episode.rewards = Vector::Zero(50);
+  EXPECT_TRUE(task.descriptor(episode).isApprox(Vector{{0, -1, 0, -1, 0, 1}}));
 }
 
 }  // namespace

@@ -1,0 +1,14 @@
+#pragma once
+// A learner's archive of policies in a run folder. For the sources of this room.
+
+#include <filesystem>
+
+#include "rehearse/report/files.hpp"
+
+namespace rehearse::report {
+
+/// What elites.csv and tried.csv say, and of archive.bin the size and bounds of its space: descriptors and returns to 4
+/// digits, no policies. Null if the run has no such tables, as those of other learners, or they are unusable.
+Json read_archive(const std::filesystem::path& folder, Problems& problems);
+
+}  // namespace rehearse::report
