@@ -1,5 +1,5 @@
 // What moment matching expects of a trial, beside the samples (docs/pilco.md).
-import { chart, fit, heights, type Point, type Series } from './chart'
+import { chart, fit, heights, type ChartOptions, type Domain, type Point, type Series } from './chart'
 import { MOMENTS, PREDICTED } from './colours'
 import { column, present, type Columns, type Run } from './data'
 import { h, type Child } from './dom'
@@ -51,6 +51,14 @@ export function gapSentence({ episodes }: Run, trial: number): string {
   return parts.length > 0 ? ` From the robot’s start ${parts.join('; ')}.` : ''
 }
 
+/** From one power of ten to another. */
+function decades(values: number[]): Domain {
+  if (values.length === 0) return {}
+  const low = Math.floor(Math.log10(Math.min(...values)))
+  const high = Math.max(low + 1, Math.ceil(Math.log10(Math.max(...values))))
+  return { domain: [10 ** low, 10 ** high] }
+}
+
 /** How far it is from the samples, trial by trial. */
 export function gaps({ episodes }: Run): Child {
   const known = episodes.flatMap(({ trial, gap }) => (gap ? [{ trial, ...gap }] : []))
@@ -62,18 +70,19 @@ export function gaps({ episodes }: Run): Child {
     ...look,
     points: known.flatMap((gap): Point[] => {
       const y = gap[part]
-      return present(y) ? [{ x: gap.trial, y }] : []
+      return present(y) && (part !== 'apart' || y > 0) ? [{ x: gap.trial, y }] : []
     }),
   })
   const samples: Partial<Series> = { label: 'samples', colour: PREDICTED, symbol: 'square', dash: '6 3' }
-  const panel = (title: string, label: string, all: Series[], equal = false): Panel => ({
+  const values = (all: Series[]) => all.flatMap(heights)
+  const panel = (title: string, y: ChartOptions['y'], all: Series[], equal = false): Panel => ({
     title,
     draw: (width) =>
       chart({
         width,
         height: 190,
         x: { label: 'trial', whole: true },
-        y: { label, ...fit([...all.flatMap(heights), ...(equal ? [1] : [])], { zero: true }) },
+        y: { ...y, ...(y.log ? decades(values(all)) : fit([...values(all), ...(equal ? [1] : [])], { zero: true })) },
         series: all,
         rule: equal ? { y: 1, label: 'equal' } : null,
       }),
@@ -89,9 +98,11 @@ export function gaps({ episodes }: Run): Child {
       { label: 'samples', colour: PREDICTED, symbol: 'square', dash: '6 3' },
     ],
     panels: () => [
-      panel('Largest difference of means', 'standard deviations of the samples', [series('apart', {})]),
-      panel('Standard deviations, moments to samples', 'ratio', [series('spread', {})], true),
-      panel('Expected return', 'return', [series('sampled_return', samples), series('moment_return', {})]),
+      panel('Largest difference of means', { label: 'standard deviations of the samples', log: true }, [
+        series('apart', {}),
+      ]),
+      panel('Standard deviations, moments to samples', { label: 'ratio' }, [series('spread', {})], true),
+      panel('Expected return', { label: 'return' }, [series('sampled_return', samples), series('moment_return', {})]),
     ],
     table: () => known,
     minWidth: 260,
