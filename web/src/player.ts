@@ -84,7 +84,10 @@ class Player {
       name: 'trajectory',
       title: 'States, action and reward of the trial',
       about: 'Where the line leaves the band, the model was wrong about the robot.',
-      legend: [...legendOf(this.episode), ...(this.moments ? [momentLegend()] : [])],
+      legend: [
+        ...legendOf(this.episodes.find(({ prediction }) => prediction) ?? this.episode),
+        ...(this.moments ? [momentLegend()] : []),
+      ],
       ...(this.moments ? { controls: momentSwitch((on) => this.showMoments(on)) } : {}),
       panels: () => panelsOf(this.episode, this.moments),
       table: () => tableOf(this.episode),

@@ -70,6 +70,7 @@ async function moveSlider(page) {
 
 async function play(page) {
   await page.getByRole('slider', { name: 'Time' }).fill('0')
+  await page.getByRole('combobox', { name: 'Speed' }).selectOption('0.25×') // a busy machine looks seldom
   await page.getByRole('button', { name: 'Play' }).press('Enter')
   await page.getByText(/^0\.[1-9]\d \/ 2\.50 s$/).waitFor()
   await page.getByRole('button', { name: 'Pause' }).press('Enter')
@@ -109,6 +110,9 @@ for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme
   await open(momentsPage, settings, async (page) => {
     await page.locator('#trajectory').scrollIntoViewIfNeeded()
     await page.locator('#trajectory .panel').first().waitFor()
+    await page.getByRole('combobox', { name: 'Trial' }).selectOption('Trial 1')
+    assert.equal(await outlines(page), 0)
+    await page.getByRole('combobox', { name: 'Trial' }).selectOption('Trial 2')
     assert.match(await page.locator('#trajectory').textContent(), /5–95 % by moment matching/)
     assert.equal(await outlines(page), 4 * 3 + 1) // a mean and two edges of each state, and the mean reward
     await page.getByRole('checkbox', { name: 'Show moment matching' }).press('Space')
