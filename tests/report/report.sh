@@ -33,6 +33,7 @@ refused "--target page" bare/rehearse report run
 [ ! -e run/report.html ] || fail "a report without a page is written"
 
 [ -f "$build/share/rehearse/report.html" ] || { echo "the page is not built: cmake --build $build --target page"; exit 77; }
+"$program" learn cartpole --learner pilco --trials 2 --set policy=rbf --set search.line_searches=5 --out moments >/dev/null
 refused "is neither a run folder" "$program" report bare
 refused "trial 3 is not in run" "$program" replay run --trial 3
 refused "--trial = 0" "$program" replay run --trial 0
@@ -40,6 +41,7 @@ refused "cannot write" "$program" report run --out nowhere/report.html
 
 "$program" report run >stdout 2>stderr
 [ ! -s stderr ] || fail "the report of a whole run complains: $(cat stderr)"
+"$program" report moments >/dev/null
 grep -q "^run/report.html (0\.[0-9] MB) opens in a browser$" stdout || fail "the report says $(cat stdout)"
 "$program" replay run --trial 2 --out replay.html >/dev/null
 
@@ -85,4 +87,4 @@ cp -r run walker
 for trial in 1 2; do node "$walker" walker $trial 50; done
 "$program" report walker >/dev/null
 node "$browser_test" "$chromium" "$build/web/page" \
-  {run/report,replay,campaign/report,walker/report,ite/report,damaged/report}.html
+  {run/report,replay,campaign/report,walker/report,moments/report,ite/report,damaged/report}.html

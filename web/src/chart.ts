@@ -6,7 +6,7 @@ import { number } from './format'
 export interface Point {
   x: number
   y: number
-  /** Filled lightly. */
+  /** Filled lightly, or outlined. */
   band?: [number, number]
   /** Inside it, filled more. */
   core?: [number, number]
@@ -30,6 +30,8 @@ export interface Series {
   line?: boolean
   /** Each value holds until the next. */
   held?: boolean
+  /** The band is its edges. */
+  outline?: boolean
 }
 
 export interface ChartOptions {
@@ -165,7 +167,13 @@ function asPower(value: number): string {
   return '10' + [...String(exponent)].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)])).join('')
 }
 
-function bands({ colour, points }: Series): Plot.Markish[] {
+function bands({ colour, points, outline }: Series): Plot.Markish[] {
+  if (outline) {
+    const some = points.filter((point) => point.band)
+    const edge = (side: 0 | 1) =>
+      Plot.lineY(some, { x: 'x', y: (p: Point) => p.band?.[side], stroke: colour, strokeWidth: 1.25, clip: true })
+    return [edge(0), edge(1)]
+  }
   const area = (side: 'band' | 'core', fillOpacity: number) => {
     const some = points.filter((point) => point[side])
     if (some.length === 0) return null

@@ -22,6 +22,7 @@ const LOOKS: Record<string, Look> = {
 export const REAL = 'var(--vermillion)'
 export const PREDICTED = 'var(--blue)'
 export const EXPECTED = 'var(--orange)'
+export const MOMENTS = 'var(--green)'
 /** Of the vertical bars of intervals. */
 export const INTERVAL_OPACITY = 0.55
 

@@ -50,7 +50,21 @@ export interface Episode {
   trial: number
   trajectory: Columns | null
   prediction: Columns | null
+  /** Between moment matching and the samples; null where the prediction is one of samples alone. */
+  gap: Gap | null
   motion: Motion | null
+}
+
+/** What has no number is null, or not there. */
+export interface Gap {
+  /** The largest difference of means in standard deviations of the samples, and where it is. */
+  apart?: number
+  state?: string
+  time_s?: number
+  /** Standard deviations of moment matching to those of the samples, on geometric average. */
+  spread?: number
+  sampled_return: Cell
+  moment_return: Cell
 }
 
 /** motion/trial-003.json: a frame for every state of the trial. */

@@ -20,6 +20,8 @@ export interface LegendEntry {
   line?: boolean
   /** Opacity of a filled band. */
   band?: number
+  /** The edges of a band. */
+  outline?: boolean
   /** A vertical bar, of intervals. */
   interval?: boolean
   /** A scale of colours, from low to high, and nothing else. */
@@ -53,6 +55,9 @@ export function entryMarks(entry: LegendEntry): SVGElement[] {
   const stroke = { stroke: entry.colour, 'stroke-width': 2, fill: 'none', 'stroke-dasharray': entry.dash ?? 'none' }
   const marks: SVGElement[] = []
   if (entry.band) marks.push(s('rect', { x: 2, y: -6, width: 24, height: 12, fill: entry.colour, opacity: entry.band }))
+  if (entry.outline)
+    for (const y of [-6, 6])
+      marks.push(s('line', { x1: 0, x2: 28, y1: y, y2: y, stroke: entry.colour, 'stroke-width': 1.25 }))
   if (entry.interval)
     marks.push(s('line', { x1: 14, x2: 14, y1: -8, y2: 8, ...stroke, 'stroke-opacity': INTERVAL_OPACITY }))
   if (entry.line !== false) marks.push(s('line', { x1: 0, x2: 28, ...stroke }))

@@ -18,6 +18,7 @@ import type { Row } from './export'
 import { figure, type Figure, type Panel } from './figure'
 import { number } from './format'
 import type { LegendEntry } from './legend'
+import { hasMoments, momentLegend, momentSeries, momentSwitch } from './moments'
 import { stage, type Stage } from './stage'
 import { stage3d } from './stage3d'
 
@@ -35,6 +36,7 @@ class Player {
   private episode: Episode
   private time = 0
   private playing = false
+  private moments: boolean
 
   private readonly picture: Stage | null
   private readonly states: Figure
@@ -55,6 +57,7 @@ class Player {
     private readonly describe: (trial: number) => string,
   ) {
     this.episode = start
+    this.moments = episodes.some(({ prediction }) => hasMoments(prediction))
     const motions = episodes.flatMap((one) => (one.motion ? [one.motion] : []))
     this.picture = motions.length > 0 ? pictureOf(motions) : null
     this.states = this.stateFigure()
@@ -81,13 +84,22 @@ class Player {
       name: 'trajectory',
       title: 'States, action and reward of the trial',
       about: 'Where the line leaves the band, the model was wrong about the robot.',
-      legend: legendOf(this.episode),
-      panels: () => panelsOf(this.episode),
+      legend: [
+        ...legendOf(this.episodes.find(({ prediction }) => prediction) ?? this.episode),
+        ...(this.moments ? [momentLegend()] : []),
+      ],
+      ...(this.moments ? { controls: momentSwitch((on) => this.showMoments(on)) } : {}),
+      panels: () => panelsOf(this.episode, this.moments),
       table: () => tableOf(this.episode),
       minWidth: 280,
       columns: 3,
       afterDrawing: () => this.show(),
     })
+  }
+
+  private showMoments(on: boolean) {
+    this.moments = on
+    this.states.redraw()
   }
 
   private controls(): HTMLElement {
@@ -188,7 +200,7 @@ function isNoisy(trajectory: Columns): boolean {
   })
 }
 
-function panelsOf({ trajectory, prediction }: Episode): Panel[] {
+function panelsOf({ trajectory, prediction }: Episode, moments: boolean): Panel[] {
   if (!trajectory) return []
   const times = column(trajectory, 'time') ?? []
   const { states, actions } = variables(trajectory)
@@ -204,12 +216,12 @@ function panelsOf({ trajectory, prediction }: Episode): Panel[] {
         cursor: true,
       }),
   })
-  const recorded = (variable: Variable, held: boolean) =>
-    panel(variable, [{ ...line('robot', REAL, times, column(trajectory, variable.name)), held }])
+  const recorded = (name: string) => line('robot', REAL, times, column(trajectory, name))
+  const expected = (name: string) => (prediction ? expectedSeries(name, prediction, moments) : [])
   return [
-    ...states.map((state) => panel(state, stateSeries(state, times, trajectory, prediction))),
-    ...actions.map((action) => recorded(action, true)),
-    recorded({ name: 'reward', unit: '' }, false),
+    ...states.map((state) => panel(state, [...expected(state.name), ...stateSeries(state, times, trajectory)])),
+    ...actions.map((action) => panel(action, [{ ...recorded(action.name), held: true }])),
+    panel({ name: 'reward', unit: '' }, [...expected('reward'), recorded('reward')]),
   ]
 }
 
@@ -222,19 +234,19 @@ function domainOf(series: Series[]): Domain {
   return { domain: [Math.max(all[0], real[0] - room), Math.min(all[1], real[1] + room)] }
 }
 
-function stateSeries(
-  { name }: Variable,
-  times: Cell[],
-  trajectory: Columns,
-  prediction: Episode['prediction'],
-): Series[] {
+function stateSeries({ name }: Variable, times: Cell[], trajectory: Columns): Series[] {
   const truth = column(trajectory, `true ${name}`) ?? []
   const measured = column(trajectory, name) ?? []
   const all: Series[] = []
-  if (prediction) all.push(predictedSeries(name, prediction))
   if (isNoisy(trajectory)) all.push({ ...line('measured', REAL, times, measured), ...MEASURED })
   all.push(line('robot', REAL, times, truth.some(present) ? truth : measured))
   return all
+}
+
+function expectedSeries(name: string, prediction: Columns, moments: boolean): Series[] {
+  return [predictedSeries(name, prediction), ...(moments ? [momentSeries(name, prediction)] : [])].filter(
+    ({ points }) => points.length > 0,
+  )
 }
 
 function predictedSeries(name: string, prediction: Columns): Series {

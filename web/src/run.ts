@@ -19,6 +19,7 @@ import { figure, tableFigure, type Panel } from './figure'
 import { count, duration, number } from './format'
 import { beside, head, problems, sections, tiles, type Tile } from './layout'
 import type { LegendEntry } from './legend'
+import { gaps, gapSentence } from './moments'
 import { player } from './player'
 
 const TRIAL = { label: 'trial', whole: true }
@@ -35,7 +36,7 @@ export function runPage(report: Report, run: Run): Child[] {
         { id: 'returns', title: 'Returns', content: [returns(run)] },
         { id: 'replay', title: 'Replay', content: [replay(run)] },
         { id: 'archive', title: 'The archive', content: archiveFigures(run) },
-        { id: 'model', title: 'The model', content: [errors(run), beside(parameters(run), evidence(run))] },
+        { id: 'model', title: 'The model', content: [errors(run), gaps(run), beside(parameters(run), evidence(run))] },
         { id: 'computing', title: 'Computing', content: [beside(times(run), rollouts(run)), notes(run)] },
         { id: 'options', title: 'Options', content: [options(run)] },
       ]),
@@ -147,7 +148,7 @@ function replay(run: Run): Child {
     const expected = present(value('predicted_return')) ? `, ${number(value('predicted_return'))} predicted` : ''
     const solved = value('solved')
     const verdict = present(solved) ? (solved === 1 ? ', solved' : ', not solved') : ''
-    return `Return ${number(value('return'))}${expected}${verdict}.`
+    return `Return ${number(value('return'))}${expected}${verdict}.${gapSentence(run, trial)}`
   })
 }
 

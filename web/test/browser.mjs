@@ -1,13 +1,13 @@
-// browser.mjs CHROMIUM PACKAGES RUN.html REPLAY.html CAMPAIGN.html WALKER.html ARCHIVE.html DAMAGED.html: a reader's way
-// through real reports. Fails on anything that a page says on the console, on any request, and on what it does not show.
-// PACKAGES: the folder of node_modules. WALKER: a run whose robot moves in space. ARCHIVE: one of ite, of 3 trials,
-// DAMAGED: with a damaged archive.bin.
+// browser.mjs CHROMIUM PACKAGES RUN.html REPLAY.html CAMPAIGN.html WALKER.html MOMENTS.html ARCHIVE.html DAMAGED.html:
+// a reader's way through real reports. Fails on anything that a page says on the console, on any request, and on what it
+// does not show. PACKAGES: the folder of node_modules. WALKER: a run whose robot moves in space. MOMENTS: a run with
+// predictions by moment matching. ARCHIVE: one of ite, of 3 trials, DAMAGED: with a damaged archive.bin.
 import assert from 'node:assert/strict'
 import { readFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
 import { pathToFileURL } from 'node:url'
 
-const [chromiumPath, packages, runPage, replayPage, campaignPage, walkerPage, archivePage, damagedPage] =
+const [chromiumPath, packages, runPage, replayPage, campaignPage, walkerPage, momentsPage, archivePage, damagedPage] =
   process.argv.slice(2)
 const { chromium } = createRequire(`${packages}/`)('playwright-core')
 const launch = (...args) => chromium.launch({ executablePath: chromiumPath, args: ['--no-sandbox', ...args] })
@@ -72,6 +72,7 @@ async function moveSlider(page) {
 
 async function play(page) {
   await page.getByRole('slider', { name: 'Time' }).fill('0')
+  await page.getByRole('combobox', { name: 'Speed' }).selectOption('0.25×') // a busy machine looks seldom
   await page.getByRole('button', { name: 'Play' }).press('Enter')
   await page.getByText(/^0\.[1-9]\d \/ 2\.50 s$/).waitFor()
   await page.getByRole('button', { name: 'Pause' }).press('Enter')
@@ -79,6 +80,7 @@ async function play(page) {
 
 await open(runPage, {}, async (page) => {
   assert.equal(await page.locator('h1').textContent(), 'gp-mi on pendubot')
+  assert.equal(await page.locator('#trajectory input, #moments-by-trial').count(), 0) // GPs around a simulator have none
   await moveSlider(page)
   await play(page)
   await page.getByRole('combobox', { name: 'Trial' }).selectOption('Trial 1')
@@ -102,6 +104,29 @@ await open(runPage, {}, async (page) => {
   const parameters = await saved(page, 'Save “Parameters of the prior” as CSV')
   assert.match(parameters, /^trial,phi\.m1,phi\.m1\.low,phi\.m1\.high,phi\.m2,/)
 })
+
+/** The lines of moment matching in the figure of the states. */
+const outlines = (page) => page.locator('#trajectory g[stroke="var(--green)"]').count()
+
+for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme: 'dark' }])
+  await open(momentsPage, settings, async (page) => {
+    await page.locator('#trajectory').scrollIntoViewIfNeeded()
+    await page.locator('#trajectory .panel').first().waitFor()
+    await page.getByRole('combobox', { name: 'Trial' }).selectOption('Trial 1')
+    assert.equal(await outlines(page), 0)
+    await page.getByRole('combobox', { name: 'Trial' }).selectOption('Trial 2')
+    assert.match(await page.locator('#trajectory').textContent(), /5–95 % by moment matching/)
+    assert.equal(await outlines(page), 4 * 3 + 1) // a mean and two edges of each state, and the mean reward
+    await page.getByRole('checkbox', { name: 'Show moment matching' }).press('Space')
+    assert.equal(await outlines(page), 0)
+    assert.match(
+      await page.locator('.player .about').textContent(),
+      /moment matching expects [^;]+; means of states are at most /,
+    )
+    const csv = (await saved(page, 'Save “Moment matching against samples” as CSV')).trim().split('\n')
+    assert.equal(csv[0], 'trial,sampled_return,moment_return,apart,state,time_s,spread')
+    assert.equal(csv.length, 2) // none of the random first trial
+  })
 
 await open(replayPage, { colorScheme: 'dark' }, async (page) => {
   assert.match(await page.locator('h1').textContent(), /trial 2$/)

@@ -59,6 +59,14 @@ double mean(const std::vector<double>& values) {
   return values.front() + sum / static_cast<double>(values.size());
 }
 
+double deviation(const std::vector<double>& values) {
+  if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  const double middle = mean(values);
+  double sum = 0;
+  for (double value : values) sum += (value - middle) * (value - middle);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
 double quantile(const std::vector<double>& sorted, double fraction) {
   if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
   const double position = fraction * static_cast<double>(sorted.size() - 1);
@@ -82,6 +90,12 @@ Vector mean_of_finite(const Matrix& states) {
   Vector means(states.cols());
   for (Index s = 0; s < states.cols(); ++s) means(s) = mean(sorted_finite(states, s));
   return means;
+}
+
+Vector deviations_of_finite(const Matrix& states) {
+  Vector found(states.cols());
+  for (Index s = 0; s < states.cols(); ++s) found(s) = deviation(sorted_finite(states, s));
+  return found;
 }
 
 Vector quantiles(const Matrix& states, double fraction) {

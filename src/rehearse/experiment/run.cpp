@@ -199,7 +199,9 @@ class Run {
     const rollout::ImagineOptions unclipped{.noise_clip = 0};
     const auto recorded = rollout::imagine_recorded(*proposal.model, *proposal.policy, with_.task(), proposal.theta,
                                                     kPredictionParticles, key, unclipped);
-    folder_->write_prediction(trial, prediction_csv(with_.task(), recorded));
+    std::optional<ExpectedEpisode> moments;
+    if (proposal.moments) moments = proposal.moments();
+    folder_->write_prediction(trial, prediction_csv(with_.task(), recorded, moments ? &*moments : nullptr));
     draw("prediction", trial, mean_states(recorded));
   }
 

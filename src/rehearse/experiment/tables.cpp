@@ -38,6 +38,23 @@ void add_parameters(Row& row, const TrialRecord& trial) {
   }
 }
 
+void add_moments_header(Row& header, const Task& task) {
+  for (const std::string format : {"{} std", "{} moment mean", "{} moment std"}) add_states(header, task, format);
+  header.insert(header.end(), {"reward mean", "reward std", "reward moment mean", "reward moment std"});
+}
+
+/// No reward is earned by the start.
+void add_moments(Row& row, const rollout::Recorded& recorded, const ExpectedEpisode& moments, Index t) {
+  add_numbers(row, deviations_of_finite(recorded.states[static_cast<std::size_t>(t)]));
+  add_numbers(row, moments.states.row(t));
+  add_numbers(row, moments.state_deviations.row(t));
+  if (t == 0) return row.resize(row.size() + 4);
+  const Matrix rewards = recorded.rewards.col(t - 1);
+  add_numbers(row, mean_of_finite(rewards));
+  add_numbers(row, deviations_of_finite(rewards));
+  add_numbers(row, Vector{{moments.rewards(t - 1), moments.reward_deviations(t - 1)}});
+}
+
 std::optional<Index> as_number(const std::optional<bool>& flag) {
   return flag ? std::optional<Index>(*flag ? 1 : 0) : std::nullopt;
 }
@@ -163,11 +180,12 @@ std::string trajectory_csv(const Task& task, const Episode& episode) {
   return csv.text();
 }
 
-std::string prediction_csv(const Task& task, const rollout::Recorded& recorded) {
+std::string prediction_csv(const Task& task, const rollout::Recorded& recorded, const ExpectedEpisode* moments) {
   constexpr std::array<double, 5> kFractions = {0.05, 0.25, 0.5, 0.75, 0.95};
   Row header = {"time [s]", "particles"};
   for (const std::string format : {"{} mean", "{} 5%", "{} 25%", "{} 50%", "{} 75%", "{} 95%"})
     add_states(header, task, format);
+  if (moments) add_moments_header(header, task);
   Csv csv(header);
   for (std::size_t t = 0; t < recorded.states.size(); ++t) {
     const Matrix& states = recorded.states[t];
@@ -175,6 +193,7 @@ std::string prediction_csv(const Task& task, const rollout::Recorded& recorded) 
     Row row = {Csv::cell(seconds(static_cast<Index>(t), task.dt_s)), Csv::cell(going)};
     add_numbers(row, mean_of_finite(states));
     for (double fraction : kFractions) add_numbers(row, quantiles(states, fraction));
+    if (moments) add_moments(row, recorded, *moments, static_cast<Index>(t));
     csv.row(row);
   }
   return csv.text();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/core/expected_episode.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/experiment/record.hpp"
 #include "rehearse/experiment/spec.hpp"
@@ -39,7 +40,9 @@ std::string learners_csv(const learners::Table& table);
 
 std::string trajectory_csv(const Task& task, const Episode& episode);
 
-/// Mean and quantiles of every state by step.
-std::string prediction_csv(const Task& task, const rollout::Recorded& recorded);
+/// Mean and quantiles of every state by step. `moments`: the same episode by moment matching; unless null it stands
+/// beside what it is to be compared with.
+std::string prediction_csv(const Task& task, const rollout::Recorded& recorded,
+                           const ExpectedEpisode* moments = nullptr);
 
 }  // namespace rehearse::experiment

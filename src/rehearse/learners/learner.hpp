@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
+#include "rehearse/core/expected_episode.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
@@ -31,6 +33,8 @@ struct Proposal {
   std::optional<Vector> phi;                             // of the prior, in the order of its space
   std::optional<dynamics::PhiPosterior> posterior;       // of its continuous parameters, where it was learned
   std::shared_ptr<const dynamics::DynamicsModel> model;  // that predicted the return; null before there is one
+  std::function<ExpectedEpisode()> moments;              // what that model expects of the policy from the task's start,
+                                                         // by moment matching; empty: it has no analytic moments
   Index left_out_rows = 0;                               // training rows whose prior mean was not finite
   std::vector<std::string> notes;                        // numerical failures survived, a line each
   std::shared_ptr<const std::string> archive;            // of elites, as bytes (qd/archive_bytes.hpp)

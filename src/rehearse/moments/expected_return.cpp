@@ -1,5 +1,6 @@
 #include "rehearse/moments/expected_return.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -30,6 +31,11 @@ void check(const Task& task, const policy::Policy& policy, const gp::MomentMatch
                      fmt::format("start: {} states, must be {}", start.size(), states));
   violations.require(task.horizon >= 1, fmt::format("horizon = {}, must be ≥ 1", task.horizon));
   violations.throw_if_any();
+}
+
+/// Rounding may leave a variance below zero.
+Vector deviations(const ConstVectorView& variances) {
+  return variances.unaryExpr([](double variance) { return std::sqrt(std::max(variance, 0.0)); });
 }
 
 Gaussian start_of(const Task& task) { return {task.start_mean, Matrix(task.start_std.cwiseAbs2().asDiagonal())}; }
@@ -108,6 +114,20 @@ Return ExpectedReturn::operator()(const ConstVectorView& theta, Vector* gradient
   }
   result.value = result.rewards.sum();
   return result;
+}
+
+ExpectedEpisode ExpectedReturn::episode(const ConstVectorView& theta, const Evaluator& evaluator) const {
+  ReturnWorkspace workspace;
+  const Return result = (*this)(theta, nullptr, workspace, evaluator);
+  ExpectedEpisode episode = ExpectedEpisode::unknown(horizon_, start_.size());
+  episode.rewards = result.rewards;
+  episode.reward_deviations = deviations(result.variances);
+  for (Index t = 0; t <= result.steps; ++t) {
+    const Gaussian& state = t == 0 ? start_ : workspace.states[at(t)];
+    episode.states.row(t) = state.mean.transpose();
+    episode.state_deviations.row(t) = deviations(state.covariance.diagonal()).transpose();
+  }
+  return episode;
 }
 
 }  // namespace rehearse::moments

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "rehearse/core/expected_episode.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/moments/propagation.hpp"
 
@@ -37,6 +38,9 @@ class ExpectedReturn {
   /// threads. No θ throws but one of another size.
   Return operator()(const ConstVectorView& theta, Vector* gradient, ReturnWorkspace& workspace,
                     const Evaluator& evaluator = serial_evaluator()) const;
+
+  /// The episode whose return that is, as far as there are moments.
+  ExpectedEpisode episode(const ConstVectorView& theta, const Evaluator& evaluator = serial_evaluator()) const;
 
  private:
   bool roll_out(const RbfPolicy& policy, ReturnWorkspace& workspace, Return& result, const Evaluator& evaluator) const;

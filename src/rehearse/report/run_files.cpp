@@ -11,6 +11,7 @@
 
 #include "rehearse/core/options.hpp"
 #include "rehearse/report/archive_files.hpp"
+#include "rehearse/report/prediction_gap.hpp"
 
 namespace rehearse::report {
 namespace {
@@ -123,9 +124,19 @@ Json episode(const fs::path& folder, Index trial, Problems& problems) {
     return problems.value_or_problem(path, [&] { return columns(read_table(folder / path)); }).value_or(Json());
   };
   const fs::path prediction = trial_file("predictions", trial);
+  Json predicted, gap;
+  const auto read_prediction = [&] {
+    const statistics::Table read = read_table(folder / prediction);
+    predicted = columns(read);
+    gap = prediction_gap(read);
+    return true;
+  };
+  if (fs::exists(folder / prediction))
+    problems.value_or_problem(prediction, read_prediction);  // a random trial has none
   return {{"trial", trial},
           {"trajectory", table(trial_file("trajectories", trial))},
-          {"prediction", fs::exists(folder / prediction) ? table(prediction) : Json()},  // a random trial has none
+          {"prediction", std::move(predicted)},
+          {"gap", std::move(gap)},
           {"motion", motion(folder, trial, problems)}};
 }
 

@@ -179,10 +179,12 @@ Recorded imagine_recorded(const dynamics::DynamicsModel& model, const policy::Po
   Chunk chunk(model, policy, task, key, options, particles, buffers);
   for (Index p = 0; p < particles; ++p) chunk.set_row(p, theta, 0, static_cast<std::uint64_t>(p));
   chunk.start();
-  Recorded recorded;
+  Recorded recorded{.rewards = Matrix(particles, task.horizon)};
   recorded.states.push_back(chunk.states());
   for (Index t = 0; t < task.horizon; ++t) {
+    const Vector before = chunk.returns();
     chunk.step(t);
+    recorded.rewards.col(t) = chunk.returns() - before;
     recorded.states.push_back(chunk.states());
     for (Index p = 0; p < particles; ++p)
       if (!chunk.alive(p)) recorded.states.back().row(p).setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -41,6 +41,7 @@ Imagined imagine(const dynamics::DynamicsModel& model, const policy::Policy& pol
 /// after an early end a row is NaN.
 struct Recorded {
   std::vector<Matrix> states;
+  Matrix rewards;  // particles × T: what a step adds to the return, an early end all that is charged for the rest
   Vector returns;  // particles
 };
 Recorded imagine_recorded(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,

@@ -185,6 +185,7 @@ class EchoLearner final : public learners::Learner {
     if (told_ > 0)
       proposal_.posterior = {{setting_.prior->space[0]}, proposal_.phi->head(1), Matrix::Constant(1, 1, 9)};
     proposal_.model = std::make_shared<LineModel>((*proposal_.phi)(0));
+    if (told_ == 2) proposal_.moments = [&] { return ExpectedEpisode::unknown(setting_.task.horizon, 1); };
     proposal_.notes = {"a note, with a comma"};
     proposal_.left_out_rows = told_;
   }

@@ -68,7 +68,9 @@ TEST(Forecast, StatisticsOfFiniteValues) {
   EXPECT_EQ(quantiles(states, 0)(0), 1);
   EXPECT_EQ(quantiles(states, 1)(0), 4);
   EXPECT_EQ(mean_of_finite(states)(0), 2.5);
+  EXPECT_NEAR(deviations_of_finite(states)(0), std::sqrt(5.0 / 3), 1e-15);
   EXPECT_TRUE(std::isnan(quantiles(states, 0.5)(1)) && std::isnan(mean_of_finite(states)(1)));
+  EXPECT_TRUE(std::isnan(deviations_of_finite(states)(1)) && std::isnan(deviations_of_finite(Matrix::Ones(1, 1))(0)));
 }
 
 }  // namespace

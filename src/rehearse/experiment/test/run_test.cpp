@@ -66,6 +66,11 @@ TEST(Run, FolderHoldsWhatTheContractSays) {
   const auto prediction = lines_of(folder / "predictions/trial-002.csv");
   EXPECT_EQ(prediction[0], "time [s],particles,x mean [m],x 5% [m],x 25% [m],x 50% [m],x 75% [m],x 95% [m]");
   EXPECT_EQ(prediction.size(), 14u);
+  const auto with_moments = lines_of(folder / "predictions/trial-003.csv");
+  EXPECT_EQ(with_moments[0], prediction[0] +
+                                 ",x std [m],x moment mean [m],x moment std [m],reward mean,reward std,"
+                                 "reward moment mean,reward moment std");
+  EXPECT_EQ(with_moments.size(), 14u);
   EXPECT_EQ(lines_of(folder / "errors.csv")[0], "trial,horizon,compared,failed,rms x [m]");
   EXPECT_EQ(lines_of(folder / "errors.csv").size(), 1u + 3 * 4);
   EXPECT_EQ(lines_of(folder / "notes.csv")[1], "1,\"a note, with a comma\"");

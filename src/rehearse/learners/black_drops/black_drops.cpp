@@ -7,6 +7,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/learners/black_drops/moments.hpp"
 #include "rehearse/learners/json.hpp"
 #include "rehearse/policy/schedule.hpp"
 
@@ -75,6 +76,7 @@ class BlackDrops final : public Learner {
       propose_at_random(proposal);
       return proposal;
     }
+    const bool has_moments = without_moments(options_, setting_.task, *setting_.policy).empty();
     // What an interruption must not leave behind is assigned last.
     dynamics::WarmStart state = state_;
     std::vector<Vector> carried = carried_;
@@ -83,10 +85,22 @@ class BlackDrops final : public Learner {
       learn_model(proposal, state);
       if (options_.reward.learned) learn_reward(proposal, task);
     });
-    proposal.search_s = seconds([&] { search(proposal, task, carried); });
+    std::optional<moments::ExpectedReturn> expected;
+    if (options_.search.evaluation == Evaluation::moments)
+      expected.emplace(task, *setting_.policy, moments_of(task, data_, state.kernels));
+    proposal.search_s = seconds([&] { search(proposal, task, expected ? &*expected : nullptr, carried); });
+    if (has_moments) proposal.moments = expectation(state.kernels, proposal.theta);
     state_ = std::move(state);
     carried_ = std::move(carried);
     return proposal;
+  }
+
+  /// Computed when it is asked for.
+  std::function<ExpectedEpisode()> expectation(const std::vector<gp::Hyperparameters>& kernels,
+                                               const Vector& theta) const {
+    return [task = setting_.task, policy = setting_.policy, data = data_, kernels, theta] {
+      return moments::ExpectedReturn(task, *policy, moments_of(task, data, kernels)).episode(theta);
+    };
   }
 
   void propose_at_random(Proposal& proposal) const {
@@ -142,8 +156,10 @@ class BlackDrops final : public Learner {
     proposal.model = std::make_shared<dynamics::SimulatorModel>(*setting_.prior, *proposal.phi, variance);
   }
 
-  void search(Proposal& proposal, const Task& task, std::vector<Vector>& carried) const {
-    const SearchProblem problem{*proposal.model, *setting_.policy, task, *setting_.evaluator, setting_.progress};
+  void search(Proposal& proposal, const Task& task, const moments::ExpectedReturn* expected,
+              std::vector<Vector>& carried) const {
+    const SearchProblem problem{*proposal.model,     *setting_.policy,  task,
+                                *setting_.evaluator, setting_.progress, expected};
     std::vector<Vector> starts = known_policies();
     std::optional<SearchResult> scouted;
     if (options_.scout.policies > 0 && options_.search.imagine.sample && !returns_.empty()) {
@@ -185,7 +201,8 @@ class BlackDrops final : public Learner {
       carried.resize(static_cast<std::size_t>(options_.carried));
   }
 
-  SearchResult search_means(const SearchProblem& problem, const std::vector<Vector>& starts, Proposal& proposal) const {
+  SearchResult search_means(SearchProblem problem, const std::vector<Vector>& starts, Proposal& proposal) const {
+    problem.expected = nullptr;
     SearchOptions options = options_.search;
     options.imagine.sample = false;
     SearchResult found = search_policy(problem, starts, options, setting_.seed, trial() + kScouting);
@@ -242,7 +259,9 @@ class BlackDrops final : public Learner {
 
 bool needs_prior(const Options& options) { return !std::holds_alternative<dynamics::ZeroMean>(options.model); }
 
-std::vector<std::string> violations_with(const Options& options, const Task& task) {
+std::vector<std::string> violations_with(const Options& options, const Task& task, const policy::Policy& policy) {
+  if (options.search.evaluation == Evaluation::moments)
+    if (auto refused = without_moments(options, task, policy); !refused.empty()) return refused;
   if (!options.reward.learned || !needs_prior(options) || task.initial_reward) return {};
   return {
       "reward.learned = true, but the scenario gives no initial_reward for the first search, on the prior: give it one "
@@ -264,8 +283,8 @@ class Builder final : public LearnerBuilder {
            std::holds_alternative<dynamics::Mi>(options_.model);
   }
   void fields(FieldVisitor& v) override { options_.fields(v); }
-  std::vector<std::string> violations(const Task& task, const policy::Policy&) const override {
-    return violations_with(options_, task);
+  std::vector<std::string> violations(const Task& task, const policy::Policy& policy) const override {
+    return violations_with(options_, task, policy);
   }
   std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }
 
@@ -309,9 +328,10 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { options.fields(v); })) violations.add(line);
   for (const auto& line : setting.task.violations()) violations.add(line);
-  for (const auto& line : violations_with(options, setting.task)) violations.add(line);
   violations.require(!needs_prior(options) || setting.prior, "this learner needs a prior");
   violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
+  if (setting.policy)
+    for (const auto& line : violations_with(options, setting.task, *setting.policy)) violations.add(line);
   violations.throw_if_any();
   if (!needs_prior(options)) setting.prior.reset();
   if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);

@@ -1,6 +1,7 @@
 #include "rehearse/learners/black_drops/policy_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "rehearse/core/stopwatch.hpp"
@@ -15,6 +16,7 @@ class ImaginedReturn {
       : problem_(problem), options_(options), key_(key) {}
 
   void operator()(const ConstMatrixView& Theta, std::uint64_t first, Index samples, VectorView values) {
+    if (problem_.expected) return expect(Theta, values);
     const rollout::Imagined imagined =
         rollout::imagine(problem_.model, problem_.policy, problem_.task, Theta, first, samples * options_.particles,
                          key_, options_.imagine, problem_.evaluator);
@@ -27,6 +29,24 @@ class ImaginedReturn {
   Index failed() const { return failed_; }
 
  private:
+  /// A policy without a value is charged the reward floor for every step, like a rollout that fails at once.
+  void expect(const ConstMatrixView& Theta, VectorView values) {
+    Matrix results(1, Theta.cols());
+    problem_.evaluator.evaluate(
+        [&](Index j, VectorView result) {
+          thread_local moments::ReturnWorkspace workspace;
+          result(0) = (*problem_.expected)(Theta.col(j), nullptr, workspace).value;
+        },
+        results);
+    const double floor = static_cast<double>(problem_.task.horizon) * problem_.task.reward_floor;
+    for (Index j = 0; j < Theta.cols(); ++j) {
+      const bool ok = std::isfinite(results(0, j));
+      values(j) = ok ? results(0, j) : floor;
+      failed_ += !ok;
+    }
+    rollouts_ += Theta.cols();
+  }
+
   const SearchProblem& problem_;
   const SearchOptions& options_;
   StreamKey key_;
@@ -41,7 +61,9 @@ std::vector<Vector> find(const optim::BatchObjective& objective, const std::vect
                          const optim::SearchListener& listener) {
   std::vector<Vector> found;
   if (options.method == Method::race) {
-    auto result = optim::race(objective, starts, box, options.race, key, problem.evaluator, listener);
+    optim::RaceOptions race = options.race;
+    if (problem.expected) race.judgements = 1;  // the others would be the same
+    auto result = optim::race(objective, starts, box, race, key, problem.evaluator, listener);
     for (optim::Contender& contender : result.contenders) found.push_back(std::move(contender.x));
   } else {
     const Vector start = starts.empty() ? random_policy(problem.policy, options, key.seed, key.trial) : starts.front();
@@ -77,6 +99,7 @@ ImaginedReturn comparison(const SearchProblem& problem, const SearchOptions& opt
 
 void SearchOptions::fields(FieldVisitor& v) {
   v.choice("method", method, {"race", "restarts"});
+  v.choice("evaluation", evaluation, {"samples", "moments"});
   v.number("box", box, above(0));
   v.integer("particles", particles, at_least(1));
   v.group("imagine", imagine);

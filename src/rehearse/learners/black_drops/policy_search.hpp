@@ -8,6 +8,7 @@
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/moments/expected_return.hpp"
 #include "rehearse/optim/race.hpp"
 #include "rehearse/optim/restarts.hpp"
 #include "rehearse/policy/policy.hpp"
@@ -20,9 +21,16 @@ enum class Method {
   restarts,  // one after the other, the paper's: BIPOP, with uncertainty handling and elitism if asked for
 };
 
+/// How a policy is judged in the model.
+enum class Evaluation {
+  samples,  // by rollouts, each one noisy measurement of its expected return
+  moments,  // by moment matching, without noise (docs/pilco.md)
+};
+
 /// Each rollout is one noisy measurement of the expected return, which CMA-ES maximises (Chatzilygeroudis 2017).
 struct SearchOptions {
   Method method = Method::race;
+  Evaluation evaluation = Evaluation::samples;
   double box = 5;       // θ in [−box, box]; the authors' code
   Index particles = 1;  // rollouts of one evaluation; the paper: 1
   rollout::ImagineOptions imagine;
@@ -37,7 +45,7 @@ struct SearchResult {
   Vector theta;
   double predicted_return = 0;
   std::vector<Vector> runners_up;  // other good policies, best first
-  Index rollouts = 0;
+  Index rollouts = 0;              // or expected returns by moment matching
   Index failed_rollouts = 0;
 };
 
@@ -48,6 +56,7 @@ struct SearchProblem {
   const Task& task;
   const Evaluator& evaluator;
   const ProgressSink& progress;
+  const moments::ExpectedReturn* expected = nullptr;  // by which policies are judged, unless by rollouts
 };
 
 /// The policy of the highest expected return in the model, never worse there than `starts`, from which the first

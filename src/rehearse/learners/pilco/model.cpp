@@ -56,6 +56,12 @@ std::vector<gp::MomentTerm> terms(const Matrix& X, const Matrix& Y, const ModelO
   return gp::exact_terms(gp::Posterior(inputs, Y, kernels));
 }
 
+std::shared_ptr<const gp::MomentMatching> around(const std::vector<gp::MomentTerm>& mean,
+                                                 std::vector<gp::MomentTerm> terms, Index outputs) {
+  terms.insert(terms.end(), mean.begin(), mean.end());
+  return std::make_shared<gp::MomentMatching>(std::move(terms), outputs);
+}
+
 dynamics::Kind kind(const ModelOptions& options, bool around_a_mean) {
   const auto adapt = [&](auto kind) {  // each state has a GP of its own, whose moments are known
     static_cast<dynamics::GpOptions&>(kind.gp) = {};
@@ -88,9 +94,11 @@ Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
     const Matrix X = dynamics::gp_inputs(features, data.states, data.actions);
     Matrix Y = data.changes;
     if (!mean.empty()) Y -= gp::evaluate_means(mean, Y.cols(), X);
-    auto all = terms(X, Y, options, learned.state.kernels, evaluator, model.notes);
-    all.insert(all.end(), mean.begin(), mean.end());
-    model.moments = std::make_shared<gp::MomentMatching>(std::move(all), task.state_size());
+    model.moments =
+        around(mean, terms(X, Y, options, learned.state.kernels, evaluator, model.notes), task.state_size());
+    model.moments_of_all_rows = [X, Y, mean, kernels = learned.state.kernels] {
+      return around(mean, gp::exact_terms(gp::Posterior(gp::Inputs(X), Y, kernels)), Y.cols());
+    };
     model.model = std::move(learned.model);
     model.kernels = std::move(learned.state.kernels);
     model.log_evidence = *learned.log_evidence;

@@ -1,28 +1,14 @@
 #include "rehearse/learners/pilco/pilco.hpp"
 
-#include <fmt/format.h>
-
 #include "rehearse/core/errors.hpp"
-#include "rehearse/gp/moment_kernel.hpp"
 #include "rehearse/learners/pilco/trials.hpp"
+#include "rehearse/moments/requirements.hpp"
 
 namespace rehearse::learners::pilco {
 namespace {
 
 std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy) {
-  Violations violations;
-  violations.require(policy.analytic() != nullptr,
-                     fmt::format("policy = {} has no analytic moments, which pilco needs: choose policy = rbf "
-                                 "(--set policy=rbf), or the learner black-drops",
-                                 policy.name()));
-  violations.require(task.saturating_reward.has_value(),
-                     "the scenario's reward has no analytic moments, which pilco needs: give the task a "
-                     "saturating_reward, or choose the learner black-drops");
-  const Index inputs = task.feature_map().features() + task.action_size();
-  violations.require(inputs <= gp::kMostMomentInputs,
-                     fmt::format("{} features and actions, pilco takes at most {}: choose the learner black-drops",
-                                 inputs, gp::kMostMomentInputs));
-  return violations.list();
+  return moments::without_moments(task, policy, "pilco", "the learner black-drops");
 }
 
 class Builder final : public LearnerBuilder {

@@ -8,6 +8,7 @@
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/learners/json.hpp"
+#include "rehearse/moments/expected_return.hpp"
 #include "rehearse/policy/schedule.hpp"
 #include "rehearse/prior/network.hpp"
 
@@ -17,18 +18,30 @@ namespace {
 using learners::to_json;
 using nlohmann::json;
 
+/// Computed when it is asked for: most searches, those on the prior, end without.
+std::function<ExpectedEpisode()> expectation(const Setting& setting, MakeMoments moments, const Vector& theta) {
+  return [task = setting.task, policy = setting.policy, moments = std::move(moments), theta] {
+    return moments::ExpectedReturn(task, *policy, moments()).episode(theta);
+  };
+}
+
 /// A policy that was learned on the prior, before anything is known of the robot.
 Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting) {
   const prior::Prior& given = *setting.prior;
   const prior::Prior model =
       knowledge.network.empty() ? given : prior::network(given.name, setting.task.feature_map(), knowledge.network);
-  return {.policy = setting.policy,
-          .theta = knowledge.theta,
-          .predicted_return = knowledge.predicted_return,
-          .rollouts = knowledge.evaluations,
-          .failed_rollouts = knowledge.failed,
-          .model = std::make_shared<dynamics::SimulatorModel>(model, model.space.values()),
-          .notes = knowledge.notes};
+  Proposal proposal{.policy = setting.policy,
+                    .theta = knowledge.theta,
+                    .predicted_return = knowledge.predicted_return,
+                    .rollouts = knowledge.evaluations,
+                    .failed_rollouts = knowledge.failed,
+                    .model = std::make_shared<dynamics::SimulatorModel>(model, model.space.values()),
+                    .notes = knowledge.notes};
+  const auto moments = [network = knowledge.network, outputs = setting.task.state_size()] {
+    return std::make_shared<gp::MomentMatching>(network, outputs);
+  };
+  if (!knowledge.network.empty()) proposal.moments = expectation(setting, moments, proposal.theta);
+  return proposal;
 }
 
 Proposal random_actions(const Setting& setting, double hold_s, std::uint64_t trial) {
@@ -100,6 +113,7 @@ Proposal Trials::next_proposal() {
                        ? theta_
                        : initial_policy(*setting_.policy, setting_.task, options_.search, setting_.seed, trial());
   if (model.moments) proposal.search_s = seconds([&] { search(model, proposal); });
+  if (model.model) proposal.moments = expectation(setting_, std::move(model.moments_of_all_rows), proposal.theta);
   moments_ = model.moments;
   kernels_ = std::move(model.kernels);  // last: an interruption must not leave it behind
   return proposal;

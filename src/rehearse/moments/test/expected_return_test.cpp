@@ -80,6 +80,34 @@ TEST(ExpectedReturn, IsThatOfPlainFormulas) {
   }
 }
 
+TEST(ExpectedReturn, ItsEpisodeHasTheDeviationsOfEveryStep) {
+  Problem problem(robots::cartpole::make({}), 30, 12);
+  const Vector theta = fixture::random_theta(*problem.policy);
+  const Return result = problem.expected(theta, nullptr, problem.workspace);
+  const ExpectedEpisode episode = problem.expected.episode(theta);
+  const Index T = problem.scenario.task.horizon;
+  ASSERT_EQ(episode.states.rows(), T + 1);
+  ASSERT_EQ(episode.state_deviations.rows(), T + 1);
+  for (Index t = 0; t <= T; ++t) {
+    const Gaussian& state = problem.workspace.states[static_cast<std::size_t>(t)];
+    EXPECT_EQ(episode.states.row(t), state.mean.transpose());
+    EXPECT_TRUE(episode.state_deviations.row(t).cwiseAbs2().transpose().isApprox(state.covariance.diagonal()));
+  }
+  EXPECT_EQ(episode.rewards.sum(), result.value);
+  EXPECT_TRUE(episode.reward_deviations.cwiseAbs2().isApprox(result.variances));
+}
+
+// The first step throws the state out of all numbers.
+TEST(ExpectedReturn, ItsEpisodeEndsWhereTheMomentsAreLost) {
+  gp::MomentTerm wild{.centres = Matrix::Zero(1, 6), .log_lengths = Vector::Constant(6, 9), .weights = Vector{{1e300}}};
+  Problem problem(robots::cartpole::make({}), 0, 3, std::make_shared<gp::MomentMatching>(std::vector{wild}, 4));
+  const ExpectedEpisode episode = problem.expected.episode(fixture::random_theta(*problem.policy));
+  EXPECT_EQ(episode.states.row(0), problem.scenario.task.start_mean.transpose());
+  EXPECT_TRUE(episode.state_deviations.row(0).isApproxToConstant(0.1));
+  EXPECT_TRUE(episode.states.bottomRows(problem.scenario.task.horizon).array().isNaN().all());
+  EXPECT_TRUE(episode.rewards.array().isNaN().all());
+}
+
 TEST(ExpectedReturn, GradientOfTheCartPoleAgreesWithDifferences) {
   Problem cartpole(robots::cartpole::make({}), 40, 10);
   const Vector theta = fixture::random_theta(*cartpole.policy);

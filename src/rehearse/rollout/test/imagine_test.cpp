@@ -222,6 +222,7 @@ TEST(ImagineRecorded, HasTheReturnsAndTheStatesOfImagine) {
     for (std::size_t t = 0; t <= 20; ++t)
       EXPECT_LT((recorded.states[t].row(p) - states.row(static_cast<Index>(t))).norm(), 1e-12);
   }
+  EXPECT_LT((recorded.rewards.rowwise().sum() - recorded.returns).norm(), 1e-12);
 }
 
 TEST(ImagineRecorded, AfterAnEarlyEndARowIsNan) {
@@ -235,6 +236,8 @@ TEST(ImagineRecorded, AfterAnEarlyEndARowIsNan) {
     EXPECT_TRUE(ended ? states.array().isNaN().all() : (states.array().isFinite().all() || (ended = true)));
   }
   EXPECT_TRUE(ended);
+  EXPECT_LT((recorded.rewards.rowwise().sum() - recorded.returns).norm(), 1e-12);
+  EXPECT_TRUE((recorded.rewards.rightCols(1).array() == 0).all()) << "charged when it ended";
 }
 
 /// Rows that fail at v > 0.5, and that fall at p < 0.8.

@@ -10,6 +10,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/moments/expected_return.hpp"
 #include "rehearse/policy/network.hpp"
+#include "rehearse/rollout/imagine.hpp"
 #include "rehearse/testing/check_learner.hpp"
 #include "slider.hpp"
 
@@ -78,7 +79,7 @@ TEST(Pilco, TheFirstTrialIsRandomActions) {
   const auto first = [](std::uint64_t seed, const char* hold_s) {
     const Proposal proposal = builder({{"first_trial.hold_s", hold_s}})->build(setting(seed))->ask();
     EXPECT_EQ(proposal.policy->name(), "schedule");
-    EXPECT_FALSE(proposal.predicted_return || proposal.log_evidence || proposal.model);
+    EXPECT_FALSE(proposal.predicted_return || proposal.log_evidence || proposal.model || proposal.moments);
     return proposal.theta;
   };
   EXPECT_EQ(first(1, "0"), first(1, "0"));
@@ -108,6 +109,57 @@ TEST(Pilco, SumsUpManyRowsByInducingInputs) {
   const Proposal exact = third("24"), sparse = third("8");
   EXPECT_NE(exact.theta, sparse.theta);
   EXPECT_NEAR(*exact.predicted_return, *sparse.predicted_return, 0.3);
+}
+
+/// The last proposal of some trials, and the data that it was learned from.
+struct Asked {
+  Proposal proposal;
+  Dataset data;
+};
+Asked asked_after(std::uint64_t trials, const OptionTexts& options) {
+  const auto learner = builder(options)->build(setting());
+  Dataset data;
+  for (std::uint64_t trial = 1; trial <= trials; ++trial) {
+    const Episode episode = run_trial(learner->ask(), trial);
+    data.append(episode);
+    learner->tell(episode);
+  }
+  return {learner->ask(), data};
+}
+
+// Whether the search summed the 12 rows up or not.
+TEST(Pilco, ItsEpisodeByMomentsIsThatOfTheGpsOfAllRows) {
+  for (const char* inducing : {"300", "8"}) {
+    const auto [proposal, data] = asked_after(1, {{"search.line_searches", "5"}, {"model.inducing", inducing}});
+    const Model model = pilco::learn(task(), data, {}, {}, serial_evaluator());
+    const moments::ExpectedReturn expected(task(), *rbf(), model.moments);
+    moments::ReturnWorkspace workspace;
+    const moments::Return result = expected(proposal.theta, nullptr, workspace);
+    ASSERT_TRUE(result.ok() && proposal.moments);
+    const ExpectedEpisode episode = proposal.moments();
+    EXPECT_EQ(episode.rewards, result.rewards);
+    for (Index t = 0; t <= task().horizon; ++t)
+      EXPECT_EQ(episode.states.row(t), workspace.states[static_cast<std::size_t>(t)].mean.transpose());
+  }
+}
+
+// Moment matching is exact for one step. 10⁵ samples; five standard errors: false alarms below 2e-6 in all.
+TEST(Pilco, OneStepByMomentsIsThatOfTheSamples) {
+  const Proposal proposal = asked_after(2, {{"search.line_searches", "20"}}).proposal;
+  constexpr Index kSamples = 100000;
+  const auto recorded =
+      rollout::imagine_recorded(*proposal.model, *proposal.policy, task(), proposal.theta, kSamples,
+                                {.seed = 3, .trial = 1, .purpose = Purpose::prediction}, {.noise_clip = 0});
+  const ExpectedEpisode episode = proposal.moments();
+  const auto expect_moments = [](const Vector& samples, double mean, double deviation) {
+    const double error = deviation / std::sqrt(kSamples), found = samples.mean();
+    EXPECT_NEAR(found, mean, 5 * error);
+    const Vector squares = (samples.array() - mean).square();
+    const double error_of_squares = std::sqrt((squares.array() - squares.mean()).square().mean() / kSamples);
+    EXPECT_NEAR(squares.mean(), deviation * deviation, 5 * error_of_squares);
+  };
+  expect_moments(recorded.states[1].col(0), episode.states(1, 0), episode.state_deviations(1, 0));
+  expect_moments(recorded.rewards.col(0), episode.rewards(0), episode.reward_deviations(0));
 }
 
 TEST(Model, HasInducingInputsBeyondTheLimitOnly) {

@@ -10,6 +10,7 @@
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/learners/pilco/model.hpp"
 #include "rehearse/learners/test/memory_store.hpp"
+#include "rehearse/moments/expected_return.hpp"
 #include "rehearse/testing/check_learner.hpp"
 #include "slider.hpp"
 
@@ -57,6 +58,12 @@ TEST(PriorPhase, TheFirstTrialIsThePolicyOfThePrior) {
   EXPECT_EQ(*first.phi, (Vector{{0.5, 0}}));
   EXPECT_EQ(first.rollouts, knowledge.evaluations);
   EXPECT_GT(first.rollouts, 60) << "of all searches on the prior";
+
+  // By moments it is that of the network alone.
+  ASSERT_TRUE(first.moments);
+  const moments::ExpectedReturn expected(task(), *slider::rbf(),
+                                         std::make_shared<gp::MomentMatching>(knowledge.network, 1));
+  EXPECT_EQ(first.moments().states, expected.episode(first.theta).states);
 
   // On the prior it does as well as was predicted, though the search takes the start to be less certain than it is.
   const prior::Prior prior = slider::prior(0.5, 0);

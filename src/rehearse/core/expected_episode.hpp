@@ -1,0 +1,23 @@
+#pragma once
+
+#include <limits>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse {
+
+/// What is expected of an episode of T steps: means and standard deviations by step; NaN where they are not known.
+struct ExpectedEpisode {
+  Matrix states, state_deviations;    // T+1 × dx
+  Vector rewards, reward_deviations;  // T
+
+  /// Nothing of it.
+  static ExpectedEpisode unknown(Index steps, Index dx) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const Matrix by_state = Matrix::Constant(steps + 1, dx, nan);
+    const Vector by_step = Vector::Constant(steps, nan);
+    return {by_state, by_state, by_step, by_step};
+  }
+};
+
+}  // namespace rehearse

@@ -1,0 +1,39 @@
+#include "rehearse/experiment/tables.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fake.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Two samples, of which one ends; moments that are lost after the first step.
+TEST(PredictionCsv, HasTheMomentsBesideTheSamples) {
+  Task task = fake::line_task();
+  task.horizon = 2;
+  rollout::Recorded recorded{.states = {Matrix{{1}, {1}}, Matrix{{1}, {4}}, Matrix{{3}, {kNaN}}},
+                             .rewards = Matrix{{1, 2}, {3, 2}},
+                             .returns = Vector{{3, 5}}};
+  const std::string samples = prediction_csv(task, recorded);
+  EXPECT_EQ(samples,
+            "time [s],particles,x mean [m],x 5% [m],x 25% [m],x 50% [m],x 75% [m],x 95% [m]\n"
+            "0,2,1,1,1,1,1,1\n0.1,2,2.5,1.15,1.75,2.5,3.25,3.8499999999999996\n0.2,1,3,3,3,3,3,3\n");
+
+  recorded.states[1](1) = 1;
+  ExpectedEpisode moments = ExpectedEpisode::unknown(2, 1);
+  moments.states.topRows(2) << 1, 1.5;
+  moments.state_deviations.topRows(2) << 0, 0.25;
+  moments.rewards(0) = 2.5;
+  moments.reward_deviations(0) = 0.5;
+  EXPECT_EQ(prediction_csv(task, recorded, &moments),
+            "time [s],particles,x mean [m],x 5% [m],x 25% [m],x 50% [m],x 75% [m],x 95% [m],x std [m],"
+            "x moment mean [m],x moment std [m],reward mean,reward std,reward moment mean,reward moment std\n"
+            "0,2,1,1,1,1,1,1,0,1,0,,,,\n"
+            "0.1,2,1,1,1,1,1,1,0,1.5,0.25,2,1.4142135623730951,2.5,0.5\n"
+            "0.2,1,3,3,3,3,3,3,,,,2,0,,\n");
+}
+
+}  // namespace
+}  // namespace rehearse::experiment

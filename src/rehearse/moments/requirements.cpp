@@ -1,0 +1,28 @@
+#include "rehearse/moments/requirements.hpp"
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/gp/moment_kernel.hpp"
+
+namespace rehearse::moments {
+
+std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, std::string_view who,
+                                         std::string_view otherwise) {
+  Violations violations;
+  violations.require(policy.analytic() != nullptr,
+                     fmt::format("policy = {} has no analytic moments, which {} needs: choose policy = rbf "
+                                 "(--set policy=rbf), or {}",
+                                 policy.name(), who, otherwise));
+  violations.require(task.saturating_reward.has_value(),
+                     fmt::format("the scenario's reward has no analytic moments, which {} needs: give the task a "
+                                 "saturating_reward, or choose {}",
+                                 who, otherwise));
+  const Index inputs = task.feature_map().features() + task.action_size();
+  violations.require(inputs <= gp::kMostMomentInputs,
+                     fmt::format("{} features and actions, {} takes at most {}: choose {}", inputs, who,
+                                 gp::kMostMomentInputs, otherwise));
+  return violations.list();
+}
+
+}  // namespace rehearse::moments

@@ -1,0 +1,12 @@
+#pragma once
+// For the sources of this room.
+
+#include "rehearse/report/files.hpp"
+
+namespace rehearse::report {
+
+/// How far what moment matching predicts of a trial is from what the samples say (docs/report.md); null where the
+/// table, one of predictions/, has the samples alone. Throws InvalidInput if it lacks what they are compared by.
+Json prediction_gap(const statistics::Table& prediction);
+
+}  // namespace rehearse::report
