@@ -19,7 +19,7 @@ struct FirstTrial {
     extremes,  // one bound or the other
     policy,    // θ uniform in its box (Chatzilygeroudis 2018, Algorithm 1)
   };
-  Kind kind = Kind::extremes;
+  Kind kind = Kind::actions;
   double hold_s = 0.2;  // an action is held so long (PILCO, the authors' code: one step)
   void fields(FieldVisitor& v);
 };
