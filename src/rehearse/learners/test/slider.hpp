@@ -41,8 +41,8 @@ inline prior::Prior prior_in(const ParameterSpace& space) {
 
 /// The right equation, starting from this gain; the drag is unknown too.
 inline prior::Prior prior(double gain = 1) {
-  return prior_in(ParameterSpace(
-      {Parameter::continuous("gain", gain, {-2, 2}), Parameter::continuous("drag", 0.5, {0, 1})}));
+  return prior_in(
+      ParameterSpace({Parameter::continuous("gain", gain, {-2, 2}), Parameter::continuous("drag", 0.5, {0, 1})}));
 }
 
 /// One trial on the slider of these parameters.
