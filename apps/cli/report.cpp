@@ -8,6 +8,7 @@
 #include "apps/cli/commands.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/files.hpp"
+#include "rehearse/qd/archive_bytes.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -43,6 +44,12 @@ int write_page(const fs::path& folder, const report::Report& report, const fs::p
   return kSuccess;
 }
 
+report::ArchiveSpace archive_space(std::string_view bytes) {
+  const qd::Archive archive = qd::from_bytes(bytes, "it is no usable archive").archive;
+  const qd::Niches& niches = archive.niches();
+  return {archive.size(), niches.size(), niches.bounds(), niches.bins()};
+}
+
 Index trial_of(const ReplayArguments& arguments) {
   Index trial = 0;
   Violations violations;
@@ -55,7 +62,8 @@ Index trial_of(const ReplayArguments& arguments) {
 
 int report(const ReportArguments& arguments) {
   const fs::path folder = arguments.folder;
-  return write_page(folder, report::read_folder(folder), arguments.out.value_or((folder / "report.html").string()));
+  return write_page(folder, report::read_folder(folder, archive_space),
+                    arguments.out.value_or((folder / "report.html").string()));
 }
 
 int replay(const ReplayArguments& arguments) {

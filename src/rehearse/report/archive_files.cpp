@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/qd/archive_bytes.hpp"
-
 namespace rehearse::report {
 namespace {
 
@@ -54,34 +52,33 @@ Json tried_json(const statistics::Table& tried, std::size_t elites) {
   return columns(tried);
 }
 
-qd::Search read_bytes(const fs::path& path) { return qd::from_bytes(read_text(path), "it is no usable archive"); }
-
 /// How many niches there are and where; of a grid the bins of each descriptor.
-Json space_json(const qd::Archive& bytes, const Json& tables) {
-  const qd::Niches& niches = bytes.niches();
+Json space_json(const ArchiveSpace& bytes, const Json& tables) {
   const std::size_t elites = tables["promised"].size(), descriptors = tables["descriptors"].size();
-  if (bytes.size() != static_cast<Index>(elites) || niches.dimensions() != static_cast<Index>(descriptors))
-    throw InvalidInput(fmt::format("it has {} elites of {} descriptors, elites.csv {} of {}", bytes.size(),
-                                   niches.dimensions(), elites, descriptors));
-  Json space = {{"niches", niches.size()}, {"bounds", Json::array()}};
-  for (const Interval& bound : niches.bounds())
+  if (bytes.elites != static_cast<Index>(elites) || bytes.bounds.size() != descriptors)
+    throw InvalidInput(fmt::format("it has {} elites of {} descriptors, elites.csv {} of {}", bytes.elites,
+                                   bytes.bounds.size(), elites, descriptors));
+  Json space = {{"niches", bytes.niches}, {"bounds", Json::array()}};
+  for (const Interval& bound : bytes.bounds)
     space["bounds"].push_back({rounded(bound.low, kDigits), rounded(bound.high, kDigits)});
-  if (niches.is_grid()) space["bins"] = niches.bins();
+  if (!bytes.bins.empty()) space["bins"] = bytes.bins;
   return space;
 }
 
 }  // namespace
 
-Json read_archive(const fs::path& folder, Problems& problems) {
+Json archive_json(const fs::path& folder, const ArchiveReader& read_archive, Problems& problems) {
   const auto has = [&](const char* file) { return fs::exists(folder / file); };
   const bool has_tables = has("elites.csv") || has("tried.csv");
   if (!has_tables && !has("archive.bin")) return {};
-  const auto bytes = problems.value_or_problem("archive.bin", [&] { return read_bytes(folder / "archive.bin"); });
+  std::optional<ArchiveSpace> bytes;
+  if (read_archive)
+    bytes = problems.value_or_problem("archive.bin", [&] { return read_archive(read_text(folder / "archive.bin")); });
   if (!has_tables) return {};  // before the first trial is done, and in folders of older versions
   auto tables = problems.value_or_problem("elites.csv", [&] { return elites_json(read_table(folder / "elites.csv")); });
   if (!tables) return {};
   std::optional<Json> space;
-  if (bytes) space = problems.value_or_problem("archive.bin", [&] { return space_json(bytes->archive, *tables); });
+  if (bytes) space = problems.value_or_problem("archive.bin", [&] { return space_json(*bytes, *tables); });
   const auto tried = problems.value_or_problem(
       "tried.csv", [&] { return tried_json(read_table(folder / "tried.csv"), (*tables)["promised"].size()); });
   (*tables)["space"] = space.value_or(Json());

@@ -4,11 +4,12 @@
 #include <filesystem>
 
 #include "rehearse/report/files.hpp"
+#include "rehearse/report/report.hpp"
 
 namespace rehearse::report {
 
 /// What elites.csv and tried.csv say, and of archive.bin the size and bounds of its space: descriptors and returns to 4
 /// digits, no policies. Null if the run has no such tables, as those of other learners, or they are unusable.
-Json read_archive(const std::filesystem::path& folder, Problems& problems);
+Json archive_json(const std::filesystem::path& folder, const ArchiveReader& read_archive, Problems& problems);
 
 }  // namespace rehearse::report

@@ -40,16 +40,16 @@ void require_folder(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InvalidInput(fmt::format("{} is not a folder", folder.string()));
 }
 
-Report read_run_folder(const fs::path& folder, std::optional<Index> only) {
+Report read_run_folder(const fs::path& folder, std::optional<Index> only, const ArchiveReader& read_archive) {
   return make_report(folder, only ? "replay" : "run", "spec.toml",
-                     [&](Problems& problems) { return read_run(folder, only, problems); });
+                     [&](Problems& problems) { return read_run(folder, only, read_archive, problems); });
 }
 
 }  // namespace
 
-Report read_folder(const fs::path& folder) {
+Report read_folder(const fs::path& folder, const ArchiveReader& read_archive) {
   require_folder(folder);
-  if (has(folder, "spec.toml")) return read_run_folder(folder, {});
+  if (has(folder, "spec.toml")) return read_run_folder(folder, {}, read_archive);
   if (has(folder, "summary.json"))
     return make_report(folder, "campaign", "summary.json",
                        [&](Problems& problems) { return read_campaign(folder, problems); });
@@ -67,7 +67,7 @@ Report read_trial(const fs::path& folder, Index trial) {
   if (!fs::exists(trajectory))
     throw InvalidInput(
         fmt::format("trial {} is not in {}: there is no {}", trial, folder.string(), trajectory.string()));
-  return read_run_folder(folder, trial);
+  return read_run_folder(folder, trial, {});
 }
 
 std::string to_html(const Report& report, std::string_view page_template) {

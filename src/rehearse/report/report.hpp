@@ -2,6 +2,7 @@
 // Folders of runs and campaigns as one page (docs/report.md). Reads files, and knows no algorithm and no robot.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,10 +23,20 @@ struct Report {
   std::vector<Problem> problems;
 };
 
+/// Where the elites of a learner's archive are.
+struct ArchiveSpace {
+  Index elites = 0, niches = 0;
+  std::vector<Interval> bounds;  // of each descriptor
+  std::vector<Index> bins;       // of each, of a grid; else empty
+};
+
+/// From the bytes of archive.bin. Throws InvalidInput if they are no archive.
+using ArchiveReader = std::function<ArchiveSpace(std::string_view bytes)>;
+
 /// Of a run folder (docs/run-folder.md) or a campaign folder (docs/campaigns.md). What cannot be read is left out and
 /// named among the problems. Throws InvalidInput if the folder is neither, or its spec.toml or summary.json is
-/// unusable.
-Report read_folder(const std::filesystem::path& folder);
+/// unusable. read_archive: of those who know archives; without it archive.bin is not looked at.
+Report read_folder(const std::filesystem::path& folder, const ArchiveReader& read_archive = {});
 
 /// Of one trial of a run folder. Throws InvalidInput, too, if there is no such trial.
 Report read_trial(const std::filesystem::path& folder, Index trial);

@@ -197,7 +197,8 @@ void check_run_folder(const fs::path& folder, const fs::path& where, Index trial
   }
 }
 
-Json read_run(const fs::path& folder, std::optional<Index> only, Problems& problems) {
+Json read_run(const fs::path& folder, std::optional<Index> only, const ArchiveReader& read_archive,
+              Problems& problems) {
   const RunSpec spec = read_spec(folder);
   Json run = spec_json(spec);
   run["done"] = fs::exists(folder / "done");
@@ -216,7 +217,7 @@ Json read_run(const fs::path& folder, std::optional<Index> only, Problems& probl
   }
   problems.value_or_problem("checkpoint", [&] { return check_checkpoint(folder / "checkpoint"), true; });
   if (!only) {
-    Json archive = read_archive(folder, problems);
+    Json archive = archive_json(folder, read_archive, problems);
     if (!archive.is_null()) run["archive"] = std::move(archive);
   }
   run["episodes"] = Json::array();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rehearse/report/files.hpp"
+#include "rehearse/report/report.hpp"
 
 namespace rehearse::report {
 
@@ -35,6 +36,7 @@ void check_run_folder(const std::filesystem::path& folder, const std::filesystem
                       Problems& problems);
 
 /// Everything that the page shows of a run. only: if given, the one trial whose episode is wanted.
-Json read_run(const std::filesystem::path& folder, std::optional<Index> only, Problems& problems);
+Json read_run(const std::filesystem::path& folder, std::optional<Index> only, const ArchiveReader& read_archive,
+              Problems& problems);
 
 }  // namespace rehearse::report

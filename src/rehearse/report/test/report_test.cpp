@@ -72,6 +72,12 @@ class ReportTest : public ::testing::Test {
     write(run / "tried.csv", "trial,elite,promised,learned\n1,2,3.14159,1\n2,2,3.14159,0\n");
   }
 
+  static ArchiveSpace archive_space(std::string_view bytes) {
+    const qd::Archive archive = qd::from_bytes(bytes, "it is no usable archive").archive;
+    const qd::Niches& niches = archive.niches();
+    return {archive.size(), niches.size(), niches.bounds(), niches.bins()};
+  }
+
   static json run_entry(const std::string& name, int seed, const std::string& state) {
     return {{"run", name},
             {"folder", "runs/" + name},
@@ -157,9 +163,9 @@ TEST_F(ReportTest, ARunOfAnOlderVersionHasNoDoubts) {
 
 TEST_F(ReportTest, AnArchiveHasWhatItPromisesAndWhatIsExpectedOfIt) {
   write_run(folder_);
-  EXPECT_FALSE(json::parse(read_folder(folder_).json)["run"].contains("archive"));
+  EXPECT_FALSE(json::parse(read_folder(folder_, archive_space).json)["run"].contains("archive"));
   write_archive(folder_);
-  const Report report = read_folder(folder_);
+  const Report report = read_folder(folder_, archive_space);
   EXPECT_EQ(problems_of(report), Lines{});
   EXPECT_EQ(json::parse(report.json)["run"]["archive"], json::parse(R"({
     "descriptors": [{"name": "reach [m]", "values": [-0.5, 0.1235, 1]}, {"name": "height [m]", "values": [0.1, 1, 2]}],
@@ -176,20 +182,20 @@ TEST_F(ReportTest, ADamagedArchiveIsNamedAndTheTablesAreShown) {
   bytes[bytes.size() - 3] ^= 1;
   write(folder_ / "archive.bin", bytes);
   const std::string damage = "archive.bin: it is no usable archive: damaged: the checksum does not fit";
-  Report report = read_folder(folder_);
+  Report report = read_folder(folder_, archive_space);
   EXPECT_EQ(problems_of(report), Lines{damage});
   const json archive = json::parse(report.json)["run"]["archive"];
   EXPECT_TRUE(archive["space"].is_null());
   EXPECT_EQ(archive["promised"], json::parse("[2, 3.142, -1]"));
 
   fs::remove(folder_ / "elites.csv");
-  report = read_folder(folder_);
+  report = read_folder(folder_, archive_space);
   EXPECT_EQ(problems_of(report), (Lines{damage, "elites.csv: it is not there"}));
   EXPECT_FALSE(json::parse(report.json)["run"].contains("archive"));
   fs::remove(folder_ / "tried.csv");  // a run of an older version, or one without a trial
-  EXPECT_EQ(problems_of(read_folder(folder_)), Lines{damage});
+  EXPECT_EQ(problems_of(read_folder(folder_, archive_space)), Lines{damage});
   write(folder_ / "archive.bin", "foreign");
-  EXPECT_EQ(problems_of(read_folder(folder_)),
+  EXPECT_EQ(problems_of(read_folder(folder_, archive_space)),
             Lines{"archive.bin: it is no usable archive: not an archive of Rehearse"});
 }
 
@@ -202,7 +208,7 @@ TEST_F(ReportTest, ThatTablesOfAnArchiveContradictThemselvesIsNamed) {
       fs::remove(folder_ / file);
     else
       write(folder_ / file, text);
-    return problems_of(read_folder(folder_));
+    return problems_of(read_folder(folder_, archive_space));
   };
   const std::string header = "reach [m],height [m],promised,expected,deviation\n";
   EXPECT_EQ(problems_with("elites.csv", "promised,expected\n1,2\n"),
