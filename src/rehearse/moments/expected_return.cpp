@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -128,6 +129,12 @@ ExpectedEpisode ExpectedReturn::episode(const ConstVectorView& theta, const Eval
     episode.state_deviations.row(t) = deviations(state.covariance.diagonal()).transpose();
   }
   return episode;
+}
+
+std::function<ExpectedEpisode()> expected_episode(Task task, std::shared_ptr<const policy::Policy> policy,
+                                                  MakeMoments dynamics, Vector theta) {
+  return [task = std::move(task), policy = std::move(policy), dynamics = std::move(dynamics),
+          theta = std::move(theta)] { return ExpectedReturn(task, *policy, dynamics()).episode(theta); };
 }
 
 }  // namespace rehearse::moments

@@ -1,6 +1,7 @@
 #pragma once
 // The expected return of a policy on GPs by moment matching, and its gradient (Deisenroth 2011: PILCO's value).
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -53,5 +54,13 @@ class ExpectedReturn {
   Gaussian start_;
   Index horizon_;
 };
+
+/// The dynamics, made when it is called.
+using MakeMoments = std::function<std::shared_ptr<const gp::MomentMatching>()>;
+
+/// ExpectedReturn::episode from the task's start, computed when it is called: most proposals, those of episodes on a
+/// prior, are never asked.
+std::function<ExpectedEpisode()> expected_episode(Task task, std::shared_ptr<const policy::Policy> policy,
+                                                  MakeMoments dynamics, Vector theta);
 
 }  // namespace rehearse::moments

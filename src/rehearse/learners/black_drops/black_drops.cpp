@@ -89,18 +89,14 @@ class BlackDrops final : public Learner {
     if (options_.search.evaluation == Evaluation::moments)
       expected.emplace(task, *setting_.policy, moments_of(task, data_, state.kernels));
     proposal.search_s = seconds([&] { search(proposal, task, expected ? &*expected : nullptr, carried); });
-    if (has_moments) proposal.moments = expectation(state.kernels, proposal.theta);
+    if (has_moments)
+      proposal.moments = moments::expected_episode(
+          setting_.task, setting_.policy,
+          [task = setting_.task, data = data_, kernels = state.kernels] { return moments_of(task, data, kernels); },
+          proposal.theta);
     state_ = std::move(state);
     carried_ = std::move(carried);
     return proposal;
-  }
-
-  /// Computed when it is asked for.
-  std::function<ExpectedEpisode()> expectation(const std::vector<gp::Hyperparameters>& kernels,
-                                               const Vector& theta) const {
-    return [task = setting_.task, policy = setting_.policy, data = data_, kernels, theta] {
-      return moments::ExpectedReturn(task, *policy, moments_of(task, data, kernels)).episode(theta);
-    };
   }
 
   void propose_at_random(Proposal& proposal) const {

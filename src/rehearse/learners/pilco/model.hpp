@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "rehearse/dynamics/learn.hpp"
 #include "rehearse/gp/fit.hpp"
 #include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/moments/expected_return.hpp"
 
 namespace rehearse::learners::pilco {
 
@@ -27,13 +27,11 @@ struct ModelOptions {
   void fields(FieldVisitor& v);
 };
 
-using MakeMoments = std::function<std::shared_ptr<const gp::MomentMatching>()>;
-
 /// GPs for the change of each state, around zero or around those learned elsewhere.
 struct Model {
   std::shared_ptr<const gp::MomentMatching> moments;     // what policies are searched on; null: it could not be made
   std::shared_ptr<const dynamics::DynamicsModel> model;  // the same GPs of all rows, for forecasts
-  MakeMoments moments_of_all_rows;                       // of these GPs, made when it is called; empty: there are none
+  moments::MakeMoments moments_of_all_rows;              // of these GPs, made when it is called; empty: there are none
   std::vector<gp::Hyperparameters> kernels;              // the warm start of the next
   double log_evidence = 0;                               // of all outputs together, nats; NaN where a fit failed
   std::vector<std::string> notes;                        // numerical failures survived

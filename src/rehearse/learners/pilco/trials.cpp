@@ -18,13 +18,6 @@ namespace {
 using learners::to_json;
 using nlohmann::json;
 
-/// Computed when it is asked for: most searches, those on the prior, end without.
-std::function<ExpectedEpisode()> expectation(const Setting& setting, MakeMoments moments, const Vector& theta) {
-  return [task = setting.task, policy = setting.policy, moments = std::move(moments), theta] {
-    return moments::ExpectedReturn(task, *policy, moments()).episode(theta);
-  };
-}
-
 /// A policy that was learned on the prior, before anything is known of the robot.
 Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting) {
   const prior::Prior& given = *setting.prior;
@@ -40,7 +33,8 @@ Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting) {
   const auto moments = [network = knowledge.network, outputs = setting.task.state_size()] {
     return std::make_shared<gp::MomentMatching>(network, outputs);
   };
-  if (!knowledge.network.empty()) proposal.moments = expectation(setting, moments, proposal.theta);
+  if (!knowledge.network.empty())
+    proposal.moments = moments::expected_episode(setting.task, setting.policy, moments, proposal.theta);
   return proposal;
 }
 
@@ -113,7 +107,9 @@ Proposal Trials::next_proposal() {
                        ? theta_
                        : initial_policy(*setting_.policy, setting_.task, options_.search, setting_.seed, trial());
   if (model.moments) proposal.search_s = seconds([&] { search(model, proposal); });
-  if (model.model) proposal.moments = expectation(setting_, std::move(model.moments_of_all_rows), proposal.theta);
+  if (model.model)
+    proposal.moments =
+        moments::expected_episode(setting_.task, setting_.policy, std::move(model.moments_of_all_rows), proposal.theta);
   moments_ = model.moments;
   kernels_ = std::move(model.kernels);  // last: an interruption must not leave it behind
   return proposal;
