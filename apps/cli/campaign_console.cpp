@@ -120,9 +120,9 @@ void print_claims(const Campaign& campaign) {
 }
 
 std::string headline(const experiment::CampaignPlan& plan) {
-  return fmt::format("{}: {} ({} × {}) of {}", plan.title, counted(plan.runs.size(), "run"),
+  return fmt::format("{}: {} ({} × {}) of {}{}", plan.title, counted(plan.runs.size(), "run"),
                      counted(plan.groups.size(), "group"), counted(plan.seeds.size(), "seed"),
-                     counted(static_cast<std::size_t>(plan.trials), "trial"));
+                     plan.until_solved ? "up to " : "", counted(static_cast<std::size_t>(plan.trials), "trial"));
 }
 
 }  // namespace
@@ -167,7 +167,8 @@ void CampaignConsole::progress(std::size_t run, Index trial, const Progress& pro
   if (!line_.is_due()) return;
   std::string line = fmt::format("{}/{} runs", ended_, plan_.runs.size());
   if (failed_ > 0) line += fmt::format(", {} failed", failed_);
-  if (const auto left = seconds_left()) line += fmt::format("  about {} left", duration_text(*left));
+  if (const auto left = seconds_left())
+    line += fmt::format("  {}about {} left", plan_.until_solved ? "at most " : "", duration_text(*left));
   line += fmt::format("  {}: trial {}/{} {} {:.0f} %", name_of(run), trial, plan_.trials, progress.phase,
                       100 * progress.done);
   line_.show(line);

@@ -22,8 +22,9 @@ void Console::started(const experiment::Resolved& resolved, const std::filesyste
   phi_names_ = experiment::tunable_names(resolved.prior);
   begin_ = trial_begin_ = phase_begin_ = Clock::now();
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
-  line_.print(fmt::format("{} learned by {}{}, seed {}: {} trials of {} s in {}", spec.scenario, spec.learner, prior,
-                          spec.seed, spec.trials, resolved.scenario.task.episode_s(), folder.string()));
+  line_.print(fmt::format("{} learned by {}{}, seed {}: {}{} trials of {} s in {}", spec.scenario, spec.learner, prior,
+                          spec.seed, spec.until_solved ? "up to " : "", spec.trials, resolved.scenario.task.episode_s(),
+                          folder.string()));
   if (done > 0) line_.print(fmt::format("continuing after trial {}", done));
 }
 

@@ -111,6 +111,7 @@ int learn(const Catalogue& catalogue, const LearnArguments& arguments, const Com
   Spec spec = named_spec(arguments, violations);
   set_numbers(spec, arguments.trials, arguments.seed, violations);
   const Index threads = threads_of(arguments.threads, violations);
+  spec.until_solved |= arguments.until_solved;
   add_options(spec, arguments.set, violations);
   violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
   spec = resolved_spec(catalogue, spec, violations);
@@ -127,9 +128,9 @@ int resume(const Catalogue& catalogue, const ResumeArguments& arguments, const C
   set_numbers(numbers, arguments.trials, {}, violations);
   const Index threads = threads_of(arguments.threads, violations);
   violations.throw_if_any();
-  const auto trials = arguments.trials ? std::optional<Index>(numbers.trials) : std::nullopt;
+  const auto until = arguments.trials ? std::optional<experiment::Until>(numbers.trials) : std::nullopt;
   return run_on_console(arguments.folder, threads, company, [&](const RunOptions& options) {
-    return experiment::resume_run(catalogue, arguments.folder, trials, options);
+    return experiment::resume_run(catalogue, arguments.folder, until, options);
   });
 }
 

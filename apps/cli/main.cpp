@@ -66,6 +66,7 @@ CLI::App* add_learn(CLI::App& app, LearnArguments& arguments) {
       "the plant's own dynamics. Default: the scenario's first",
       "NAME");
   add(command, "--trials", arguments.trials, "How often the plant may be used. Default: 10", "N");
+  command->add_flag("--until-solved", arguments.until_solved, "End before, with a trial that solves the task");
   add(command, "--seed", arguments.seed, "Of all random numbers: the same seed gives the same run. Default: 1", "S");
   add(command, "--threads", arguments.threads,
       "Threads to compute with, with mpirun of each process; results do not depend on it. Default: all cores", "K");
@@ -81,7 +82,9 @@ CLI::App* add_learn(CLI::App& app, LearnArguments& arguments) {
 CLI::App* add_resume(CLI::App& app, ResumeArguments& arguments) {
   CLI::App* command = app.add_subcommand("resume", "Continue a run that was interrupted, or extend it");
   add(command, "DIR", arguments.folder, "The run folder", "")->required();
-  add(command, "--trials", arguments.trials, "Trials in all, those done included. Default: as many as were asked for",
+  add(command, "--trials", arguments.trials,
+      "Trials in all, those done included, even where a run with --until-solved ended before. Default: as many as were "
+      "asked for",
       "N");
   add(command, "--threads", arguments.threads, "Threads to compute with. Default: all cores", "K");
   return command;

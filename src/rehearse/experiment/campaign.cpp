@@ -92,7 +92,7 @@ class Crew {
   void start_or_resume(const PlannedRun& planned, const RunOptions& options) const {
     const auto path = folder_.path_of(planned);
     if (std::filesystem::exists(path))
-      resume_run(catalogue_, path, planned.spec.trials, options);
+      resume_run(catalogue_, path, Until(planned.spec.trials, planned.spec.until_solved), options);
     else
       start_run(catalogue_, planned.spec, path, options);
   }

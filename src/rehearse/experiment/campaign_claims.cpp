@@ -37,9 +37,9 @@ std::optional<double> value_of(const RunOutcome& run, const Measure& measure) {
     if (!run.decided(measure.trial)) return std::nullopt;
     return static_cast<double>(first_success(run, measure).value_or(measure.trial + 1));
   }
-  if (run.done() < measure.trial) return std::nullopt;
-  return measure.metric == Metric::total_reward ? run.returns[static_cast<std::size_t>(measure.trial - 1)]
-                                                : run.best_return(measure.trial);
+  const auto row = run.row_of(measure.trial);
+  if (!row) return std::nullopt;
+  return measure.metric == Metric::total_reward ? run.returns[*row] : run.best_return(measure.trial);
 }
 
 /// Whether the interval is at or above a threshold (`strict`: above it), below it, or neither.

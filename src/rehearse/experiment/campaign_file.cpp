@@ -78,7 +78,10 @@ class CampaignReader {
     if (!reader_.take("scenario", file_.scenario)) violations_.add(0, "scenario is missing");
     if (!reader_.take("learners", file_.learners)) violations_.add(0, "learners is missing");
     reader_.take("priors", file_.priors);
-    reader_.take_fields([&](FieldVisitor& v) { v.integer("trials", file_.trials, between(1, 1e6)); });
+    reader_.take_fields([&](FieldVisitor& v) {
+      v.integer("trials", file_.trials, between(1, 1e6));
+      v.boolean("until_solved", file_.until_solved);
+    });
     const toml::node* seeds = reader_.take("seeds");
     if (!seeds)
       violations_.add(0, "seeds is missing; write for instance seeds = \"1-30\"");

@@ -85,6 +85,7 @@ struct CampaignFile {
   std::vector<std::string> learners, priors;
   std::vector<Index> seeds;
   Index trials = 10;
+  bool until_solved = false;
   std::vector<FileOption> options;
   std::map<std::string, std::vector<FileOption>> learner_options;
   std::vector<Axis> axes;

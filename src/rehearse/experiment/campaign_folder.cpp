@@ -170,7 +170,9 @@ RunOutcome contents_of(const fs::path& folder, const PlannedRun& run) {
     return outcome;
   }
   outcome = rows_of(folder / "trials.csv", run.spec.trials);
-  if (outcome.done() == run.spec.trials && fs::exists(folder / "done")) outcome.state = RunState::done;
+  const bool solved = !outcome.solved.empty() && outcome.solved.back().value_or(false);
+  const bool ended = outcome.done() == run.spec.trials || (run.spec.until_solved && solved);
+  if (ended && fs::exists(folder / "done")) outcome.state = RunState::done;
   return outcome;
 }
 

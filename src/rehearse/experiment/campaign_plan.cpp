@@ -86,6 +86,7 @@ class Planner {
     plan_.title = file.title;
     plan_.scenario = file.scenario;
     plan_.trials = file.trials;
+    plan_.until_solved = file.until_solved;
     plan_.seeds = file.seeds;
   }
 
@@ -131,6 +132,7 @@ class Planner {
                        .learner = learner,
                        .prior = prior,
                        .trials = file_.trials,
+                       .until_solved = file_.until_solved,
                        .seed = file_.seeds.empty() ? 1 : file_.seeds.front()};
     const auto complete = completed_bare(bare, line(prior.empty() ? "learners" : "priors"));
     if (!complete) return;

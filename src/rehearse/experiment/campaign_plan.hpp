@@ -42,7 +42,8 @@ struct MissingLearner {
 /// Everything that a campaign is going to do. Runs stand in the order of the file, those of a group together.
 struct CampaignPlan {
   std::string title, scenario;
-  Index trials = 0;  // a run
+  Index trials = 0;           // a run
+  bool until_solved = false;  // or before
   std::vector<Index> seeds;
   std::vector<CampaignGroup> groups;
   std::vector<PlannedRun> runs;

@@ -11,6 +11,11 @@ void RunOutcome::fail(std::string why) {
   reason = std::move(why);
 }
 
+std::optional<std::size_t> RunOutcome::row_of(Index trial) const {
+  if (done() < trial && state != RunState::done) return std::nullopt;
+  return static_cast<std::size_t>(std::min(trial, done()) - 1);
+}
+
 std::optional<Index> RunOutcome::first_success(Index until) const {
   for (Index trial = 1; trial <= std::min(until, done()); ++trial)
     if (solved[static_cast<std::size_t>(trial - 1)].value_or(false)) return trial;

@@ -22,8 +22,12 @@ struct RunOutcome {
   Index done() const { return static_cast<Index>(returns.size()); }
   void fail(std::string why);
 
+  /// The trial that counts as trial `trial`: itself, or the last of a run that ended before because the task was
+  /// solved. Nothing if it was not reached.
+  std::optional<std::size_t> row_of(Index trial) const;
+
   /// Whether trial `trial` was reached, or never will be.
-  bool decided(Index trial) const { return done() >= trial || state == RunState::failed; }
+  bool decided(Index trial) const { return row_of(trial) || state == RunState::failed; }
 
   /// The first trial up to `until` that solved the task, if any did.
   std::optional<Index> first_success(Index until) const;

@@ -39,15 +39,18 @@ std::optional<SuccessRate> success_rate(const std::vector<const RunOutcome*>& ru
 }
 
 TrialStatistics statistics_of(const std::vector<const RunOutcome*>& runs, Index trial) {
-  const auto last = static_cast<std::size_t>(trial - 1);
   std::vector<double> interaction, returns, best;
   for (const RunOutcome* run : runs) {
-    if (run->done() < trial) continue;
-    interaction.push_back(run->interaction_s[last]);
-    returns.push_back(run->returns[last]);
+    const auto row = run->row_of(trial);
+    if (!row) continue;
+    interaction.push_back(run->interaction_s[*row]);
+    returns.push_back(run->returns[*row]);
     best.push_back(run->best_return(trial));
   }
-  const auto now = [&](const RunOutcome& run) { return run.done() >= trial && run.solved[last].value_or(false); };
+  const auto now = [&](const RunOutcome& run) {
+    const auto row = run.row_of(trial);
+    return row && run.solved[*row].value_or(false);
+  };
   const auto until_now = [&](const RunOutcome& run) { return run.first_success(trial).has_value(); };
   return {.trial = trial,
           .runs = static_cast<Index>(returns.size()),
@@ -197,7 +200,8 @@ Row trial_columns(const Campaign& campaign) {
 std::vector<TrialStatistics> trial_statistics(const Campaign& campaign, std::size_t group) {
   const auto runs = runs_of(campaign, group);
   Index trials = 0;
-  for (const RunOutcome* run : runs) trials = std::max(trials, run->done());
+  for (const RunOutcome* run : runs)
+    trials = std::max(trials, run->state == RunState::done ? campaign.plan.trials : run->done());
   std::vector<TrialStatistics> all;
   for (Index trial = 1; trial <= trials; ++trial) all.push_back(statistics_of(runs, trial));
   return all;

@@ -120,7 +120,7 @@ class Run {
     if (history_.done() > 0) evaluate_last();
     if (!complete() || history_.told < history_.done()) catch_up();
     while (!complete()) one_trial(history_.done() + 1);
-    with_.lead("end", [&] { folder_->mark_done(true); });
+    with_.lead("end", [&] { folder_->mark_done(history_.done()); });
     return result();
   }
 
@@ -128,7 +128,11 @@ class Run {
   /// A step, for ranks to find out when they are at different ones.
   static std::string named(const char* step, Index trial) { return fmt::format("{} {}", step, trial); }
 
-  bool complete() const { return history_.done() >= with_.resolved().spec.trials; }
+  bool complete() const {
+    const Spec& spec = with_.resolved().spec;
+    const bool solved = history_.done() > 0 && history_.trials.back().solved.value_or(false);
+    return history_.done() >= spec.trials || (spec.until_solved && solved);
+  }
 
   std::filesystem::path path() const { return folder_ ? folder_->path() : std::filesystem::path(); }
 
@@ -312,14 +316,15 @@ class Run {
   History history_;
 };
 
-/// A begun run's spec, for another number of trials if given.
-Spec extended_spec(Spec spec, const std::filesystem::path& path, std::optional<Index> trials, Index done) {
-  if (!trials) return spec;
-  spec.trials = *trials;
+/// A begun run's spec, with another end if given.
+Spec extended_spec(Spec spec, const std::filesystem::path& path, std::optional<Until> until, Index done) {
+  if (!until) return spec;
+  spec.trials = until->trials;
+  spec.until_solved = until->solved;
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { spec.fields(v); })) violations.add(line);
-  violations.require(*trials >= done,
-                     fmt::format("trials = {}, but {} trials of {} are done", *trials, done, path.string()));
+  violations.require(spec.trials >= done,
+                     fmt::format("trials = {}, but {} trials of {} are done", spec.trials, done, path.string()));
   violations.throw_if_any();
   return spec;
 }
@@ -334,7 +339,7 @@ RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::fil
   return Run(participants, folder, {}).finish();
 }
 
-RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& path, std::optional<Index> trials,
+RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& path, std::optional<Until> until,
                      const RunOptions& options) {
   std::optional<RunFolder> folder;
   const std::string begun = evaluator_of(options)->once("open", [&] {
@@ -344,9 +349,11 @@ RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& pa
   const std::size_t middle = begun.find('\0');
   const Spec spec = from_toml(begun.substr(0, middle), path.string());
   History history = from_checkpoint(std::string_view(begun).substr(middle + 1), fingerprint(spec));
-  const Spec extended = extended_spec(spec, path, trials, history.done());
+  const Spec extended = extended_spec(spec, path, until, history.done());
   Participants participants(resolve(catalogue, extended), options);
-  participants.lead(fmt::format("continue to {}", extended.trials), [&] { folder->change_trials(extended.trials); });
+  participants.lead(fmt::format("continue to {}", extended.trials), [&] {
+    folder->change_end({extended.trials, extended.until_solved});
+  });
   return Run(participants, folder, std::move(history)).finish();
 }
 

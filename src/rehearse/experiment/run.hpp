@@ -52,8 +52,8 @@ class RunFailed : public std::runtime_error {
 RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::filesystem::path& folder,
                     const RunOptions& options);
 
-/// Continues the run in a folder, up to `trials` in all if given. Throws the same.
-RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& folder, std::optional<Index> trials,
+/// Continues the run in a folder to its end, or to another one. Throws the same.
+RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& folder, std::optional<Until> until,
                      const RunOptions& options);
 
 }  // namespace rehearse::experiment

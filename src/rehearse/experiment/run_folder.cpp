@@ -65,10 +65,11 @@ RunFolder RunFolder::open(const fs::path& given) {
   return {path, from_toml(read_file(spec), spec.string()), std::move(lock)};
 }
 
-void RunFolder::change_trials(Index trials) {
-  if (trials == spec_.trials) return;
-  spec_.trials = trials;
-  mark_done(false);
+void RunFolder::change_end(Until until) {
+  if (until.trials == spec_.trials && until.solved == spec_.until_solved) return;
+  spec_.trials = until.trials;
+  spec_.until_solved = until.solved;
+  mark_unfinished();
   write_file(path_ / kSpec, to_toml(spec_), Durability::power);
 }
 
@@ -116,11 +117,8 @@ void RunFolder::write_learners_table(const learners::Table& table) const {
   write_file(path_ / (table.name + ".csv"), learners_csv(table));
 }
 
-void RunFolder::mark_done(bool done) const {
-  if (done)
-    write_file(path_ / kDone, fmt::format("{} trials\n", spec_.trials));
-  else
-    fs::remove(path_ / kDone);
-}
+void RunFolder::mark_done(Index trials) const { write_file(path_ / kDone, fmt::format("{} trials\n", trials)); }
+
+void RunFolder::mark_unfinished() const { fs::remove(path_ / kDone); }
 
 }  // namespace rehearse::experiment

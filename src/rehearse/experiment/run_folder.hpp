@@ -23,7 +23,7 @@ class RunFolder {
 
   const std::filesystem::path& path() const { return path_; }
   const Spec& spec() const { return spec_; }
-  void change_trials(Index trials);
+  void change_end(Until until);
 
   /// Throws InvalidInput if the checkpoint is truncated, damaged, or does not belong to spec.toml.
   History load() const;
@@ -46,8 +46,9 @@ class RunFolder {
   /// A learner's own: NAME.csv.
   void write_learners_table(const learners::Table& table) const;
 
-  /// Marks the run as complete, or as not.
-  void mark_done(bool done) const;
+  /// Marks the run as complete after so many trials, or as not.
+  void mark_done(Index trials) const;
+  void mark_unfinished() const;
 
  private:
   RunFolder(std::filesystem::path path, Spec spec, FolderLock lock);

@@ -34,6 +34,8 @@ class Resolver {
     const auto scenario = contained([&] { return scenario_builder_->build(); });
     if (!scenario) violations_.throw_if_any();
     for (const std::string& line : scenario->task.violations()) violations_.add(line);
+    violations_.require(!spec_.until_solved || scenario->task.solved,
+                        fmt::format("until_solved: {} cannot say what is solved", spec_.scenario));
     if (ask_learner && scenario->policy)  // without a policy the learner complains when it is built
       for (const std::string& line : learner_builder_->violations(scenario->task, *scenario->policy))
         violations_.add(line);

@@ -12,12 +12,21 @@
 
 namespace rehearse::experiment {
 
+/// When a run ends; it may be changed on the way.
+struct Until {
+  Until(Index all, bool or_solved = false) : trials(all), solved(or_solved) {}  // NOLINT(google-explicit-constructor)
+
+  Index trials;
+  bool solved;  // or before, with a trial that solves the task
+};
+
 /// What a run is asked to be: everything that decides its results, and nothing else.
 struct Spec {
   std::string scenario;
   std::string learner;
   std::string prior;  // a name, several as "a,b,c", "oracle" (the plant's own dynamics), or empty: the default
   Index trials = 10;
+  bool until_solved = false;  // ends before, with a trial that solves the task
   Index seed = 1;
 
   /// Key and value as text. A key is a field of the scenario, else one of the learner (`scenario.KEY` and
@@ -26,6 +35,7 @@ struct Spec {
 
   void fields(FieldVisitor& v) {
     v.integer("trials", trials, between(1, 1e6));
+    v.boolean("until_solved", until_solved);
     v.integer("seed", seed, between(0, 9007199254740992.0));  // 2^53: survives every file format
   }
 };

@@ -97,7 +97,7 @@ std::string to_toml(const Spec& spec) {
       "format = {}\n\n[run]\nscenario = {}\nlearner = {}\n",
       kFormat, in_quotes(spec.scenario), in_quotes(spec.learner));
   if (!spec.prior.empty()) text += fmt::format("prior = {}\n", in_quotes(spec.prior));
-  text += fmt::format("trials = {}\nseed = {}\n", spec.trials, spec.seed);
+  text += fmt::format("trials = {}\nuntil_solved = {}\nseed = {}\n", spec.trials, spec.until_solved, spec.seed);
   for (std::string_view name : kSections) text += section(spec, name);
   return text;
 }
@@ -118,6 +118,7 @@ Spec from_toml(std::string_view text, const std::string& source_name) {
 
 std::uint64_t fingerprint(Spec spec) {
   spec.trials = 0;
+  spec.until_solved = false;
   return checksum(to_toml(spec));
 }
 

@@ -14,7 +14,7 @@ std::string to_toml(const Spec& spec);
 /// Throws InvalidInput with the source's name and line.
 Spec from_toml(std::string_view text, const std::string& source_name);
 
-/// Of everything in the spec but the number of trials, which a run may change on the way.
+/// Of everything in the spec but when it ends, which a run may change on the way.
 std::uint64_t fingerprint(Spec spec);
 
 }  // namespace rehearse::experiment

@@ -111,6 +111,36 @@ TEST(Campaign, AfterAStopAnywhereGivesTheSameBytes) {
   EXPECT_GE(stops, 40);
 }
 
+TEST(Campaign, RunsThatEndOnceSolvedCountAsTheyEnded) {
+  const fs::path folder = fake::test_folder() / "campaign";
+  const std::string grid = kHead + "priors = [\"near\"]\nseeds = \"1-3\"\ntrials = 8\n" + kClaim;
+  const Campaign ended = run(folder, "until_solved = true\n" + grid);
+  EXPECT_TRUE(ended.complete());
+  const auto counts = [&](const char* trial_measure) {
+    std::vector<Index> all;
+    const auto summary = summary_of(folder);
+    for (const auto& group : summary["groups"])
+      for (const auto& trial : group["trials"]) all.push_back(trial[trial_measure]["count"]);
+    return all;
+  };
+  const std::vector<Index> solved_by = counts("solved_by");
+  EXPECT_EQ(solved_by.size(), 16u);
+  EXPECT_EQ(counts("solved"), solved_by);
+  Index ended_early = 0;
+  for (const RunOutcome& outcome : ended.runs) {
+    ended_early += outcome.done() < 8;
+    for (Index trial = 1; trial < outcome.done(); ++trial) EXPECT_FALSE(*outcome.solved[trial - 1]);
+    EXPECT_EQ(outcome.row_of(8), outcome.done() - 1);
+  }
+  EXPECT_GT(ended_early, 0);
+  const auto parts = summary_of(folder)["claims"][0]["parts"];
+  EXPECT_TRUE(run(folder, grid).complete());  // goes on
+  EXPECT_EQ(counts("solved_by"), solved_by);
+  EXPECT_EQ(summary_of(folder)["claims"][0]["parts"], parts);
+  run(folder.string() + "-whole", grid);
+  EXPECT_EQ(results_of(folder), results_of(folder.string() + "-whole"));
+}
+
 /// In a process of its own that kills itself at a learner's call; true if it did.
 bool run_killed(const fs::path& folder, fake::Killer killer) {
   const pid_t child = ::fork();

@@ -83,7 +83,7 @@ inline Task line_task() {
 
 using MakePlant = std::function<std::unique_ptr<system::Plant>()>;
 
-class LineBuilder final : public scenario::ScenarioBuilder {
+class LineBuilder : public scenario::ScenarioBuilder {
  public:
   /// `wrap`: what becomes of the way in which plants are made.
   explicit LineBuilder(std::function<MakePlant(MakePlant)> wrap = {}) : wrap_(std::move(wrap)) {}

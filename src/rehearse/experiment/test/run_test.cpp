@@ -287,6 +287,21 @@ TEST(Resume, AfterAKillGivesTheSameBytes) {
     }
 }
 
+TEST(Run, UntilSolvedEndsWithTheFirstTrialThatSolves) {
+  const fs::path folder = fake::test_folder();
+  Spec spec = line_spec(6);
+  const auto solved_at = start_run(fake::catalogue(), spec, folder / "whole", {}).solved_at;
+  ASSERT_TRUE(solved_at);
+  ASSERT_LT(*solved_at, 6);
+  spec.until_solved = true;
+  EXPECT_EQ(start_run(fake::catalogue(), spec, folder / "short", {}).trials, *solved_at);
+  EXPECT_EQ(read_file(folder / "short/done"), std::to_string(*solved_at) + " trials\n");
+  EXPECT_EQ(resume_run(fake::catalogue(), folder / "short", {}, {}).trials, *solved_at);
+  EXPECT_EQ(resume_run(fake::catalogue(), folder / "short", Until(6, true), {}).trials, *solved_at);
+  EXPECT_EQ(resume_run(fake::catalogue(), folder / "short", 6, {}).trials, 6);
+  EXPECT_EQ(results_of(folder / "short"), results_of(folder / "whole"));
+}
+
 TEST(Resume, ExtendsARunAndNeverShrinksIt) {
   const fs::path folder = fake::test_folder();
   start_run(fake::catalogue(), line_spec(6), folder / "six", {});

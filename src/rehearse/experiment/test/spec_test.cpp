@@ -85,6 +85,25 @@ TEST(Spec, NamesAllViolationsAtOnce) {
             "unknown option 'colour', did you mean 'noise'?");
 }
 
+/// The line, without a word on what is solved.
+class Unsolvable final : public fake::LineBuilder {
+ public:
+  scenario::Scenario build() const override {
+    scenario::Scenario line = fake::LineBuilder::build();
+    line.task.solved = {};
+    return line;
+  }
+};
+
+TEST(Spec, UntilSolvedNeedsATaskThatSaysWhatThatIs) {
+  Catalogue catalogue = fake::catalogue();
+  catalogue.scenarios = {[] { return std::make_unique<Unsolvable>(); }};
+  Spec spec = spec_of("echo", "");
+  spec.until_solved = true;
+  EXPECT_EQ(fake::message_of<InvalidInput>([&] { resolve(catalogue, spec); }),
+            "until_solved: line cannot say what is solved");
+}
+
 TEST(SpecFile, ComesBackAsItWas) {
   for (const std::string prior : {"near", "near,far", "oracle"}) {
     const Spec spec = resolve(fake::catalogue(), spec_of("echo", prior, {{"noise", "1e-05"}})).spec;
@@ -115,7 +134,7 @@ TEST(SpecFile, SaysWhereItIsWrong) {
   EXPECT_EQ(
       complaint_about("format = 1\n[run]\ntrails = 3\nseed = -1\n[learner]\nx = [1]\n[lerner]\n"),
       "x.toml: line 3: unknown key 'trails' in [run], did you mean 'trials'? (known: scenario, learner, prior, "
-      "trials, seed)\n"
+      "trials, until_solved, seed)\n"
       "x.toml: line 4: seed = -1, must be between 0 and 9007199254740992\n"
       "x.toml: line 6: a value must be a number, true, false or text\n"
       "x.toml: line 7: unknown key 'lerner', did you mean 'learner'? (known: format, run, scenario, learner, prior)");
