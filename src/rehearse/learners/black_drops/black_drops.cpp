@@ -159,25 +159,37 @@ class BlackDrops final : public Learner {
     std::vector<Vector> starts = known_policies();
     std::optional<SearchResult> scouted;
     if (options_.scout.policies > 0 && options_.search.imagine.sample && !returns_.empty()) {
-      scouted = search_means(problem, starts, proposal);
-      if (keeps_its_promise(*scouted, problem, proposal)) return carry(std::move(scouted->runners_up), carried);
+      scouted = search_means(problem, starts, 0, proposal);
+      if (keeps_its_promise(*scouted, problem, proposal)) {
+        carry(scouted->runners_up, carried);
+        const auto again = [&](Index i) { return search_means(problem, {proposal.theta}, i, proposal); };
+        return insist(problem, std::move(*scouted), again, proposal);
+      }
       starts.push_back(scouted->theta);
       const auto others = std::min(options_.scout.policies - 1, static_cast<Index>(scouted->runners_up.size()));
       starts.insert(starts.end(), scouted->runners_up.begin(), scouted->runners_up.begin() + others);
     }
-    const Index searches = returns_.empty() ? options_.prior_searches : 1;
-    for (Index i = 0; i < searches; ++i) {
-      const std::uint64_t stream = trial() + (static_cast<std::uint64_t>(i) << 24);
-      SearchResult found = search_policy(problem, starts, options_.search, setting_.seed, stream);
-      starts = {found.theta};
+    const auto search_from = [&](const std::vector<Vector>& from, Index i) {
+      SearchResult found = search_policy(problem, from, options_.search, setting_.seed, stream(i));
       count(found, proposal);
-      take(found, proposal);
-      carry(std::move(found.runners_up), carried);
+      return found;
+    };
+    const Index searches = returns_.empty() ? options_.prior_searches : 1;
+    SearchResult found;
+    for (Index i = 0; i < searches; ++i) {
+      found = search_from(starts, i);
+      starts = {found.theta};
     }
+    take(found, proposal);
+    carry(found.runners_up, carried);
+    if (returns_.empty())  // the prior is taken at its word
+      return insist(
+          problem, std::move(found), [&](Index i) { return search_from({proposal.theta}, searches - 1 + i); },
+          proposal);
     const double gain = options_.explore.gain;
     if (gain == 0 || !options_.search.imagine.sample || first_return() == returns_.end()) return;
     if (promises(*proposal.predicted_return, gain)) return;
-    if (!scouted) scouted = search_means(problem, known_policies(), proposal);
+    if (!scouted) scouted = search_means(problem, known_policies(), 0, proposal);
     if (promises(scouted->predicted_return, options_.explore.promise)) take(*scouted, proposal);
   }
 
@@ -191,17 +203,51 @@ class BlackDrops final : public Learner {
     return true;
   }
 
+  /// Goes on until a policy is found that solves the task in the model, which is sure, and promises about as much as
+  /// the best. again(i): the i-th search more.
+  template <class Again>
+  void insist(const SearchProblem& problem, SearchResult found, Again again, Proposal& proposal) const {
+    if (options_.insist.searches == 0 || !problem.task.solved) return;
+    std::optional<SearchResult> solving;
+    for (Index i = 1;; ++i) {
+      if (auto judged = best_that_solves(problem, std::move(found), proposal))
+        if (!solving || judged->predicted_return > solving->predicted_return) solving = std::move(judged);
+      const double promise = *proposal.predicted_return;
+      if (solving && solving->predicted_return >= promise - options_.insist.tolerance * std::abs(promise)) break;
+      if (i > options_.insist.searches) break;
+      found = again(i);
+      if (found.predicted_return > promise) take(found, proposal);
+    }
+    if (solving) take(*solving, proposal);
+  }
+
+  /// Of what a search has found.
+  std::optional<SearchResult> best_that_solves(const SearchProblem& problem, SearchResult found,
+                                               Proposal& proposal) const {
+    std::vector<Vector> policies = std::move(found.runners_up);
+    policies.insert(policies.begin(), std::move(found.theta));
+    const auto solving = first_that_solves(problem, policies);
+    if (!solving) return std::nullopt;
+    SearchResult judged = judge(problem, policies[*solving], options_.search, setting_.seed, trial() + kScouting);
+    count(judged, proposal);
+    return judged;
+  }
+
   void carry(std::vector<Vector> policies, std::vector<Vector>& carried) const {
     carried = std::move(policies);
     if (static_cast<Index>(carried.size()) > options_.carried)
       carried.resize(static_cast<std::size_t>(options_.carried));
   }
 
-  SearchResult search_means(SearchProblem problem, const std::vector<Vector>& starts, Proposal& proposal) const {
+  /// Of the i-th search of a trial.
+  std::uint64_t stream(Index i) const { return trial() + (static_cast<std::uint64_t>(i) << 24); }
+
+  SearchResult search_means(SearchProblem problem, const std::vector<Vector>& starts, Index i,
+                            Proposal& proposal) const {
     problem.expected = nullptr;
     SearchOptions options = options_.search;
     options.imagine.sample = false;
-    SearchResult found = search_policy(problem, starts, options, setting_.seed, trial() + kScouting);
+    SearchResult found = search_policy(problem, starts, options, setting_.seed, stream(i) + kScouting);
     count(found, proposal);
     return found;
   }
@@ -306,6 +352,11 @@ void Scouting::fields(FieldVisitor& v) {
   v.number("tolerance", tolerance, at_least(0));
 }
 
+void Insistence::fields(FieldVisitor& v) {
+  v.integer("searches", searches, at_least(0));
+  v.number("tolerance", tolerance, at_least(0));
+}
+
 void Options::fields(FieldVisitor& v) {
   std::visit([&](auto& kind) { v.group("model", kind); }, model);
   v.group("reward", reward);
@@ -315,6 +366,7 @@ void Options::fields(FieldVisitor& v) {
   v.boolean("start_from_last", start_from_last);
   v.group("explore", explore);
   v.group("scout", scout);
+  v.group("insist", insist);
   v.integer("carried", carried, at_least(0));
   v.integer("prior_searches", prior_searches, at_least(1));
   v.number("prior_variance", prior_variance, at_least(0));

@@ -32,6 +32,14 @@ struct Scouting {
   void fields(FieldVisitor& v);
 };
 
+/// Where the model is sure, a search whose policy it does not expect to solve the task is repeated from other points: a
+/// trial would only confirm it. A policy that solves is preferred to others, even of a higher return.
+struct Insistence {
+  Index searches = 3;       // more than one, at most; 0: the policy of the highest return, whatever it does (the paper)
+  double tolerance = 0.05;  // of the highest return: where one that solves has less, the search goes on
+  void fields(FieldVisitor& v);
+};
+
 /// A search that meets the model's doubts ends near what is known. Where it leads no further, another follows the mean
 /// predictions alone, and its policy is tried if it promises much: the doubts may be unfounded, and if not, the trial
 /// resolves them. Fractions of the best return seen.
@@ -50,6 +58,7 @@ struct Options {
   bool start_from_last = false;  // and one from the last policy tried: its trial told most of where it fails
   Exploration explore;
   Scouting scout;
+  Insistence insist;
   Index carried = 3;          // and so many from the best other policies of the search before
   Index prior_searches = 1;   // searches on the prior before the first trial, each from the best of the one before
                               // (the authors' code: 2)

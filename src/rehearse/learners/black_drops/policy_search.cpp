@@ -145,6 +145,20 @@ SearchResult judge(const SearchProblem& problem, const Vector& theta, const Sear
           .failed_rollouts = objective.failed()};
 }
 
+std::optional<std::size_t> first_that_solves(const SearchProblem& problem, const std::vector<Vector>& policies) {
+  if (!problem.task.solved || policies.empty()) return std::nullopt;
+  Matrix Theta(static_cast<Index>(policies.size()), policies.front().size());
+  for (std::size_t i = 0; i < policies.size(); ++i) Theta.row(static_cast<Index>(i)) = policies[i].transpose();
+  rollout::Episodes episodes;
+  rollout::imagine_episodes(problem.model, problem.policy, problem.task, Theta, 0, {}, {.sample = false}, episodes);
+  Episode episode;
+  for (std::size_t i = 0; i < policies.size(); ++i) {
+    episodes.copy(static_cast<Index>(i), episode);
+    if (!episodes.failed[i] && problem.task.solved(episode)) return i;
+  }
+  return std::nullopt;
+}
+
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, std::uint64_t seed,
                      std::uint64_t trial) {
   Rng rng({.seed = seed, .trial = trial, .purpose = Purpose::random_policy});

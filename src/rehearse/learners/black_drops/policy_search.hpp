@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "rehearse/core/evaluator.hpp"
@@ -67,6 +68,9 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
 /// The expected return of one policy, from `selection` rollouts.
 SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options, std::uint64_t seed,
                    std::uint64_t trial);
+
+/// The first policy that solves the task in the mean predictions; nothing if none does, or the task does not say.
+std::optional<std::size_t> first_that_solves(const SearchProblem& problem, const std::vector<Vector>& policies);
 
 /// θ uniform in the box.
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, std::uint64_t seed,

@@ -202,6 +202,43 @@ TEST(BlackDrops, ScoutsInTheMeanPredictionsFirst) {
   EXPECT_NEAR(*alone.predicted_return, expected(alone), 0.2) << "predicted is what the doubts leave";
 }
 
+/// Trials 1 and 2 of a learner whose model has no doubts, on a task that asks for a last position in an interval.
+std::vector<Proposal> surely(Interval last, const char* searches) {
+  const auto with = builder("mi", "100");
+  EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "insist.searches", searches));
+  Setting task = setting();
+  task.task.solved = [last](const Episode& e) {
+    const double position = e.true_states(e.steps(), 0);
+    return position > last.low && position < last.high;
+  };
+  const auto learner = with->build(task);
+  std::vector<Proposal> proposals = {learner->ask()};
+  learner->tell(run_trial(proposals.front(), 1));
+  proposals.push_back(learner->ask());
+  return proposals;
+}
+
+double last_position(const Proposal& proposal) {
+  return rollout::imagine_recorded(*proposal.model, *proposal.policy, slider::task(), proposal.theta, 1, {},
+                                   {.sample = false})
+      .states.back()(0, 0);
+}
+
+// The highest return is that of a slider at 0; descents that were given up end elsewhere.
+TEST(BlackDrops, PrefersPoliciesThatAreExpectedToSolveTheTask) {
+  const Interval beside = {0.1, 2}, nowhere = {9, 10};
+  const auto careless = surely(beside, "0"), insisting = surely(beside, "3");
+  const auto in_vain = surely(nowhere, "3"), content = surely({-1, 1}, "3");
+  for (std::size_t trial : {0, 1}) {
+    EXPECT_LT(last_position(careless[trial]), beside.low);
+    EXPECT_GT(last_position(insisting[trial]), beside.low);
+    EXPECT_LT(last_position(insisting[trial]), beside.high);
+    EXPECT_GT(in_vain[trial].rollouts, 3 * careless[trial].rollouts) << "four searches";
+    EXPECT_GE(*in_vain[trial].predicted_return, *careless[trial].predicted_return);
+    EXPECT_LT(content[trial].rollouts, 1.5 * careless[trial].rollouts) << "one";
+  }
+}
+
 TEST(BlackDrops, WithoutAPriorIgnoresTheOneItIsGiven) {
   const auto with = builder("black-drops")->build(setting()), without = builder("black-drops")->build(setting({}));
   EXPECT_EQ(with->ask().theta, without->ask().theta);
