@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "rehearse/core/types.hpp"
@@ -18,6 +19,9 @@ class Policy {
   virtual std::string name() const = 0;  // "mlp"
   virtual Index parameters() const = 0;  // of θ
   virtual Index actions() const = 0;     // du
+
+  /// Where each number of θ must lie; empty: anywhere, and whoever searches says where.
+  virtual std::optional<Interval> box() const { return std::nullopt; }
 
   /// What the policy is made of if its actions have analytic moments (moments/rbf_policy.hpp), else null.
   virtual const RbfOptions* analytic() const { return nullptr; }

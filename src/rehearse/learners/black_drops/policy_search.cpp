@@ -55,6 +55,20 @@ class ImaginedReturn {
 
 using Box = std::vector<Interval>;
 
+/// Of every number of θ.
+Interval interval_of(const policy::Policy& policy, const SearchOptions& options) {
+  return policy.box().value_or(Interval{-options.box, options.box});
+}
+
+/// With step sizes that are to the policy's box as they were to the options'.
+SearchOptions in_box_of(const policy::Policy& policy, SearchOptions options) {
+  const Interval interval = interval_of(policy, options);
+  const double scale = (interval.high - interval.low) / (2 * options.box);
+  options.race.sigma *= scale;
+  options.race.start_sigma *= scale;
+  return options;
+}
+
 /// Good policies, best first, by the method asked for.
 std::vector<Vector> find(const optim::BatchObjective& objective, const std::vector<Vector>& starts, const Box& box,
                          const SearchProblem& problem, const SearchOptions& options, const StreamKey& key,
@@ -123,8 +137,8 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
                       .rollouts = objective.rollouts(),
                       .rollouts_per_s = watch.per_s(objective.rollouts())});
   };
-  const Box box(static_cast<std::size_t>(problem.policy.parameters()), {-options.box, options.box});
-  std::vector<Vector> found = find(std::ref(objective), starts, box, problem, options,
+  const Box box(static_cast<std::size_t>(problem.policy.parameters()), interval_of(problem.policy, options));
+  std::vector<Vector> found = find(std::ref(objective), starts, box, problem, in_box_of(problem.policy, options),
                                    {.seed = seed, .trial = trial, .purpose = Purpose::search}, report);
   SearchResult result;
   ImaginedReturn selection = comparison(problem, options, seed, trial);
@@ -163,7 +177,8 @@ Vector random_policy(const policy::Policy& policy, const SearchOptions& options,
                      std::uint64_t trial) {
   Rng rng({.seed = seed, .trial = trial, .purpose = Purpose::random_policy});
   Vector theta(policy.parameters());
-  for (double& value : theta) value = rng.uniform(-options.box, options.box);
+  const auto [low, high] = interval_of(policy, options);
+  for (double& value : theta) value = rng.uniform(low, high);
   return theta;
 }
 

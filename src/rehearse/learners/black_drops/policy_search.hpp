@@ -32,7 +32,7 @@ enum class Evaluation {
 struct SearchOptions {
   Method method = Method::race;
   Evaluation evaluation = Evaluation::samples;
-  double box = 5;       // θ in [−box, box]; the authors' code
+  double box = 5;       // θ in [−box, box] unless the policy has a box of its own; the authors' code
   Index particles = 1;  // rollouts of one evaluation; the paper: 1
   rollout::ImagineOptions imagine;
   optim::RaceOptions race;

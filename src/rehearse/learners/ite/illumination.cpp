@@ -77,7 +77,7 @@ class Illumination {
  private:
   std::vector<Interval> box() const {
     return std::vector<Interval>(static_cast<std::size_t>(setting_.policy->parameters()),
-                                 {-options_.box, options_.box});
+                                 setting_.policy->box().value_or(Interval{-options_.box, options_.box}));
   }
 
   qd::Archive empty_archive() const {

@@ -17,7 +17,7 @@ struct IlluminationOptions {
   Index niches = 10000;        // of the tessellation (Vassiliades 2018)
   Index bins = 5;              // of the grid, for each descriptor (Cully 2015)
   Index evaluations = 200000;  // rollouts in the prior, rounded up to a generation
-  double box = 5;              // θ in [−box, box]; as the other learners
+  double box = 5;              // θ in [−box, box] unless the policy has its own; as the other learners
   qd::MapElitesOptions search;
   void fields(FieldVisitor& v);
 };

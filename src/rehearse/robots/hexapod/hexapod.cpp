@@ -1,0 +1,85 @@
+#include "rehearse/robots/hexapod/hexapod.hpp"
+
+#include <cmath>
+
+#include "rehearse/policy/gait.hpp"
+#include "rehearse/robots/hexapod/dart_simulator.hpp"
+#include "rehearse/robots/hexapod/drawing.hpp"
+#include "rehearse/robots/hexapod/state.hpp"
+#include "rehearse/scenario/builder.hpp"
+
+namespace rehearse::robots::hexapod {
+namespace {
+
+constexpr double kControlStep = 0.1;  // s
+constexpr double kFallen = 0.5;       // cosine of the tilt: 60°
+constexpr double kSolvedSpeed = 0.2;  // m/s
+
+/// The way forward in a step, or x·dt; where the robot has drifted, at most 0.
+Reward reward(double drift_m, bool integral) {
+  return [drift_m, integral](const ConstMatrixView& X, const ConstMatrixView&, const ConstMatrixView& next,
+                             VectorView rewards) {
+    if (integral)
+      rewards = kControlStep * next.col(kPosition);
+    else
+      rewards = next.col(kPosition) - X.col(kPosition);
+    for (Index i = 0; i < next.rows(); ++i)
+      if (std::abs(next(i, kPosition + 1)) > drift_m) rewards(i) = std::min(rewards(i), 0.0);
+  };
+}
+
+Task make_task(const Options& options) {
+  Task task;
+  task.states = state_variables();
+  task.actions = action_variables();
+  task.start_mean = rest();
+  task.start_std = Vector::Zero(kStateSize);
+  task.dt_s = kControlStep;
+  task.horizon = options.horizon;
+  task.reward = reward(options.drift_m, options.integral);
+  task.reward_floor = options.fall_reward;
+  task.ended = [](const ConstVectorView& state) { return uprightness(state) < kFallen; };
+  task.solved = [seconds = task.episode_s(), steps = task.horizon](const Episode& e) {
+    return !e.ended && e.steps() == steps &&
+           e.true_states(steps, kPosition) - e.true_states(0, kPosition) >= kSolvedSpeed * seconds;
+  };
+  return task;
+}
+
+std::optional<DamagedLeg> damaged_leg(const Options& options) {
+  if (options.damage == Options::Leg::none) return std::nullopt;
+  return DamagedLeg{static_cast<Index>(options.damage) - 1, options.kind};
+}
+
+std::optional<Index> removed_leg(const Options& options) {
+  const auto damaged = damaged_leg(options);
+  return damaged && damaged->damage == Damage::removed ? std::optional(damaged->leg) : std::nullopt;
+}
+
+}  // namespace
+
+void Options::fields(FieldVisitor& v) {
+  v.group("plant", plant);
+  v.choice("damage", damage, {"none", "rear-left", "mid-left", "front-left", "front-right", "mid-right", "rear-right"});
+  v.choice("damage_kind", kind, {"removed", "blocked", "weak"});
+  v.integer("horizon", horizon, at_least(1));
+  v.number("drift_m", drift_m, above(0));
+  v.number("fall_reward", fall_reward, between(-1e6, 0));
+  v.boolean("integral", integral);
+}
+
+scenario::Scenario make(const Options& options) {
+  const auto simulator = make_dart_simulator(kControlStep);
+  return {.name = "hexapod",
+          .task = make_task(options),
+          .make_plant = [options] { return make_mujoco_plant(options.plant, damaged_leg(options), kControlStep); },
+          .priors = {{"intact", simulator, simulator->parameters()}},
+          .policy = policy::make_gait(kLegs),
+          .drawing = drawing(removed_leg(options))};
+}
+
+std::unique_ptr<scenario::ScenarioBuilder> builder() {
+  return scenario::make_builder("walk on six legs, or on five (40 steps of 0.1 s)", make);
+}
+
+}  // namespace rehearse::robots::hexapod
