@@ -51,12 +51,14 @@ std::string prior_remark(const learners::LearnerBuilder& builder) {
   return builder.chooses_priors() ? "takes a prior, or several to choose among: --prior a,b,c" : "takes a prior";
 }
 
+std::string prior_remark(const scenario::ScenarioBuilder& builder) {
+  const char* oracle = builder.build().oracle ? "; or oracle, the plant's own dynamics" : "";
+  return fmt::format("priors: {}{}", fmt::join(builder.prior_names(), ", "), oracle);
+}
+
 void print(const experiment::Catalogue& catalogue, bool with_options) {
   fmt::print("Scenarios\n");
-  for (const auto& builder : catalogue.scenario_builders())
-    print_entry(*builder,
-                fmt::format("priors: {}; or oracle, the plant's own dynamics", fmt::join(builder->prior_names(), ", ")),
-                with_options);
+  for (const auto& builder : catalogue.scenario_builders()) print_entry(*builder, prior_remark(*builder), with_options);
   fmt::print("\nLearners\n");
   for (const auto& builder : catalogue.learner_builders()) print_entry(*builder, prior_remark(*builder), with_options);
   if (!catalogue.not_built.empty()) fmt::print("\nNot built\n");

@@ -21,7 +21,7 @@ std::array<double, 2 * kHalfWidth + 2> cumulative_weights() {
   std::array<double, 2 * kHalfWidth + 2> cumulative{};
   for (int i = 0; i <= 2 * kHalfWidth; ++i) {
     const double z = (i - kHalfWidth) / kWidth;
-    cumulative[static_cast<std::size_t>(i + 1)] = cumulative[static_cast<std::size_t>(i)] + std::exp(-z * z / 2);
+    cumulative[static_cast<std::size_t>(i) + 1] = cumulative[static_cast<std::size_t>(i)] + std::exp(-z * z / 2);
   }
   for (double& weight : cumulative) weight /= cumulative.back();
   return cumulative;
