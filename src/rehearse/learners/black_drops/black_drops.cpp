@@ -186,6 +186,8 @@ class BlackDrops final : public Learner {
       return insist(
           problem, std::move(found), [&](Index i) { return search_from({proposal.theta}, searches - 1 + i); },
           proposal);
+    if (scouted) found.runners_up.push_back(scouted->theta);
+    prefer_solving(problem, std::move(found), proposal);
     const double gain = options_.explore.gain;
     if (gain == 0 || !options_.search.imagine.sample || first_return() == returns_.end()) return;
     if (promises(*proposal.predicted_return, gain)) return;
@@ -219,6 +221,15 @@ class BlackDrops final : public Learner {
       if (found.predicted_return > promise) take(found, proposal);
     }
     if (solving) take(*solving, proposal);
+  }
+
+  /// Where the model has doubts: a policy that solves the task if its means are right, for a little of the return.
+  void prefer_solving(const SearchProblem& problem, SearchResult found, Proposal& proposal) const {
+    if (options_.insist.doubtful_tolerance == 0) return;
+    const double promise = *proposal.predicted_return;
+    const auto judged = best_that_solves(problem, std::move(found), proposal);
+    if (judged && judged->predicted_return >= promise - options_.insist.doubtful_tolerance * std::abs(promise))
+      take(*judged, proposal);
   }
 
   /// Of what a search has found.
@@ -355,6 +366,7 @@ void Scouting::fields(FieldVisitor& v) {
 void Insistence::fields(FieldVisitor& v) {
   v.integer("searches", searches, at_least(0));
   v.number("tolerance", tolerance, at_least(0));
+  v.number("doubtful_tolerance", doubtful_tolerance, at_least(0));
 }
 
 void Options::fields(FieldVisitor& v) {

@@ -37,6 +37,8 @@ struct Scouting {
 struct Insistence {
   Index searches = 3;       // more than one, at most; 0: the policy of the highest return, whatever it does (the paper)
   double tolerance = 0.05;  // of the highest return: where one that solves has less, the search goes on
+  double doubtful_tolerance =
+      0.2;  // what a policy that solves may cost where the model has doubts; 0: none is preferred
   void fields(FieldVisitor& v);
 };
 

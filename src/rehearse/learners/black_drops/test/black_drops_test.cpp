@@ -239,6 +239,25 @@ TEST(BlackDrops, PrefersPoliciesThatAreExpectedToSolveTheTask) {
   }
 }
 
+TEST(BlackDrops, PrefersThemWithinAToleranceWhereTheModelHasDoubts) {
+  const auto second = [](const char* tolerance) {
+    const auto with = builder("black-drops-prior", "100");
+    for (const auto& [name, value] : std::map<std::string, std::string>{
+             {"scout.policies", "0"}, {"explore.gain", "0"}, {"insist.doubtful_tolerance", tolerance}})
+      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
+    Setting task = setting(slider::prior(1.5));
+    task.task.solved = [](const Episode& e) { return e.true_states(e.steps(), 0) > 0.1; };
+    const auto learner = with->build(task);
+    learner->tell(run_trial(learner->ask(), 1));
+    return learner->ask();
+  };
+  const Proposal careless = second("0"), strict = second("1e-9"), lenient = second("1e12");
+  EXPECT_LT(last_position(careless), 0.1);
+  EXPECT_EQ(strict.theta, careless.theta);
+  EXPECT_GT(last_position(lenient), 0.1);
+  EXPECT_LT(*lenient.predicted_return, *careless.predicted_return);
+}
+
 TEST(BlackDrops, WithoutAPriorIgnoresTheOneItIsGiven) {
   const auto with = builder("black-drops")->build(setting()), without = builder("black-drops")->build(setting({}));
   EXPECT_EQ(with->ask().theta, without->ask().theta);
