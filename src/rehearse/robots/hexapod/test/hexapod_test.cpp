@@ -94,7 +94,9 @@ TEST(Hexapod, IsDrawnOnItsFeet) {
     EXPECT_EQ(poses.size(), leg == Options::Leg::none ? 25u : 21u);
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const auto* foot = std::get_if<scenario::Sphere>(&drawing.bodies[i].shape);
-      if (foot) EXPECT_NEAR(poses[i].position.z(), foot->radius_m, 1e-12) << drawing.bodies[i].name;
+      if (foot) {
+        EXPECT_NEAR(poses[i].position.z(), foot->radius_m, 1e-12) << drawing.bodies[i].name;
+      }
     }
   }
 }
