@@ -25,7 +25,8 @@ class Reporter final : public RunListener {
   void started(const Resolved&, const std::filesystem::path&, Index done) override { ledger_.run_started(run_, done); }
   void progress(Index trial, const Progress& progress) override { ledger_.progress(run_, trial, progress); }
   void trial_done(const TrialRecord& record) override {
-    if (record.trial < planned_.spec.trials) ledger_.trial_done(run_, folder_.read(planned_));
+    if (!planned_.spec.ends_with(record.trial, record.solved.value_or(false)))  // or run_ended tells all
+      ledger_.trial_done(run_, folder_.read(planned_));
   }
 
  private:

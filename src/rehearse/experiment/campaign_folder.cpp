@@ -171,8 +171,7 @@ RunOutcome contents_of(const fs::path& folder, const PlannedRun& run) {
   }
   outcome = rows_of(folder / "trials.csv", run.spec.trials);
   const bool solved = !outcome.solved.empty() && outcome.solved.back().value_or(false);
-  const bool ended = outcome.done() == run.spec.trials || (run.spec.until_solved && solved);
-  if (ended && fs::exists(folder / "done")) outcome.state = RunState::done;
+  if (run.spec.ends_with(outcome.done(), solved) && fs::exists(folder / "done")) outcome.state = RunState::done;
   return outcome;
 }
 

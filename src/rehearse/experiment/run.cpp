@@ -129,9 +129,8 @@ class Run {
   static std::string named(const char* step, Index trial) { return fmt::format("{} {}", step, trial); }
 
   bool complete() const {
-    const Spec& spec = with_.resolved().spec;
     const bool solved = history_.done() > 0 && history_.trials.back().solved.value_or(false);
-    return history_.done() >= spec.trials || (spec.until_solved && solved);
+    return with_.resolved().spec.ends_with(history_.done(), solved);
   }
 
   std::filesystem::path path() const { return folder_ ? folder_->path() : std::filesystem::path(); }

@@ -33,6 +33,9 @@ struct Spec {
   /// `learner.KEY` say which), or a parameter's starting value, `prior.NAME` (`prior.PRIOR.NAME` in one of several).
   std::vector<std::pair<std::string, std::string>> options;
 
+  /// Whether the run ends with a trial. solved: whether that trial solves the task.
+  bool ends_with(Index trial, bool solved) const { return trial >= trials || (until_solved && solved); }
+
   void fields(FieldVisitor& v) {
     v.integer("trials", trials, between(1, 1e6));
     v.boolean("until_solved", until_solved);

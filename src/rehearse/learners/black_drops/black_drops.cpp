@@ -197,12 +197,22 @@ class BlackDrops final : public Learner {
 
   /// Whether the model's doubts cost the policy next to nothing; if so it is the proposal.
   bool keeps_its_promise(const SearchResult& scouted, const SearchProblem& problem, Proposal& proposal) const {
-    const SearchResult judged = judge(problem, scouted.theta, options_.search, setting_.seed, trial() + kScouting);
-    count(judged, proposal);
-    const double promise = scouted.predicted_return;
-    if (judged.predicted_return < promise - options_.scout.tolerance * std::abs(promise)) return false;
+    const SearchResult judged = with_doubts(problem, scouted.theta, proposal);
+    if (!keeps(judged, scouted.predicted_return, options_.scout.tolerance)) return false;
     take(judged, proposal);
     return true;
+  }
+
+  /// What a policy promises where the model's doubts count.
+  SearchResult with_doubts(const SearchProblem& problem, const Vector& theta, Proposal& proposal) const {
+    SearchResult judged = judge(problem, theta, options_.search, setting_.seed, trial() + kScouting);
+    count(judged, proposal);
+    return judged;
+  }
+
+  /// Whether it falls short of the promise by no more than a fraction of it.
+  static bool keeps(const SearchResult& found, double promise, double tolerance) {
+    return found.predicted_return >= promise - tolerance * std::abs(promise);
   }
 
   /// Goes on until a policy is found that solves the task in the model, which is sure, and promises about as much as
@@ -215,7 +225,7 @@ class BlackDrops final : public Learner {
       if (auto judged = best_that_solves(problem, std::move(found), proposal))
         if (!solving || judged->predicted_return > solving->predicted_return) solving = std::move(judged);
       const double promise = *proposal.predicted_return;
-      if (solving && solving->predicted_return >= promise - options_.insist.tolerance * std::abs(promise)) break;
+      if (solving && keeps(*solving, promise, options_.insist.tolerance)) break;
       if (i > options_.insist.searches) break;
       found = again(i);
       if (found.predicted_return > promise) take(found, proposal);
@@ -226,10 +236,9 @@ class BlackDrops final : public Learner {
   /// Where the model has doubts: a policy that solves the task if its means are right, for a little of the return.
   void prefer_solving(const SearchProblem& problem, SearchResult found, Proposal& proposal) const {
     if (options_.insist.doubtful_tolerance == 0) return;
-    const double promise = *proposal.predicted_return;
-    const auto judged = best_that_solves(problem, std::move(found), proposal);
-    if (judged && judged->predicted_return >= promise - options_.insist.doubtful_tolerance * std::abs(promise))
-      take(*judged, proposal);
+    const auto solving = best_that_solves(problem, std::move(found), proposal);
+    if (solving && keeps(*solving, *proposal.predicted_return, options_.insist.doubtful_tolerance))
+      take(*solving, proposal);
   }
 
   /// Of what a search has found.
@@ -239,9 +248,7 @@ class BlackDrops final : public Learner {
     policies.insert(policies.begin(), std::move(found.theta));
     const auto solving = first_that_solves(problem, policies);
     if (!solving) return std::nullopt;
-    SearchResult judged = judge(problem, policies[*solving], options_.search, setting_.seed, trial() + kScouting);
-    count(judged, proposal);
-    return judged;
+    return with_doubts(problem, policies[*solving], proposal);
   }
 
   void carry(std::vector<Vector> policies, std::vector<Vector>& carried) const {

@@ -54,10 +54,8 @@ BodyNode* add_segment(Skeleton& robot, BodyNode* carrier, Index leg, Segment seg
   joint.mAxis = model.axis;
   joint.mT_ParentBodyToJoint = mount_of(leg, segment);
   joint.mActuatorType = dart::dynamics::Joint::VELOCITY;
-  auto [hinge, body] = robot.createJointAndBodyNodePair<dart::dynamics::RevoluteJoint>(
-      carrier, joint, BodyNode::AspectProperties(fmt::format("segment {} {}", leg, static_cast<int>(segment))));
-  hinge->setForceLowerLimit(0, -std::numeric_limits<double>::infinity());
-  hinge->setForceUpperLimit(0, std::numeric_limits<double>::infinity());
+  const BodyNode::AspectProperties name(fmt::format("segment {} {}", leg, static_cast<int>(segment)));
+  BodyNode* body = robot.createJointAndBodyNodePair<dart::dynamics::RevoluteJoint>(carrier, joint, name).second;
   body->setInertia(inertia_of(model.mass, model.centre, model.size));
   if (segment == Segment::tibia) add_shape(*body, std::make_shared<dart::dynamics::SphereShape>(kFootRadius), kFoot);
   return body;
@@ -230,8 +228,6 @@ class Worlds {
 
 }  // namespace
 
-Parameter missing_leg(double value) { return Parameter::discrete("missing_leg", value, {-1, 0, 1, 2, 3, 4, 5}); }
-
 std::shared_ptr<const system::Simulator> make_dart_simulator(double dt_s) {
   const auto worlds = std::make_shared<Worlds>();
   const int steps = static_cast<int>(std::lround(dt_s / kStep));
@@ -245,7 +241,8 @@ std::shared_ptr<const system::Simulator> make_dart_simulator(double dt_s) {
       }
     });
   };
-  return system::make_simulator(ParameterSpace({missing_leg(-1)}), change);
+  return system::make_simulator(ParameterSpace({Parameter::discrete("missing_leg", -1, {-1, 0, 1, 2, 3, 4, 5})}),
+                                change);
 }
 
 }  // namespace rehearse::robots::hexapod

@@ -6,12 +6,9 @@
 
 namespace rehearse::robots::hexapod {
 
-/// The hexapod in DART: velocity servos that never lack torque, friction 1. One parameter: `missing_leg`, −1 for none.
-/// A row outside what DART survives (its assertions end the process), before or after any step, is NaN. As many worlds
-/// are kept as threads have asked at the same time.
+/// The hexapod in DART: joints that follow any speed, friction 1. One parameter: `missing_leg`, one of the legs or −1
+/// for none. A row outside what DART survives (its assertions end the process), before or after any step, is NaN. As
+/// many worlds are kept as threads have asked at the same time.
 std::shared_ptr<const system::Simulator> make_dart_simulator(double dt_s);
-
-/// −1 and every leg.
-Parameter missing_leg(double value);
 
 }  // namespace rehearse::robots::hexapod

@@ -1,5 +1,6 @@
 #include "rehearse/robots/hexapod/hexapod.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rehearse/policy/gait.hpp"

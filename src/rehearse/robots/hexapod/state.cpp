@@ -1,8 +1,5 @@
 #include "rehearse/robots/hexapod/state.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
 namespace rehearse::robots::hexapod {
