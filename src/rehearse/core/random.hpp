@@ -26,6 +26,7 @@ enum class Purpose : std::uint32_t {
   tessellation = 13,
   variation = 14,
   drawn_option = 15,
+  imagined_measurement = 16,
 };
 
 /// The name of a stream.

@@ -19,6 +19,9 @@ class DynamicsModel {
     Matrix variance(X.rows(), X.cols());
     predict(X, U, mean, variance);
   }
+
+  /// What a measurement adds to each state, as far as the data tell: a standard deviation each (dx). Empty: nothing.
+  virtual Vector measurement_std() const { return {}; }
 };
 
 }  // namespace rehearse::dynamics

@@ -41,6 +41,9 @@ class GpModel final : public DynamicsModel {
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override;
   void predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const override;
 
+  Vector measurement_std() const override { return measurement_std_; }
+  void set_measurement_std(Vector std) { measurement_std_ = std::move(std); }
+
   const gp::Posterior& posterior() const { return posterior_; }
 
  private:
@@ -53,6 +56,7 @@ class GpModel final : public DynamicsModel {
   std::optional<Mean> mean_;
   gp::Posterior posterior_;
   PredictedVariance variance_;
+  Vector measurement_std_;
 };
 
 }  // namespace rehearse::dynamics

@@ -8,6 +8,7 @@
 #include "rehearse/dynamics/alternating.hpp"
 #include "rehearse/dynamics/estimate.hpp"
 #include "rehearse/dynamics/least_squares.hpp"
+#include "rehearse/dynamics/measurement_noise.hpp"
 #include "rehearse/dynamics/residuals.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
 
@@ -22,9 +23,11 @@ Learned model_of(const Residuals& residuals, const prior::Prior* prior, const Gp
   if (prior) mean = Mean{*prior, estimate.phi, residuals.midpoint()};
   Learned learned;
   learned.state.kernels = hyperparameters(estimate);
-  learned.model = std::make_shared<GpModel>(
+  const auto model = std::make_shared<GpModel>(
       residuals.features(), residuals.kinematics(), mean,
       gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance), options.variance);
+  model->set_measurement_std(measurement_std(*model, residuals.data(), model->posterior().noise_variances()));
+  learned.model = model;
   if (prior) learned.state.phi = estimate.phi;
   learned.log_evidence = estimate.log_evidences.sum();
   learned.left_out_rows = rows.left_out;

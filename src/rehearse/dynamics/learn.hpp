@@ -49,7 +49,10 @@ struct ZeroMean {
 /// Of GPs around a prior.
 struct ResidualGpOptions : GpOptions {
   bool midpoint = true;  // inputs are those halfway along the step that the prior predicts (Mean)
-  ResidualGpOptions() { fit.trend = true; }
+  ResidualGpOptions() {
+    fit.trend = true;
+    fit.penalties.length_deviation = 1;  // or white noise is taken for a function, of which there would be doubts
+  }
   void fields(FieldVisitor& v) {
     GpOptions::fields(v);
     v.boolean("midpoint", midpoint);

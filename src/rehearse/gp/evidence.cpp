@@ -133,6 +133,13 @@ double penalty(const Inputs& inputs, const ConstVectorView& flat, const Penaltie
       if (gradient) (*gradient)(d) += slope;
     }
   }
+  if (penalties.length_deviation > 0) {
+    const double precision = 1 / (penalties.length_deviation * penalties.length_deviation);
+    const auto deviations =
+        flat.head(D).array() - (penalties.length_median * inputs.spread().array()).log();  // of ln ℓ from its median
+    value -= precision * deviations.square().sum() / 2;
+    if (gradient) gradient->head(D).array() -= precision * deviations;
+  }
   if (penalties.snr) {
     const double slope = wall(flat(D) - flat(D + 1), penalties.snr_limit, value);
     if (gradient) (*gradient)(D) += slope, (*gradient)(D + 1) -= slope;

@@ -12,17 +12,23 @@ namespace rehearse::gp {
 
 inline constexpr double kLogTwoPi = 1.8378770664093454836;
 
-/// Keep hyperparameters in range: smooth walls added to the log evidence (PILCO; the code of Chatzilygeroudis 2018).
+/// Keep hyperparameters in range: smooth walls added to the log evidence (PILCO; the code of Chatzilygeroudis 2018),
+/// and a log-normal prior of the lengths (Hvarfner 2024), without which white noise may be taken for a function of
+/// short ones.
 struct Penalties {
-  bool length = false;        // −Σ_d ((ln ℓ_d − ln std(x_d)) / ln length_limit)^30
-  double length_limit = 100;  // PILCO and the authors
-  bool snr = false;           // −((ln σ_f − ln σ_n) / ln snr_limit)^30
-  double snr_limit = 500;     // the authors; PILCO 1000
+  bool length = false;          // −Σ_d ((ln ℓ_d − ln std(x_d)) / ln length_limit)^30
+  double length_limit = 100;    // PILCO and the authors
+  bool snr = false;             // −((ln σ_f − ln σ_n) / ln snr_limit)^30
+  double snr_limit = 500;       // the authors; PILCO 1000
+  double length_deviation = 0;  // s > 0: −½ Σ_d ((ln ℓ_d − ln(length_median std(x_d))) / s)²
+  double length_median = 10;
   void fields(FieldVisitor& v) {
     v.boolean("length", length);
     v.number("length_limit", length_limit, {.low = 1, .low_open = true});
     v.boolean("snr", snr);
     v.number("snr_limit", snr_limit, {.low = 1, .low_open = true});
+    v.number("length_deviation", length_deviation, at_least(0));
+    v.number("length_median", length_median, above(0));
   }
 };
 

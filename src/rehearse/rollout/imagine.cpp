@@ -13,7 +13,7 @@ Index rows_of_chunk(Index batch) { return batch >= 512 ? 64 : 32; }
 
 /// Memory of a chunk, kept by each thread from one to the next: fresh pages cost more than a step of a cheap model.
 struct Buffers {
-  Matrix Theta, X, next, variance, noise, U;
+  Matrix Theta, X, seen, next, variance, noise, U;
   Vector reward, returns, state;
   std::vector<std::uint64_t> candidates, particles;
   std::vector<char> alive;
@@ -31,7 +31,9 @@ class Chunk {
         const ImagineOptions& options, Index rows, Buffers& buffers)
       : model_(model), policy_(policy), task_(task), key_(key), options_(options), b_(buffers) {
     b_.Theta.resize(rows, policy.parameters());
-    for (Matrix* states : {&b_.X, &b_.next, &b_.variance, &b_.noise}) states->resize(rows, task.state_size());
+    if (options.sample && options.measurement_noise > 0)
+      measurement_std_ = options.measurement_noise * model.measurement_std();
+    for (Matrix* states : {&b_.X, &b_.seen, &b_.next, &b_.variance, &b_.noise}) states->resize(rows, task.state_size());
     b_.U.resize(rows, task.action_size());
     b_.reward.resize(rows);
     b_.returns.setZero(rows);
@@ -67,7 +69,7 @@ class Chunk {
 
   /// x_t → x_{t+1} for every row; what happens is recorded, if it is to be.
   void step(Index t, Episodes* record = nullptr) {
-    policy_.act(b_.Theta, b_.X, static_cast<double>(t) * task_.dt_s, b_.U);
+    policy_.act(b_.Theta, measured(t), static_cast<double>(t) * task_.dt_s, b_.U);
     if (options_.sample) {
       model_.predict(b_.X, b_.U, b_.next, b_.variance);
       add_noise(t);
@@ -87,6 +89,16 @@ class Chunk {
   Index failed() const { return failed_; }
 
  private:
+  /// What the policy sees.
+  const Matrix& measured(Index t) {
+    if (measurement_std_.size() == 0) return b_.X;
+    StreamKey key = key_;
+    key.purpose = Purpose::imagined_measurement;
+    fill_normals(key, b_.candidates.data(), b_.particles.data(), static_cast<std::uint64_t>(t), b_.noise);
+    b_.seen = b_.X + b_.noise * measurement_std_.asDiagonal();
+    return b_.seen;
+  }
+
   void add_noise(Index t) {
     if (!(b_.variance.array() > 0).any()) return;
     fill_normals(key_, b_.candidates.data(), b_.particles.data(), static_cast<std::uint64_t>(t), b_.noise);
@@ -137,6 +149,7 @@ class Chunk {
   const Task& task_;
   StreamKey key_;
   ImagineOptions options_;
+  Vector measurement_std_;  // empty: none
   Buffers& b_;
   Index failed_ = 0;
 };

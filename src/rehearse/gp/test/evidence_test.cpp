@@ -83,7 +83,8 @@ Vector slopes(const Inputs& inputs, const Vector& y, const Vector& flat, const P
 }
 
 TEST(Evidence, GradientAgreesWithFiniteDifferences) {
-  const Penalties penalties{.length = true, .length_limit = 3, .snr = true, .snr_limit = 20};
+  const Penalties penalties{
+      .length = true, .length_limit = 3, .snr = true, .snr_limit = 20, .length_deviation = 0.7, .length_median = 2};
   for (const Index n : {1, 12, 75}) {
     const Matrix X = naive::normals(n, 6, 3);
     const Hyperparameters theta = naive::hyperparameters(6, 1.5, 2, 0.2);
@@ -101,6 +102,18 @@ TEST(Evidence, GradientAgreesWithFiniteDifferences) {
     const Vector trend = slopes(inputs, y, flat, penalties, 1e-5);
     EXPECT_LT((gradient - trend).norm(), 1e-7 * (1 + trend.norm())) << "trend " << n;
   }
+}
+
+TEST(Penalty, OfLengthsIsALogNormalDensity) {
+  const Inputs inputs(naive::normals(20, 2, 3));
+  const Penalties penalties{.length_deviation = 0.5, .length_median = 4};
+  Vector flat = Vector::Zero(4);
+  flat.head(2) = (4 * inputs.spread()).array().log();
+  EXPECT_NEAR(penalty(inputs, flat, penalties), 0, 1e-12) << "at the median";
+  flat(0) += 0.5;
+  flat(1) -= 1;
+  EXPECT_NEAR(penalty(inputs, flat, penalties), -0.5 - 2, 1e-12) << "one and two deviations from it";
+  EXPECT_EQ(penalty(inputs, flat, {}), 0);
 }
 
 TEST(Evidence, GradientIsUsableAtTheLargestSignalToNoiseRatio) {

@@ -1,6 +1,7 @@
 #include "rehearse/learners/black_drops/black_drops.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
@@ -163,7 +164,7 @@ class BlackDrops final : public Learner {
       if (keeps_its_promise(*scouted, problem, proposal)) {
         carry(scouted->runners_up, carried);
         const auto again = [&](Index i) { return search_means(problem, {proposal.theta}, i, proposal); };
-        return insist(problem, std::move(*scouted), again, proposal);
+        return insist_surely(problem, std::move(*scouted), again, proposal);
       }
       starts.push_back(scouted->theta);
       const auto others = std::min(options_.scout.policies - 1, static_cast<Index>(scouted->runners_up.size()));
@@ -183,11 +184,19 @@ class BlackDrops final : public Learner {
     take(found, proposal);
     carry(found.runners_up, carried);
     if (returns_.empty())  // the prior is taken at its word
-      return insist(
+      return insist_surely(
           problem, std::move(found), [&](Index i) { return search_from({proposal.theta}, searches - 1 + i); },
           proposal);
-    if (scouted) found.runners_up.push_back(scouted->theta);
-    prefer_solving(problem, std::move(found), proposal);
+    if (scouted) {
+      found.runners_up.push_back(scouted->theta);
+      std::move(scouted->runners_up.begin(), scouted->runners_up.end(), std::back_inserter(found.runners_up));
+    }
+    const auto by_means = [&](Index i) {
+      SearchResult result = search_means(problem, {proposal.theta}, i, proposal);
+      result.predicted_return = with_doubts(problem, result.theta, proposal).predicted_return;
+      return result;
+    };
+    insist(problem, std::move(found), by_means, options_.insist.doubtful_tolerance, proposal);
     const double gain = options_.explore.gain;
     if (gain == 0 || !options_.search.imagine.sample || first_return() == returns_.end()) return;
     if (promises(*proposal.predicted_return, gain)) return;
@@ -215,40 +224,48 @@ class BlackDrops final : public Learner {
     return found.predicted_return >= promise - tolerance * std::abs(promise);
   }
 
-  /// Goes on until a policy is found that solves the task in the model, which is sure, and promises about as much as
-  /// the best. again(i): the i-th search more.
+  /// Goes on until a policy is found that solves the task in the model for a little of the return, and proposes it.
+  /// again(i): the i-th search more. Otherwise what costs more, if there is any.
   template <class Again>
-  void insist(const SearchProblem& problem, SearchResult found, Again again, Proposal& proposal) const {
-    if (options_.insist.searches == 0 || !problem.task.solved) return;
+  std::optional<SearchResult> insist(const SearchProblem& problem, SearchResult found, Again again, double tolerance,
+                                     Proposal& proposal) const {
     std::optional<SearchResult> solving;
+    if (!problem.task.solved || tolerance == 0) return solving;
     for (Index i = 1;; ++i) {
       if (auto judged = best_that_solves(problem, std::move(found), proposal))
         if (!solving || judged->predicted_return > solving->predicted_return) solving = std::move(judged);
-      const double promise = *proposal.predicted_return;
-      if (solving && keeps(*solving, promise, options_.insist.tolerance)) break;
-      if (i > options_.insist.searches) break;
+      if (solving && keeps(*solving, *proposal.predicted_return, tolerance)) {
+        take(*solving, proposal);
+        return std::nullopt;
+      }
+      if (i > options_.insist.searches) return solving;
       found = again(i);
-      if (found.predicted_return > promise) take(found, proposal);
+      if (found.predicted_return > *proposal.predicted_return) take(found, proposal);
     }
+  }
+
+  /// Where the model is sure, what solves the task in it is tried, whatever it costs.
+  template <class Again>
+  void insist_surely(const SearchProblem& problem, SearchResult found, Again again, Proposal& proposal) const {
+    if (options_.insist.searches == 0) return;
+    const auto solving = insist(problem, std::move(found), again, options_.insist.tolerance, proposal);
     if (solving) take(*solving, proposal);
   }
 
-  /// Where the model has doubts: a policy that solves the task if its means are right, for a little of the return.
-  void prefer_solving(const SearchProblem& problem, SearchResult found, Proposal& proposal) const {
-    if (options_.insist.doubtful_tolerance == 0) return;
-    const auto solving = best_that_solves(problem, std::move(found), proposal);
-    if (solving && keeps(*solving, *proposal.predicted_return, options_.insist.doubtful_tolerance))
-      take(*solving, proposal);
-  }
-
-  /// Of what a search has found.
+  /// Of what a search has found: the policy that most often solves the task, with doubts and without them.
   std::optional<SearchResult> best_that_solves(const SearchProblem& problem, SearchResult found,
                                                Proposal& proposal) const {
     std::vector<Vector> policies = std::move(found.runners_up);
     policies.insert(policies.begin(), std::move(found.theta));
-    const auto solving = first_that_solves(problem, policies);
-    if (!solving) return std::nullopt;
-    return with_doubts(problem, policies[*solving], proposal);
+    SearchOptions means = options_.search;
+    means.imagine.sample = false;
+    means.selection = 1;
+    const Vector rates = solving_rates(problem, policies, options_.search, setting_.seed, trial() + kScouting) +
+                         solving_rates(problem, policies, means, setting_.seed, trial() + kScouting);
+    proposal.rollouts += rates.size() * (options_.search.selection + 1);
+    Index best = 0;
+    if (rates.maxCoeff(&best) == 0) return std::nullopt;
+    return with_doubts(problem, policies[static_cast<std::size_t>(best)], proposal);
   }
 
   void carry(std::vector<Vector> policies, std::vector<Vector>& carried) const {

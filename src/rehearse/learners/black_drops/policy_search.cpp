@@ -159,18 +159,28 @@ SearchResult judge(const SearchProblem& problem, const Vector& theta, const Sear
           .failed_rollouts = objective.failed()};
 }
 
-std::optional<std::size_t> first_that_solves(const SearchProblem& problem, const std::vector<Vector>& policies) {
-  if (!problem.task.solved || policies.empty()) return std::nullopt;
-  Matrix Theta(static_cast<Index>(policies.size()), policies.front().size());
-  for (std::size_t i = 0; i < policies.size(); ++i) Theta.row(static_cast<Index>(i)) = policies[i].transpose();
-  rollout::Episodes episodes;
-  rollout::imagine_episodes(problem.model, problem.policy, problem.task, Theta, 0, {}, {.sample = false}, episodes);
-  Episode episode;
-  for (std::size_t i = 0; i < policies.size(); ++i) {
-    episodes.copy(static_cast<Index>(i), episode);
-    if (!episodes.failed[i] && problem.task.solved(episode)) return i;
-  }
-  return std::nullopt;
+Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,
+                     std::uint64_t seed, std::uint64_t trial) {
+  Matrix rates = Matrix::Zero(1, static_cast<Index>(policies.size()));
+  if (!problem.task.solved) return rates.transpose();
+  const StreamKey key{.seed = seed, .trial = trial, .purpose = Purpose::selection};
+  problem.evaluator.evaluate(
+      [&](Index j, VectorView rate) {
+        const Matrix Theta = policies[static_cast<std::size_t>(j)].transpose().replicate(options.selection, 1);
+        rollout::Episodes episodes;
+        rollout::imagine_episodes(problem.model, problem.policy, problem.task, Theta, 0, key, options.imagine,
+                                  episodes);
+        Episode episode;
+        Index solved = 0;
+        for (Index i = 0; i < episodes.rows(); ++i) {
+          if (episodes.failed[static_cast<std::size_t>(i)]) continue;
+          episodes.copy(i, episode);
+          solved += problem.task.solved(episode);
+        }
+        rate(0) = static_cast<double>(solved) / static_cast<double>(options.selection);
+      },
+      rates);
+  return rates.transpose();
 }
 
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, std::uint64_t seed,

@@ -69,8 +69,10 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
 SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options, std::uint64_t seed,
                    std::uint64_t trial);
 
-/// The first policy that solves the task in the mean predictions; nothing if none does, or the task does not say.
-std::optional<std::size_t> first_that_solves(const SearchProblem& problem, const std::vector<Vector>& policies);
+/// How often each policy solves the task in `selection` imagined episodes, all policies in the same; 0 if the task does
+/// not say.
+Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,
+                     std::uint64_t seed, std::uint64_t trial);
 
 /// θ uniform in the box.
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, std::uint64_t seed,

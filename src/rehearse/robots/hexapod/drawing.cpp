@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/robots/hexapod/state.hpp"
+#include "rehearse/robots/hexapod/feet.hpp"
 
 namespace rehearse::robots::hexapod {
 namespace {
@@ -11,26 +11,13 @@ scenario::Pose pose(const Eigen::Isometry3d& frame, const Eigen::Vector3d& middl
   return {frame * middle, Eigen::Quaterniond(frame.linear())};
 }
 
-Eigen::Isometry3d trunk_frame(const ConstVectorView& state) {
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-  frame.linear() = orientation_of(state).toRotationMatrix();
-  frame.translation() = state.segment(kPosition, 3);
-  return frame;
-}
-
 std::vector<scenario::Pose> poses(std::optional<Index> missing, const ConstVectorView& state) {
-  const Eigen::Isometry3d trunk = trunk_frame(state);
-  std::vector<scenario::Pose> all = {pose(trunk, Eigen::Vector3d::Zero())};
+  std::vector<scenario::Pose> all = {pose(trunk_frame(state), Eigen::Vector3d::Zero())};
   for (Index leg = 0; leg < kLegs; ++leg) {
     if (leg == missing) continue;
-    Eigen::Isometry3d frame = trunk;
-    for (std::size_t i = 0; i < kSegments.size(); ++i) {
-      const SegmentModel model = model_of(kSegments[i]);
-      const double angle = state(kAngles + leg * kJointsOfLeg + static_cast<Index>(i));
-      frame = frame * mount_of(leg, kSegments[i]) * Eigen::AngleAxisd(angle, model.axis);
-      all.push_back(pose(frame, model.centre));
-    }
-    all.push_back(pose(frame, kFoot));
+    const auto frames = leg_frames(state, leg);
+    for (std::size_t i = 0; i < kSegments.size(); ++i) all.push_back(pose(frames[i], model_of(kSegments[i]).centre));
+    all.push_back(pose(frames.back(), kFoot));
   }
   return all;
 }

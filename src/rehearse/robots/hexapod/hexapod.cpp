@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "rehearse/policy/gait.hpp"
 #include "rehearse/robots/hexapod/dart_simulator.hpp"
 #include "rehearse/robots/hexapod/drawing.hpp"
-#include "rehearse/robots/hexapod/state.hpp"
+#include "rehearse/robots/hexapod/feet.hpp"
 #include "rehearse/scenario/builder.hpp"
 
 namespace rehearse::robots::hexapod {
@@ -29,6 +31,12 @@ Reward reward(double drift_m, bool integral) {
   };
 }
 
+std::vector<std::string> descriptor_names() {
+  std::vector<std::string> names;
+  for (const char* leg : kLegNames) names.push_back(fmt::format("time on the floor, {}", leg));
+  return names;
+}
+
 Task make_task(const Options& options) {
   Task task;
   task.states = state_variables();
@@ -44,6 +52,9 @@ Task make_task(const Options& options) {
     return !e.ended && e.steps() == steps &&
            e.true_states(steps, kPosition) - e.true_states(0, kPosition) >= kSolvedSpeed * seconds;
   };
+  task.descriptor = duty_factors;
+  task.descriptor_bounds = std::vector<Interval>(kLegs, {0, 1});
+  task.descriptor_names = descriptor_names();
   return task;
 }
 

@@ -42,11 +42,13 @@ inline Matrix candidates(Index count, std::uint64_t seed = 1) {
   return Theta;
 }
 
-/// One explicit Euler step; `variance` the same everywhere; may be told to spoil rows.
+/// One explicit Euler step; `variance` the same everywhere; may be told to spoil rows, and what measurements add.
 class Model final : public dynamics::DynamicsModel {
  public:
   using Spoil = std::function<bool(double velocity, double position)>;
-  explicit Model(double variance = 0, Spoil spoil = {}) : variance_(variance), spoil_(std::move(spoil)) {}
+  explicit Model(double variance = 0, Spoil spoil = {}, Vector measurement_std = {})
+      : variance_(variance), spoil_(std::move(spoil)), measurement_std_(std::move(measurement_std)) {}
+  Vector measurement_std() const override { return measurement_std_; }
 
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
                MatrixView variance) const override {
@@ -60,20 +62,24 @@ class Model final : public dynamics::DynamicsModel {
  private:
   double variance_;
   Spoil spoil_;
+  Vector measurement_std_;
 };
 
-/// A rollout by hand: the noise of row t of `noise` (T × 2) times `std`; the states, T + 1 × 2.
+/// A rollout by hand: the noise of row t of `noise` (T × 2) times `std`, the policy meets `errors` (T × 2, or none);
+/// the states, T + 1 × 2.
 struct ByHand {
   Matrix states;
   double value = 0;
 };
-inline ByHand by_hand(const Task& task, const Vector& theta, const Vector& start, const Matrix& noise, double std) {
+inline ByHand by_hand(const Task& task, const Vector& theta, const Vector& start, const Matrix& noise, double std,
+                      const Matrix& errors = {}) {
   ByHand result{.states = Matrix(task.horizon + 1, 2)};
   result.states.row(0) = start.transpose();
   Matrix u(1, 1);
   for (Index t = 0; t < task.horizon; ++t) {
     const Matrix x = result.states.row(t);
-    policy()->act(theta.transpose(), x, 0, u);
+    const Matrix seen = errors.size() > 0 ? Matrix(x + errors.row(t)) : x;
+    policy()->act(theta.transpose(), seen, 0, u);
     result.states(t + 1, 0) = x(0, 0) + 0.1 * u(0, 0) + std * noise(t, 0);
     result.states(t + 1, 1) = x(0, 1) + 0.1 * x(0, 0) + std * noise(t, 1);
     result.value += std::exp(-result.states(t + 1, 1) * result.states(t + 1, 1));

@@ -81,6 +81,36 @@ TEST(Imagine, WithoutSamplingFollowsTheMean) {
   EXPECT_EQ(mean.returns.row(0), mean.returns.row(1)) << "the start is certain too";
 }
 
+TEST(Imagine, ThePolicySeesWhatMeasurementsAdd) {
+  const Task task = cart::task();
+  const Matrix Theta = cart::candidates(3);
+  const Vector std{{0.3, 0.1}};
+  const cart::Model noisy(0.01, {}, std), clear(0.01);
+  const auto with = [&](double times) { return ImagineOptions{.noise_clip = 0, .measurement_noise = times}; };
+  const Imagined once = imagine_cart(task, Theta, 2, with(1), noisy),
+                 twice = imagine_cart(task, Theta, 2, with(2), noisy);
+  StreamKey key = kKey;
+  key.purpose = Purpose::imagined_measurement;
+  for (std::uint64_t j = 0; j < 3; ++j)
+    for (std::uint64_t p = 0; p < 2; ++p) {
+      const Noise noise = noise_of(task, j, p);
+      Matrix errors(task.horizon, 2), row(1, 2);
+      for (Index t = 0; t < task.horizon; ++t) {
+        fill_normals(key, &j, &p, static_cast<std::uint64_t>(t), row);
+        errors.row(t) = row.cwiseProduct(std.transpose());
+      }
+      const auto expected = [&](double times) {
+        const Vector theta = Theta.col(static_cast<Index>(j));
+        return cart::by_hand(task, theta, start_of(task, noise), noise.steps, 0.1, times * errors).value;
+      };
+      EXPECT_NEAR(once.returns(static_cast<Index>(p), static_cast<Index>(j)), expected(1), 1e-12);
+      EXPECT_NEAR(twice.returns(static_cast<Index>(p), static_cast<Index>(j)), expected(2), 1e-12);
+    }
+  EXPECT_EQ(imagine_cart(task, Theta, 2, with(0), noisy).returns, imagine_cart(task, Theta, 2, with(1), clear).returns);
+  const ImagineOptions means{.sample = false};
+  EXPECT_EQ(imagine_cart(task, Theta, 2, means, noisy).returns, imagine_cart(task, Theta, 2, means, clear).returns);
+}
+
 TEST(Imagine, SameBytesForAnyNumberOfThreads) {
   const Task task = cart::task();
   const Matrix Theta = cart::candidates(150);

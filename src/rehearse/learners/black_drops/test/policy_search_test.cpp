@@ -77,6 +77,32 @@ TEST(SearchPolicy, ReportsHowFarItIs) {
   EXPECT_LE(last, 1);
 }
 
+TEST(SolvingRates, CountImaginedEpisodesThatSolve) {
+  const dynamics::SimulatorModel doubtful(slider::prior(), slider::kTruth, 0.01), sure(slider::prior(), slider::kTruth);
+  const auto policy = slider::policy();
+  Task task = slider::task();
+  task.start_std.setZero();
+  const auto rates = [&](const dynamics::DynamicsModel& model, const Evaluator& evaluator, double beyond) {
+    task.solved = [beyond](const Episode& e) { return e.true_states(e.steps(), 0) > beyond; };
+    SearchOptions options = small();
+    options.selection = 1000;
+    return solving_rates({model, *policy, task, evaluator, {}}, {Vector{{-1, 0}}, Vector{{-5, 0}}}, options, 1, 1);
+  };
+  const auto middle = [&](Index which) {
+    const Vector theta = which == 0 ? Vector{{-1, 0}} : Vector{{-5, 0}};
+    return rollout::imagine_recorded(sure, *policy, task, theta, 1, {}, {.sample = false}).states.back()(0, 0);
+  };
+  const double beyond = middle(0);
+  const Vector counted = rates(doubtful, serial_evaluator(), beyond);
+  EXPECT_NEAR(counted(0), 0.5, 0.1) << "six deviations of 1000 fair coins";
+  EXPECT_EQ(counted, rates(doubtful, *make_thread_evaluator(2), beyond));
+  EXPECT_EQ(rates(sure, serial_evaluator(), beyond - 1e-6)(0), 1);
+  EXPECT_EQ(rates(sure, serial_evaluator(), beyond + 1e-6)(0), 0);
+  task.solved = nullptr;
+  EXPECT_EQ(solving_rates({sure, *policy, task, serial_evaluator(), {}}, {Vector{{-1, 0}}}, small(), 1, 1),
+            Vector::Zero(1));
+}
+
 TEST(RandomPolicy, IsUniformInTheBoxAndReproducible) {
   SearchOptions options;
   options.box = 2;

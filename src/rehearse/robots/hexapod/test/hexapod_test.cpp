@@ -101,6 +101,28 @@ TEST(Hexapod, IsDrawnOnItsFeet) {
   }
 }
 
+/// A walk as an episode.
+Episode episode_of(const Dataset& walk) {
+  Episode episode{.states = Matrix(walk.size() + 1, kStateSize), .actions = walk.actions};
+  episode.states << walk.states, last_state(walk).transpose();
+  episode.true_states = episode.states;
+  return episode;
+}
+
+TEST(Hexapod, DutyFactorsSayHowLongFeetAreOnTheFloor) {
+  const Task task = make({}).task;
+  const Vector standing = task.descriptor(episode_of(walk_in_dart(Vector::Zero(36), -1)));
+  EXPECT_EQ(standing, Vector::Ones(kLegs));
+  const Vector walking = task.descriptor(episode_of(walk_in_dart(policy::tripod_gait(), -1)));
+  EXPECT_GT(walking.minCoeff(), 0.2);
+  EXPECT_LT(walking.maxCoeff(), 0.8);
+  Vector five = Vector::Zero(36);
+  five.segment(6, 6) << 0, 0, 0, 1, 0, 0;  // the second leg's femur is held up
+  Vector expected = Vector::Ones(kLegs);
+  expected(1) = 0;
+  EXPECT_LT((task.descriptor(episode_of(walk_in_dart(five, -1))) - expected).cwiseAbs().maxCoeff(), 0.1);
+}
+
 TEST(Hexapod, HasTheMassOfTheRealOne) {
   double mass = kTrunkMass;
   for (const Segment segment : kSegments) mass += kLegs * model_of(segment).mass;

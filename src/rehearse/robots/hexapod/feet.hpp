@@ -1,0 +1,20 @@
+#pragma once
+// Where the hexapod's segments and feet are, from its state.
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/robots/hexapod/state.hpp"
+
+namespace rehearse::robots::hexapod {
+
+Eigen::Isometry3d trunk_frame(const ConstVectorView& state);
+
+/// The frames of a leg's segments in the world.
+std::array<Eigen::Isometry3d, kJointsOfLeg> leg_frames(const ConstVectorView& state, Index leg);
+
+/// The way from a foot's lowest point down to the floor, m; below 0 inside it.
+double clearance(const ConstVectorView& state, Index leg);
+
+/// The share of an episode's states after the first in which each foot touches the floor, one number a leg (Cully 2015).
+Vector duty_factors(const Episode& episode);
+
+}  // namespace rehearse::robots::hexapod
