@@ -31,8 +31,7 @@ class Chunk {
         const ImagineOptions& options, Index rows, Buffers& buffers)
       : model_(model), policy_(policy), task_(task), key_(key), options_(options), b_(buffers) {
     b_.Theta.resize(rows, policy.parameters());
-    if (options.sample && options.measurement_noise > 0)
-      measurement_std_ = options.measurement_noise * model.measurement_std();
+    if (options.measurement_noise > 0) measurement_std_ = options.measurement_noise * model.measurement_std();
     for (Matrix* states : {&b_.X, &b_.seen, &b_.next, &b_.variance, &b_.noise}) states->resize(rows, task.state_size());
     b_.U.resize(rows, task.action_size());
     b_.reward.resize(rows);

@@ -20,6 +20,9 @@ using nlohmann::json;
 /// The searches of a trial differ in their streams.
 constexpr std::uint64_t kScouting = std::uint64_t{1} << 48;
 
+constexpr double kOften = 0.5;  // imagined episodes that solve the task: enough for a trial
+constexpr double kMeans = 0.1;  // and what it counts to solve it without doubts
+
 class BlackDrops final : public Learner {
  public:
   BlackDrops(Setting setting, Options options)
@@ -191,12 +194,7 @@ class BlackDrops final : public Learner {
       found.runners_up.push_back(scouted->theta);
       std::move(scouted->runners_up.begin(), scouted->runners_up.end(), std::back_inserter(found.runners_up));
     }
-    const auto by_means = [&](Index i) {
-      SearchResult result = search_means(problem, {proposal.theta}, i, proposal);
-      result.predicted_return = with_doubts(problem, result.theta, proposal).predicted_return;
-      return result;
-    };
-    insist(problem, std::move(found), by_means, options_.insist.doubtful_tolerance, proposal);
+    insist_doubtfully(problem, std::move(found), proposal);
     const double gain = options_.explore.gain;
     if (gain == 0 || !options_.search.imagine.sample || first_return() == returns_.end()) return;
     if (promises(*proposal.predicted_return, gain)) return;
@@ -224,24 +222,22 @@ class BlackDrops final : public Learner {
     return found.predicted_return >= promise - tolerance * std::abs(promise);
   }
 
-  /// Goes on until a policy is found that solves the task in the model for a little of the return, and proposes it.
-  /// again(i): the i-th search more. Otherwise what costs more, if there is any.
+  /// Goes on until a policy is found that often solves the task in the model and promises about as much as the best
+  /// one, which is the proposal. again(i): the i-th search more. The policy that most often does, if any.
   template <class Again>
   std::optional<SearchResult> insist(const SearchProblem& problem, SearchResult found, Again again, double tolerance,
                                      Proposal& proposal) const {
     std::optional<SearchResult> solving;
-    if (!problem.task.solved || tolerance == 0) return solving;
+    if (!problem.task.solved) return solving;
     for (Index i = 1;; ++i) {
       if (auto judged = best_that_solves(problem, std::move(found), proposal))
-        if (!solving || judged->predicted_return > solving->predicted_return) solving = std::move(judged);
-      if (solving && keeps(*solving, *proposal.predicted_return, tolerance)) {
-        take(*solving, proposal);
-        return std::nullopt;
-      }
-      if (i > options_.insist.searches) return solving;
+        if (!solving || judged->solving > solving->solving) solving = std::move(judged);
+      if (solving && solving->solving >= kOften && keeps(*solving, *proposal.predicted_return, tolerance)) break;
+      if (i > options_.insist.searches) break;
       found = again(i);
       if (found.predicted_return > *proposal.predicted_return) take(found, proposal);
     }
+    return solving;
   }
 
   /// Where the model is sure, what solves the task in it is tried, whatever it costs.
@@ -252,20 +248,38 @@ class BlackDrops final : public Learner {
     if (solving) take(*solving, proposal);
   }
 
-  /// Of what a search has found: the policy that most often solves the task, with doubts and without them.
+  /// Where it has doubts, for a little of the return; the search goes on in the means.
+  void insist_doubtfully(const SearchProblem& problem, SearchResult found, Proposal& proposal) const {
+    const double tolerance = options_.insist.doubtful_tolerance;
+    if (tolerance == 0) return;
+    const auto again = [&](Index i) {
+      SearchResult result = search_means(problem, {proposal.theta}, i, proposal);
+      result.predicted_return = with_doubts(problem, result.theta, proposal).predicted_return;
+      return result;
+    };
+    const auto solving = insist(problem, std::move(found), again, tolerance, proposal);
+    if (solving && keeps(*solving, *proposal.predicted_return, tolerance)) take(*solving, proposal);
+  }
+
+  /// Of what a search has found: the policy that most often solves the task; among those that never do where doubts
+  /// count, one that does without them.
   std::optional<SearchResult> best_that_solves(const SearchProblem& problem, SearchResult found,
                                                Proposal& proposal) const {
     std::vector<Vector> policies = std::move(found.runners_up);
     policies.insert(policies.begin(), std::move(found.theta));
     SearchOptions means = options_.search;
     means.imagine.sample = false;
+    means.imagine.measurement_noise = 0;
     means.selection = 1;
     const Vector rates = solving_rates(problem, policies, options_.search, setting_.seed, trial() + kScouting) +
-                         solving_rates(problem, policies, means, setting_.seed, trial() + kScouting);
+                         kMeans * solving_rates(problem, policies, means, setting_.seed, trial() + kScouting);
     proposal.rollouts += rates.size() * (options_.search.selection + 1);
     Index best = 0;
-    if (rates.maxCoeff(&best) == 0) return std::nullopt;
-    return with_doubts(problem, policies[static_cast<std::size_t>(best)], proposal);
+    const double solving = rates.maxCoeff(&best);
+    if (solving == 0) return std::nullopt;
+    SearchResult judged = with_doubts(problem, policies[static_cast<std::size_t>(best)], proposal);
+    judged.solving = solving;
+    return judged;
   }
 
   void carry(std::vector<Vector> policies, std::vector<Vector>& carried) const {

@@ -45,6 +45,7 @@ struct SearchOptions {
 struct SearchResult {
   Vector theta;
   double predicted_return = 0;
+  double solving = 0;              // how surely it solves the task, where that was asked
   std::vector<Vector> runners_up;  // other good policies, best first
   Index rollouts = 0;              // or expected returns by moment matching
   Index failed_rollouts = 0;

@@ -14,7 +14,8 @@ std::array<Eigen::Isometry3d, kJointsOfLeg> leg_frames(const ConstVectorView& st
 /// The way from a foot's lowest point down to the floor, m; below 0 inside it.
 double clearance(const ConstVectorView& state, Index leg);
 
-/// The share of an episode's states after the first in which each foot touches the floor, one number a leg (Cully 2015).
+/// The share of an episode's states after the first in which each foot touches the floor, one number a leg (Cully
+/// 2015).
 Vector duty_factors(const Episode& episode);
 
 }  // namespace rehearse::robots::hexapod
