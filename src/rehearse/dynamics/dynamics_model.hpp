@@ -21,7 +21,10 @@ class DynamicsModel {
   }
 
   /// What a measurement adds to each state, as far as the data tell: a standard deviation each (dx). Empty: nothing.
-  virtual Vector measurement_std() const { return {}; }
+  virtual const Vector& measurement_std() const {
+    static const Vector nothing;
+    return nothing;
+  }
 };
 
 }  // namespace rehearse::dynamics

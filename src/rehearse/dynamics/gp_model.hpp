@@ -41,7 +41,7 @@ class GpModel final : public DynamicsModel {
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override;
   void predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const override;
 
-  Vector measurement_std() const override { return measurement_std_; }
+  const Vector& measurement_std() const override { return measurement_std_; }
   void set_measurement_std(Vector std) { measurement_std_ = std::move(std); }
 
   const gp::Posterior& posterior() const { return posterior_; }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rehearse/gp/inputs.hpp"
+
 namespace rehearse::dynamics {
 namespace {
 
@@ -24,8 +26,7 @@ Matrix mean_square_slopes(const DynamicsModel& model, const Dataset& data) {
   const Matrix U = data.actions(Eigen::seq(0, data.size() - 1, stride), Eigen::all);
   Matrix squares = Matrix::Zero(dx, dx);
   for (Index d = 0; d < dx; ++d) {
-    const double mean = data.states.col(d).mean();
-    const double spread = std::sqrt((data.states.col(d).array() - mean).square().mean()), step = kStep * spread;
+    const double step = kStep * gp::standard_deviation(data.states.col(d));
     if (!(step > 0)) continue;
     Matrix up = X, down = X;
     up.col(d).array() += step;

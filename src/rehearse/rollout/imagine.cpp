@@ -31,7 +31,6 @@ class Chunk {
         const ImagineOptions& options, Index rows, Buffers& buffers)
       : model_(model), policy_(policy), task_(task), key_(key), options_(options), b_(buffers) {
     b_.Theta.resize(rows, policy.parameters());
-    if (options.measurement_noise > 0) measurement_std_ = options.measurement_noise * model.measurement_std();
     for (Matrix* states : {&b_.X, &b_.seen, &b_.next, &b_.variance, &b_.noise}) states->resize(rows, task.state_size());
     b_.U.resize(rows, task.action_size());
     b_.reward.resize(rows);
@@ -90,11 +89,12 @@ class Chunk {
  private:
   /// What the policy sees.
   const Matrix& measured(Index t) {
-    if (measurement_std_.size() == 0) return b_.X;
+    const Vector& std = model_.measurement_std();
+    if (std.size() == 0 || options_.measurement_noise == 0) return b_.X;
     StreamKey key = key_;
     key.purpose = Purpose::imagined_measurement;
     fill_normals(key, b_.candidates.data(), b_.particles.data(), static_cast<std::uint64_t>(t), b_.noise);
-    b_.seen = b_.X + b_.noise * measurement_std_.asDiagonal();
+    b_.seen = b_.X + b_.noise * (options_.measurement_noise * std).asDiagonal();
     return b_.seen;
   }
 
@@ -148,7 +148,6 @@ class Chunk {
   const Task& task_;
   StreamKey key_;
   ImagineOptions options_;
-  Vector measurement_std_;  // empty: none
   Buffers& b_;
   Index failed_ = 0;
 };

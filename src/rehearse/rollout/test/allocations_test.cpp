@@ -64,10 +64,12 @@ TEST(Allocations, NoneWithThePendubotsGpsAndPriors) {
   for (const scenario::NamedPrior& p : pendubot.priors) priors.push_back({p.name, p.simulator, p.parameters});
   for (const prior::Prior& prior : {priors[2], prior::choice(priors)})
     for (const auto variance : {dynamics::PredictedVariance::latent, dynamics::PredictedVariance::noisy})
-      expect_none_in_time_loop(
-          dynamics::GpModel(features, pendubot.task.kinematics(), dynamics::Mean{prior, prior.space.values()},
-                            posterior(features), variance),
-          *pendubot.policy, pendubot.task);
+      for (const Vector& measurement_std : {Vector(), Vector(Vector::Constant(4, 0.01))}) {
+        dynamics::GpModel model(features, pendubot.task.kinematics(), dynamics::Mean{prior, prior.space.values()},
+                                posterior(features), variance);
+        model.set_measurement_std(measurement_std);
+        expect_none_in_time_loop(model, *pendubot.policy, pendubot.task);
+      }
 }
 
 }  // namespace

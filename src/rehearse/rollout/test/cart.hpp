@@ -48,7 +48,7 @@ class Model final : public dynamics::DynamicsModel {
   using Spoil = std::function<bool(double velocity, double position)>;
   explicit Model(double variance = 0, Spoil spoil = {}, Vector measurement_std = {})
       : variance_(variance), spoil_(std::move(spoil)), measurement_std_(std::move(measurement_std)) {}
-  Vector measurement_std() const override { return measurement_std_; }
+  const Vector& measurement_std() const override { return measurement_std_; }
 
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
                MatrixView variance) const override {
