@@ -11,24 +11,44 @@
 #include "rehearse/dynamics/measurement_noise.hpp"
 #include "rehearse/dynamics/residuals.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/dynamics/smoothing.hpp"
 
 namespace rehearse::dynamics {
 namespace {
 
-Learned model_of(const Residuals& residuals, const prior::Prior* prior, const GpOptions& options,
-                 const Estimate& estimate) {
-  const Residuals::Rows rows = residuals.at(prior, estimate.phi);
+/// What all kinds learn from.
+struct Problem {
+  const Dataset& data;
+  const FeatureMap& features;
+  const Kinematics& kinematics;
+  const prior::Prior* prior;
+  const WarmStart& start;
+  const Evaluator& evaluator;
+
+  Residuals residuals(const GpOptions& gp, bool integrates_rates, bool midpoint) const {
+    return Residuals(data, gp.joint_angles ? features : FeatureMap(features.kinds()),
+                     integrates_rates ? kinematics : Kinematics{}, midpoint);
+  }
+};
+
+/// `measurement_std`: null where it is to be told from what the kernels take for noise.
+Learned model_of(const Estimation& estimation, const Estimate& estimate, const GpOptions& options,
+                 const Vector* measurement_std = nullptr) {
+  const Residuals& residuals = estimation.residuals;
+  const Residuals::Rows rows = residuals.at(estimation.prior, estimate.phi);
   if (!rows.inputs) throw InvalidInput("no row of the data set has a finite prior mean: nothing to learn from");
   std::optional<Mean> mean;
-  if (prior) mean = Mean{*prior, estimate.phi, residuals.midpoint()};
+  if (estimation.prior) mean = Mean{*estimation.prior, estimate.phi, residuals.midpoint()};
   Learned learned;
   learned.state.kernels = hyperparameters(estimate);
   const auto model = std::make_shared<GpModel>(
       residuals.features(), residuals.kinematics(), mean,
       gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance), options.variance);
-  model->set_measurement_std(measurement_std(*model, residuals.data(), model->posterior().noise_variances()));
+  model->set_measurement_std(
+      measurement_std ? *measurement_std
+                      : dynamics::measurement_std(*model, residuals.data(), model->posterior().noise_variances()));
   learned.model = model;
-  if (prior) learned.state.phi = estimate.phi;
+  if (estimation.prior) learned.state.phi = estimate.phi;
   learned.log_evidence = estimate.log_evidences.sum();
   learned.left_out_rows = rows.left_out;
   learned.evaluations = estimate.evaluations;
@@ -38,22 +58,48 @@ Learned model_of(const Residuals& residuals, const prior::Prior* prior, const Gp
   return learned;
 }
 
-/// GPs around the prior at φ (null: around zero).
-Learned learn_gps(const Residuals& residuals, const prior::Prior* prior, const Vector& phi, const GpOptions& options,
-                  const WarmStart& start, const Evaluator& evaluator) {
-  Estimate estimate = unfitted(phi, residuals.scale().size(), start.kernels);
-  Estimation{residuals, prior, Score::product, options.fit, evaluator}.refit(estimate);
-  return model_of(residuals, prior, options, estimate);
+/// The model of an estimate, or of what smoothing makes of it where that is likelier. finish(estimation, estimate,
+/// measurement_std) makes the model.
+template <class Finish>
+Learned smoothed_if_likelier(const Problem& problem, const ResidualGpOptions& options, const Estimation& measured,
+                             const Estimate& estimate, bool moves_phi, Finish finish) {
+  Learned learned = finish(measured, estimate, nullptr);
+  if (!options.smooth) return learned;
+  const auto on = [&](const Residuals& residuals) {
+    return Estimation{residuals, measured.prior, measured.score, measured.fit, measured.evaluator};
+  };
+  const Residuals residuals = problem.residuals(options, true, options.midpoint);
+  const std::optional<Smoothed> smoothed = smooth(on(residuals), estimate, moves_phi);
+  if (!smoothed) return learned;
+  const Residuals of_smoothed = residuals.of(smoothed->data);
+  Learned likelier = finish(on(of_smoothed), smoothed->estimate, &smoothed->measurement_std);
+  likelier.log_evidence = smoothed->estimate.score;
+  if (likelier.posterior) likelier.posterior->covariance += smoothed->phi_covariance;
+  likelier.state.kernels = std::move(learned.state.kernels);  // of measured rows, which the next trial starts with
+  return likelier;
 }
 
-Learned learn_kind(const ZeroMean& kind, const Residuals& residuals, const prior::Prior*, const WarmStart& start,
-                   const Evaluator& evaluator) {
-  return learn_gps(residuals, nullptr, {}, kind.gp, start, evaluator);
+/// Kernels at φ.
+Estimate fitted(const Estimation& estimation, const Vector& phi, const WarmStart& start) {
+  Estimate estimate = unfitted(phi, estimation.residuals.scale().size(), start.kernels);
+  estimation.refit(estimate);
+  return estimate;
 }
 
-Learned learn_kind(const FixedPrior& kind, const Residuals& residuals, const prior::Prior* prior,
-                   const WarmStart& start, const Evaluator& evaluator) {
-  return learn_gps(residuals, prior, prior->space.values(), kind.gp, start, evaluator);
+Learned learn_kind(const ZeroMean& kind, const Problem& problem) {
+  const Residuals residuals = problem.residuals(kind.gp, kind.gp.integrate_rates, false);
+  const Estimation estimation{residuals, nullptr, Score::product, kind.gp.fit, problem.evaluator};
+  return model_of(estimation, fitted(estimation, {}, problem.start), kind.gp);
+}
+
+Learned learn_kind(const FixedPrior& kind, const Problem& problem) {
+  const Residuals residuals = problem.residuals(kind.gp, kind.gp.integrate_rates, kind.gp.midpoint);
+  const Estimation estimation{residuals, problem.prior, Score::product, kind.gp.fit, problem.evaluator};
+  const auto finish = [&](const Estimation& of, const Estimate& estimate, const Vector* measurement_std) {
+    return model_of(of, estimate, kind.gp, measurement_std);
+  };
+  const Estimate estimate = fitted(estimation, problem.prior->space.values(), problem.start);
+  return smoothed_if_likelier(problem, kind.gp, estimation, estimate, false, finish);
 }
 
 /// Fails where the prior tunes something and a number is not finite.
@@ -98,48 +144,34 @@ class NestedSearch {
   Estimate best_;
 };
 
-Learned learn_kind(const GpMi& kind, const Residuals& residuals, const prior::Prior* prior, const WarmStart& start,
-                   const Evaluator& evaluator) {
-  const Estimation estimation{residuals, prior, kind.score, kind.gp.fit, evaluator};
-  const Vector phi = start.phi.value_or(prior->space.values());
-  Estimate found = kind.search == PhiSearch::nested ? NestedSearch(estimation).run(kind, phi, start.kernels)
-                                                    : search_by_turns(kind, estimation, start);
+Learned learn_kind(const GpMi& kind, const Problem& problem) {
+  const prior::Prior& prior = *problem.prior;
+  const Residuals residuals = problem.residuals(kind.gp, kind.gp.integrate_rates, kind.gp.midpoint);
+  const Estimation estimation{residuals, &prior, kind.score, kind.gp.fit, problem.evaluator};
+  const Vector phi = problem.start.phi.value_or(prior.space.values());
+  Estimate found = kind.search == PhiSearch::nested ? NestedSearch(estimation).run(kind, phi, problem.start.kernels)
+                                                    : search_by_turns(kind, estimation, problem.start);
   if (!std::isfinite(found.score)) estimation.refit(found);
-  Learned learned = model_of(residuals, prior, kind.gp, found);
-  learned.score = found.score;
-  add_posterior(learned, *prior, phi_posterior(estimation, found, kind.posterior));
-  return learned;
+  const auto finish = [&](const Estimation& of, const Estimate& estimate, const Vector* measurement_std) {
+    Learned learned = model_of(of, estimate, kind.gp, measurement_std);
+    learned.score = estimate.score;
+    add_posterior(learned, prior, phi_posterior(of, estimate, kind.posterior));
+    return learned;
+  };
+  return smoothed_if_likelier(problem, kind.gp, estimation, found, true, finish);
 }
 
-Learned learn_kind(const Mi& kind, const Residuals& residuals, const prior::Prior* prior, const WarmStart& start,
-                   const Evaluator& evaluator) {
-  const Identified identified = least_squares(residuals, *prior, start.phi, kind.subplex);
+Learned learn_kind(const Mi& kind, const Problem& problem) {
+  const prior::Prior& prior = *problem.prior;
+  const Residuals residuals(problem.data, problem.features);
+  const Identified identified = least_squares(residuals, prior, problem.start.phi, kind.subplex);
   Learned learned;
-  learned.model = std::make_shared<SimulatorModel>(*prior, identified.phi);
+  learned.model = std::make_shared<SimulatorModel>(prior, identified.phi);
   learned.state.phi = identified.phi;
   learned.evaluations = identified.evaluations;
-  learned.left_out_rows = residuals.at(prior, identified.phi).left_out;
-  add_posterior(learned, *prior, phi_posterior(residuals, *prior, identified.phi, kind.posterior, evaluator));
+  learned.left_out_rows = residuals.at(&prior, identified.phi).left_out;
+  add_posterior(learned, prior, phi_posterior(residuals, prior, identified.phi, kind.posterior, problem.evaluator));
   return learned;
-}
-
-Residuals residuals_of(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics,
-                       const GpOptions& gp, bool midpoint) {
-  return Residuals(data, gp.joint_angles ? features : FeatureMap(features.kinds()),
-                   gp.integrate_rates ? kinematics : Kinematics{}, midpoint);
-}
-
-template <class GpKind>
-Residuals residuals_of(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics,
-                       const GpKind& kind) {
-  return residuals_of(data, features, kinematics, kind.gp, kind.gp.midpoint);
-}
-Residuals residuals_of(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics,
-                       const ZeroMean& kind) {
-  return residuals_of(data, features, kinematics, kind.gp, false);
-}
-Residuals residuals_of(const Dataset& data, const FeatureMap& features, const Kinematics&, const Mi&) {
-  return Residuals(data, features);
 }
 
 }  // namespace
@@ -148,10 +180,8 @@ Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics&
               const Kind& kind, const WarmStart& start, const Evaluator& evaluator) {
   if (!prior && !std::holds_alternative<ZeroMean>(kind)) throw InvalidInput("this dynamics model needs a prior");
   if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
-  const auto learn_this = [&](const auto& k) {
-    return learn_kind(k, residuals_of(data, features, kinematics, k), prior, start, evaluator);
-  };
-  return std::visit(learn_this, kind);
+  const Problem problem{data, features, kinematics, prior, start, evaluator};
+  return std::visit([&](const auto& k) { return learn_kind(k, problem); }, kind);
 }
 
 }  // namespace rehearse::dynamics

@@ -48,6 +48,7 @@ struct ZeroMean {
 
 /// Of GPs around a prior.
 struct ResidualGpOptions : GpOptions {
+  bool smooth = true;    // noisy states are smoothed where that makes what was measured likelier (smoothing.hpp)
   bool midpoint = true;  // inputs are those halfway along the step that the prior predicts (Mean)
   ResidualGpOptions() {
     fit.trend = true;
@@ -55,6 +56,7 @@ struct ResidualGpOptions : GpOptions {
   }
   void fields(FieldVisitor& v) {
     GpOptions::fields(v);
+    v.boolean("smooth", smooth);
     v.boolean("midpoint", midpoint);
   }
 };

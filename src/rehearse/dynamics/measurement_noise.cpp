@@ -3,40 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rehearse/gp/inputs.hpp"
+#include "rehearse/dynamics/transition_slopes.hpp"
 
 namespace rehearse::dynamics {
 namespace {
 
 constexpr Index kMostRows = 64;
-constexpr double kStep = 1e-3;  // of a state's spread over the data
 constexpr int kMostSweeps = 10000;
 constexpr double kStill = 1e-10;
-
-Matrix predict(const DynamicsModel& model, const Matrix& X, const Matrix& U) {
-  Matrix mean(X.rows(), X.cols());
-  model.predict_mean(X, U, mean);
-  return mean;
-}
 
 /// dx × dx: the mean square of what a measurement's error in state d adds to change e through the state before.
 Matrix mean_square_slopes(const DynamicsModel& model, const Dataset& data) {
   const Index dx = data.states.cols(), stride = (data.size() + kMostRows - 1) / kMostRows;
-  const Matrix X = data.states(Eigen::seq(0, data.size() - 1, stride), Eigen::all);
-  const Matrix U = data.actions(Eigen::seq(0, data.size() - 1, stride), Eigen::all);
+  const auto some = Eigen::seq(0, data.size() - 1, stride);
+  const std::vector<Matrix> slopes =
+      transition_slopes(model, {.states = data.states(some, Eigen::all), .actions = data.actions(some, Eigen::all)});
   Matrix squares = Matrix::Zero(dx, dx);
   for (Index d = 0; d < dx; ++d) {
-    const double step = kStep * gp::standard_deviation(data.states.col(d));
-    if (!(step > 0)) continue;
-    Matrix up = X, down = X;
-    up.col(d).array() += step;
-    down.col(d).array() -= step;
-    Matrix slopes = (predict(model, up, U) - predict(model, down, U)) / (2 * step);
-    slopes.col(d).array() += 1;
+    const Matrix& of_d = slopes[static_cast<std::size_t>(d)];
     Index rows = 0;
-    for (Index i = 0; i < slopes.rows(); ++i) {
-      if (!slopes.row(i).allFinite()) continue;
-      squares.col(d) += slopes.row(i).cwiseAbs2().transpose();
+    for (Index i = 0; i < of_d.rows(); ++i) {
+      if (!of_d.row(i).allFinite()) continue;
+      squares.col(d) += of_d.row(i).cwiseAbs2().transpose();
       ++rows;
     }
     squares.col(d) /= static_cast<double>(std::max<Index>(rows, 1));

@@ -11,8 +11,9 @@ inline constexpr double kJitterLadder[] = {0, 1e-10, 1e-8, 1e-6, 1e-4};
 
 /// Cholesky factor of C + (noise_ratio + jitter)·I into `tiles` (tiles.hpp), with C the correlations of the scaled
 /// inputs (kernel.hpp) and noise_ratio = σ_n²/σ_f²; unless null with the trend of z (D + 1 coordinates; kernel.hpp).
-/// Returns the jitter used, or NaN if no rung was enough. No allocation.
+/// Unless null, `noise`, of the same tiles, is added times `noise_factor`. Returns the jitter used, or NaN if no rung
+/// was enough. No allocation.
 double factorise(const double* scaled, Index n, Index dimensions, double noise_ratio, double* tiles,
-                 const double* z = nullptr);
+                 const double* z = nullptr, const double* noise = nullptr, double noise_factor = 0);
 
 }  // namespace rehearse::gp

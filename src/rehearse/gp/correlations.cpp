@@ -12,4 +12,14 @@ Matrix correlations(const Matrix& A, const Matrix& B) {
   return C;
 }
 
+Matrix covariance(const Matrix& X, const Hyperparameters& kernel) {
+  const Matrix scaled = X * kernel.lengths().cwiseInverse().asDiagonal();
+  Matrix K = kernel.signal_variance() * correlations(scaled, scaled);
+  if (!kernel.has_trend()) return K;
+  const Vector deviations = kernel.log_trend.array().exp();
+  const Matrix Z = X * deviations.tail(X.cols()).asDiagonal();
+  const Matrix products = (Z * Z.transpose()).array() + deviations(0) * deviations(0);
+  return K + products.cwiseAbs2();
+}
+
 }  // namespace rehearse::gp

@@ -1,11 +1,15 @@
 #pragma once
 
 #include "rehearse/core/types.hpp"
+#include "rehearse/gp/hyperparameters.hpp"
 
 namespace rehearse::gp {
 
 /// exp(−½ ‖a_i − b_j‖²) (n × m) of the rows of A (n × D) and B (m × D), which are divided by the length scales. Any
 /// thread.
 Matrix correlations(const Matrix& A, const Matrix& B);
+
+/// Of the latent function, without noise (n × n), at inputs X (n × D). Any thread.
+Matrix covariance(const Matrix& X, const Hyperparameters& kernel);
 
 }  // namespace rehearse::gp

@@ -33,7 +33,7 @@ double solve(Index n, const double* tiles, double* b) {
 }
 
 /// Scales the inputs and factorises K/σ_f² into the workspace's tiles; returns the jitter, NaN if that is not possible.
-double factorise_at(const Inputs& inputs, const ConstVectorView& flat, Workspace& workspace) {
+double factorise_at(const Inputs& inputs, const ConstVectorView& flat, const KnownNoise* noise, Workspace& workspace) {
   const Index n = inputs.size(), D = inputs.dimensions();
   workspace.resize(n, D, flat.size() > D + 2);
   workspace.factors() = inputs.half_range().array() * (-flat.head(D)).array().exp();
@@ -46,7 +46,8 @@ double factorise_at(const Inputs& inputs, const ConstVectorView& flat, Workspace
   if (workspace.trend())
     trend_inputs(inputs.unit().data(), inputs.center().data(), inputs.half_range().data(), n, D,
                  workspace.trend_factors().data(), workspace.trend());
-  return factorise(workspace.scaled(), n, D, noise_ratio, workspace.tiles(), workspace.trend());
+  return factorise(workspace.scaled(), n, D, noise_ratio, workspace.tiles(), workspace.trend(),
+                   noise ? noise->tiles() : nullptr, std::exp(-2 * flat(D)));
 }
 
 /// −½ ln |K| − n/2 ln 2π, from the factor of K/σ_f².
@@ -89,11 +90,17 @@ void Workspace::resize(Index n, Index dimensions, bool trend) {
   trend_.resize(trend ? rows * (columns + 1) : 0);
 }
 
+KnownNoise::KnownNoise(const Matrix& covariance)
+    : size_(covariance.rows()), tiles_(static_cast<std::size_t>(tiles_size(size_))) {
+  for (Index j = 0; j < size_; ++j)
+    for (Index i = j; i < size_; ++i) tiles_[static_cast<std::size_t>(entry_offset(i, j))] = covariance(i, j);
+}
+
 Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVectorView& flat, Workspace& workspace,
-                  Vector* gradient) {
+                  Vector* gradient, const KnownNoise* noise) {
   const Index n = inputs.size(), D = inputs.dimensions();
   if (gradient) gradient->resize(flat.size());
-  const double jitter = y.allFinite() ? factorise_at(inputs, flat, workspace) : kNaN;
+  const double jitter = y.allFinite() ? factorise_at(inputs, flat, noise, workspace) : kNaN;
   if (std::isnan(jitter)) return failure(gradient);
   Eigen::Map<Vector>(workspace.weights(), n) = y * std::exp(-flat(D));
   Eigen::Map<Vector>(workspace.weights() + n, padded(n) - n).setZero();
@@ -105,10 +112,10 @@ Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVec
   return {.value = value, .jitter = jitter};
 }
 
-Whitening::Whitening(const Inputs& inputs, const Hyperparameters& kernel)
+Whitening::Whitening(const Inputs& inputs, const Hyperparameters& kernel, const KnownNoise* noise)
     : size_(inputs.size()), inverse_signal_(std::exp(-kernel.log_signal)) {
   Workspace workspace;
-  const double jitter = factorise_at(inputs, kernel.flat(), workspace);
+  const double jitter = factorise_at(inputs, kernel.flat(), noise, workspace);
   log_constant_ = std::isnan(jitter) ? kNaN : log_constant(size_, workspace.tiles(), kernel.log_signal);
   tiles_ = std::move(workspace).release_tiles();
 }

@@ -57,17 +57,29 @@ struct Evidence {
   bool ok() const;    // the value is finite
 };
 
+/// A covariance of errors of the targets (n × n, its lower triangle), added to that of the kernel. Immutable.
+class KnownNoise {
+ public:
+  explicit KnownNoise(const Matrix& covariance);
+  Index size() const { return size_; }
+  const double* tiles() const { return tiles_.data(); }  // tiles.hpp
+
+ private:
+  Index size_;
+  std::vector<double> tiles_;
+};
+
 /// The log evidence of targets y (n) at flat log hyperparameters (D + 2, or 2 D + 3; Rasmussen 2006, eq. 5.8) and,
-/// unless null, its gradient with respect to them (eq. 5.9). No value of `flat` or `y` throws: what cannot be computed
-/// has value and gradient NaN.
+/// unless null, its gradient with respect to them (eq. 5.9); with `noise` unless null. No value of `flat` or `y`
+/// throws: what cannot be computed has value and gradient NaN.
 Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVectorView& flat, Workspace& workspace,
-                  Vector* gradient = nullptr);
+                  Vector* gradient = nullptr, const KnownNoise* noise = nullptr);
 
 /// An output's kernel held while its targets change. With K = L Lᵀ, whitened targets are w = L⁻¹ y, and the log
 /// evidence of y is a constant less ‖w‖²/2. Immutable; any thread.
 class Whitening {
  public:
-  Whitening(const Inputs& inputs, const Hyperparameters& kernel);
+  Whitening(const Inputs& inputs, const Hyperparameters& kernel, const KnownNoise* noise = nullptr);
 
   Matrix operator()(const ConstMatrixView& Y) const;           // n × any, as Y
   double log_evidence(const ConstVectorView& whitened) const;  // n; NaN if K could not be factorised

@@ -56,16 +56,19 @@ Vector other_start(const Vector& standard, Index D, std::size_t i) {
 
 /// What is maximised: the penalised log evidence of one output.
 struct Problem {
-  Problem(const Inputs& X, const ConstVectorView& targets, double scale, const FitOptions& fit_options)
+  Problem(const Inputs& X, const ConstVectorView& targets, double scale, const FitOptions& fit_options,
+          const KnownNoise* known_noise = nullptr)
       : inputs(X),
         y(targets),
         options(fit_options),
+        noise(known_noise),
         bounds(options.bounds, X, scale),
         standard(default_start(X, targets, scale, options.bounds, options.trend).flat()) {}
 
   const Inputs& inputs;
   const ConstVectorView y;
   const FitOptions& options;
+  const KnownNoise* noise;
   const SoftBounds bounds;
   const Vector standard;  // the default start
   Index evaluations = 0;
@@ -74,7 +77,7 @@ struct Problem {
   Point at(const Vector& flat, Vector* gradient = nullptr) {
     thread_local Workspace workspace;
     ++evaluations;
-    const Evidence evidence = gp::evidence(inputs, y, flat, workspace, gradient);
+    const Evidence evidence = gp::evidence(inputs, y, flat, workspace, gradient, noise);
     return {flat, evidence, gp::penalty(inputs, flat, options.penalties, gradient)};
   }
 
@@ -115,9 +118,7 @@ struct Problem {
 };
 
 Inputs part_of(const Inputs& inputs, Index stride) {
-  const Matrix unit = inputs.unit()(Eigen::seq(0, inputs.size() - 1, stride), Eigen::all);
-  return Inputs(Matrix((unit.array().rowwise() * inputs.half_range().transpose().array()).rowwise() +
-                       inputs.center().transpose().array()));
+  return Inputs(Matrix(inputs.values()(Eigen::seq(0, inputs.size() - 1, stride), Eigen::all)));
 }
 
 /// Where to begin: the best of the optima of every `stride`th row and of the usual first start, by the evidence of all
@@ -169,14 +170,15 @@ Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, do
   return Hyperparameters::from_flat(SoftBounds(bounds, inputs, scale).clamped(flat), D);
 }
 
-Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitStart& start,
-        const FitOptions& options) {
+Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitStart& start, const FitOptions& options,
+        const KnownNoise* noise) {
   check(inputs, y, start.hyperparameters, options.trend);
   if (!start.hyperparameters.flat().allFinite()) return failure(start.hyperparameters, "the start is not finite", 0);
   if (!y.allFinite()) return failure(start.hyperparameters, "the targets are not finite", 0);
-  Problem problem(inputs, y, scale, options);
+  Problem problem(inputs, y, scale, options, noise);
   const Vector inside = problem.bounds.clamped(start.hyperparameters.flat());
-  const Index rows = options.part_rows, stride = rows > 0 && inputs.size() / 2 >= rows ? inputs.size() / rows : 1;
+  const Index rows = options.part_rows,
+              stride = !noise && rows > 0 && inputs.size() / 2 >= rows ? inputs.size() / rows : 1;
   std::vector<Point> points =
       stride == 1 ? problem.starts(start) : std::vector{start_by_part(problem, scale, start, stride)};
   for (Point& point : points) point = problem.maximise(point);

@@ -66,6 +66,27 @@ TEST(Evidence, WithATrendAgreesWithTheBook) {
   }
 }
 
+TEST(Evidence, AddsKnownNoise) {
+  const Matrix X = naive::normals(40, 3, 1), A = naive::normals(40, 40, 2);
+  const Hyperparameters theta = naive::with_trend(naive::hyperparameters(3, 2, 1.5, 0.3), 0.5);
+  const Vector y = naive::draw(X, theta, 2);
+  const Matrix errors = 0.01 * A * A.transpose();
+  const Eigen::LLT<Matrix> llt(naive::noisy_covariance(X, theta) + errors);
+  const double expected =
+      -0.5 * y.dot(llt.solve(y)) - llt.matrixLLT().diagonal().array().log().sum() - 20 * std::log(2 * M_PI);
+  const Inputs inputs(X);
+  const KnownNoise noise(errors);
+  Workspace workspace;
+  Vector gradient;
+  EXPECT_NEAR(evidence(inputs, y, theta.flat(), workspace, &gradient, &noise).value, expected, 1e-8);
+  const auto value = [&](const Vector& flat) { return evidence(inputs, y, flat, workspace, nullptr, &noise).value; };
+  for (Index k = 0; k < gradient.size(); ++k) {
+    const Vector step = 1e-5 * Vector::Unit(gradient.size(), k);
+    const double slope = (value(theta.flat() + step) - value(theta.flat() - step)) / 2e-5;
+    EXPECT_NEAR(gradient(k), slope, 1e-5 * (1 + std::abs(slope))) << k;
+  }
+}
+
 /// By central differences.
 Vector slopes(const Inputs& inputs, const Vector& y, const Vector& flat, const Penalties& penalties, double step) {
   Workspace workspace;
