@@ -96,7 +96,7 @@ HeldKernels::HeldKernels(const Estimation& estimation, const Estimate& estimate)
 
 /// Of the rows of the estimate.
 Matrix HeldKernels::targets(const Vector& z) const {
-  Matrix all = estimation_.residuals.targets(*estimation_.prior, phi(z));
+  Matrix all = estimation_.residuals.targets(estimation_.prior, phi(z));
   if (kept_.empty()) return all;
   return all(kept_, Eigen::all);
 }

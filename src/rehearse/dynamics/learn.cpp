@@ -61,14 +61,14 @@ Learned model_of(const Estimation& estimation, const Estimate& estimate, const G
 /// The model of an estimate, or of what smoothing makes of it where that is likelier. finish(estimation, estimate,
 /// measurement_std) makes the model.
 template <class Finish>
-Learned smoothed_if_likelier(const Problem& problem, const ResidualGpOptions& options, const Estimation& measured,
+Learned smoothed_if_likelier(const Problem& problem, const GpOptions& options, const Estimation& measured,
                              const Estimate& estimate, bool moves_phi, Finish finish) {
   Learned learned = finish(measured, estimate, nullptr);
   if (!options.smooth) return learned;
   const auto on = [&](const Residuals& residuals) {
     return Estimation{residuals, measured.prior, measured.score, measured.fit, measured.evaluator};
   };
-  const Residuals residuals = problem.residuals(options, true, options.midpoint);
+  const Residuals residuals = problem.residuals(options, true, measured.residuals.midpoint());
   const std::optional<Smoothed> smoothed = smooth(on(residuals), estimate, moves_phi);
   if (!smoothed) return learned;
   const Residuals of_smoothed = residuals.of(smoothed->data);
@@ -79,27 +79,23 @@ Learned smoothed_if_likelier(const Problem& problem, const ResidualGpOptions& op
   return likelier;
 }
 
-/// Kernels at φ.
-Estimate fitted(const Estimation& estimation, const Vector& phi, const WarmStart& start) {
-  Estimate estimate = unfitted(phi, estimation.residuals.scale().size(), start.kernels);
+/// GPs around the prior as it is; null: around zero.
+Learned learn_gps(const Problem& problem, const GpOptions& options, const prior::Prior* prior, bool midpoint) {
+  const Residuals residuals = problem.residuals(options, options.integrate_rates, midpoint);
+  const Estimation estimation{residuals, prior, Score::product, options.fit, problem.evaluator};
+  Estimate estimate =
+      unfitted(prior ? prior->space.values() : Vector(), residuals.scale().size(), problem.start.kernels);
   estimation.refit(estimate);
-  return estimate;
+  const auto finish = [&](const Estimation& of, const Estimate& made, const Vector* measurement_std) {
+    return model_of(of, made, options, measurement_std);
+  };
+  return smoothed_if_likelier(problem, options, estimation, estimate, false, finish);
 }
 
-Learned learn_kind(const ZeroMean& kind, const Problem& problem) {
-  const Residuals residuals = problem.residuals(kind.gp, kind.gp.integrate_rates, false);
-  const Estimation estimation{residuals, nullptr, Score::product, kind.gp.fit, problem.evaluator};
-  return model_of(estimation, fitted(estimation, {}, problem.start), kind.gp);
-}
+Learned learn_kind(const ZeroMean& kind, const Problem& problem) { return learn_gps(problem, kind.gp, nullptr, false); }
 
 Learned learn_kind(const FixedPrior& kind, const Problem& problem) {
-  const Residuals residuals = problem.residuals(kind.gp, kind.gp.integrate_rates, kind.gp.midpoint);
-  const Estimation estimation{residuals, problem.prior, Score::product, kind.gp.fit, problem.evaluator};
-  const auto finish = [&](const Estimation& of, const Estimate& estimate, const Vector* measurement_std) {
-    return model_of(of, estimate, kind.gp, measurement_std);
-  };
-  const Estimate estimate = fitted(estimation, problem.prior->space.values(), problem.start);
-  return smoothed_if_likelier(problem, kind.gp, estimation, estimate, false, finish);
+  return learn_gps(problem, kind.gp, problem.prior, kind.gp.midpoint);
 }
 
 /// Fails where the prior tunes something and a number is not finite.

@@ -25,12 +25,14 @@ struct GpOptions {
   PredictedVariance variance = PredictedVariance::latent;
   bool joint_angles = true;      // inputs have those that the task names too
   bool integrate_rates = false;  // positions follow from their rates, GPs learn what is left (integration.hpp)
-  double tolerance = 0.01;       // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
+  bool smooth = false;      // noisy states are smoothed where that makes what was measured likelier (smoothing.hpp)
+  double tolerance = 0.01;  // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
   void fields(FieldVisitor& v) {
     v.group("fit", fit);
     v.boolean("trend", fit.trend);
     v.boolean("joint_angles", joint_angles);
     v.boolean("integrate_rates", integrate_rates);
+    v.boolean("smooth", smooth);
     v.number("tolerance", tolerance, between(0, 1));
     v.choice("variance", variance, {"latent", "noisy"});
   }
@@ -48,15 +50,13 @@ struct ZeroMean {
 
 /// Of GPs around a prior.
 struct ResidualGpOptions : GpOptions {
-  bool smooth = true;    // noisy states are smoothed where that makes what was measured likelier (smoothing.hpp)
   bool midpoint = true;  // inputs are those halfway along the step that the prior predicts (Mean)
   ResidualGpOptions() {
-    fit.trend = true;
+    fit.trend = smooth = true;
     fit.penalties.length_deviation = 1;  // or white noise is taken for a function, of which there would be doubts
   }
   void fields(FieldVisitor& v) {
     GpOptions::fields(v);
-    v.boolean("smooth", smooth);
     v.boolean("midpoint", midpoint);
   }
 };

@@ -117,7 +117,7 @@ std::optional<PhiPosterior> posterior_of(const Residuals& residuals, const prior
   const Coordinates coordinates(prior.space, phi);
   const Index q = coordinates.size(), outputs = rows.targets.cols();
   const auto targets = [&](const Vector& z) -> Matrix {
-    Matrix all = residuals.targets(prior, coordinates.phi(z));
+    Matrix all = residuals.targets(&prior, coordinates.phi(z));
     if (rows.kept.empty()) return all;
     return all(rows.kept, Eigen::all);
   };

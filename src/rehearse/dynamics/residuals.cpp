@@ -38,24 +38,24 @@ Matrix Residuals::prior_mean(const prior::Prior& prior, const Vector& phi) const
   return mean;
 }
 
-Matrix Residuals::targets(const Matrix& prior_mean) const {
-  Matrix targets = data_.changes - prior_mean;
-  subtract_integrals(kinematics_, data_.states, true, targets);
+/// `prior_mean`: null without a prior.
+Matrix Residuals::targets(const Matrix* prior_mean) const {
+  Matrix targets = data_.changes;
+  if (prior_mean) targets -= *prior_mean;
+  subtract_integrals(kinematics_, data_.states, prior_mean != nullptr, targets);
   return targets;
 }
 
-Matrix Residuals::targets(const prior::Prior& prior, const Vector& phi) const {
-  return targets(prior_mean(prior, phi));
+Matrix Residuals::targets(const prior::Prior* prior, const Vector& phi) const {
+  if (!prior) return targets(nullptr);
+  const Matrix mean = prior_mean(*prior, phi);
+  return targets(&mean);
 }
 
 Residuals::Rows Residuals::at(const prior::Prior* prior, const Vector& phi) const {
-  if (!prior) {
-    Matrix targets = data_.changes;
-    subtract_integrals(kinematics_, data_.states, false, targets);
-    return {at_start_, std::move(targets), 0, {}};
-  }
+  if (!prior) return {at_start_, targets(nullptr), 0, {}};
   const Matrix mean = prior_mean(*prior, phi);
-  Matrix targets = this->targets(mean);
+  Matrix targets = this->targets(&mean);
   const bool all = targets.allFinite();
   if (all && !midpoint_) return {at_start_, std::move(targets), 0, {}};
   std::vector<Index> rows = finite_rows(targets);

@@ -28,7 +28,7 @@ class Residuals {
   Rows at(const prior::Prior* prior, const Vector& phi) const;
 
   /// Those of every row (n × dx); a row that fails is not finite.
-  Matrix targets(const prior::Prior& prior, const Vector& phi) const;
+  Matrix targets(const prior::Prior* prior, const Vector& phi) const;
 
   const Vector& scale() const { return scale_; }  // dx, standard deviation of the raw changes
   const Dataset& data() const { return data_; }
@@ -41,8 +41,8 @@ class Residuals {
   Residuals of(const Dataset& rows) const { return Residuals(rows, features_, kinematics_, midpoint_); }
 
  private:
+  Matrix targets(const Matrix* prior_mean) const;
   Matrix prior_mean(const prior::Prior& prior, const Vector& phi) const;
-  Matrix targets(const Matrix& prior_mean) const;
 
   const Dataset& data_;
   FeatureMap features_;

@@ -25,12 +25,12 @@ using Factor = Eigen::LLT<Matrix>;
 
 constexpr Index kMostStates = 12, kMostNumbers = 800;  // of these a block's residuals have at most so many
 constexpr int kRounds = 5, kVarianceSteps = 4, kPhiSteps = 4, kHalvings = 8;
-constexpr Index kStarts = 5;             // of the kernels' fits
-constexpr double kShare = 0.3;           // of an output's noise is at least measurement noise at first
+constexpr Index kStarts = 5;              // of the kernels' fits
+constexpr double kShare = 0.3;            // of an output's noise is at least measurement noise at first
 constexpr double kLeastVariance = 1e-12;  // of measurement noise, as a fraction of the changes'
 constexpr double kLargestNoise = 1e3;     // times the changes' variance
 constexpr double kBoxPrecision = 12;      // of a uniform distribution, in units of the box
-constexpr double kLikelier = 20;          // nats that smoothing must gain
+constexpr double kLikelier = 0.15;        // nats a number measured that smoothing must gain
 constexpr double kTolerance = 0.01;       // of the model whose slopes are looked at (gp::Posterior)
 
 /// The white noise that leaves a function of covariance K as uncertain at the rows as `left`, the sum of its posterior
@@ -65,7 +65,7 @@ class Smoother {
   /// False if a number is not finite.
   bool round(bool moves_phi) {
     if (!linearise() || (moves_phi && !move_phi())) return false;
-    const Vector r = stacked(on_path().targets(*estimation_.prior, estimate_.phi));
+    const Vector r = stacked(on_path().targets(estimation_.prior, estimate_.phi));
     for (int i = 0; i < kVarianceSteps; ++i)
       if (!improve_variances(r)) return false;
     return subtract_errors(r) && whiten();
@@ -74,10 +74,12 @@ class Smoother {
   void fit_kernels() {
     gp::FitOptions options = estimation_.fit;
     options.starts = std::max(options.starts, kStarts);
+    options.penalties.snr = false;  // σ_n is not all of the noise
     for_each_output([&](std::size_t e) {
       const gp::KnownNoise noise(errors_[e]);
       gp::FitStart& kernel = estimate_.kernels[e];
-      const gp::Fit fit = gp::fit(*inputs_, given_others_.col(static_cast<Index>(e)), scale(e), gp::FitStart{kernel.hyperparameters, {}}, options, &noise);
+      const gp::Fit fit = gp::fit(*inputs_, given_others_.col(static_cast<Index>(e)), scale(e),
+                                  gp::FitStart{kernel.hyperparameters, {}}, options, &noise);
       if (fit.status != gp::Fit::Status::failed) kernel = {fit.hyperparameters, {}};
     });
   }
@@ -123,9 +125,7 @@ class Smoother {
   Eigen::Ref<const Vector> of(std::size_t b, const Vector& r) const {
     return r.segment(dx_ * blocks_[b].first, dx_ * blocks_[b].rows);
   }
-  auto measurements(std::size_t b) const {
-    return Eigen::seqN(blocks_[b].first_measurement, blocks_[b].measurements);
-  }
+  auto measurements(std::size_t b) const { return Eigen::seqN(blocks_[b].first_measurement, blocks_[b].measurements); }
 
   Vector reordered(const Matrix& rows) const {
     Vector r(rows.size());
@@ -150,10 +150,10 @@ class Smoother {
     const Residuals::Rows rows = residuals.at(estimation_.prior, estimate_.phi);
     if (rows.left_out > 0) return {};
     std::vector<gp::Hyperparameters> kernels = hyperparameters(estimate_);
-    for (Index e = 0; e < dx_; ++e)
-      kernels[static_cast<std::size_t>(e)].log_noise = std::log(white_variances_(e)) / 2;
-    return GpModel(residuals.features(), residuals.kinematics(),
-                   Mean{*estimation_.prior, estimate_.phi, residuals.midpoint()},
+    for (Index e = 0; e < dx_; ++e) kernels[static_cast<std::size_t>(e)].log_noise = std::log(white_variances_(e)) / 2;
+    std::optional<Mean> mean;
+    if (estimation_.prior) mean = Mean{*estimation_.prior, estimate_.phi, residuals.midpoint()};
+    return GpModel(residuals.features(), residuals.kinematics(), mean,
                    gp::Posterior(*rows.inputs, rows.targets, kernels, kTolerance), PredictedVariance::latent);
   }
 
@@ -210,7 +210,7 @@ class Smoother {
       for (std::size_t b = 0; b < blocks_.size(); ++b) factors[b].matrixL().solveInPlace(of(b, r));
       return r;
     };
-    const auto targets = [&](const Vector& z) { return residuals.targets(prior, coordinates.phi(z)); };
+    const auto targets = [&](const Vector& z) { return residuals.targets(&prior, coordinates.phi(z)); };
     Vector z = coordinates.start();
     Matrix at = targets(z);
     Vector w = whitened(stacked(at));
@@ -265,9 +265,8 @@ class Smoother {
     Vector evidences(static_cast<Index>(blocks_.size()));
     for_each_block([&](std::size_t b) {
       const Vector mine = of(b, r), weights = factors[b].solve(mine);
-      evidences(static_cast<Index>(b)) = -(mine.dot(weights) + log_determinant(factors[b]) +
-                                           static_cast<double>(mine.size()) * gp::kLogTwoPi) /
-                                         2;
+      evidences(static_cast<Index>(b)) =
+          -(mine.dot(weights) + log_determinant(factors[b]) + static_cast<double>(mine.size()) * gp::kLogTwoPi) / 2;
       const Vector v = repeated(R_, blocks_[b].measurements).cwiseProduct(linear_[b].B.transpose() * weights);
       X_(measurements(b), Eigen::all) = Y_(measurements(b), Eigen::all) - v.reshaped(blocks_[b].measurements, dx_);
       give_others(b, mine);
@@ -288,8 +287,7 @@ class Smoother {
       const Matrix across = factor.matrixL().solve(Matrix(S(others, own)));
       given_others_.col(e).segment(first, rows) =
           r(own) - across.transpose() * factor.matrixL().solve(Vector(r(others)));
-      errors_[static_cast<std::size_t>(e)].block(first, first, rows, rows) =
-          S(own, own) - across.transpose() * across;
+      errors_[static_cast<std::size_t>(e)].block(first, first, rows, rows) = S(own, own) - across.transpose() * across;
     }
   }
 
@@ -310,7 +308,7 @@ class Smoother {
       targets.col(column) = K * weights + white_variance(e) * weights;
     });
     white_ = path_;
-    targets -= on_path().targets(*estimation_.prior, estimate_.phi);
+    targets -= on_path().targets(estimation_.prior, estimate_.phi);
     add_integrals(estimation_.residuals.kinematics(), path_.states, true, targets);
     white_.changes += targets;
     return white_.changes.allFinite() && white_variances_.allFinite();
@@ -338,11 +336,13 @@ class Smoother {
 
 std::optional<Smoothed> smooth(const Estimation& estimation, const Estimate& estimate, bool moves_phi) {
   if (estimation.residuals.data().states.cols() > kMostStates || estimate.left_out > 0) return {};
+  const double enough =
+      estimate.log_evidences.sum() + kLikelier * static_cast<double>(estimation.residuals.data().states.size());
   Smoother smoother(estimation, estimate);
   for (int i = 0; i < kRounds; ++i) {
     if (i > 0) smoother.fit_kernels();
     if (!smoother.round(moves_phi)) return {};
-    if (i > 0 && !(smoother.score() > estimate.log_evidences.sum() + kLikelier)) return {};
+    if (i > 0 && !(smoother.score() > enough)) return {};
   }
   return std::move(smoother).result();
 }

@@ -8,18 +8,19 @@ namespace rehearse::dynamics {
 
 /// What noisy measurements and a model learned from them tell of the states of episodes.
 struct Smoothed {
-  Dataset data;            // smoothed states, and changes that differ from φ's by white noise and what GPs have to learn
-  Estimate estimate;       // φ, and kernels, fitted to them; the score is the log evidence of the measured rows, nats
+  Dataset data;       // smoothed states, and changes that differ from φ's by white noise and what GPs have to learn
+  Estimate estimate;  // φ, and kernels, fitted to them; the score is the log evidence of the measured rows, nats
   Vector measurement_std;  // dx
-  Matrix phi_covariance;   // of φ's continuous parameters, by the errors of measurements and the kernels; empty: φ stayed
+  Matrix
+      phi_covariance;  // of φ's continuous parameters, by the errors of measurements and the kernels; empty: φ stayed
 };
 
 /// Errors in variables. With measurements y = x + v the residual of a step is, linear in v,
 ///
 ///   r_t = g(x_t, u_t) + w_t + v_{t+1} − J_t v_t,
 ///
-/// g the GPs, w white noise, J the slopes of the next state's mean: normal, with a covariance C in which the steps of an
-/// episode share measurements. In turn, and linear around what was found last,
+/// g the GPs, w white noise, J the slopes of the next state's mean: normal, with a covariance C in which the steps of
+/// an episode share measurements. In turn, and linear around what was found last,
 /// - φ minimises r' C⁻¹ r: generalised least squares, which several steps tell more of than each of them alone;
 /// - the variances of v become likelier (the steps of Zhou 2019);
 /// - what is expected of v is subtracted from the measurements;
@@ -28,10 +29,10 @@ struct Smoothed {
 /// GPs learn from targets whose white noise would tell as much of g as C does: with what is expected of g, ĝ, and
 /// α = C⁻¹ r they are ĝ + s α, and under noise s the variances of g at the rows are the same on average.
 ///
-/// `estimate` is one of the rows as measured; its kernels must have been fitted. φ stays unless `moves_phi`. Empty where
-/// that does not make the rows likelier by 20 nats; if a row's prior mean, or another number, is not finite; and with
-/// more than 12 states, since the cost grows with their cube and the rows'. Rows beyond 800 / dx are in blocks of their
-/// own, between which only GPs and φ are shared. Any thread.
+/// `estimate` is one of the rows as measured; its kernels must have been fitted. φ stays unless `moves_phi`. Empty
+/// where that does not make the rows clearly likelier (by 0.15 nats a number measured); if a row's prior mean, or
+/// another number, is not finite; and with more than 12 states, since the cost grows with their cube and the rows'.
+/// Rows beyond 800 / dx are in blocks of their own, between which only GPs and φ are shared. Any thread.
 std::optional<Smoothed> smooth(const Estimation& estimation, const Estimate& estimate, bool moves_phi);
 
 }  // namespace rehearse::dynamics

@@ -92,7 +92,7 @@ TEST(PhiPosterior, IsTheInverseOfThePrecisionAndTheWayLeft) {
   const prior::Prior prior = swing_prior();
   const Estimation estimation{residuals, &prior, Score::product, {}, serial_evaluator()};
   const Estimate estimate = held_at(estimation, swing::kTruth);
-  const Matrix K = covariance_of_rows(data, kernel()), targets = residuals.targets(prior, swing::kTruth);
+  const Matrix K = covariance_of_rows(data, kernel()), targets = residuals.targets(&prior, swing::kTruth);
   for (const double observations : {1e12, 4.0}) {
     Matrix precision = Vector{{12 / (1.7 * 1.7), 12.0}}.asDiagonal();  // of the boxes
     Vector gradient = Vector::Zero(2);
@@ -160,7 +160,7 @@ TEST(PhiPosterior, OfLeastSquaresIsTheClassicalOne) {
   Mi kind;
   kind.posterior = kClassical;
   const auto learned = learn(data, swing::features(), {}, &prior, kind, {}, serial_evaluator());
-  const Matrix targets = Residuals(data, swing::features()).targets(prior, *learned.state.phi);
+  const Matrix targets = Residuals(data, swing::features()).targets(&prior, *learned.state.phi);
   Matrix precision = Vector{{12 / (1.7 * 1.7), 12.0}}.asDiagonal();
   for (Index e = 0; e < 2; ++e) {
     const Matrix J = slopes_of_mean(data, prior, e);

@@ -60,7 +60,7 @@ TEST(Smoothing, FindsParametersNoiseAndDynamicsThatNoisyStepsHide) {
     EXPECT_GT(*smoothed.log_evidence, *raw.log_evidence + 20);
     const Vector deviation = smoothed.posterior->covariance.diagonal().cwiseSqrt();
     for (Index i = 0; i < 2; ++i) {
-      EXPECT_LT(std::abs((*smoothed.state.phi)(i) - swing::kTruth(i)), 4 * deviation(i)) << seed;
+      EXPECT_LT(std::abs((*smoothed.state.phi)(i)-swing::kTruth(i)), 4 * deviation(i)) << seed;
       EXPECT_LT(deviation(i), 0.1);
       EXPECT_NEAR(smoothed.model->measurement_std()(i) / kNoise(i), 1, 0.3) << seed;
     }
@@ -81,8 +81,7 @@ TEST(Smoothing, MovesStatesTowardsTheTrueOnes) {
   for (const bool moves_phi : {false, true}) {
     const auto smoothed = smooth(estimation, estimate, moves_phi);
     ASSERT_TRUE(smoothed.has_value());
-    EXPECT_LT(swing::rms(smoothed->data.states - m.truth.states),
-              0.6 * swing::rms(m.data.states - m.truth.states));
+    EXPECT_LT(swing::rms(smoothed->data.states - m.truth.states), 0.6 * swing::rms(m.data.states - m.truth.states));
     EXPECT_EQ(smoothed->estimate.phi == prior.space.values(), !moves_phi);
     EXPECT_EQ(smoothed->phi_covariance.size(), moves_phi ? 4 : 0);
   }

@@ -66,7 +66,7 @@ dynamics::Kind kind(const ModelOptions& options, bool around_a_mean) {
   const auto adapt = [&](auto kind) {  // each state has a GP of its own, whose moments are known
     static_cast<dynamics::GpOptions&>(kind.gp) = {};
     kind.gp.fit = options.fit;
-    if constexpr (requires { kind.gp.midpoint; }) kind.gp.midpoint = kind.gp.smooth = false;
+    if constexpr (requires { kind.gp.midpoint; }) kind.gp.midpoint = false;
     return dynamics::Kind(kind);
   };
   return around_a_mean ? adapt(dynamics::FixedPrior{}) : adapt(dynamics::ZeroMean{});
