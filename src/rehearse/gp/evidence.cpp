@@ -112,10 +112,10 @@ Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVec
   return {.value = value, .jitter = jitter};
 }
 
-Whitening::Whitening(const Inputs& inputs, const Hyperparameters& kernel, const KnownNoise* noise)
+Whitening::Whitening(const Inputs& inputs, const Hyperparameters& kernel)
     : size_(inputs.size()), inverse_signal_(std::exp(-kernel.log_signal)) {
   Workspace workspace;
-  const double jitter = factorise_at(inputs, kernel.flat(), noise, workspace);
+  const double jitter = factorise_at(inputs, kernel.flat(), nullptr, workspace);
   log_constant_ = std::isnan(jitter) ? kNaN : log_constant(size_, workspace.tiles(), kernel.log_signal);
   tiles_ = std::move(workspace).release_tiles();
 }

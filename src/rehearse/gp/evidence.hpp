@@ -79,7 +79,7 @@ Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVec
 /// evidence of y is a constant less ‖w‖²/2. Immutable; any thread.
 class Whitening {
  public:
-  Whitening(const Inputs& inputs, const Hyperparameters& kernel, const KnownNoise* noise = nullptr);
+  Whitening(const Inputs& inputs, const Hyperparameters& kernel);
 
   Matrix operator()(const ConstMatrixView& Y) const;           // n × any, as Y
   double log_evidence(const ConstVectorView& whitened) const;  // n; NaN if K could not be factorised

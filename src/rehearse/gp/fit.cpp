@@ -142,10 +142,13 @@ Point start_by_part(Problem& all, double scale, const FitStart& start, Index str
   return *std::min_element(points.begin(), points.end(), better);
 }
 
-void check(const Inputs& inputs, const ConstVectorView& y, const Hyperparameters& start, bool trend) {
+void check(const Inputs& inputs, const ConstVectorView& y, const Hyperparameters& start, bool trend,
+           const KnownNoise* noise) {
   Violations wrong;
   wrong.require(y.size() == inputs.size(),
                 fmt::format("gp targets have {} rows, must be {}, those of the inputs", y.size(), inputs.size()));
+  wrong.require(!noise || noise->size() == inputs.size(),
+                fmt::format("gp noise is of {} rows, must be of {}", noise ? noise->size() : 0, inputs.size()));
   wrong.require(start.inputs() == inputs.dimensions(),
                 fmt::format("gp start has {} length scales, must be {}", start.inputs(), inputs.dimensions()));
   wrong.require(start.has_trend() == trend, fmt::format("gp start has {} trend, must have {}",
@@ -172,7 +175,7 @@ Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, do
 
 Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitStart& start, const FitOptions& options,
         const KnownNoise* noise) {
-  check(inputs, y, start.hyperparameters, options.trend);
+  check(inputs, y, start.hyperparameters, options.trend, noise);
   if (!start.hyperparameters.flat().allFinite()) return failure(start.hyperparameters, "the start is not finite", 0);
   if (!y.allFinite()) return failure(start.hyperparameters, "the targets are not finite", 0);
   Problem problem(inputs, y, scale, options, noise);

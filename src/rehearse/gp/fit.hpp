@@ -71,8 +71,8 @@ Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, do
 Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitStart& start,
         const FitOptions& options = {}, const KnownNoise* noise = nullptr);
 inline Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const Hyperparameters& start,
-               const FitOptions& options = {}) {
-  return fit(inputs, y, scale, FitStart{start, {}}, options);
+               const FitOptions& options = {}, const KnownNoise* noise = nullptr) {
+  return fit(inputs, y, scale, FitStart{start, {}}, options, noise);
 }
 
 }  // namespace rehearse::gp

@@ -1,5 +1,6 @@
 #include "rehearse/dynamics/errors_in_variables.hpp"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "rehearse/core/random.hpp"
@@ -7,40 +8,116 @@
 namespace rehearse::dynamics {
 namespace {
 
-// Rows 0 and 1 follow each other, row 2 is on its own; two states, of which an error before moves both residuals.
-TEST(ErrorsInVariables, CovarianceIsThatOfDrawnErrors) {
-  const Block block{.first = 0, .rows = 3, .first_measurement = 0, .measurements = 5, .before = {0, 1, 3}};
-  Rng rng({.purpose = Purpose::test});
-  const auto normals = [&](Index rows) {
-    Matrix A(rows, 2);
-    for (double& a : A.reshaped()) a = rng.normal();
-    return A;
-  };
-  const std::vector<Matrix> before{normals(3), normals(3)}, after{normals(3), normals(3)};
-  const Vector R{{0.5, 2}}, W{{0.1, 0.3}};
-  const ErrorsInVariables errors{.K = {Matrix::Identity(3, 3), 2 * Matrix::Ones(3, 3)},
-                                 .B = errors_of(block, before, after)};
-  constexpr int kDraws = 100000;
-  Matrix sum = Matrix::Zero(6, 6);
-  for (int i = 0; i < kDraws; ++i) {
-    const Matrix v = normals(5) * R.cwiseSqrt().asDiagonal();
-    Matrix r = Matrix::Zero(3, 2);
-    for (Index row = 0; row < 3; ++row) {
-      const Index from = block.before[static_cast<std::size_t>(row)];
-      for (Index d = 0; d < 2; ++d)
-        r.row(row) += v(from, d) * before[static_cast<std::size_t>(d)].row(row) +
-                      v(from + 1, d) * after[static_cast<std::size_t>(d)].row(row);
-    }
-    sum += r.reshaped() * r.reshaped().transpose();
+// Two states that stay, measured with errors: rows 0 and 1 follow each other, row 2 is on its own.
+struct Steps {
+  Steps() {
+    data.states = Matrix(3, 2);
+    data.states << 0, 0, 1, 2, 9, 9;
+    data.actions = Matrix::Zero(3, 1);
+    data.changes = Matrix(3, 2);
+    data.changes << 1, 2, 1, 1, 1, 1;
+    Rng rng({.purpose = Purpose::test});
+    for (std::vector<Matrix>* slopes : {&before, &after})
+      for (Matrix& slope : *slopes) {
+        slope = Matrix(3, 2);
+        for (double& s : slope.reshaped()) s = rng.normal();
+      }
   }
-  const Matrix drawn = sum / kDraws, S = errors.covariance_of_errors(R);
-  EXPECT_LT((S - drawn).cwiseAbs().maxCoeff(), 0.03 * drawn.cwiseAbs().maxCoeff());
-  Matrix rest = errors.covariance(R, W) - S;
-  EXPECT_NEAR(rest(0, 0), 1.1, 1e-12);
-  EXPECT_NEAR(rest(0, 1), 0, 1e-12);
-  EXPECT_NEAR(rest(3, 3), 2.3, 1e-12);
-  EXPECT_NEAR(rest(3, 4), 2, 1e-12);
-  EXPECT_NEAR(rest(2, 3), 0, 1e-12);
+  ErrorsInVariables errors() const {
+    ErrorsInVariables errors(data, serial_evaluator());
+    errors.set_variances(R);
+    errors.linearise(before, after, [&](Index e, Index, Index) { return K[static_cast<std::size_t>(e)]; });
+    errors.factorise(W);
+    return errors;
+  }
+
+  /// The residuals (n × dx) that errors of five measurements make.
+  Matrix made_of(const Matrix& v) const {
+    Matrix r = Matrix::Zero(3, 2);
+    const Index from[] = {0, 1, 3};
+    for (Index row = 0; row < 3; ++row)
+      for (Index d = 0; d < 2; ++d)
+        r.row(row) += v(from[row], d) * before[static_cast<std::size_t>(d)].row(row) +
+                      v(from[row] + 1, d) * after[static_cast<std::size_t>(d)].row(row);
+    return r;
+  }
+
+  /// Of the residuals, output by output.
+  Matrix covariance(bool errors_alone = false) const {
+    Matrix C = Matrix::Zero(6, 6);
+    for (Index m = 0; m < 5; ++m)
+      for (Index d = 0; d < 2; ++d) {
+        const Matrix r = made_of(Matrix::NullaryExpr(5, 2, [&](Index i, Index j) { return i == m && j == d; }));
+        C += R(d) * r.reshaped() * r.reshaped().transpose();
+      }
+    if (errors_alone) return C;
+    for (Index e = 0; e < 2; ++e)
+      C.block(3 * e, 3 * e, 3, 3) += K[static_cast<std::size_t>(e)] + W(e) * Matrix::Identity(3, 3);
+    return C;
+  }
+
+  Dataset data;
+  std::vector<Matrix> before{2}, after{2};
+  const std::vector<Matrix> K{Matrix::Identity(3, 3), 2 * Matrix::Ones(3, 3)};
+  const Vector R{{0.5, 2}}, W{{0.1, 0.3}};
+};
+
+const Vector kResiduals{{0.3, -1, 2, 0.5, 0.7, -0.2}};
+
+TEST(ErrorsInVariables, EvidenceIsThatOfANormalDistribution) {
+  const Steps steps;
+  const Matrix C = steps.covariance();
+  const double expected =
+      -0.5 * kResiduals.dot(C.inverse() * kResiduals) - 0.5 * std::log(C.determinant()) - 3 * std::log(2 * M_PI);
+  const ErrorsInVariables errors = steps.errors();
+  EXPECT_NEAR(errors.log_evidence(kResiduals), expected, 1e-10);
+  EXPECT_NEAR(errors.whitened(kResiduals).squaredNorm(), kResiduals.dot(C.inverse() * kResiduals), 1e-10);
+}
+
+TEST(ErrorsInVariables, OutputsAreGivenTheOthersAsInANormalDistribution) {
+  const Steps steps;
+  const Matrix C = steps.covariance(), S = steps.covariance(true);
+  const auto given = steps.errors().given_others(kResiduals, steps.W);
+  for (Index e = 0; e < 2; ++e) {
+    const auto own = Eigen::seqN(3 * e, 3), other = Eigen::seqN(3 - 3 * e, 3);
+    const Matrix gain = S(own, other) * C(other, other).inverse();
+    EXPECT_LT((given.residuals.col(e) - (kResiduals(own) - gain * kResiduals(other))).norm(), 1e-10);
+    const Matrix errors = S(own, own) - gain * S(other, own);
+    EXPECT_LT((given.errors[static_cast<std::size_t>(e)] - errors).norm(), 1e-10);
+  }
+}
+
+TEST(ErrorsInVariables, StepsOfTheVariancesMakeResidualsLikelier) {
+  const Steps steps;
+  ErrorsInVariables errors = steps.errors();
+  double last = errors.log_evidence(kResiduals);
+  for (int i = 0; i < 20; ++i) {
+    errors.improve_variances(kResiduals, Vector::Constant(2, 1e-9));
+    errors.factorise(steps.W);
+    const double now = errors.log_evidence(kResiduals);
+    EXPECT_GT(now, last - 1e-12);
+    last = now;
+  }
+  EXPECT_GT(last, steps.errors().log_evidence(kResiduals) + 0.1);
+}
+
+TEST(ErrorsInVariables, MovesThePathByWhatIsExpectedOfTheErrors) {
+  const Steps steps;
+  ErrorsInVariables errors = steps.errors();
+  const Vector r = errors.residuals(Matrix(kResiduals.reshaped(3, 2)));
+  EXPECT_EQ(r, kResiduals);  // the path is what was measured
+  errors.subtract_errors(r);
+  const Vector weights = steps.covariance().inverse() * kResiduals;
+  for (Index d = 0; d < 2; ++d) {  // of the measurement before row 2, which no other row shares
+    const double v = steps.R(d) * (steps.before[static_cast<std::size_t>(d)](2, 0) * weights(2) +
+                                   steps.before[static_cast<std::size_t>(d)](2, 1) * weights(5));
+    EXPECT_NEAR(errors.states()(3, d), 9 - v, 1e-10);
+  }
+  errors.move_path();
+  EXPECT_NEAR(errors.path().states(2, 0), errors.states()(3, 0), 1e-12);
+  // Residuals on the new path are those of measurements again once the errors are added.
+  const Matrix shift = (Matrix(5, 2) << 0, 0, 1, 2, 2, 3, 9, 9, 10, 10).finished() - errors.states();
+  EXPECT_LT((errors.residuals(Matrix::Zero(3, 2)) - Vector(steps.made_of(shift).reshaped())).norm(), 1e-10);
 }
 
 }  // namespace

@@ -96,6 +96,20 @@ TEST(Fit, ATrendGoesOnWhereThereAreNoData) {
   EXPECT_GT(errors[0], 0.1);
 }
 
+TEST(Fit, KnownNoiseIsNotLearnedAgain) {
+  const Matrix X = naive::normals(150, 2, 1);
+  const Hyperparameters truth = naive::hyperparameters(2, 1, 1, 0.05);
+  const Vector strong = 0.5 * naive::normals(150, 1, 5).col(0).cwiseAbs();  // deviations of errors, row by row
+  const Vector y = naive::draw(X, truth, 2) + strong.cwiseProduct(naive::normals(150, 1, 6).col(0));
+  const Inputs inputs(X);
+  const KnownNoise noise(strong.cwiseAbs2().asDiagonal().toDenseMatrix());
+  const Hyperparameters start = default_start(inputs, y, 1);
+  const double blind = std::exp(fit(inputs, y, 1, start).hyperparameters.log_noise);
+  const double told = std::exp(fit(inputs, y, 1, start, {}, &noise).hyperparameters.log_noise);
+  EXPECT_GT(blind, 0.3);
+  EXPECT_LT(told, 0.1);  // 0.05 in truth; 150 rows do not tell it better
+}
+
 TEST(Fit, WarmStartIsNeverMadeWorse) {
   const Matrix X = naive::normals(60, 2, 3);
   const Vector y = naive::draw(X, naive::hyperparameters(2, 1, 1, 0.1), 4);
@@ -179,6 +193,8 @@ TEST(Fit, FailureIsAStatusAndKeepsTheStart) {
     EXPECT_EQ(result.hyperparameters.flat(), start.flat());
   }
   EXPECT_THROW(fit(inputs, y.head(9), 1, start), InvalidInput);
+  const KnownNoise of_nine(Matrix::Identity(9, 9));
+  EXPECT_THROW(fit(inputs, y, 1, start, {}, &of_nine), InvalidInput);
 }
 
 }  // namespace
