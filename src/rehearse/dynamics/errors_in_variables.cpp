@@ -1,6 +1,7 @@
 #include "rehearse/dynamics/errors_in_variables.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "rehearse/gp/evidence.hpp"
 
@@ -48,9 +49,10 @@ Matrix ErrorsInVariables::covariance_of_errors(std::size_t b) const {
   return Matrix(B * repeated(R_, blocks_[b].measurements).asDiagonal() * B.transpose());
 }
 
-Matrix ErrorsInVariables::covariance(std::size_t b, const Vector& W) const {
+/// `of_errors`: covariance_of_errors(b).
+Matrix ErrorsInVariables::covariance(std::size_t b, Matrix of_errors, const Vector& W) const {
   const Index rows = blocks_[b].rows;
-  Matrix C = covariance_of_errors(b);
+  Matrix C = std::move(of_errors);
   C.diagonal() += repeated(W, rows);
   for (Index e = 0; e < dx_; ++e)
     C.block(e * rows, e * rows, rows, rows) += blocks_of_r_[b].K[static_cast<std::size_t>(e)];
@@ -58,7 +60,7 @@ Matrix ErrorsInVariables::covariance(std::size_t b, const Vector& W) const {
 }
 
 void ErrorsInVariables::factorise(const Vector& W) {
-  for_each_block([&](std::size_t b) { blocks_of_r_[b].factor = covariance(b, W).llt(); });
+  for_each_block([&](std::size_t b) { blocks_of_r_[b].factor = covariance(b, covariance_of_errors(b), W).llt(); });
 }
 
 Vector ErrorsInVariables::stacked(const Matrix& rows) const {
@@ -128,7 +130,7 @@ ErrorsInVariables::Given ErrorsInVariables::given_others(const Vector& r, const 
 
 void ErrorsInVariables::give_others(std::size_t b, const Vector& r, const Vector& W, Given& given) const {
   const Index rows = blocks_[b].rows, first = blocks_[b].first;
-  const Matrix S = covariance_of_errors(b), C = covariance(b, W);
+  const Matrix S = covariance_of_errors(b), C = covariance(b, S, W);
   for (Index e = 0; e < dx_; ++e) {
     std::vector<Index> others;
     for (Index i = 0; i < r.size(); ++i)

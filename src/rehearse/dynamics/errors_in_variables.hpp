@@ -29,7 +29,8 @@ class ErrorsInVariables {
   }
 
   /// `before`, `after`: what an error of each state (dx) adds to the residuals (n × dx) through the measurement before
-  /// and after a step; covariance(e, rows): of g, among rows first to first + count.
+  /// and after a step; covariance(e, first, count): of output e's g among `count`
+  /// rows from `first` on.
   template <class Covariance>
   void linearise(const std::vector<Matrix>& before, const std::vector<Matrix>& after, Covariance covariance) {
     for_each_block([&](std::size_t b) {
@@ -81,7 +82,7 @@ class ErrorsInVariables {
 
   static Sparse errors_of(const Block& block, const std::vector<Matrix>& before, const std::vector<Matrix>& after);
   Matrix covariance_of_errors(std::size_t b) const;
-  Matrix covariance(std::size_t b, const Vector& W) const;
+  Matrix covariance(std::size_t b, Matrix of_errors, const Vector& W) const;
   void give_others(std::size_t b, const Vector& r, const Vector& W, Given& given) const;
 
   template <class Task>

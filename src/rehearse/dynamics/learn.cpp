@@ -63,20 +63,19 @@ Learned model_of(const Estimation& estimation, const Estimate& estimate, const G
 template <class Finish>
 Learned smoothed_if_likelier(const Problem& problem, const GpOptions& options, const Estimation& measured,
                              const Estimate& estimate, bool moves_phi, Finish finish) {
-  Learned learned = finish(measured, estimate, nullptr);
-  if (!options.smooth) return learned;
+  if (!options.smooth) return finish(measured, estimate, nullptr);
   const auto on = [&](const Residuals& residuals) {
     return Estimation{residuals, measured.prior, measured.score, measured.fit, measured.evaluator};
   };
   const Residuals residuals = problem.residuals(options, true, measured.residuals.midpoint());
   const std::optional<Smoothed> smoothed = smooth(on(residuals), estimate, moves_phi);
-  if (!smoothed) return learned;
+  if (!smoothed) return finish(measured, estimate, nullptr);
   const Residuals of_smoothed = residuals.of(smoothed->data);
-  Learned likelier = finish(on(of_smoothed), smoothed->estimate, &smoothed->measurement_std);
-  likelier.log_evidence = smoothed->estimate.score;
-  if (likelier.posterior) likelier.posterior->covariance += smoothed->phi_covariance;
-  likelier.state.kernels = std::move(learned.state.kernels);  // of measured rows, which the next trial starts with
-  return likelier;
+  Learned learned = finish(on(of_smoothed), smoothed->estimate, &smoothed->measurement_std);
+  learned.log_evidence = smoothed->estimate.score;
+  if (learned.posterior) learned.posterior->covariance += smoothed->phi_covariance;
+  learned.state.kernels = hyperparameters(estimate);  // of measured rows, which the next trial starts with
+  return learned;
 }
 
 /// GPs around the prior as it is; null: around zero.

@@ -57,7 +57,8 @@ class Smoother {
     if (!linearise()) return false;
     steps_.factorise(noise_variances());
     if (moves_phi && !move_phi()) return false;
-    const Vector r = steps_.residuals(on_path().targets(estimation_.prior, estimate_.phi));
+    const Matrix targets = on_path().targets(estimation_.prior, estimate_.phi);
+    const Vector r = steps_.residuals(targets);
     const Vector least = kLeastVariance * estimation_.residuals.scale().cwiseAbs2();
     for (int i = 0; i < kVarianceSteps; ++i) {
       steps_.improve_variances(r, least);
@@ -66,7 +67,8 @@ class Smoother {
     estimate_.score = steps_.log_evidence(r);
     steps_.subtract_errors(r);
     given_ = steps_.given_others(r, noise_variances());
-    return std::isfinite(estimate_.score) && steps_.states().allFinite() && given_.residuals.allFinite() && whiten();
+    return std::isfinite(estimate_.score) && steps_.states().allFinite() && given_.residuals.allFinite() &&
+           whiten(targets);
   }
 
   void fit_kernels() {
@@ -86,8 +88,9 @@ class Smoother {
   double score() const { return estimate_.score; }
 
   Smoothed result() && {
-    for (std::size_t e = 0; e < estimate_.kernels.size(); ++e)
-      estimate_.kernels[e].hyperparameters.log_noise = std::log(white_variances_(static_cast<Index>(e))) / 2;
+    std::vector<gp::Hyperparameters> white = white_kernels();
+    estimate_.kernels.clear();
+    for (gp::Hyperparameters& kernel : white) estimate_.kernels.push_back({std::move(kernel), {}});
     return {std::move(white_), std::move(estimate_), steps_.variances().cwiseSqrt(), std::move(phi_covariance_)};
   }
 
@@ -110,17 +113,22 @@ class Smoother {
     return variances;
   }
 
+  /// The kernels with the white noise of the rows that GPs learn from.
+  std::vector<gp::Hyperparameters> white_kernels() const {
+    std::vector<gp::Hyperparameters> kernels = hyperparameters(estimate_);
+    for (Index e = 0; e < dx_; ++e) kernels[static_cast<std::size_t>(e)].log_noise = std::log(white_variances_(e)) / 2;
+    return kernels;
+  }
+
   /// What is believed of the dynamics.
   std::optional<GpModel> model() const {
     const Residuals residuals = estimation_.residuals.of(white_);
     const Residuals::Rows rows = residuals.at(estimation_.prior, estimate_.phi);
     if (rows.left_out > 0) return {};
-    std::vector<gp::Hyperparameters> kernels = hyperparameters(estimate_);
-    for (Index e = 0; e < dx_; ++e) kernels[static_cast<std::size_t>(e)].log_noise = std::log(white_variances_(e)) / 2;
     std::optional<Mean> mean;
     if (estimation_.prior) mean = Mean{*estimation_.prior, estimate_.phi, residuals.midpoint()};
     return GpModel(residuals.features(), residuals.kinematics(), mean,
-                   gp::Posterior(*rows.inputs, rows.targets, kernels, kTolerance), PredictedVariance::latent);
+                   gp::Posterior(*rows.inputs, rows.targets, white_kernels(), kTolerance), PredictedVariance::latent);
   }
 
   /// Some of what the kernels take for noise is that of measurements.
@@ -187,8 +195,8 @@ class Smoother {
     return true;
   }
 
-  /// The rows as GPs with white noise may learn from them.
-  bool whiten() {
+  /// The rows as GPs with white noise may learn from them; `on_path`: the residuals there.
+  bool whiten(const Matrix& on_path) {
     const Matrix F = inputs_->values();
     Matrix targets(F.rows(), dx_);
     for_each_output([&](std::size_t e) {
@@ -205,7 +213,7 @@ class Smoother {
       targets.col(column) = K * weights + white * weights;
     });
     white_ = steps_.path();
-    targets -= on_path().targets(estimation_.prior, estimate_.phi);
+    targets -= on_path;
     add_integrals(estimation_.residuals.kinematics(), white_.states, true, targets);
     white_.changes += targets;
     return white_.changes.allFinite() && white_variances_.allFinite();

@@ -9,11 +9,8 @@ namespace {
 MomentTerm mean_term(const Posterior& posterior, Index e) {
   if (posterior.hyperparameters()[static_cast<std::size_t>(e)].has_trend())
     throw InvalidInput("no moments of a gp with a trend");
-  const Inputs& inputs = posterior.inputs();
-  Matrix centres = inputs.unit() * inputs.half_range().asDiagonal();
-  centres.rowwise() += inputs.center().transpose();
   return {.output = e,
-          .centres = std::move(centres),
+          .centres = posterior.inputs().values(),
           .log_lengths = posterior.hyperparameters()[static_cast<std::size_t>(e)].log_lengths,
           .weights = posterior.weights(e)};
 }
