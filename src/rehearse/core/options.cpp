@@ -34,6 +34,7 @@ class Lister final : public FieldVisitor {
     fields.emplace_back(name, fmt::to_string(value));
   }
   void visit(const std::string& name, bool& value) override { fields.emplace_back(name, value ? "true" : "false"); }
+  void visit(const std::string& name, std::string& value) override { fields.emplace_back(name, value); }
   void visit(const std::string& name, int& value, const std::vector<std::string>& names) override {
     fields.emplace_back(name, names.at(static_cast<std::size_t>(value)));
   }
@@ -49,6 +50,7 @@ class Checker final : public FieldVisitor {
     add(violation(name, static_cast<double>(value), bound));
   }
   void visit(const std::string&, bool&) override {}
+  void visit(const std::string&, std::string&) override {}
   void visit(const std::string&, int&, const std::vector<std::string>&) override {}
 
  private:
@@ -82,6 +84,9 @@ class Setter final : public FieldVisitor {
     if (!match(name)) return;
     if (text_ != "true" && text_ != "false") wrong("true or false");
     value = text_ == "true";
+  }
+  void visit(const std::string& name, std::string& value) override {
+    if (match(name)) value = text_;
   }
   void visit(const std::string& name, int& value, const std::vector<std::string>& names) override {
     if (!match(name)) return;

@@ -37,6 +37,7 @@ class FieldVisitor {
   void number(std::string_view name, double& value, Bound bound = {}) { visit(full(name), value, bound); }
   void integer(std::string_view name, Index& value, Bound bound = {}) { visit(full(name), value, bound); }
   void boolean(std::string_view name, bool& value) { visit(full(name), value); }
+  void text(std::string_view name, std::string& value) { visit(full(name), value); }
 
   /// An enumeration whose values 0, 1, … are called `names`.
   template <class Enum>
@@ -59,6 +60,7 @@ class FieldVisitor {
   virtual void visit(const std::string& name, double& value, Bound bound) = 0;
   virtual void visit(const std::string& name, Index& value, Bound bound) = 0;
   virtual void visit(const std::string& name, bool& value) = 0;
+  virtual void visit(const std::string& name, std::string& value) = 0;
   virtual void visit(const std::string& name, int& value, const std::vector<std::string>& names) = 0;
 
  private:

@@ -43,6 +43,10 @@ class Gait final : public Policy {
   Index parameters() const override { return legs_ * kParametersOfLeg; }
   Index actions() const override { return legs_ * kJointsOfLeg; }
   std::optional<Interval> box() const override { return Interval{0, 1}; }
+  Matrix examples() const override {
+    const Vector tripod = tripod_gait();
+    return parameters() == tripod.size() ? Matrix(tripod.transpose()) : Policy::examples();
+  }
 
   void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double t_s, MatrixView U) const override {
     constexpr double eighth = std::numbers::pi / 8;

@@ -23,6 +23,9 @@ class Policy {
   /// Where each number of θ must lie; empty: anywhere, and whoever searches says where.
   virtual std::optional<Interval> box() const { return std::nullopt; }
 
+  /// Each row a θ that is known to do something sensible, where there are any: 0 × parameters() or more.
+  virtual Matrix examples() const { return Matrix(0, parameters()); }
+
   /// What the policy is made of if its actions have analytic moments (moments/rbf_policy.hpp), else null.
   virtual const RbfOptions* analytic() const { return nullptr; }
 

@@ -29,6 +29,9 @@ void check(const Archive& archive, const SearchSpace& space, const MapElitesOpti
                        fmt::format("the box has a side [{}, {}], must be finite with low < high", side.low, side.high));
   violations.require(!space.start || (space.start->size() == P && space.start->allFinite()),
                      fmt::format("the start must have {} finite parameters", P));
+  violations.require(space.examples.rows() == 0 || (space.examples.cols() == P && space.examples.allFinite()),
+                     fmt::format("examples must have {} finite parameters", P));
+  violations.require(space.examples.rows() == 0 || !space.box.empty(), "examples need a box");
   violations.require(space.start || !space.box.empty(), "there must be a box or a start");
   violations.require(options.variation.kind != Variation::Kind::reset || !space.box.empty(),
                      "variation.kind = reset needs a box");
@@ -40,6 +43,8 @@ void check(const Archive& archive, const SearchSpace& space, const MapElitesOpti
 void MapElitesOptions::fields(FieldVisitor& v) {
   v.integer("batch", batch, between(1, 1e6));
   v.integer("initial", initial, at_least(1));
+  v.number("examples", examples, between(0, 1));
+  v.number("example_sigma", example_sigma, at_least(0));
   v.group("variation", variation);
 }
 
@@ -61,7 +66,9 @@ void MapElites::resume(Archive archive, std::uint64_t evaluations, std::uint64_t
 void MapElites::make(std::uint64_t first, MatrixView X) const {
   const bool initial = evaluations_ < static_cast<std::uint64_t>(options_.initial) || archive_.size() == 0;
   if (!initial) return varier_.vary(archive_, first, X);
-  space_.start ? varier_.draw_about(*space_.start, first, X) : varier_.draw(first, X);
+  if (space_.start) return varier_.draw_about(*space_.start, first, X);
+  if (space_.examples.rows() == 0) return varier_.draw(first, X);
+  varier_.draw_near(space_.examples, options_.examples, options_.example_sigma, first, X);
 }
 
 void MapElites::step(const Evaluate& evaluate, const Evaluator& evaluator) {

@@ -13,16 +13,20 @@
 namespace rehearse::qd {
 
 struct MapElitesOptions {
-  Index batch = 512;     // solutions of a generation, made from the same archive
-  Index initial = 1024;  // solutions drawn at random first
+  Index batch = 512;            // solutions of a generation, made from the same archive
+  Index initial = 1024;         // solutions drawn at random first
+  double examples = 0.5;        // share of these that are near an example, where there is one
+  double example_sigma = 0.15;  // and how near, in widths of the box
   Variation variation;
   void fields(FieldVisitor& v);
 };
 
-/// Where solutions live: in a box, where the first are uniform unless there is a start; or anywhere about a start.
+/// Where solutions live: in a box, where the first are uniform unless there is a start or there are examples; or
+/// anywhere about a start.
 struct SearchSpace {
   std::vector<Interval> box;    // P, or empty
   std::optional<Vector> start;  // P: the first solutions are N(start, σ_iso²)
+  Matrix examples;              // k × P, or empty: solutions known to do something sensible
 };
 
 /// Performances (n, higher is better) and descriptors (n × D) of solutions X (n × P), the first of which has number

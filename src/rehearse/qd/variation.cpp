@@ -41,6 +41,20 @@ void Varier::draw_about(const Vector& start, std::uint64_t first, MatrixView X) 
   clip(X);
 }
 
+void Varier::draw_near(const Matrix& examples, double share, double sigma, std::uint64_t first, MatrixView X) const {
+  draw(first, X);
+  for (Index i = 0; i < X.rows(); ++i) {
+    Rng random = rng(Purpose::variation, first + static_cast<std::uint64_t>(i));
+    if (random.uniform() >= share) continue;
+    const Index example = random.below(examples.rows());
+    for (Index p = 0; p < X.cols(); ++p) {
+      const Interval& side = box_[static_cast<std::size_t>(p)];
+      X(i, p) = examples(example, p) + sigma * (side.high - side.low) * random.normal();
+    }
+  }
+  clip(X);
+}
+
 void Varier::vary(const Archive& archive, std::uint64_t first, MatrixView X) const {
   if (variation_.kind == Variation::Kind::reset) return reset(archive, first, X);
   add_normals(archive, first, variation_.kind == Variation::Kind::iso_line, X);

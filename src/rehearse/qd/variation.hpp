@@ -35,6 +35,9 @@ class Varier {
   void draw(std::uint64_t first, MatrixView X) const;
   /// N(start, σ_iso²), in the box.
   void draw_about(const Vector& start, std::uint64_t first, MatrixView X) const;
+  /// The same as `draw`, but a `share` of them is N(one of the examples, (sigma · the box's width)²), in the box.
+  /// examples: k × P.
+  void draw_near(const Matrix& examples, double share, double sigma, std::uint64_t first, MatrixView X) const;
   /// From elites of the archive, of which there is at least one. No allocation after a thread's first call.
   void vary(const Archive& archive, std::uint64_t first, MatrixView X) const;
 

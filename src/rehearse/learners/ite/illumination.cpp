@@ -1,6 +1,8 @@
 #include "rehearse/learners/ite/illumination.hpp"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
@@ -66,7 +68,8 @@ class Illumination {
     auto kept = read();
     if (kept && !holds(*kept)) kept.reset();
     if (kept && kept->evaluations >= wanted()) return std::move(*kept);
-    qd::MapElites search(empty_archive(), {.box = box()}, options_.search, {.seed = setting_.seed});
+    qd::MapElites search(empty_archive(), {.box = box(), .examples = setting_.policy->examples()}, options_.search,
+                         {.seed = setting_.seed});
     if (kept && kept->archive.niches() == search.archive().niches())
       search.resume(std::move(kept->archive), kept->evaluations, kept->failed);
     finish(search);
@@ -170,9 +173,29 @@ class Illumination {
   std::string about_;
 };
 
+/// An archive that somebody made. It is taken at its word, since on another processor a walk ends elsewhere.
+qd::Search read_archive(const Setting& setting, const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  qd::Search search = qd::from_bytes(bytes, file);
+  const Index parameters = search.archive.parameters(), dimensions = search.archive.niches().dimensions();
+  const auto descriptors = static_cast<Index>(setting.task.descriptor_bounds.size());
+  Violations violations;
+  violations.require(parameters == setting.policy->parameters(),
+                     fmt::format("archive.file = {}: its policies have {} parameters, must have {} as policy {} has",
+                                 file, parameters, setting.policy->parameters(), setting.policy->name()));
+  violations.require(dimensions == descriptors,
+                     fmt::format("archive.file = {}: its descriptors have {} numbers, must have {} as the task's have",
+                                 file, dimensions, descriptors));
+  violations.require(search.archive.size() > 0, fmt::format("archive.file = {}: it is empty", file));
+  violations.throw_if_any();
+  return search;
+}
+
 }  // namespace
 
 void IlluminationOptions::fields(FieldVisitor& v) {
+  v.text("file", file);
   v.choice("kind", kind, {"cvt", "grid"});
   v.integer("niches", niches, between(1, 1e7));
   v.integer("bins", bins, between(1, 1e6));
@@ -183,6 +206,8 @@ void IlluminationOptions::fields(FieldVisitor& v) {
 
 std::vector<std::string> violations(const IlluminationOptions& options, const Task& task) {
   Violations violations;
+  violations.require(options.file.empty() || std::ifstream(options.file, std::ios::binary).good(),
+                     fmt::format("archive.file = {}: there is no such file, or it cannot be read", options.file));
   violations.require(static_cast<bool>(task.descriptor),
                      "the scenario says of no trial how it went (its task has no descriptor), which ite needs to tell "
                      "policies apart: give the task a descriptor and descriptor_bounds, or choose the learner gp-mi or "
@@ -198,6 +223,7 @@ std::vector<std::string> violations(const IlluminationOptions& options, const Ta
 }
 
 std::shared_ptr<const qd::Search> illuminate(const Setting& setting, const IlluminationOptions& options) {
+  if (!options.file.empty()) return std::make_shared<qd::Search>(read_archive(setting, options.file));
   return std::make_shared<qd::Search>(Illumination(setting, options).run());
 }
 

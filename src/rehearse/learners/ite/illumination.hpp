@@ -12,6 +12,7 @@ namespace rehearse::learners::ite {
 
 /// How the archive of policies is made.
 struct IlluminationOptions {
+  std::string file;  // of an archive that was made before and is taken as it is; empty: one is made
   enum class Kind { cvt, grid };
   Kind kind = Kind::cvt;
   Index niches = 10000;        // of the tessellation (Vassiliades 2018)
@@ -25,7 +26,8 @@ struct IlluminationOptions {
 /// The archive of policies by MAP-Elites, each judged by one rollout in the prior as it is given, from the mean start
 /// and without noise: performance is the return, the descriptor the task's. Comes from the setting's store where that
 /// has it, after some elites were tried again; goes on there after an interruption. Depends on the setting (but its
-/// evaluator and its store) and the options alone. Throws InvalidInput if nothing could be kept.
+/// evaluator and its store), the options and their file alone. Throws InvalidInput if nothing could be kept, or the
+/// file is no archive of such policies.
 std::shared_ptr<const qd::Search> illuminate(const Setting& setting, const IlluminationOptions& options);
 
 /// A line for everything that the task lacks or the options cannot do with it.

@@ -10,6 +10,7 @@
 #include "rehearse/robots/hexapod/drawing.hpp"
 #include "rehearse/robots/hexapod/feet.hpp"
 #include "rehearse/scenario/builder.hpp"
+#include "rehearse/system/isolation.hpp"
 
 namespace rehearse::robots::hexapod {
 namespace {
@@ -78,10 +79,12 @@ void Options::fields(FieldVisitor& v) {
   v.number("drift_m", drift_m, above(0));
   v.number("fall_reward", fall_reward, between(-1e6, 0));
   v.boolean("integral", integral);
+  v.boolean("isolated", isolated);
 }
 
 scenario::Scenario make(const Options& options) {
-  const auto simulator = make_dart_simulator(kControlStep);
+  auto simulator = make_dart_simulator(kControlStep);
+  if (options.isolated) simulator = system::isolated(simulator);
   return {.name = "hexapod",
           .task = make_task(options),
           .make_plant = [options] { return make_mujoco_plant(options.plant, damaged_leg(options), kControlStep); },

@@ -20,6 +20,7 @@ struct Options {
   double drift_m = 0.5;        // to the side, beyond which nothing is earned (the authors' code: 0.5)
   double fall_reward = -0.02;  // m, for each step that a fall leaves out
   bool integral = false;       // earn x·dt a step instead of the way made (the authors' code)
+  bool isolated = true;        // DART runs in processes of its own, which it may end
   void fields(FieldVisitor& v);
 };
 

@@ -179,7 +179,7 @@ TEST(Hexapod, KeepsTheLaws) {
 TEST(Hexapod, HostileStatesAreAnsweredWithNaNOrNumbers) {
   const scenario::Scenario s = make({});
   Rng rng({.purpose = Purpose::test});
-  constexpr Index rows = 2000;
+  constexpr Index rows = 5000;
   Matrix X(rows, kStateSize), U(rows, kJoints), dX(rows, kStateSize);
   for (Index i = 0; i < rows; ++i) {
     const double scale = std::pow(10, rng.uniform(-1, 3));

@@ -1,0 +1,229 @@
+#include "rehearse/system/isolation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace rehearse::system {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Sizes of a request. Then come φ, and the states and actions row by row; the answer is the changes row by row.
+struct Request {
+  std::int64_t rows = 0, states = 0, actions = 0, parameters = 0;
+  std::size_t row_size() const { return static_cast<std::size_t>(states + actions); }
+  std::size_t size() const {
+    return static_cast<std::size_t>(parameters) + static_cast<std::size_t>(rows) * row_size();
+  }
+};
+
+using Clock = std::chrono::steady_clock;
+
+/// Whether all went through. until: gives up then.
+bool receive(int socket, void* data, std::size_t bytes, std::optional<Clock::time_point> until = {}) {
+  auto* at = static_cast<char*>(data);
+  while (bytes > 0) {
+    if (until) {
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(*until - Clock::now()).count();
+      pollfd ready{socket, POLLIN, 0};
+      const int n = left > 0 ? poll(&ready, 1, static_cast<int>(std::min<std::int64_t>(left, 1 << 30))) : 0;
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return false;
+    }
+    const ssize_t n = recv(socket, at, bytes, 0);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n;
+    bytes -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+bool send_all(int socket, const void* data, std::size_t bytes) {
+  const auto* at = static_cast<const char*>(data);
+  while (bytes > 0) {
+    const ssize_t n = send(socket, at, bytes, MSG_NOSIGNAL);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n;
+    bytes -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+/// What the new process does until nobody asks any more.
+class Server {
+ public:
+  Server(const Simulator& simulator, int socket) : simulator_(simulator), socket_(socket) {}
+
+  [[noreturn]] void run() {
+    leave_the_parents_things();
+    Request request;
+    while (receive(socket_, &request, sizeof request) && answer(request)) {
+    }
+    _exit(0);
+  }
+
+ private:
+  /// Its files, its terminal, its way to handle signals: the parent ends us by ending itself.
+  void leave_the_parents_things() const {
+    prctl(PR_SET_NAME, "rehearse-worker");
+    for (const int number : {SIGTERM, SIGABRT, SIGSEGV, SIGFPE, SIGILL, SIGBUS}) std::signal(number, SIG_DFL);
+    std::signal(SIGINT, SIG_IGN);
+    constexpr rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    const int nowhere = open("/dev/null", O_RDWR);
+    for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, standard);
+    const auto socket = static_cast<unsigned>(socket_);
+    if (socket > 3) close_range(3, socket - 1, 0);
+    close_range(socket + 1, ~0U, 0);
+  }
+
+  bool answer(const Request& request) {
+    numbers_.resize(request.size());
+    if (!receive(socket_, numbers_.data(), sizeof(double) * numbers_.size())) return false;
+    const double* at = numbers_.data();
+    const Vector phi = Eigen::Map<const Vector>(at, request.parameters);
+    Matrix dX(1, request.states);
+    for (std::int64_t i = 0; i < request.rows; ++i) {
+      const double* row = at + request.parameters + i * static_cast<std::int64_t>(request.row_size());
+      const Matrix X = Eigen::Map<const Matrix>(row, 1, request.states);
+      const Matrix U = Eigen::Map<const Matrix>(row + request.states, 1, request.actions);
+      change_contained(simulator_, X, U, phi, dX);
+      if (!send_all(socket_, dX.data(), sizeof(double) * static_cast<std::size_t>(dX.size()))) return false;
+    }
+    return true;
+  }
+
+  const Simulator& simulator_;
+  int socket_;
+  std::vector<double> numbers_;
+};
+
+/// A process that simulates, seen from outside.
+class Worker {
+ public:
+  explicit Worker(const Simulator& simulator) {
+    std::array<int, 2> ends{};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail();
+    process_ = fork();
+    if (process_ == 0) Server(simulator, ends[1]).run();
+    close(ends[1]);
+    socket_ = ends[0];
+    if (process_ > 0) return;
+    close(socket_);
+    fail();
+  }
+  ~Worker() {
+    close(socket_);
+    kill(process_, SIGKILL);
+    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  /// How many rows it answered, from the first on; it is of no use any more if that is not all of them.
+  Index change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, double row_s, MatrixView dX) {
+    const Request request{X.rows(), X.cols(), U.cols(), phi.size()};
+    numbers_.resize(request.size());
+    double* at = numbers_.data();
+    Eigen::Map<Vector>(at, phi.size()) = phi;
+    at += phi.size();
+    for (Index i = 0; i < X.rows(); ++i, at += request.row_size()) {
+      Eigen::Map<RowVector>(at, X.cols()) = X.row(i);
+      Eigen::Map<RowVector>(at + X.cols(), U.cols()) = U.row(i);
+    }
+    if (!send_all(socket_, &request, sizeof request) ||
+        !send_all(socket_, numbers_.data(), sizeof(double) * numbers_.size()))
+      return 0;
+    const auto limit = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(row_s));
+    for (Index i = 0; i < X.rows(); ++i) {
+      if (!receive(socket_, numbers_.data(), sizeof(double) * static_cast<std::size_t>(X.cols()), Clock::now() + limit))
+        return i;
+      dX.row(i) = Eigen::Map<const RowVector>(numbers_.data(), X.cols());
+    }
+    return X.rows();
+  }
+
+ private:
+  using RowVector = Eigen::RowVectorXd;
+
+  [[noreturn]] static void fail() {
+    throw std::system_error(errno, std::generic_category(), "no process can be made for the simulator");
+  }
+
+  pid_t process_ = -1;
+  int socket_ = -1;
+  std::vector<double> numbers_;
+};
+
+class Isolated final : public Simulator {
+ public:
+  Isolated(std::shared_ptr<const Simulator> simulator, double row_s)
+      : simulator_(std::move(simulator)), row_s_(row_s) {}
+
+  const ParameterSpace& parameters() const override { return simulator_->parameters(); }
+
+  void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
+    const Index n = X.rows();
+    std::unique_ptr<Worker> worker = take();
+    for (Index done = 0, suspect = -1; done < n;) {
+      if (!worker) worker = std::make_unique<Worker>(*simulator_);
+      const Index left = n - done;
+      done += worker->change(X.bottomRows(left), U.bottomRows(left), phi, row_s_, dX.bottomRows(left));
+      if (done == n) break;
+      worker.reset();
+      const bool again = suspect == done;
+      if (again) dX.row(done++).setConstant(kNan);
+      suspect = again ? -1 : done;
+    }
+    give_back(std::move(worker));
+  }
+
+ private:
+  std::unique_ptr<Worker> take() const {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return nullptr;
+    std::unique_ptr<Worker> worker = std::move(idle_.back());
+    idle_.pop_back();
+    return worker;
+  }
+
+  void give_back(std::unique_ptr<Worker> worker) const {
+    if (!worker) return;
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(worker));
+  }
+
+  std::shared_ptr<const Simulator> simulator_;
+  double row_s_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<Worker>> idle_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Simulator> isolated(std::shared_ptr<const Simulator> simulator, double row_s) {
+  return std::make_shared<Isolated>(std::move(simulator), row_s);
+}
+
+}  // namespace rehearse::system

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+
+#include "rehearse/system/simulator.hpp"
+
+namespace rehearse::system {
+
+/// The same simulator in processes of its own, for one that may end its process (by an assertion, a segmentation
+/// fault) or hang: as many as there are calls at a time, made by fork when they are needed, ended with this object or
+/// with the program. `simulator` is called in them alone, one row at a time.
+///
+/// A row during which its process ends, or that takes longer than row_s, is tried once more in a new process and comes
+/// back as NaN when that ends too: a process that is killed from outside changes no number. What the processes print is
+/// dropped. `change` throws std::system_error where no process can be made.
+std::shared_ptr<const Simulator> isolated(std::shared_ptr<const Simulator> simulator, double row_s = 30);
+
+}  // namespace rehearse::system
