@@ -8,7 +8,7 @@ const bodies = [
   { name: 'trunk', shape: 'box', size: [0.3, 0.2, 0.1] },
   ...['left', 'right'].flatMap((side) => [
     { name: `${side} leg`, shape: 'capsule', radius: 0.02, length: LEG },
-    { name: `${side} foot`, shape: 'sphere', radius: 0.035 },
+    { name: `${side} foot`, shape: 'sphere', radius: 0.035, foot: true },
   ]),
 ]
 
@@ -29,7 +29,7 @@ function write(kind, speed, known) {
   const frames = Array.from({ length: Number(steps) + 1 }, (_, t) =>
     frame(t, speed).map((number) => (t <= known ? number : null)),
   )
-  const motion = { format: 1, dimensions: 3, unit: 'm', floor: 0, bodies, frames }
+  const motion = { format: 1, dimensions: 3, unit: 'm', floor: 0, touching: 0.005, bodies, frames }
   writeFileSync(`${run}/motion/${kind}-${trial.padStart(3, '0')}.json`, JSON.stringify(motion))
 }
 

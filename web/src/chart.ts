@@ -247,7 +247,8 @@ function ruleMarks({ y, label }: { y: number; label: string }): Plot.Markish[] {
   ]
 }
 
-function addCursor(plot: Drawn & Plot.Plot) {
+/** Where time runs to the right: the line that `moveCursor` moves. */
+export function addCursor(plot: SVGSVGElement & Plot.Plot) {
   const scale = plot.scale('x')
   const range = [...(plot.scale('y')?.range ?? [])]
   if (!scale) return
@@ -256,6 +257,6 @@ function addCursor(plot: Drawn & Plot.Plot) {
   line.setAttribute('y1', String(range[0]))
   line.setAttribute('y2', String(range[1]))
   plot.append(line)
-  plot.cursor = { line, x: (value) => Number(scale.apply(value)) }
+  ;(plot as Drawn).cursor = { line, x: (value) => Number(scale.apply(value)) }
   moveCursor(plot, Number([...(scale.domain ?? [])][0] ?? 0))
 }

@@ -85,12 +85,14 @@ export interface SolidMotion {
   dimensions: 3
   unit: string
   floor: Cell
+  /** Feet nearer to the floor touch it; of a robot that has feet. */
+  touching?: number
   bodies: Solid[]
   frames: Cell[][]
   predicted?: Cell[][] | null
 }
 
-export type Solid = { name: string } & (
+export type Solid = { name: string; foot?: true } & (
   | { shape: 'box'; size: [number, number, number] }
   | { shape: 'sphere'; radius: number }
   | { shape: 'capsule'; radius: number; length: number }

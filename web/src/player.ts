@@ -21,6 +21,7 @@ import type { LegendEntry } from './legend'
 import { hasMoments, momentLegend, momentSeries, momentSwitch } from './moments'
 import { stage, type Stage } from './stage'
 import { stage3d } from './stage3d'
+import { walkPanels, walkTable, WALK_LEGEND, walks } from './walk'
 
 const SPEEDS = [0.25, 0.5, 1, 2]
 
@@ -39,6 +40,7 @@ class Player {
   private moments: boolean
 
   private readonly picture: Stage | null
+  private readonly walk: Figure | null
   private readonly states: Figure
   private readonly slider = h('input', { type: 'range', min: 0, value: 0, step: 1, 'aria-label': 'Time' })
   private readonly clock = h('output', { class: 'clock' })
@@ -60,6 +62,7 @@ class Player {
     this.moments = episodes.some(({ prediction }) => hasMoments(prediction))
     const motions = episodes.flatMap((one) => (one.motion ? [one.motion] : []))
     this.picture = motions.length > 0 ? pictureOf(motions) : null
+    this.walk = motions.some(walks) ? this.walkFigure() : null
     this.states = this.stateFigure()
     this.trials = h(
       'select',
@@ -73,10 +76,24 @@ class Player {
       this.controls(),
       this.about,
       this.picture ? h('div', { class: 'stage-frame' }, this.picture.element) : null,
-      this.states.element,
+      h('div', { class: 'figures' }, this.walk?.element ?? null, this.states.element),
     )
     this.choose(episodes.indexOf(start))
     this.toggle(false)
+  }
+
+  private walkFigure(): Figure {
+    return figure({
+      name: 'walk',
+      title: 'The walk of the trial',
+      about: 'When each foot is on the floor, and the way of the trunk, seen from above.',
+      legend: WALK_LEGEND,
+      panels: () => walkPanels(this.episode, this.step()),
+      table: () => walkTable(this.episode, this.step()),
+      minWidth: 320,
+      columns: 2,
+      afterDrawing: () => this.show(),
+    })
   }
 
   private stateFigure(): Figure {
@@ -136,7 +153,7 @@ class Player {
     this.slider.value = String(Math.round(frame))
     this.slider.setAttribute('aria-valuetext', `${number(this.time, 3)} s`)
     this.clock.value = `${this.time.toFixed(2)} / ${this.end().toFixed(2)} s`
-    for (const { svg } of this.states.drawn()) moveCursor(svg, this.time)
+    for (const { svg } of [...(this.walk?.drawn() ?? []), ...this.states.drawn()]) moveCursor(svg, this.time)
     if (this.episode.motion) this.picture?.show(this.episode.motion, frame)
   }
 
@@ -151,6 +168,7 @@ class Player {
     this.slider.max = String(Math.max(0, this.times().length - 1))
     this.about.textContent = this.describe(this.episode.trial)
     this.picture?.element.classList.toggle('empty', !this.episode.motion)
+    this.walk?.redraw()
     this.states.redraw()
     this.seek(this.time)
   }

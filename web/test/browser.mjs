@@ -227,6 +227,13 @@ for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme
       await page.mouse.up()
     })
     await play(page)
+    const bars = page.locator('#walk svg rect')
+    await bars.first().waitFor({ state: 'attached' })
+    const before = await bars.count()
+    assert.ok(before >= 4, `${before} bars are too few for two feet that swing, real and expected`)
+    const rows = (await saved(page, 'Save “The walk of the trial” as CSV')).trim().split('\n')
+    assert.match(rows[0], /left foot.*predicted right foot.*predicted x/)
+    assert.equal(rows.length, 52)
   })
 await browser.close()
 

@@ -20,6 +20,9 @@ class DynamicsModel {
     predict(X, U, mean, variance);
   }
 
+  /// Whether all variances are 0.
+  virtual bool certain() const { return false; }
+
   /// What a measurement adds to each state, as far as the data tell: a standard deviation each (dx). Empty: nothing.
   virtual const Vector& measurement_std() const {
     static const Vector nothing;

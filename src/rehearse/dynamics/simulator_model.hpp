@@ -19,6 +19,7 @@ class SimulatorModel final : public DynamicsModel {
   void predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const override {
     prior_.mean(X, U, phi_, mean);
   }
+  bool certain() const override { return variance_ == 0; }
 
  private:
   prior::Prior prior_;

@@ -43,9 +43,13 @@ struct AddShape {
 Json to_json(const scenario::SolidDrawing& drawing) {
   Json all = {{"format", 1}, {"dimensions", 3}, {"unit", "m"}, {"floor", nullptr}, {"bodies", Json::array()}};
   if (drawing.floor_m) all["floor"] = *drawing.floor_m;
-  for (const auto& [name, shape] : drawing.bodies) {
+  for (const auto& [name, shape, foot] : drawing.bodies) {
     Json body = {{"name", name}};
     std::visit(AddShape{body}, shape);
+    if (foot) {
+      body["foot"] = true;
+      all["touching"] = drawing.touching_m;
+    }
     all["bodies"].push_back(body);
   }
   return all;

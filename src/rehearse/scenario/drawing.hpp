@@ -53,9 +53,11 @@ struct SolidDrawing {
   struct Body {
     std::string name;
     std::variant<Box, Sphere, Capsule> shape;
+    bool foot = false;  // a sphere that walks on the floor: reports draw when it touches that
   };
   std::vector<Body> bodies;
   std::optional<double> floor_m;  // height of the floor
+  double touching_m = 0.005;      // a foot that is nearer touches it
 
   /// Where the bodies are in a state (dx), one pose a body. Any thread.
   std::function<std::vector<Pose>(const ConstVectorView& state)> poses;

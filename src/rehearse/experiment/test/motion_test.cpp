@@ -48,6 +48,12 @@ TEST(Motion, HasThePoseOfEveryBodyInSpace) {
             R"([7.0,2.0,3.0,1.0,0.0,0.0,0.0,7.0,2.0,3.0,1.0,0.0,0.0,0.0,4.0,5.0,6.0,0.0,0.5,-0.5,8.0],)"
             R"([-9.0,2.0,3.0,1.0,0.0,0.0,0.0,-9.0,2.0,3.0,1.0,0.0,0.0,0.0,4.0,5.0,6.0,0.0,0.5,-0.5,null]]})"
             "\n");
+  scenario::SolidDrawing walking = walker;
+  walking.bodies[1].foot = true;
+  const auto json = nlohmann::json::parse(motion_json(walking, Matrix{{0, 0}}));
+  EXPECT_EQ(json["touching"], walking.touching_m);
+  EXPECT_EQ(json["bodies"][1]["foot"], true);
+  EXPECT_FALSE(json["bodies"][0].contains("foot"));
   scenario::SolidDrawing floating = walker;
   floating.floor_m.reset();
   EXPECT_TRUE(nlohmann::json::parse(motion_json(floating, Matrix{{0, 0}}))["floor"].is_null());

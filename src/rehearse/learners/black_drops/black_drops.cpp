@@ -273,7 +273,7 @@ class BlackDrops final : public Learner {
     means.selection = 1;
     const Vector rates = solving_rates(problem, policies, options_.search, setting_.seed, trial() + kScouting) +
                          kMeans * solving_rates(problem, policies, means, setting_.seed, trial() + kScouting);
-    proposal.rollouts += rates.size() * (options_.search.selection + 1);
+    proposal.rollouts += rates.size() * (comparisons(problem, options_.search) + comparisons(problem, means));
     Index best = 0;
     const double solving = rates.maxCoeff(&best);
     if (solving == 0) return std::nullopt;
@@ -324,7 +324,7 @@ class BlackDrops final : public Learner {
     return returns_.begin() + (scheduled && !returns_.empty());
   }
 
-  /// Where descents start: the best policy observed, and good ones of the last search.
+  /// Where descents start: the best policy observed, good ones of the last search, and examples of the policy.
   std::vector<Vector> known_policies() const {
     std::vector<Vector> starts;
     const auto first = first_return();
@@ -335,6 +335,8 @@ class BlackDrops final : public Learner {
     if (options_.start_from_last && first != returns_.end() && (starts.empty() || starts.back() != policies_.back()))
       starts.push_back(policies_.back());
     starts.insert(starts.end(), carried_.begin(), carried_.end());
+    const Matrix examples = setting_.policy->examples();
+    for (const auto& example : examples.rowwise()) starts.emplace_back(example.transpose());
     return starts;
   }
 

@@ -87,15 +87,15 @@ std::vector<Vector> find(const optim::BatchObjective& objective, const std::vect
   return found;
 }
 
-/// Compares the finalists and the starts by many rollouts of each; the best is the result, other finds its runners-up.
+/// Compares the finalists and the starts by some rollouts of each; the best is the result, other finds its runners-up.
 void select(std::vector<Vector> found, const std::vector<Vector>& starts, ImaginedReturn& objective,
-            const SearchOptions& options, SearchResult& result) {
-  const auto finalists = std::min(options.finalists, static_cast<Index>(found.size()));
+            Index most_finalists, Index rollouts, SearchResult& result) {
+  const auto finalists = std::min(most_finalists, static_cast<Index>(found.size()));
   Matrix Theta(found.front().size(), finalists + static_cast<Index>(starts.size()));
   for (Index i = 0; i < Theta.cols(); ++i)
     Theta.col(i) = i < finalists ? found[static_cast<std::size_t>(i)] : starts[static_cast<std::size_t>(i - finalists)];
   Vector values(Theta.cols());
-  objective(Theta, 0, options.selection, values);
+  objective(Theta, 0, rollouts, values);
   Index best = 0;
   result.predicted_return = values.maxCoeff(&best);
   result.theta = Theta.col(best);
@@ -123,6 +123,12 @@ void SearchOptions::fields(FieldVisitor& v) {
   v.integer("selection", selection, at_least(1));
 }
 
+Index comparisons(const SearchProblem& problem, const SearchOptions& options) {
+  const bool sure = !options.imagine.sample || problem.model.certain();
+  const bool exact = options.imagine.measurement_noise == 0 || problem.model.measurement_std().isZero(0);
+  return sure && exact && problem.task.start_std.isZero(0) ? 1 : options.selection;
+}
+
 SearchResult search_policy(const SearchProblem& problem, const std::vector<Vector>& starts,
                            const SearchOptions& options, std::uint64_t seed, std::uint64_t trial) {
   const StreamKey key{.seed = seed, .trial = trial, .purpose = Purpose::imagined_noise};
@@ -142,7 +148,7 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
                                    {.seed = seed, .trial = trial, .purpose = Purpose::search}, report);
   SearchResult result;
   ImaginedReturn selection = comparison(problem, options, seed, trial);
-  select(std::move(found), starts, selection, options, result);
+  select(std::move(found), starts, selection, options.finalists, comparisons(problem, options), result);
   result.rollouts = objective.rollouts() + selection.rollouts();
   result.failed_rollouts = objective.failed() + selection.failed();
   return result;
@@ -152,7 +158,7 @@ SearchResult judge(const SearchProblem& problem, const Vector& theta, const Sear
                    std::uint64_t trial) {
   ImaginedReturn objective = comparison(problem, options, seed, trial);
   Vector value(1);
-  objective(theta, 0, options.selection, value);
+  objective(theta, 0, comparisons(problem, options), value);
   return {.theta = theta,
           .predicted_return = value(0),
           .rollouts = objective.rollouts(),
@@ -164,9 +170,10 @@ Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& po
   Matrix rates = Matrix::Zero(1, static_cast<Index>(policies.size()));
   if (!problem.task.solved) return rates.transpose();
   const StreamKey key{.seed = seed, .trial = trial, .purpose = Purpose::selection};
+  const Index rollouts = comparisons(problem, options);
   problem.evaluator.evaluate(
       [&](Index j, VectorView rate) {
-        const Matrix Theta = policies[static_cast<std::size_t>(j)].transpose().replicate(options.selection, 1);
+        const Matrix Theta = policies[static_cast<std::size_t>(j)].transpose().replicate(rollouts, 1);
         rollout::Episodes episodes;
         rollout::imagine_episodes(problem.model, problem.policy, problem.task, Theta, 0, key, options.imagine,
                                   episodes);
@@ -177,7 +184,7 @@ Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& po
           episodes.copy(i, episode);
           solved += problem.task.solved(episode);
         }
-        rate(0) = static_cast<double>(solved) / static_cast<double>(options.selection);
+        rate(0) = static_cast<double>(solved) / static_cast<double>(rollouts);
       },
       rates);
   return rates.transpose();

@@ -38,7 +38,7 @@ struct SearchOptions {
   optim::RaceOptions race;
   optim::SearchOptions restarts{.max_evaluations = 200000};
   Index finalists = 4;    // best policies found that are compared once more, together with those it started from
-  Index selection = 100;  // rollouts of each of them; their mean is the predicted return
+  Index selection = 100;  // rollouts of each of them, if they can differ; their mean is the predicted return
   void fields(FieldVisitor& v);
 };
 
@@ -61,16 +61,20 @@ struct SearchProblem {
   const moments::ExpectedReturn* expected = nullptr;  // by which policies are judged, unless by rollouts
 };
 
+/// Rollouts by which a policy is compared with others: `selection`, or 1 where model, start and measurements are
+/// certain.
+Index comparisons(const SearchProblem& problem, const SearchOptions& options);
+
 /// The policy of the highest expected return in the model, never worse there than `starts`, from which the first
 /// descents begin. Random numbers come from (seed, trial) alone.
 SearchResult search_policy(const SearchProblem& problem, const std::vector<Vector>& starts,
                            const SearchOptions& options, std::uint64_t seed, std::uint64_t trial);
 
-/// The expected return of one policy, from `selection` rollouts.
+/// The expected return of one policy.
 SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options, std::uint64_t seed,
                    std::uint64_t trial);
 
-/// How often each policy solves the task in `selection` imagined episodes, all policies in the same; 0 if the task does
+/// How often each policy solves the task in imagined episodes, all policies in the same; 0 if the task does
 /// not say.
 Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,
                      std::uint64_t seed, std::uint64_t trial);

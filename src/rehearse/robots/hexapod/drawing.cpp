@@ -25,13 +25,14 @@ std::vector<scenario::Pose> poses(std::optional<Index> missing, const ConstVecto
 }  // namespace
 
 scenario::SolidDrawing drawing(std::optional<Index> missing) {
-  scenario::SolidDrawing drawing{.bodies = {{"trunk", scenario::Box{kTrunkSize}}}, .floor_m = 0};
+  scenario::SolidDrawing drawing{
+      .bodies = {{"trunk", scenario::Box{kTrunkSize}}}, .floor_m = 0, .touching_m = kTouching};
   for (Index leg = 0; leg < kLegs; ++leg) {
     if (leg == missing) continue;
     const char* name = kLegNames[static_cast<std::size_t>(leg)];
     for (const Segment segment : kSegments)
       drawing.bodies.push_back({fmt::format("{} {}", name, name_of(segment)), scenario::Box{model_of(segment).size}});
-    drawing.bodies.push_back({fmt::format("{} foot", name), scenario::Sphere{kFootRadius}});
+    drawing.bodies.push_back({fmt::format("{} foot", name), scenario::Sphere{kFootRadius}, true});
   }
   drawing.poses = [missing](const ConstVectorView& state) { return poses(missing, state); };
   return drawing;

@@ -1,11 +1,6 @@
 #include "rehearse/robots/hexapod/feet.hpp"
 
 namespace rehearse::robots::hexapod {
-namespace {
-
-constexpr double kTouching = 0.005;  // m; contacts are a little soft in both engines
-
-}  // namespace
 
 Eigen::Isometry3d trunk_frame(const ConstVectorView& state) {
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();

@@ -6,6 +6,8 @@
 
 namespace rehearse::robots::hexapod {
 
+inline constexpr double kTouching = 0.005;  // m, of clearance; contacts are a little soft in both engines
+
 Eigen::Isometry3d trunk_frame(const ConstVectorView& state);
 
 /// The frames of a leg's segments in the world.
