@@ -7,8 +7,8 @@
 
 namespace rehearse {
 
-FeatureMap::FeatureMap(std::vector<StateKind> kinds, std::vector<JointAngle> joints)
-    : kinds_(std::move(kinds)), joints_(std::move(joints)) {
+FeatureMap::FeatureMap(std::vector<StateKind> kinds, std::vector<JointAngle> joints, std::vector<Index> targets)
+    : kinds_(std::move(kinds)), joints_(std::move(joints)), targets_(std::move(targets)) {
   std::vector<Index> first;  // feature of each state
   for (const StateKind kind : kinds_) {
     first.push_back(features_);
@@ -22,6 +22,12 @@ FeatureMap::FeatureMap(std::vector<StateKind> kinds, std::vector<JointAngle> joi
   };
   for (const JointAngle& joint : joints_) joint_features_.push_back({of_state(joint.angle), of_state(joint.carrier)});
   features_ += 2 * static_cast<Index>(joints_.size());
+}
+
+void FeatureMap::apply_actions(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView F) const {
+  F = U;
+  for (std::size_t a = 0; a < targets_.size(); ++a)
+    if (targets_[a] >= 0) F.col(static_cast<Index>(a)) -= X.col(targets_[a]);
 }
 
 std::vector<std::string> FeatureMap::names(const std::vector<std::string>& state_names) const {

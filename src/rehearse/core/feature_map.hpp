@@ -25,16 +25,21 @@ class FeatureMap {
  public:
   FeatureMap() = default;
   /// Throws InvalidInput if a joint's states are not angles.
-  explicit FeatureMap(std::vector<StateKind> kinds, std::vector<JointAngle> joints = {});
+  /// targets: of each action the state that it is a target of (a servo's), −1 for none; empty: none.
+  explicit FeatureMap(std::vector<StateKind> kinds, std::vector<JointAngle> joints = {},
+                      std::vector<Index> targets = {});
 
   Index states() const { return static_cast<Index>(kinds_.size()); }
   Index features() const { return features_; }
   const std::vector<StateKind>& kinds() const { return kinds_; }
   const std::vector<JointAngle>& joints() const { return joints_; }
+  const std::vector<Index>& targets() const { return targets_; }
   std::vector<std::string> names(const std::vector<std::string>& state_names) const;
 
   /// X: rows × states, F: rows × features.
   void apply(const ConstMatrixView& X, MatrixView F) const;
+  /// And actions (rows × du) as inputs of models: those that are targets count from the state.
+  void apply_actions(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView F) const;
 
  private:
   struct Trigonometry {
@@ -47,6 +52,7 @@ class FeatureMap {
   std::vector<StateKind> kinds_;
   std::vector<JointAngle> joints_;
   std::vector<Joint> joint_features_;
+  std::vector<Index> targets_;
   Index features_ = 0;
 };
 

@@ -30,7 +30,9 @@ FeatureMap Task::model_features() const {
     const Index carrier = index_of(states, states[static_cast<std::size_t>(angle)].carrier);
     if (carrier >= 0) joints.push_back({angle, carrier});
   }
-  return FeatureMap(feature_map().kinds(), std::move(joints));
+  std::vector<Index> targets;
+  for (const ActionVariable& action : actions) targets.push_back(index_of(states, action.target_of));
+  return FeatureMap(feature_map().kinds(), std::move(joints), std::move(targets));
 }
 
 Kinematics Task::kinematics() const {
@@ -79,6 +81,13 @@ std::vector<std::string> Task::violations() const {
     found.require(
         std::isfinite(action.bounds.low) && std::isfinite(action.bounds.high) && action.bounds.low < action.bounds.high,
         fmt::format("action {}: bounds must be finite with low < high", action.name));
+  for (const ActionVariable& action : actions) {
+    const Index state = index_of(states, action.target_of);
+    const bool plain = state >= 0 && states[static_cast<std::size_t>(state)].kind != StateKind::angle;
+    found.require(action.target_of.empty() || plain,
+                  fmt::format("action {}: {} must be a state that is no angle, to have it as a target", action.name,
+                              action.target_of));
+  }
   found.require(start_mean.size() == state_size() && start_mean.allFinite(),
                 fmt::format("start_mean has {} entries, must have {} finite ones", start_mean.size(), state_size()));
   found.require(start_std.size() == state_size() && start_std.allFinite() && (start_std.array() >= 0).all(),

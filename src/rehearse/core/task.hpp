@@ -25,6 +25,8 @@ struct ActionVariable {
   std::string name;
   std::string unit;
   Interval bounds;
+  std::string target_of;  // name of the state that it commands (a servo's angle): models are told how far that is from
+                          // it; empty: none
 };
 
 /// Immediate rewards of a batch of steps: states X and actions U (rows × dx, rows × du), the states reached, one
@@ -62,7 +64,7 @@ struct Task {
   Index action_size() const { return static_cast<Index>(actions.size()); }
   double episode_s() const { return static_cast<double>(horizon) * dt_s; }
   FeatureMap feature_map() const;     // inputs of policies
-  FeatureMap model_features() const;  // of models: joint angles too
+  FeatureMap model_features() const;  // of models: joint angles too, and targets from where their states are
   Kinematics kinematics() const;
   std::vector<std::string> state_names() const;
   std::vector<Interval> action_bounds() const;

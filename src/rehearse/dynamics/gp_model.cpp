@@ -6,7 +6,7 @@ namespace rehearse::dynamics {
 
 void gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U, MatrixView F) {
   features.apply(X, F.leftCols(features.features()));
-  F.rightCols(U.cols()) = U;
+  features.apply_actions(X, U, F.rightCols(U.cols()));
 }
 
 Matrix gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U) {

@@ -26,10 +26,21 @@ struct Problem {
   const Evaluator& evaluator;
 
   Residuals residuals(const GpOptions& gp, bool integrates_rates, bool midpoint) const {
-    return Residuals(data, gp.joint_angles ? features : FeatureMap(features.kinds()),
+    return Residuals(data, gp.joint_angles ? features : FeatureMap(features.kinds(), {}, features.targets()),
                      integrates_rates ? kinematics : Kinematics{}, midpoint);
   }
 };
+
+/// A trend has a variance of its own for each input: of many inputs a few trials tell too little, and it runs away
+/// between them.
+constexpr Index kMostInputsOfTrend = 16;
+
+gp::FitOptions fit_options(const GpOptions& options, const Residuals& residuals) {
+  gp::FitOptions fit = options.fit;
+  const Index inputs = residuals.features().features() + residuals.data().actions.cols();
+  fit.trend = fit.trend && inputs <= kMostInputsOfTrend;
+  return fit;
+}
 
 /// `measurement_std`: null where it is to be told from what the kernels take for noise.
 Learned model_of(const Estimation& estimation, const Estimate& estimate, const GpOptions& options,
@@ -81,7 +92,7 @@ Learned smoothed_if_likelier(const Problem& problem, const GpOptions& options, c
 /// GPs around the prior as it is; null: around zero.
 Learned learn_gps(const Problem& problem, const GpOptions& options, const prior::Prior* prior, bool midpoint) {
   const Residuals residuals = problem.residuals(options, options.integrate_rates, midpoint);
-  const Estimation estimation{residuals, prior, Score::product, options.fit, problem.evaluator};
+  const Estimation estimation{residuals, prior, Score::product, fit_options(options, residuals), problem.evaluator};
   Estimate estimate =
       unfitted(prior ? prior->space.values() : Vector(), residuals.scale().size(), problem.start.kernels);
   estimation.refit(estimate);
@@ -142,7 +153,7 @@ class NestedSearch {
 Learned learn_kind(const GpMi& kind, const Problem& problem) {
   const prior::Prior& prior = *problem.prior;
   const Residuals residuals = problem.residuals(kind.gp, kind.gp.integrate_rates, kind.gp.midpoint);
-  const Estimation estimation{residuals, &prior, kind.score, kind.gp.fit, problem.evaluator};
+  const Estimation estimation{residuals, &prior, kind.score, fit_options(kind.gp, residuals), problem.evaluator};
   const Vector phi = problem.start.phi.value_or(prior.space.values());
   Estimate found = kind.search == PhiSearch::nested ? NestedSearch(estimation).run(kind, phi, problem.start.kernels)
                                                     : search_by_turns(kind, estimation, problem.start);

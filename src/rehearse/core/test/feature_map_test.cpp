@@ -51,6 +51,16 @@ TEST(FeatureMap, RefusesJointsOfOtherStates) {
     EXPECT_THROW(FeatureMap({StateKind::angle, StateKind::plain, StateKind::angle}, {{2, wrong}}), InvalidInput);
 }
 
+TEST(FeatureMap, TargetsCountFromTheirStates) {
+  const FeatureMap map({StateKind::plain, StateKind::omitted}, {}, {1, -1, 0});
+  const Matrix X{{1, 2}, {3, 4}}, U{{10, 20, 30}, {40, 50, 60}}, expected{{8, 20, 29}, {36, 50, 57}};
+  Matrix F(2, 3);
+  map.apply_actions(X, U, F);
+  EXPECT_EQ(F, expected);
+  FeatureMap(map.kinds()).apply_actions(X, U, F);
+  EXPECT_EQ(F, U);
+}
+
 TEST(FeatureMap, WorksOnBlocks) {
   Matrix X = Matrix::Random(9, 6), F = Matrix::Constant(9, 6, 7), whole(5, 4);
   kMap.apply(X.block(2, 1, 5, 4), F.block(3, 1, 5, 4));

@@ -49,6 +49,8 @@ TEST(Task, EachViolationIsNamed) {
             Lines{"action u: bounds must be finite with low < high"});
   EXPECT_EQ(after([](Task& t) { t.states[0].rate = "speed"; }),
             Lines{"state " + task().states[0].name + ": its rate speed is not another state"});
+  EXPECT_EQ(after([](Task& t) { t.actions[0].target_of = "nobody"; }),
+            Lines{"action u: nobody must be a state that is no angle, to have it as a target"});
   const std::string first = task().states[0].name, second = task().states[1].name;
   EXPECT_EQ(after([&](Task& t) { t.states[0].carrier = second; }),
             Lines{"state " + first + ": " + second + " cannot carry it, both must be angles"});
