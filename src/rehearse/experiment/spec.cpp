@@ -29,6 +29,7 @@ class Resolver {
   }
 
   Resolved resolve(bool ask_learner) {
+    for (const auto& [key, text] : scenario_builder_->learner_options()) set_field_of(*learner_builder_, key, text);
     for (const auto& [key, text] : spec_.options) set_option(key, text);
     const std::vector<std::string> names = prior_names();
     const auto scenario = contained([&] { return scenario_builder_->build(); });

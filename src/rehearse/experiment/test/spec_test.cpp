@@ -25,10 +25,11 @@ TEST(Spec, LearnerTakesTheScenariosFirstPriorByDefault) {
   EXPECT_EQ(resolved.prior->space[0].value, 1.2);
 }
 
+// The scenario knows better than the learner, whose default is 0.4, and the user better than both (below).
 TEST(Spec, IsCompleteOnceResolved) {
   const Spec spec = resolve(fake::catalogue(), spec_of("echo", "far", {{"noise", "0.5"}, {"prior.gain", "2"}})).spec;
   const Options expected = {{"scenario.plant.gain", "1"},  {"scenario.noise", "0.5"},      {"scenario.breaks", "false"},
-                            {"scenario.evaluations", "0"}, {"learner.search.step", "0.4"}, {"prior.gain", "2"},
+                            {"scenario.evaluations", "0"}, {"learner.search.step", "0.5"}, {"prior.gain", "2"},
                             {"prior.drift", "0"}};
   EXPECT_EQ(spec.options, expected);
 }

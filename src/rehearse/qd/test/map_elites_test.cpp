@@ -130,6 +130,25 @@ TEST(MapElites, CountsFailuresAndKeepsNone) {
   EXPECT_EQ(hopeless.archive().size(), 0);
 }
 
+TEST(MapElites, AShareOfTheFirstSolutionsIsNearTheExamples) {
+  const MapElitesOptions options{.batch = 2000, .initial = 2000, .examples = 0.25, .example_sigma = 0.01};
+  Matrix examples(2, 5);
+  examples << Vector::Constant(5, 0.5).transpose(), Vector::Constant(5, -1).transpose();
+  const std::vector<Interval> box(5, {-1, 1});
+  MapElites with(archive(), {.box = box, .examples = examples}, options, {.seed = 1});
+  MapElites without(archive(), {.box = box}, options, {.seed = 1});
+  const Matrix X = with.ask(), uniform = without.ask();
+  Index near[2] = {0, 0}, same = 0;
+  for (Index i = 0; i < X.rows(); ++i) {
+    same += X.row(i) == uniform.row(i);
+    for (Index e = 0; e < 2; ++e) near[e] += (X.row(i) - examples.row(e)).cwiseAbs().maxCoeff() < 5 * 0.02;
+  }
+  EXPECT_NEAR(static_cast<double>(near[0]), 250, 60);
+  EXPECT_NEAR(static_cast<double>(near[1]), 250, 60);
+  EXPECT_EQ(near[0] + near[1] + same, X.rows()) << "the others are as without examples";
+  EXPECT_LE(X.cwiseAbs().maxCoeff(), 1);
+}
+
 TEST(MapElites, StaysInItsBoxOrGoesAnywhere) {
   MapElitesOptions options{.batch = 100, .initial = 100};
   options.variation.iso_sigma = 0.5;

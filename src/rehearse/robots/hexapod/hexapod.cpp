@@ -32,6 +32,16 @@ Reward reward(double drift_m, bool integral) {
   };
 }
 
+/// A rollout costs what a thousand of the pendubot's do.
+scenario::OptionTexts learner_options() {
+  return {{"search.race.max_evaluations", "2000"},
+          {"search.race.descents", "4"},
+          {"search.race.judgements", "4"},
+          {"search.selection", "20"},
+          {"insist.searches", "0"},
+          {"archive.kind", "grid"}};
+}
+
 std::vector<std::string> descriptor_names() {
   std::vector<std::string> names;
   for (const char* leg : kLegNames) names.push_back(fmt::format("time on the floor, {}", leg));
@@ -90,7 +100,8 @@ scenario::Scenario make(const Options& options) {
           .make_plant = [options] { return make_mujoco_plant(options.plant, damaged_leg(options), kControlStep); },
           .priors = {{"intact", simulator, simulator->parameters()}},
           .policy = policy::make_gait(kLegs),
-          .drawing = drawing(removed_leg(options))};
+          .drawing = drawing(removed_leg(options)),
+          .learner_options = learner_options()};
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> builder() {

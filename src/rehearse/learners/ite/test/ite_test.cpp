@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -216,6 +218,37 @@ std::string refusal(const Setting& setting) {
     return error.what();
   }
   return {};
+}
+
+TEST(Illumination, TakesAnArchiveFromAFile) {
+  const std::string made = *builder()->build(setting())->ask().archive;
+  const std::string file = ::testing::TempDir() + "rehearse-archive.bin";
+  std::ofstream(file, std::ios::binary) << made;
+  const OptionTexts options{{"archive.file", file}};
+  const Proposal proposal = builder(options)->build(setting(1, 2))->ask();
+  EXPECT_EQ(*proposal.archive, made) << "whatever the seed";
+  EXPECT_EQ(proposal.theta, builder()->build(setting())->ask().theta);
+
+  const auto refused = [&](const Setting& with) -> std::string {
+    try {
+      builder(options)->build(with)->ask();
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return {};
+  };
+  Setting other = setting();
+  other.task.descriptor_bounds.resize(1);
+  EXPECT_EQ(refused(other),
+            "archive.file = " + file + ": its descriptors have 2 numbers, must have 1 as the task's have");
+  Setting larger = setting();
+  larger.policy = policy::make_linear(
+      {.features = larger.task.feature_map(), .scale = Vector::Ones(1), .squash = {{{-1, 1}, {-1, 1}}, 1}});
+  EXPECT_NE(refused(larger).find("its policies have"), std::string::npos) << refused(larger);
+  std::ofstream(file, std::ios::binary) << made.substr(0, made.size() / 2);
+  EXPECT_EQ(refused(setting()).find(file), 0U) << refused(setting());
+  std::filesystem::remove(file);
+  EXPECT_EQ(refused(setting()), "archive.file = " + file + ": there is no such file, or it cannot be read");
 }
 
 TEST(Ite, RefusesATaskThatDoesNotSayHowItWent) {
