@@ -18,6 +18,8 @@ namespace {
 constexpr double kControlStep = 0.1;  // s
 constexpr double kFallen = 0.5;       // cosine of the tilt: 60°
 constexpr double kSolvedSpeed = 0.2;  // m/s
+constexpr double kLongestStep = 0.1;  // m that a step of 0.1 s earns at most, up or down: no gait is so fast, but
+                                      // imagined episodes that a model lets fly off are
 
 /// The way forward in a step, or x·dt; where the robot has drifted, at most 0.
 Reward reward(double drift_m, bool integral) {
@@ -26,7 +28,7 @@ Reward reward(double drift_m, bool integral) {
     if (integral)
       rewards = kControlStep * next.col(kPosition);
     else
-      rewards = next.col(kPosition) - X.col(kPosition);
+      rewards = (next.col(kPosition) - X.col(kPosition)).cwiseMax(-kLongestStep).cwiseMin(kLongestStep);
     for (Index i = 0; i < next.rows(); ++i)
       if (std::abs(next(i, kPosition + 1)) > drift_m) rewards(i) = std::min(rewards(i), 0.0);
   };

@@ -123,6 +123,17 @@ TEST(Hexapod, DutyFactorsSayHowLongFeetAreOnTheFloor) {
   EXPECT_LT((task.descriptor(episode_of(walk_in_dart(five, -1))) - expected).cwiseAbs().maxCoeff(), 0.1);
 }
 
+TEST(Hexapod, AStepThatFliesOffEarnsLittle) {
+  const Task task = make({}).task;
+  Matrix X = rest().transpose().replicate(3, 1), next = X;
+  next(0, kPosition) = 0.03;
+  next(1, kPosition) = 7;
+  next(2, kPosition) = -7;
+  Vector rewards(3);
+  task.reward(X, Matrix::Zero(3, kJoints), next, rewards);
+  EXPECT_EQ(rewards, (Vector{{0.03, 0.1, -0.1}}));
+}
+
 TEST(Hexapod, HasTheMassOfTheRealOne) {
   double mass = kTrunkMass;
   for (const Segment segment : kSegments) mass += kLegs * model_of(segment).mass;
