@@ -96,7 +96,6 @@ class LineBuilder : public scenario::ScenarioBuilder {
     v.boolean("breaks", breaks_);
     v.integer("evaluations", evaluations_, at_least(0));
   }
-  scenario::OptionTexts learner_options() const override { return {{"search.step", "0.5"}, {"of.others", "1"}}; }
   scenario::Scenario build() const override {
     const auto simulator = std::make_shared<LineSimulator>();
     const MakePlant make_plant = [*this] { return std::make_unique<LinePlant>(gain_, noise_, breaks_); };

@@ -25,11 +25,10 @@ TEST(Spec, LearnerTakesTheScenariosFirstPriorByDefault) {
   EXPECT_EQ(resolved.prior->space[0].value, 1.2);
 }
 
-// The scenario knows better than the learner, whose default is 0.4, and the user better than both (below).
 TEST(Spec, IsCompleteOnceResolved) {
   const Spec spec = resolve(fake::catalogue(), spec_of("echo", "far", {{"noise", "0.5"}, {"prior.gain", "2"}})).spec;
   const Options expected = {{"scenario.plant.gain", "1"},  {"scenario.noise", "0.5"},      {"scenario.breaks", "false"},
-                            {"scenario.evaluations", "0"}, {"learner.search.step", "0.5"}, {"prior.gain", "2"},
+                            {"scenario.evaluations", "0"}, {"learner.search.step", "0.4"}, {"prior.gain", "2"},
                             {"prior.drift", "0"}};
   EXPECT_EQ(spec.options, expected);
 }
@@ -41,6 +40,18 @@ TEST(Spec, OptionsReachScenarioLearnerAndPrior) {
   EXPECT_EQ(resolved.spec.options[1].second, "0");
   EXPECT_EQ(resolved.spec.options[4].second, "2");
   EXPECT_EQ(resolved.prior->space[1].value, 1);
+}
+
+TEST(Spec, AScenariosOptionsComeBeforeTheUsers) {
+  class Knowing final : public fake::LineBuilder {
+   public:
+    scenario::OptionTexts learner_options() const override { return {{"search.step", "0.5"}, {"of.others", "1"}}; }
+  };
+  Catalogue catalogue = fake::catalogue();
+  catalogue.scenarios = {[] { return std::make_unique<Knowing>(); }};
+  const std::pair<std::string, std::string> known{"learner.search.step", "0.5"}, wanted{"learner.search.step", "2"};
+  EXPECT_EQ(resolve(catalogue, spec_of("echo", "near")).spec.options[4], known);
+  EXPECT_EQ(resolve(catalogue, spec_of("echo", "near", {{"search.step", "2"}})).spec.options[4], wanted);
 }
 
 TEST(Spec, OracleIsFixedAndCannotBeChanged) {
