@@ -39,8 +39,8 @@ void expect_agreement(const MomentMatching& matching, const nlohmann::json& test
   EXPECT_LT(reference::error(result.mean, reference::matrix(expected["M"])), tolerance) << test["hyp"] << test["m"];
   const Matrix covariance = reference::matrix(expected["S"]);
   // Of a known function at a known input only the 1e-6 are left that PILCO adds: what comes before is rounding, of
-  // which PILCO's own number has 2e-12 and ours, with the processor's vectors, up to 2e-11.
-  const double largest = std::max(covariance.cwiseAbs().maxCoeff(), 1e-3);
+  // which PILCO's own number has 2e-12 and ours 1.1e-11 on one processor.
+  const double largest = std::max(covariance.cwiseAbs().maxCoeff(), 2e-4);
   EXPECT_LT((result.covariance - covariance).cwiseAbs().maxCoeff(), tolerance * largest) << test["hyp"] << test["m"];
   EXPECT_LT(reference::error(result.gain, reference::matrix(expected["V"])), tolerance) << test["hyp"] << test["m"];
 }
