@@ -21,9 +21,11 @@ import type { LegendEntry } from './legend'
 import { hasMoments, momentLegend, momentSeries, momentSwitch } from './moments'
 import { stage, type Stage } from './stage'
 import { stage3d } from './stage3d'
-import { walkPanels, walkTable, WALK_LEGEND, walks } from './walk'
+import { walkPanels, walkTable, walks } from './walk'
 
 const SPEEDS = [0.25, 0.5, 1, 2]
+const ROBOT: LegendEntry = { label: 'the robot', colour: REAL }
+const MEAN: LegendEntry = { label: 'the model’s mean before the trial', colour: PREDICTED, dash: '6 3' }
 
 const MEASURED = { symbol: 'circle', radius: 1.5, opacity: 0.5, line: false } as const
 
@@ -87,7 +89,7 @@ class Player {
       name: 'walk',
       title: 'The walk of the trial',
       about: 'When each foot is on the floor, and the way of the trunk, seen from above.',
-      legend: WALK_LEGEND,
+      legend: [ROBOT, MEAN],
       panels: () => walkPanels(this.episode, this.step()),
       table: () => walkTable(this.episode, this.step()),
       minWidth: 320,
@@ -199,12 +201,12 @@ function pictureOf(motions: Motion[]): Stage {
 }
 
 function legendOf({ trajectory, prediction }: Episode): LegendEntry[] {
-  const entries: LegendEntry[] = [{ label: 'the robot', colour: REAL }]
+  const entries: LegendEntry[] = [ROBOT]
   if (trajectory && isNoisy(trajectory))
     entries.push({ label: 'as measured', colour: REAL, symbol: 'circle', line: false })
   if (prediction)
     entries.push(
-      { label: 'the model’s mean before the trial', colour: PREDICTED, dash: '6 3' },
+      MEAN,
       { label: '5–95 % and 25–75 % of 100 imagined episodes', colour: PREDICTED, band: 0.3, line: false },
     )
   return entries

@@ -14,7 +14,7 @@ import {
 import { present, type Cell, type Solid, type SolidMotion } from './data'
 
 type Frames = Cell[][] | null | undefined
-const NUMBERS = 7 // of a pose: x y z, w x y z
+export const NUMBERS = 7 // of a pose: x y z, w x y z
 
 /** The robot in one colour, and the way its first body has come. */
 export class Robot {

@@ -5,14 +5,7 @@ import { PREDICTED, REAL } from './colours'
 import { isSolid, present, type Cell, type Episode, type Motion, type SolidMotion } from './data'
 import type { Row } from './export'
 import type { Panel } from './figure'
-import type { LegendEntry } from './legend'
-
-const NUMBERS = 7 // of a pose: x y z, w x y z
-
-export const WALK_LEGEND: LegendEntry[] = [
-  { label: 'the robot', colour: REAL },
-  { label: 'the model’s mean before the trial', colour: PREDICTED, dash: '6 3' },
-]
+import { NUMBERS } from './solids'
 
 /** A foot and its number among the bodies. */
 interface Foot {
@@ -46,18 +39,16 @@ export function walkPanels({ motion }: Episode, step: number): Panel[] {
 export function walkTable({ motion }: Episode, step: number): Row[] {
   if (!motion || !walks(motion)) return []
   const feet = feetOf(motion)
-  const columns = (frames: Frames, t: number, prefix: string): [string, Cell | undefined][] => [
-    ...feet.map((foot): [string, Cell] => [prefix + foot.name, standing(motion, frames, t, foot)]),
-    [`${prefix}x [${motion.unit}]`, frames?.[t]?.[0]],
-    [`${prefix}y [${motion.unit}]`, frames?.[t]?.[1]],
-  ]
-  return motion.frames.map((_, t) =>
-    Object.fromEntries(
-      [['time [s]', t * step] as [string, Cell], ...columns(motion.frames, t, ''), ...columns(motion.predicted, t, 'predicted ')].map(
-        ([name, value]) => [name, value ?? null],
-      ),
-    ),
-  )
+  const columns = (frames: Frames, t: number, prefix: string): Row => ({
+    ...Object.fromEntries(feet.map((foot) => [prefix + foot.name, standing(motion, frames, t, foot)])),
+    [`${prefix}x [${motion.unit}]`]: frames?.[t]?.[0] ?? null,
+    [`${prefix}y [${motion.unit}]`]: frames?.[t]?.[1] ?? null,
+  })
+  return motion.frames.map((_, t) => ({
+    'time [s]': t * step,
+    ...columns(motion.frames, t, ''),
+    ...columns(motion.predicted, t, 'predicted '),
+  }))
 }
 
 function feetOf({ bodies }: SolidMotion): Foot[] {
@@ -125,9 +116,8 @@ function way(motion: SolidMotion, width: number): SVGSVGElement {
   const all = [...real, ...predicted]
   const middle = (key: 'x' | 'y') => (Math.min(...all.map((p) => p[key])) + Math.max(...all.map((p) => p[key]))) / 2
   const reach = (key: 'x' | 'y') => Math.max(...all.map((p) => Math.abs(p[key] - middle(key))), 0.1) * 1.1
-  const inner = { width: width - 72, height: 0 }
-  const scale = Math.max(reach('x') / inner.width, reach('y') / 250) // of a pixel, twice
-  inner.height = Math.max(120, (2 * reach('y')) / (2 * scale))
+  const scale = Math.max(reach('x') / (width - 72), reach('y') / 250) // half of a pixel, the same along both
+  const height = Math.max(120, reach('y') / scale)
   const domain = (key: 'x' | 'y', pixels: number): [number, number] => [
     middle(key) - scale * pixels,
     middle(key) + scale * pixels,
@@ -139,14 +129,14 @@ function way(motion: SolidMotion, width: number): SVGSVGElement {
   const axis = { labelAnchor: 'center' as const, labelArrow: 'none' as const, grid: true }
   return Plot.plot({
     width,
-    height: inner.height + 50,
+    height: height + 50,
     marginLeft: 56,
     marginRight: 16,
     marginTop: 10,
     marginBottom: 40,
     style: { fontSize: '12px', background: 'none', overflow: 'visible' },
-    x: { ...axis, label: `x (${motion.unit})`, domain: domain('x', inner.width), ticks: Math.floor(width / 80) },
-    y: { ...axis, label: `y (${motion.unit})`, domain: domain('y', inner.height), ticks: 4 },
+    x: { ...axis, label: `x (${motion.unit})`, domain: domain('x', width - 72), ticks: Math.floor(width / 80) },
+    y: { ...axis, label: `y (${motion.unit})`, domain: domain('y', height), ticks: 4 },
     marks: [
       ...line(predicted, PREDICTED, '6 3'),
       ...line(real, REAL),
