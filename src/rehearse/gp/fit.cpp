@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -84,14 +85,20 @@ struct Problem {
   /// The best point on the way up from `start`, itself included.
   Point maximise(const Point& start, Index most = std::numeric_limits<Index>::max()) {
     Point best = start;
-    const optim::Differentiable objective = [&](const Vector& u, Vector& gradient) {
-      const Point point = at(bounds.flat(u), &gradient);
-      bounds.to_free(u, gradient);
+    const optim::Differentiable objective = [&](const Vector& coordinates, Vector& gradient) {
+      const Vector free = options.isotropic ? for_each_input(coordinates) : coordinates;
+      const Point point = at(bounds.flat(free), &gradient);
+      bounds.to_free(free, gradient);
+      if (options.isotropic) gradient = over_inputs(gradient);
       if (better(point, best)) best = point;
       return point.value();
     };
     Matrix inverse_hessian = start.inverse_hessian;
-    const Vector u = bounds.free(start.flat);
+    Vector u = bounds.free(start.flat);
+    if (options.isotropic) {
+      u = over_inputs(u);
+      u(0) /= static_cast<double>(inputs.dimensions());
+    }
     optim::BfgsOptions bfgs = options.bfgs;
     optim::RpropOptions rprop = options.rprop;
     bfgs.max_evaluations = std::min(bfgs.max_evaluations, most);
@@ -100,6 +107,17 @@ struct Problem {
                                                   : optim::maximise_rprop(objective, u, rprop).stop;
     best.inverse_hessian = std::move(inverse_hessian);
     return best;
+  }
+
+  // Free coordinates of one length for all inputs, in units of their spreads.
+  Vector for_each_input(const Vector& coordinates) const {
+    const Index D = inputs.dimensions();
+    Vector free(D + 2);
+    free << Vector::Constant(D, coordinates(0)), coordinates.tail(2);
+    return free;
+  }
+  Vector over_inputs(const Vector& free) const {
+    return Vector{{free.head(inputs.dimensions()).sum(), free(free.size() - 2), free(free.size() - 1)}};
   }
 
   /// The given start, or the default one if that is better.
@@ -142,9 +160,10 @@ Point start_by_part(Problem& all, double scale, const FitStart& start, Index str
   return *std::min_element(points.begin(), points.end(), better);
 }
 
-void check(const Inputs& inputs, const ConstVectorView& y, const Hyperparameters& start, bool trend,
+void check(const Inputs& inputs, const ConstVectorView& y, const Hyperparameters& start, const FitOptions& options,
            const KnownNoise* noise) {
   Violations wrong;
+  const bool trend = options.trend;
   wrong.require(y.size() == inputs.size(),
                 fmt::format("gp targets have {} rows, must be {}, those of the inputs", y.size(), inputs.size()));
   wrong.require(!noise || noise->size() == inputs.size(),
@@ -153,7 +172,24 @@ void check(const Inputs& inputs, const ConstVectorView& y, const Hyperparameters
                 fmt::format("gp start has {} length scales, must be {}", start.inputs(), inputs.dimensions()));
   wrong.require(start.has_trend() == trend, fmt::format("gp start has {} trend, must have {}",
                                                         start.has_trend() ? "a" : "no", trend ? "one" : "none"));
+  wrong.require(!trend || !(options.isotropic || options.parsimonious),
+                "gp fit has a trend, and one length for all inputs");
   wrong.throw_if_any();
+}
+
+constexpr double kNoSignal = 1e-6;  // σ_f of noise alone, in units of σ_n
+constexpr double kReach = 0.5;  // one length for all of D inputs is at most so many times √D spreads, half of what
+                                // rows are away from their mean: what is learned with it ends where the data do
+
+/// floor: of its standard deviation.
+Fit noise_alone(const ConstVectorView& y, double floor, const Hyperparameters& start) {
+  const auto n = static_cast<double>(y.size());
+  const double variance = std::max(y.squaredNorm() / n, floor * floor);
+  Fit fit{.hyperparameters = start, .status = Fit::Status::improved, .stop = "noise is as likely"};
+  fit.log_evidence = -0.5 * (n * std::log(2 * std::numbers::pi * variance) + y.squaredNorm() / variance);
+  fit.hyperparameters.log_noise = 0.5 * std::log(variance);
+  fit.hyperparameters.log_signal = fit.hyperparameters.log_noise + std::log(kNoSignal);
+  return fit;
 }
 
 Fit failure(const Hyperparameters& start, std::string stop, Index evaluations) {
@@ -173,11 +209,10 @@ Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, do
   return Hyperparameters::from_flat(SoftBounds(bounds, inputs, scale).clamped(flat), D);
 }
 
-Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitStart& start, const FitOptions& options,
-        const KnownNoise* noise) {
-  check(inputs, y, start.hyperparameters, options.trend, noise);
-  if (!start.hyperparameters.flat().allFinite()) return failure(start.hyperparameters, "the start is not finite", 0);
-  if (!y.allFinite()) return failure(start.hyperparameters, "the targets are not finite", 0);
+namespace {
+
+Fit fit_kernel(const Inputs& inputs, const ConstVectorView& y, double scale, const FitStart& start,
+               const FitOptions& options, const KnownNoise* noise) {
   Problem problem(inputs, y, scale, options, noise);
   const Vector inside = problem.bounds.clamped(start.hyperparameters.flat());
   const Index rows = options.part_rows,
@@ -195,6 +230,33 @@ Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitS
           best.stop,
           problem.evaluations,
           best.inverse_hessian};
+}
+
+Fit fit_parsimoniously(const Inputs& inputs, const ConstVectorView& y, double scale, const FitStart& start,
+                       FitOptions options) {
+  const double cost = 0.5 * std::log(static_cast<double>(y.size())), D = static_cast<double>(inputs.dimensions());
+  const Fit each = fit_kernel(inputs, y, scale, start, options, nullptr);
+  if (each.status == Fit::Status::failed) return each;
+  options.isotropic = true;
+  options.penalties = {};
+  options.bounds.max_length = std::min(options.bounds.max_length, kReach * std::sqrt(D));
+  const Fit one = fit_kernel(inputs, y, scale, {start.hyperparameters, {}}, options, nullptr);
+  const double floor = options.bounds.noise_floor * (std::isfinite(scale) && scale > 0 ? scale : 1);  // as SoftBounds
+  const Fit none = noise_alone(y, floor, start.hyperparameters);
+  const double value = each.log_evidence - (D + 1) * cost;
+  if (value > std::max(one.log_evidence - 2 * cost, none.log_evidence)) return each;
+  return one.log_evidence - 2 * cost > none.log_evidence ? one : none;
+}
+
+}  // namespace
+
+Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitStart& start, const FitOptions& options,
+        const KnownNoise* noise) {
+  check(inputs, y, start.hyperparameters, options, noise);
+  if (!start.hyperparameters.flat().allFinite()) return failure(start.hyperparameters, "the start is not finite", 0);
+  if (!y.allFinite()) return failure(start.hyperparameters, "the targets are not finite", 0);
+  if (options.parsimonious && !noise) return fit_parsimoniously(inputs, y, scale, start, options);
+  return fit_kernel(inputs, y, scale, start, options, noise);
 }
 
 }  // namespace rehearse::gp

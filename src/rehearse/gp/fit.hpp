@@ -16,7 +16,11 @@ struct FitOptions {
   optim::RpropOptions rprop;
   optim::BfgsOptions bfgs{.relative_tolerance = 1e-7};  // of a thousand nats: less than a hundredth nat is left
   // The evidence of small residuals has several optima.
-  bool trend = false;     // a quadratic one (hyperparameters.hpp); not a field, since not all who fit can use it
+  bool trend = false;      // a quadratic one (hyperparameters.hpp); not a field, since not all who fit can use it
+  bool isotropic = false;  // one length for all inputs in units of their spreads; without a trend. No field
+  bool parsimonious =
+      false;              // for many inputs: the likeliest of a length for each, one for all, and noise alone, where
+                          // each hyperparameter costs half a ln n nats (Schwarz 1978); without a trend. No field
   Index starts = 4;       // the better of the given start and the default one; then noisier, smoother, rougher ones
                           // (the authors: 1)
   Index part_rows = 200;  // with at least twice as many rows, all starts are tried on a part of about so many, and the

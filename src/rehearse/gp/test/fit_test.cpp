@@ -1,5 +1,6 @@
 #include "rehearse/gp/fit.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -195,6 +196,67 @@ TEST(Fit, FailureIsAStatusAndKeepsTheStart) {
   EXPECT_THROW(fit(inputs, y.head(9), 1, start), InvalidInput);
   const KnownNoise of_nine(Matrix::Identity(9, 9));
   EXPECT_THROW(fit(inputs, y, 1, start, {}, &of_nine), InvalidInput);
+}
+
+FitOptions parsimonious() {
+  FitOptions options;
+  options.parsimonious = true;
+  return options;
+}
+
+Fit fit_parsimoniously(const Matrix& X, const Vector& y) {
+  const Inputs inputs(X);
+  return fit(inputs, y, 1, default_start(inputs, y, 1), parsimonious());
+}
+
+TEST(Fit, OneLengthForAllInputsIsThatOfAFunctionOfAll) {
+  Matrix X = naive::normals(150, 20, 1);
+  const Vector spreads = Vector::LinSpaced(20, 0.1, 10);
+  Hyperparameters truth = naive::hyperparameters(20, 2, 1, 0.1);
+  const Vector y = naive::draw(X, truth, 2);
+  X *= spreads.asDiagonal();
+  const Fit result = fit_parsimoniously(X, y);
+  const Vector lengths = result.hyperparameters.lengths().cwiseQuotient(Inputs(X).spread());
+  EXPECT_LT(lengths.maxCoeff() / lengths.minCoeff(), 1 + 1e-6);
+  EXPECT_GT(lengths(0), 1.3);
+  EXPECT_LE(lengths(0), 0.5 * std::sqrt(20) * (1 + 1e-6));
+  EXPECT_NEAR(result.log_evidence, naive::evidence(X, y, result.hyperparameters), 1e-6);
+}
+
+TEST(Fit, ALengthForEachInputIsKeptWhereItIsClearlyLikelier) {
+  const Matrix X = naive::normals(150, 20, 1);
+  const Vector y = (3 * X.col(0)).array().sin() + 0.01 * naive::normals(150, 1, 2).col(0).array();
+  const Vector lengths = fit_parsimoniously(X, y).hyperparameters.lengths();
+  EXPECT_LT(10 * lengths(0), lengths.tail(19).minCoeff());
+}
+
+TEST(Fit, NoiseIsNoFunctionOfManyInputs) {
+  const Matrix X = naive::normals(40, 30, 1);
+  for (std::uint64_t seed = 2; seed < 12; ++seed) {
+    const Vector y = naive::normals(40, 1, seed).col(0);
+    const Fit result = fit_parsimoniously(X, y);
+    EXPECT_LT(result.hyperparameters.signal_variance(), 1e-9) << seed;
+    EXPECT_NEAR(result.hyperparameters.noise_variance(), y.squaredNorm() / 40, 1e-9);
+    const Posterior posterior(Inputs(X), y, {result.hyperparameters}, 0.01);
+    EXPECT_LE(posterior.mean_points(0), 1);
+  }
+}
+
+TEST(Fit, NothingToLearnHasTheNoiseOfTheFloor) {
+  const Matrix X = naive::normals(40, 30, 1);
+  for (const double size : {0.0, 1e-300, 1e-12}) {
+    const Fit result = fit_parsimoniously(X, Vector::Constant(40, size));
+    EXPECT_NEAR(result.hyperparameters.log_noise, std::log(Bounds().noise_floor), 1e-3) << size;
+    EXPECT_TRUE(std::isfinite(result.log_evidence));
+  }
+}
+
+TEST(Fit, ATrendAndOneLengthAreRefused) {
+  const Inputs inputs(naive::normals(10, 2, 1));
+  const Vector y = Vector::Ones(10);
+  FitOptions options = parsimonious();
+  options.trend = true;
+  EXPECT_THROW(fit(inputs, y, 1, default_start(inputs, y, 1, {}, true), options), InvalidInput);
 }
 
 }  // namespace
