@@ -6,13 +6,19 @@
 
 namespace rehearse {
 
-/// Which state variables are rates of change of others.
+/// Which state variables are rates of change of others, and which are moved by servos.
 struct Kinematics {
   struct Pair {
     Index position = 0, rate = 0;  // state variables
   };
+  struct Servo {
+    Index action = 0, position = 0;  // the action is the target of the position
+    Index rate = -1;                 // of the position, −1: no state is
+    Index make = 0;                  // servos of the same make are alike
+  };
   double dt_s = 0;  // control step
   std::vector<Pair> pairs;
+  std::vector<Servo> servos;
 };
 
 }  // namespace rehearse

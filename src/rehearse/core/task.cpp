@@ -1,5 +1,6 @@
 #include "rehearse/core/task.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,6 +15,13 @@ Index index_of(const std::vector<StateVariable>& states, const std::string& name
   for (std::size_t i = 0; i < states.size(); ++i)
     if (states[i].name == name) return static_cast<Index>(i);
   return -1;
+}
+
+/// The first action of its make.
+Index make_of(const std::vector<ActionVariable>& actions, Index action) {
+  const std::string& make = actions[static_cast<std::size_t>(action)].make;
+  if (make.empty()) return action;
+  return std::ranges::find(actions, make, &ActionVariable::make) - actions.begin();
 }
 
 }  // namespace
@@ -40,6 +48,13 @@ Kinematics Task::kinematics() const {
   for (Index position = 0; position < state_size(); ++position) {
     const Index rate = index_of(states, states[static_cast<std::size_t>(position)].rate);
     if (rate >= 0) kinematics.pairs.push_back({position, rate});
+  }
+  for (Index action = 0; action < action_size(); ++action) {
+    const ActionVariable& variable = actions[static_cast<std::size_t>(action)];
+    const Index position = index_of(states, variable.target_of);
+    if (position < 0) continue;
+    const Index rate = index_of(states, states[static_cast<std::size_t>(position)].rate);
+    kinematics.servos.push_back({action, position, rate, make_of(actions, action)});
   }
   return kinematics;
 }

@@ -27,6 +27,7 @@ struct ActionVariable {
   Interval bounds;
   std::string target_of;  // name of the state that it commands (a servo's angle): models are told how far that is from
                           // it; empty: none
+  std::string make;       // of the servo whose target it is: those of the same make are alike; empty: like no other
 };
 
 /// Immediate rewards of a batch of steps: states X and actions U (rows × dx, rows × du), the states reached, one

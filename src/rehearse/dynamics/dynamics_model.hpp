@@ -20,6 +20,10 @@ class DynamicsModel {
     predict(X, U, mean, variance);
   }
 
+  /// A draw from the prediction, made of standard normals (n × dx).
+  virtual void sample(const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& normals,
+                      MatrixView change) const;
+
   /// Whether all variances are 0.
   virtual bool certain() const { return false; }
 

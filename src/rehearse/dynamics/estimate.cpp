@@ -4,7 +4,6 @@
 #include <numbers>
 
 namespace rehearse::dynamics {
-
 void Estimation::refit(Estimate& estimate, const gp::FitOptions& options) const {
   const Residuals::Rows rows = residuals.at(prior, estimate.phi);
   estimate.left_out = rows.left_out;
@@ -25,13 +24,22 @@ void Estimation::refit(Estimate& estimate, const gp::FitOptions& options) const 
 }
 
 double Estimation::charged_score(const Vector& log_evidences, Index left_out) const {
-  Vector total = log_evidences;
-  for (Index e = 0; e < total.size(); ++e) {
+  std::vector<double> learned;
+  for (Index e = 0; e < log_evidences.size(); ++e) {
+    if (residuals.told_by_servos(e)) continue;
     const double scale = residuals.scale()(e), spread = scale > 0 ? scale : 1;  // as gp::SoftBounds
     const double uninformed = -0.5 - std::log(spread) - 0.5 * std::log(2 * std::numbers::pi);
-    total(e) += static_cast<double>(left_out) * uninformed;
+    learned.push_back(log_evidences(e) + static_cast<double>(left_out) * uninformed);
   }
-  return score_of(total, score);
+  return score_of(Eigen::Map<const Vector>(learned.data(), static_cast<Index>(learned.size())), score);
+}
+
+gp::FitOptions fit_options(const gp::FitOptions& options, Index inputs) {
+  gp::FitOptions fit = options;
+  if (inputs <= kFewInputs) return fit;
+  fit.parsimonious = true;
+  fit.trend = false;
+  return fit;
 }
 
 Estimate unfitted(const Vector& phi, Index outputs, const std::vector<gp::Hyperparameters>& kernels) {

@@ -10,6 +10,12 @@
 
 namespace rehearse::dynamics {
 
+/// Of GPs, to have a length for each input and a trend in any case: a few trials tell too little of more.
+inline constexpr Index kFewInputs = 16;
+
+/// For GPs of so many inputs: parsimonious where they are more than a few.
+gp::FitOptions fit_options(const gp::FitOptions& options, Index inputs);
+
 /// A φ and the kernels fitted to the residuals there.
 struct Estimate {
   Vector phi;

@@ -10,6 +10,7 @@
 #include "rehearse/dynamics/least_squares.hpp"
 #include "rehearse/dynamics/measurement_noise.hpp"
 #include "rehearse/dynamics/residuals.hpp"
+#include "rehearse/dynamics/servos.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/dynamics/smoothing.hpp"
 
@@ -26,20 +27,15 @@ struct Problem {
   const Evaluator& evaluator;
 
   Residuals residuals(const GpOptions& gp, bool integrates_rates, bool midpoint) const {
+    Kinematics known = kinematics;
+    if (!integrates_rates) known.pairs.clear();
     return Residuals(data, gp.joint_angles ? features : FeatureMap(features.kinds(), {}, features.targets()),
-                     integrates_rates ? kinematics : Kinematics{}, midpoint);
+                     std::move(known), midpoint);
   }
 };
 
-/// A trend has a variance of its own for each input: of many inputs a few trials tell too little, and it runs away
-/// between them.
-constexpr Index kMostInputsOfTrend = 16;
-
 gp::FitOptions fit_options(const GpOptions& options, const Residuals& residuals) {
-  gp::FitOptions fit = options.fit;
-  const Index inputs = residuals.features().features() + residuals.data().actions.cols();
-  fit.trend = fit.trend && inputs <= kMostInputsOfTrend;
-  return fit;
+  return dynamics::fit_options(options.fit, residuals.features().features() + residuals.data().actions.cols());
 }
 
 /// `measurement_std`: null where it is to be told from what the kernels take for noise.
@@ -74,7 +70,8 @@ Learned model_of(const Estimation& estimation, const Estimate& estimate, const G
 template <class Finish>
 Learned smoothed_if_likelier(const Problem& problem, const GpOptions& options, const Estimation& measured,
                              const Estimate& estimate, bool moves_phi, Finish finish) {
-  if (!options.smooth) return finish(measured, estimate, nullptr);
+  const bool behind_servos = !problem.kinematics.servos.empty();  // whose actions are noisy measurements themselves
+  if (!options.smooth || behind_servos) return finish(measured, estimate, nullptr);
   const auto on = [&](const Residuals& residuals) {
     return Estimation{residuals, measured.prior, measured.score, measured.fit, measured.evaluator};
   };
@@ -180,14 +177,36 @@ Learned learn_kind(const Mi& kind, const Problem& problem) {
   return learned;
 }
 
+/// Null: the kind has none, or knows the actions as they are.
+const ResidualGpOptions* servo_options(const Kind& kind) {
+  const auto with_servos = [](const auto& k) -> const ResidualGpOptions* {
+    if constexpr (requires { k.gp.servos; }) return k.gp.servos ? &k.gp : nullptr;
+    return nullptr;
+  };
+  return std::visit(with_servos, kind);
+}
+
 }  // namespace
 
 Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics, const prior::Prior* prior,
               const Kind& kind, const WarmStart& start, const Evaluator& evaluator) {
   if (!prior && !std::holds_alternative<ZeroMean>(kind)) throw InvalidInput("this dynamics model needs a prior");
   if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
-  const Problem problem{data, features, kinematics, prior, start, evaluator};
-  return std::visit([&](const auto& k) { return learn_kind(k, problem); }, kind);
+  const auto learn_from = [&](const Dataset& rows, const Kinematics& known) {
+    const Problem problem{rows, features, known, prior, start, evaluator};
+    return std::visit([&](const auto& k) { return learn_kind(k, problem); }, kind);
+  };
+  const ResidualGpOptions* options = servo_options(kind);
+  if (!options || kinematics.servos.empty()) {
+    Kinematics without = kinematics;
+    without.servos.clear();
+    return learn_from(data, without);
+  }
+  const auto servos = std::make_shared<Servos>(data, features, kinematics.servos, *options, evaluator);
+  Learned learned = learn_from(servos->reached(data), kinematics);
+  learned.model = std::make_shared<ServoModel>(servos, learned.model);
+  *learned.log_evidence += servos->log_evidence();
+  return learned;
 }
 
 }  // namespace rehearse::dynamics

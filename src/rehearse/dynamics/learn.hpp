@@ -51,6 +51,7 @@ struct ZeroMean {
 /// Of GPs around a prior.
 struct ResidualGpOptions : GpOptions {
   bool midpoint = true;  // inputs are those halfway along the step that the prior predicts (Mean)
+  bool servos = true;    // where servos get to is learned before the prior is asked what follows (servos.hpp)
   ResidualGpOptions() {
     fit.trend = smooth = true;
     fit.penalties.length_deviation = 1;  // or white noise is taken for a function, of which there would be doubts
@@ -58,6 +59,7 @@ struct ResidualGpOptions : GpOptions {
   void fields(FieldVisitor& v) {
     GpOptions::fields(v);
     v.boolean("midpoint", midpoint);
+    v.boolean("servos", servos);
   }
 };
 

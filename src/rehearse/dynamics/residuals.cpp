@@ -1,5 +1,6 @@
 #include "rehearse/dynamics/residuals.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rehearse/dynamics/gp_model.hpp"
@@ -20,6 +21,8 @@ std::vector<Index> finite_rows(const Matrix& Y) {
     if (Y.row(i).allFinite()) rows.push_back(i);
   return rows;
 }
+
+double zero_if_finite(double value) { return std::isfinite(value) ? 0 : value; }
 
 }  // namespace
 
@@ -43,7 +46,14 @@ Matrix Residuals::targets(const Matrix* prior_mean) const {
   Matrix targets = data_.changes;
   if (prior_mean) targets -= *prior_mean;
   subtract_integrals(kinematics_, data_.states, prior_mean != nullptr, targets);
+  for (Index state = 0; state < targets.cols(); ++state)
+    if (told_by_servos(state)) targets.col(state) = targets.col(state).unaryExpr(&zero_if_finite);
   return targets;
+}
+
+bool Residuals::told_by_servos(Index state) const {
+  return std::ranges::any_of(kinematics_.servos,
+                             [&](const auto& servo) { return state == servo.position || state == servo.rate; });
 }
 
 Matrix Residuals::targets(const prior::Prior* prior, const Vector& phi) const {

@@ -11,8 +11,9 @@
 
 namespace rehearse::dynamics {
 
-/// What the GPs are trained on: inputs, and targets minus the prior mean and integration.hpp. Rows whose prior mean is
-/// not finite are left out. Const methods may run concurrently.
+/// What the GPs are trained on: inputs, and targets minus the prior mean and integration.hpp; 0 for states that servos
+/// have told already (servos.hpp). Rows whose prior mean is not finite are left out. Const methods may run
+/// concurrently.
 class Residuals {
  public:
   /// `midpoint`: see Mean; nothing without a prior.
@@ -35,6 +36,7 @@ class Residuals {
   const FeatureMap& features() const { return features_; }
   const Kinematics& kinematics() const { return kinematics_; }
   bool midpoint() const { return midpoint_; }
+  bool told_by_servos(Index state) const;
   Index size() const { return data_.size(); }
 
   /// The same of other rows.

@@ -13,7 +13,7 @@ Index rows_of_chunk(Index batch) { return batch >= 512 ? 64 : 32; }
 
 /// Memory of a chunk, kept by each thread from one to the next: fresh pages cost more than a step of a cheap model.
 struct Buffers {
-  Matrix Theta, X, seen, next, variance, noise, U;
+  Matrix Theta, X, seen, next, noise, U;
   Vector reward, returns, state;
   std::vector<std::uint64_t> candidates, particles;
   std::vector<char> alive;
@@ -31,7 +31,7 @@ class Chunk {
         const ImagineOptions& options, Index rows, Buffers& buffers)
       : model_(model), policy_(policy), task_(task), key_(key), options_(options), b_(buffers) {
     b_.Theta.resize(rows, policy.parameters());
-    for (Matrix* states : {&b_.X, &b_.seen, &b_.next, &b_.variance, &b_.noise}) states->resize(rows, task.state_size());
+    for (Matrix* states : {&b_.X, &b_.seen, &b_.next, &b_.noise}) states->resize(rows, task.state_size());
     b_.U.resize(rows, task.action_size());
     b_.reward.resize(rows);
     b_.returns.setZero(rows);
@@ -68,12 +68,10 @@ class Chunk {
   /// x_t → x_{t+1} for every row; what happens is recorded, if it is to be.
   void step(Index t, Episodes* record = nullptr) {
     policy_.act(b_.Theta, measured(t), static_cast<double>(t) * task_.dt_s, b_.U);
-    if (options_.sample) {
-      model_.predict(b_.X, b_.U, b_.next, b_.variance);
-      add_noise(t);
-    } else {
+    if (options_.sample && !model_.certain())
+      sample(t);
+    else
       model_.predict_mean(b_.X, b_.U, b_.next);
-    }
     b_.next += b_.X;
     task_.reward(b_.X, b_.U, b_.next, b_.reward);
     if (record) write(t, *record);
@@ -98,11 +96,10 @@ class Chunk {
     return b_.seen;
   }
 
-  void add_noise(Index t) {
-    if (!(b_.variance.array() > 0).any()) return;
+  void sample(Index t) {
     fill_normals(key_, b_.candidates.data(), b_.particles.data(), static_cast<std::uint64_t>(t), b_.noise);
     if (options_.noise_clip > 0) b_.noise = b_.noise.cwiseMin(options_.noise_clip).cwiseMax(-options_.noise_clip);
-    b_.next.array() += b_.noise.array() * b_.variance.array().sqrt();
+    model_.sample(b_.X, b_.U, b_.noise, b_.next);
   }
 
   void write(Index t, Episodes& record) {

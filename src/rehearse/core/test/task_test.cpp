@@ -76,6 +76,25 @@ TEST(Task, KnowsWhichStatesAreRates) {
   EXPECT_EQ(kinematics.dt_s, moving.dt_s);
 }
 
+TEST(Task, KnowsWhichActionsAreTargetsOfServos) {
+  Task arm = task();
+  EXPECT_TRUE(arm.kinematics().servos.empty());
+  arm.states = {{"q1", "rad", StateKind::plain, "v1"}, {"v1", "rad/s"}, {"q2", "rad"}};
+  arm.actions = {{"force", "N", {-1, 1}},
+                 {"target 1", "rad", {-1, 1}, "q1", "small"},
+                 {"target 2", "rad", {-1, 1}, "q2"},
+                 {"target 3", "rad", {-1, 1}, "q2", "small"}};
+  const auto servos = arm.kinematics().servos;
+  ASSERT_EQ(servos.size(), 3u);
+  const auto is = [&](std::size_t i, Index action, Index position, Index rate, Index make) {
+    return servos[i].action == action && servos[i].position == position && servos[i].rate == rate &&
+           servos[i].make == make;
+  };
+  EXPECT_TRUE(is(0, 1, 0, 1, 1));
+  EXPECT_TRUE(is(1, 2, 2, -1, 2)) << "like no other";
+  EXPECT_TRUE(is(2, 3, 2, -1, 1)) << "of the make of the first";
+}
+
 TEST(Task, ModelsSeeTheAnglesOfJoints) {
   Task chain = task();
   EXPECT_TRUE(chain.model_features().joints().empty());

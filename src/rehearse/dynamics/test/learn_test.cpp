@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/random.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "swing.hpp"
@@ -319,6 +320,29 @@ TEST(Learn, OneRowAndRepeatedRowsAreEnoughToGoOn) {
       EXPECT_TRUE(p.mean.allFinite() && p.variance.allFinite()) << data.size() << " " << kind.index();
     }
   }
+}
+
+/// Many states, of which only the second changes by more than noise, in proportion to the first.
+Dataset mostly_noise(Index n, std::uint64_t seed) {
+  constexpr Index states = 18;
+  Rng rng({.seed = seed});
+  const auto normal = [&] { return rng.normal(); };
+  Dataset data{.states = Matrix::NullaryExpr(n, states, normal), .actions = Matrix::NullaryExpr(n, 1, normal)};
+  data.changes = 0.1 * Matrix::NullaryExpr(n, states, normal);
+  data.changes.col(1) += data.states.col(0);
+  return data;
+}
+
+TEST(Learn, NoiseIsNoFunctionOfManyInputs) {
+  const Dataset data = mostly_noise(120, 1), held_out = mostly_noise(50, 2);
+  const FeatureMap features(std::vector<StateKind>(static_cast<std::size_t>(data.states.cols())));
+  const Learned learned = learn(data, features, {}, nullptr, ZeroMean{}, {}, serial_evaluator());
+  const Prediction p = predict(*learned.model, held_out);
+  EXPECT_LT(swing::rms(p.mean.col(1) - held_out.states.col(0)), 0.1);
+  EXPECT_LT(swing::rms(p.mean.rightCols(16)), 1e-6);
+  EXPECT_LT(p.variance.rightCols(16).maxCoeff(), 1e-6);
+  for (Index e = 2; e < data.states.cols(); ++e)
+    EXPECT_NEAR(std::exp(learned.state.kernels[static_cast<std::size_t>(e)].log_noise), 0.1, 0.03);
 }
 
 }  // namespace

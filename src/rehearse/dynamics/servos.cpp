@@ -1,0 +1,283 @@
+#include "rehearse/dynamics/servos.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/dynamics/estimate.hpp"
+#include "rehearse/dynamics/gp_model.hpp"
+
+namespace rehearse::dynamics {
+namespace {
+
+using Servo = Kinematics::Servo;
+
+constexpr double kDead = 0.01;    // of the squared ways to its targets: a servo that moves less is dead
+constexpr Index kMostRows = 600;  // of a make
+constexpr Index kInputs = 3, kOutputs = 2;
+
+/// Rows × (way to the target, speed, position).
+void inputs_of(const Servo& servo, const ConstMatrixView& X, const ConstMatrixView& U, MatrixView F) {
+  F.col(0) = U.col(servo.action) - X.col(servo.position);
+  if (servo.rate >= 0)
+    F.col(1) = X.col(servo.rate);
+  else
+    F.col(1).setZero();
+  F.col(2) = X.col(servo.position);
+}
+
+bool moves(const Servo& servo, const Dataset& data) {
+  const double asked = (data.actions.col(servo.action) - data.states.col(servo.position)).squaredNorm();
+  return data.changes.col(servo.position).squaredNorm() > kDead * asked;
+}
+
+struct Rows {
+  Matrix inputs;   // rows × kInputs
+  Matrix targets;  // rows × (way beyond the target, speed)
+};
+
+/// Of all servos; evenly thinned if they are many.
+Rows rows_of(const std::vector<Servo>& servos, const Dataset& data) {
+  const Index n = data.size(), all = n * static_cast<Index>(servos.size());
+  Rows rows{Matrix(all, kInputs), Matrix::Zero(all, kOutputs)};
+  for (std::size_t i = 0; i < servos.size(); ++i) {
+    const auto [action, position, rate, make] = servos[i];
+    const Index first = n * static_cast<Index>(i);
+    inputs_of(servos[i], data.states, data.actions, rows.inputs.middleRows(first, n));
+    rows.targets.col(0).segment(first, n) =
+        data.states.col(position) + data.changes.col(position) - data.actions.col(action);
+    if (rate >= 0) rows.targets.col(1).segment(first, n) = data.states.col(rate) + data.changes.col(rate);
+  }
+  if (all <= kMostRows) return rows;
+  std::vector<Index> some;
+  for (Index i = 0; i < kMostRows; ++i) some.push_back(i * all / kMostRows);
+  return {rows.inputs(some, Eigen::all), rows.targets(some, Eigen::all)};
+}
+
+gp::Fit fitted(const gp::Inputs& inputs, const ConstVectorView& y, const gp::FitOptions& options) {
+  const double scale = gp::standard_deviation(y);
+  return gp::fit(inputs, y, scale, gp::default_start(inputs, y, scale, options.bounds, options.trend), options);
+}
+
+const Matrix& inputs_of_rest(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U) {
+  thread_local Matrix inputs;
+  inputs.resize(X.rows(), features.features() + U.cols());
+  gp_inputs(features, X, U, inputs);
+  return inputs;
+}
+
+}  // namespace
+
+Servos::Servos(const Dataset& data, FeatureMap features, const std::vector<Servo>& servos, const GpOptions& options,
+               const Evaluator& evaluator)
+    : features_(std::move(features)), servos_(servos), variance_(options.variance) {
+  if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
+  std::map<Index, Make> moving;
+  Make dead;
+  for (const Servo& servo : servos) (moves(servo, data) ? moving[servo.make] : dead).servos.push_back(servo);
+  for (auto& [make, of] : moving) makes_.push_back(std::move(of));
+  learn_makes(data, options, evaluator);
+  learn_rest(data, options, evaluator);
+  makes_.push_back(std::move(dead));
+}
+
+void Servos::learn_makes(const Dataset& data, const GpOptions& options, const Evaluator& evaluator) {
+  std::vector<gp::Inputs> inputs;
+  std::vector<Matrix> targets;
+  for (const Make& make : makes_) {
+    Rows rows = rows_of(make.servos, data);
+    inputs.emplace_back(rows.inputs);
+    targets.push_back(std::move(rows.targets));
+  }
+  std::vector<std::vector<gp::Hyperparameters>> kernels(makes_.size(), std::vector<gp::Hyperparameters>(kOutputs));
+  evaluator.for_each(kOutputs * static_cast<Index>(makes_.size()), [&](Index i) {
+    const auto m = static_cast<std::size_t>(i / kOutputs), e = static_cast<std::size_t>(i % kOutputs);
+    kernels[m][e] = fitted(inputs[m], targets[m].col(i % kOutputs), options.fit).hyperparameters;
+  });
+  for (std::size_t m = 0; m < makes_.size(); ++m)
+    makes_[m].posterior = std::make_shared<gp::Posterior>(inputs[m], targets[m], kernels[m], options.tolerance);
+}
+
+/// What is learned here is small and local: where nothing is known of it, it is 0.
+void Servos::learn_rest(const Dataset& data, const GpOptions& options, const Evaluator& evaluator) {
+  if (makes_.empty()) return;
+  End end;
+  means(data.states, data.actions, end);
+  const Matrix next = data.states + data.changes;
+  std::vector<Vector> targets;
+  for_each_moving([&](const Servo& servo) {
+    targets.emplace_back(next.col(servo.position) - end.positions.col(servo.action));
+    targets.emplace_back(servo.rate < 0 ? Vector::Zero(data.size())
+                                        : Vector(next.col(servo.rate) - end.speeds.col(servo.action)));
+  });
+  const gp::Inputs inputs(gp_inputs(features_, data.states, data.actions));
+  const gp::FitOptions fit = fit_options(options.fit, inputs.dimensions());
+  const auto outputs = static_cast<Index>(targets.size());
+  std::vector<gp::Fit> fits(targets.size());
+  evaluator.for_each(outputs, [&](Index e) {
+    const auto i = static_cast<std::size_t>(e);
+    fits[i] = fitted(inputs, targets[i], fit);
+  });
+  Matrix Y(data.size(), outputs);
+  std::vector<gp::Hyperparameters> kernels;
+  for (Index e = 0; e < outputs; ++e) {
+    const auto i = static_cast<std::size_t>(e);
+    Y.col(e) = targets[i];
+    kernels.push_back(fits[i].hyperparameters);
+    log_evidence_ += fits[i].log_evidence;
+  }
+  rest_ = std::make_shared<gp::Posterior>(inputs, Y, std::move(kernels), options.tolerance);
+}
+
+template <class Visit>
+void Servos::for_each_moving(Visit visit) const {
+  for (const Make& make : makes_) {
+    if (!make.posterior) continue;
+    for (const Servo& servo : make.servos) visit(servo);
+  }
+}
+
+/// ask(posterior, inputs, add) for each make that moves; add(outputs, positions, speeds): to those of its servos.
+template <class Ask>
+void Servos::for_each_make(const ConstMatrixView& X, const ConstMatrixView& U, End& end, Ask ask) const {
+  thread_local Matrix inputs;
+  end.positions = U;
+  end.speeds.setZero(U.rows(), U.cols());
+  const Index n = X.rows();
+  for (const auto& [servos, posterior] : makes_) {
+    if (!posterior) {
+      for (const Servo& servo : servos) end.positions.col(servo.action) = X.col(servo.position);
+      continue;
+    }
+    inputs.resize(n * static_cast<Index>(servos.size()), kInputs);
+    for (std::size_t i = 0; i < servos.size(); ++i)
+      inputs_of(servos[i], X, U, inputs.middleRows(n * static_cast<Index>(i), n));
+    ask(*posterior, inputs, [&](const Matrix& outputs, Matrix& first, Matrix& second) {
+      for (std::size_t i = 0; i < servos.size(); ++i) {
+        const Index row = n * static_cast<Index>(i), action = servos[i].action;
+        first.col(action) += outputs.col(0).segment(row, n);
+        second.col(action) += outputs.col(1).segment(row, n);
+      }
+    });
+  }
+}
+
+/// outputs: of rest_, by turns a position and a speed.
+void Servos::add_rest(const Matrix& outputs, Matrix& positions, Matrix& speeds) const {
+  Index e = 0;
+  for_each_moving([&](const Servo& servo) {
+    positions.col(servo.action) += outputs.col(e++);
+    speeds.col(servo.action) += outputs.col(e++);
+  });
+}
+
+void Servos::means(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const {
+  thread_local Matrix mean;
+  for_each_make(X, U, end, [&](const gp::Posterior& posterior, const Matrix& inputs, auto add) {
+    mean.resize(inputs.rows(), kOutputs);
+    posterior.predict_mean(inputs, mean);
+    add(mean, end.positions, end.speeds);
+  });
+  if (!rest_) return;
+  const Matrix& inputs = inputs_of_rest(features_, X, U);
+  mean.resize(X.rows(), rest_->outputs());
+  rest_->predict_mean(inputs, mean);
+  add_rest(mean, end.positions, end.speeds);
+}
+
+void Servos::predict(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const {
+  thread_local Matrix mean, variance;
+  end.position_variances.setZero(U.rows(), U.cols());
+  end.speed_variances.setZero(U.rows(), U.cols());
+  for_each_make(X, U, end, [&](const gp::Posterior& posterior, const Matrix& inputs, auto add) {
+    mean.resize(inputs.rows(), kOutputs);
+    variance.resize(inputs.rows(), kOutputs);
+    posterior.predict(inputs, mean, variance);
+    add(mean, end.positions, end.speeds);
+    add(variance, end.position_variances, end.speed_variances);
+  });
+  if (!rest_) return;
+  const Matrix& inputs = inputs_of_rest(features_, X, U);
+  mean.resize(X.rows(), rest_->outputs());
+  variance.resize(X.rows(), rest_->outputs());
+  rest_->predict(inputs, mean, variance);
+  if (variance_ == PredictedVariance::noisy) variance.rowwise() += rest_->noise_variances().transpose();
+  add_rest(mean, end.positions, end.speeds);
+  add_rest(variance, end.position_variances, end.speed_variances);
+}
+
+void Servos::replace_targets(const End& end, MatrixView U) const {
+  for (const Servo& servo : servos_) U.col(servo.action) = end.positions.col(servo.action);
+}
+
+Dataset Servos::reached(const Dataset& data) const {
+  Dataset reached = data;
+  for (const Servo& servo : servos_)
+    reached.actions.col(servo.action) = data.states.col(servo.position) + data.changes.col(servo.position);
+  return reached;
+}
+
+namespace {
+
+/// The changes of servos' states.
+void write_changes(const std::vector<Servo>& servos, const ConstMatrixView& X, const Servos::End& end,
+                   MatrixView change) {
+  for (const auto& [action, position, rate, make] : servos) {
+    change.col(position) = end.positions.col(action) - X.col(position);
+    if (rate >= 0) change.col(rate) = end.speeds.col(action) - X.col(rate);
+  }
+}
+
+Servos::End& end_of_this_thread() {
+  thread_local Servos::End end;
+  return end;
+}
+
+Matrix& actions_of_this_thread(const ConstMatrixView& U) {
+  thread_local Matrix actions;
+  actions = U;
+  return actions;
+}
+
+}  // namespace
+
+void ServoModel::predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
+                         MatrixView variance) const {
+  Servos::End& end = end_of_this_thread();
+  Matrix& reached = actions_of_this_thread(U);
+  servos_->predict(X, U, end);
+  servos_->replace_targets(end, reached);
+  body_->predict(X, reached, mean, variance);
+  write_changes(servos_->servos(), X, end, mean);
+  for (const auto& [action, position, rate, make] : servos_->servos()) {
+    variance.col(position) = end.position_variances.col(action);
+    if (rate >= 0) variance.col(rate) = end.speed_variances.col(action);
+  }
+}
+
+void ServoModel::predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const {
+  Servos::End& end = end_of_this_thread();
+  Matrix& reached = actions_of_this_thread(U);
+  servos_->means(X, U, end);
+  servos_->replace_targets(end, reached);
+  body_->predict_mean(X, reached, mean);
+  write_changes(servos_->servos(), X, end, mean);
+}
+
+void ServoModel::sample(const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& normals,
+                        MatrixView change) const {
+  Servos::End& end = end_of_this_thread();
+  Matrix& reached = actions_of_this_thread(U);
+  servos_->predict(X, U, end);
+  for (const auto& [action, position, rate, make] : servos_->servos()) {
+    end.positions.col(action).array() +=
+        normals.col(position).array() * end.position_variances.col(action).array().sqrt();
+    if (rate >= 0)
+      end.speeds.col(action).array() += normals.col(rate).array() * end.speed_variances.col(action).array().sqrt();
+  }
+  servos_->replace_targets(end, reached);
+  body_->sample(X, reached, normals, change);
+  write_changes(servos_->servos(), X, end, change);
+}
+
+}  // namespace rehearse::dynamics

@@ -1,0 +1,82 @@
+#pragma once
+// What servos make of their targets. A simulator of rigid bodies is often right about what moving joints do to the
+// robot, and wrong about how far they move in a step: torque, friction and delays are hard to measure. So GPs learn
+// where the joints get to, and the prior is asked what follows from that.
+
+#include <memory>
+#include <vector>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/core/evaluator.hpp"
+#include "rehearse/core/kinematics.hpp"
+#include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/dynamics/learn.hpp"
+#include "rehearse/gp/posterior.hpp"
+
+namespace rehearse::dynamics {
+
+/// Where servos get to in a step and how fast they then are. GPs of the way beyond the target and of the speed, shared
+/// by the servos of a make, see the way to the target, the speed and the position of the one servo. What they leave,
+/// the load above all, GPs of each servo learn from the whole state, near what was tried. A servo that hardly moved in
+/// the data stays where it is. Immutable; any thread.
+class Servos {
+ public:
+  /// Throws InvalidInput if the data set has no row.
+  Servos(const Dataset& data, FeatureMap features, const std::vector<Kinematics::Servo>& servos,
+         const GpOptions& options, const Evaluator& evaluator);
+
+  /// States of servos at the end of a step, and how uncertain the GPs are of them.
+  struct End {
+    Matrix positions, speeds, position_variances, speed_variances;  // n × du; nothing where an action moves no servo
+  };
+  /// Without the work of variances: `end` has none.
+  void means(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const;
+  void predict(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const;
+
+  /// Actions with targets replaced by where the servos get to.
+  void replace_targets(const End& end, MatrixView U) const;
+  /// The data set with targets replaced by where the servos got to.
+  Dataset reached(const Dataset& data) const;
+
+  const std::vector<Kinematics::Servo>& servos() const { return servos_; }
+  double log_evidence() const { return log_evidence_; }  // nats
+
+ private:
+  struct Make {
+    std::vector<Kinematics::Servo> servos;
+    std::shared_ptr<const gp::Posterior> posterior;  // null: they stay where they are
+  };
+  void learn_makes(const Dataset& data, const GpOptions& options, const Evaluator& evaluator);
+  void learn_rest(const Dataset& data, const GpOptions& options, const Evaluator& evaluator);
+  template <class Visit>
+  void for_each_moving(Visit visit) const;
+  void add_rest(const Matrix& outputs, Matrix& positions, Matrix& speeds) const;
+  template <class Ask>
+  void for_each_make(const ConstMatrixView& X, const ConstMatrixView& U, End& end, Ask ask) const;
+
+  FeatureMap features_;
+  std::vector<Kinematics::Servo> servos_;
+  PredictedVariance variance_;
+  std::vector<Make> makes_;
+  std::shared_ptr<const gp::Posterior> rest_;  // of each servo that moves, in order; null if none does
+  double log_evidence_ = 0;
+};
+
+/// Servos, and behind them a model of what follows from where they get to. A draw of theirs moves the robot with them.
+class ServoModel final : public DynamicsModel {
+ public:
+  ServoModel(std::shared_ptr<const Servos> servos, std::shared_ptr<const DynamicsModel> body)
+      : servos_(std::move(servos)), body_(std::move(body)) {}
+
+  void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override;
+  void predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const override;
+  void sample(const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& normals,
+              MatrixView change) const override;
+  const Vector& measurement_std() const override { return body_->measurement_std(); }
+
+ private:
+  std::shared_ptr<const Servos> servos_;
+  std::shared_ptr<const DynamicsModel> body_;
+};
+
+}  // namespace rehearse::dynamics
