@@ -1,0 +1,178 @@
+// What models of the hexapod without its rear left leg predict of gaits near the tripod that they have not seen: the
+// next step, and whole walks. The leg is known to be missing; what GPs add is learned from the first trials.
+
+#include "rehearse/robots/hexapod/hexapod.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "rehearse/dynamics/learn.hpp"
+#include "rehearse/dynamics/servos.hpp"
+#include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/policy/gait.hpp"
+#include "rehearse/robots/hexapod/state.hpp"
+#include "rehearse/rollout/execute.hpp"
+#include "rehearse/rollout/imagine.hpp"
+
+namespace {
+
+using namespace rehearse;
+namespace hexapod = robots::hexapod;
+
+constexpr double kSpread = 0.2;  // of the gaits' parameters around the tripod's
+constexpr std::uint64_t kToLearnFrom = 1000;
+
+struct Trial {
+  Vector theta;
+  Episode episode;
+};
+
+std::vector<Trial> trials(const scenario::Scenario& robot, Index count, std::uint64_t first) {
+  std::vector<Trial> result;
+  const auto plant = robot.make_plant();
+  for (std::uint64_t i = first; i < first + static_cast<std::uint64_t>(count); ++i) {
+    Rng rng({.seed = 1, .trial = i, .purpose = Purpose::random_policy});
+    Vector theta = policy::tripod_gait();
+    for (double& gene : theta) gene = std::clamp(gene + kSpread * rng.normal(), 0.0, 1.0);
+    Episode episode = rollout::execute(*plant, *robot.policy, theta, robot.task, Rng({.seed = 1, .trial = i}));
+    result.push_back({std::move(theta), std::move(episode)});
+  }
+  return result;
+}
+
+prior::Prior prior_of(const scenario::Scenario& robot) {
+  prior::Prior prior{"known leg", robot.priors[0].simulator, robot.priors[0].parameters};
+  prior.space = prior.space.fixed_at(Vector::Zero(1));
+  return prior;
+}
+
+/// Where the joints really got to in the place of their targets.
+Dataset data_of(const Trial& trial, bool reached) {
+  Dataset data;
+  data.append(trial.episode);
+  if (reached)
+    data.actions = trial.episode.states.bottomRows(data.size()).middleCols(hexapod::kAngles, hexapod::kJoints);
+  return data;
+}
+
+double rms(double squares, Index count) { return std::sqrt(squares / static_cast<double>(std::max<Index>(count, 1))); }
+
+struct Errors {
+  double rotation = 0, position = 0;  // sums of squares, and of how many numbers
+  Index rotations = 0, positions = 0;
+};
+
+void add_steps(const dynamics::DynamicsModel& model, const Dataset& data, Errors& errors) {
+  Matrix change(data.size(), data.states.cols());
+  model.predict_mean(data.states, data.actions, change);
+  change -= data.changes;
+  for (Index i = 0; i < change.rows(); ++i) {
+    if (!change.row(i).allFinite()) continue;
+    errors.rotation += change.row(i).segment(hexapod::kRotation, 3).squaredNorm();
+    errors.position += change.row(i).segment(hexapod::kPosition, 2).squaredNorm();
+    errors.rotations += 3;
+    errors.positions += 2;
+  }
+}
+
+struct Walks {
+  std::vector<double> real, predicted;  // m, of those that are walked to the end and predicted to be
+  int falls = 0, falls_predicted = 0, falls_feared = 0;
+};
+
+void add_walk(const dynamics::DynamicsModel& model, const scenario::Scenario& robot, const Trial& trial, Walks& walks) {
+  const rollout::Recorded walk = rollout::imagine_recorded(model, *robot.policy, robot.task, trial.theta, 1, {},
+                                                           {.sample = false, .measurement_noise = 0});
+  const bool falls =
+      !walk.states.back().allFinite() || hexapod::uprightness(walk.states.back().row(0).transpose()) < 0.5;
+  const bool fell = trial.episode.ended;
+  walks.falls += fell;
+  walks.falls_predicted += fell && falls;
+  walks.falls_feared += !fell && falls;
+  if (fell || falls) return;
+  walks.real.push_back(trial.episode.total_reward());
+  walks.predicted.push_back(walk.returns(0));
+}
+
+double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto rank = [](const std::vector<double>& values, std::size_t i) {
+    return static_cast<double>(std::ranges::count_if(values, [&](double v) { return v < values[i]; }));
+  };
+  const auto n = static_cast<double>(a.size());
+  double squares = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) squares += std::pow(rank(a, i) - rank(b, i), 2);
+  return 1 - 6 * squares / (n * (n * n - 1));
+}
+
+void print(const std::string& name, const Errors& steps, const Walks& walks) {
+  double squares = 0;
+  for (std::size_t i = 0; i < walks.real.size(); ++i) squares += std::pow(walks.real[i] - walks.predicted[i], 2);
+  fmt::print("| {} | {:.3f} | {:.4f} | {:.2f} | {:.2f} | {} of {} | {} |\n", name, rms(steps.rotation, steps.rotations),
+             rms(steps.position, steps.positions), rank_correlation(walks.real, walks.predicted),
+             rms(squares, static_cast<Index>(walks.real.size())), walks.falls_predicted, walks.falls,
+             walks.falls_feared);
+}
+
+void evaluate(const std::string& name, const dynamics::DynamicsModel& model, const scenario::Scenario& robot,
+              const std::vector<Trial>& unseen) {
+  Errors steps;
+  Walks walks;
+  for (const Trial& trial : unseen) {
+    add_steps(model, data_of(trial, false), steps);
+    add_walk(model, robot, trial, walks);
+  }
+  print(name, steps, walks);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Models of the hexapod without a leg, on gaits they have not seen"};
+  Index count = 40;
+  std::vector<Index> learned_from{2, 4, 8};
+  app.add_option("--trials", count, "To predict");
+  app.add_option("--learn", learned_from, "Trials to learn from");
+  bool quick = false;
+  app.add_flag("--quick", quick, "Only see that it runs");
+  CLI11_PARSE(app, argc, argv);
+  if (quick) count = 3, learned_from = {1};
+
+  hexapod::Options options;
+  options.damage = hexapod::Options::Leg::rear_left;
+  const scenario::Scenario robot = hexapod::make(options);
+  const prior::Prior prior = prior_of(robot);
+  const dynamics::SimulatorModel as_given(prior, Vector::Zero(1));
+  const std::vector<Trial> unseen = trials(robot, count, 1);
+
+  fmt::print(
+      "| model | rotation, rad a step | position, m a step | walks: rank correlation | error, m | falls predicted "
+      "| feared in vain |\n|---|---|---|---|---|---|---|\n");
+  evaluate("the prior", as_given, robot, unseen);
+  Errors told;
+  for (const Trial& trial : unseen) add_steps(as_given, data_of(trial, true), told);
+  fmt::print("| the prior, told where the joints got to | {:.3f} | {:.4f} | | | | |\n",
+             rms(told.rotation, told.rotations), rms(told.position, told.positions));
+  for (const Index n : learned_from) {
+    Dataset data;
+    for (const Trial& trial : trials(robot, n, kToLearnFrom)) data.append(trial.episode);
+    const auto evaluator = make_thread_evaluator(2);
+    dynamics::FixedPrior kind;
+    const auto servos = std::make_shared<dynamics::Servos>(data, robot.task.model_features(),
+                                                           robot.task.kinematics().servos, kind.gp, *evaluator);
+    evaluate(fmt::format("behind servos of {} trials", n),
+             dynamics::ServoModel(servos, std::make_shared<dynamics::SimulatorModel>(prior, Vector::Zero(1))), robot,
+             unseen);
+    for (const bool behind_servos : {true, false}) {
+      kind.gp.servos = behind_servos;
+      const auto learned =
+          dynamics::learn(data, robot.task.model_features(), robot.task.kinematics(), &prior, kind, {}, *evaluator);
+      evaluate(behind_servos ? "and with GPs" : "GPs alone", *learned.model, robot, unseen);
+    }
+  }
+}
