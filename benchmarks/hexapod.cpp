@@ -52,12 +52,9 @@ prior::Prior prior_of(const scenario::Scenario& robot) {
   return prior;
 }
 
-/// Where the joints really got to in the place of their targets.
-Dataset data_of(const Trial& trial, bool reached) {
+Dataset data_of(const Trial& trial) {
   Dataset data;
   data.append(trial.episode);
-  if (reached)
-    data.actions = trial.episode.states.bottomRows(data.size()).middleCols(hexapod::kAngles, hexapod::kJoints);
   return data;
 }
 
@@ -124,7 +121,7 @@ void evaluate(const std::string& name, const dynamics::DynamicsModel& model, con
   Errors steps;
   Walks walks;
   for (const Trial& trial : unseen) {
-    add_steps(model, data_of(trial, false), steps);
+    add_steps(model, data_of(trial), steps);
     add_walk(model, robot, trial, walks);
   }
   print(name, steps, walks);
@@ -155,7 +152,8 @@ int main(int argc, char** argv) {
       "| feared in vain |\n|---|---|---|---|---|---|---|\n");
   evaluate("the prior", as_given, robot, unseen);
   Errors told;
-  for (const Trial& trial : unseen) add_steps(as_given, data_of(trial, true), told);
+  for (const Trial& trial : unseen)
+    add_steps(as_given, dynamics::reached(data_of(trial), robot.task.kinematics().servos), told);
   fmt::print("| the prior, told where the joints got to | {:.3f} | {:.4f} | | | | |\n",
              rms(told.rotation, told.rotations), rms(told.position, told.positions));
   for (const Index n : learned_from) {

@@ -203,7 +203,7 @@ Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics&
     return learn_from(data, without);
   }
   const auto servos = std::make_shared<Servos>(data, features, kinematics.servos, *options, evaluator);
-  Learned learned = learn_from(servos->reached(data), kinematics);
+  Learned learned = learn_from(reached(data, kinematics.servos), kinematics);
   learned.model = std::make_shared<ServoModel>(servos, learned.model);
   *learned.log_evidence += servos->log_evidence();
   return learned;

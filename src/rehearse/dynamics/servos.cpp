@@ -68,6 +68,12 @@ const Matrix& inputs_of_rest(const FeatureMap& features, const ConstMatrixView& 
 
 }  // namespace
 
+Dataset reached(Dataset data, const std::vector<Servo>& servos) {
+  for (const Servo& servo : servos)
+    data.actions.col(servo.action) = data.states.col(servo.position) + data.changes.col(servo.position);
+  return data;
+}
+
 Servos::Servos(const Dataset& data, FeatureMap features, const std::vector<Servo>& servos, const GpOptions& options,
                const Evaluator& evaluator)
     : features_(std::move(features)), servos_(servos), variance_(options.variance) {
@@ -208,13 +214,6 @@ void Servos::predict(const ConstMatrixView& X, const ConstMatrixView& U, End& en
 
 void Servos::replace_targets(const End& end, MatrixView U) const {
   for (const Servo& servo : servos_) U.col(servo.action) = end.positions.col(servo.action);
-}
-
-Dataset Servos::reached(const Dataset& data) const {
-  Dataset reached = data;
-  for (const Servo& servo : servos_)
-    reached.actions.col(servo.action) = data.states.col(servo.position) + data.changes.col(servo.position);
-  return reached;
 }
 
 namespace {

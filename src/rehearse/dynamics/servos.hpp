@@ -15,6 +15,9 @@
 
 namespace rehearse::dynamics {
 
+/// The data set with targets replaced by where the servos got to.
+Dataset reached(Dataset data, const std::vector<Kinematics::Servo>& servos);
+
 /// Where servos get to in a step and how fast they then are. GPs of the way beyond the target and of the speed, shared
 /// by the servos of a make, see the way to the target, the speed and the position of the one servo. What they leave,
 /// the load above all, GPs of each servo learn from the whole state, near what was tried. A servo that hardly moved in
@@ -35,8 +38,6 @@ class Servos {
 
   /// Actions with targets replaced by where the servos get to.
   void replace_targets(const End& end, MatrixView U) const;
-  /// The data set with targets replaced by where the servos got to.
-  Dataset reached(const Dataset& data) const;
 
   const std::vector<Kinematics::Servo>& servos() const { return servos_; }
   double log_evidence() const { return log_evidence_; }  // nats

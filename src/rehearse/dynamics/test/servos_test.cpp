@@ -9,9 +9,12 @@
 #include "rehearse/core/random.hpp"
 #include "rehearse/dynamics/learn.hpp"
 #include "rehearse/system/simulator.hpp"
+#include "swing.hpp"
 
 namespace rehearse::dynamics {
 namespace {
+
+using swing::rms;
 
 // Two servos push a cart with their joints: states q1, q2, their speeds, and the cart's x, which moves by gain · (Δq1 +
 // 2 Δq2). The simulator's servos reach their targets at once, the real ones are slow and heavy, of one make or of two.
@@ -71,8 +74,6 @@ Dataset steps(Index n, std::uint64_t seed, Ways ways = {}, bool dead = false) {
 Servos servos_of(const Dataset& data, Index second_make = 0) {
   return {data, features(), kinematics(second_make).servos, ResidualGpOptions(), serial_evaluator()};
 }
-
-double rms(const Matrix& errors) { return std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())); }
 
 /// Of where joint j gets to and how fast it is then, as a part of how far it moves.
 double error_of(const Servos& servos, const Dataset& data, Index j) {
