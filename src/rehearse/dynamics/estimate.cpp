@@ -27,8 +27,8 @@ double Estimation::charged_score(const Vector& log_evidences, Index left_out) co
   std::vector<double> learned;
   for (Index e = 0; e < log_evidences.size(); ++e) {
     if (residuals.told_by_servos(e)) continue;
-    const double scale = residuals.scale()(e), spread = scale > 0 ? scale : 1;  // as gp::SoftBounds
-    const double uninformed = -0.5 - std::log(spread) - 0.5 * std::log(2 * std::numbers::pi);
+    const double uninformed =
+        -0.5 - std::log(gp::usable_scale(residuals.scale()(e))) - 0.5 * std::log(2 * std::numbers::pi);
     learned.push_back(log_evidences(e) + static_cast<double>(left_out) * uninformed);
   }
   return score_of(Eigen::Map<const Vector>(learned.data(), static_cast<Index>(learned.size())), score);

@@ -63,7 +63,7 @@ std::vector<Index> nearest_rows(const gp::Inputs& inputs) {
 /// variance of what is white (the delta test; Pi and Peterson 1994).
 Spread spread_of_white(const ConstVectorView& y, double scale, Index parameters, const std::vector<Index>& nearest) {
   const double n = static_cast<double>(y.size());
-  const double floor = kLeastDeviation * (scale > 0 ? scale : 1);
+  const double floor = kLeastDeviation * gp::usable_scale(scale);
   const double variance = y.squaredNorm() / std::max(n - static_cast<double>(parameters), 1.0);
   const double deviation = std::sqrt(std::max(variance, floor * floor));
   const double white = 0.5 * (y - y(nearest)).squaredNorm();

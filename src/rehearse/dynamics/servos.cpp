@@ -66,6 +66,14 @@ const Matrix& inputs_of_rest(const FeatureMap& features, const ConstMatrixView& 
   return inputs;
 }
 
+/// `variance` only if wanted.
+void ask(const gp::Posterior& posterior, const Matrix& inputs, bool variances, Matrix& mean, Matrix& variance) {
+  mean.resize(inputs.rows(), posterior.outputs());
+  if (!variances) return posterior.predict_mean(inputs, mean);
+  variance.resize(inputs.rows(), posterior.outputs());
+  posterior.predict(inputs, mean, variance);
+}
+
 }  // namespace
 
 Dataset reached(Dataset data, const std::vector<Servo>& servos) {
@@ -143,73 +151,45 @@ void Servos::for_each_moving(Visit visit) const {
   }
 }
 
-/// ask(posterior, inputs, add) for each make that moves; add(outputs, positions, speeds): to those of its servos.
-template <class Ask>
-void Servos::for_each_make(const ConstMatrixView& X, const ConstMatrixView& U, End& end, Ask ask) const {
-  thread_local Matrix inputs;
-  end.positions = U;
-  end.speeds.setZero(U.rows(), U.cols());
+void Servos::means(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const { forward(X, U, false, end); }
+
+void Servos::predict(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const { forward(X, U, true, end); }
+
+void Servos::forward(const ConstMatrixView& X, const ConstMatrixView& U, bool variances, End& end) const {
+  thread_local Matrix inputs, mean, variance;
   const Index n = X.rows();
+  end.positions = U;
+  end.speeds.setZero(n, U.cols());
+  end.position_variances.setZero(variances ? n : 0, U.cols());
+  end.speed_variances.setZero(variances ? n : 0, U.cols());
+  // part(outputs): n × (position, speed).
+  const auto add = [&](const Servo& servo, auto part) {
+    end.positions.col(servo.action) += part(mean).col(0);
+    end.speeds.col(servo.action) += part(mean).col(1);
+    if (!variances) return;
+    end.position_variances.col(servo.action) += part(variance).col(0);
+    end.speed_variances.col(servo.action) += part(variance).col(1);
+  };
   for (const auto& [servos, posterior] : makes_) {
     if (!posterior) {
       for (const Servo& servo : servos) end.positions.col(servo.action) = X.col(servo.position);
       continue;
     }
-    inputs.resize(n * static_cast<Index>(servos.size()), kInputs);
-    for (std::size_t i = 0; i < servos.size(); ++i)
-      inputs_of(servos[i], X, U, inputs.middleRows(n * static_cast<Index>(i), n));
-    ask(*posterior, inputs, [&](const Matrix& outputs, Matrix& first, Matrix& second) {
-      for (std::size_t i = 0; i < servos.size(); ++i) {
-        const Index row = n * static_cast<Index>(i), action = servos[i].action;
-        first.col(action) += outputs.col(0).segment(row, n);
-        second.col(action) += outputs.col(1).segment(row, n);
-      }
-    });
+    const auto count = static_cast<Index>(servos.size());
+    inputs.resize(n * count, kInputs);
+    for (Index i = 0; i < count; ++i) inputs_of(servos[static_cast<std::size_t>(i)], X, U, inputs.middleRows(n * i, n));
+    ask(*posterior, inputs, variances, mean, variance);
+    for (Index i = 0; i < count; ++i)
+      add(servos[static_cast<std::size_t>(i)], [&](const Matrix& outputs) { return outputs.middleRows(n * i, n); });
   }
-}
-
-/// outputs: of rest_, by turns a position and a speed.
-void Servos::add_rest(const Matrix& outputs, Matrix& positions, Matrix& speeds) const {
+  if (!rest_) return;
+  ask(*rest_, inputs_of_rest(features_, X, U), variances, mean, variance);
+  if (variances && variance_ == PredictedVariance::noisy) variance.rowwise() += rest_->noise_variances().transpose();
   Index e = 0;
   for_each_moving([&](const Servo& servo) {
-    positions.col(servo.action) += outputs.col(e++);
-    speeds.col(servo.action) += outputs.col(e++);
+    add(servo, [&](const Matrix& outputs) { return outputs.middleCols(e, kOutputs); });
+    e += kOutputs;
   });
-}
-
-void Servos::means(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const {
-  thread_local Matrix mean;
-  for_each_make(X, U, end, [&](const gp::Posterior& posterior, const Matrix& inputs, auto add) {
-    mean.resize(inputs.rows(), kOutputs);
-    posterior.predict_mean(inputs, mean);
-    add(mean, end.positions, end.speeds);
-  });
-  if (!rest_) return;
-  const Matrix& inputs = inputs_of_rest(features_, X, U);
-  mean.resize(X.rows(), rest_->outputs());
-  rest_->predict_mean(inputs, mean);
-  add_rest(mean, end.positions, end.speeds);
-}
-
-void Servos::predict(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const {
-  thread_local Matrix mean, variance;
-  end.position_variances.setZero(U.rows(), U.cols());
-  end.speed_variances.setZero(U.rows(), U.cols());
-  for_each_make(X, U, end, [&](const gp::Posterior& posterior, const Matrix& inputs, auto add) {
-    mean.resize(inputs.rows(), kOutputs);
-    variance.resize(inputs.rows(), kOutputs);
-    posterior.predict(inputs, mean, variance);
-    add(mean, end.positions, end.speeds);
-    add(variance, end.position_variances, end.speed_variances);
-  });
-  if (!rest_) return;
-  const Matrix& inputs = inputs_of_rest(features_, X, U);
-  mean.resize(X.rows(), rest_->outputs());
-  variance.resize(X.rows(), rest_->outputs());
-  rest_->predict(inputs, mean, variance);
-  if (variance_ == PredictedVariance::noisy) variance.rowwise() += rest_->noise_variances().transpose();
-  add_rest(mean, end.positions, end.speeds);
-  add_rest(variance, end.position_variances, end.speed_variances);
 }
 
 void Servos::replace_targets(const End& end, MatrixView U) const {
@@ -227,27 +207,27 @@ void write_changes(const std::vector<Servo>& servos, const ConstMatrixView& X, c
   }
 }
 
-Servos::End& end_of_this_thread() {
+/// move(end): where the servos get to; follow(actions): what the body makes of that. The end, until the next call.
+template <class Move, class Follow>
+const Servos::End& go(const Servos& servos, const ConstMatrixView& X, const ConstMatrixView& U, MatrixView change,
+                      Move move, Follow follow) {
   thread_local Servos::End end;
+  thread_local Matrix reached;
+  move(end);
+  reached = U;
+  servos.replace_targets(end, reached);
+  follow(reached);
+  write_changes(servos.servos(), X, end, change);
   return end;
-}
-
-Matrix& actions_of_this_thread(const ConstMatrixView& U) {
-  thread_local Matrix actions;
-  actions = U;
-  return actions;
 }
 
 }  // namespace
 
 void ServoModel::predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
                          MatrixView variance) const {
-  Servos::End& end = end_of_this_thread();
-  Matrix& reached = actions_of_this_thread(U);
-  servos_->predict(X, U, end);
-  servos_->replace_targets(end, reached);
-  body_->predict(X, reached, mean, variance);
-  write_changes(servos_->servos(), X, end, mean);
+  const Servos::End& end = go(
+      *servos_, X, U, mean, [&](Servos::End& end) { servos_->predict(X, U, end); },
+      [&](const Matrix& reached) { body_->predict(X, reached, mean, variance); });
   for (const auto& [action, position, rate, make] : servos_->servos()) {
     variance.col(position) = end.position_variances.col(action);
     if (rate >= 0) variance.col(rate) = end.speed_variances.col(action);
@@ -255,28 +235,23 @@ void ServoModel::predict(const ConstMatrixView& X, const ConstMatrixView& U, Mat
 }
 
 void ServoModel::predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const {
-  Servos::End& end = end_of_this_thread();
-  Matrix& reached = actions_of_this_thread(U);
-  servos_->means(X, U, end);
-  servos_->replace_targets(end, reached);
-  body_->predict_mean(X, reached, mean);
-  write_changes(servos_->servos(), X, end, mean);
+  go(
+      *servos_, X, U, mean, [&](Servos::End& end) { servos_->means(X, U, end); },
+      [&](const Matrix& reached) { body_->predict_mean(X, reached, mean); });
 }
 
 void ServoModel::sample(const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& normals,
                         MatrixView change) const {
-  Servos::End& end = end_of_this_thread();
-  Matrix& reached = actions_of_this_thread(U);
-  servos_->predict(X, U, end);
-  for (const auto& [action, position, rate, make] : servos_->servos()) {
-    end.positions.col(action).array() +=
-        normals.col(position).array() * end.position_variances.col(action).array().sqrt();
-    if (rate >= 0)
-      end.speeds.col(action).array() += normals.col(rate).array() * end.speed_variances.col(action).array().sqrt();
-  }
-  servos_->replace_targets(end, reached);
-  body_->sample(X, reached, normals, change);
-  write_changes(servos_->servos(), X, end, change);
+  const auto draw = [&](Servos::End& end) {
+    servos_->predict(X, U, end);
+    for (const auto& [action, position, rate, make] : servos_->servos()) {
+      end.positions.col(action).array() +=
+          normals.col(position).array() * end.position_variances.col(action).array().sqrt();
+      if (rate >= 0)
+        end.speeds.col(action).array() += normals.col(rate).array() * end.speed_variances.col(action).array().sqrt();
+    }
+  };
+  go(*servos_, X, U, change, draw, [&](const Matrix& reached) { body_->sample(X, reached, normals, change); });
 }
 
 }  // namespace rehearse::dynamics

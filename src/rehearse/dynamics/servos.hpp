@@ -51,9 +51,7 @@ class Servos {
   void learn_rest(const Dataset& data, const GpOptions& options, const Evaluator& evaluator);
   template <class Visit>
   void for_each_moving(Visit visit) const;
-  void add_rest(const Matrix& outputs, Matrix& positions, Matrix& speeds) const;
-  template <class Ask>
-  void for_each_make(const ConstMatrixView& X, const ConstMatrixView& U, End& end, Ask ask) const;
+  void forward(const ConstMatrixView& X, const ConstMatrixView& U, bool variances, End& end) const;
 
   FeatureMap features_;
   std::vector<Kinematics::Servo> servos_;

@@ -101,10 +101,7 @@ class Smoother {
   }
 
   const gp::Hyperparameters& kernel(std::size_t e) const { return estimate_.kernels[e].hyperparameters; }
-  double scale(std::size_t e) const {
-    const double scale = estimation_.residuals.scale()(static_cast<Index>(e));
-    return scale > 0 ? scale : 1;  // as gp::SoftBounds
-  }
+  double scale(std::size_t e) const { return gp::usable_scale(estimation_.residuals.scale()(static_cast<Index>(e))); }
   Residuals on_path() const { return estimation_.residuals.of(steps_.path()); }
 
   Vector noise_variances() const {

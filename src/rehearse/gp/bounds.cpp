@@ -31,12 +31,14 @@ double log_excess(double total, double floor) { return 0.5 * std::log(std::max(t
 
 }  // namespace
 
+double usable_scale(double scale) { return scale > 0 && std::isfinite(scale) ? scale : 1; }
+
 SoftBounds::SoftBounds(const Bounds& bounds, const Inputs& inputs, double scale)
     : bounds_(bounds),
       lengths_{bounds.min_length, bounds.max_length},
       trends_{std::sqrt(bounds.min_trend), std::sqrt(bounds.max_trend)},
       log_spread_(inputs.spread().array().log()),
-      log_scale_(scale > 0 && std::isfinite(scale) ? std::log(scale) : 0),
+      log_scale_(std::log(usable_scale(scale))),
       log_trend_(log_spread_.size() + 1) {
   log_trend_ << log_scale_ / 2, log_scale_ / 2 - inputs.magnitude().array().log();
 }

@@ -28,6 +28,9 @@ struct Bounds {
   }
 };
 
+/// A scale of 0, or not finite, counts as 1.
+double usable_scale(double scale);
+
 /// The bounds as a smooth map from free variables u (as many as hyperparameters) to flat log hyperparameters that
 /// cannot leave them:
 ///
@@ -39,7 +42,6 @@ struct Bounds {
 /// share of the signal, learned.
 class SoftBounds {
  public:
-  /// `scale` of 0, or not finite, counts as 1.
   SoftBounds(const Bounds& bounds, const Inputs& inputs, double scale);
 
   Vector flat(const Vector& u) const;

@@ -241,7 +241,7 @@ Fit fit_parsimoniously(const Inputs& inputs, const ConstVectorView& y, double sc
   options.penalties = {};
   options.bounds.max_length = std::min(options.bounds.max_length, kReach * std::sqrt(D));
   const Fit one = fit_kernel(inputs, y, scale, {start.hyperparameters, {}}, options, nullptr);
-  const double floor = options.bounds.noise_floor * (std::isfinite(scale) && scale > 0 ? scale : 1);  // as SoftBounds
+  const double floor = options.bounds.noise_floor * usable_scale(scale);
   const Fit none = noise_alone(y, floor, start.hyperparameters);
   const double value = each.log_evidence - (D + 1) * cost;
   if (value > std::max(one.log_evidence - 2 * cost, none.log_evidence)) return each;
