@@ -14,8 +14,11 @@ namespace {
 constexpr double kForce = 10;            // N
 constexpr double kRewardLength = 0.5;    // m, whatever the length of the plant or the prior
 constexpr double kRewardWidth = 0.25;    // m
+constexpr double kAngleWidth = 3;        // rad, of the wide reward
+constexpr double kCartWidth = 1;         // m, the same
 constexpr double kSolvedDistance = 0.1;  // m, of the cart from the centre
-constexpr double kSolvedAngle = 10 * std::numbers::pi / 180;
+constexpr double kPi = std::numbers::pi;
+constexpr double kSolvedAngle = 10 * kPi / 180;
 const Vector kPolicyScale{{5, 5, 10, 1, 1}};
 constexpr double kSolvedTime = 0.5;  // s, at the end
 
@@ -35,7 +38,27 @@ void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
       x * (x + 2 * kRewardLength * trig.col(0).array()) + 2 * kRewardLength * kRewardLength * (1 + trig.col(1).array());
 }
 
-/// The same: the tip is at (x + l sin θ, −l cos θ), the goal at (0, l).
+/// exp(−(Δθ/3)² − x²), Δθ from the upright (Amadio 2022, eq. 21): it tells far from the goal which way leads there.
+Reward wide_reward() {
+  const auto squared_distance = [](const ConstMatrixView& X, VectorView d2) {
+    const auto from_hanging = X.col(3).array().unaryExpr([](double angle) { return std::remainder(angle, 2 * kPi); });
+    d2 = ((kPi - from_hanging.abs()) / kAngleWidth).square() + (X.col(0).array() / kCartWidth).square();
+  };
+  return reward::saturating(squared_distance, std::numbers::sqrt2 / 2);
+}
+
+Reward shaped(Reward reward, double share) {
+  return [reward = std::move(reward), wide = wide_reward(), share](const ConstMatrixView& X, const ConstMatrixView& U,
+                                                                   const ConstMatrixView& X_next, VectorView rewards) {
+    thread_local Vector wide_rewards;
+    wide_rewards.resize(rewards.size());
+    wide(X, U, X_next, wide_rewards);
+    reward(X, U, X_next, rewards);
+    rewards += share * (wide_rewards - rewards);
+  };
+}
+
+/// The same as squared_tip_distance: the tip is at (x + l sin θ, −l cos θ), the goal at (0, l).
 SaturatingReward saturating_reward() {
   const double l = kRewardLength;
   return {.goal = Vector{{0, 0, 0, -1, 0}}, .distances = Matrix{{1, 0, 0, 0, l}, {0, 0, 0, l, 0}} / kRewardWidth};
@@ -53,7 +76,10 @@ Task make_task(const Options& options) {
   task.dt_s = options.dt_s;
   task.horizon = options.horizon;
   task.reward = reward::saturating(squared_tip_distance, kRewardWidth);
-  task.saturating_reward = saturating_reward();
+  if (options.shaping > 0)
+    task.reward = shaped(std::move(task.reward), options.shaping);
+  else
+    task.saturating_reward = saturating_reward();
   task.initial_reward = scenario::initial_reward(squared_tip_distance, options.ode);
   task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
     return std::abs(state(0)) <= kSolvedDistance && -std::cos(state(3)) >= std::cos(kSolvedAngle);
@@ -93,6 +119,7 @@ void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
   v.number("dt_s", dt_s, above(0));
   v.integer("horizon", horizon, at_least(1));
+  v.number("shaping", shaping, between(0, 1));
   ode.fields(v);
 }
 

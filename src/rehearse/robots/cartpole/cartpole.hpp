@@ -19,8 +19,9 @@ struct Physics {
 /// Of the authors' code, unless it says otherwise.
 struct Options {
   Physics plant;
-  double dt_s = 0.1;                                                          // MC-PILCO (Amadio 2022): 0.05
-  Index horizon = 40;                                                         // steps; MC-PILCO: 60
+  double dt_s = 0.1;   // MC-PILCO (Amadio 2022): 0.05
+  Index horizon = 40;  // steps; MC-PILCO: 60
+  double shaping = 0;  // share of MC-PILCO's wide reward in the reward; then no learner follows its moments
   scenario::OdeOptions ode{.start_noise = 0.001, .measurement_noise = 0.01};  // MC-PILCO: 0.01, 0.01
   void fields(FieldVisitor& v);
 };

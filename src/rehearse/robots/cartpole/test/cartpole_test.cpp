@@ -58,7 +58,7 @@ TEST(Cartpole, SimulatorIsWithin2e6OfTheAdaptiveIntegratorEverywhere) {
 TEST(Cartpole, KeepsTheLaws) {
   Options rbf;
   rbf.ode.policy.policy = scenario::PolicyOptions::Kind::rbf;
-  for (const Options& options : {Options{}, Options{.dt_s = 0.05, .horizon = 60}, rbf})
+  for (const Options& options : {Options{}, Options{.dt_s = 0.05, .horizon = 60, .shaping = 0.5}, rbf})
     EXPECT_EQ(testing::check_scenario(make(options)), std::vector<std::string>{});
 }
 
@@ -90,6 +90,17 @@ TEST(Cartpole, RewardIsTheTipsDistance) {
   EXPECT_NEAR(reward(s, 0.3, M_PI), std::exp(-0.09 / 0.125), 1e-15);
   const double x = 0.2, theta = 2.5, tip_x = x + 0.5 * std::sin(theta), tip_y = -0.5 * std::cos(theta);
   EXPECT_NEAR(reward(s, x, theta), std::exp(-(tip_x * tip_x + (tip_y - 0.5) * (tip_y - 0.5)) / 0.125), 1e-15);
+}
+
+TEST(Cartpole, ShapingMixesAWideRewardOfAngleAndPlace) {
+  const auto shaped = [](double share) { return make({.shaping = share}); };
+  EXPECT_EQ(reward(shaped(0.5), 0, M_PI), 1);
+  EXPECT_NEAR(reward(shaped(1), 0, 0), std::exp(-M_PI * M_PI / 9), 1e-15);
+  EXPECT_NEAR(reward(shaped(1), 0.5, -M_PI + 0.6), std::exp(-0.04 - 0.25), 1e-15);
+  EXPECT_NEAR(reward(shaped(1), 0, 3 * M_PI + 0.6), std::exp(-0.04), 1e-15) << "full turns count nothing";
+  EXPECT_NEAR(reward(shaped(0.3), 0.4, 2), 0.7 * reward(make({}), 0.4, 2) + 0.3 * reward(shaped(1), 0.4, 2), 1e-15);
+  EXPECT_TRUE(make({}).task.saturating_reward);
+  EXPECT_FALSE(shaped(0.5).task.saturating_reward);
 }
 
 TEST(Cartpole, SolvedLooksAtTheLastHalfSecond) {
