@@ -212,7 +212,7 @@ int main(int argc, char** argv) {
   const Launch started = launch(argc, argv);
   Company company;
   End end = end_of([&] {
-    company = join(started, argc, argv);
+    join(company, started, argc, argv);
     return run(argc, argv, company);
   });
   if (company.ranks) end = end_with(*company.ranks, end);

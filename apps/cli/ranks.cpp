@@ -69,9 +69,8 @@ int Company::threads(Index asked) const {
 
 #ifdef REHEARSE_MPI
 
-Company join(const Launch& launch, int argc, char** argv) {
-  if (launch.size <= 1) return {};
-  Company company;
+void join(Company& company, const Launch& launch, int argc, char** argv) {
+  if (launch.size <= 1) return;
   company.ranks = mpi::join([] { return caught_signal() != 0; });
   Ranks& ranks = *company.ranks;
   if (ranks.size() != launch.size)
@@ -84,13 +83,12 @@ Company join(const Launch& launch, int argc, char** argv) {
   const std::vector<std::string> cores = ranks.exchange("cores", own);
   company.sharing = static_cast<int>(std::count(cores.begin(), cores.end(), own));
   company.difference = difference_between(ranks.exchange("arithmetic", optim::arithmetic()));
-  return company;
 }
 
 #else
 
-Company join(const Launch& launch, int, char**) {
-  if (launch.size <= 1) return {};
+void join(Company&, const Launch& launch, int, char**) {
+  if (launch.size <= 1) return;
   throw InvalidInput(
       fmt::format("{} started this {} times, but it was built without MPI (Open MPI was not found) and "
                   "they cannot work together; start it without {}",

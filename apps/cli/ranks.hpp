@@ -32,7 +32,8 @@ struct Company {
   int threads(Index asked) const;
 };
 
-/// Throws InvalidInput if the processes that were started together cannot work together.
-Company join(const Launch& launch, int argc, char** argv);
+/// Throws InvalidInput if the processes that were started together cannot work together; the company is there all the
+/// same, so that they end together: mpirun stops the others, and what they had to say, as soon as one ends badly.
+void join(Company& company, const Launch& launch, int argc, char** argv);
 
 }  // namespace rehearse::apps
