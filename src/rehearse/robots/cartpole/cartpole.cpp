@@ -38,7 +38,7 @@ void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
       x * (x + 2 * kRewardLength * trig.col(0).array()) + 2 * kRewardLength * kRewardLength * (1 + trig.col(1).array());
 }
 
-/// exp(−(Δθ/3)² − x²), Δθ from the upright (Amadio 2022, eq. 21): it tells far from the goal which way leads there.
+/// exp(−(Δθ/3)² − x²), Δθ from the upright (Amadio 2022): it tells far from the goal which way leads there.
 Reward wide_reward() {
   const auto squared_distance = [](const ConstMatrixView& X, VectorView d2) {
     const auto from_hanging = X.col(3).array().unaryExpr([](double angle) { return std::remainder(angle, 2 * kPi); });
