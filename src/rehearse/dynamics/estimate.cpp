@@ -4,6 +4,7 @@
 #include <numbers>
 
 namespace rehearse::dynamics {
+
 void Estimation::refit(Estimate& estimate, const gp::FitOptions& options) const {
   const Residuals::Rows rows = residuals.at(prior, estimate.phi);
   estimate.left_out = rows.left_out;
