@@ -45,6 +45,18 @@ std::string numbers_text(const statistics::FiveNumbers& five) {
   return fmt::format("{:.3g} ({:.3g} to {:.3g})", five.median, five.quartile_1, five.quartile_3);
 }
 
+/// "4 3 - 4": trials; "-" where the task was not solved, "?" where that is not known yet.
+std::string first_successes(const Campaign& campaign, std::size_t group) {
+  const Index last = campaign.plan.trials;
+  std::vector<std::string> trials;
+  for (std::size_t seed = 0; seed < campaign.plan.seeds.size(); ++seed) {
+    const RunOutcome& run = campaign.outcome(group, seed);
+    const auto first = run.first_success(last);
+    trials.push_back(first ? std::to_string(*first) : run.decided(last) ? "-" : "?");
+  }
+  return fmt::format("{}", fmt::join(trials, " "));
+}
+
 void print_row(const std::vector<std::size_t>& widths, const std::vector<std::string>& cells) {
   std::string line;
   for (std::size_t i = 0; i < cells.size(); ++i) line += fmt::format("  {:<{}}", cells[i], widths[i]);
@@ -61,14 +73,16 @@ void print_table(const std::vector<std::vector<std::string>>& rows) {
 void print_groups(const Campaign& campaign) {
   const Index last = campaign.plan.trials;
   std::vector<std::vector<std::string>> rows = {{"learner", "runs", fmt::format("solved by trial {} (95 %)", last),
-                                                 fmt::format("return of trial {} (quartiles)", last)}};
+                                                 fmt::format("return of trial {} (quartiles)", last),
+                                                 "first solved at, by seed"}};
   for (std::size_t i = 0; i < campaign.plan.groups.size(); ++i) {
     const std::vector<TrialStatistics> trials = experiment::trial_statistics(campaign, i);
     const bool reached = !trials.empty() && trials.back().trial == last;
     const Index runs = reached ? trials.back().runs : 0;
     rows.push_back({label_of(campaign.plan.groups[i]), fmt::format("{}/{}", runs, campaign.plan.seeds.size()),
                     reached ? rate_text(trials.back().solved_by) : "-",
-                    reached ? numbers_text(trials.back().total_reward) : "-"});
+                    reached ? numbers_text(trials.back().total_reward) : "-",
+                    trials.empty() || trials.back().solved ? first_successes(campaign, i) : "-"});
   }
   fmt::print("\n");
   print_table(rows);
