@@ -4,19 +4,20 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/errors.hpp"
+#include "rehearse/policy/schedule.hpp"
 #include "rehearse/rollout/execute.hpp"
 
 namespace rehearse::experiment {
 namespace {
 
-double return_of_episode(const Resolved& resolved, system::Plant& plant, Index trial, const Vector& theta,
-                         Index episode) {
+double return_of_episode(const Resolved& resolved, system::Plant& plant, const policy::Policy& policy,
+                         const TrialRecord& trial, Index episode) {
   const StreamKey key{.seed = static_cast<std::uint64_t>(resolved.spec.seed),
-                      .trial = static_cast<std::uint64_t>(trial),
+                      .trial = static_cast<std::uint64_t>(trial.trial),
                       .purpose = Purpose::evaluation,
                       .candidate = static_cast<std::uint64_t>(episode)};
-  const scenario::Scenario& scenario = resolved.scenario;
-  return rollout::execute(plant, *scenario.policy, theta, scenario.task, Rng(key)).total_reward();
+  return rollout::execute(plant, policy, trial.theta, resolved.scenario.task, Rng(key)).total_reward();
 }
 
 /// What `number` returns on rank 0, on every rank.
@@ -32,17 +33,27 @@ double once(const Evaluator& evaluator, const std::string& step, const std::func
 
 }  // namespace
 
-std::optional<double> expected_return(const Resolved& resolved, Index trial, const Vector& theta,
-                                      const Evaluator& evaluator, const std::function<void()>& before_each) {
+std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario) {
+  if (trial.policy == scenario.policy->name()) return scenario.policy;
+  const Task& task = scenario.task;
+  auto schedule = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
+  if (trial.policy == schedule->name()) return schedule;
+  throw InvalidInput(fmt::format("trial {} has the policy '{}', which is neither the scenario's, '{}', nor '{}'",
+                                 trial.trial, trial.policy, scenario.policy->name(), schedule->name()));
+}
+
+std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator,
+                                      const std::function<void()>& before_each) {
   const scenario::Scenario& scenario = resolved.scenario;
   if (scenario.evaluations == 0) return std::nullopt;
+  const auto policy = policy_of(trial, scenario);
   std::unique_ptr<system::Plant> plant;
   Vector returns(scenario.evaluations);
   for (Index i = 0; i < returns.size(); ++i) {
     before_each();
-    returns(i) = once(evaluator, fmt::format("evaluation {} of trial {}", i + 1, trial), [&] {
+    returns(i) = once(evaluator, fmt::format("evaluation {} of trial {}", i + 1, trial.trial), [&] {
       if (!plant) plant = scenario.make_plant();
-      return return_of_episode(resolved, *plant, trial, theta, i);
+      return return_of_episode(resolved, *plant, *policy, trial, i);
     });
   }
   return returns(0) + (returns.array() - returns(0)).mean();  // of equal returns exactly that

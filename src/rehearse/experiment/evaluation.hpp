@@ -1,18 +1,24 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "rehearse/core/evaluator.hpp"
+#include "rehearse/experiment/record.hpp"
 #include "rehearse/experiment/spec.hpp"
 
 namespace rehearse::experiment {
 
-/// Mean return of the policy θ over the scenario's `evaluations` episodes, on a plant made for them and from random
-/// streams of their own: the trial, and whatever follows it, never notices. Empty if the scenario asks for none.
+/// The policy of which a trial's θ are the parameters: the scenario's, or a schedule of actions. Throws InvalidInput if
+/// it is another.
+std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario);
+
+/// Mean return of the trial's policy over the scenario's `evaluations` episodes, on a plant made for them and from
+/// random streams of their own: the trial, and whatever follows it, never notices. Empty if the scenario asks for none.
 /// Every rank calls it; rank 0 has the plant. before_each: called before every episode; may throw, to stop. Throws what
 /// the plant throws.
-std::optional<double> expected_return(const Resolved& resolved, Index trial, const Vector& theta,
-                                      const Evaluator& evaluator, const std::function<void()>& before_each);
+std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator,
+                                      const std::function<void()>& before_each);
 
 }  // namespace rehearse::experiment

@@ -288,8 +288,7 @@ class Run {
     TrialRecord& last = history_.trials.back();
     if (last.expected_return) return;
     last.expected_return = named_failure(last.trial, "plant of the evaluations", [&] {
-      return expected_return(with_.resolved(), last.trial, last.theta, *evaluator_of(with_.options()),
-                             [&] { with_.stop_if_asked(); });
+      return expected_return(with_.resolved(), last, *evaluator_of(with_.options()), [&] { with_.stop_if_asked(); });
     });
     if (!last.expected_return) return;
     with_.lead(named("save evaluation", last.trial), [&] {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::rollout {
 namespace {
 
@@ -64,6 +66,9 @@ class SimulatedPlant final : public system::Plant {
 /// contained: a state that is not finite is a fall, and the plant's fault otherwise.
 Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng& rng,
             bool contained) {
+  if (theta.size() != policy.parameters())
+    throw InvalidInput(fmt::format("theta has {} numbers, must have the {} of the policy '{}'", theta.size(),
+                                   policy.parameters(), policy.name()));
   const Index T = task.horizon;
   Episode episode{.states = Matrix(T + 1, task.state_size()),
                   .true_states = Matrix(T + 1, task.state_size()),

@@ -10,7 +10,7 @@ namespace rehearse::rollout {
 
 /// One episode on the plant. Rewards and the end use the noise-free state where the plant knows it. If the plant
 /// throws or returns a state that is not finite, that exception (or InvalidInput) reaches the caller: a real robot's
-/// silence is not a fall.
+/// silence is not a fall. Throws InvalidInput if θ is of another size.
 Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng rng);
 
 /// One episode on a simulator at φ in the place of the plant, from the task's start and measured without noise. A step

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "rehearse/experiment/catalogue.hpp"
+#include "rehearse/policy/schedule.hpp"
 
 namespace rehearse::experiment::fake {
 
@@ -152,6 +153,7 @@ class EchoLearner final : public learners::Learner {
     proposal_.theta = Vector::Zero(2);
     proposal_.theta << -step_ * static_cast<double>(told_ + 1), std::sin(memory_ + static_cast<double>(setting_.seed));
     proposal_.rollouts = 100 + told_;
+    if (!setting_.prior && told_ == 0) propose_schedule();
     if (setting_.prior) propose_with_prior();
     asked_ = true;
     return proposal_;
@@ -177,6 +179,12 @@ class EchoLearner final : public learners::Learner {
   }
 
  private:
+  /// Like the first trial of learners without a prior.
+  void propose_schedule() {
+    const Task& task = setting_.task;
+    proposal_.policy = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
+    proposal_.theta = Vector::LinSpaced(task.horizon, -1, 0.5);
+  }
   void propose_with_prior() {
     proposal_.phi = setting_.prior->space.values();
     (*proposal_.phi)(0) += 0.01 * memory_;

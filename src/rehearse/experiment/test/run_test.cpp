@@ -116,6 +116,11 @@ TEST(Run, ExpectedReturnWithoutNoiseIsTheReturn) {
   spec.options = {{"noise", "0"}, {"evaluations", "7"}};
   start_run(fake::catalogue(), spec, folder, {});
   EXPECT_EQ(column_of(folder, "expected_return"), column_of(folder, "return"));
+  spec.learner = "echo-alone";
+  const fs::path scheduled = fake::test_folder() / "scheduled";
+  start_run(fake::catalogue(), spec, scheduled, {});
+  EXPECT_EQ(column_of(scheduled, "expected_return"), column_of(scheduled, "return"))
+      << "each trial with the policy that it had";
 }
 
 // Seed 3. The start is N(1, 0.1²): returns differ, their means hardly.

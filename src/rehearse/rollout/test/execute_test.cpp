@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "cart.hpp"
+#include "rehearse/core/errors.hpp"
 
 namespace rehearse::rollout {
 namespace {
@@ -38,6 +39,12 @@ class CartPlant final : public system::Plant {
 };
 
 const Rng kRng({.seed = 5, .trial = 1, .purpose = Purpose::start_state});
+
+TEST(Execute, RefusesParametersOfAnotherPolicy) {
+  CartPlant plant;
+  EXPECT_THROW(execute(plant, *cart::policy(), Vector::Zero(40), cart::task(), kRng), InvalidInput);
+  EXPECT_TRUE(plant.actions.empty());
+}
 
 TEST(Execute, RecordsWhatHappened) {
   const Task task = cart::task();
