@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view kPageBegins = "<!doctype html>";
+
 /// The page without data, in the build folder or where `cmake --install` put it.
 std::string page_template() {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
@@ -27,7 +29,19 @@ std::string page_template() {
       "the page of reports is not built; with nodejs and npm installed: cmake --build {} --target page", build));
 }
 
+/// Whatever is there under this name and is no page of ours may be the work of hours.
+void check_is_ours(const fs::path& path) {
+  if (path.empty()) throw InvalidInput("--out needs the name of a file");
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return;
+  const bool page = fs::is_regular_file(path, ignored) && experiment::read_file(path).starts_with(kPageBegins);
+  if (!page)
+    throw InvalidInput(fmt::format("{} is no page of Rehearse and is left as it is; --out FILE.html names another file",
+                                   path.string()));
+}
+
 void write(const fs::path& path, const std::string& page) {
+  check_is_ours(path);
   try {
     experiment::write_file(path, page);
   } catch (const std::runtime_error& error) {

@@ -38,6 +38,12 @@ refused "is neither a run folder" "$program" report bare
 refused "trial 3 is not in run" "$program" replay run --trial 3
 refused "--trial = 0" "$program" replay run --trial 0
 refused "cannot write" "$program" report run --out nowhere/report.html
+cp run/checkpoint kept
+refused "is no page of Rehearse" "$program" report run --out run/checkpoint
+refused "is no page of Rehearse" "$program" report run --out bare
+refused "needs the name of a file" "$program" report run --out ""
+cmp -s kept run/checkpoint || fail "a report takes the place of a checkpoint"
+[ -z "$(find . -name '*.tmp')" ] || fail "reports that cannot be written leave $(find . -name '*.tmp')"
 
 "$program" report run >stdout 2>stderr
 [ ! -s stderr ] || fail "the report of a whole run complains: $(cat stderr)"

@@ -47,6 +47,24 @@ class Descriptor {
   int file_;
 };
 
+/// A name that goes with this object, unless the file has got another one by then.
+class Temporary {
+ public:
+  explicit Temporary(std::filesystem::path path) : path_(std::move(path)) {}
+  ~Temporary() {
+    if (!renamed_) ::unlink(path_.c_str());
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  bool rename(const std::filesystem::path& path) { return renamed_ = ::rename(path_.c_str(), path.c_str()) == 0; }
+
+ private:
+  std::filesystem::path path_;
+  bool renamed_ = false;
+};
+
 [[noreturn]] void cannot(const char* verb, const std::filesystem::path& path) {
   throw std::runtime_error(fmt::format("cannot {} {}: {}", verb, path.string(), std::strerror(errno)));
 }
@@ -57,14 +75,15 @@ void sync_folder(const std::filesystem::path& path) {
   if (descriptor.open()) descriptor.sync();  // some file systems cannot; the rename is still in one step
 }
 
-void replace(const std::filesystem::path& path, const std::filesystem::path& temporary, std::string_view bytes,
+void replace(const std::filesystem::path& path, const std::string& suffix, std::string_view bytes,
              Durability durability) {
   const bool durable = durability == Durability::power;
+  Temporary temporary(path.string() + suffix);
   {
-    const Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-    if (!file.open() || !file.write(bytes) || (durable && !file.sync())) cannot("write", temporary);
+    const Descriptor file(temporary.path(), O_WRONLY | O_CREAT | O_TRUNC);
+    if (!file.open() || !file.write(bytes) || (durable && !file.sync())) cannot("write", path);
   }
-  if (::rename(temporary.c_str(), path.c_str()) != 0) cannot("write", path);
+  if (!temporary.rename(path)) cannot("write", path);
   if (durable) sync_folder(path);
 }
 
@@ -83,16 +102,12 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes, Durability durability) {
-  std::filesystem::path temporary = path;
-  temporary += ".tmp";
-  replace(path, temporary, bytes, durability);
+  replace(path, ".tmp", bytes, durability);
 }
 
 void write_shared_file(const std::filesystem::path& path, std::string_view bytes) {
   std::random_device random;
-  std::filesystem::path temporary = path;
-  temporary += fmt::format(".{:08x}{:08x}.tmp", random(), random());
-  replace(path, temporary, bytes, Durability::power);
+  replace(path, fmt::format(".{:08x}{:08x}.tmp", random(), random()), bytes, Durability::power);
 }
 
 void remove_temporaries(const std::filesystem::path& path) {

@@ -1,9 +1,11 @@
 #include "rehearse/learners/ite/illumination.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -173,23 +175,36 @@ class Illumination {
   std::string about_;
 };
 
-/// An archive that somebody made. It is taken at its word, since on another processor a walk ends elsewhere.
-qd::Search read_archive(const Setting& setting, const std::string& file) {
+/// An archive that somebody made. It is taken at its word, since on another processor a walk ends elsewhere. Throws
+/// InvalidInput.
+qd::Search read_archive(const std::string& file, const Task& task, const policy::Policy& policy) {
+  std::error_code ignored;
   std::ifstream in(file, std::ios::binary);
+  if (!in || !std::filesystem::is_regular_file(file, ignored))
+    throw InvalidInput(fmt::format("archive.file = {}: there is no such file, or it cannot be read", file));
   const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  qd::Search search = qd::from_bytes(bytes, file);
+  qd::Search search = qd::from_bytes(bytes, "archive.file = " + file);
   const Index parameters = search.archive.parameters(), dimensions = search.archive.niches().dimensions();
-  const auto descriptors = static_cast<Index>(setting.task.descriptor_bounds.size());
+  const auto descriptors = static_cast<Index>(task.descriptor_bounds.size());
   Violations violations;
-  violations.require(parameters == setting.policy->parameters(),
+  violations.require(parameters == policy.parameters(),
                      fmt::format("archive.file = {}: its policies have {} parameters, must have {} as policy {} has",
-                                 file, parameters, setting.policy->parameters(), setting.policy->name()));
+                                 file, parameters, policy.parameters(), policy.name()));
   violations.require(dimensions == descriptors,
                      fmt::format("archive.file = {}: its descriptors have {} numbers, must have {} as the task's have",
                                  file, dimensions, descriptors));
   violations.require(search.archive.size() > 0, fmt::format("archive.file = {}: it is empty", file));
   violations.throw_if_any();
   return search;
+}
+
+std::optional<std::string> violation_of_file(const std::string& file, const Task& task, const policy::Policy& policy) {
+  try {
+    if (!file.empty()) read_archive(file, task, policy);
+    return {};
+  } catch (const InvalidInput& wrong) {
+    return wrong.what();
+  }
 }
 
 }  // namespace
@@ -204,10 +219,9 @@ void IlluminationOptions::fields(FieldVisitor& v) {
   v.group("search", search);
 }
 
-std::vector<std::string> violations(const IlluminationOptions& options, const Task& task) {
+std::vector<std::string> violations(const IlluminationOptions& options, const Task& task,
+                                    const policy::Policy& policy) {
   Violations violations;
-  violations.require(options.file.empty() || std::ifstream(options.file, std::ios::binary).good(),
-                     fmt::format("archive.file = {}: there is no such file, or it cannot be read", options.file));
   violations.require(static_cast<bool>(task.descriptor),
                      "the scenario says of no trial how it went (its task has no descriptor), which ite needs to tell "
                      "policies apart: give the task a descriptor and descriptor_bounds, or choose the learner gp-mi or "
@@ -219,11 +233,13 @@ std::vector<std::string> violations(const IlluminationOptions& options, const Ta
   violations.require(options.kind != IlluminationOptions::Kind::grid || niches <= qd::kMostNiches,
                      fmt::format("archive.bins = {} of {} descriptors are {:g} niches, must be ≤ {:g}", options.bins,
                                  task.descriptor_bounds.size(), niches, qd::kMostNiches));
+  if (auto violation = violation_of_file(options.file, task, policy)) violations.add(*std::move(violation));
   return violations.list();
 }
 
 std::shared_ptr<const qd::Search> illuminate(const Setting& setting, const IlluminationOptions& options) {
-  if (!options.file.empty()) return std::make_shared<qd::Search>(read_archive(setting, options.file));
+  if (!options.file.empty())
+    return std::make_shared<qd::Search>(read_archive(options.file, setting.task, *setting.policy));
   return std::make_shared<qd::Search>(Illumination(setting, options).run());
 }
 

@@ -30,7 +30,7 @@ struct IlluminationOptions {
 /// file is no archive of such policies.
 std::shared_ptr<const qd::Search> illuminate(const Setting& setting, const IlluminationOptions& options);
 
-/// A line for everything that the task lacks or the options cannot do with it.
-std::vector<std::string> violations(const IlluminationOptions& options, const Task& task);
+/// A line for everything that the task lacks, or the options and their file cannot do with it and the policy.
+std::vector<std::string> violations(const IlluminationOptions& options, const Task& task, const policy::Policy& policy);
 
 }  // namespace rehearse::learners::ite

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
@@ -11,6 +12,8 @@ namespace rehearse::learners::ite {
 namespace {
 
 using nlohmann::json;
+
+constexpr std::uint64_t kUnknown = 0;
 
 /// What a policy can earn at least: performances are counted from here.
 double floor_of(const Task& task) { return static_cast<double>(task.horizon) * task.reward_floor; }
@@ -35,10 +38,11 @@ class Ite final : public Learner {
   /// There is an adaptation after `tell`.
   std::vector<Table> tables() const override { return {elites(), tried()}; }
 
-  json save() const override { return {{"tried", tried_}}; }
+  json save() const override { return {{"tried", tried_}, {"archive", bytes_ ? checksum(*bytes_) : learned_in_}}; }
 
   void load(const std::vector<Episode>& episodes, const json& state) override {
     state.at("tried").get_to(tried_);
+    learned_in_ = state.value("archive", kUnknown);
     if (tried_.size() != episodes.size()) throw InvalidInput("the learner's state does not fit the episodes");
     returns_.clear();
     for (const Episode& episode : episodes) returns_.push_back(episode.total_reward());
@@ -71,6 +75,7 @@ class Ite final : public Learner {
     if (!search_) {
       search_ = illuminate(setting_, options_.archive);
       bytes_ = std::make_shared<std::string>(to_bytes(*search_));
+      check_archive();
     }
     const qd::Archive& archive = search_->archive;
     unit_ = archive.statistics().best - floor_of(setting_.task);
@@ -83,6 +88,17 @@ class Ite final : public Learner {
     }
     adaptation_.emplace(std::move(descriptors), std::move(promised), options_.adaptation);
     for (std::size_t trial = 0; trial < returns_.size(); ++trial) learn(trial);
+  }
+
+  /// What was learned of elites by number says nothing about those of another archive.
+  void check_archive() {
+    if (learned_in_ == kUnknown || learned_in_ == checksum(*bytes_)) return;
+    search_.reset();
+    throw InvalidInput(options_.archive.file.empty()
+                           ? "the archive that can be made now is not the one that the run began with"
+                           : fmt::format("archive.file = {}: it is not the archive that the run began with, which its "
+                                         "folder has as archive.bin",
+                                         options_.archive.file));
   }
 
   /// All elites: what the archive promises, and what is expected of them after the trials.
@@ -126,7 +142,8 @@ class Ite final : public Learner {
   std::shared_ptr<const std::string> bytes_;  // of the search
   double unit_ = 1;                           // of performance: the best in the archive
   std::optional<Adaptation> adaptation_;
-  std::vector<Index> tried_;  // elites
+  std::uint64_t learned_in_ = kUnknown;  // the checksum of the archive that `tried_` are in, where they were loaded
+  std::vector<Index> tried_;             // elites
   std::vector<double> returns_;
   Index elite_ = 0;  // of the proposal
   std::optional<Proposal> proposal_;
@@ -141,8 +158,8 @@ class Builder final : public LearnerBuilder {
   PriorUse prior_use() const override { return PriorUse::required; }
   bool chooses_priors() const override { return false; }
   void fields(FieldVisitor& v) override { options_.fields(v); }
-  std::vector<std::string> violations(const Task& task, const policy::Policy&) const override {
-    return ite::violations(options_.archive, task);
+  std::vector<std::string> violations(const Task& task, const policy::Policy& policy) const override {
+    return ite::violations(options_.archive, task, policy);
   }
   std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }
 
@@ -161,9 +178,10 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { options.fields(v); })) violations.add(line);
   for (const auto& line : setting.task.violations()) violations.add(line);
-  for (const auto& line : ite::violations(options.archive, setting.task)) violations.add(line);
   violations.require(setting.prior.has_value(), "this learner needs a prior");
   violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
+  if (setting.policy)
+    for (const auto& line : ite::violations(options.archive, setting.task, *setting.policy)) violations.add(line);
   violations.throw_if_any();
   if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
   return std::make_unique<Ite>(std::move(setting), std::move(options));

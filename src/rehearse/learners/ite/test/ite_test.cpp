@@ -246,9 +246,33 @@ TEST(Illumination, TakesAnArchiveFromAFile) {
       {.features = larger.task.feature_map(), .scale = Vector::Ones(1), .squash = {{{-1, 1}, {-1, 1}}, 1}});
   EXPECT_NE(refused(larger).find("its policies have"), std::string::npos) << refused(larger);
   std::ofstream(file, std::ios::binary) << made.substr(0, made.size() / 2);
-  EXPECT_EQ(refused(setting()).find(file), 0U) << refused(setting());
+  EXPECT_EQ(refused(setting()).find("archive.file = " + file + ": "), 0U) << refused(setting());
+  EXPECT_EQ(builder(options)->violations(setting().task, *setting().policy).size(), 1U) << "before anything runs";
   std::filesystem::remove(file);
   EXPECT_EQ(refused(setting()), "archive.file = " + file + ": there is no such file, or it cannot be read");
+}
+
+TEST(Ite, RefusesToGoOnInAnotherArchive) {
+  const std::string file = ::testing::TempDir() + "rehearse-other-archive.bin";
+  const auto write = [&](std::uint64_t seed) {
+    std::ofstream(file, std::ios::binary) << *builder()->build(setting(1, seed))->ask().archive;
+  };
+  write(1);
+  const auto with_file = builder({{"archive.file", file}});
+  const auto learner = with_file->build(setting());
+  const std::vector<Episode> episodes{run_trial(learner->ask(), 1)};
+  learner->tell(episodes.front());
+  const auto state = learner->save();
+  const auto resume = [&] {
+    const auto resumed = with_file->build(setting());
+    resumed->load(episodes, state);
+    EXPECT_EQ(resumed->save(), state);
+    return resumed->ask().theta;
+  };
+  EXPECT_EQ(resume(), learner->ask().theta);
+  write(2);
+  EXPECT_THROW(resume(), InvalidInput);
+  std::filesystem::remove(file);
 }
 
 TEST(Ite, RefusesATaskThatDoesNotSayHowItWent) {
