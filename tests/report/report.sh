@@ -88,9 +88,14 @@ truncate -s -9 damaged/archive.bin
 grep -q "damaged/archive.bin: it is no usable archive: truncated" stderr || fail "the report says $(cat stderr)"
 [ "$(wc -l <stderr)" = 1 ] || fail "the report names other problems: $(cat stderr)"
 
+cp -r run bent
+sed -i '3s/^2,[^,]*,[^,]*,/2,five,7.0x3,/' bent/trials.csv
+"$program" report bent >/dev/null 2>stderr
+grep -q "bent/trials.csv: row 3: return = 7.0x3, must be a number" stderr || fail "the report says $(cat stderr)"
+
 [ -x "$chromium" ] || { echo "there is no chromium"; exit 77; }
 cp -r run walker
 for trial in 1 2; do node "$walker" walker $trial 50; done
 "$program" report walker >/dev/null
 node "$browser_test" "$chromium" "$build/web/page" \
-  {run/report,replay,campaign/report,walker/report,moments/report,ite/report,damaged/report}.html
+  {run/report,replay,campaign/report,walker/report,moments/report,ite/report,damaged/report,bent/report}.html

@@ -44,12 +44,12 @@ Json elites_json(const statistics::Table& elites) {
   return json;
 }
 
-Json tried_json(const statistics::Table& tried, std::size_t elites) {
+Json tried_json(const statistics::Table& tried, std::size_t elites, Problems& problems) {
   for (const char* name : {"trial", "promised", "learned"}) whole_column(tried, name);
   for (const double elite : whole_column(tried, "elite"))
     if (elite < 1 || elite > static_cast<double>(elites) || elite != std::round(elite))
       throw InvalidInput(fmt::format("elite {} is not among the {} of elites.csv", elite, elites));
-  return columns(tried);
+  return columns(tried, "tried.csv", problems);
 }
 
 /// How many niches there are and where; of a grid the bins of each descriptor.
@@ -79,8 +79,9 @@ Json archive_json(const fs::path& folder, const ArchiveReader& read_archive, Pro
   if (!tables) return {};
   std::optional<Json> space;
   if (bytes) space = problems.value_or_problem("archive.bin", [&] { return space_json(*bytes, *tables); });
-  const auto tried = problems.value_or_problem(
-      "tried.csv", [&] { return tried_json(read_table(folder / "tried.csv"), (*tables)["promised"].size()); });
+  const auto tried = problems.value_or_problem("tried.csv", [&] {
+    return tried_json(read_table(folder / "tried.csv"), (*tables)["promised"].size(), problems);
+  });
   (*tables)["space"] = space.value_or(Json());
   (*tables)["tried"] = tried.value_or(Json());
   return *tables;

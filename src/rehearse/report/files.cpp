@@ -12,19 +12,26 @@
 namespace rehearse::report {
 namespace {
 
-/// The column as numbers, or as text if a cell is neither empty nor a number.
-Json column(const statistics::Table& table, std::size_t position) {
-  Json numbers = Json::array(), texts = Json::array();
-  bool numeric = true;
-  for (const auto& row : table.rows) {
-    const std::string& cell = row[position];
+bool has_sentences(const std::string& column) { return column == "note" || column == "doubt"; }
+
+/// no_number(row): a cell is neither a number nor empty.
+template <class NoNumber>
+Json numbers(const statistics::Table& table, std::size_t position, NoNumber no_number) {
+  Json column = Json::array();
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const std::string& cell = table.rows[row][position];
     double value = 0;
     const bool is_number = from_text(cell, value);
-    numeric = numeric && (is_number || cell.empty());
-    numbers.push_back(is_number ? rounded(value) : Json());
-    texts.push_back(cell);
+    if (!is_number && !cell.empty()) no_number(row);
+    column.push_back(is_number ? rounded(value) : Json());
   }
-  return numeric ? numbers : texts;
+  return column;
+}
+
+Json sentences(const statistics::Table& table, std::size_t position) {
+  Json column = Json::array();
+  for (const auto& row : table.rows) column.push_back(row[position]);
+  return column;
 }
 
 }  // namespace
@@ -63,9 +70,15 @@ Json rounded(Json json) {
   return json;
 }
 
-Json columns(const statistics::Table& table) {
+Json columns(const statistics::Table& table, const std::filesystem::path& where, Problems& problems) {
   Json all = Json::object();
-  for (std::size_t i = 0; i < table.header.size(); ++i) all[table.header[i]] = column(table, i);
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    const std::string& name = table.header[i];
+    const auto no_number = [&](std::size_t row) {
+      problems.add(where, fmt::format("row {}: {} = {}, must be a number", row + 2, name, table.rows[row][i]));
+    };
+    all[name] = has_sentences(name) ? sentences(table, i) : numbers(table, i, no_number);
+  }
   return all;
 }
 

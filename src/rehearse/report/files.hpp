@@ -32,9 +32,6 @@ Json rounded(double value, int digits = 6);
 /// Every number in it rounded.
 Json rounded(Json json);
 
-/// Column name → cells, numbers where all cells are numbers or empty (null).
-Json columns(const statistics::Table& table);
-
 /// Problems, each with where it is.
 class Problems {
  public:
@@ -56,5 +53,9 @@ class Problems {
  private:
   std::vector<Problem> list_;
 };
+
+/// Column name → cells. All are numbers or empty (null) but those of the columns of sentences, `note` and `doubt`; what
+/// should be a number and is none becomes null and a problem.
+Json columns(const statistics::Table& table, const std::filesystem::path& where, Problems& problems);
 
 }  // namespace rehearse::report

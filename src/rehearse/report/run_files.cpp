@@ -100,16 +100,52 @@ Json truths(const RunSpec& spec, const statistics::Table& trials) {
   return truth;
 }
 
+bool all_numbers(const Json& frame) {
+  return std::all_of(frame.begin(), frame.end(), [](const Json& x) { return x.is_number() || x.is_null(); });
+}
+
+/// Throws InvalidInput unless there are frames of at least so many numbers for each body.
+void check_frames(const Json& motion, std::size_t numbers) {
+  const Json frames = motion.value("frames", Json());
+  const auto is_whole = [&](const Json& frame) {
+    return frame.is_array() && frame.size() >= numbers && all_numbers(frame);
+  };
+  if (!frames.is_array() || frames.empty() || !std::all_of(frames.begin(), frames.end(), is_whole))
+    throw InvalidInput(fmt::format("it has no frames of {} numbers each", numbers));
+}
+
+/// Numbers of a frame. Throws InvalidInput unless the bodies can be drawn.
+std::size_t numbers_of_bodies(const Json& motion) {
+  const Json bodies = motion.value("bodies", Json());
+  const bool solid = motion.value("dimensions", Json()) == 3;
+  const auto can_be_drawn = [&](const Json& body) {
+    return body.is_object() && body.value("name", Json()).is_string() &&
+           (solid ? body.value("shape", Json()).is_string() : body.value("width", Json()).is_number());
+  };
+  if (!bodies.is_array() || !std::all_of(bodies.begin(), bodies.end(), can_be_drawn))
+    throw InvalidInput("its bodies cannot be drawn");
+  return bodies.size() * (solid ? 7 : 4);
+}
+
+/// The bodies are its own, unless it is a prediction for those of another one.
+Json read_motion(const fs::path& path, const Json& bodies_of) {
+  Json motion = rounded(read_json(path));
+  if (!motion.is_object()) throw InvalidInput("it is no motion");
+  check_frames(motion, numbers_of_bodies(bodies_of.is_object() ? bodies_of : motion));
+  return motion;
+}
+
 /// What the files of a trial say together; null if the scenario cannot draw its robot.
 Json motion(const fs::path& folder, Index trial, Problems& problems) {
-  const auto read = [&](const char* kind) -> Json {
+  const auto read = [&](const char* kind, const Json& bodies_of) -> Json {
     const fs::path path = fs::path("motion") / fmt::format("{}-{:03}.json", kind, trial);
     if (!fs::exists(folder / path)) return {};
-    return problems.value_or_problem(path, [&] { return rounded(read_json(folder / path)); }).value_or(Json());
+    return problems.value_or_problem(path, [&] { return read_motion(folder / path, bodies_of); }).value_or(Json());
   };
-  Json motion = read("trial");
-  const Json prediction = read("prediction");
-  if (motion.is_object() && prediction.is_object()) motion["predicted"] = prediction.value("frames", Json());
+  Json motion = read("trial", {});
+  if (!motion.is_object()) return motion;
+  const Json prediction = read("prediction", motion);
+  if (prediction.is_object()) motion["predicted"] = prediction["frames"];
   return motion;
 }
 
@@ -121,13 +157,14 @@ Index trajectories_in(const fs::path& folder) {
 
 Json episode(const fs::path& folder, Index trial, Problems& problems) {
   const auto table = [&](const fs::path& path) {
-    return problems.value_or_problem(path, [&] { return columns(read_table(folder / path)); }).value_or(Json());
+    return problems.value_or_problem(path, [&] { return columns(read_table(folder / path), path, problems); })
+        .value_or(Json());
   };
   const fs::path prediction = trial_file("predictions", trial);
   Json predicted, gap;
   const auto read_prediction = [&] {
     const statistics::Table read = read_table(folder / prediction);
-    predicted = columns(read);
+    predicted = columns(read, prediction, problems);
     gap = prediction_gap(read);
     return true;
   };
@@ -205,7 +242,7 @@ Json read_run(const fs::path& folder, std::optional<Index> only, const ArchiveRe
   Index trials = trajectories_in(folder);
   if (const auto table = problems.value_or_problem("trials.csv", [&] { return read_table(folder / "trials.csv"); })) {
     trials = static_cast<Index>(table->rows.size());
-    run["trials"] = columns(*table);
+    run["trials"] = columns(*table, "trials.csv", problems);
     run["truth"] = truths(spec, *table);
   }
   std::vector<std::string> tables{"timings", "errors", "notes"};
@@ -213,7 +250,7 @@ Json read_run(const fs::path& folder, std::optional<Index> only, const ArchiveRe
   for (const std::string& name : tables) {
     const fs::path path = name + ".csv";
     if (const auto table = problems.value_or_problem(path, [&] { return read_table(folder / path); }))
-      run[name] = columns(*table);
+      run[name] = columns(*table, path, problems);
   }
   problems.value_or_problem("checkpoint", [&] { return check_checkpoint(folder / "checkpoint"), true; });
   if (!only) {

@@ -274,6 +274,30 @@ TEST_F(ReportTest, AMotionInSpaceIsCarriedWhole) {
   EXPECT_EQ(json::parse(read_trial(folder_, 2).json)["replay"]["episodes"][0]["motion"], motion);
 }
 
+TEST_F(ReportTest, WhatIsNoNumberOrNoMotionIsNamed) {
+  write_run(folder_);
+  write(folder_ / "trials.csv", "trial,interaction_s,return\n1,2.5,0.1\n2,5,7.0x3\n");
+  const auto motion_problem = [&](const char* trial, const char* prediction) {
+    write(folder_ / "motion/trial-002.json", trial);
+    write(folder_ / "motion/prediction-002.json", prediction);
+    const Report report = read_folder(folder_, {});
+    EXPECT_EQ(json::parse(report.json)["run"]["trials"]["return"], json::parse("[0.1, null]"));
+    EXPECT_EQ(report.problems.size(), 2u);
+    EXPECT_EQ(report.problems[0].where, "trials.csv");
+    EXPECT_EQ(report.problems[0].what, "row 3: return = 7.0x3, must be a number");
+    return report.problems.back().where + ": " + report.problems.back().what;
+  };
+  const char* whole =
+      R"({"format":1,"unit":"m","goal":null,"bodies":[{"name":"cart","width":1}],"frames":[[1,2,3,4]]})";
+  EXPECT_EQ(motion_problem(R"({"frames":"no","bodies":3,"unit":{}})", whole),
+            "motion/trial-002.json: its bodies cannot be drawn");
+  EXPECT_EQ(motion_problem(R"({"bodies":[{"name":"cart","width":1}],"frames":[[1,2,3]]})", whole),
+            "motion/trial-002.json: it has no frames of 4 numbers each");
+  EXPECT_EQ(motion_problem("[]", whole), "motion/trial-002.json: it is no motion");
+  EXPECT_EQ(motion_problem(whole, R"({"frames":[["x",2,3,4]]})"),
+            "motion/prediction-002.json: it has no frames of 4 numbers each");
+}
+
 TEST_F(ReportTest, ADamagedRunIsReportedWithoutWhatIsDamaged) {
   write_run(folder_);
   write(folder_ / "trials.csv", "trial,interaction_s,return\n1,2.5,0.1\n2,5");
