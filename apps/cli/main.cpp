@@ -1,8 +1,12 @@
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "apps/catalogue.hpp"
 #include "apps/cli/commands.hpp"
@@ -179,6 +183,13 @@ void complain(std::string_view message) {
   }
 }
 
+/// Where standard streams are closed the next files would take their place, and get what is printed.
+void keep_standard_descriptors() {
+  for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      (void)::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY);
+}
+
 /// How a program ends.
 struct End {
   int code = kSuccess;
@@ -191,6 +202,8 @@ End end_of(Command command) {
     return {command(), ""};
   } catch (const InvalidInput& error) {
     return {kWrongInput, error.what()};
+  } catch (const std::filesystem::filesystem_error& error) {
+    return {kWrongInput, fmt::format("cannot use {}: {}", error.path1().string(), error.code().message())};
   } catch (const std::exception& error) {
     return {kFailed, error.what()};
   }
@@ -209,6 +222,7 @@ End end_with(Ranks& ranks, End end) {
 
 int main(int argc, char** argv) {
   using namespace rehearse::apps;
+  keep_standard_descriptors();
   const Launch started = launch(argc, argv);
   Company company;
   End end = end_of([&] {

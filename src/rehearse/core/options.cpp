@@ -15,13 +15,23 @@ namespace {
 
 std::string violation(const std::string& name, double value, const Bound& bound) {
   const bool low_ok = bound.low_open ? value > bound.low : value >= bound.low;
-  if (low_ok && value <= bound.high) return {};  // NaN fails both
+  const bool in = low_ok && value <= bound.high;  // NaN fails both
+  if (in && (bound.infinite || std::isfinite(value))) return {};
   std::string line = fmt::format("{} = {}, must be ", name, to_text(value));
+  if (in) return line + "finite";
   if (std::isfinite(bound.low) && std::isfinite(bound.high))
     return line + fmt::format("between {} and {}", to_text(bound.low), to_text(bound.high));
   if (std::isfinite(bound.high)) return line + fmt::format("≤ {}", to_text(bound.high));
   if (std::isfinite(bound.low)) return line + fmt::format("{} {}", bound.low_open ? ">" : "≥", to_text(bound.low));
   return line + "a number";
+}
+
+/// Not less than it, where it has more digits than a double.
+double as_double(Index value) {
+  const auto nearest = static_cast<double>(value);
+  constexpr double kTooLarge = 9223372036854775808.0;  // 2^63
+  const bool less = nearest < kTooLarge && static_cast<Index>(nearest) < value;
+  return less ? std::nextafter(nearest, kTooLarge) : nearest;
 }
 
 class Lister final : public FieldVisitor {
@@ -47,7 +57,7 @@ class Checker final : public FieldVisitor {
  protected:
   void visit(const std::string& name, double& value, Bound bound) override { add(violation(name, value, bound)); }
   void visit(const std::string& name, Index& value, Bound bound) override {
-    add(violation(name, static_cast<double>(value), bound));
+    add(violation(name, as_double(value), bound));
   }
   void visit(const std::string&, bool&) override {}
   void visit(const std::string&, std::string&) override {}
@@ -77,7 +87,7 @@ class Setter final : public FieldVisitor {
     Index parsed = 0;
     const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), parsed);
     if (error != std::errc{} || end != text_.data() + text_.size()) wrong("a whole number");
-    check(violation(name, static_cast<double>(parsed), bound));
+    check(violation(name, as_double(parsed), bound));
     value = parsed;
   }
   void visit(const std::string& name, bool& value) override {

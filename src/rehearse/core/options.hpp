@@ -23,8 +23,9 @@ struct Bound {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false;  // low itself is not allowed
+  bool infinite = false;  // infinity is
 };
-inline Bound any_value() { return {}; }
+inline Bound any_value() { return {.infinite = true}; }
 inline Bound at_least(double low) { return {.low = low}; }
 inline Bound above(double low) { return {.low = low, .low_open = true}; }
 inline Bound between(double low, double high) { return {.low = low, .high = high}; }

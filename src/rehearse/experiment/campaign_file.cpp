@@ -75,7 +75,7 @@ class CampaignReader {
 
   void read_grid() {
     reader_.take("title", file_.title);
-    if (!reader_.take("scenario", file_.scenario)) violations_.add(0, "scenario is missing");
+    if (!reader_.take("scenario", file_.scenario) || file_.scenario.empty()) violations_.add(0, "scenario is missing");
     if (!reader_.take("learners", file_.learners)) violations_.add(0, "learners is missing");
     reader_.take("priors", file_.priors);
     reader_.take_fields([&](FieldVisitor& v) {
@@ -215,7 +215,7 @@ class CampaignReader {
 
   Bound trials() const { return between(1, static_cast<double>(file_.trials)); }
 
-  std::optional<double> number(TomlReader& reader, const std::string& key, Bound bound = any_value()) {
+  std::optional<double> number(TomlReader& reader, const std::string& key, Bound bound = {}) {
     double value = 0;
     const bool there = reader.has(key);
     reader.take_fields([&](FieldVisitor& v) { v.number(key, value, bound); });

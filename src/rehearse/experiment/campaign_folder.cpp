@@ -9,6 +9,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/campaign_summary.hpp"
+#include "rehearse/experiment/seal.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 
 namespace rehearse::experiment {
@@ -161,6 +162,15 @@ CampaignFolder CampaignFolder::join(const fs::path& given, std::string_view text
 
 namespace {
 
+std::string damage_of_checkpoint(const fs::path& file) {
+  try {
+    unseal("checkpoint", read_file(file));
+    return {};
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+}
+
 RunOutcome contents_of(const fs::path& folder, const PlannedRun& run) {
   if (!fs::exists(fs::symlink_status(folder))) return {};
   RunOutcome outcome;
@@ -171,7 +181,14 @@ RunOutcome contents_of(const fs::path& folder, const PlannedRun& run) {
   }
   outcome = rows_of(folder / "trials.csv", run.spec.trials);
   const bool solved = !outcome.solved.empty() && outcome.solved.back().value_or(false);
-  if (run.spec.ends_with(outcome.done(), solved) && fs::exists(folder / "done")) outcome.state = RunState::done;
+  if (!run.spec.ends_with(outcome.done(), solved) || !fs::exists(folder / "done")) return outcome;
+  const std::string damage = damage_of_checkpoint(folder / "checkpoint");
+  if (!damage.empty()) {
+    RunOutcome damaged;
+    damaged.fail(damage);
+    return damaged;
+  }
+  outcome.state = RunState::done;
   return outcome;
 }
 

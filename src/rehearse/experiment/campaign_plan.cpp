@@ -66,6 +66,8 @@ std::string folder_name(const Spec& spec, const std::string& variant) {
   return name + fmt::to_string(spec.seed);
 }
 
+constexpr std::size_t kLongestName = 240;  // bytes; file systems take 255
+
 std::vector<std::string> lines_of(std::string_view text) {
   std::vector<std::string> lines;
   for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
@@ -256,8 +258,25 @@ class Planner {
       if (!complete) return;
       Spec spec = *complete;
       spec.seed = seed;
-      plan_.runs.push_back({folder_name(spec, varied.name), plan_.groups.size() - 1, std::move(spec)});
+      std::string name = folder_name(spec, varied.name);
+      if (!check_name(name)) return;
+      plan_.runs.push_back({std::move(name), plan_.groups.size() - 1, std::move(spec)});
     }
+  }
+
+  bool check_name(const std::string& name) {
+    if (name.size() > kLongestName)
+      violations_.add(0,
+                      fmt::format("the name of a run's folder is longer than {} bytes: {}; [[variant]] gives options "
+                                  "that go together a short name",
+                                  kLongestName, name));
+    else if (!names_.insert(name).second)
+      violations_.add(0, fmt::format("two runs would have the folder {}: they are the same but for what no name of a "
+                                     "folder can tell",
+                                     name));
+    else
+      return true;
+    return false;
   }
 
   static FileOptions with_draws(FileOptions options, const std::vector<Draw>& draws, Index seed) {
@@ -295,6 +314,7 @@ class Planner {
   FileViolations& violations_;
   CampaignPlan plan_;
   std::set<std::string> used_;
+  std::set<std::string> names_;  // of the runs' folders
   std::vector<std::string> known_options_;
 };
 

@@ -44,14 +44,17 @@ RunFolder RunFolder::create(const fs::path& given, const Spec& spec) {
   const fs::path path = without_slash(given);
   if (fs::exists(fs::symlink_status(path))) throw InvalidInput(already_exists(path));
   const fs::path unborn = make_unborn(path);
-  FolderLock lock(unborn);
-  write_file(unborn / kSpec, to_toml(spec), Durability::power);
-  write_file(unborn / kCheckpoint, to_checkpoint({}, fingerprint(spec)), Durability::power);
-  if (!rename_new(unborn, path)) {
-    fs::remove_all(unborn);
-    throw InvalidInput(already_exists(path));
+  try {
+    FolderLock lock(unborn);
+    write_file(unborn / kSpec, to_toml(spec), Durability::power);
+    write_file(unborn / kCheckpoint, to_checkpoint({}, fingerprint(spec)), Durability::power);
+    if (!rename_new(unborn, path)) throw InvalidInput(already_exists(path));
+    return {path, spec, std::move(lock)};
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(unborn, ignored);
+    throw;
   }
-  return {path, spec, std::move(lock)};
 }
 
 RunFolder RunFolder::open(const fs::path& given) {
@@ -109,8 +112,9 @@ void RunFolder::write_motion(const char* kind, Index trial, const std::string& j
 }
 
 void RunFolder::write_archive(const std::string& bytes) const {
+  const fs::path path = path_ / "archive.bin";
   std::error_code none;
-  if (fs::file_size(path_ / "archive.bin", none) != bytes.size() || none) write_file(path_ / "archive.bin", bytes);
+  if (fs::file_size(path, none) != bytes.size() || none || read_file(path) != bytes) write_file(path, bytes);
 }
 
 void RunFolder::write_learners_table(const learners::Table& table) const {

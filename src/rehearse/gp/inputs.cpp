@@ -17,9 +17,12 @@ constexpr double kConstant = 1e-13, kSmallest = 1e-300;
 void require_finite(const ConstMatrixView& X) {
   Violations wrong;
   wrong.require(X.rows() > 0, "gp inputs have 0 rows, must be ≥ 1");
-  for (Index i = 0; i < X.rows(); ++i)
-    for (Index d = 0; d < X.cols(); ++d)
-      if (!std::isfinite(X(i, d))) wrong.add(fmt::format("gp inputs({}, {}) = {}, must be finite", i, d, X(i, d)));
+  const auto bad = static_cast<Index>((!X.array().isFinite()).count());
+  for (Index i = 0; i < X.rows() && bad > 0 && wrong.empty(); ++i)
+    for (Index d = 0; d < X.cols() && wrong.empty(); ++d)
+      if (!std::isfinite(X(i, d)))
+        wrong.add(fmt::format("gp inputs({}, {}) = {}, must be finite{}", i, d, X(i, d),
+                              bad > 1 ? fmt::format(", as must {} others", bad - 1) : ""));
   wrong.throw_if_any();
 }
 

@@ -51,7 +51,7 @@ bool not_improving(const std::vector<double>& history, std::size_t count) {
 }  // namespace
 
 void CmaesOptions::fields(FieldVisitor& v) {
-  v.integer("population", population, at_least(0));
+  v.integer("population", population, between(0, 1e6));
   v.boolean("active", active);
   v.boolean("elitism", elitism);
   v.number("value_tolerance", value_tolerance, at_least(0));

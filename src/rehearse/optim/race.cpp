@@ -139,12 +139,12 @@ class Race {
 
 void RaceOptions::fields(FieldVisitor& v) {
   v.integer("max_evaluations", max_evaluations, at_least(1));
-  v.integer("descents", descents, at_least(1));
+  v.integer("descents", descents, between(1, 1e6));
   v.integer("rounds", rounds, at_least(1));
   v.number("survivors", survivors, between(0, 1));
   v.number("sigma", sigma, above(0));
   v.number("start_sigma", start_sigma, above(0));
-  v.integer("judgements", judgements, at_least(1));
+  v.integer("judgements", judgements, between(1, 1e6));
   v.group("cmaes", cmaes);
 }
 

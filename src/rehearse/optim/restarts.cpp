@@ -252,9 +252,9 @@ void SearchOptions::fields(FieldVisitor& v) {
   v.number("step", step, between(1e-6, 10));
   v.number("start_step", start_step, between(0, 10));
   v.integer("max_doublings", max_doublings, between(0, 30));
-  v.number("target", target);
-  v.integer("candidates", candidates, at_least(1));
-  v.integer("final_samples", final_samples, at_least(0));
+  v.number("target", target, any_value());
+  v.integer("candidates", candidates, between(1, 1e6));
+  v.integer("final_samples", final_samples, between(0, 1e6));
   v.group("cmaes", cmaes);
   v.group("uncertainty", uncertainty);
 }

@@ -80,7 +80,7 @@ void UncertaintyOptions::fields(FieldVisitor& v) {
   v.number("reevaluated", reevaluated, between(0.01, 1));
   v.number("tolerance", tolerance, between(0, 1));
   v.number("smoothing", smoothing, between(0.01, 1));
-  v.integer("max_samples", max_samples, at_least(1));
+  v.integer("max_samples", max_samples, between(1, 1e6));
   v.number("samples_growth", samples_growth, at_least(0));
   v.number("samples_decay", samples_decay, between(0, 1));
   v.number("sigma_growth", sigma_growth, at_least(0));

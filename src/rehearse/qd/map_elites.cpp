@@ -42,7 +42,7 @@ void check(const Archive& archive, const SearchSpace& space, const MapElitesOpti
 
 void MapElitesOptions::fields(FieldVisitor& v) {
   v.integer("batch", batch, between(1, 1e6));
-  v.integer("initial", initial, at_least(1));
+  v.integer("initial", initial, between(1, 1e7));
   v.number("examples", examples, between(0, 1));
   v.number("example_sigma", example_sigma, at_least(0));
   v.group("variation", variation);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/report/archive_files.hpp"
 #include "rehearse/report/prediction_gap.hpp"
@@ -61,16 +62,19 @@ std::vector<std::pair<std::string, std::string>> options_of(const toml::table& f
   return options;
 }
 
-/// The header line holds the number of bytes that follow it.
+/// The header line holds the number of bytes that follow it and their checksum.
 void check_checkpoint(const fs::path& path) {
   const std::string bytes = read_text(path);
   const std::size_t line = bytes.find('\n');
   long format = 0;
   std::size_t size = 0;
-  if (line == std::string::npos || std::sscanf(bytes.c_str(), "rehearse-checkpoint %ld %zu", &format, &size) != 2)
+  unsigned long long sum = 0;
+  if (line == std::string::npos ||
+      std::sscanf(bytes.c_str(), "rehearse-checkpoint %ld %zu %llx", &format, &size, &sum) < 2)
     throw InvalidInput("it is truncated or none of Rehearse");
   if (format != kFormat) throw InvalidInput(fmt::format("format {} is that of another version of Rehearse", format));
-  if (size != bytes.size() - line - 1) throw InvalidInput("it is truncated or damaged");
+  const std::string_view body = std::string_view(bytes).substr(line + 1);
+  if (size != body.size() || sum != checksum(body)) throw InvalidInput("it is truncated or damaged");
 }
 
 void check_ends_with_line(const fs::path& path) {

@@ -7,9 +7,9 @@ namespace rehearse::scenario {
 
 void PolicyOptions::fields(FieldVisitor& v) {
   v.choice("policy", policy, {"mlp", "rbf", "linear"});
-  v.integer("hidden", hidden, at_least(1));
+  v.integer("hidden", hidden, between(1, 1e4));
   v.number("policy_gain", policy_gain, above(0));
-  v.integer("centres", centres, at_least(1));
+  v.integer("centres", centres, between(1, 1e4));
 }
 
 std::shared_ptr<const policy::Policy> make_policy(const PolicyOptions& options, const Task& task, const Vector& scale) {

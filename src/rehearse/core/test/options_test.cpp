@@ -44,6 +44,20 @@ std::string refusal(Outer& options, const char* name, const char* text) {
   return "accepted";
 }
 
+TEST(Options, AreFiniteUnlessTheirBoundAllowsOther) {
+  Outer options;
+  EXPECT_EQ(refusal(options, "width", "inf"), "width = inf, must be finite");
+  double target = 0;
+  const Fields fields = [&](FieldVisitor& v) { v.number("target", target, any_value()); };
+  EXPECT_TRUE(set_field(fields, "target", "inf"));
+  EXPECT_EQ(field_violations(fields).size(), 0u);
+  Index seed = 0;
+  const Fields exact = [&](FieldVisitor& v) { v.integer("seed", seed, between(0, 9007199254740992.0)); };
+  EXPECT_TRUE(set_field(exact, "seed", "9007199254740992"));
+  EXPECT_THROW(set_field(exact, "seed", "9007199254740993"), InvalidInput);
+  EXPECT_THROW(set_field(exact, "seed", "9223372036854775807"), InvalidInput);
+}
+
 TEST(Options, AreListedInTheirOrder) {
   Outer options;
   const std::vector<std::pair<std::string, std::string>> expected = {

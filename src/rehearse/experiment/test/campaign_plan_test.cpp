@@ -307,6 +307,19 @@ TEST(CampaignPlan, TooManyRunsAreRefusedBeforeTheyArePlanned) {
       "c.toml: these are more than 100000 runs");
 }
 
+TEST(CampaignPlan, EachRunHasAFolderOfItsOwnWithANameThatFits) {
+  EXPECT_EQ(
+      complaint("format = 1\nscenario = \"line\"\nlearners = [\"echo\"]\nseeds = [1]\npriors = [\"\", \"near\"]\n"),
+      "c.toml: two runs would have the folder line-echo-near-1: they are the same but for what no name of a folder "
+      "can tell");
+  const std::string many(250, '0');
+  EXPECT_NE(complaint(kHead + "learners = [\"echo\"]\n[vary]\nnoise = [\"0." + many + "1\"]\n")
+                .find("c.toml: the name of a run's folder is longer than 240 bytes: line-echo-near-noise=0.00"),
+            std::string::npos);
+  EXPECT_EQ(complaint("format = 1\nscenario = \"\"\nlearners = [\"echo\"]\nseeds = [1]\n"),
+            "c.toml: scenario is missing");
+}
+
 TEST(CampaignPlan, SaysWhatIsWrongWithClaims) {
   const auto about = [](const std::string& claim) {
     return complaint(kHead + "learners = [\"echo\"]\n[[claim]]\ntext = \"x\"\n" + claim);

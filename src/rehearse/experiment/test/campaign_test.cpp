@@ -230,7 +230,6 @@ TEST(Campaign, DamagedFoldersAreNamedAndLeftAlone) {
   std::string before;
   const Campaign campaign = after(folder, [&](const fs::path& runs) {
     before = read_file(runs / "line-echo-near-1/checkpoint");
-    fs::remove(runs / "line-echo-near-1/done");
     fs::resize_file(runs / "line-echo-near-1/checkpoint", before.size() / 2);
     write_file(runs / "line-echo-near-2/spec.toml", "format = 7\n[run]\n");
     write_file(runs / "line-echo-far-1/spec.toml", read_file(runs / "line-echo-near-1/spec.toml"));

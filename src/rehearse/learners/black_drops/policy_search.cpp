@@ -115,12 +115,12 @@ void SearchOptions::fields(FieldVisitor& v) {
   v.choice("method", method, {"race", "restarts"});
   v.choice("evaluation", evaluation, {"samples", "moments"});
   v.number("box", box, above(0));
-  v.integer("particles", particles, at_least(1));
+  v.integer("particles", particles, between(1, 1e6));
   v.group("imagine", imagine);
   v.group("race", race);
   v.group("restarts", restarts);
-  v.integer("finalists", finalists, at_least(1));
-  v.integer("selection", selection, at_least(1));
+  v.integer("finalists", finalists, between(1, 1e6));
+  v.integer("selection", selection, between(1, 1e6));
 }
 
 Index comparisons(const SearchProblem& problem, const SearchOptions& options) {

@@ -76,7 +76,7 @@ dynamics::Kind kind(const ModelOptions& options, bool around_a_mean) {
 
 void ModelOptions::fields(FieldVisitor& v) {
   v.group("fit", fit);
-  v.integer("inducing", inducing, at_least(1));
+  v.integer("inducing", inducing, between(1, 1e5));
   v.integer("inducing_line_searches", inducing_line_searches, at_least(0));
 }
 

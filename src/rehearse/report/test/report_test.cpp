@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/qd/archive_bytes.hpp"
 
@@ -25,6 +26,8 @@ std::string read_bytes(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
+
+std::string checksum_of(std::string_view bytes) { return fmt::format("{:016x}", checksum(bytes)); }
 
 class ReportTest : public ::testing::Test {
  protected:
@@ -56,7 +59,7 @@ class ReportTest : public ::testing::Test {
     write(run / "predictions/trial-002.csv", "time [s],particles,x mean [m]\n0,100,0\n0.1,100,\n");
     write(run / "motion/trial-002.json", R"({"format":1,"unit":"m","goal":null,"bodies":[],"frames":[[1.23456789]]})");
     write(run / "motion/prediction-002.json", R"({"format":1,"unit":"m","goal":null,"bodies":[],"frames":[[null]]})");
-    write(run / "checkpoint", "rehearse-checkpoint 1 3 0000000000000000\nabc");
+    write(run / "checkpoint", "rehearse-checkpoint 1 3 " + checksum_of("abc") + "\nabc");
     write(run / "done", "2 trials\n");
   }
 

@@ -118,7 +118,7 @@ void Physics::fields(FieldVisitor& v) {
 void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
   v.number("dt_s", dt_s, above(0));
-  v.integer("horizon", horizon, at_least(1));
+  v.integer("horizon", horizon, between(1, 1e6));
   v.number("shaping", shaping, between(0, 1));
   ode.fields(v);
 }

@@ -88,7 +88,7 @@ void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
   v.choice("damage", damage, {"none", "rear-left", "mid-left", "front-left", "front-right", "mid-right", "rear-right"});
   v.choice("damage_kind", kind, {"removed", "blocked", "weak"});
-  v.integer("horizon", horizon, at_least(1));
+  v.integer("horizon", horizon, between(1, 1e6));
   v.number("drift_m", drift_m, above(0));
   v.number("fall_reward", fall_reward, between(-1e6, 0));
   v.boolean("integral", integral);
