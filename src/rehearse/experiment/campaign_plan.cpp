@@ -264,7 +264,9 @@ class Planner {
     }
   }
 
+  /// The first bad one is named, and none where something else may be why.
   bool check_name(const std::string& name) {
+    if (!violations_.empty()) return false;
     if (name.size() > kLongestName)
       violations_.add(0,
                       fmt::format("the name of a run's folder is longer than {} bytes: {}; [[variant]] gives options "
