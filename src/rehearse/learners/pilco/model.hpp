@@ -17,9 +17,10 @@ namespace rehearse::learners::pilco {
 
 struct ModelOptions {
   gp::FitOptions fit;
-  Index inducing = 300;               // more rows than so many are summed up by so many inducing inputs: FITC; PILCO
-  Index inducing_line_searches = 10;  // that place them, from rows spread evenly over the trials (PILCO: 500, from
-                                      // random rows)
+  Index inducing = 1500;               // more rows than so many are summed up by so many inducing inputs: FITC, which
+                                       // may lose a swing that all rows know (PILCO: 300)
+  Index inducing_line_searches = 100;  // that place them, from rows spread evenly over the trials (PILCO: 500, from
+                                       // random rows)
   ModelOptions() {
     fit.penalties.length = fit.penalties.snr = true;
     fit.penalties.snr_limit = 1000;  // PILCO
