@@ -1,6 +1,7 @@
 #include "rehearse/experiment/evaluation.hpp"
 
 #include <cstring>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,16 @@
 
 namespace rehearse::experiment {
 namespace {
+
+/// The policy of which a trial's θ are the parameters.
+std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario) {
+  if (trial.policy == scenario.policy->name()) return scenario.policy;
+  const Task& task = scenario.task;
+  auto schedule = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
+  if (trial.policy == schedule->name()) return schedule;
+  throw InvalidInput(fmt::format("trial {} has the policy '{}', which is neither the scenario's, '{}', nor '{}'",
+                                 trial.trial, trial.policy, scenario.policy->name(), schedule->name()));
+}
 
 double return_of_episode(const Resolved& resolved, system::Plant& plant, const policy::Policy& policy,
                          const TrialRecord& trial, Index episode) {
@@ -32,15 +43,6 @@ double once(const Evaluator& evaluator, const std::string& step, const std::func
 }
 
 }  // namespace
-
-std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario) {
-  if (trial.policy == scenario.policy->name()) return scenario.policy;
-  const Task& task = scenario.task;
-  auto schedule = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
-  if (trial.policy == schedule->name()) return schedule;
-  throw InvalidInput(fmt::format("trial {} has the policy '{}', which is neither the scenario's, '{}', nor '{}'",
-                                 trial.trial, trial.policy, scenario.policy->name(), schedule->name()));
-}
 
 std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator,
                                       const std::function<void()>& before_each) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 
 #include "rehearse/core/evaluator.hpp"
@@ -9,10 +8,6 @@
 #include "rehearse/experiment/spec.hpp"
 
 namespace rehearse::experiment {
-
-/// The policy of which a trial's θ are the parameters: the scenario's, or a schedule of actions. Throws InvalidInput if
-/// it is another.
-std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario);
 
 /// Mean return of the trial's policy over the scenario's `evaluations` episodes, on a plant made for them and from
 /// random streams of their own: the trial, and whatever follows it, never notices. Empty if the scenario asks for none.

@@ -14,15 +14,16 @@ namespace {
 
 bool has_sentences(const std::string& column) { return column == "note" || column == "doubt"; }
 
-/// no_number(row): a cell is neither a number nor empty.
+/// no_number(row): the first cell that is neither a number nor empty.
 template <class NoNumber>
 Json numbers(const statistics::Table& table, std::size_t position, NoNumber no_number) {
   Json column = Json::array();
+  bool whole = true;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const std::string& cell = table.rows[row][position];
     double value = 0;
     const bool is_number = from_text(cell, value);
-    if (!is_number && !cell.empty()) no_number(row);
+    if (whole && !is_number && !cell.empty()) no_number(row), whole = false;
     column.push_back(is_number ? rounded(value) : Json());
   }
   return column;

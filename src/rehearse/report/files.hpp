@@ -55,7 +55,7 @@ class Problems {
 };
 
 /// Column name → cells. All are numbers or empty (null) but those of the columns of sentences, `note` and `doubt`; what
-/// should be a number and is none becomes null and a problem.
+/// should be a number and is none becomes null, and the first one of a column a problem.
 Json columns(const statistics::Table& table, const std::filesystem::path& where, Problems& problems);
 
 }  // namespace rehearse::report
