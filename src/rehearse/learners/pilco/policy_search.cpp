@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "rehearse/core/feature_moments.hpp"
-#include "rehearse/core/random.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/moments/expected_return.hpp"
 #include "rehearse/policy/rbf.hpp"
@@ -36,7 +35,7 @@ class Objective {
     const Vector theta = x.cwiseProduct(units_);
     const moments::Return found = expected_(theta, &gradient, workspace_, problem_.evaluator);
     gradient.array() *= units_.array();
-    ++evaluations_;
+    if (++evaluations_ == 1 && found.ok()) first_ = found.value;
     failed_ += !found.ok();
     if (found.ok()) best_ = evaluations_ - failed_ == 1 ? found.value : std::max(best_, found.value);
     report();
@@ -45,6 +44,7 @@ class Objective {
 
   Index evaluations() const { return evaluations_; }
   Index failed() const { return failed_; }
+  std::optional<double> first() const { return first_; }
 
  private:
   void report() const {
@@ -62,6 +62,7 @@ class Objective {
   Vector units_;
   double usual_evaluations_, best_ = 0;
   Index evaluations_ = 0, failed_ = 0;
+  std::optional<double> first_;
   Stopwatch watch_;
 };
 
@@ -76,12 +77,19 @@ Vector initial_lengths(const FeatureMap& features) {
   return lengths;
 }
 
+/// Rewards are not negative here.
+bool stuck(const SearchResult& found, double gain) {
+  return !found.predicted_return || (found.start_return && *found.predicted_return < (1 + gain) * *found.start_return);
+}
+
 }  // namespace
 
 void SearchOptions::fields(FieldVisitor& v) {
   bfgs.fields(v);
   v.number("start_std", start_std, at_least(0));
   v.number("start_std_angle", start_std_angle, at_least(0));
+  v.integer("restarts", restarts, between(0, 1000));
+  v.number("restart_gain", restart_gain, between(0, 1));
 }
 
 Gaussian start_state(const Task& task, const SearchOptions& options) {
@@ -93,13 +101,13 @@ Gaussian start_state(const Task& task, const SearchOptions& options) {
   return {task.start_mean, Matrix(deviations.cwiseAbs2().asDiagonal())};
 }
 
-Vector initial_policy(const policy::Policy& policy, const Task& task, const SearchOptions& options, std::uint64_t seed,
-                      std::uint64_t trial) {
+Vector initial_policy(const policy::Policy& policy, const Task& task, const SearchOptions& options, StreamKey key) {
   const policy::RbfOptions& rbf = *policy.analytic();
   const Transformed features = FeatureMoments(rbf.features)(start_state(task, options));
   const Vector lengths = initial_lengths(rbf.features).cwiseQuotient(rbf.scale);
   const Index D = rbf.scale.size(), A = policy.actions();
-  Rng rng({.seed = seed, .trial = trial, .purpose = Purpose::random_policy});
+  key.purpose = Purpose::random_policy;
+  Rng rng(key);
   Vector theta(policy.parameters());
   theta.head(A * D) = lengths.array().log().matrix().replicate(A, 1);
   for (Index c = 0; c < rbf.centres; ++c)
@@ -116,11 +124,31 @@ SearchResult search_policy(const SearchProblem& problem, const Vector& start, co
   Objective objective(problem, options, units);
   const optim::GradientResult found =
       optim::maximise_cautious_bfgs(std::ref(objective), start.cwiseQuotient(units), options.bfgs);
-  SearchResult result{.theta = start, .evaluations = objective.evaluations(), .failed = objective.failed()};
+  SearchResult result{.theta = start,
+                      .start_return = objective.first(),
+                      .evaluations = objective.evaluations(),
+                      .failed = objective.failed()};
   if (!std::isfinite(found.value)) return result;
   result.theta = found.x.cwiseProduct(units);
   result.predicted_return = found.value;
   return result;
+}
+
+SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
+                                  StreamKey key) {
+  SearchResult best = search_policy(problem, start, options);
+  if (!stuck(best, options.restart_gain)) return best;
+  Index evaluations = best.evaluations, failed = best.failed;
+  for (Index k = 1; k <= options.restarts; ++k) {
+    key.candidate = static_cast<std::uint64_t>(k);
+    SearchResult again = search_policy(problem, initial_policy(problem.policy, problem.task, options, key), options);
+    evaluations += again.evaluations;
+    failed += again.failed;
+    if (again.predicted_return > best.predicted_return) best = std::move(again);  // none is less than any
+  }
+  best.evaluations = evaluations;
+  best.failed = failed;
+  return best;
 }
 
 }  // namespace rehearse::learners::pilco

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -8,6 +7,7 @@
 #include "rehearse/core/events.hpp"
 #include "rehearse/core/gaussian.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/gp/moment_matching.hpp"
 #include "rehearse/optim/cautious_bfgs.hpp"
@@ -21,12 +21,17 @@ struct SearchOptions {
   // of every state of the cart-pole, 0.01 of the pendubot's angles.
   double start_std = 0.1;        // of states that are no angles, in their units
   double start_std_angle = 0.1;  // rad
+  // A search that gains less than `restart_gain` of its start's expected return is in a local optimum: it is tried
+  // again from that many first policies, and the best is taken. PILCO: none.
+  Index restarts = 0;
+  double restart_gain = 0.05;
   void fields(FieldVisitor& v);
 };
 
 struct SearchResult {
   Vector theta;
   std::optional<double> predicted_return;  // empty: no policy had one, theta is the start
+  std::optional<double> start_return;      // expected of the start
   Index evaluations = 0;                   // of the expected return
   Index failed = 0;                        // of these, without a value
 };
@@ -44,11 +49,15 @@ struct SearchProblem {
 Gaussian start_state(const Task& task, const SearchOptions& options);
 
 /// The first θ of an analytic policy, PILCO's: centres drawn about the features of the start, targets from N(0, 0.1²),
-/// length scales of 1, of cosines and sines 0.7.
-Vector initial_policy(const policy::Policy& policy, const Task& task, const SearchOptions& options, std::uint64_t seed,
-                      std::uint64_t trial);
+/// length scales of 1, of cosines and sines 0.7. `key` names the draw; its purpose is of no account.
+Vector initial_policy(const policy::Policy& policy, const Task& task, const SearchOptions& options, StreamKey key);
 
 /// Maximises the expected return from `start`. What the progress sink throws, passes.
 SearchResult search_policy(const SearchProblem& problem, const Vector& start, const SearchOptions& options);
+
+/// `search_policy`, and where that is stuck (`SearchOptions::restarts`) the best of searches from first policies too:
+/// those of `key` with the candidates 1, 2, …
+SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
+                                  StreamKey key);
 
 }  // namespace rehearse::learners::pilco

@@ -53,9 +53,14 @@ const Proposal& Trials::ask() {
 
 void Trials::tell(const Episode& episode) {
   if (const Proposal& asked = ask(); asked.policy == setting_.policy) theta_ = asked.theta;
-  data_.append(episode);
+  add(episode);
   ++trials_;
   proposal_.reset();
+}
+
+void Trials::add(const Episode& episode) {
+  data_.append(episode);
+  solved_ = setting_.task.solved && setting_.task.solved(episode);
 }
 
 json Trials::save() const {
@@ -68,10 +73,11 @@ json Trials::save() const {
 
 void Trials::load(const std::vector<Episode>& episodes, const json& state) {
   data_ = {};
+  solved_ = false;
   kernels_.clear();
   prior_.reset();
   proposal_.reset();
-  for (const Episode& episode : episodes) data_.append(episode);
+  for (const Episode& episode : episodes) add(episode);
   for (const Vector& flat : to_vectors(state.at("kernels")))
     kernels_.push_back(gp::Hyperparameters::from_flat(flat, flat.size() - 2));
   theta_ = to_vector(state.at("theta"));
@@ -103,9 +109,8 @@ Proposal Trials::next_proposal() {
   proposal.model = model.model;
   proposal.notes = std::move(model.notes);
   if (std::isfinite(model.log_evidence)) proposal.log_evidence = model.log_evidence;
-  proposal.theta = theta_.size() > 0
-                       ? theta_
-                       : initial_policy(*setting_.policy, setting_.task, options_.search, setting_.seed, trial());
+  proposal.theta =
+      theta_.size() > 0 ? theta_ : initial_policy(*setting_.policy, setting_.task, options_.search, policies());
   if (model.moments) proposal.search_s = seconds([&] { search(model, proposal); });
   if (model.model)
     proposal.moments =
@@ -121,11 +126,11 @@ Model Trials::learn_model() const {
   return learn(setting_.task, data_, options_.model, kernels_, *setting_.evaluator, mean);
 }
 
-/// From the proposal's θ.
+/// From the proposal's θ. A policy that has solved the task is good enough to be stuck at.
 void Trials::search(const Model& model, Proposal& proposal) const {
-  SearchResult found =
-      search_policy({model.moments, *setting_.policy, setting_.task, *setting_.evaluator, setting_.progress},
-                    proposal.theta, options_.search);
+  const SearchProblem problem{model.moments, *setting_.policy, setting_.task, *setting_.evaluator, setting_.progress};
+  SearchResult found = solved_ ? search_policy(problem, proposal.theta, options_.search)
+                               : search_with_restarts(problem, proposal.theta, options_.search, policies());
   proposal.theta = std::move(found.theta);
   proposal.predicted_return = found.predicted_return;
   proposal.rollouts = found.evaluations;

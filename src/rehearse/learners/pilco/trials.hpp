@@ -23,6 +23,8 @@ class Trials final : public Learner {
 
  private:
   std::uint64_t trial() const { return trials_ + 1; }
+  StreamKey policies() const { return {.seed = setting_.seed, .trial = trial()}; }
+  void add(const Episode& episode);
   Proposal propose();
   Proposal first_proposal();
   Proposal next_proposal();
@@ -33,6 +35,7 @@ class Trials final : public Learner {
   Options options_;
   std::optional<PriorKnowledge> prior_;  // once it is learned
   Dataset data_;
+  bool solved_ = false;  // by the last trial, as far as known
   std::uint64_t trials_ = 0;
   Vector theta_;  // of the last trial; empty before there was one of the setting's policy
   std::vector<gp::Hyperparameters> kernels_;

@@ -61,6 +61,12 @@ TEST(Pilco, KeepsTheLawsWithInducingInputs) {
   EXPECT_EQ(testing::check_learner(*sparse, setting(), run_trial), std::vector<std::string>{});
 }
 
+TEST(Pilco, KeepsTheLawsWithRestarts) {
+  const auto restarting =
+      builder({{"search.line_searches", "10"}, {"search.restarts", "2"}, {"search.restart_gain", "1"}});
+  EXPECT_EQ(testing::check_learner(*restarting, setting(), run_trial), std::vector<std::string>{});
+}
+
 // A policy that does nothing earns about 0, one that stops at 0 at once about 9.
 TEST(Pilco, LearnsTheSlider) {
   for (const std::uint64_t seed : {1, 2}) {
@@ -200,7 +206,7 @@ TEST(PolicySearch, BeginsWithPilcosPolicyWhateverTheScale) {
   const auto theta = [&](const Vector& scale) {
     const auto policy =
         policy::make_rbf({.features = task.feature_map(), .scale = scale, .centres = 40, .bounds = {{-1, 1}}});
-    return initial_policy(*policy, task, options, 1, 2);
+    return initial_policy(*policy, task, options, {.seed = 1, .trial = 2});
   };
   const Vector one = theta(Vector::Ones(3)), scaled = theta(Vector{{10, 1, 2}});
   EXPECT_TRUE(one.head(3).isApprox(Vector{{0, std::log(0.7), std::log(0.7)}}));
@@ -218,11 +224,42 @@ TEST(PolicySearch, KeepsTheStartWhereNothingHasAValue) {
   const auto dynamics = std::make_shared<gp::MomentMatching>(std::vector{wild}, 1);
   const auto policy = rbf();
   const Task task = slider::task();
-  const Vector start = initial_policy(*policy, task, {}, 1, 2);
+  const Vector start = initial_policy(*policy, task, {}, {.seed = 1, .trial = 2});
   const SearchResult found = search_policy({dynamics, *policy, task, serial_evaluator(), {}}, start, {});
   EXPECT_EQ(found.theta, start);
   EXPECT_FALSE(found.predicted_return.has_value());
   EXPECT_EQ(found.failed, found.evaluations);
+}
+
+TEST(PolicySearch, BeginsAnewOnlyWhereItIsStuck) {
+  const auto dynamics =
+      pilco::learn(task(), asked_after(2, {{"search.line_searches", "5"}}).data, {}, {}, serial_evaluator()).moments;
+  const auto policy = rbf();
+  const Task task = slider::task();
+  const SearchProblem problem{dynamics, *policy, task, serial_evaluator(), {}};
+  const SearchOptions options{.bfgs = {.line_searches = 30}, .restarts = 3};
+  const auto first_policy = [&](std::uint64_t candidate) {
+    return initial_policy(*policy, task, options, {.seed = 1, .trial = 2, .candidate = candidate});
+  };
+  const StreamKey key{.seed = 1, .trial = 2};
+  const SearchResult rising = search_policy(problem, first_policy(0), options);
+  ASSERT_GT(rising.predicted_return.value(), 2 * rising.start_return.value());
+  const SearchResult same = search_with_restarts(problem, first_policy(0), options, key);
+  EXPECT_EQ(same.theta, rising.theta);
+  EXPECT_EQ(same.evaluations, rising.evaluations);
+
+  std::vector<SearchResult> all{search_policy(problem, rising.theta, options)};
+  ASSERT_LT(all.front().predicted_return.value(), 1.05 * rising.predicted_return.value());
+  Index evaluations = all.front().evaluations;
+  for (const std::uint64_t candidate : {1, 2, 3})
+    evaluations += all.emplace_back(search_policy(problem, first_policy(candidate), options)).evaluations;
+  const auto& best = *std::max_element(all.begin(), all.end(), [](const SearchResult& a, const SearchResult& b) {
+    return a.predicted_return < b.predicted_return;
+  });
+  const SearchResult found = search_with_restarts(problem, rising.theta, options, key);
+  EXPECT_EQ(found.theta, best.theta);
+  EXPECT_EQ(found.predicted_return, best.predicted_return);
+  EXPECT_EQ(found.evaluations, evaluations);
 }
 
 TEST(PolicySearch, ReportsProgressAndPassesInterruptions) {
