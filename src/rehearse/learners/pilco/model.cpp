@@ -108,4 +108,11 @@ Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
   return model;
 }
 
+std::vector<gp::MomentTerm> terms_of(const Task& task, const Dataset& data, const ModelOptions& options,
+                                     const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
+                                     std::vector<std::string>& notes) {
+  const Matrix X = dynamics::gp_inputs(task.feature_map(), data.states, data.actions);
+  return terms(X, data.changes, options, kernels, evaluator, notes);
+}
+
 }  // namespace rehearse::learners::pilco

@@ -44,4 +44,9 @@ Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
             const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator,
             const std::vector<gp::MomentTerm>& mean = {});
 
+/// GPs with these kernels and zero mean: all rows, or, beyond `options.inducing` of them, inducing inputs.
+std::vector<gp::MomentTerm> terms_of(const Task& task, const Dataset& data, const ModelOptions& options,
+                                     const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
+                                     std::vector<std::string>& notes);
+
 }  // namespace rehearse::learners::pilco

@@ -11,18 +11,15 @@ std::vector<std::string> without_moments(const Task& task, const policy::Policy&
   return moments::without_moments(task, policy, "pilco", "the learner black-drops");
 }
 
-constexpr Index kInducingOfPrior = 300;  // PILCO's: GPs around those of the prior are slow, and it has many episodes
-
 class Builder final : public LearnerBuilder {
  public:
-  Builder(std::string name, std::string summary, std::optional<Index> prior_episodes)
+  Builder(std::string name, std::string summary, std::optional<PriorPhaseOptions> prior)
       : name_(std::move(name)), summary_(std::move(summary)) {
-    options_.prior_episodes = prior_episodes;
-    if (prior_episodes) options_.model.inducing = kInducingOfPrior;
+    options_.prior = prior;
   }
   std::string name() const override { return name_; }
   std::string summary() const override { return summary_; }
-  PriorUse prior_use() const override { return options_.prior_episodes ? PriorUse::required : PriorUse::none; }
+  PriorUse prior_use() const override { return options_.prior ? PriorUse::required : PriorUse::none; }
   bool chooses_priors() const override { return false; }
   void fields(FieldVisitor& v) override { options_.fields(v); }
   std::vector<std::string> violations(const Task& task, const policy::Policy& policy) const override {
@@ -41,7 +38,13 @@ void Options::fields(FieldVisitor& v) {
   v.group("model", model);
   v.group("search", search);
   v.number("first_trial.hold_s", first_trial_hold_s, at_least(0));
-  if (prior_episodes) v.integer("pilco.prior_episodes", *prior_episodes, at_least(1));
+  if (prior) prior->fields(v);
+}
+
+void PriorPhaseOptions::fields(FieldVisitor& v) {
+  v.integer("pilco.prior_episodes", episodes, at_least(1));
+  v.integer("pilco.prior_solved", solved, at_least(0));
+  v.integer("pilco.prior_inducing", inducing, between(1, 1e5));
 }
 
 std::unique_ptr<Learner> make(Setting setting, Options options) {
@@ -51,20 +54,21 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
   if (setting.policy)
     for (const auto& line : without_moments(setting.task, *setting.policy)) violations.add(line);
-  violations.require(!options.prior_episodes || setting.prior, "this learner needs a prior");
+  violations.require(!options.prior || setting.prior, "this learner needs a prior");
   violations.throw_if_any();
-  if (!options.prior_episodes) setting.prior.reset();
+  if (!options.prior) setting.prior.reset();
   if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
   return std::make_unique<Trials>(std::move(setting), std::move(options));
 }
 
 std::vector<std::unique_ptr<LearnerBuilder>> builders() {
   std::vector<std::unique_ptr<LearnerBuilder>> all;
-  const auto add = [&](const char* name, const char* summary, std::optional<Index> prior_episodes) {
-    all.push_back(std::make_unique<Builder>(name, summary, prior_episodes));
+  const auto add = [&](const char* name, const char* summary, std::optional<PriorPhaseOptions> prior) {
+    all.push_back(std::make_unique<Builder>(name, summary, prior));
   };
   add("pilco", "GPs from data alone, policies by moment matching and its gradient; needs policy=rbf", {});
-  add("pilco-prior", "PILCO on the prior first, then GPs around those learned there; needs policy=rbf", kPriorEpisodes);
+  add("pilco-prior", "PILCO on the prior first, then GPs around those learned there; needs policy=rbf",
+      PriorPhaseOptions{});
   return all;
 }
 

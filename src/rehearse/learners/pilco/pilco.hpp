@@ -12,14 +12,20 @@
 
 namespace rehearse::learners::pilco {
 
-inline constexpr Index kPriorEpisodes = 40;  // Chatzilygeroudis 2018, on the pendubot
+/// What PILCO learns on the prior (Cutler 2015).
+struct PriorPhaseOptions {
+  Index episodes = 40;  // at most; Chatzilygeroudis 2018, on the pendubot
+  Index solved =
+      3;  // the phase ends with so many that solve the task, one after the other; 0: never (Chatzilygeroudis)
+  Index inducing = 300;  // at most so many points of what was learned are the means of the GPs on the robot (PILCO)
+  void fields(FieldVisitor& v);
+};
 
 struct Options {
   ModelOptions model;
   SearchOptions search;
-  double first_trial_hold_s = 0;        // a random action of the first trial is held so long; PILCO: one step
-  std::optional<Index> prior_episodes;  // PILCO learns on the prior for so many, and begins with that (Cutler 2015);
-                                        // empty: without a prior
+  double first_trial_hold_s = 0;           // a random action of the first trial is held so long; PILCO: one step
+  std::optional<PriorPhaseOptions> prior;  // PILCO learns on the prior first, and begins with that; empty: without one
   void fields(FieldVisitor& v);
 };
 

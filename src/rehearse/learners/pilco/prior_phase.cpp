@@ -48,18 +48,18 @@ State to_state(const std::string& bytes) {
 
 class PriorPhase {
  public:
-  PriorPhase(const Setting& setting, const Options& options, Index episodes)
-      : setting_(setting), episodes_(episodes), trials_(inner_setting(), inner_options(options)) {}
+  PriorPhase(const Setting& setting, const Options& options)
+      : setting_(setting), options_(options.prior.value()), trials_(inner_setting(), inner_options(options)) {}
   PriorPhase(const PriorPhase&) = delete;  // the progress of its trials points here
   PriorPhase& operator=(const PriorPhase&) = delete;
 
   PriorKnowledge run() {
     restore();
     if (state_.over) return state_.knowledge;
-    while (done() < episodes_) one_episode();
+    while (!knows_enough()) one_episode();
     const Proposal& last = asked();
     PriorKnowledge& knowledge = state_.knowledge;
-    knowledge.network = gp::mean_terms(trials_.terms());
+    knowledge.network = gp::mean_terms(trials_.terms(options_.inducing, knowledge.notes));
     knowledge.theta = last.theta;
     knowledge.predicted_return = last.predicted_return;
     state_.over = true;
@@ -77,14 +77,17 @@ class PriorPhase {
     return inner;
   }
   static Options inner_options(Options options) {
-    options.prior_episodes.reset();
+    options.prior.reset();
     return options;
   }
 
   Index done() const { return static_cast<Index>(state_.episodes.size()); }
+  bool knows_enough() const {
+    return done() >= options_.episodes || (options_.solved > 0 && trials_.solved() >= options_.solved);
+  }
 
   void report(Progress progress) const {
-    progress.phase = fmt::format("prior {}/{}: {}", done(), episodes_, progress.phase);
+    progress.phase = fmt::format("prior {}/{}: {}", done(), options_.episodes, progress.phase);
     setting_.progress(progress);
   }
 
@@ -138,7 +141,7 @@ class PriorPhase {
   }
 
   const Setting& setting_;
-  Index episodes_;
+  PriorPhaseOptions options_;
   State state_;
   Trials trials_;
 };
@@ -177,8 +180,8 @@ PriorKnowledge to_knowledge(const json& j) {
   return knowledge;
 }
 
-PriorKnowledge learn_on_prior(const Setting& setting, const Options& options, Index episodes) {
-  return PriorPhase(setting, options, episodes).run();
+PriorKnowledge learn_on_prior(const Setting& setting, const Options& options) {
+  return PriorPhase(setting, options).run();
 }
 
 }  // namespace rehearse::learners::pilco

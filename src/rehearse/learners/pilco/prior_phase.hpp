@@ -27,8 +27,8 @@ nlohmann::json to_json(const PriorKnowledge& knowledge);
 /// Throws nlohmann::json::exception or InvalidInput where something else was saved.
 PriorKnowledge to_knowledge(const nlohmann::json& j);
 
-/// PILCO for `episodes` on the setting's prior at its own parameters, then once more a model and a policy. Kept in the
-/// setting's store after each episode.
-PriorKnowledge learn_on_prior(const Setting& setting, const Options& options, Index episodes);
+/// PILCO on the setting's prior at its own parameters for as long as `options.prior`, which must be there, says; then
+/// once more a model and a policy. Kept in the setting's store after each episode.
+PriorKnowledge learn_on_prior(const Setting& setting, const Options& options);
 
 }  // namespace rehearse::learners::pilco

@@ -60,7 +60,14 @@ void Trials::tell(const Episode& episode) {
 
 void Trials::add(const Episode& episode) {
   data_.append(episode);
-  solved_ = setting_.task.solved && setting_.task.solved(episode);
+  solved_ = setting_.task.solved && setting_.task.solved(episode) ? solved_ + 1 : 0;
+}
+
+std::vector<gp::MomentTerm> Trials::terms(Index inducing, std::vector<std::string>& notes) const {
+  if (!moments_) return {};
+  ModelOptions options = options_.model;
+  options.inducing = inducing;
+  return terms_of(setting_.task, data_, options, kernels_, *setting_.evaluator, notes);
 }
 
 json Trials::save() const {
@@ -73,7 +80,7 @@ json Trials::save() const {
 
 void Trials::load(const std::vector<Episode>& episodes, const json& state) {
   data_ = {};
-  solved_ = false;
+  solved_ = 0;
   kernels_.clear();
   prior_.reset();
   proposal_.reset();
@@ -83,7 +90,7 @@ void Trials::load(const std::vector<Episode>& episodes, const json& state) {
   theta_ = to_vector(state.at("theta"));
   trials_ = state.at("trials").get<std::uint64_t>();
   if (state.contains("prior")) prior_ = to_knowledge(state.at("prior"));
-  const bool fits = trials_ == episodes.size() && (trials_ == 0 || !options_.prior_episodes || prior_);
+  const bool fits = trials_ == episodes.size() && (trials_ == 0 || !options_.prior || prior_);
   if (!fits) throw InvalidInput("the learner's state does not fit the episodes");
 }
 
@@ -94,9 +101,9 @@ Proposal Trials::propose() {
 }
 
 Proposal Trials::first_proposal() {
-  if (!options_.prior_episodes) return random_actions(setting_, options_.first_trial_hold_s, trial());
+  if (!options_.prior) return random_actions(setting_, options_.first_trial_hold_s, trial());
   const Stopwatch watch;
-  if (!prior_) prior_ = learn_on_prior(setting_, options_, *options_.prior_episodes);
+  if (!prior_) prior_ = learn_on_prior(setting_, options_);
   Proposal proposal = proposal_of(*prior_, setting_);
   proposal.search_s = watch.seconds();
   return proposal;
@@ -129,8 +136,8 @@ Model Trials::learn_model() const {
 /// From the proposal's θ. A policy that has solved the task is good enough to be stuck at.
 void Trials::search(const Model& model, Proposal& proposal) const {
   const SearchProblem problem{model.moments, *setting_.policy, setting_.task, *setting_.evaluator, setting_.progress};
-  SearchResult found = solved_ ? search_policy(problem, proposal.theta, options_.search)
-                               : search_with_restarts(problem, proposal.theta, options_.search, policies());
+  SearchResult found = solved_ > 0 ? search_policy(problem, proposal.theta, options_.search)
+                                   : search_with_restarts(problem, proposal.theta, options_.search, policies());
   proposal.theta = std::move(found.theta);
   proposal.predicted_return = found.predicted_return;
   proposal.rollouts = found.evaluations;

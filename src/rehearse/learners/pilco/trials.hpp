@@ -7,7 +7,7 @@
 
 namespace rehearse::learners::pilco {
 
-/// The trials of PILCO on one system, the robot or, before, the prior. With `Options::prior_episodes` they begin with
+/// The trials of PILCO on one system, the robot or, before, the prior. With `Options::prior` they begin with
 /// what those on the prior taught, else with random actions.
 class Trials final : public Learner {
  public:
@@ -18,8 +18,10 @@ class Trials final : public Learner {
   nlohmann::json save() const override;
   void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override;
 
-  /// The GPs behind the proposal of `ask`; empty: there are none.
-  std::vector<gp::MomentTerm> terms() const { return moments_ ? moments_->terms() : std::vector<gp::MomentTerm>(); }
+  /// What the GPs behind the proposal of `ask` know, by at most so many points; empty: there are none. Without a prior.
+  std::vector<gp::MomentTerm> terms(Index inducing, std::vector<std::string>& notes) const;
+  /// So many of the last trials, one after the other, solved the task, as far as known.
+  Index solved() const { return solved_; }
 
  private:
   std::uint64_t trial() const { return trials_ + 1; }
@@ -35,7 +37,7 @@ class Trials final : public Learner {
   Options options_;
   std::optional<PriorKnowledge> prior_;  // once it is learned
   Dataset data_;
-  bool solved_ = false;  // by the last trial, as far as known
+  Index solved_ = 0;
   std::uint64_t trials_ = 0;
   Vector theta_;  // of the last trial; empty before there was one of the setting's policy
   std::vector<gp::Hyperparameters> kernels_;

@@ -28,7 +28,7 @@ Setting setting(std::uint64_t seed = 1) {
 
 Options options(Index prior_episodes = 3, Index line_searches = 20) {
   Options options;
-  options.prior_episodes = prior_episodes;
+  options.prior = PriorPhaseOptions{.episodes = prior_episodes};
   options.search.bfgs.line_searches = line_searches;
   return options;
 }
@@ -48,7 +48,7 @@ TEST(PriorPhase, ALearnerWithAPriorKeepsTheLaws) {
 }
 
 TEST(PriorPhase, TheFirstTrialIsThePolicyOfThePrior) {
-  const PriorKnowledge knowledge = learn_on_prior(setting(), options(), 3);
+  const PriorKnowledge knowledge = learn_on_prior(setting(), options());
   const auto learner = make(setting(), options());
   const Proposal& first = learner->ask();
   EXPECT_EQ(first.policy->name(), "rbf");
@@ -85,7 +85,7 @@ TEST(PriorPhase, LearnsTheRealSliderFromThere) {
 }
 
 TEST(PriorPhase, GoesOnFromTheStoreAfterEachEpisode) {
-  const PriorKnowledge whole = learn_on_prior(setting(), options(), 3);
+  const PriorKnowledge whole = learn_on_prior(setting(), options());
   for (const Index stop_after : {0, 1, 2, 3}) {
     const auto store = std::make_shared<MemoryStore>();
     Setting interrupted = setting();
@@ -95,19 +95,19 @@ TEST(PriorPhase, GoesOnFromTheStoreAfterEachEpisode) {
         throw Interrupted();
     };
     if (stop_after > 0) {
-      EXPECT_THROW(learn_on_prior(interrupted, options(), 3), Interrupted);
+      EXPECT_THROW(learn_on_prior(interrupted, options()), Interrupted);
     }
     EXPECT_EQ(store->writes, stop_after);
     std::vector<std::string> phases;
     interrupted.progress = [&](const Progress& progress) { phases.push_back(progress.phase); };
-    expect_same(learn_on_prior(interrupted, options(), 3), whole);
+    expect_same(learn_on_prior(interrupted, options()), whole);
     EXPECT_EQ(store->writes, 4) << "each episode, and the end";
     if (stop_after > 0) {
       EXPECT_EQ(phases.front(), "prior " + std::to_string(stop_after) + "/3: model");
     }
 
     phases.clear();
-    expect_same(learn_on_prior(interrupted, options(), 3), whole);
+    expect_same(learn_on_prior(interrupted, options()), whole);
     EXPECT_TRUE(phases.empty()) << "the second time nothing is computed";
   }
 }
@@ -120,7 +120,7 @@ std::string contradiction() {
   with_store.progress = [](const Progress& progress) {
     if (progress.phase == "prior 2/3: search") throw Interrupted();
   };
-  EXPECT_THROW(learn_on_prior(with_store, options(), 3), Interrupted);
+  EXPECT_THROW(learn_on_prior(with_store, options()), Interrupted);
   nlohmann::json kept = nlohmann::json::from_cbor(store->kept["prior"]);
   kept["episodes"].erase(0);
   std::string bytes;
@@ -129,13 +129,13 @@ std::string contradiction() {
 }
 
 TEST(PriorPhase, BeginsAnewWhereTheStoreHoldsSomethingElse) {
-  const PriorKnowledge whole = learn_on_prior(setting(), options(), 1);
+  const PriorKnowledge whole = learn_on_prior(setting(), options(1));
   for (const std::string& bytes : {std::string("not CBOR"), std::string("\xa0"), std::string(), contradiction()}) {
     Setting with_store = setting();
     const auto store = std::make_shared<MemoryStore>();
     store->kept["prior"] = bytes;
     with_store.store = store;
-    expect_same(learn_on_prior(with_store, options(), 1), whole);
+    expect_same(learn_on_prior(with_store, options(1)), whole);
   }
 }
 
@@ -167,6 +167,33 @@ TEST(PriorPhase, SurvivesASimulatorThatFails) {
   EXPECT_TRUE(without->ask().log_evidence) << "with zero mean";
 }
 
+TEST(PriorPhase, EndsWithEpisodesThatSolveTheTask) {
+  const auto episodes = [](Index solved, Index solved_from) {
+    Setting with = setting();
+    Index asked = 0;
+    with.task.solved = [&](const Episode&) { return ++asked >= solved_from; };
+    with.store = std::make_shared<MemoryStore>();
+    Options five = options(5, 5);
+    five.prior->solved = solved;
+    learn_on_prior(with, five);
+    return std::static_pointer_cast<MemoryStore>(with.store)->writes - 1;
+  };
+  EXPECT_EQ(episodes(2, 1), 2);
+  EXPECT_EQ(episodes(2, 3), 4);
+  EXPECT_EQ(episodes(2, 5), 5);
+  EXPECT_EQ(episodes(0, 1), 5);
+}
+
+TEST(PriorPhase, HandsOverNoMorePointsThanAsked) {
+  const auto points = [](Index inducing) {
+    Options three = options(3, 5);
+    three.prior->inducing = inducing;
+    return learn_on_prior(setting(), three).network.front().size();
+  };
+  EXPECT_EQ(points(7), 7);
+  EXPECT_EQ(points(300), 3 * task().horizon);
+}
+
 TEST(PriorPhase, NeedsAPrior) {
   try {
     make(slider::setting(), options());
@@ -179,7 +206,7 @@ TEST(PriorPhase, NeedsAPrior) {
 
 // The GPs of the real slider around those of the prior: moments are of the sum, and so is the model for forecasts.
 TEST(PriorPhase, ModelsAreAroundTheNetwork) {
-  const PriorKnowledge knowledge = learn_on_prior(setting(), options(), 2);
+  const PriorKnowledge knowledge = learn_on_prior(setting(), options(2));
   ASSERT_EQ(knowledge.network.size(), 1U);
   EXPECT_EQ(knowledge.network[0].variance, 0);
   EXPECT_EQ(knowledge.network[0].reduction.size(), 0);
