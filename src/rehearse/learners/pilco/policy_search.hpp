@@ -5,7 +5,6 @@
 
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
-#include "rehearse/core/gaussian.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
@@ -17,14 +16,10 @@ namespace rehearse::learners::pilco {
 
 struct SearchOptions {
   optim::CautiousBfgsOptions bfgs;
-  // At least so uncertain is the start that policies are made for: a narrow one leaves little to learn from. PILCO: 0.1
-  // of every state of the cart-pole, 0.01 of the pendubot's angles.
-  double start_std = 0.1;        // of states that are no angles, in their units
-  double start_std_angle = 0.1;  // rad
-  // A search that gains less than `restart_gain` of its start's expected return is in a local optimum: it is tried
-  // again from that many first policies, and the best is taken. PILCO: none.
-  Index restarts = 0;
-  double restart_gain = 0.05;
+  // A search that gains less than `restart_gain` of its start's expected return is at a local optimum, and its policy
+  // would repeat the last trial: the best of searches from so many first policies is tried instead. PILCO: none.
+  Index restarts = 1;
+  double restart_gain = 0.01;
   void fields(FieldVisitor& v);
 };
 
@@ -45,17 +40,14 @@ struct SearchProblem {
   const ProgressSink& progress;
 };
 
-/// N(the task's start, the larger of its and the options' deviations).
-Gaussian start_state(const Task& task, const SearchOptions& options);
-
-/// The first θ of an analytic policy, PILCO's: centres drawn about the features of the start, targets from N(0, 0.1²),
+/// The first θ of an analytic policy, PILCO's: centres drawn from the features of the start, targets from N(0, 0.1²),
 /// length scales of 1, of cosines and sines 0.7. `key` names the draw; its purpose is of no account.
-Vector initial_policy(const policy::Policy& policy, const Task& task, const SearchOptions& options, StreamKey key);
+Vector initial_policy(const policy::Policy& policy, const Task& task, StreamKey key);
 
 /// Maximises the expected return from `start`. What the progress sink throws, passes.
 SearchResult search_policy(const SearchProblem& problem, const Vector& start, const SearchOptions& options);
 
-/// `search_policy`, and where that is stuck (`SearchOptions::restarts`) the best of searches from first policies too:
+/// `search_policy`, or, where that is stuck (`SearchOptions::restarts`), the best of searches from first policies:
 /// those of `key` with the candidates 1, 2, …
 SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
                                   StreamKey key);

@@ -65,7 +65,7 @@ TEST(PriorPhase, TheFirstTrialIsThePolicyOfThePrior) {
                                          std::make_shared<gp::MomentMatching>(knowledge.network, 1));
   EXPECT_EQ(first.moments().states, expected.episode(first.theta).states);
 
-  // On the prior it does as well as was predicted, though the search takes the start to be less certain than it is.
+  // On the prior it does as well as was predicted.
   const prior::Prior prior = slider::prior(0.5, 0);
   const Episode there =
       rollout::execute(*prior.simulator, prior.space.values(), *first.policy, first.theta, task(), Rng({}));
