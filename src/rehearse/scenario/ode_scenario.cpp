@@ -35,7 +35,8 @@ Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options) 
                     .oracle = simulator(parts.plant),
                     .policy = make_policy(options.policy, task, parts.policy_scale),
                     .drawing = parts.drawing,
-                    .evaluations = options.evaluations};
+                    .evaluations = options.evaluations,
+                    .learner_options = parts.learner_options};
   for (const Guess& guess : parts.guesses)
     scenario.priors.push_back({guess.name, simulator(guess.parameters), guess.parameters});
   return scenario;

@@ -27,7 +27,7 @@ class Objective {
  public:
   Objective(const SearchProblem& problem, const SearchOptions& options, Vector units)
       : problem_(problem),
-        expected_(problem.task, problem.policy, problem.dynamics),
+        expected_(problem.task, problem.policy, problem.dynamics, start_state(problem.task, options)),
         units_(std::move(units)),
         usual_evaluations_(2 * static_cast<double>(options.bfgs.line_searches)) {}
 
@@ -86,14 +86,18 @@ bool stuck(const SearchResult& found, double gain) {
 
 void SearchOptions::fields(FieldVisitor& v) {
   bfgs.fields(v);
+  v.number("start_std", start_std, at_least(0));
   v.integer("restarts", restarts, between(0, 1000));
   v.number("restart_gain", restart_gain, between(0, 1));
 }
 
-Vector initial_policy(const policy::Policy& policy, const Task& task, StreamKey key) {
+Gaussian start_state(const Task& task, const SearchOptions& options) {
+  return {task.start_mean, Matrix(task.start_std.cwiseMax(options.start_std).cwiseAbs2().asDiagonal())};
+}
+
+Vector initial_policy(const policy::Policy& policy, const Task& task, const SearchOptions& options, StreamKey key) {
   const policy::RbfOptions& rbf = *policy.analytic();
-  const Transformed features =
-      FeatureMoments(rbf.features)({task.start_mean, Matrix(task.start_std.cwiseAbs2().asDiagonal())});
+  const Transformed features = FeatureMoments(rbf.features)(start_state(task, options));
   const Vector lengths = initial_lengths(rbf.features).cwiseQuotient(rbf.scale);
   const Index D = rbf.scale.size(), A = policy.actions();
   key.purpose = Purpose::random_policy;
@@ -126,17 +130,16 @@ SearchResult search_policy(const SearchProblem& problem, const Vector& start, co
 
 SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
                                   StreamKey key) {
-  SearchResult first = search_policy(problem, start, options), best;
-  if (options.restarts == 0 || !stuck(first, options.restart_gain)) return first;
-  Index evaluations = first.evaluations, failed = first.failed;
+  SearchResult best = search_policy(problem, start, options);
+  if (!stuck(best, options.restart_gain)) return best;
+  Index evaluations = best.evaluations, failed = best.failed;
   for (Index k = 1; k <= options.restarts; ++k) {
     key.candidate = static_cast<std::uint64_t>(k);
-    SearchResult fresh = search_policy(problem, initial_policy(problem.policy, problem.task, key), options);
+    SearchResult fresh = search_policy(problem, initial_policy(problem.policy, problem.task, options, key), options);
     evaluations += fresh.evaluations;
     failed += fresh.failed;
     if (fresh.predicted_return > best.predicted_return) best = std::move(fresh);  // none is less than any
   }
-  if (!best.predicted_return) best = std::move(first);
   best.evaluations = evaluations;
   best.failed = failed;
   return best;

@@ -5,6 +5,7 @@
 
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
+#include "rehearse/core/gaussian.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
@@ -16,10 +17,13 @@ namespace rehearse::learners::pilco {
 
 struct SearchOptions {
   optim::CautiousBfgsOptions bfgs;
-  // A search that gains less than `restart_gain` of its start's expected return is at a local optimum, and its policy
-  // would repeat the last trial: the best of searches from so many first policies is tried instead. PILCO: none.
-  Index restarts = 1;
-  double restart_gain = 0.01;
+  // Of each state of the start that policies are made for, at least. Smooths what is searched (PILCO's cart-pole: 0.1),
+  // but may promise what a robot that starts exactly never earns.
+  double start_std = 0;
+  // A search that gains less than `restart_gain` of its start's expected return is at a local optimum: so many first
+  // policies are starts of searches too, and the best of all is taken. PILCO: none.
+  Index restarts = 2;
+  double restart_gain = 0.05;
   void fields(FieldVisitor& v);
 };
 
@@ -40,14 +44,17 @@ struct SearchProblem {
   const ProgressSink& progress;
 };
 
+/// N(the task's start, the larger of its deviations and the option's).
+Gaussian start_state(const Task& task, const SearchOptions& options);
+
 /// The first θ of an analytic policy, PILCO's: centres drawn from the features of the start, targets from N(0, 0.1²),
 /// length scales of 1, of cosines and sines 0.7. `key` names the draw; its purpose is of no account.
-Vector initial_policy(const policy::Policy& policy, const Task& task, StreamKey key);
+Vector initial_policy(const policy::Policy& policy, const Task& task, const SearchOptions& options, StreamKey key);
 
 /// Maximises the expected return from `start`. What the progress sink throws, passes.
 SearchResult search_policy(const SearchProblem& problem, const Vector& start, const SearchOptions& options);
 
-/// `search_policy`, or, where that is stuck (`SearchOptions::restarts`), the best of searches from first policies:
+/// `search_policy`, and where that is stuck (`SearchOptions::restarts`) the best of searches from first policies too:
 /// those of `key` with the candidates 1, 2, …
 SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
                                   StreamKey key);

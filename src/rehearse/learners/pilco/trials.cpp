@@ -116,7 +116,8 @@ Proposal Trials::next_proposal() {
   proposal.model = model.model;
   proposal.notes = std::move(model.notes);
   if (std::isfinite(model.log_evidence)) proposal.log_evidence = model.log_evidence;
-  proposal.theta = theta_.size() > 0 ? theta_ : initial_policy(*setting_.policy, setting_.task, policies());
+  proposal.theta =
+      theta_.size() > 0 ? theta_ : initial_policy(*setting_.policy, setting_.task, options_.search, policies());
   if (model.moments) proposal.search_s = seconds([&] { search(model, proposal); });
   if (model.model)
     proposal.moments =
