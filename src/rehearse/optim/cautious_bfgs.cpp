@@ -63,7 +63,11 @@ class Search {
   std::string descend() {
     double step = 1 / (1 + gradient_.squaredNorm());
     bool failed = false;
+    std::vector<double> costs;  // before each line search
     for (Index i = 0; i < options_.line_searches; ++i) {
+      costs.push_back(cost_);
+      if (options_.patience > 0 && i >= options_.patience && stagnates(costs.rbegin()[options_.patience]))
+        return "patience";
       Vector direction = descent();
       if (!(direction.dot(gradient_) < 0)) {
         pairs_.clear();
@@ -85,6 +89,8 @@ class Search {
     }
     return "line_searches";
   }
+
+  bool stagnates(double cost_before) const { return cost_before - cost_ < options_.patience_gain * std::abs(cost_); }
 
   double evaluate(const Vector& x, Vector& gradient) {
     ++evaluations_;

@@ -13,16 +13,20 @@ struct CautiousBfgsOptions {
   Index line_evaluations = 30;  // at most, of a line search; PILCO
   double longest_step = 1;      // ‖Δx‖ that a line search begins with at most; Rasmussen
   double slope = 0.5;           // Wolfe's: how steep a line search may end; Rasmussen
+  Index patience = 0;           // line searches that have to gain `patience_gain` of the value together; 0: none
+  double patience_gain = 0.01;
   void fields(FieldVisitor& v) {
     v.integer("line_searches", line_searches, at_least(1));
     v.integer("line_evaluations", line_evaluations, at_least(1));
     v.number("longest_step", longest_step, above(0));
     v.number("slope", slope, between(1e-3, 0.99));
+    v.integer("patience", patience, at_least(0));
+    v.number("patience_gain", patience_gain, between(0, 1));
   }
 };
 
-/// Stops after "line_searches", as "converged" (no line search succeeds, not even along the gradient), or with "no
-/// finite value". No matrix of the coordinates: some 1000 of them are fine.
+/// Stops after "line_searches", out of "patience", as "converged" (no line search succeeds, not even along the
+/// gradient), or with "no finite value". No matrix of the coordinates: some 1000 of them are fine.
 GradientResult maximise_cautious_bfgs(const Differentiable& objective, const Vector& start,
                                       const CautiousBfgsOptions& options);
 

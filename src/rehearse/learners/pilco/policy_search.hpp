@@ -16,7 +16,7 @@
 namespace rehearse::learners::pilco {
 
 struct SearchOptions {
-  optim::CautiousBfgsOptions bfgs;
+  optim::CautiousBfgsOptions bfgs{.patience = 20};  // PILCO: none
   // Of each state of the start that policies are made for, at least. Smooths what is searched (PILCO's cart-pole: 0.1),
   // but may promise what a robot that starts exactly never earns.
   double start_std = 0;

@@ -50,6 +50,19 @@ TEST(CautiousBfgs, KeepsItsLimits) {
   EXPECT_GE(result.value, -4) << "no worse than the start";
 }
 
+TEST(CautiousBfgs, StopsWhereItGainsLittle) {
+  const Differentiable valley = [](const Vector& x, Vector& gradient) { return 10 + test::rosenbrock(x, gradient); };
+  const auto run = [&](Index patience, double gain) {
+    return maximise_cautious_bfgs(valley, Vector{{-1, 1}}, {.patience = patience, .patience_gain = gain});
+  };
+  const GradientResult whole = run(0, 1), impatient = run(3, 0.1), patient = run(3, 1e-6);
+  EXPECT_EQ(whole.stop, "converged");
+  EXPECT_EQ(impatient.stop, "patience");
+  EXPECT_LT(impatient.value, whole.value);
+  EXPECT_LT(impatient.evaluations, patient.evaluations);
+  EXPECT_LE(patient.evaluations, whole.evaluations);
+}
+
 TEST(CautiousBfgs, StopsWhenTheStartHasNoValue) {
   const GradientResult result = maximise_cautious_bfgs(test::log_barrier, Vector::Constant(1, -1), {});
   EXPECT_EQ(result.stop, "no finite value");
