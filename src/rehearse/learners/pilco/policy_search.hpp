@@ -16,14 +16,14 @@
 namespace rehearse::learners::pilco {
 
 struct SearchOptions {
-  optim::CautiousBfgsOptions bfgs{.patience = 20};  // PILCO: none
+  optim::CautiousBfgsOptions bfgs{.patience = 20, .patience_gain = 0.001};  // PILCO: none
   // Of each state of the start that policies are made for, at least. Smooths what is searched (PILCO's cart-pole: 0.1),
   // but may promise what a robot that starts exactly never earns.
   double start_std = 0;
   // A search that gains less than `restart_gain` of its start's expected return is at a local optimum: so many first
   // policies are starts of searches too, and the best of all is taken. PILCO: none.
   Index restarts = 2;
-  double restart_gain = 0.05;
+  double restart_gain = 0.01;
   void fields(FieldVisitor& v);
 };
 

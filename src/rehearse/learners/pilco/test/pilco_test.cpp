@@ -249,7 +249,7 @@ TEST(PolicySearch, BeginsAnewOnlyWhereItIsStuck) {
   EXPECT_EQ(same.evaluations, rising.evaluations);
 
   std::vector<SearchResult> all{search_policy(problem, rising.theta, options)};
-  ASSERT_LT(all.front().predicted_return.value(), 1.05 * rising.predicted_return.value());
+  ASSERT_LT(all.front().predicted_return.value(), 1.01 * rising.predicted_return.value());
   Index evaluations = all.front().evaluations;
   for (const std::uint64_t candidate : {1, 2, 3})
     evaluations += all.emplace_back(search_policy(problem, first_policy(candidate), options)).evaluations;
