@@ -14,9 +14,8 @@ namespace rehearse::learners::pilco {
 
 /// What PILCO learns on the prior (Cutler 2015).
 struct PriorPhaseOptions {
-  Index episodes = 40;  // at most; Chatzilygeroudis 2018, on the pendubot
-  Index solved =
-      3;  // the phase ends with so many that solve the task, one after the other; 0: never (Chatzilygeroudis)
+  Index episodes = 40;   // at most; Chatzilygeroudis 2018, on the pendubot
+  Index solved = 3;      // in a row end the phase; 0: none do (Chatzilygeroudis)
   Index inducing = 300;  // at most so many points of what was learned are the means of the GPs on the robot (PILCO)
   void fields(FieldVisitor& v);
 };
