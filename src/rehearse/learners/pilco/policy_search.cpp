@@ -25,26 +25,26 @@ Vector units_of(const policy::RbfOptions& policy, Index parameters) {
 /// The expected return as an objective of θ / units.
 class Objective {
  public:
-  Objective(const SearchProblem& problem, const SearchOptions& options, Vector units)
+  Objective(const SearchProblem& problem, const SearchOptions& options, Index searches)
       : problem_(problem),
         expected_(problem.task, problem.policy, problem.dynamics, start_state(problem.task, options)),
-        units_(std::move(units)),
-        usual_evaluations_(2 * static_cast<double>(options.bfgs.line_searches)) {}
+        units_(units_of(*problem.policy.analytic(), problem.policy.parameters())),
+        usual_evaluations_(2 * static_cast<double>(options.bfgs.line_searches * searches)) {}
 
   double operator()(const Vector& x, Vector& gradient) {
     const Vector theta = x.cwiseProduct(units_);
     const moments::Return found = expected_(theta, &gradient, workspace_, problem_.evaluator);
     gradient.array() *= units_.array();
-    if (++evaluations_ == 1 && found.ok()) first_ = found.value;
+    ++evaluations_;
     failed_ += !found.ok();
     if (found.ok()) best_ = evaluations_ - failed_ == 1 ? found.value : std::max(best_, found.value);
     report();
     return found.value;
   }
 
+  const Vector& units() const { return units_; }
   Index evaluations() const { return evaluations_; }
   Index failed() const { return failed_; }
-  std::optional<double> first() const { return first_; }
 
  private:
   void report() const {
@@ -62,9 +62,18 @@ class Objective {
   Vector units_;
   double usual_evaluations_, best_ = 0;
   Index evaluations_ = 0, failed_ = 0;
-  std::optional<double> first_;
   Stopwatch watch_;
 };
+
+SearchResult search(Objective& objective, const Vector& start, const SearchOptions& options) {
+  const optim::GradientResult found =
+      optim::maximise_cautious_bfgs(std::ref(objective), start.cwiseQuotient(objective.units()), options.bfgs);
+  SearchResult result{.theta = start, .evaluations = objective.evaluations(), .failed = objective.failed()};
+  if (!std::isfinite(found.value)) return result;
+  result.theta = found.x.cwiseProduct(objective.units());
+  result.predicted_return = found.value;
+  return result;
+}
 
 /// One a feature.
 Vector initial_lengths(const FeatureMap& features) {
@@ -77,18 +86,12 @@ Vector initial_lengths(const FeatureMap& features) {
   return lengths;
 }
 
-/// Rewards are not negative here.
-bool stuck(const SearchResult& found, double gain) {
-  return !found.predicted_return || (found.start_return && *found.predicted_return < (1 + gain) * *found.start_return);
-}
-
 }  // namespace
 
 void SearchOptions::fields(FieldVisitor& v) {
   bfgs.fields(v);
   v.number("start_std", start_std, at_least(0));
   v.integer("restarts", restarts, between(0, 1000));
-  v.number("restart_gain", restart_gain, between(0, 1));
 }
 
 Gaussian start_state(const Task& task, const SearchOptions& options) {
@@ -114,34 +117,21 @@ Vector initial_policy(const policy::Policy& policy, const Task& task, const Sear
 }
 
 SearchResult search_policy(const SearchProblem& problem, const Vector& start, const SearchOptions& options) {
-  const Vector units = units_of(*problem.policy.analytic(), start.size());
-  Objective objective(problem, options, units);
-  const optim::GradientResult found =
-      optim::maximise_cautious_bfgs(std::ref(objective), start.cwiseQuotient(units), options.bfgs);
-  SearchResult result{.theta = start,
-                      .start_return = objective.first(),
-                      .evaluations = objective.evaluations(),
-                      .failed = objective.failed()};
-  if (!std::isfinite(found.value)) return result;
-  result.theta = found.x.cwiseProduct(units);
-  result.predicted_return = found.value;
-  return result;
+  Objective objective(problem, options, 1);
+  return search(objective, start, options);
 }
 
 SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
                                   StreamKey key) {
-  SearchResult best = search_policy(problem, start, options);
-  if (!stuck(best, options.restart_gain)) return best;
-  Index evaluations = best.evaluations, failed = best.failed;
+  Objective objective(problem, options, 1 + options.restarts);
+  SearchResult best = search(objective, start, options);
   for (Index k = 1; k <= options.restarts; ++k) {
     key.candidate = static_cast<std::uint64_t>(k);
-    SearchResult fresh = search_policy(problem, initial_policy(problem.policy, problem.task, options, key), options);
-    evaluations += fresh.evaluations;
-    failed += fresh.failed;
+    SearchResult fresh = search(objective, initial_policy(problem.policy, problem.task, options, key), options);
     if (fresh.predicted_return > best.predicted_return) best = std::move(fresh);  // none is less than any
   }
-  best.evaluations = evaluations;
-  best.failed = failed;
+  best.evaluations = objective.evaluations();
+  best.failed = objective.failed();
   return best;
 }
 

@@ -20,18 +20,16 @@ struct SearchOptions {
   // Of each state of the start that policies are made for, at least. Smooths what is searched (PILCO's cart-pole: 0.1),
   // but may promise what a robot that starts exactly never earns.
   double start_std = 0;
-  // A search that gains less than `restart_gain` of its start's expected return is at a local optimum: so many first
-  // policies are starts of searches too, and the best of all is taken. PILCO: none.
+  // While the last trial has not solved the task so many first policies are starts of searches too, and the best of all
+  // is taken, since searches by gradient stay at local optima. PILCO: none.
   Index restarts = 2;
-  double restart_gain = 0.01;
   void fields(FieldVisitor& v);
 };
 
 struct SearchResult {
   Vector theta;
   std::optional<double> predicted_return;  // empty: no policy had one, theta is the start
-  std::optional<double> start_return;      // expected of the start
-  Index evaluations = 0;                   // of the expected return
+  Index evaluations = 0;                   // of the expected return, in all searches
   Index failed = 0;                        // of these, without a value
 };
 
@@ -54,8 +52,8 @@ Vector initial_policy(const policy::Policy& policy, const Task& task, const Sear
 /// Maximises the expected return from `start`. What the progress sink throws, passes.
 SearchResult search_policy(const SearchProblem& problem, const Vector& start, const SearchOptions& options);
 
-/// `search_policy`, and where that is stuck (`SearchOptions::restarts`) the best of searches from first policies too:
-/// those of `key` with the candidates 1, 2, …
+/// The best of `search_policy` from `start` and from `SearchOptions::restarts` first policies: those of `key` with the
+/// candidates 1, 2, …
 SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
                                   StreamKey key);
 

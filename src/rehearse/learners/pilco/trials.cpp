@@ -133,7 +133,7 @@ Model Trials::learn_model() const {
   return learn(setting_.task, data_, options_.model, kernels_, *setting_.evaluator, mean);
 }
 
-/// From the proposal's θ. A policy that has solved the task is good enough to be stuck at.
+/// From the proposal's θ. A policy that has solved the task is good enough to stay with.
 void Trials::search(const Model& model, Proposal& proposal) const {
   const SearchProblem problem{model.moments, *setting_.policy, setting_.task, *setting_.evaluator, setting_.progress};
   SearchResult found = solved_ > 0 ? search_policy(problem, proposal.theta, options_.search)
