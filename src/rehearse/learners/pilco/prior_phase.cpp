@@ -1,5 +1,8 @@
 #include "rehearse/learners/pilco/prior_phase.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kStored = "prior";
+constexpr double kNothing = 0.02;  // of a return
 
 /// Episodes on the prior draw from trials that no robot ever does.
 constexpr std::uint64_t kFirstTrial = std::uint64_t{1} << 32;
@@ -22,6 +26,7 @@ constexpr std::uint64_t kFirstTrial = std::uint64_t{1} << 32;
 struct State {
   PriorKnowledge knowledge;  // its counts and notes so far; all of it once the phase is over
   bool over = false;         // the rest no longer matters
+  Index settled = 0;         // episodes in a row that taught nothing
   std::vector<Episode> episodes;
   json learner;
 };
@@ -30,6 +35,7 @@ std::string to_bytes(const State& state) {
   json all = {{"knowledge", to_json(state.knowledge)}, {"over", state.over}};
   if (!state.over) {
     all["learner"] = state.learner;
+    all["settled"] = state.settled;
     for (const Episode& episode : state.episodes) all["episodes"].push_back(learners::to_json(episode));
   }
   std::string bytes;
@@ -42,6 +48,7 @@ State to_state(const std::string& bytes) {
   State state{.knowledge = to_knowledge(all.at("knowledge")), .over = all.at("over").get<bool>()};
   if (state.over) return state;
   state.learner = all.at("learner");
+  state.settled = all.at("settled").get<Index>();
   for (const json& episode : all.at("episodes")) state.episodes.push_back(to_episode(episode));
   return state;
 }
@@ -83,7 +90,7 @@ class PriorPhase {
 
   Index done() const { return static_cast<Index>(state_.episodes.size()); }
   bool knows_enough() const {
-    return done() >= options_.episodes || (options_.solved > 0 && trials_.solved() >= options_.solved);
+    return done() >= options_.episodes || (options_.settled > 0 && state_.settled >= options_.settled);
   }
 
   void report(Progress progress) const {
@@ -117,10 +124,20 @@ class PriorPhase {
     const Episode episode = rollout::execute(*prior.simulator, prior.space.values(), *proposal.policy, proposal.theta,
                                              setting_.task, Rng(key));
     note_failure(episode);
+    state_.settled = taught_nothing(proposal, episode) ? state_.settled + 1 : 0;
     trials_.tell(episode);
     state_.episodes.push_back(episode);
     state_.learner = trials_.save();
     keep();
+  }
+
+  bool taught_nothing(const Proposal& proposal, const Episode& episode) const {
+    if (!proposal.predicted_return) return false;
+    const double earned = episode.total_reward(), promised = *proposal.predicted_return;
+    const bool as_promised = std::abs(earned - promised) <= kNothing * promised;
+    return as_promised && std::ranges::any_of(state_.episodes, [&](const Episode& before) {
+             return earned <= (1 + kNothing) * before.total_reward();
+           });
   }
 
   void note_failure(const Episode& episode) {

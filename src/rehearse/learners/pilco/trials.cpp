@@ -60,7 +60,7 @@ void Trials::tell(const Episode& episode) {
 
 void Trials::add(const Episode& episode) {
   data_.append(episode);
-  solved_ = setting_.task.solved && setting_.task.solved(episode) ? solved_ + 1 : 0;
+  solved_ = setting_.task.solved && setting_.task.solved(episode);
 }
 
 std::vector<gp::MomentTerm> Trials::terms(Index inducing, std::vector<std::string>& notes) const {
@@ -80,7 +80,7 @@ json Trials::save() const {
 
 void Trials::load(const std::vector<Episode>& episodes, const json& state) {
   data_ = {};
-  solved_ = 0;
+  solved_ = false;
   kernels_.clear();
   prior_.reset();
   proposal_.reset();
@@ -136,8 +136,8 @@ Model Trials::learn_model() const {
 /// From the proposal's θ. A policy that has solved the task is good enough to stay with.
 void Trials::search(const Model& model, Proposal& proposal) const {
   const SearchProblem problem{model.moments, *setting_.policy, setting_.task, *setting_.evaluator, setting_.progress};
-  SearchResult found = solved_ > 0 ? search_policy(problem, proposal.theta, options_.search)
-                                   : search_with_restarts(problem, proposal.theta, options_.search, policies());
+  SearchResult found = solved_ ? search_policy(problem, proposal.theta, options_.search)
+                               : search_with_restarts(problem, proposal.theta, options_.search, policies());
   proposal.theta = std::move(found.theta);
   proposal.predicted_return = found.predicted_return;
   proposal.rollouts = found.evaluations;

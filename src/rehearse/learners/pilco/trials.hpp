@@ -20,8 +20,6 @@ class Trials final : public Learner {
 
   /// What the GPs behind the proposal of `ask` know, by at most so many points; empty: there are none. Without a prior.
   std::vector<gp::MomentTerm> terms(Index inducing, std::vector<std::string>& notes) const;
-  /// So many of the last trials, one after the other, solved the task, as far as known.
-  Index solved() const { return solved_; }
 
  private:
   std::uint64_t trial() const { return trials_ + 1; }
@@ -37,7 +35,7 @@ class Trials final : public Learner {
   Options options_;
   std::optional<PriorKnowledge> prior_;  // once it is learned
   Dataset data_;
-  Index solved_ = 0;
+  bool solved_ = false;  // by the last trial, as far as known
   std::uint64_t trials_ = 0;
   Vector theta_;  // of the last trial; empty before there was one of the setting's policy
   std::vector<gp::Hyperparameters> kernels_;

@@ -1,5 +1,6 @@
 #include "rehearse/learners/pilco/prior_phase.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -167,21 +168,29 @@ TEST(PriorPhase, SurvivesASimulatorThatFails) {
   EXPECT_TRUE(without->ask().log_evidence) << "with zero mean";
 }
 
-TEST(PriorPhase, EndsWithEpisodesThatSolveTheTask) {
-  const auto episodes = [](Index solved, Index solved_from) {
+TEST(PriorPhase, EndsWithEpisodesThatTeachNothing) {
+  const auto returns = [](Index settled) {
+    std::vector<double> all;
     Setting with = setting();
-    Index asked = 0;
-    with.task.solved = [&](const Episode&) { return ++asked >= solved_from; };
-    with.store = std::make_shared<MemoryStore>();
-    Options five = options(5, 5);
-    five.prior->solved = solved;
-    learn_on_prior(with, five);
-    return std::static_pointer_cast<MemoryStore>(with.store)->writes - 1;
+    with.task.solved = [&](const Episode& episode) {
+      all.push_back(episode.total_reward());
+      return false;
+    };
+    Options ten = options(10, 40);
+    ten.prior->settled = settled;
+    learn_on_prior(with, ten);
+    return all;
   };
-  EXPECT_EQ(episodes(2, 1), 2);
-  EXPECT_EQ(episodes(2, 3), 4);
-  EXPECT_EQ(episodes(2, 5), 5);
-  EXPECT_EQ(episodes(0, 1), 5);
+  const std::vector<double> whole = returns(0), settled = returns(2);
+  EXPECT_EQ(whole.size(), 10U);
+  ASSERT_GE(settled.size(), 4U);
+  ASSERT_LT(settled.size(), 10U);
+  EXPECT_TRUE(std::equal(settled.begin(), settled.end(), whole.begin()));
+  EXPECT_LT(returns(1).size(), settled.size());
+  const auto last = settled.end() - 2;
+  const double before = *std::max_element(settled.begin(), last);
+  for (auto each = last; each != settled.end(); ++each) EXPECT_LE(*each, 1.021 * before);
+  EXPECT_GT(before, 0.95 * *std::max_element(whole.begin(), whole.end())) << "nothing was left to learn";
 }
 
 TEST(PriorPhase, HandsOverNoMorePointsThanAsked) {
