@@ -66,6 +66,17 @@ TEST(Pilco, KeepsTheLawsWithRestarts) {
   EXPECT_EQ(testing::check_learner(*restarting, setting(), run_trial), std::vector<std::string>{});
 }
 
+TEST(Pilco, BeginsAnewUntilATrialSolvesTheTask) {
+  const auto rollouts = [](bool solved, const char* restarts) {
+    Setting with = setting();
+    with.task.solved = [=](const Episode&) { return solved; };
+    const auto learner = builder({{"search.line_searches", "10"}, {"search.restarts", restarts}})->build(with);
+    return learn(*learner, 2).proposals.back().rollouts;
+  };
+  EXPECT_GT(rollouts(false, "2"), 2 * rollouts(false, "0"));
+  EXPECT_EQ(rollouts(true, "2"), rollouts(true, "0"));
+}
+
 // A policy that does nothing earns about 0, one that stops at 0 at once about 9.
 TEST(Pilco, LearnsTheSlider) {
   for (const std::uint64_t seed : {1, 2}) {
