@@ -64,7 +64,7 @@ void Trials::add(const Episode& episode) {
 }
 
 std::vector<gp::MomentTerm> Trials::terms(Index inducing, std::vector<std::string>& notes) const {
-  if (!moments_) return {};
+  if (!proposal_ || !proposal_->model) return {};
   ModelOptions options = options_.model;
   options.inducing = inducing;
   return terms_of(setting_.task, data_, options, kernels_, *setting_.evaluator, notes);
@@ -122,7 +122,6 @@ Proposal Trials::next_proposal() {
   if (model.model)
     proposal.moments =
         moments::expected_episode(setting_.task, setting_.policy, std::move(model.moments_of_all_rows), proposal.theta);
-  moments_ = model.moments;
   kernels_ = std::move(model.kernels);  // last: an interruption must not leave it behind
   return proposal;
 }

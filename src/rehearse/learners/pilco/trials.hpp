@@ -39,7 +39,6 @@ class Trials final : public Learner {
   std::uint64_t trials_ = 0;
   Vector theta_;  // of the last trial; empty before there was one of the setting's policy
   std::vector<gp::Hyperparameters> kernels_;
-  std::shared_ptr<const gp::MomentMatching> moments_;
   std::optional<Proposal> proposal_;
 };
 
