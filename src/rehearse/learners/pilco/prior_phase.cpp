@@ -131,11 +131,12 @@ class PriorPhase {
     keep();
   }
 
+  /// Moment matching may promise less than a policy earns, and go on doing so.
   bool taught_nothing(const Proposal& proposal, const Episode& episode) const {
     if (!proposal.predicted_return) return false;
     const double earned = episode.total_reward(), promised = *proposal.predicted_return;
-    const bool as_promised = std::abs(earned - promised) <= kNothing * promised;
-    return as_promised && std::ranges::any_of(state_.episodes, [&](const Episode& before) {
+    const bool keeps_promise = earned >= (1 - kNothing) * promised;
+    return keeps_promise && std::ranges::any_of(state_.episodes, [&](const Episode& before) {
              return earned <= (1 + kNothing) * before.total_reward();
            });
   }
