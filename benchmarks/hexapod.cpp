@@ -47,7 +47,8 @@ std::vector<Trial> trials(const scenario::Scenario& robot, Index count, std::uin
 }
 
 prior::Prior prior_of(const scenario::Scenario& robot) {
-  prior::Prior prior{"known leg", robot.priors[0].simulator, robot.priors[0].parameters};
+  const scenario::NamedPrior& intact = robot.priors[0];
+  prior::Prior prior{"known leg", intact.simulator, intact.parameters, intact.driven};
   prior.space = prior.space.fixed_at(Vector::Zero(1));
   return prior;
 }
@@ -144,7 +145,7 @@ int main(int argc, char** argv) {
   options.damage = hexapod::Options::Leg::rear_left;
   const scenario::Scenario robot = hexapod::make(options);
   const prior::Prior prior = prior_of(robot);
-  const dynamics::SimulatorModel as_given(prior, Vector::Zero(1));
+  const dynamics::SimulatorModel as_given(prior, Vector::Zero(1)), driven(prior.behind_servos(), Vector::Zero(1));
   const std::vector<Trial> unseen = trials(robot, count, 1);
 
   fmt::print(
@@ -153,7 +154,7 @@ int main(int argc, char** argv) {
   evaluate("the prior", as_given, robot, unseen);
   Errors told;
   for (const Trial& trial : unseen)
-    add_steps(as_given, dynamics::reached(data_of(trial), robot.task.kinematics().servos), told);
+    add_steps(driven, dynamics::reached(data_of(trial), robot.task.kinematics().servos), told);
   fmt::print("| the prior, told where the joints got to | {:.3f} | {:.4f} | | | | |\n",
              rms(told.rotation, told.rotations), rms(told.position, told.positions));
   for (const Index n : learned_from) {
@@ -164,8 +165,7 @@ int main(int argc, char** argv) {
     const auto servos = std::make_shared<dynamics::Servos>(data, robot.task.model_features(),
                                                            robot.task.kinematics().servos, kind.gp, *evaluator);
     evaluate(fmt::format("behind servos of {} trials", n),
-             dynamics::ServoModel(servos, std::make_shared<dynamics::SimulatorModel>(prior, Vector::Zero(1))), robot,
-             unseen);
+             dynamics::ServoModel(servos, std::make_shared<dynamics::SimulatorModel>(driven)), robot, unseen);
     for (const bool behind_servos : {true, false}) {
       kind.gp.servos = behind_servos;
       const auto learned =

@@ -192,18 +192,19 @@ Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics&
               const Kind& kind, const WarmStart& start, const Evaluator& evaluator) {
   if (!prior && !std::holds_alternative<ZeroMean>(kind)) throw InvalidInput("this dynamics model needs a prior");
   if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
-  const auto learn_from = [&](const Dataset& rows, const Kinematics& known) {
-    const Problem problem{rows, features, known, prior, start, evaluator};
+  const auto learn_from = [&](const Dataset& rows, const Kinematics& known, const prior::Prior* around) {
+    const Problem problem{rows, features, known, around, start, evaluator};
     return std::visit([&](const auto& k) { return learn_kind(k, problem); }, kind);
   };
   const ResidualGpOptions* options = servo_options(kind);
   if (!options || kinematics.servos.empty()) {
     Kinematics without = kinematics;
     without.servos.clear();
-    return learn_from(data, without);
+    return learn_from(data, without, prior);
   }
   const auto servos = std::make_shared<Servos>(data, features, kinematics.servos, *options, evaluator);
-  Learned learned = learn_from(reached(data, kinematics.servos), kinematics);
+  const prior::Prior driven = prior->behind_servos();
+  Learned learned = learn_from(reached(data, kinematics.servos), kinematics, &driven);
   learned.model = std::make_shared<ServoModel>(servos, learned.model);
   *learned.log_evidence += servos->log_evidence();
   return learned;

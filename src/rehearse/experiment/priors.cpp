@@ -127,7 +127,7 @@ std::vector<std::pair<std::string, std::string>> ChosenPriors::values() const {
 
 std::optional<prior::Prior> ChosenPriors::prior() const {
   std::vector<prior::Prior> priors;
-  for (const scenario::NamedPrior& p : priors_) priors.push_back({p.name, p.simulator, p.parameters});
+  for (const scenario::NamedPrior& p : priors_) priors.push_back({p.name, p.simulator, p.parameters, p.driven});
   if (priors.empty()) return std::nullopt;
   return priors.size() == 1 ? priors.front() : prior::choice(priors);
 }

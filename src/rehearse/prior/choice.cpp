@@ -84,8 +84,13 @@ Prior choice(const std::vector<Prior>& priors) {
   if (priors.size() < 2) throw InvalidInput(fmt::format("{} prior to choose among, must be ≥ 2", priors.size()));
   auto simulator = std::make_shared<Choice>(priors);
   std::string name;
-  for (const Prior& prior : priors) name += (name.empty() ? "" : ",") + prior.name;
-  return {name, simulator, simulator->parameters()};
+  std::vector<Prior> behind_servos;
+  for (const Prior& prior : priors) {
+    name += (name.empty() ? "" : ",") + prior.name;
+    behind_servos.push_back(prior.behind_servos());
+  }
+  const bool driven = std::ranges::any_of(priors, [](const Prior& prior) { return prior.driven != nullptr; });
+  return {name, simulator, simulator->parameters(), driven ? std::make_shared<Choice>(behind_servos) : nullptr};
 }
 
 }  // namespace rehearse::prior

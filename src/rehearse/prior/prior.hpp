@@ -14,6 +14,11 @@ struct Prior {
   std::string name;
   std::shared_ptr<const system::Simulator> simulator;
   ParameterSpace space;  // the simulator's parameters, with the values to start from
+  std::shared_ptr<const system::Simulator> driven = nullptr;  // for models that know where servos get to
+                                                              // (scenario::NamedPrior); null: the simulator does
+
+  /// The driven simulator in the place of the simulator.
+  Prior behind_servos() const { return {name, driven ? driven : simulator, space}; }
 
   /// Expected state changes (n × dx), contained: rows that fail are NaN. Returns how many failed.
   Index mean(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const {

@@ -21,6 +21,9 @@ struct NamedPrior {
   std::string name;
   std::shared_ptr<const system::Simulator> simulator;
   ParameterSpace parameters;  // the simulator's, with this prior's values
+  // The same, but joints whose targets are the actions move there evenly, and are there when the step ends, whatever
+  // moves them: what follows for the rest of the robot, when where they get to is learned. Null: there is none.
+  std::shared_ptr<const system::Simulator> driven = nullptr;
 };
 
 /// Names of options with their values as text.

@@ -93,7 +93,10 @@ std::vector<std::string> check_scenario(const scenario::Scenario& scenario) {
   if (!found.empty()) return found;
   const Dataset data = random_episodes(scenario, 1);
   for (const scenario::NamedPrior& prior : scenario.priors)
-    add("prior " + prior.name, check_simulator(*prior.simulator, data.states, data.actions, prior.parameters.values()));
+    for (const auto& simulator : {prior.simulator, prior.driven})
+      if (simulator)
+        add((simulator == prior.driven ? "driven prior " : "prior ") + prior.name,
+            check_simulator(*simulator, data.states, data.actions, prior.parameters.values()));
   if (scenario.oracle)
     add("oracle", check_simulator(*scenario.oracle, data.states, data.actions, scenario.oracle->parameters().values()));
   if (scenario.task.saturating_reward) add("saturating_reward", check_saturating_reward(scenario.task, data));

@@ -144,6 +144,21 @@ TEST(ServoModel, KnowsWhatFollowsFromWhereServosGetTo) {
   EXPECT_GT(error_of_x(data, without, perfect_servos()), 0.3);
 }
 
+TEST(ServoModel, AsksWhatFollowsFromJointsThatAreDriven) {
+  const Dataset data = steps(15, 1);
+  prior::Prior jerky = perfect_servos();
+  jerky.driven = jerky.simulator;
+  jerky.simulator = system::make_simulator(
+      jerky.space,
+      [driven = jerky.driven](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
+        driven->change(X, U, phi, dX);
+        dX.col(4) = (20 * dX.col(4)).array().sin().matrix();
+      });
+  EXPECT_LT(error_of_x(data, FixedPrior{}, jerky), 0.1);
+  jerky.driven = nullptr;
+  EXPECT_GT(error_of_x(data, FixedPrior{}, jerky), 0.3);
+}
+
 TEST(ServoModel, ADrawOfServosMovesTheRobotWithThem) {
   Dataset data = steps(40, 1), held_out = steps(50, 2);
   Rng rng({.seed = 3});

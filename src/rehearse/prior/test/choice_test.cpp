@@ -81,6 +81,18 @@ TEST(Choice, AmongThreeOfTheSameSpaceIsOneMoreParameter) {
   EXPECT_EQ(choice({a, b, c}).space[0].choices, (std::vector<double>{0, 1, 2}));
 }
 
+TEST(Choice, IsBehindServosWhereOneOfThemIs) {
+  const Prior a = prior("a", {tunable("m", 1)});
+  Prior b = prior("b", {tunable("m", 2)});
+  EXPECT_EQ(choice({a, b}).driven, nullptr);
+  b.driven = system::make_simulator(
+      b.space, [](const auto&, const auto&, const Vector& phi, MatrixView dX) { dX.setConstant(100 + phi(0)); });
+  const Prior behind = choice({a, b}).behind_servos();
+  EXPECT_EQ(change_of(choice({a, b}), Vector{{1, 5}}), 5);
+  EXPECT_EQ(change_of(behind, Vector{{0, 5}}), 5);
+  EXPECT_EQ(change_of(behind, Vector{{1, 5}}), 105);
+}
+
 TEST(Choice, NeedsTwo) {
   EXPECT_THROW(choice({}), InvalidInput);
   EXPECT_THROW(choice({prior("a", {tunable("m", 1)})}), InvalidInput);

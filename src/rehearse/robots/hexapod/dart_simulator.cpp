@@ -97,7 +97,8 @@ class FloorOnly final : public dart::collision::CollisionFilter {
 /// One robot in one world, for one thread at a time.
 class DartWorld {
  public:
-  explicit DartWorld(Index missing) : robot_(make_robot(missing)), world_(dart::simulation::World::create()) {
+  DartWorld(Index missing, Joints moved)
+      : robot_(make_robot(missing)), world_(dart::simulation::World::create()), moved_(moved) {
     dart::constraint::ContactConstraint::setErrorReductionParameter(kErrorReduction);  // or feet stay in the floor
     dart::constraint::ContactConstraint::setMaxErrorReductionVelocity(kErrorReductionSpeed);
     world_->setTimeStep(kStep);
@@ -118,7 +119,7 @@ class DartWorld {
   void change(const ConstVectorView& x, const ConstVectorView& u, int steps, VectorView dx) {
     set(x);
     for (int i = 0; i < steps && sane(); ++i) {
-      command(u);
+      command(u, kStep * (steps - i));
       if (sane()) step();
     }
     if (sane())
@@ -147,10 +148,11 @@ class DartWorld {
     robot_->setVelocities(speeds_);
   }
 
-  void command(const ConstVectorView& u) {
+  void command(const ConstVectorView& u, double left_s) {
+    const double time = moved_ == Joints::driven ? left_s : kServoTime;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const Index dof = 6 + static_cast<Index>(i);
-      commands_(dof) = (u(joints_[i]) - angles_(dof)) / kServoTime;
+      commands_(dof) = (u(joints_[i]) - angles_(dof)) / time;
     }
   }
 
@@ -189,6 +191,7 @@ class DartWorld {
 
   SkeletonPtr robot_;
   dart::simulation::WorldPtr world_;
+  Joints moved_;
   std::vector<Index> joints_;  // that it has, in the order of DART's degrees of freedom
   Eigen::VectorXd angles_, speeds_, commands_;
 };
@@ -196,12 +199,14 @@ class DartWorld {
 /// Lends worlds. DART shares state when it makes skeletons, so none is made while others step.
 class Worlds {
  public:
+  explicit Worlds(Joints moved) : moved_(moved) {}
+
   template <class Work>
   void with(Index missing, Work work) {
     std::unique_ptr<DartWorld> world = take(missing);
     if (!world) {
       const std::unique_lock alone(making_);
-      world = std::make_unique<DartWorld>(missing);
+      world = std::make_unique<DartWorld>(missing, moved_);
     }
     {
       const std::shared_lock stepping(making_);
@@ -221,6 +226,7 @@ class Worlds {
     return world;
   }
 
+  Joints moved_;
   std::mutex mutex_;
   std::map<Index, std::vector<std::unique_ptr<DartWorld>>> free_;
   std::shared_mutex making_;
@@ -228,8 +234,8 @@ class Worlds {
 
 }  // namespace
 
-std::shared_ptr<const system::Simulator> make_dart_simulator(double dt_s) {
-  const auto worlds = std::make_shared<Worlds>();
+std::shared_ptr<const system::Simulator> make_dart_simulator(double dt_s, Joints moved) {
+  const auto worlds = std::make_shared<Worlds>(moved);
   const int steps = static_cast<int>(std::lround(dt_s / kStep));
   const auto change = [worlds, steps](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi,
                                       MatrixView dX) {

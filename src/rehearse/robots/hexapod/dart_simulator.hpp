@@ -6,9 +6,15 @@
 
 namespace rehearse::robots::hexapod {
 
+/// How joints get to their targets.
+enum class Joints {
+  servos,  // as fast as it goes, and wait there
+  driven,  // evenly, to be there when the step ends
+};
+
 /// The hexapod in DART: joints that follow any speed, friction 1. One parameter: `missing_leg`, one of the legs or −1
 /// for none. A row outside what DART survives (its assertions end the process), before or after any step, is NaN. As
 /// many worlds are kept as threads have asked at the same time.
-std::shared_ptr<const system::Simulator> make_dart_simulator(double dt_s);
+std::shared_ptr<const system::Simulator> make_dart_simulator(double dt_s, Joints moved = Joints::servos);
 
 }  // namespace rehearse::robots::hexapod

@@ -82,6 +82,11 @@ std::optional<Index> removed_leg(const Options& options) {
   return damaged && damaged->damage == Damage::removed ? std::optional(damaged->leg) : std::nullopt;
 }
 
+std::shared_ptr<const system::Simulator> make_simulator(const Options& options, Joints moved) {
+  auto simulator = make_dart_simulator(kControlStep, moved);
+  return options.isolated ? system::isolated(simulator) : simulator;
+}
+
 }  // namespace
 
 void Options::fields(FieldVisitor& v) {
@@ -96,12 +101,11 @@ void Options::fields(FieldVisitor& v) {
 }
 
 scenario::Scenario make(const Options& options) {
-  auto simulator = make_dart_simulator(kControlStep);
-  if (options.isolated) simulator = system::isolated(simulator);
+  const auto simulator = make_simulator(options, Joints::servos);
   return {.name = "hexapod",
           .task = make_task(options),
           .make_plant = [options] { return make_mujoco_plant(options.plant, damaged_leg(options), kControlStep); },
-          .priors = {{"intact", simulator, simulator->parameters()}},
+          .priors = {{"intact", simulator, simulator->parameters(), make_simulator(options, Joints::driven)}},
           .policy = policy::make_gait(kLegs),
           .drawing = drawing(removed_leg(options)),
           .learner_options = learner_options()};

@@ -7,6 +7,7 @@
 #include "rehearse/policy/gait.hpp"
 #include "rehearse/robots/hexapod/dart_simulator.hpp"
 #include "rehearse/robots/hexapod/state.hpp"
+#include "rehearse/rollout/execute.hpp"
 #include "rehearse/testing/check_plant.hpp"
 #include "rehearse/testing/check_policy.hpp"
 #include "rehearse/testing/check_simulator.hpp"
@@ -151,6 +152,24 @@ TEST(Hexapod, AMissingLegIsZeroInBothEngines) {
     }
 }
 
+/// The robot's walk, a step of 0.1 s at a time: where it is while its feet push.
+TEST(Hexapod, FollowsFromJointsThatAreDrivenAsInTheOtherEngine) {
+  const scenario::Scenario s = make({});
+  const auto plant = s.make_plant();
+  const Episode walk =
+      rollout::execute(*plant, *s.policy, policy::tripod_gait(), s.task, Rng({.purpose = Purpose::test}));
+  const auto way = [&](const system::Simulator& simulator) {
+    Matrix X = walk.true_states.topRows(1), dX(1, kStateSize);
+    for (Index t = 0; t < walk.steps(); ++t, X += dX)
+      simulator.change(X, walk.true_states.block(t + 1, kAngles, 1, kJoints), Vector{{-1}}, dX);
+    EXPECT_LT((X - walk.true_states.bottomRows(1)).leftCols(kJoints).cwiseAbs().maxCoeff(), 0.02);
+    return X(0, kPosition);
+  };
+  const double real = walk.true_states(walk.steps(), kPosition);
+  EXPECT_NEAR(way(*s.priors.front().driven) / real, 1, 0.1);
+  EXPECT_LT(way(*s.priors.front().simulator) / real, 0.85);
+}
+
 TEST(Hexapod, DamageChangesTheWalk) {
   Index steps = 0;
   const Vector intact = walk_in_mujoco({}, policy::tripod_gait(), steps);
@@ -181,10 +200,10 @@ TEST(Hexapod, KeepsTheLaws) {
   for (const auto& broken : testing::check_plant(s.make_plant, s.task)) ADD_FAILURE() << broken;
   for (const auto& broken : testing::check_policy(*s.policy, s.task)) ADD_FAILURE() << broken;
   const Dataset walk = walk_in_dart(policy::tripod_gait(), -1, 12);
-  for (const double missing : {-1.0, 5.0})
-    for (const auto& broken :
-         testing::check_simulator(*s.priors.front().simulator, walk.states, walk.actions, Vector{{missing}}))
-      ADD_FAILURE() << broken;
+  for (const auto& simulator : {s.priors.front().simulator, s.priors.front().driven})
+    for (const double missing : {-1.0, 5.0})
+      for (const auto& broken : testing::check_simulator(*simulator, walk.states, walk.actions, Vector{{missing}}))
+        ADD_FAILURE() << broken;
 }
 
 TEST(Hexapod, HostileStatesAreAnsweredWithNaNOrNumbers) {
@@ -197,8 +216,9 @@ TEST(Hexapod, HostileStatesAreAnsweredWithNaNOrNumbers) {
     for (Index j = 0; j < kStateSize; ++j) X(i, j) = rest()(j) + scale * rng.normal();
     for (Index j = 0; j < kJoints; ++j) U(i, j) = scale * rng.normal();
   }
-  for (const double missing : {-1.0, 0.0}) {
-    s.priors.front().simulator->change(X, U, Vector{{missing}}, dX);
+  const auto& [name, servos, parameters, driven] = s.priors.front();
+  for (const auto& [simulator, missing] : {std::pair(servos, -1.0), std::pair(servos, 0.0), std::pair(driven, 0.0)}) {
+    simulator->change(X, U, Vector{{missing}}, dX);
     Index numbers = 0;
     for (Index i = 0; i < rows; ++i) {
       EXPECT_TRUE(dX.row(i).allFinite() || dX.row(i).array().isNaN().all());
