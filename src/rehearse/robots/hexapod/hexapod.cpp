@@ -34,12 +34,14 @@ Reward reward(double drift_m, bool integral) {
   };
 }
 
-/// A rollout costs what a thousand of the pendubot's do. And no bold policies of the mean predictions, which fall.
+/// A rollout costs what a thousand of the pendubot's do. And no policies of the mean predictions, which fall.
 scenario::OptionTexts learner_options() {
-  return {{"search.race.max_evaluations", "2000"},
-          {"search.race.descents", "4"},
+  return {{"search.race.max_evaluations", "4000"},
+          {"search.race.descents", "2"},
           {"search.race.judgements", "4"},
           {"search.selection", "20"},
+          {"search.imagine.noise_clip", "0"},
+          {"scout.policies", "0"},
           {"insist.searches", "0"},
           {"explore.gain", "0"},
           {"archive.kind", "grid"}};
