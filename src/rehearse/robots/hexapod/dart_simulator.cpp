@@ -97,8 +97,7 @@ class FloorOnly final : public dart::collision::CollisionFilter {
 /// One robot in one world, for one thread at a time.
 class DartWorld {
  public:
-  DartWorld(Index missing, Joints moved)
-      : robot_(make_robot(missing)), world_(dart::simulation::World::create()), moved_(moved) {
+  explicit DartWorld(Index missing) : robot_(make_robot(missing)), world_(dart::simulation::World::create()) {
     dart::constraint::ContactConstraint::setErrorReductionParameter(kErrorReduction);  // or feet stay in the floor
     dart::constraint::ContactConstraint::setMaxErrorReductionVelocity(kErrorReductionSpeed);
     world_->setTimeStep(kStep);
@@ -116,10 +115,10 @@ class DartWorld {
   }
 
   /// NaN if it is left where DART survives.
-  void change(const ConstVectorView& x, const ConstVectorView& u, int steps, VectorView dx) {
+  void change(const ConstVectorView& x, const ConstVectorView& u, int steps, Joints moved, VectorView dx) {
     set(x);
     for (int i = 0; i < steps && sane(); ++i) {
-      command(u, kStep * (steps - i));
+      command(u, moved == Joints::driven ? kStep * (steps - i) : kServoTime);
       if (sane()) step();
     }
     if (sane())
@@ -148,11 +147,10 @@ class DartWorld {
     robot_->setVelocities(speeds_);
   }
 
-  void command(const ConstVectorView& u, double left_s) {
-    const double time = moved_ == Joints::driven ? left_s : kServoTime;
+  void command(const ConstVectorView& u, double time_s) {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const Index dof = 6 + static_cast<Index>(i);
-      commands_(dof) = (u(joints_[i]) - angles_(dof)) / time;
+      commands_(dof) = (u(joints_[i]) - angles_(dof)) / time_s;
     }
   }
 
@@ -191,22 +189,19 @@ class DartWorld {
 
   SkeletonPtr robot_;
   dart::simulation::WorldPtr world_;
-  Joints moved_;
   std::vector<Index> joints_;  // that it has, in the order of DART's degrees of freedom
   Eigen::VectorXd angles_, speeds_, commands_;
 };
 
-/// Lends worlds. DART shares state when it makes skeletons, so none is made while others step.
+/// Lends worlds. DART shares state when it makes skeletons, so in a process none is made while others step.
 class Worlds {
  public:
-  explicit Worlds(Joints moved) : moved_(moved) {}
-
   template <class Work>
   void with(Index missing, Work work) {
     std::unique_ptr<DartWorld> world = take(missing);
     if (!world) {
       const std::unique_lock alone(making_);
-      world = std::make_unique<DartWorld>(missing, moved_);
+      world = std::make_unique<DartWorld>(missing);
     }
     {
       const std::shared_lock stepping(making_);
@@ -226,23 +221,22 @@ class Worlds {
     return world;
   }
 
-  Joints moved_;
   std::mutex mutex_;
   std::map<Index, std::vector<std::unique_ptr<DartWorld>>> free_;
-  std::shared_mutex making_;
+  static inline std::shared_mutex making_;
 };
 
 }  // namespace
 
 std::shared_ptr<const system::Simulator> make_dart_simulator(double dt_s, Joints moved) {
-  const auto worlds = std::make_shared<Worlds>(moved);
+  const auto worlds = std::make_shared<Worlds>();
   const int steps = static_cast<int>(std::lround(dt_s / kStep));
-  const auto change = [worlds, steps](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi,
-                                      MatrixView dX) {
+  const auto change = [worlds, steps, moved](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi,
+                                             MatrixView dX) {
     worlds->with(std::lround(phi(0)), [&](DartWorld& world) {
       Vector dx(X.cols());
       for (Index i = 0; i < X.rows(); ++i) {
-        world.change(X.row(i).transpose().eval(), U.row(i).transpose().eval(), steps, dx);
+        world.change(X.row(i).transpose().eval(), U.row(i).transpose().eval(), steps, moved, dx);
         dX.row(i) = dx.transpose();
       }
     });
