@@ -42,6 +42,12 @@ class Objective {
     return found.value;
   }
 
+  /// NaN where it has no value.
+  double at(const Vector& theta) {
+    Vector gradient;
+    return (*this)(theta.cwiseQuotient(units_), gradient);
+  }
+
   const Vector& units() const { return units_; }
   Index evaluations() const { return evaluations_; }
   Index failed() const { return failed_; }
@@ -122,9 +128,10 @@ SearchResult search_policy(const SearchProblem& problem, const Vector& start, co
 }
 
 SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
-                                  StreamKey key) {
+                                  StreamKey key, std::optional<double> earned) {
   Objective objective(problem, options, 1 + options.restarts);
   SearchResult best = search(objective, start, options);
+  if (earned && best.predicted_return) *best.predicted_return -= std::fmax(0, objective.at(start) - *earned);  // no NaN
   for (Index k = 1; k <= options.restarts; ++k) {
     key.candidate = static_cast<std::uint64_t>(k);
     SearchResult fresh = search(objective, initial_policy(problem.policy, problem.task, options, key), options);

@@ -18,6 +18,8 @@ namespace {
 using learners::to_json;
 using nlohmann::json;
 
+constexpr double kSame = 0.02;  // of a return
+
 /// A policy that was learned on the prior, before anything is known of the robot.
 Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting) {
   const prior::Prior& given = *setting.prior;
@@ -60,6 +62,9 @@ void Trials::tell(const Episode& episode) {
 
 void Trials::add(const Episode& episode) {
   data_.append(episode);
+  const double earned = episode.total_reward();
+  repeated_ = earned_ && std::abs(earned - *earned_) <= kSame * std::abs(*earned_);
+  earned_ = earned;
   solved_ = setting_.task.solved && setting_.task.solved(episode);
 }
 
@@ -81,6 +86,8 @@ json Trials::save() const {
 void Trials::load(const std::vector<Episode>& episodes, const json& state) {
   data_ = {};
   solved_ = false;
+  earned_.reset();
+  repeated_ = false;
   kernels_.clear();
   prior_.reset();
   proposal_.reset();
@@ -132,11 +139,13 @@ Model Trials::learn_model() const {
   return learn(setting_.task, data_, options_.model, kernels_, *setting_.evaluator, mean);
 }
 
-/// From the proposal's θ. A policy that has solved the task is good enough to stay with.
+/// From the proposal's θ. A policy that has solved the task is good enough to stay with. One that was tried twice is
+/// worth what it earned: moment matching may promise more than that forever.
 void Trials::search(const Model& model, Proposal& proposal) const {
   const SearchProblem problem{model.moments, *setting_.policy, setting_.task, *setting_.evaluator, setting_.progress};
   SearchResult found = solved_ ? search_policy(problem, proposal.theta, options_.search)
-                               : search_with_restarts(problem, proposal.theta, options_.search, policies());
+                               : search_with_restarts(problem, proposal.theta, options_.search, policies(),
+                                                      repeated_ ? earned_ : std::nullopt);
   proposal.theta = std::move(found.theta);
   proposal.predicted_return = found.predicted_return;
   proposal.rollouts = found.evaluations;

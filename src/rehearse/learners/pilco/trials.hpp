@@ -35,7 +35,9 @@ class Trials final : public Learner {
   Options options_;
   std::optional<PriorKnowledge> prior_;  // once it is learned
   Dataset data_;
-  bool solved_ = false;  // by the last trial, as far as known
+  bool solved_ = false;           // by the last trial, as far as known
+  std::optional<double> earned_;  // by the last trial
+  bool repeated_ = false;         // it earned what the one before did
   std::uint64_t trials_ = 0;
   Vector theta_;  // of the last trial; empty before there was one of the setting's policy
   std::vector<gp::Hyperparameters> kernels_;

@@ -77,6 +77,24 @@ TEST(Pilco, BeginsAnewUntilATrialSolvesTheTask) {
   EXPECT_EQ(rollouts(true, "2"), rollouts(true, "0"));
 }
 
+// Rewards teach the GPs nothing, so the searches are the same.
+TEST(Pilco, WhatEarnedTheSameTwicePromisesNoMore) {
+  const auto promise = [](double second_return) {
+    Setting unsolved = setting();
+    unsolved.task.solved = nullptr;
+    const auto learner = builder({{"search.line_searches", "20"}, {"search.restarts", "0"}})->build(unsolved);
+    for (const double earned : {-5.0, second_return}) {
+      Episode episode = run_trial(learner->ask(), 1);
+      episode.rewards.setConstant(earned / static_cast<double>(episode.steps()));
+      learner->tell(episode);
+    }
+    return *learner->ask().predicted_return;
+  };
+  const double uncorrected = promise(-6);
+  EXPECT_GT(uncorrected, 0);
+  EXPECT_LT(promise(-5), uncorrected - 5);
+}
+
 // A policy that does nothing earns about 0, one that stops at 0 at once about 9.
 TEST(Pilco, LearnsTheSlider) {
   for (const std::uint64_t seed : {1, 2}) {
@@ -263,6 +281,17 @@ TEST(PolicySearch, TakesTheBestOfItsRestarts) {
   EXPECT_EQ(found.theta, best.theta);
   EXPECT_EQ(found.predicted_return, best.predicted_return);
   EXPECT_EQ(found.evaluations, evaluations);
+
+  const double promised = *all.front().predicted_return;
+  const SearchResult disappointed = search_with_restarts(problem, first_policy(0), options, key, promised - 1000);
+  const auto& other = *std::max_element(all.begin() + 1, all.end(), [](const SearchResult& a, const SearchResult& b) {
+    return a.predicted_return < b.predicted_return;
+  });
+  EXPECT_EQ(disappointed.theta, other.theta);
+  EXPECT_EQ(disappointed.predicted_return, other.predicted_return);
+  const SearchResult surprised = search_with_restarts(problem, first_policy(0), options, key, promised + 1000);
+  EXPECT_EQ(surprised.theta, best.theta);
+  EXPECT_EQ(surprised.predicted_return, best.predicted_return);
 
   SearchOptions none = options;
   none.restarts = 0;
