@@ -24,6 +24,20 @@ Index make_of(const std::vector<ActionVariable>& actions, Index action) {
   return std::ranges::find(actions, make, &ActionVariable::make) - actions.begin();
 }
 
+/// Names that two columns of a trajectory would have.
+std::vector<std::string> ambiguous_names(const Task& task) {
+  std::vector<std::string> names = {"time", "reward"}, twice;
+  for (const std::string& state : task.state_names()) {
+    names.push_back(state);
+    names.push_back("true " + state);
+  }
+  for (const ActionVariable& action : task.actions) names.push_back(action.name);
+  std::ranges::sort(names);
+  for (std::size_t i = 1; i < names.size(); ++i)
+    if (names[i] == names[i - 1] && (twice.empty() || twice.back() != names[i])) twice.push_back(names[i]);
+  return twice;
+}
+
 }  // namespace
 
 FeatureMap Task::feature_map() const {
@@ -82,6 +96,8 @@ std::vector<std::string> Task::violations() const {
   Violations found;
   found.require(!states.empty(), "task has no states");
   found.require(!actions.empty(), "task has no actions");
+  for (const std::string& name : ambiguous_names(*this))
+    found.add(fmt::format("{}: must be one of time, reward, states, \"true\" states and actions alone", name));
   for (const StateVariable& state : states)
     found.require(state.rate.empty() || (index_of(states, state.rate) >= 0 && state.rate != state.name),
                   fmt::format("state {}: its rate {} is not another state", state.name, state.rate));

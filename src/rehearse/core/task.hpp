@@ -22,7 +22,7 @@ struct StateVariable {
 };
 
 struct ActionVariable {
-  std::string name;
+  std::string name;  // of no state
   std::string unit;
   Interval bounds;
   std::string target_of;  // name of the state that it commands (a servo's angle): models are told how far that is from

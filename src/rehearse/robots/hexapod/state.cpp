@@ -30,8 +30,8 @@ std::vector<StateVariable> state_variables() {
 std::vector<ActionVariable> action_variables() {
   std::vector<ActionVariable> actions;
   for (Index joint = 0; joint < kJoints; ++joint)
-    actions.push_back(
-        {joint_name(joint), "rad", model_of(segment_of(joint)).limits, joint_name(joint), name_of(segment_of(joint))});
+    actions.push_back({joint_name(joint) + " target", "rad", model_of(segment_of(joint)).limits, joint_name(joint),
+                       name_of(segment_of(joint))});
   return actions;
 }
 
