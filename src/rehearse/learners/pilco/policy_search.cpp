@@ -131,7 +131,8 @@ SearchResult search_with_restarts(const SearchProblem& problem, const Vector& st
                                   StreamKey key, std::optional<double> earned) {
   Objective objective(problem, options, 1 + options.restarts);
   SearchResult best = search(objective, start, options);
-  if (earned && best.predicted_return) *best.predicted_return -= std::fmax(0, objective.at(start) - *earned);  // no NaN
+  if (earned && best.predicted_return)  // fmax: where the start has no value nothing is known of the model
+    *best.predicted_return -= std::fmax(0, objective.at(start) - *earned);
   for (Index k = 1; k <= options.restarts; ++k) {
     key.candidate = static_cast<std::uint64_t>(k);
     SearchResult fresh = search(objective, initial_policy(problem.policy, problem.task, options, key), options);

@@ -53,8 +53,8 @@ Vector initial_policy(const policy::Policy& policy, const Task& task, const Sear
 SearchResult search_policy(const SearchProblem& problem, const Vector& start, const SearchOptions& options);
 
 /// The best of `search_policy` from `start` and from `SearchOptions::restarts` first policies: those of `key` with the
-/// candidates 1, 2, … What `start` is known to earn, if given: by what it promises beyond that the search from there
-/// promises less, for an error of the model that stays when its policy is tried.
+/// candidates 1, 2, … `earned`: what `start` earns, where that is known. Where it promises more, the model is wrong
+/// about it, and the search from there promises less by as much.
 SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
                                   StreamKey key, std::optional<double> earned = {});
 
