@@ -107,7 +107,16 @@ expect 2 "wrong.toml: line 7: unknown option 'plant.b9', did you mean 'plant.b" 
 printf 'format = 1\nscenario = "pendubot"\nlearners = ["black-drops", "mi"]\nseeds = 1\n[set]\nreward.learned = true\n' >wrong.toml
 expect 2 "wrong.toml: line 6: reward.learned = true, but the scenario gives no initial_reward" 1 campaign wrong.toml --dry-run
 [ -e wrong ] && fail "a wrong campaign file leaves a folder"
-for file in "$campaigns"/*.toml; do expect 0 " runs (" - campaign "$file" --dry-run; done
+ln -s "$campaigns/../results" results  # where archives are
+"$program" list | sed -n '/^Not built/,/^$/p' >not-built
+for file in "$campaigns"/*.toml; do
+  scenario=$(sed -n 's/^scenario = "\(.*\)"/\1/p' "$file")
+  if grep -q "^  $scenario " not-built; then
+    expect 2 "scenario '$scenario' is not built: " 1 campaign "$file" --dry-run
+  else
+    expect 0 " runs (" - campaign "$file" --dry-run
+  fi
+done
 expect 2 "is not the folder of a campaign" 1 campaign "$campaigns/pendulum.toml" --out $run
 
 # Ctrl-C: 130, and the run can be resumed.
