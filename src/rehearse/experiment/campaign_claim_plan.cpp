@@ -68,23 +68,30 @@ class ClaimPlanner {
         if (const auto opponent = opponent_of(group)) part.against.push_back(*opponent);
   }
 
-  /// The group that differs in what the comparison names; a learner without priors or variants has but one.
+  /// The group that differs in what the comparison names. A learner without priors or variants has but one, and one
+  /// that lacks some of the options that vary is met with the others.
   std::optional<std::size_t> opponent_of(std::size_t index) {
     const CampaignGroup& group = plan_.groups[index];
     const ComparisonClaim& comparison = *claim_.comparison;
     const std::string learner = comparison.learner.value_or(group.learner),
-                      prior = comparison.prior.value_or(group.prior);
+                      prior = comparison.prior.value_or(group.prior),
+                      variant = comparison.variant.value_or(group.variant);
+    std::optional<std::size_t> found;
     for (std::size_t i = 0; i < plan_.groups.size(); ++i) {
       const CampaignGroup& other = plan_.groups[i];
       const bool same_prior = other.prior == prior || (other.prior.empty() && !comparison.prior);
-      const bool same_variant = comparison.variant ? other.variant == *comparison.variant : is_part(other, group);
-      if (other.learner != learner || !same_prior || !same_variant) continue;
-      if (i == index) wrong("the claim compares runs with themselves");
-      return i;
+      if (other.learner != learner || !same_prior) continue;
+      if (other.variant == variant) {
+        found = i;
+        break;
+      }
+      if (!found && !comparison.variant && is_part(other, group)) found = i;
     }
-    wrong(fmt::format("there is nothing to compare with: no runs of learner {}, prior '{}', variant '{}'", learner,
-                      prior, comparison.variant.value_or(group.variant)));
-    return std::nullopt;
+    if (found == index) wrong("the claim compares runs with themselves");
+    if (!found)
+      wrong(fmt::format("there is nothing to compare with: no runs of learner {}, prior '{}', variant '{}'", learner,
+                        prior, variant));
+    return found;
   }
 
   static bool is_part(const CampaignGroup& other, const CampaignGroup& group) {

@@ -258,6 +258,30 @@ TEST(CampaignPlan, FindsWhatClaimsAreAbout) {
   EXPECT_EQ(plan.claims[3].missing, "learner 'pilco' is not built: not written yet");
 }
 
+TEST(CampaignPlan, ComparesRunsOfTheSameVariant) {
+  const CampaignPlan plan = plan_of(R"(
+    learners = ["echo", "echo-alone"]
+    [[variant]]
+    name = "default"
+    [[variant]]
+    name = "noisy"
+    set.noise = 1
+    [[variant]]
+    name = "bold"
+    set.prior.gain = 1.5
+    [[claim]]
+    text = "each"
+    learner = "echo"
+    better_than = { learner = "echo-alone" }
+    metric = "return"
+  )");
+  ASSERT_EQ(plan.groups.size(), 5u);  // echo-alone has no prior to be bold about: its defaults stand for that
+  std::vector<std::size_t> against;
+  for (const ClaimPart& part : plan.claims[0].parts)
+    against.insert(against.end(), part.against.begin(), part.against.end());
+  EXPECT_EQ(against, (std::vector<std::size_t>{3, 4, 3}));
+}
+
 TEST(CampaignPlan, SaysAllThatIsWrongWithItsLine) {
   EXPECT_EQ(complaint("format = 2\n"),
             "c.toml: learners is missing\nc.toml: scenario is missing\n"
