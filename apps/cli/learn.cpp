@@ -15,7 +15,7 @@
 namespace rehearse::apps {
 namespace {
 
-using experiment::Catalogue, experiment::RunOptions, experiment::RunResult, experiment::Spec;
+using experiment::Catalogue, experiment::RunOptions, experiment::RunResult, experiment::Spec, experiment::SpecFile;
 
 void set_numbers(Spec& spec, const std::optional<std::string>& trials, const std::optional<std::string>& seed,
                  Violations& violations) {
@@ -34,17 +34,18 @@ void add_options(Spec& spec, const std::vector<std::string>& settings, Violation
   }
 }
 
+std::optional<SpecFile> given_file(const LearnArguments& arguments, Violations& violations) {
+  if (!arguments.scenario.ends_with(".toml")) return std::nullopt;
+  const auto given = [&](const char* option) {
+    return fmt::format("{} cannot be given with {}, which says it already", option, arguments.scenario);
+  };
+  violations.require(!arguments.learner, given("--learner"));
+  violations.require(!arguments.prior, given("--prior"));
+  return SpecFile(experiment::read_file(arguments.scenario), arguments.scenario);
+}
+
 Spec named_spec(const LearnArguments& arguments, Violations& violations) {
   Spec spec;
-  if (arguments.scenario.ends_with(".toml")) {
-    spec = experiment::from_toml(experiment::read_file(arguments.scenario), arguments.scenario);
-    const auto given = [&](const char* option) {
-      return fmt::format("{} cannot be given with {}, which says it already", option, arguments.scenario);
-    };
-    violations.require(!arguments.learner, given("--learner"));
-    violations.require(!arguments.prior, given("--prior"));
-    return spec;
-  }
   spec.scenario = arguments.scenario;
   spec.learner = arguments.learner.value_or("");
   spec.prior = arguments.prior.value_or("");
@@ -53,11 +54,13 @@ Spec named_spec(const LearnArguments& arguments, Violations& violations) {
 }
 
 /// Complete, so that the default folder can be named after it.
-Spec resolved_spec(const Catalogue& catalogue, const Spec& spec, Violations& violations) {
+Spec resolved_spec(const Catalogue& catalogue, const Spec& spec, const std::optional<SpecFile>& file,
+                   Violations& violations) {
   try {
     return experiment::resolve(catalogue, spec).spec;
   } catch (const InvalidInput& error) {
-    violations.add(error.what());
+    for (const std::string& violation : error.violations())
+      violations.add(file ? file->located(catalogue, violation) : violation);
     return spec;
   }
 }
@@ -108,13 +111,14 @@ int run_on_console(const std::filesystem::path& folder, Index threads, const Com
 
 int learn(const Catalogue& catalogue, const LearnArguments& arguments, const Company& company) {
   Violations violations;
-  Spec spec = named_spec(arguments, violations);
+  const std::optional<SpecFile> file = given_file(arguments, violations);
+  Spec spec = file ? file->spec() : named_spec(arguments, violations);
   set_numbers(spec, arguments.trials, arguments.seed, violations);
   const Index threads = threads_of(arguments.threads, violations);
   spec.until_solved |= arguments.until_solved;
   add_options(spec, arguments.set, violations);
   violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
-  spec = resolved_spec(catalogue, spec, violations);
+  spec = resolved_spec(catalogue, spec, file, violations);
   violations.throw_if_any();
   const std::filesystem::path folder = arguments.out.value_or("runs/" + experiment::run_name(spec));
   return run_on_console(folder, threads, company, [&](const RunOptions& options) {

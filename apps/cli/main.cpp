@@ -141,6 +141,22 @@ void check_command(const CLI::App& app, int argc, char** argv) {
                                  fmt::join(known, ", ")));
 }
 
+/// The first flag that its command does not have, and which may have been meant; else what CLI11 says.
+std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
+  for (const CLI::App* command : app.get_subcommands()) {
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (const std::string& given : command->remaining()) {
+      if (!given.starts_with("--")) continue;
+      const std::string flag = given.substr(0, given.find('='));
+      return fmt::format("unknown flag '{}' of {}, did you mean '{}'? (known: {})", flag, command->get_name(),
+                         closest(flag, known), fmt::join(known, ", "));
+    }
+  }
+  return error.what();
+}
+
 int run(int argc, char** argv, const Company& company) {
   CLI::App app(kAbout, "rehearse");
   app.footer(kExample);
@@ -163,7 +179,7 @@ int run(int argc, char** argv, const Company& company) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return company.leads() ? app.exit(error) : kSuccess;  // --help, --version
-    throw InvalidInput(error.what());
+    throw InvalidInput(why_not_parsed(app, error));
   }
   if (learn_command->parsed()) return learn(catalogue(), learn_arguments, company);
   if (resume_command->parsed()) return resume(catalogue(), resume_arguments, company);

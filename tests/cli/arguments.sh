@@ -27,7 +27,9 @@ expect 0 "search.race.max_evaluations = " - list --options
 
 expect 2 "a command is missing (list, learn, resume, " 1
 expect 2 "unknown command 'lern', did you mean 'learn'?" 1 lern
-expect 2 "--colour" 1 list --colour
+expect 2 "unknown flag '--colour' of list" 1 list --colour
+expect 2 "unknown flag '--prio' of learn, did you mean '--prior'?" 1 learn pendubot --prio=useful
+expect 2 "unknown flag '--trail' of replay, did you mean '--trial'?" 1 replay runs/demo --trail 1
 expect 2 "SCENARIO is required" 1 learn
 expect 2 "DIR is required" 1 resume
 
@@ -72,6 +74,9 @@ expect 2 "already exists and is never overwritten" 1 learn pendubot --learner gp
 expect 2 "already exists and is never overwritten" 1 learn pendubot --learner gp-mi "${quick[@]}" --out $run/
 expect 2 "already exists and is never overwritten" 1 learn $run/spec.toml
 expect 2 "says it already" 1 learn $run/spec.toml --learner mi --out other
+sed 's/^plant.b1/plant.b3/' $run/spec.toml >wrong-spec.toml
+expect 2 "unknown option 'scenario.plant.b3', did you mean 'scenario.plant.b" 1 learn wrong-spec.toml --out other
+expect 2 "wrong-spec.toml: line $(grep -n '^plant.b3' wrong-spec.toml | cut -d: -f1): " 1 learn wrong-spec.toml --out other
 [ "$before" = "$(cat $run/* 2>/dev/null | cksum)" ] || fail "a refused run changed the folder"
 expect 0 "best return" 3 learn $run/spec.toml --out again
 cmp $run/trials.csv again/trials.csv || fail "spec.toml gives another trials.csv"

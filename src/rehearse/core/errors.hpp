@@ -11,6 +11,9 @@ class InvalidInput : public std::runtime_error {
  public:
   explicit InvalidInput(const std::string& violation);
   explicit InvalidInput(const std::vector<std::string>& violations);
+
+  /// One a line of the message.
+  std::vector<std::string> violations() const;
 };
 
 /// Collects violations, so that all of them are reported at once.

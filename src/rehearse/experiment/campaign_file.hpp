@@ -9,15 +9,11 @@
 #include <vector>
 
 #include "rehearse/core/types.hpp"
+#include "rehearse/experiment/blame.hpp"
 
 namespace rehearse::experiment {
 
 class FileViolations;
-
-struct FileOption {
-  std::string key, text;
-  Index line = 0;
-};
 
 /// An option of which the grid has several values.
 struct Axis {

@@ -9,6 +9,7 @@
 #include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
+#include "rehearse/experiment/blame.hpp"
 #include "rehearse/experiment/campaign_claim_plan.hpp"
 #include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/toml_reader.hpp"
@@ -67,15 +68,6 @@ std::string folder_name(const Spec& spec, const std::string& variant) {
 }
 
 constexpr std::size_t kLongestName = 240;  // bytes; file systems take 255
-
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
-    end = text.find('\n', begin);
-    lines.emplace_back(text.substr(begin, end - begin));
-  }
-  return lines;
-}
 
 bool is_among(const std::string& name, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -149,7 +141,7 @@ class Planner {
     try {
       return completed(catalogue_, bare);
     } catch (const InvalidInput& error) {
-      for (const std::string& message : lines_of(error.what())) violations_.add(line, message);
+      for (const std::string& message : error.violations()) violations_.add(line, message);
       return std::nullopt;
     }
   }
@@ -159,32 +151,17 @@ class Planner {
     try {
       return resolve(catalogue_, with_options(bare, options)).spec;
     } catch (const InvalidInput& error) {
-      for (const std::string& message : lines_of(error.what())) violations_.add(cause(bare, options, message), message);
+      for (const std::string& message : error.violations())
+        violations_.add(line_of_cause(bare, options, message), message);
       return std::nullopt;
     }
   }
 
-  static Spec with_options(Spec spec, const FileOptions& options) {
-    for (const FileOption& option : options) spec.options.emplace_back(option.key, option.text);
-    return spec;
-  }
-
-  /// The line of the option that is wrong in this way on its own, too; 0 if none is. That of the learners if without
-  /// options it is just as wrong.
-  Index cause(const Spec& bare, const FileOptions& options, const std::string& message) const {
-    if (is_wrong(bare, message)) return line("learners");
-    for (const FileOption& option : options)
-      if (is_wrong(with_options(bare, {option}), message)) return option.line;
-    return 0;
-  }
-
-  bool is_wrong(const Spec& spec, const std::string& message) const {
-    try {
-      resolve(catalogue_, spec);
-      return false;
-    } catch (const InvalidInput& error) {
-      return is_among(message, lines_of(error.what()));
-    }
+  /// That of the learners if without options it is just as wrong, 0 if no option alone is the cause.
+  Index line_of_cause(const Spec& bare, const FileOptions& options, const std::string& message) const {
+    if (has_violation(catalogue_, bare, message)) return line("learners");
+    const FileOption* option = cause(catalogue_, bare, options, message);
+    return option ? option->line : 0;
   }
 
   /// Of [set] what this cell has, and all of [learner.NAME].

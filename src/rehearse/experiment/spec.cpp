@@ -1,5 +1,7 @@
 #include "rehearse/experiment/spec.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
@@ -72,13 +74,18 @@ class Resolver {
     if (name.starts_with(kPrior)) return;  // once the scenario is built
     if (name.starts_with(kScenario) && set_field_of(*scenario_builder_, name.substr(kScenario.size()), text)) return;
     if (name.starts_with(kLearner) && set_field_of(*learner_builder_, name.substr(kLearner.size()), text)) return;
-    violations_.add(unknown_option(key, known_options()));
+    violations_.add(unknown_option(key, options_like(key)));
   }
 
-  std::vector<std::string> known_options() const {
+  /// Those that the key may mean, written as it is: with the prefix if it has one, then of that section alone.
+  std::vector<std::string> options_like(std::string_view key) const {
     std::vector<std::string> known;
-    for (const auto& [name, text] : list_fields(fields_of(*scenario_builder_))) known.push_back(name);
-    for (const auto& [name, text] : list_fields(fields_of(*learner_builder_))) known.push_back(name);
+    const auto add = [&](std::string_view section, const auto& fields) {
+      for (const auto& [name, text] : fields) known.push_back(std::string(section) + name);
+    };
+    const bool of_learner = key.starts_with(kLearner), of_scenario = key.starts_with(kScenario);
+    if (!of_learner) add(of_scenario ? kScenario : "", list_fields(fields_of(*scenario_builder_)));
+    if (!of_scenario) add(of_learner ? kLearner : "", list_fields(fields_of(*learner_builder_)));
     return known;
   }
 
@@ -111,9 +118,8 @@ class Resolver {
   }
 
   bool is_field(const std::string& key) const {
-    for (const std::string& name : known_options())
-      if (name == key) return true;
-    return false;
+    const std::vector<std::string> fields = options_like(key);
+    return std::find(fields.begin(), fields.end(), key) != fields.end();
   }
 
   void complete(const std::vector<std::string>& names, const ChosenPriors& priors) {

@@ -75,18 +75,20 @@ void read_run(TomlReader run, Spec& spec) {
   run.finish();
 }
 
-void read_options(const toml::table& file, TomlReader& reader, FileViolations& violations, Spec& spec) {
+std::vector<FileOption> read_options(const toml::table& file, TomlReader& reader, FileViolations& violations) {
+  std::vector<FileOption> options;
   for (const std::string_view section : kSections) reader.take_table(std::string(section));
   for (const auto& [key, node] : leaves(file)) {
     const std::string_view section = std::string_view(key).substr(0, key.find('.'));
     if (section.size() == key.size() || std::find(kSections.begin(), kSections.end(), section) == kSections.end())
       continue;
     try {
-      spec.options.emplace_back(key, text_of(*node));
+      options.push_back({key, text_of(*node), line_of(*node)});
     } catch (const InvalidInput& error) {
       violations.add(line_of(*node), error.what());
     }
   }
+  return options;
 }
 
 }  // namespace
@@ -102,19 +104,43 @@ std::string to_toml(const Spec& spec) {
   return text;
 }
 
-Spec from_toml(std::string_view text, const std::string& source_name) {
-  const toml::table file = parse_toml(text, source_name);
-  check_format(file, source_name);
-  FileViolations violations(source_name);
+SpecFile::SpecFile(std::string_view text, const std::string& source) : source_(source) {
+  const toml::table file = parse_toml(text, source);
+  check_format(file, source);
+  FileViolations violations(source);
   TomlReader reader(file, "", violations);
   reader.take("format");
-  Spec spec;
-  read_run(TomlReader(*reader.take_table("run"), "[run]", violations), spec);
-  read_options(file, reader, violations, spec);
+  const toml::table& run = *reader.take_table("run");
+  read_run(TomlReader(run, "[run]", violations), bare_);
+  run_lines_[""] = line_of(run);
+  for (const auto& [key, node] : run) run_lines_[std::string(key.str())] = line_of(node);
+  options_ = read_options(file, reader, violations);
   reader.finish();
   violations.throw_if_any();
-  return spec;
+  spec_ = with_options(bare_, options_);
 }
+
+std::string SpecFile::located(const Catalogue& catalogue, const std::string& violation) const {
+  if (!has_violation(catalogue, spec_, violation)) return violation;
+  Index line = 0;
+  if (has_violation(catalogue, bare_, violation))
+    line = line_of_names(violation);
+  else if (const FileOption* option = cause(catalogue, bare_, options_, violation))
+    line = option->line;
+  return in_file(source_, line, violation);
+}
+
+/// That of the name which is quoted, or of [run].
+Index SpecFile::line_of_names(const std::string& violation) const {
+  const auto is_quoted = [&](const std::string& name) {
+    return !name.empty() && violation.find(fmt::format("'{}'", name)) != std::string::npos;
+  };
+  if (is_quoted(bare_.scenario)) return run_lines_.at("scenario");
+  if (is_quoted(bare_.learner)) return run_lines_.at("learner");
+  return run_lines_.at(is_quoted(bare_.prior) ? "prior" : "");
+}
+
+Spec from_toml(std::string_view text, const std::string& source_name) { return SpecFile(text, source_name).spec(); }
 
 std::uint64_t fingerprint(Spec spec) {
   spec.trials = 0;

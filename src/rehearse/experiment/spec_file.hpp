@@ -2,16 +2,40 @@
 // spec.toml: a spec as a file that can be read, kept, and run again.
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "rehearse/experiment/blame.hpp"
 #include "rehearse/experiment/spec.hpp"
 
 namespace rehearse::experiment {
 
 std::string to_toml(const Spec& spec);
 
-/// Throws InvalidInput with the source's name and line.
+/// A spec as a file has it, which still knows its lines.
+class SpecFile {
+ public:
+  /// Throws InvalidInput with the source's name and line.
+  SpecFile(std::string_view text, const std::string& source);
+
+  const Spec& spec() const { return spec_; }
+
+  /// "SOURCE: line N: VIOLATION", where the file is to blame, alone, for what `resolve` says of a spec made from it;
+  /// else the violation as it is.
+  std::string located(const Catalogue& catalogue, const std::string& violation) const;
+
+ private:
+  Index line_of_names(const std::string& violation) const;
+
+  std::string source_;
+  Spec spec_, bare_;  // with the options and without
+  std::vector<FileOption> options_;
+  std::map<std::string, Index> run_lines_;  // of [run] ("") and its keys
+};
+
+/// The spec alone; throws as SpecFile does.
 Spec from_toml(std::string_view text, const std::string& source_name);
 
 /// Of everything in the spec but when it ends, which a run may change on the way.

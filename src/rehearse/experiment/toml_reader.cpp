@@ -8,11 +8,13 @@
 
 namespace rehearse::experiment {
 
+std::string in_file(const std::string& source, Index line, const std::string& message) {
+  return line > 0 ? fmt::format("{}: line {}: {}", source, line, message) : fmt::format("{}: {}", source, message);
+}
+
 void FileViolations::throw_if_any() const {
   Violations lines;
-  for (const auto& [line, message] : list_)
-    lines.add(line > 0 ? fmt::format("{}: line {}: {}", source_, line, message)
-                       : fmt::format("{}: {}", source_, message));
+  for (const auto& [line, message] : list_) lines.add(in_file(source_, line, message));
   lines.throw_if_any();
 }
 

@@ -14,6 +14,9 @@
 
 namespace rehearse::experiment {
 
+/// "SOURCE: line N: MESSAGE"; without a line if that is 0.
+std::string in_file(const std::string& source, Index line, const std::string& message);
+
 /// What is wrong with a file.
 class FileViolations {
  public:

@@ -152,5 +152,36 @@ TEST(SpecFile, SaysWhereItIsWrong) {
       "x.toml: line 7: unknown key 'lerner', did you mean 'learner'? (known: format, run, scenario, learner, prior)");
 }
 
+TEST(SpecFile, LocatesWhatResolvingItFinds) {
+  const auto complaints_about = [](const std::string& text, const std::string& set = "") {
+    const SpecFile file(text, "x.toml");
+    Spec spec = file.spec();
+    if (!set.empty()) spec.options.emplace_back(set, "-1");
+    std::vector<std::string> complaints;
+    try {
+      resolve(fake::catalogue(), spec);
+    } catch (const InvalidInput& error) {
+      for (const std::string& line : error.violations()) complaints.push_back(file.located(fake::catalogue(), line));
+    }
+    return complaints;
+  };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(complaints_about("format = 1\n[run]\nscenario = \"line\"\nlearner = \"eco\"\n"),
+            Lines{"x.toml: line 4: unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)"});
+  EXPECT_EQ(complaints_about("format = 1\n[run]\nscenario = \"line\"\nlearner = \"echo\"\nprior = \"nera\"\n"),
+            Lines{"x.toml: line 5: unknown prior 'nera' of scenario line, did you mean 'near'? (known: near, far, "
+                  "oracle)"});
+  EXPECT_EQ(complaints_about("format = 1\n[run]\nscenario = \"line\"\n"),
+            Lines{"x.toml: line 2: no learner is named (known: echo, echo-alone)"});
+  const std::string options =
+      "format = 1\n[run]\nscenario = \"line\"\nlearner = \"echo\"\n[scenario]\nnosie = 0\n[learner]\n"
+      "search.step = \"fast\"\nserch.step = 1\n[prior]\ngain = 9\n";
+  EXPECT_EQ(complaints_about(options, "noise"),
+            (Lines{"x.toml: line 6: unknown option 'scenario.nosie', did you mean 'scenario.noise'?",
+                   "x.toml: line 8: search.step = fast, must be a number",
+                   "x.toml: line 9: unknown option 'learner.serch.step', did you mean 'learner.search.step'?",
+                   "noise = -1, must be ≥ 0", "x.toml: line 11: prior near: gain = 9, must be between 0.1 and 4"}));
+}
+
 }  // namespace
 }  // namespace rehearse::experiment
