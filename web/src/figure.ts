@@ -72,7 +72,7 @@ export function figure(options: FigureOptions): Figure {
     drawnWidth = grid.clientWidth
     redraw()
   }
-  whenNear(grid, () => new ResizeObserver(() => requestAnimationFrame(fit)).observe(grid))
+  whenNearOrIdle(grid, () => new ResizeObserver(() => requestAnimationFrame(fit)).observe(grid))
 
   const saveSvg = () =>
     download(`${options.name}.svg`, svgOf(options.title, panels, columns, options.legend ?? []), 'image/svg+xml')
@@ -91,17 +91,23 @@ export function figure(options: FigureOptions): Figure {
   return { element, redraw, drawn: () => panels }
 }
 
-/** Figures far below are drawn when the reader comes near, so that a page of many opens at once. */
-function whenNear(element: Element, then: () => void) {
-  const observer = new IntersectionObserver(
-    (entries) => {
-      if (!entries.some(({ isIntersecting }) => isIntersecting)) return
-      observer.disconnect()
-      then()
-    },
-    { rootMargin: '800px 0px' },
-  )
+/** Once: when the reader comes near, or before that in an idle moment, so that a page of many figures opens at once and
+ * is whole when it is printed. */
+function whenNearOrIdle(element: Element, then: () => void) {
+  let due = true
+  const draw = () => {
+    if (!due) return
+    due = false
+    observer.disconnect()
+    then()
+  }
+  const observer = new IntersectionObserver((entries) => entries.some((entry) => entry.isIntersecting) && draw(), {
+    rootMargin: '800px 0px',
+  })
   observer.observe(element)
+  // Safari has no idle callbacks.
+  if ('requestIdleCallback' in window) requestIdleCallback(draw)
+  else setTimeout(draw, 1000)
 }
 
 function heading(title: string, files: { label: string; save: () => void }[]): HTMLElement {
