@@ -54,6 +54,15 @@ void CosKernel(const double* in, double* out, Index n) {
   map(in, out, n, [](D d, auto x) HWY_ATTR { return nan_outside(d, x, hn::Cos(d, x)); });
 }
 
+// With sin 3a = 3 sin a − 4 sin³ a.
+void SineSquashKernel(const double* in, double* out, Index n) {
+  map(in, out, n, [](D d, auto a) HWY_ATTR {
+    const auto limit = hn::Set(d, 1e4);
+    const auto sine = hn::Sin(d, hn::Max(hn::Neg(limit), hn::Min(a, limit)));
+    return keep_nan(a, hn::Mul(hn::Mul(sine, hn::Set(d, 0.5)), hn::NegMulAdd(sine, sine, hn::Set(d, 3.0))));
+  });
+}
+
 /// cosine = sqrt(−2 log(1 − u1)) cos(2π u2), sine with sin.
 template <class V>
 HWY_INLINE void box_muller(D d, V u1, V u2, V& cosine, V& sine) {
@@ -97,6 +106,7 @@ HWY_EXPORT(ExpKernel);
 HWY_EXPORT(TanhKernel);
 HWY_EXPORT(SinKernel);
 HWY_EXPORT(CosKernel);
+HWY_EXPORT(SineSquashKernel);
 HWY_EXPORT(BoxMullerKernel);
 HWY_EXPORT(TargetKernel);
 
@@ -111,6 +121,7 @@ void vector_sin_cos(const double* in, double* sine, double* cosine, Index n) {
     HWY_DYNAMIC_DISPATCH(CosKernel)(in, cosine, n);
   }
 }
+void vector_sine_squash(const double* in, double* out, Index n) { HWY_DYNAMIC_DISPATCH(SineSquashKernel)(in, out, n); }
 void box_muller(const double* uniform1, const double* uniform2, double* first, double* second, Index n) {
   HWY_DYNAMIC_DISPATCH(BoxMullerKernel)(uniform1, uniform2, first, second, n);
 }

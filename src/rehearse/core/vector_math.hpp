@@ -13,6 +13,9 @@ void vector_tanh(const double* in, double* out, Index n);
 /// Beyond ± 39 000 rad the results are NaN.
 void vector_sin_cos(const double* in, double* sine, double* cosine, Index n);
 
+/// (9 sin a + sin 3a)/8, in [−1, 1] (Deisenroth 2010, eq. 3.46). Beyond ± 10⁴ rad, where it has no meaning, as there.
+void vector_sine_squash(const double* in, double* out, Index n);
+
 /// Two independent N(0, 1) from two uniforms in [0, 1) (Box and Muller 1958); `second` may be null.
 void box_muller(const double* uniform1, const double* uniform2, double* first, double* second, Index n);
 

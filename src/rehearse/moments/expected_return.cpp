@@ -19,8 +19,10 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 void check(const Task& task, const policy::Policy& policy, const gp::MomentMatching& dynamics, const Gaussian& start) {
   Violations violations;
-  violations.require(policy.analytic() != nullptr,
-                     fmt::format("policy = {}: its actions have no analytic moments, must be rbf", policy.name()));
+  violations.require(policy.analytic().has_value(),
+                     fmt::format("policy = {}: its actions have no analytic moments, must be rbf, or linear with a "
+                                 "sine as squash",
+                                 policy.name()));
   violations.require(task.saturating_reward.has_value(),
                      "the task's reward has no analytic moments: it must be a saturating one of distances that are "
                      "linear in the features (Task::saturating_reward)");
@@ -52,11 +54,11 @@ ExpectedReturn::ExpectedReturn(const Task& task, const policy::Policy& policy,
       start_(start ? std::move(*start) : start_of(task)),
       horizon_(task.horizon) {
   check(task, policy, *dynamics_, start_);
-  policy_ = *policy.analytic();
+  policy_ = policy_moments(policy);
   reward_ = *task.saturating_reward;
 }
 
-bool ExpectedReturn::roll_out(const RbfPolicy& policy, ReturnWorkspace& workspace, Return& result,
+bool ExpectedReturn::roll_out(const PolicyMoments& policy, ReturnWorkspace& workspace, Return& result,
                               const Evaluator& evaluator) const {
   const Propagation propagation(*dynamics_, policy, evaluator);
   workspace.states.resize(at(horizon_ + 1)), workspace.features.resize(at(horizon_ + 1));
@@ -77,10 +79,10 @@ bool ExpectedReturn::roll_out(const RbfPolicy& policy, ReturnWorkspace& workspac
   return true;
 }
 
-Vector ExpectedReturn::differentiate(const RbfPolicy& policy, const ReturnWorkspace& workspace,
+Vector ExpectedReturn::differentiate(const PolicyMoments& policy, const ReturnWorkspace& workspace,
                                      const Evaluator& evaluator) const {
   const Propagation propagation(*dynamics_, policy, evaluator);
-  std::vector<gp::TermAdjoint> networks = policy.zero_adjoints();
+  PolicyAdjoint adjoint = policy.zero_adjoints();
   const Index dx = start_.size();
   Gaussian later = Gaussian::zero(dx);  // the adjoint of x_{t+1} by what comes after its reward
   Transformed features_later = Transformed::zero(dx, workspace.features[0].outputs());
@@ -93,10 +95,10 @@ Vector ExpectedReturn::differentiate(const RbfPolicy& policy, const ReturnWorksp
     Gaussian state = Gaussian::zero(dx);
     features_later = Transformed::zero(dx, f.outputs());
     propagation.adjoint(workspace.states[at(t)], workspace.features[at(t)], workspace.steps[at(t)], later, state,
-                        features_later, networks);
+                        features_later, adjoint);
     later = std::move(state);
   }
-  return policy.gradient(networks);
+  return policy.gradient(adjoint);
 }
 
 Return ExpectedReturn::operator()(const ConstVectorView& theta, Vector* gradient, ReturnWorkspace& workspace,
@@ -104,10 +106,10 @@ Return ExpectedReturn::operator()(const ConstVectorView& theta, Vector* gradient
   Return result{
       .value = kNaN, .rewards = Vector::Constant(horizon_, kNaN), .variances = Vector::Constant(horizon_, kNaN)};
   if (gradient) gradient->setConstant(theta.size(), kNaN);
-  const RbfPolicy policy(policy_, theta);
-  if (!policy.ok() || !roll_out(policy, workspace, result, evaluator)) return result;
+  const auto policy = policy_(theta);
+  if (!policy->ok() || !roll_out(*policy, workspace, result, evaluator)) return result;
   if (gradient) {
-    *gradient = differentiate(policy, workspace, evaluator);
+    *gradient = differentiate(*policy, workspace, evaluator);
     if (!gradient->allFinite()) {
       gradient->setConstant(kNaN);
       return result;

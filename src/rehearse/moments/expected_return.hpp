@@ -44,11 +44,12 @@ class ExpectedReturn {
   ExpectedEpisode episode(const ConstVectorView& theta, const Evaluator& evaluator = serial_evaluator()) const;
 
  private:
-  bool roll_out(const RbfPolicy& policy, ReturnWorkspace& workspace, Return& result, const Evaluator& evaluator) const;
-  Vector differentiate(const RbfPolicy& policy, const ReturnWorkspace& workspace, const Evaluator& evaluator) const;
+  bool roll_out(const PolicyMoments& policy, ReturnWorkspace& workspace, Return& result,
+                const Evaluator& evaluator) const;
+  Vector differentiate(const PolicyMoments& policy, const ReturnWorkspace& workspace, const Evaluator& evaluator) const;
 
   FeatureMoments features_;
-  policy::RbfOptions policy_;
+  PolicyMomentsAt policy_;
   SaturatingReward reward_;
   std::shared_ptr<const gp::MomentMatching> dynamics_;
   Gaussian start_;

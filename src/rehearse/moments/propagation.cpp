@@ -22,7 +22,7 @@ bool Propagation::forward(const Gaussian& state, const Transformed& features, St
 
 void Propagation::adjoint(const Gaussian& state, const Transformed& features, const StepTape& tape,
                           const Gaussian& next_adjoint, Gaussian& state_adjoint, Transformed& features_adjoint,
-                          std::vector<gp::TermAdjoint>& policy) const {
+                          PolicyAdjoint& policy) const {
   const Index F = features.outputs(), U = tape.action.outputs();
   const Matrix by_next = (next_adjoint.covariance + next_adjoint.covariance.transpose()) / 2;
   state_adjoint.mean += next_adjoint.mean;

@@ -2,7 +2,7 @@
 
 #include "rehearse/core/feature_moments.hpp"
 #include "rehearse/gp/moment_matching.hpp"
-#include "rehearse/moments/rbf_policy.hpp"
+#include "rehearse/moments/policy_moments.hpp"
 
 namespace rehearse::moments {
 
@@ -21,7 +21,7 @@ struct StepTape {
 /// outputs are the changes of all states. References must outlive it. Any thread.
 class Propagation {
  public:
-  Propagation(const gp::MomentMatching& dynamics, const RbfPolicy& policy, const Evaluator& evaluator)
+  Propagation(const gp::MomentMatching& dynamics, const PolicyMoments& policy, const Evaluator& evaluator)
       : dynamics_(dynamics), policy_(policy), evaluator_(evaluator) {}
 
   /// features: of the state. False, and `next` undefined, where there are no moments.
@@ -29,11 +29,11 @@ class Propagation {
 
   /// Adds to the adjoints of the state, of its features and of the policy what the adjoint of the next state brings.
   void adjoint(const Gaussian& state, const Transformed& features, const StepTape& tape, const Gaussian& next_adjoint,
-               Gaussian& state_adjoint, Transformed& features_adjoint, std::vector<gp::TermAdjoint>& policy) const;
+               Gaussian& state_adjoint, Transformed& features_adjoint, PolicyAdjoint& policy) const;
 
  private:
   const gp::MomentMatching& dynamics_;
-  const RbfPolicy& policy_;
+  const PolicyMoments& policy_;
   const Evaluator& evaluator_;
 };
 

@@ -34,12 +34,12 @@ Vector solve(const std::vector<double>& tiles, const ConstVectorView& y) {
 }  // namespace
 
 RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& theta, double jitter)
-    : inputs_(options.features.features()),
+    : PolicyMoments(options.bounds),
+      inputs_(options.features.features()),
       centres_(options.centres),
       actions_(static_cast<Index>(options.bounds.size())),
       theta_(theta),
-      scale_(options.scale),
-      squash_(options.bounds) {
+      scale_(options.scale) {
   const Index size = inputs_ * actions_ + centres_ * (inputs_ + actions_);
   if (theta.size() != size)
     throw InvalidInput(fmt::format("policy: θ has {} numbers, must have {}", theta.size(), size));
@@ -66,24 +66,13 @@ RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& t
   ok_ = true;
 }
 
-bool RbfPolicy::forward(const Gaussian& features, PolicyTape& tape, Transformed& action,
-                        const Evaluator& evaluator) const {
-  if (!network_->forward(features, tape.network, tape.before, evaluator)) return false;
-  tape.squash = squash_({tape.before.mean, tape.before.covariance});
-  action.mean = tape.squash.mean;
-  action.covariance = tape.squash.covariance;
-  action.gain = tape.before.gain * tape.squash.gain;
-  return action.mean.allFinite() && action.covariance.allFinite() && action.gain.allFinite();
+bool RbfPolicy::forward_before(const Gaussian& features, PolicyTape& tape, const Evaluator& evaluator) const {
+  return network_->forward(features, tape.network, tape.before, evaluator);
 }
 
-void RbfPolicy::adjoint(const Gaussian& features, const PolicyTape& tape, const Transformed& adjoint,
-                        Gaussian& features_adjoint, std::vector<gp::TermAdjoint>& networks) const {
-  Gaussian before = Gaussian::zero(actions_);
-  squash_.adjoint({tape.before.mean, tape.before.covariance},
-                  {adjoint.mean, adjoint.covariance, tape.before.gain.transpose() * adjoint.gain}, before);
-  network_->adjoint(features, tape.network, tape.before,
-                    {before.mean, before.covariance, adjoint.gain * tape.squash.gain.transpose()}, features_adjoint,
-                    &networks);
+void RbfPolicy::adjoint_before(const Gaussian& features, const PolicyTape& tape, const Transformed& adjoint,
+                               Gaussian& features_adjoint, PolicyAdjoint& policy) const {
+  network_->adjoint(features, tape.network, tape.before, adjoint, features_adjoint, &policy.networks);
 }
 
 /// With ȳ = K⁻¹ w̄, the adjoint of K is −ȳ wᵀ. In coordinates s = c/ℓ, and with P_ij = (ȳ_i w_j + w_i ȳ_j) c(s_i, s_j)
@@ -99,11 +88,11 @@ void RbfPolicy::add_covariance_gradient(Index action, const Vector& by_targets, 
   log_lengths -= S.cwiseProduct(T).colwise().sum().transpose();
 }
 
-Vector RbfPolicy::gradient(const std::vector<gp::TermAdjoint>& networks) const {
+Vector RbfPolicy::gradient(const PolicyAdjoint& adjoint) const {
   Vector gradient(theta_.size());
   Matrix centres = Matrix::Zero(centres_, inputs_);
   for (Index a = 0; a < actions_; ++a) {
-    const gp::TermAdjoint& network = networks[at(a)];
+    const gp::TermAdjoint& network = adjoint.networks[at(a)];
     const Vector by_targets = solve(factors_[at(a)], network.weights);
     Vector log_lengths = network.log_lengths;
     centres += network.centres * scale_.asDiagonal();

@@ -10,9 +10,9 @@ namespace rehearse::moments {
 std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, std::string_view who,
                                          std::string_view otherwise) {
   Violations violations;
-  violations.require(policy.analytic() != nullptr,
+  violations.require(policy.analytic().has_value(),
                      fmt::format("policy = {} has no analytic moments, which {} needs: choose policy = rbf "
-                                 "(--set policy=rbf), or {}",
+                                 "(--set policy=rbf), policy = linear with policy_squash = sine, or {}",
                                  policy.name(), who, otherwise));
   violations.require(task.saturating_reward.has_value(),
                      fmt::format("the scenario's reward has no analytic moments, which {} needs: give the task a "

@@ -19,7 +19,7 @@ void check(const FeatureMap& features, const Vector& scale, const Squash& squash
 }
 
 /// `hidden` = 0: no hidden layer.
-class Network final : public Policy {
+class Network : public Policy {
  public:
   Network(std::string name, FeatureMap features, Vector scale, Index hidden, Squash squash)
       : name_(std::move(name)),
@@ -61,6 +61,20 @@ class Network final : public Policy {
   Squash squash_;
 };
 
+class Linear final : public Network {
+ public:
+  explicit Linear(const LinearOptions& options)
+      : Network("linear", options.features, options.scale, 0, options.squash), options_(options) {}
+
+  std::optional<AnalyticOptions> analytic() const override {
+    if (options_.squash.shape != Squash::Shape::sine) return {};
+    return &options_;
+  }
+
+ private:
+  LinearOptions options_;
+};
+
 }  // namespace
 
 std::shared_ptr<const Policy> make_mlp(MlpOptions options) {
@@ -72,8 +86,7 @@ std::shared_ptr<const Policy> make_mlp(MlpOptions options) {
 
 std::shared_ptr<const Policy> make_linear(LinearOptions options) {
   check(options.features, options.scale, options.squash, 0);
-  return std::make_shared<Network>("linear", std::move(options.features), std::move(options.scale), 0,
-                                   std::move(options.squash));
+  return std::make_shared<Linear>(options);
 }
 
 }  // namespace rehearse::policy

@@ -18,7 +18,8 @@ struct MlpOptions {
 };
 std::shared_ptr<const Policy> make_mlp(MlpOptions options);
 
-/// u = squash(W features/scale + b). θ: for each action its weights and bias.
+/// u = squash(W features/scale + b). θ: for each action its weights and bias. The moments of u are known where the
+/// squash is a sine (Deisenroth 2010, section 3.5).
 struct LinearOptions {
   FeatureMap features;
   Vector scale;

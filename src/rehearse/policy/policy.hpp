@@ -2,12 +2,17 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "rehearse/core/types.hpp"
 
 namespace rehearse::policy {
 
 struct RbfOptions;
+struct LinearOptions;
+
+/// What those policies are made of whose actions have analytic moments (moments/policy_moments.hpp).
+using AnalyticOptions = std::variant<const RbfOptions*, const LinearOptions*>;
 
 /// Deterministic u = π(x; θ), u inside its bounds for every θ and x. Immutable; any thread.
 ///
@@ -26,8 +31,8 @@ class Policy {
   /// Each row a θ that is known to do something sensible, where there are any: 0 × parameters() or more.
   virtual Matrix examples() const { return Matrix(0, parameters()); }
 
-  /// What the policy is made of if its actions have analytic moments (moments/rbf_policy.hpp), else null.
-  virtual const RbfOptions* analytic() const { return nullptr; }
+  /// Empty: its actions have no analytic moments. What it points to lives as long as the policy.
+  virtual std::optional<AnalyticOptions> analytic() const { return {}; }
 
   /// Theta: n × parameters(), one policy a row; X: n × dx; t_s: time since the episode's start; U: n × du, written.
   /// A row with a NaN state gets a NaN action.

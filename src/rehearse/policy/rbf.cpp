@@ -1,11 +1,10 @@
 #include "rehearse/policy/rbf.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/policy/rbf_kernel.hpp"
+#include "rehearse/policy/squash.hpp"
 
 namespace rehearse::policy {
 namespace {
@@ -27,12 +26,13 @@ class Rbf final : public Policy {
       : options_(std::move(options)),
         inverse_scale_(options_.scale.cwiseInverse()),
         shape_{options_.features.features(), options_.centres, static_cast<Index>(options_.bounds.size()),
-               options_.noise} {}
+               options_.noise},
+        squash_{.bounds = options_.bounds, .shape = Squash::Shape::sine} {}
 
   std::string name() const override { return "rbf"; }
   Index actions() const override { return shape_.actions; }
   Index parameters() const override { return shape_.parameters(); }
-  const RbfOptions* analytic() const override { return &options_; }
+  std::optional<AnalyticOptions> analytic() const override { return &options_; }
 
   void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double, MatrixView U) const override {
     thread_local Matrix inputs;
@@ -41,16 +41,14 @@ class Rbf final : public Policy {
     options_.features.apply(X, inputs);
     for (Index i = 0; i < shape_.inputs; ++i) inputs.col(i) *= inverse_scale_(i);
     rbf(shape_, Theta.data(), Theta.outerStride(), inputs.data(), rows, U.data(), U.outerStride(), rows);
-    for (Index a = 0; a < shape_.actions; ++a) {
-      const auto [low, high] = options_.bounds[static_cast<std::size_t>(a)];
-      for (double& u : U.col(a)) u = std::clamp((low + high) / 2 + (high - low) / 2 * u, low, high);  // a NaN stays
-    }
+    squash_.apply(U);
   }
 
  private:
   RbfOptions options_;
   Vector inverse_scale_;
   RbfShape shape_;
+  Squash squash_;
 };
 
 }  // namespace

@@ -17,7 +17,6 @@ using D = hn::ScalableTag<double>;
 using V = hn::Vec<D>;
 
 constexpr double kLargestLogLength = 20;  // beyond it a kernel is as good as constant, or nothing
-constexpr double kLargestMean = 1e4;      // Highway's sine is valid up to 39 000; beyond some 10 it has no meaning here
 
 /// Columns of vectors, one lane a row of the batch.
 struct Lanes {
@@ -73,14 +72,6 @@ HWY_INLINE void solve(const Lanes& L, const Lanes& b, Index n) {
   }
 }
 
-/// (9 sin a + sin 3a) / 8 (Deisenroth 2010, eq. 3.46), with sin 3a = 3 sin a − 4 sin³ a.
-HWY_INLINE V squash(V a) {
-  const D d;
-  const V sine = hn::Sin(d, clamp(a, kLargestMean));
-  const V squashed = hn::Mul(hn::Mul(sine, hn::Set(d, 0.5)), hn::NegMulAdd(sine, sine, hn::Set(d, 3.0)));
-  return hn::IfThenElse(hn::IsNaN(a), a, squashed);
-}
-
 /// Where the vectors of a block of rows lie.
 struct Block {
   Block(const RbfShape& s, double* memory, Index lanes)
@@ -100,7 +91,7 @@ struct Block {
   Lanes x;  // inputs
 };
 
-/// kᵀ (K + σ_n² I)⁻¹ y, squashed.
+/// kᵀ (K + σ_n² I)⁻¹ y
 HWY_INLINE V act(const RbfShape& s, Index action, const Block& block) {
   const D d;
   const Index n = s.centres, lengths = action * s.inputs, centres = s.actions * s.inputs;
@@ -120,7 +111,7 @@ HWY_INLINE V act(const RbfShape& s, Index action, const Block& block) {
   solve(block.L, block.w, n);
   V mean = hn::Zero(d);
   for (Index c = 0; c < n; ++c) mean = hn::MulAdd(block.k[c], block.w[c], mean);
-  return squash(mean);
+  return mean;
 }
 
 /// Rows [row, row + count) of some columns; a block that is not full is padded with its first row.

@@ -12,7 +12,7 @@ struct RbfShape {
 };
 
 /// For a batch in which every row has its own θ (n × parameters(); see rbf.hpp) and inputs (n × D): out (n × actions),
-/// the squashed mean of the policy's GP, in [−1, 1]. Strides are those between columns. No allocation after a thread's
+/// the mean of the policy's GP, before the squash. Strides are those between columns. No allocation after a thread's
 /// first call.
 void rbf(const RbfShape& shape, const double* theta, Index theta_stride, const double* in, Index in_stride, double* out,
          Index out_stride, Index rows);

@@ -9,7 +9,7 @@ void Squash::apply(MatrixView a) const {
     const Interval& bound = bounds[static_cast<std::size_t>(c)];
     auto column = a.col(c);
     column *= gain;
-    vector_tanh(column.data(), column.data(), column.size());
+    (shape == Shape::tanh ? vector_tanh : vector_sine_squash)(column.data(), column.data(), column.size());
     column = (bound.low + bound.high) / 2 + (bound.high - bound.low) / 2 * column.array();
     // Rounding may leave the bounds by the last bit; a NaN stays.
     for (double& u : column) u = u > bound.high ? bound.high : u < bound.low ? bound.low : u;

@@ -9,12 +9,13 @@ void PolicyOptions::fields(FieldVisitor& v) {
   v.choice("policy", policy, {"mlp", "rbf", "linear"});
   v.integer("hidden", hidden, between(1, 1e4));
   v.number("policy_gain", policy_gain, above(0));
+  v.choice("policy_squash", policy_squash, {"tanh", "sine"});
   v.integer("centres", centres, between(1, 1e4));
 }
 
 std::shared_ptr<const policy::Policy> make_policy(const PolicyOptions& options, const Task& task, const Vector& scale) {
   const std::vector<Interval> bounds = task.action_bounds();
-  const policy::Squash squash{bounds, options.policy_gain};
+  const policy::Squash squash{bounds, options.policy_gain, options.policy_squash};
   switch (options.policy) {
     case PolicyOptions::Kind::rbf:
       return policy::make_rbf(

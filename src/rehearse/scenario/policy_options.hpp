@@ -5,6 +5,7 @@
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/policy/policy.hpp"
+#include "rehearse/policy/squash.hpp"
 
 namespace rehearse::scenario {
 
@@ -12,9 +13,11 @@ namespace rehearse::scenario {
 struct PolicyOptions {
   enum class Kind { mlp, rbf, linear };
   Kind policy = Kind::mlp;
-  Index hidden = 10;       // units of the mlp
-  double policy_gain = 1;  // of mlp and linear, whose output is u_max tanh(gain · a)
-  Index centres = 10;      // of the rbf
+  Index hidden = 10;  // units of the mlp
+  // Of mlp and linear, whose output is u_max squash(gain · a); the rbf's is a sine.
+  double policy_gain = 1;
+  policy::Squash::Shape policy_squash = policy::Squash::Shape::tanh;
+  Index centres = 10;  // of the rbf
   void fields(FieldVisitor& v);
 };
 

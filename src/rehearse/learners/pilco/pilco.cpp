@@ -66,8 +66,11 @@ std::vector<std::unique_ptr<LearnerBuilder>> builders() {
   const auto add = [&](const char* name, const char* summary, std::optional<PriorPhaseOptions> prior) {
     all.push_back(std::make_unique<Builder>(name, summary, prior));
   };
-  add("pilco", "GPs from data alone, policies by moment matching and its gradient; needs policy=rbf", {});
-  add("pilco-prior", "PILCO on the prior first, then GPs around those learned there; needs policy=rbf",
+  add("pilco",
+      "GPs from data alone, policies by moment matching and its gradient; needs policy=rbf, or a linear one with a "
+      "sine",
+      {});
+  add("pilco-prior", "PILCO on the prior first, then GPs around those learned there; needs the same policies",
       PriorPhaseOptions{});
   return all;
 }

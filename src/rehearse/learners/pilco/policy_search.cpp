@@ -3,24 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rehearse/core/feature_moments.hpp"
 #include "rehearse/core/stopwatch.hpp"
+#include "rehearse/learners/pilco/initial_policy.hpp"
 #include "rehearse/moments/expected_return.hpp"
-#include "rehearse/policy/rbf.hpp"
 
 namespace rehearse::learners::pilco {
 namespace {
-
-constexpr double kLength = 1, kAngleLength = 0.7, kTargetStd = 0.1;  // PILCO's cart-pole
-
-/// What θ counts in, one a parameter: a unit of a centre is that of the feature itself. PILCO's policies have features
-/// that are not scaled, and its steps depend on it.
-Vector units_of(const policy::RbfOptions& policy, Index parameters) {
-  const Index D = policy.scale.size(), A = static_cast<Index>(policy.bounds.size());
-  Vector units = Vector::Ones(parameters);
-  units.segment(A * D, policy.centres * D) = policy.scale.cwiseInverse().replicate(policy.centres, 1);
-  return units;
-}
 
 /// The expected return as an objective of θ / units.
 class Objective {
@@ -28,7 +16,7 @@ class Objective {
   Objective(const SearchProblem& problem, const SearchOptions& options, Index searches)
       : problem_(problem),
         expected_(problem.task, problem.policy, problem.dynamics, start_state(problem.task, options)),
-        units_(units_of(*problem.policy.analytic(), problem.policy.parameters())),
+        units_(units_of(problem.policy)),
         usual_evaluations_(2 * static_cast<double>(options.bfgs.line_searches * searches)) {}
 
   double operator()(const Vector& x, Vector& gradient) {
@@ -81,17 +69,6 @@ SearchResult search(Objective& objective, const Vector& start, const SearchOptio
   return result;
 }
 
-/// One a feature.
-Vector initial_lengths(const FeatureMap& features) {
-  Vector lengths(features.features());
-  Index next = 0;
-  for (const StateKind kind : features.kinds()) {
-    if (kind == StateKind::plain) lengths(next++) = kLength;
-    if (kind == StateKind::angle) lengths.segment(next, 2).setConstant(kAngleLength), next += 2;
-  }
-  return lengths;
-}
-
 }  // namespace
 
 void SearchOptions::fields(FieldVisitor& v) {
@@ -104,24 +81,6 @@ Gaussian start_state(const Task& task, const SearchOptions& options) {
   return {task.start_mean, Matrix(task.start_std.cwiseMax(options.start_std).cwiseAbs2().asDiagonal())};
 }
 
-Vector initial_policy(const policy::Policy& policy, const Task& task, const SearchOptions& options, StreamKey key) {
-  const policy::RbfOptions& rbf = *policy.analytic();
-  const Transformed features = FeatureMoments(rbf.features)(start_state(task, options));
-  const Vector lengths = initial_lengths(rbf.features).cwiseQuotient(rbf.scale);
-  const Index D = rbf.scale.size(), A = policy.actions();
-  key.purpose = Purpose::random_policy;
-  Rng rng(key);
-  Vector theta(policy.parameters());
-  theta.head(A * D) = lengths.array().log().matrix().replicate(A, 1);
-  for (Index c = 0; c < rbf.centres; ++c)
-    for (Index d = 0; d < D; ++d) {
-      const double deviation = std::sqrt(std::max(features.covariance(d, d), 0.0));
-      theta((A + c) * D + d) = (features.mean(d) + deviation * rng.normal()) / rbf.scale(d);
-    }
-  for (double& target : theta.tail(A * rbf.centres)) target = kTargetStd * rng.normal();
-  return theta;
-}
-
 SearchResult search_policy(const SearchProblem& problem, const Vector& start, const SearchOptions& options) {
   Objective objective(problem, options, 1);
   return search(objective, start, options);
@@ -130,12 +89,13 @@ SearchResult search_policy(const SearchProblem& problem, const Vector& start, co
 SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
                                   StreamKey key, std::optional<double> earned) {
   Objective objective(problem, options, 1 + options.restarts);
+  const Gaussian begin = start_state(problem.task, options);
   SearchResult best = search(objective, start, options);
   if (earned && best.predicted_return)  // fmax: where the start has no value nothing is known of the model
     *best.predicted_return -= std::fmax(0, objective.at(start) - *earned);
   for (Index k = 1; k <= options.restarts; ++k) {
     key.candidate = static_cast<std::uint64_t>(k);
-    SearchResult fresh = search(objective, initial_policy(problem.policy, problem.task, options, key), options);
+    SearchResult fresh = search(objective, initial_policy(problem.policy, begin, key), options);
     if (fresh.predicted_return > best.predicted_return) best = std::move(fresh);  // none is less than any
   }
   best.evaluations = objective.evaluations();

@@ -45,10 +45,6 @@ struct SearchProblem {
 /// N(the task's start, the larger of its deviations and the option's).
 Gaussian start_state(const Task& task, const SearchOptions& options);
 
-/// The first θ of an analytic policy, PILCO's: centres drawn from the features of the start, targets from N(0, 0.1²),
-/// length scales of 1, of cosines and sines 0.7. `key` names the draw; its purpose is of no account.
-Vector initial_policy(const policy::Policy& policy, const Task& task, const SearchOptions& options, StreamKey key);
-
 /// Maximises the expected return from `start`. What the progress sink throws, passes.
 SearchResult search_policy(const SearchProblem& problem, const Vector& start, const SearchOptions& options);
 

@@ -17,7 +17,6 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kStored = "prior";
-constexpr double kNothing = 0.02;  // of a return
 
 /// Episodes on the prior draw from trials that no robot ever does.
 constexpr std::uint64_t kFirstTrial = std::uint64_t{1} << 32;
@@ -135,9 +134,9 @@ class PriorPhase {
   bool taught_nothing(const Proposal& proposal, const Episode& episode) const {
     if (!proposal.predicted_return) return false;
     const double earned = episode.total_reward(), promised = *proposal.predicted_return;
-    const bool keeps_promise = earned >= (1 - kNothing) * promised;
+    const bool keeps_promise = earned >= (1 - kSameReturn) * promised;
     return keeps_promise && std::ranges::any_of(state_.episodes, [&](const Episode& before) {
-             return earned <= (1 + kNothing) * before.total_reward();
+             return earned <= (1 + kSameReturn) * before.total_reward();
            });
   }
 

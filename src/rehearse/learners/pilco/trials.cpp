@@ -8,6 +8,7 @@
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/learners/json.hpp"
+#include "rehearse/learners/pilco/initial_policy.hpp"
 #include "rehearse/moments/expected_return.hpp"
 #include "rehearse/policy/schedule.hpp"
 #include "rehearse/prior/network.hpp"
@@ -17,8 +18,6 @@ namespace {
 
 using learners::to_json;
 using nlohmann::json;
-
-constexpr double kSame = 0.02;  // of a return
 
 /// A policy that was learned on the prior, before anything is known of the robot.
 Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting) {
@@ -63,7 +62,7 @@ void Trials::tell(const Episode& episode) {
 void Trials::add(const Episode& episode) {
   data_.append(episode);
   const double earned = episode.total_reward();
-  repeated_ = earned_ && std::abs(earned - *earned_) <= kSame * std::abs(*earned_);
+  repeated_ = earned_ && std::abs(earned - *earned_) <= kSameReturn * std::abs(*earned_);
   earned_ = earned;
   solved_ = setting_.task.solved && setting_.task.solved(episode);
 }
@@ -123,8 +122,9 @@ Proposal Trials::next_proposal() {
   proposal.model = model.model;
   proposal.notes = std::move(model.notes);
   if (std::isfinite(model.log_evidence)) proposal.log_evidence = model.log_evidence;
-  proposal.theta =
-      theta_.size() > 0 ? theta_ : initial_policy(*setting_.policy, setting_.task, options_.search, policies());
+  proposal.theta = theta_.size() > 0
+                       ? theta_
+                       : initial_policy(*setting_.policy, start_state(setting_.task, options_.search), policies());
   if (model.moments) proposal.search_s = seconds([&] { search(model, proposal); });
   if (model.model)
     proposal.moments =

@@ -7,6 +7,9 @@
 
 namespace rehearse::learners::pilco {
 
+/// Returns that differ by less than this part are the same.
+inline constexpr double kSameReturn = 0.02;
+
 /// The trials of PILCO on one system, the robot or, before, the prior. With `Options::prior` they begin with
 /// what those on the prior taught, else with random actions.
 class Trials final : public Learner {

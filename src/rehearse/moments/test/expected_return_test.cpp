@@ -14,9 +14,13 @@ namespace rehearse::moments {
 namespace {
 
 struct Problem {
-  Problem(scenario::Scenario made, Index rows, Index centres, std::shared_ptr<const gp::MomentMatching> dynamics = {})
+  Problem(const scenario::Scenario& made, Index rows, Index centres,
+          std::shared_ptr<const gp::MomentMatching> dynamics = {})
+      : Problem(made, rows, fixture::rbf(made.task, centres), std::move(dynamics)) {}
+  Problem(scenario::Scenario made, Index rows, std::shared_ptr<const policy::Policy> of_policy,
+          std::shared_ptr<const gp::MomentMatching> dynamics = {})
       : scenario(std::move(made)),
-        policy(fixture::rbf(scenario.task, centres)),
+        policy(std::move(of_policy)),
         expected(scenario.task, *policy, dynamics ? dynamics : fixture::random_dynamics(scenario, rows),
                  Gaussian{scenario.task.start_mean, 0.01 * Matrix::Identity(4, 4)}) {}
 
@@ -59,24 +63,31 @@ double largest_difference(const Matrix& a, const Matrix& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
 
+void expect_plain_formulas(const scenario::Scenario& scenario, const std::shared_ptr<const policy::Policy>& policy) {
+  const Task& task = scenario.task;
+  Problem problem(scenario, 30, policy);
+  const Vector theta = fixture::random_theta(*policy);
+  const naive::Preaction preaction =
+      std::visit([&](const auto* options) { return naive::preaction(*options, theta); }, *policy->analytic());
+  const Return result = problem.expected(theta, nullptr, problem.workspace);
+  const fixture::Data data = fixture::random_data(scenario, 30);
+  const naive::Gp dynamics{data.inputs, data.changes, fixture::plain_hyperparameters(data)};
+  Gaussian state{task.start_mean, 0.01 * Matrix::Identity(4, 4)};
+  for (Index t = 0; t < task.horizon; ++t) {
+    state = naive::propagate(task.feature_map(), dynamics, preaction, state);
+    const Gaussian& ours = problem.workspace.states[static_cast<std::size_t>(t + 1)];
+    ASSERT_LT(largest_difference(ours.mean, state.mean), 1e-8) << t;
+    ASSERT_LT(largest_difference(ours.covariance, state.covariance), 1e-8) << t;
+    const Transformed f = FeatureMoments(task.feature_map())(state);
+    EXPECT_NEAR(result.rewards(t), reward::saturating_moments(*task.saturating_reward, {f.mean, f.covariance}).mean,
+                1e-8);
+  }
+}
+
 TEST(ExpectedReturn, IsThatOfPlainFormulas) {
   for (const scenario::Scenario& scenario : {robots::cartpole::make({}), robots::pendubot::make({})}) {
-    const Task& task = scenario.task;
-    Problem problem(scenario, 30, 12);
-    const Vector theta = fixture::random_theta(*problem.policy);
-    const Return result = problem.expected(theta, nullptr, problem.workspace);
-    const fixture::Data data = fixture::random_data(scenario, 30);
-    const naive::Gp dynamics{data.inputs, data.changes, fixture::plain_hyperparameters(data)};
-    Gaussian state{task.start_mean, 0.01 * Matrix::Identity(4, 4)};
-    for (Index t = 0; t < task.horizon; ++t) {
-      state = naive::propagate(task.feature_map(), dynamics, *problem.policy->analytic(), theta, state);
-      const Gaussian& ours = problem.workspace.states[static_cast<std::size_t>(t + 1)];
-      ASSERT_LT(largest_difference(ours.mean, state.mean), 1e-8) << t;
-      ASSERT_LT(largest_difference(ours.covariance, state.covariance), 1e-8) << t;
-      const Transformed f = FeatureMoments(task.feature_map())(state);
-      EXPECT_NEAR(result.rewards(t), reward::saturating_moments(*task.saturating_reward, {f.mean, f.covariance}).mean,
-                  1e-8);
-    }
+    expect_plain_formulas(scenario, fixture::rbf(scenario.task, 12));
+    expect_plain_formulas(scenario, fixture::linear(scenario.task));
   }
 }
 
@@ -122,6 +133,15 @@ TEST(ExpectedReturn, GradientOfThePendubotAgreesWithDifferences) {
     const Vector theta = fixture::random_theta(*pendubot.policy);
     pendubot.expect_gradient(theta, random_directions(theta.size(), 3), 1e-4);
     pendubot.expect_gradient(theta, coordinates(theta.size(), theta.size() / 7), 1e-3);
+  }
+}
+
+TEST(ExpectedReturn, GradientOfLinearPoliciesAgreesWithDifferences) {
+  for (const scenario::Scenario& scenario : {robots::cartpole::make({}), robots::pendubot::make({})}) {
+    Problem problem(scenario, 40, fixture::linear(scenario.task));
+    const Vector theta = fixture::random_theta(*problem.policy);
+    problem.expect_gradient(theta, coordinates(theta.size()), 1e-4);
+    problem.expect_gradient(theta, random_directions(theta.size(), 5), 1e-4);
   }
 }
 
@@ -177,9 +197,9 @@ TEST(ExpectedReturn, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one, three);
 }
 
-TEST(ExpectedReturn, NoParametersEscapeAsNan) {
-  Problem cartpole(robots::cartpole::make({}), 20, 5);
-  const Vector theta = fixture::random_theta(*cartpole.policy);
+void expect_no_nan(const std::shared_ptr<const policy::Policy>& policy) {
+  Problem cartpole(robots::cartpole::make({}), 20, policy);
+  const Vector theta = fixture::random_theta(*policy);
   for (const double bad : {std::nan(""), HUGE_VAL, 1e300, -1e300, 1e20, 1e6, -1e6}) {
     for (Index k = 0; k < theta.size(); k += 3) {
       Vector spoilt = theta, gradient;
@@ -196,6 +216,12 @@ TEST(ExpectedReturn, NoParametersEscapeAsNan) {
   }
 }
 
+TEST(ExpectedReturn, NoParametersEscapeAsNan) {
+  const Task task = robots::cartpole::make({}).task;
+  expect_no_nan(fixture::rbf(task, 5));
+  expect_no_nan(fixture::linear(task));
+}
+
 TEST(ExpectedReturn, RefusesWhatHasNoAnalyticMoments) {
   const scenario::Scenario scenario = robots::cartpole::make({});
   const auto dynamics = fixture::random_dynamics(scenario, 10);
@@ -209,7 +235,7 @@ TEST(ExpectedReturn, RefusesWhatHasNoAnalyticMoments) {
   };
   EXPECT_EQ(refusal(scenario.task, *fixture::rbf(scenario.task, 3)), "");
   EXPECT_EQ(refusal(scenario.task, *scenario.policy),
-            "policy = mlp: its actions have no analytic moments, must be rbf");
+            "policy = mlp: its actions have no analytic moments, must be rbf, or linear with a sine as squash");
   Task other = scenario.task;
   other.saturating_reward.reset();
   EXPECT_NE(refusal(other, *fixture::rbf(other, 3)).find("the task's reward has no analytic moments"),

@@ -7,6 +7,7 @@
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/gp/fit.hpp"
 #include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
 #include "rehearse/scenario/scenario.hpp"
 
@@ -48,13 +49,18 @@ inline std::shared_ptr<const gp::MomentMatching> random_dynamics(const scenario:
 }
 
 inline std::shared_ptr<const policy::Policy> rbf(const Task& task, Index centres) {
-  std::vector<Interval> bounds;
-  for (const ActionVariable& action : task.actions) bounds.push_back(action.bounds);
   const FeatureMap features = task.feature_map();
   return policy::make_rbf({.features = features,
                            .scale = Vector::LinSpaced(features.features(), 1, 2),
                            .centres = centres,
-                           .bounds = bounds});
+                           .bounds = task.action_bounds()});
+}
+
+inline std::shared_ptr<const policy::Policy> linear(const Task& task) {
+  const FeatureMap features = task.feature_map();
+  return policy::make_linear({.features = features,
+                              .scale = Vector::LinSpaced(features.features(), 1, 2),
+                              .squash = {task.action_bounds(), 1.5, policy::Squash::Shape::sine}});
 }
 
 /// Centres where the features are, targets that use much of the actions.

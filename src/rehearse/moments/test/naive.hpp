@@ -2,10 +2,13 @@
 // One step as PILCO's propagate writes it: the joint Gaussian of state, features, action and change grows block by
 // block, each with its covariance to all before. GPs by the book.
 
+#include <functional>
+
 #include <Eigen/LU>
 
 #include "rehearse/core/feature_moments.hpp"
 #include "rehearse/gp/hyperparameters.hpp"
+#include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
 #include "rehearse/policy/squash_moments.hpp"
 
@@ -84,29 +87,50 @@ struct Joint {
   }
 };
 
-/// One action; θ in the order of policy/rbf.hpp.
-inline Gaussian propagate(const FeatureMap& features, const Gp& dynamics, const policy::RbfOptions& options,
-                          const Vector& theta, const Gaussian& state) {
-  const Index dx = state.size(), F = features.features(), n = options.centres;
+/// The action of a policy before the squash; one action.
+struct Preaction {
+  std::function<Transformed(const Gaussian& features)> moments;
+  std::vector<Interval> bounds;
+};
+
+/// θ in the order of policy/rbf.hpp.
+inline Preaction preaction(const policy::RbfOptions& options, const Vector& theta) {
+  const Index F = options.scale.size(), n = options.centres;
   const Gp network{.X = theta.segment(F, n * F).reshaped(F, n).transpose() * options.scale.asDiagonal(),
                    .Y = theta.tail(n),
                    .theta = {{.log_lengths = theta.head(F).array() + options.scale.array().log(),
                               .log_signal = 0,
                               .log_noise = std::log(options.noise)}},
                    .jitter = 1e-6};
+  return {[network](const Gaussian& features) { return moments(network, features); }, options.bounds};
+}
+
+/// θ in the order of policy/network.hpp.
+inline Preaction preaction(const policy::LinearOptions& options, const Vector& theta) {
+  const Vector slopes = options.squash.gain * theta.head(theta.size() - 1).cwiseQuotient(options.scale);
+  const double offset = options.squash.gain * theta(theta.size() - 1);
+  const auto moments = [=](const Gaussian& x) -> Transformed {
+    return {Vector{{slopes.dot(x.mean) + offset}}, Matrix{{slopes.dot(x.covariance * slopes)}}, slopes};
+  };
+  return {moments, options.squash.bounds};
+}
+
+inline Gaussian propagate(const FeatureMap& features, const Gp& dynamics, const Preaction& policy,
+                          const Gaussian& state) {
+  const Index dx = state.size(), F = features.features();
   Joint joint{state};
   joint.append(0, FeatureMoments(features)(state));
-  Joint with_network = joint;  // the action before the squash is no input of the dynamics
-  with_network.append(dx, moments(network, joint.part(dx, F)));
-  const Transformed squash = policy::SquashMoments(options.bounds)(with_network.part(dx + F, 1));
-  with_network.append(dx + F, squash);
+  Joint with_preaction = joint;  // the action before the squash is no input of the dynamics
+  with_preaction.append(dx, policy.moments(joint.part(dx, F)));
+  const Transformed squash = policy::SquashMoments(policy.bounds)(with_preaction.part(dx + F, 1));
+  with_preaction.append(dx + F, squash);
   const auto kept = [&] {
     std::vector<Index> indices;
     for (Index i = 0; i < dx + F + 2; ++i)
       if (i != dx + F) indices.push_back(i);
     return indices;
   }();
-  joint.all = {with_network.all.mean(kept), with_network.all.covariance(kept, kept)};
+  joint.all = {with_preaction.all.mean(kept), with_preaction.all.covariance(kept, kept)};
   joint.append(dx, moments(dynamics, joint.part(dx, F + 1)));
   Matrix sum = Matrix::Zero(dx, joint.all.size());
   sum.leftCols(dx).setIdentity();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fixture.hpp"
+#include "rehearse/moments/rbf_policy.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
 namespace rehearse::moments {
@@ -26,7 +27,7 @@ class PropagationTest : public ::testing::Test {
   scenario::Scenario scenario_ = robots::pendubot::make({});
   gp::Posterior posterior_ = fixture::random_posterior(scenario_, 40);
   std::shared_ptr<const policy::Policy> rbf_ = fixture::rbf(scenario_.task, 10);
-  RbfPolicy policy_{*rbf_->analytic(), fixture::random_theta(*rbf_), 0};
+  RbfPolicy policy_{*std::get<const policy::RbfOptions*>(*rbf_->analytic()), fixture::random_theta(*rbf_), 0};
   FeatureMoments features_{scenario_.task.feature_map()};
   Vector mean_{{0.4, -0.3, 2.9, 3.3}};
 };

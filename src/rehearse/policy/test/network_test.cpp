@@ -17,8 +17,8 @@ using fixture::features, fixture::inputs, fixture::kBounds, fixture::kScale, fix
 std::shared_ptr<const Policy> mlp(Index hidden, double gain = 1) {
   return make_mlp({.features = features(), .scale = kScale, .hidden = hidden, .squash = {kBounds, gain}});
 }
-std::shared_ptr<const Policy> linear(double gain = 1) {
-  return make_linear({.features = features(), .scale = kScale, .squash = {kBounds, gain}});
+std::shared_ptr<const Policy> linear(double gain = 1, Squash::Shape shape = Squash::Shape::tanh) {
+  return make_linear({.features = features(), .scale = kScale, .squash = {kBounds, gain, shape}});
 }
 
 /// One layer, weight by weight from `theta`, which is advanced.
@@ -72,8 +72,16 @@ TEST(Linear, IsItsFormula) {
   }
 }
 
+TEST(Linear, IsAnalyticWithASine) {
+  EXPECT_FALSE(linear()->analytic().has_value());
+  const auto policy = linear(3, Squash::Shape::sine);
+  const auto options = policy->analytic();
+  ASSERT_TRUE(options && std::holds_alternative<const LinearOptions*>(*options));
+  EXPECT_EQ(std::get<const LinearOptions*>(*options)->squash.gain, 3);
+}
+
 TEST(Network, KeepsTheLawsOfPolicies) {
-  for (const auto& policy : {mlp(10, 5), mlp(3), linear(), linear(100)})
+  for (const auto& policy : {mlp(10, 5), mlp(3), linear(), linear(100), linear(3, Squash::Shape::sine)})
     EXPECT_EQ(testing::check_policy(*policy, task()), std::vector<std::string>{}) << policy->name();
 }
 

@@ -61,10 +61,12 @@ TEST(Rbf, IsItsFormula) {
 }
 
 TEST(Rbf, SaysWhatItIsMadeOf) {
-  const policy::RbfOptions* options = rbf(7)->analytic();
-  ASSERT_NE(options, nullptr);
-  EXPECT_EQ(options->centres, 7);
-  EXPECT_EQ(make_rbf(*options)->parameters(), rbf(7)->parameters());
+  const auto policy = rbf(7);
+  const auto options = policy->analytic();
+  ASSERT_TRUE(options && std::holds_alternative<const RbfOptions*>(*options));
+  const RbfOptions& rbf_options = *std::get<const RbfOptions*>(*options);
+  EXPECT_EQ(rbf_options.centres, 7);
+  EXPECT_EQ(make_rbf(rbf_options)->parameters(), policy->parameters());
 }
 
 TEST(Rbf, PassesThroughItsTargetsWhereCentresAreFarApart) {

@@ -32,6 +32,8 @@ TEST(PolicyOptions, ActionsHaveTheTasksBoundsAndTheGain) {
   Matrix U(1, 1);
   make({{"policy", "linear"}, {"policy_gain", "2"}})->act(Theta, X, 0, U);
   EXPECT_NEAR(U(0, 0), -0.5 + 1.5 * std::tanh(0.6), 1e-14);
+  make({{"policy", "linear"}, {"policy_gain", "2"}, {"policy_squash", "sine"}})->act(Theta, X, 0, U);
+  EXPECT_NEAR(U(0, 0), -0.5 + 1.5 * (9 * std::sin(0.6) + std::sin(1.8)) / 8, 1e-14);
 }
 
 }  // namespace

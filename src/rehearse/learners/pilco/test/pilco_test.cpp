@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/learners/pilco/initial_policy.hpp"
 #include "rehearse/moments/expected_return.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/rollout/imagine.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 using OptionTexts = std::map<std::string, std::string>;
 
-using slider::learn, slider::rbf, slider::run_trial, slider::setting, slider::task;
+using slider::learn, slider::linear, slider::rbf, slider::run_trial, slider::setting, slider::task;
 
 std::unique_ptr<LearnerBuilder> builder(const OptionTexts& options = {{"search.line_searches", "20"}}) {
   auto builder = std::move(builders().front());
@@ -54,6 +55,12 @@ TEST(Pilco, IsALearnerWithoutAPriorAndOneWith) {
 
 TEST(Pilco, KeepsTheLaws) {
   EXPECT_EQ(testing::check_learner(*builder(), setting(), run_trial), std::vector<std::string>{});
+}
+
+TEST(Pilco, KeepsTheLawsWithALinearPolicy) {
+  Setting with_linear = setting();
+  with_linear.policy = linear();
+  EXPECT_EQ(testing::check_learner(*builder(), with_linear, run_trial), std::vector<std::string>{});
 }
 
 TEST(Pilco, KeepsTheLawsWithInducingInputs) {
@@ -97,16 +104,19 @@ TEST(Pilco, WhatEarnedTheSameTwicePromisesNoMore) {
 
 // A policy that does nothing earns about 0, one that stops at 0 at once about 9.
 TEST(Pilco, LearnsTheSlider) {
-  for (const std::uint64_t seed : {1, 2}) {
-    const auto [proposals, returns] = learn(*builder()->build(setting(seed)), 4);
-    EXPECT_GT(returns.back(), 8) << seed;
-    const Proposal& last = proposals.back();
-    ASSERT_TRUE(last.predicted_return && last.log_evidence && last.model);
-    EXPECT_NEAR(*last.predicted_return, returns.back(), 1) << seed;
-    EXPECT_EQ(last.policy->name(), "rbf");
-    EXPECT_EQ(last.notes, std::vector<std::string>{});
-    EXPECT_GT(last.rollouts, 20);
-  }
+  for (const auto& policy : {rbf(), linear()})
+    for (const std::uint64_t seed : {1, 2}) {
+      Setting with_policy = setting(seed);
+      with_policy.policy = policy;
+      const auto [proposals, returns] = learn(*builder()->build(with_policy), 4);
+      EXPECT_GT(returns.back(), 8) << policy->name() << seed;
+      const Proposal& last = proposals.back();
+      ASSERT_TRUE(last.predicted_return && last.log_evidence && last.model);
+      EXPECT_NEAR(*last.predicted_return, returns.back(), 1) << policy->name() << seed;
+      EXPECT_EQ(last.policy, policy);
+      EXPECT_EQ(last.notes, std::vector<std::string>{});
+      EXPECT_GT(last.rollouts, 20);
+    }
 }
 
 TEST(Pilco, TheFirstTrialIsRandomActions) {
@@ -128,7 +138,8 @@ TEST(Pilco, RefusesWhatHasNoMoments) {
       policy::make_linear({.features = task().feature_map(), .scale = Vector::Ones(1), .squash = {{{-1, 1}}, 1}});
   plain.task.saturating_reward.reset();
   const std::string message = refusal(plain);
-  for (const char* part : {"policy = linear", "--set policy=rbf", "reward", "saturating_reward", "black-drops"})
+  for (const char* part :
+       {"policy = linear", "--set policy=rbf", "policy_squash = sine", "reward", "saturating_reward", "black-drops"})
     EXPECT_NE(message.find(part), std::string::npos) << part << ": " << message;
   EXPECT_EQ(builder()->violations(plain.task, *plain.policy).size(), 2U);
   EXPECT_TRUE(builder()->violations(task(), *rbf()).empty());
@@ -234,7 +245,7 @@ TEST(PolicySearch, BeginsWithPilcosPolicyWhateverTheScale) {
   const auto theta = [&](const Vector& scale) {
     const auto policy =
         policy::make_rbf({.features = task.feature_map(), .scale = scale, .centres = 40, .bounds = {{-1, 1}}});
-    return initial_policy(*policy, task, options, {.seed = 1, .trial = 2});
+    return initial_policy(*policy, start_state(task, options), {.seed = 1, .trial = 2});
   };
   const Vector one = theta(Vector::Ones(3)), scaled = theta(Vector{{10, 1, 2}});
   EXPECT_TRUE(one.head(3).isApprox(Vector{{0, std::log(0.7), std::log(0.7)}}));
@@ -246,13 +257,32 @@ TEST(PolicySearch, BeginsWithPilcosPolicyWhateverTheScale) {
   EXPECT_NEAR(std::sqrt(one.tail(40).squaredNorm() / 40), 0.1, 0.04);
 }
 
+TEST(PolicySearch, BeginsWithALinearPolicyOfTheSameActionsWhateverTheScaleAndTheGain) {
+  const auto weights = [](const Vector& scale, double gain) -> Vector {
+    const auto policy = policy::make_linear({.features = FeatureMap({StateKind::plain, StateKind::plain}),
+                                             .scale = scale,
+                                             .squash = {{{-1, 1}, {0, 2}}, gain, policy::Squash::Shape::sine}});
+    const Vector theta = initial_policy(*policy, Gaussian::zero(2), {.seed = 1, .trial = 2});
+    Vector counted = theta.cwiseQuotient(units_of(*policy));
+    EXPECT_TRUE(
+        (gain * theta).isApprox((Matrix(3, 2) << scale, scale, 1, 1).finished().reshaped().cwiseProduct(counted)));
+    return counted;
+  };
+  const Vector plain = weights(Vector::Ones(2), 1);
+  EXPECT_TRUE(weights(Vector{{10, 0.5}}, 3).isApprox(plain));
+  EXPECT_EQ(plain(2), 0);
+  EXPECT_EQ(plain(5), 0);
+  EXPECT_GT(plain.cwiseAbs().maxCoeff(), 0);
+  EXPECT_LT(plain.cwiseAbs().maxCoeff(), 0.05);
+}
+
 // No policy has a value on a model that throws the state out of all numbers.
 TEST(PolicySearch, KeepsTheStartWhereNothingHasAValue) {
   gp::MomentTerm wild{.centres = Matrix{{1, 0}}, .log_lengths = Vector{{9, 9}}, .weights = Vector{{1e300}}};
   const auto dynamics = std::make_shared<gp::MomentMatching>(std::vector{wild}, 1);
   const auto policy = rbf();
   const Task task = slider::task();
-  const Vector start = initial_policy(*policy, task, {}, {.seed = 1, .trial = 2});
+  const Vector start = initial_policy(*policy, start_state(task, {}), {.seed = 1, .trial = 2});
   const SearchResult found = search_policy({dynamics, *policy, task, serial_evaluator(), {}}, start, {});
   EXPECT_EQ(found.theta, start);
   EXPECT_FALSE(found.predicted_return.has_value());
@@ -267,7 +297,7 @@ TEST(PolicySearch, TakesTheBestOfItsRestarts) {
   const SearchProblem problem{dynamics, *policy, task, serial_evaluator(), {}};
   const SearchOptions options{.bfgs = {.line_searches = 30}, .restarts = 3};
   const auto first_policy = [&](std::uint64_t candidate) {
-    return initial_policy(*policy, task, options, {.seed = 1, .trial = 2, .candidate = candidate});
+    return initial_policy(*policy, start_state(task, options), {.seed = 1, .trial = 2, .candidate = candidate});
   };
   const StreamKey key{.seed = 1, .trial = 2};
   std::vector<SearchResult> all{search_policy(problem, first_policy(0), options)};

@@ -3,6 +3,7 @@
 
 #include "rehearse/learners/pilco/pilco.hpp"
 #include "rehearse/learners/test/slider.hpp"
+#include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
 
 namespace rehearse::learners::pilco::slider {
@@ -18,6 +19,12 @@ inline Task task() {
 inline std::shared_ptr<const policy::Policy> rbf() {
   return policy::make_rbf(
       {.features = task().feature_map(), .scale = Vector::Constant(1, 2), .centres = 5, .bounds = {{-1, 1}}});
+}
+
+inline std::shared_ptr<const policy::Policy> linear() {
+  return policy::make_linear({.features = task().feature_map(),
+                              .scale = Vector::Constant(1, 2),
+                              .squash = {{{-1, 1}}, 1, policy::Squash::Shape::sine}});
 }
 
 inline Setting setting(std::uint64_t seed = 1) {

@@ -1,0 +1,43 @@
+#include "rehearse/moments/policy_moments.hpp"
+
+#include "rehearse/moments/linear_policy.hpp"
+#include "rehearse/moments/rbf_policy.hpp"
+
+namespace rehearse::moments {
+namespace {
+
+PolicyMomentsAt moments_of(const policy::RbfOptions& options) {
+  return [options](const ConstVectorView& theta) { return std::make_unique<RbfPolicy>(options, theta); };
+}
+PolicyMomentsAt moments_of(const policy::LinearOptions& options) {
+  return [options](const ConstVectorView& theta) { return std::make_unique<LinearPolicy>(options, theta); };
+}
+
+}  // namespace
+
+bool PolicyMoments::forward(const Gaussian& features, PolicyTape& tape, Transformed& action,
+                            const Evaluator& evaluator) const {
+  if (!forward_before(features, tape, evaluator)) return false;
+  tape.squash = squash_({tape.before.mean, tape.before.covariance});
+  action.mean = tape.squash.mean;
+  action.covariance = tape.squash.covariance;
+  action.gain = tape.before.gain * tape.squash.gain;
+  return action.mean.allFinite() && action.covariance.allFinite() && action.gain.allFinite();
+}
+
+void PolicyMoments::adjoint(const Gaussian& features, const PolicyTape& tape, const Transformed& adjoint,
+                            Gaussian& features_adjoint, PolicyAdjoint& policy) const {
+  Gaussian before = Gaussian::zero(adjoint.outputs());
+  squash_.adjoint({tape.before.mean, tape.before.covariance},
+                  {adjoint.mean, adjoint.covariance, tape.before.gain.transpose() * adjoint.gain}, before);
+  adjoint_before(features, tape, {before.mean, before.covariance, adjoint.gain * tape.squash.gain.transpose()},
+                 features_adjoint, policy);
+}
+
+PolicyMomentsAt policy_moments(const policy::Policy& policy) {
+  const auto options = policy.analytic();
+  if (!options) return {};
+  return std::visit([](const auto* of_policy) { return moments_of(*of_policy); }, *options);
+}
+
+}  // namespace rehearse::moments

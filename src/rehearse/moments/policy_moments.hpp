@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/policy/policy.hpp"
+#include "rehearse/policy/squash_moments.hpp"
+
+namespace rehearse::moments {
+
+/// What the adjoint needs of the forward pass; reused without allocation of what grows with the centres.
+struct PolicyTape {
+  gp::MomentTape network;  // of an RBF policy
+  Transformed before;      // the squash
+  Transformed squash;
+};
+
+/// The adjoint of what a policy is made of, summed over the steps of a rollout.
+struct PolicyAdjoint {
+  std::vector<gp::TermAdjoint> networks;  // of an RBF policy, one an action
+  Matrix slopes;                          // of a linear policy, actions × features
+  Vector offsets;                         // of a linear policy, one an action
+};
+
+/// The moments of a policy at one θ, where its features are Gaussian. Immutable; any thread.
+class PolicyMoments {
+ public:
+  virtual ~PolicyMoments() = default;
+
+  /// False: θ is not finite, or so extreme that there are no moments; nothing else may be called then.
+  virtual bool ok() const = 0;
+
+  /// False if there are no moments, as in gp/moment_matching.hpp.
+  bool forward(const Gaussian& features, PolicyTape& tape, Transformed& action, const Evaluator& evaluator) const;
+
+  /// Adds to the adjoints of the features and of the policy what the adjoint of the action brings.
+  void adjoint(const Gaussian& features, const PolicyTape& tape, const Transformed& adjoint, Gaussian& features_adjoint,
+               PolicyAdjoint& policy) const;
+  virtual PolicyAdjoint zero_adjoints() const = 0;
+
+  /// The gradient by θ, once for the sum of the adjoints of all steps.
+  virtual Vector gradient(const PolicyAdjoint& adjoint) const = 0;
+
+ protected:
+  explicit PolicyMoments(const std::vector<Interval>& bounds) : squash_(bounds) {}
+
+ private:
+  /// The same of the actions before the squash, which is shared: tape.before is written, and read.
+  virtual bool forward_before(const Gaussian& features, PolicyTape& tape, const Evaluator& evaluator) const = 0;
+  virtual void adjoint_before(const Gaussian& features, const PolicyTape& tape, const Transformed& adjoint,
+                              Gaussian& features_adjoint, PolicyAdjoint& policy) const = 0;
+
+  policy::SquashMoments squash_;
+};
+
+/// θ ↦ the moments of a policy at θ; throws InvalidInput if it has another size. Empty if the policy has none.
+using PolicyMomentsAt = std::function<std::unique_ptr<PolicyMoments>(const ConstVectorView& theta)>;
+PolicyMomentsAt policy_moments(const policy::Policy& policy);
+
+}  // namespace rehearse::moments
