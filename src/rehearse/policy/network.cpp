@@ -21,7 +21,7 @@ void check(const FeatureMap& features, const Vector& scale, const Squash& squash
 /// `hidden` = 0: no hidden layer.
 class Network : public Policy {
  public:
-  Network(std::string name, FeatureMap features, Vector scale, Index hidden, Squash squash)
+  Network(std::string name, FeatureMap features, const Vector& scale, Index hidden, Squash squash)
       : name_(std::move(name)),
         features_(std::move(features)),
         inverse_scale_(scale.cwiseInverse()),
@@ -80,11 +80,11 @@ class Linear final : public Network {
 std::shared_ptr<const Policy> make_mlp(MlpOptions options) {
   check(options.features, options.scale, options.squash, options.hidden);
   if (options.hidden < 1) throw InvalidInput(fmt::format("mlp.hidden = {}, must be ≥ 1", options.hidden));
-  return std::make_shared<Network>("mlp", std::move(options.features), std::move(options.scale), options.hidden,
+  return std::make_shared<Network>("mlp", std::move(options.features), options.scale, options.hidden,
                                    std::move(options.squash));
 }
 
-std::shared_ptr<const Policy> make_linear(LinearOptions options) {
+std::shared_ptr<const Policy> make_linear(const LinearOptions& options) {
   check(options.features, options.scale, options.squash, 0);
   return std::make_shared<Linear>(options);
 }

@@ -25,6 +25,6 @@ struct LinearOptions {
   Vector scale;
   Squash squash;
 };
-std::shared_ptr<const Policy> make_linear(LinearOptions options);
+std::shared_ptr<const Policy> make_linear(const LinearOptions& options);
 
 }  // namespace rehearse::policy

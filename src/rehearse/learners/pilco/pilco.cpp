@@ -58,7 +58,7 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   violations.throw_if_any();
   if (!options.prior) setting.prior.reset();
   if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
-  return std::make_unique<Trials>(std::move(setting), std::move(options));
+  return std::make_unique<Trials>(std::move(setting), options);
 }
 
 std::vector<std::unique_ptr<LearnerBuilder>> builders() {

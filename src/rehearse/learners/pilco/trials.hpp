@@ -14,7 +14,7 @@ inline constexpr double kSameReturn = 0.02;
 /// what those on the prior taught, else with random actions.
 class Trials final : public Learner {
  public:
-  Trials(Setting setting, Options options) : setting_(std::move(setting)), options_(std::move(options)) {}
+  Trials(Setting setting, const Options& options) : setting_(std::move(setting)), options_(options) {}
 
   const Proposal& ask() override;
   void tell(const Episode& episode) override;
