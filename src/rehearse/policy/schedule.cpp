@@ -52,7 +52,8 @@ std::shared_ptr<const Policy> make_schedule(std::vector<Interval> bounds, double
 
 Vector random_schedule(const Task& task, RandomActions actions, double hold_s, std::uint64_t seed,
                        std::uint64_t trial) {
-  const auto hold = std::max<Index>(1, std::lround(hold_s / task.dt_s));
+  const auto hold =
+      static_cast<Index>(std::lround(std::clamp(hold_s / task.dt_s, 1.0, static_cast<double>(task.horizon))));
   Rng rng({.seed = seed, .trial = trial, .purpose = Purpose::random_policy});
   Vector theta(task.horizon * task.action_size());
   for (Index i = 0; i < theta.size(); ++i) {

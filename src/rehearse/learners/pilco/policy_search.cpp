@@ -73,7 +73,7 @@ SearchResult search(Objective& objective, const Vector& start, const SearchOptio
 
 void SearchOptions::fields(FieldVisitor& v) {
   bfgs.fields(v);
-  v.number("start_std", start_std, at_least(0));
+  v.number("start_std", start_std, between(0, 1e6));
   v.integer("restarts", restarts, between(0, 1000));
 }
 

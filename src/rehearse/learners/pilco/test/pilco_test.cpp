@@ -130,6 +130,8 @@ TEST(Pilco, TheFirstTrialIsRandomActions) {
   EXPECT_NE(first(1, "0"), first(2, "0"));
   EXPECT_NE(first(1, "0")(0), first(1, "0")(1));
   EXPECT_EQ(first(1, "0.4")(0), first(1, "0.4")(1));
+  const Vector held = first(1, "1e300");
+  EXPECT_TRUE((held.array() == held(0)).all());
 }
 
 TEST(Pilco, RefusesWhatHasNoMoments) {
