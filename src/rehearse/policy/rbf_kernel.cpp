@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rehearse/policy/rbf_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -80,63 +82,93 @@ struct Block {
         L(points.data + (s.centres + 1) * s.inputs * lanes, lanes),
         k(L.data + row_of(s.centres) * lanes, lanes),
         w(k.data + s.centres * lanes, lanes),
-        x(w.data + s.centres * lanes, lanes) {}
+        x(w.data + s.centres * lanes, lanes),
+        factors(x.data + s.inputs * lanes, lanes) {}
   static Index vectors(const RbfShape& s) {
-    return s.parameters() + (s.centres + 2) * s.inputs + row_of(s.centres) + 2 * s.centres;
+    return s.parameters() + (s.centres + 3) * s.inputs + row_of(s.centres) + 2 * s.centres;
   }
 
   Lanes theta;   // parameters
   Lanes points;  // centres and, last, the inputs, divided by the length scales
   Lanes L, k, w;
-  Lanes x;  // inputs
+  Lanes x;        // inputs
+  Lanes factors;  // 1/ℓ of each input
 };
 
-/// kᵀ (K + σ_n² I)⁻¹ y
-HWY_INLINE V act(const RbfShape& s, Index action, const Block& block) {
+/// What an action's network is at θ: its centres, L, and L⁻¹ y in w.
+HWY_INLINE void prepare(const RbfShape& s, Index action, const Block& block) {
   const D d;
   const Index n = s.centres, lengths = action * s.inputs, centres = s.actions * s.inputs;
   const Index targets = centres + n * s.inputs + action * n;
   for (Index i = 0; i < s.inputs; ++i) {
     const V factor = hn::Exp(d, hn::Neg(clamp(block.theta[lengths + i], kLargestLogLength)));
+    block.factors.set(i, factor);
     for (Index c = 0; c < n; ++c)
       block.points.set(c * s.inputs + i, hn::Mul(block.theta[centres + c * s.inputs + i], factor));
-    block.points.set(n * s.inputs + i, hn::Mul(block.x[i], factor));
   }
   factorise(block.points, s, block.L);
-  for (Index c = 0; c < n; ++c) {
-    block.k.set(c, correlation(squared_distance(block.points, n, c, s.inputs)));
-    block.w.set(c, block.theta[targets + c]);
-  }
-  solve(block.L, block.k, n);
+  for (Index c = 0; c < n; ++c) block.w.set(c, block.theta[targets + c]);
   solve(block.L, block.w, n);
-  V mean = hn::Zero(d);
+}
+
+/// kᵀ (K + σ_n² I)⁻¹ y, after `prepare`.
+HWY_INLINE V act(const RbfShape& s, const Block& block) {
+  const Index n = s.centres;
+  for (Index i = 0; i < s.inputs; ++i) block.points.set(n * s.inputs + i, hn::Mul(block.x[i], block.factors[i]));
+  for (Index c = 0; c < n; ++c) block.k.set(c, correlation(squared_distance(block.points, n, c, s.inputs)));
+  solve(block.L, block.k, n);
+  V mean = hn::Zero(D());
   for (Index c = 0; c < n; ++c) mean = hn::MulAdd(block.k[c], block.w[c], mean);
   return mean;
 }
 
-/// Rows [row, row + count) of some columns; a block that is not full is padded with its first row.
-HWY_INLINE void load(const double* from, Index stride, Index columns, Index row, Index count, const Lanes& to) {
+/// Rows [row, row + count) of some columns; a block that is not full is padded with its first row. Whether that changes
+/// what is there.
+HWY_INLINE bool load(const double* from, Index stride, Index columns, Index row, Index count, const Lanes& to) {
+  bool changed = false;
   for (Index c = 0; c < columns; ++c)
-    for (Index i = 0; i < to.lanes; ++i) to.data[c * to.lanes + i] = from[c * stride + row + (i < count ? i : 0)];
+    for (Index i = 0; i < to.lanes; ++i) {
+      const double value = from[c * stride + row + (i < count ? i : 0)];
+      double& there = to.data[c * to.lanes + i];
+      changed |= there != value;
+      there = value;
+    }
+  return changed;
 }
+
+/// A thread's block, and what it holds.
+struct Memory {
+  void reserve(const RbfShape& wanted, Index lanes) {
+    const Index needed = Block::vectors(wanted) * lanes;
+    if (shape == wanted && allocated > 0) return;
+    if (needed > allocated) {
+      block = hwy::AllocateAligned<double>(static_cast<std::size_t>(needed)), allocated = needed;
+      std::fill_n(block.get(), needed, 0.0);
+    }
+    shape = wanted, prepared = -1;
+  }
+
+  hwy::AlignedFreeUniquePtr<double[]> block;
+  Index allocated = 0;
+  RbfShape shape{};
+  Index prepared = -1;  // the action
+};
 
 void RbfKernel(const RbfShape& shape, const double* theta, Index theta_stride, const double* in, Index in_stride,
                double* out, Index out_stride, Index rows) {
-  thread_local hwy::AlignedFreeUniquePtr<double[]> memory;
-  thread_local Index allocated = 0;
+  thread_local Memory memory;
   const auto lanes = static_cast<Index>(hn::Lanes(D()));
-  const Index needed = Block::vectors(shape) * lanes;
-  if (needed > allocated) memory = hwy::AllocateAligned<double>(static_cast<std::size_t>(needed)), allocated = needed;
-  const Block block(shape, memory.get(), lanes);
-  for (Index row = 0; row < rows; row += lanes) {
-    const Index count = rows - row < lanes ? rows - row : lanes;
-    load(theta, theta_stride, shape.parameters(), row, count, block.theta);
-    load(in, in_stride, shape.inputs, row, count, block.x);
-    for (Index a = 0; a < shape.actions; ++a) {
-      block.w.set(0, act(shape, a, block));
-      for (Index i = 0; i < count; ++i) out[a * out_stride + row + i] = block.w.data[i];
+  memory.reserve(shape, lanes);
+  const Block block(shape, memory.block.get(), lanes);
+  for (Index a = 0; a < shape.actions; ++a)
+    for (Index row = 0; row < rows; row += lanes) {
+      const Index count = rows - row < lanes ? rows - row : lanes;
+      const bool changed = load(theta, theta_stride, shape.parameters(), row, count, block.theta);
+      if (changed || memory.prepared != a) prepare(shape, a, block), memory.prepared = a;
+      load(in, in_stride, shape.inputs, row, count, block.x);
+      block.k.set(0, act(shape, block));
+      for (Index i = 0; i < count; ++i) out[a * out_stride + row + i] = block.k.data[i];
     }
-  }
 }
 
 }  // namespace HWY_NAMESPACE

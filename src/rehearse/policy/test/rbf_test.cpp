@@ -60,6 +60,22 @@ TEST(Rbf, IsItsFormula) {
   }
 }
 
+// Rows in a row with one θ share its factorisation.
+TEST(Rbf, ARowIsTheSameWhateverThetaTheOthersHave) {
+  const auto policy = rbf(9);
+  const Matrix X = 3 * normals(40, 3, 2);
+  Matrix Theta = normals(40, policy->parameters(), 1), U(40, 2), alone(1, 2);
+  for (Index r = 0; r < 40; ++r)
+    if (r != 20) Theta.row(r) = Theta.row(r < 33 ? 0 : 39);
+  for (int again = 0; again < 2; ++again) {
+    policy->act(Theta, X, 0, U);
+    for (Index r = 0; r < 40; ++r) {
+      policy->act(Theta.row(r), X.row(r), 0, alone);
+      EXPECT_EQ(U.row(r), alone) << r;
+    }
+  }
+}
+
 TEST(Rbf, SaysWhatItIsMadeOf) {
   const auto policy = rbf(7);
   const auto options = policy->analytic();
