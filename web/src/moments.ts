@@ -92,7 +92,8 @@ export function gaps({ episodes }: Run): Child {
     title: 'Moment matching against samples',
     about:
       'The same model, policy and start: a Gaussian in closed form against 100 sampled episodes, of which a mean is ' +
-      'known to a tenth of their standard deviation. They differ where the states are no Gaussian.',
+      'known to a tenth of their standard deviation. They differ where the states are no Gaussian, ' +
+      'and where states are measured with noise: moment matching knows none.',
     legend: [
       { label: 'moment matching', colour: MOMENTS, symbol: 'triangle' },
       { label: 'samples', colour: PREDICTED, symbol: 'square', dash: '6 3' },

@@ -22,6 +22,7 @@ void check_model(const dynamics::GpOptions& gp, const Task& task, Violations& vi
          "model.gp.integrate_rates = false");
   refuse(gp.joint_angles && !task.model_features().joints().empty(), "model.gp.joint_angles = true",
          "model.gp.joint_angles = false");
+  refuse(gp.smooth, "model.gp.smooth = true", "model.gp.smooth = false");
   refuse(gp.variance == dynamics::PredictedVariance::noisy, "model.gp.variance = noisy", "model.gp.variance = latent");
 }
 

@@ -17,13 +17,15 @@ namespace {
 /// Inducing inputs for GPs of Y at X: rows spread evenly, then moved to where the sum of the outputs' evidence is
 /// higher, in units of the inputs' spread.
 Matrix inducing_inputs(const gp::Inputs& inputs, const Matrix& X, const Matrix& Y, const ModelOptions& options,
-                       const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator) {
+                       const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
+                       const ProgressSink& progress) {
   const Index m = options.inducing, D = X.cols();
   Matrix Z(m, D);
   for (Index i = 0; i < m; ++i) Z.row(i) = X.row(i * X.rows() / m);
   if (options.inducing_line_searches == 0) return Z;
   const auto spread = inputs.spread().asDiagonal();
   const auto evidence = [&](const Vector& z, Vector& gradient) {
+    if (progress) progress({.phase = "inducing inputs"});
     const Matrix at = z.reshaped(m, D) * spread;
     std::vector<Matrix> gradients(kernels.size());
     Vector values(Y.cols());
@@ -44,11 +46,11 @@ Matrix inducing_inputs(const gp::Inputs& inputs, const Matrix& X, const Matrix& 
 
 std::vector<gp::MomentTerm> terms(const Matrix& X, const Matrix& Y, const ModelOptions& options,
                                   const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
-                                  std::vector<std::string>& notes) {
+                                  std::vector<std::string>& notes, const ProgressSink& progress) {
   const gp::Inputs inputs(X);
   if (X.rows() > options.inducing) {
     try {
-      return gp::fitc_terms(X, Y, inducing_inputs(inputs, X, Y, options, kernels, evaluator), kernels);
+      return gp::fitc_terms(X, Y, inducing_inputs(inputs, X, Y, options, kernels, evaluator, progress), kernels);
     } catch (const InvalidInput& error) {
       notes.push_back(fmt::format("all rows are used instead of inducing inputs: {}", error.what()));
     }
@@ -82,7 +84,7 @@ void ModelOptions::fields(FieldVisitor& v) {
 
 Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
             const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator,
-            const std::vector<gp::MomentTerm>& mean) {
+            const std::vector<gp::MomentTerm>& mean, const ProgressSink& progress) {
   Model model{.kernels = start, .log_evidence = std::numeric_limits<double>::quiet_NaN()};
   const FeatureMap features = task.feature_map();
   std::optional<prior::Prior> prior;
@@ -95,7 +97,7 @@ Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
     Matrix Y = data.changes;
     if (!mean.empty()) Y -= gp::evaluate_means(mean, Y.cols(), X);
     model.moments =
-        around(mean, terms(X, Y, options, learned.state.kernels, evaluator, model.notes), task.state_size());
+        around(mean, terms(X, Y, options, learned.state.kernels, evaluator, model.notes, progress), task.state_size());
     model.moments_of_all_rows = [X, Y, mean, kernels = learned.state.kernels] {
       return around(mean, gp::exact_terms(gp::Posterior(gp::Inputs(X), Y, kernels)), Y.cols());
     };
@@ -110,9 +112,9 @@ Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
 
 std::vector<gp::MomentTerm> terms_of(const Task& task, const Dataset& data, const ModelOptions& options,
                                      const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
-                                     std::vector<std::string>& notes) {
+                                     std::vector<std::string>& notes, const ProgressSink& progress) {
   const Matrix X = dynamics::gp_inputs(task.feature_map(), data.states, data.actions);
-  return terms(X, data.changes, options, kernels, evaluator, notes);
+  return terms(X, data.changes, options, kernels, evaluator, notes, progress);
 }
 
 }  // namespace rehearse::learners::pilco

@@ -6,6 +6,7 @@
 
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/evaluator.hpp"
+#include "rehearse/core/events.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/dynamics/learn.hpp"
@@ -39,14 +40,15 @@ struct Model {
 };
 
 /// `start`: the kernels of the model before; may be empty. `mean`: the mean functions of the GPs, terms without
-/// uncertainty (Cutler 2015); empty: zero. The same for any number of threads. No data throw.
+/// uncertainty (Cutler 2015); empty: zero. The same for any number of threads. No data throw; what the progress sink
+/// throws, passes.
 Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
             const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator,
-            const std::vector<gp::MomentTerm>& mean = {});
+            const std::vector<gp::MomentTerm>& mean = {}, const ProgressSink& progress = {});
 
 /// GPs with these kernels and zero mean: all rows, or, beyond `options.inducing` of them, inducing inputs.
 std::vector<gp::MomentTerm> terms_of(const Task& task, const Dataset& data, const ModelOptions& options,
                                      const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
-                                     std::vector<std::string>& notes);
+                                     std::vector<std::string>& notes, const ProgressSink& progress = {});
 
 }  // namespace rehearse::learners::pilco

@@ -71,7 +71,7 @@ std::vector<gp::MomentTerm> Trials::terms(Index inducing, std::vector<std::strin
   if (!proposal_ || !proposal_->model) return {};
   ModelOptions options = options_.model;
   options.inducing = inducing;
-  return terms_of(setting_.task, data_, options, kernels_, *setting_.evaluator, notes);
+  return terms_of(setting_.task, data_, options, kernels_, *setting_.evaluator, notes, setting_.progress);
 }
 
 json Trials::save() const {
@@ -136,7 +136,7 @@ Proposal Trials::next_proposal() {
 Model Trials::learn_model() const {
   if (setting_.progress) setting_.progress({.phase = "model"});
   const auto mean = prior_ ? prior_->network : std::vector<gp::MomentTerm>();
-  return learn(setting_.task, data_, options_.model, kernels_, *setting_.evaluator, mean);
+  return learn(setting_.task, data_, options_.model, kernels_, *setting_.evaluator, mean, setting_.progress);
 }
 
 /// From the proposal's θ. A policy that has solved the task is good enough to stay with. One that was tried twice is

@@ -69,12 +69,12 @@ TEST(Moments, RefusesWhatHasNoneAndSaysWhatToUse) {
   task.saturating_reward.reset();
   Options options;
   dynamics::ZeroMean model;
-  model.gp.fit.trend = true;
+  model.gp.fit.trend = model.gp.smooth = true;
   model.gp.variance = dynamics::PredictedVariance::noisy;
   options.model = model;
   options.reward.learned = true;
   const std::string all = refusal(options, task, *slider::policy());
-  for (const char* part : {"model.gp.trend = false", "model.gp.integrate_rates = false",
+  for (const char* part : {"model.gp.trend = false", "model.gp.smooth = false", "model.gp.integrate_rates = false",
                            "model.gp.joint_angles = false", "model.gp.variance = latent", "reward.learned = false",
                            "policy = rbf", "saturating_reward", "search.evaluation = samples"})
     EXPECT_NE(all.find(part), std::string::npos) << part << " in\n" << all;

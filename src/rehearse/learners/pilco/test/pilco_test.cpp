@@ -225,6 +225,16 @@ TEST(Model, HasInducingInputsBeyondTheLimitOnly) {
   EXPECT_EQ(points(8), 8);
 }
 
+TEST(Model, CanBeInterruptedWhileItPlacesInducingInputs) {
+  const auto learner = builder()->build(setting());
+  Dataset data;
+  for (const std::uint64_t trial : {1, 2}) data.append(run_trial(learner->ask(), trial));
+  ModelOptions options;
+  options.inducing = 8;
+  const auto stop = [](const Progress&) { throw std::runtime_error("stopped"); };
+  EXPECT_THROW(pilco::learn(task(), data, options, {}, serial_evaluator(), {}, stop), std::runtime_error);
+}
+
 TEST(Model, SurvivesDataThatTellNothing) {
   Dataset data;
   data.states = Matrix::Constant(3, 1, std::numeric_limits<double>::quiet_NaN());
