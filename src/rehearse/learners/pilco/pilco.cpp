@@ -7,8 +7,9 @@
 namespace rehearse::learners::pilco {
 namespace {
 
-std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy) {
-  return moments::without_moments(task, policy, "pilco", "the learner black-drops");
+std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, bool with_prior) {
+  return with_prior ? moments::without_moments(task, policy, "pilco-prior", "the learner black-drops-prior")
+                    : moments::without_moments(task, policy, "pilco", "the learner black-drops");
 }
 
 class Builder final : public LearnerBuilder {
@@ -23,7 +24,7 @@ class Builder final : public LearnerBuilder {
   bool chooses_priors() const override { return false; }
   void fields(FieldVisitor& v) override { options_.fields(v); }
   std::vector<std::string> violations(const Task& task, const policy::Policy& policy) const override {
-    return without_moments(task, policy);
+    return without_moments(task, policy, options_.prior.has_value());
   }
   std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }
 
@@ -53,7 +54,8 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   for (const auto& line : setting.task.violations()) violations.add(line);
   violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
   if (setting.policy)
-    for (const auto& line : without_moments(setting.task, *setting.policy)) violations.add(line);
+    for (const auto& line : without_moments(setting.task, *setting.policy, options.prior.has_value()))
+      violations.add(line);
   violations.require(!options.prior || setting.prior, "this learner needs a prior");
   violations.throw_if_any();
   if (!options.prior) setting.prior.reset();
