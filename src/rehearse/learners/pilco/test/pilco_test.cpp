@@ -226,9 +226,7 @@ TEST(Model, HasInducingInputsBeyondTheLimitOnly) {
 }
 
 TEST(Model, CanBeInterruptedWhileItPlacesInducingInputs) {
-  const auto learner = builder()->build(setting());
-  Dataset data;
-  for (const std::uint64_t trial : {1, 2}) data.append(run_trial(learner->ask(), trial));
+  const Dataset data = asked_after(2, {{"search.line_searches", "5"}}).data;
   ModelOptions options;
   options.inducing = 8;
   const auto stop = [](const Progress&) { throw std::runtime_error("stopped"); };
