@@ -79,7 +79,7 @@ Matrix inputs_of_rollouts(const dynamics::GpModel& model, const scenario::Scenar
   Index filled = 0;
   for (Index which = 0; filled < count; ++which) {
     const Vector theta = some_policy(tried, which, rng);
-    const StreamKey key{.seed = 2, .trial = static_cast<std::uint64_t>(which), .purpose = Purpose::prediction};
+    const StreamKey key{.seed = 2, .trial = static_cast<std::uint64_t>(which), .stage = Stage::prediction};
     const auto recorded = rollout::imagine_recorded(model, *scenario.policy, scenario.task, theta, particles, key, {});
     const Matrix Theta = theta.transpose().replicate(particles, 1);
     Matrix U(particles, scenario.task.action_size()), inputs(particles, F.cols());

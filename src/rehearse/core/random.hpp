@@ -4,38 +4,61 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 
 #include "rehearse/core/types.hpp"
 
 namespace rehearse {
 
-/// What random numbers are for. Values are part of the results: append, never renumber.
-enum class Purpose : std::uint32_t {
-  start_state = 1,
-  process_noise = 2,
-  measurement_noise = 3,
-  random_policy = 4,
-  search = 5,
-  imagined_start = 6,
-  imagined_noise = 7,
-  selection = 8,
-  prediction = 9,
-  test = 10,
-  resampling = 11,
-  evaluation = 12,
-  tessellation = 13,
-  variation = 14,
-  drawn_option = 15,
-  imagined_measurement = 16,
+/// What the numbers of a stream decide. Values are part of the results: append, never renumber.
+enum class Purpose : std::uint8_t {
+  start_state = 1,           // and all noise of an episode on a plant
+  imagined_start = 2,        // of a rollout in a model
+  imagined_noise = 3,        // the model's uncertainty, at every step
+  imagined_measurement = 4,  // noise of what the policy sees in a rollout
+  random_policy = 5,
+  search = 6,  // the candidates of CMA-ES
+  selection = 7,
+  tessellation = 8,
+  variation = 9,
+  resampling = 10,
+  drawn_option = 11,
+  test = 12,
 };
 
-/// The name of a stream.
+/// The system that a learner's trials run on.
+enum class Phase : std::uint8_t {
+  robot = 0,
+  prior = 1,  // before the first trial on the robot (PILCO with priors)
+};
+
+/// The part of a trial that a stream belongs to. Values are part of the results: append, never renumber.
+enum class Stage : std::uint8_t {
+  episode = 0,       // on the plant
+  search = 1,        // of a policy, in the model's uncertainty
+  mean_search = 2,   // of a policy, in the mean predictions
+  judging = 3,       // comparison of policies of several searches, all in the same imagined episodes
+  solving = 4,       // how often policies solve the task, all in the same imagined episodes
+  mean_solving = 5,  // the same in the mean predictions
+  prediction = 6,    // what the model expects of the policy that is tried
+  evaluation = 7,    // extra episodes on the plant
+};
+
+/// The name of a stream: a field for every thing that its numbers depend on. Streams whose keys differ in any field are
+/// independent.
 struct StreamKey {
   std::uint64_t seed = 1;
-  std::uint64_t trial = 0;
+  std::uint64_t trial = 0;  // below 2^32
+  Phase phase = Phase::robot;
+  Stage stage = Stage::episode;
+  std::uint64_t search = 0;  // number of the search within its stage, below 2^16
   Purpose purpose = Purpose::test;
-  std::uint64_t candidate = 0;
-  std::uint64_t particle = 0;
+  std::uint64_t descent = 0;    // number of the descent or restart within a search, below 2^32
+  std::uint64_t candidate = 0;  // number of the candidate within a search
+  std::uint64_t particle = 0;   // number of the rollout of a candidate
+
+  friend bool operator==(const StreamKey&, const StreamKey&) = default;
 };
 
 /// Draws from one stream, one number after the other. A value; not shared between threads.
@@ -43,7 +66,7 @@ class Rng {
  public:
   using result_type = std::uint64_t;
 
-  explicit Rng(const StreamKey& key);
+  explicit Rng(const StreamKey& key);  // throws InvalidInput if a field is beyond its width
 
   std::uint64_t operator()();               // 64 random bits
   double uniform();                         // in [0, 1)
@@ -64,8 +87,25 @@ class Rng {
 };
 
 /// Fills normals (rows × columns) with N(0, 1): row i depends only on (key of `stream`, candidates[i], particles[i],
-/// step), whatever the other rows. `stream.candidate` and `stream.particle` are ignored. Any thread.
+/// step), whatever the other rows. `stream.candidate` and `stream.particle` are ignored. Throws InvalidInput if a field
+/// is beyond its width. Any thread.
 void fill_normals(const StreamKey& stream, const std::uint64_t* candidates, const std::uint64_t* particles,
                   std::uint64_t step, MatrixView normals);
+
+/// Is told every stream that is opened: an Rng, or a row of `fill_normals`, which has a step. For tests of what draws
+/// from which stream; called from any thread.
+using StreamObserver = std::function<void(const StreamKey& key, std::optional<std::uint64_t> step)>;
+
+/// One at a time, for as long as it lives.
+class ObservedStreams {
+ public:
+  explicit ObservedStreams(StreamObserver observer);
+  ~ObservedStreams();
+  ObservedStreams(const ObservedStreams&) = delete;
+  ObservedStreams& operator=(const ObservedStreams&) = delete;
+
+ private:
+  StreamObserver observer_;
+};
 
 }  // namespace rehearse

@@ -26,7 +26,8 @@ double return_of_episode(const Resolved& resolved, system::Plant& plant, const p
                          const TrialRecord& trial, Index episode) {
   const StreamKey key{.seed = static_cast<std::uint64_t>(resolved.spec.seed),
                       .trial = static_cast<std::uint64_t>(trial.trial),
-                      .purpose = Purpose::evaluation,
+                      .stage = Stage::evaluation,
+                      .purpose = Purpose::start_state,
                       .candidate = static_cast<std::uint64_t>(episode)};
   return rollout::execute(plant, policy, trial.theta, resolved.scenario.task, Rng(key)).total_reward();
 }

@@ -198,7 +198,7 @@ class Run {
   }
 
   void predict(Index trial, const learners::Proposal& proposal) const {
-    const StreamKey key{.seed = seed(), .trial = number(trial), .purpose = Purpose::prediction};
+    const StreamKey key{.seed = seed(), .trial = number(trial), .stage = Stage::prediction};
     const rollout::ImagineOptions unclipped{.noise_clip = 0};
     const auto recorded = rollout::imagine_recorded(*proposal.model, *proposal.policy, with_.task(), proposal.theta,
                                                     kPredictionParticles, key, unclipped);

@@ -13,6 +13,7 @@
 #include "rehearse/core/events.hpp"
 #include "rehearse/core/expected_episode.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
 #include "rehearse/dynamics/phi_posterior.hpp"
@@ -55,6 +56,7 @@ struct Setting {
   std::shared_ptr<const policy::Policy> policy;
   std::optional<prior::Prior> prior;
   std::uint64_t seed = 1;
+  Phase phase = Phase::robot;  // that its trials run on: a field of every random stream
   std::shared_ptr<const Evaluator> evaluator;
   ProgressSink progress;         // may be empty
   std::shared_ptr<Store> store;  // may be null

@@ -118,14 +118,14 @@ Vector Cmaes::mean() const {
 const Matrix& Cmaes::ask() {
   if (asked_) return candidates_;
   draw();
-  place_injected();
+  place_elite();
   asked_ = true;
   return candidates_;
 }
 
 void Cmaes::draw() {
   std::vector<std::uint64_t> candidates(order_.size(), key_.candidate), members(order_.size());
-  std::iota(members.begin(), members.end(), key_.particle << 32);
+  std::iota(members.begin(), members.end(), std::uint64_t{0});
   fill_normals(key_, candidates.data(), members.data(), static_cast<std::uint64_t>(generation_), normals_);
   covariance_.colour(normals_, steps_);
   draws_ = (sigma_ * steps_).colwise() + mean_;
@@ -133,27 +133,24 @@ void Cmaes::draw() {
   box_.project(candidates_);
 }
 
-void Cmaes::inject(const Vector& x) { injected_.push_back(x); }
-
-void Cmaes::place_injected() {
-  elite_here_ = options_.elitism && best_value_ > worst;
-  if (elite_here_) injected_.insert(injected_.begin(), best_x_);
-  foreign_ = std::min(static_cast<Index>(injected_.size()), population());
+// Its place changes, or it would always be among the first candidates, which uncertainty handling evaluates twice: a
+// point that is far better than the others says little of how noise changes ranks. Hansen 2011 (Injecting external
+// solutions into CMA-ES), eq. 4 and Table 1.
+void Cmaes::place_elite() {
+  elite_ = options_.elitism && best_value_ > worst ? generation_ % population() : kNone;
+  if (elite_ == kNone) return;
   const double n = static_cast<double>(dimension());
-  const double longest = std::sqrt(n) + 2 * n / (n + 2);  // Hansen 2011, eq. 4 and Table 1
-  for (Index j = 0; j < foreign_; ++j) {
-    candidates_.col(j) = draws_.col(j) = injected_[static_cast<std::size_t>(j)];
-    step_ = (draws_.col(j) - mean_) / sigma_;
-    const double length = covariance_.length(step_);
-    steps_.col(j) = length > longest ? Vector(step_ * (longest / length)) : step_;
-  }
-  injected_.clear();
+  const double longest = std::sqrt(n) + 2 * n / (n + 2);
+  candidates_.col(elite_) = draws_.col(elite_) = best_x_;
+  step_ = (best_x_ - mean_) / sigma_;
+  const double length = covariance_.length(step_);
+  steps_.col(elite_) = length > longest ? Vector(step_ * (longest / length)) : step_;
 }
 
 void Cmaes::tell(const ConstVectorView& values, const std::vector<Index>& order) {
+  if (!asked_) throw InvalidInput("cmaes was told values before it was asked for candidates");
   if (values.size() != population() || (!order.empty() && order.size() != order_.size()))
     throw InvalidInput(fmt::format("values told = {}, must be {}", values.size(), population()));
-  ask();
   if (order.empty())
     rank(values);
   else
@@ -186,12 +183,12 @@ void Cmaes::rank(const ConstVectorView& values) {
 }
 
 void Cmaes::keep_best(const ConstVectorView& values) {
-  if (elite_here_) {
-    best_value_ += (usable(values, 0) - best_value_) / static_cast<double>(++best_count_);
+  if (elite_ != kNone) {
+    best_value_ += (usable(values, elite_) - best_value_) / static_cast<double>(++best_count_);
     if (!std::isfinite(best_value_)) best_value_ = worst;
   }
-  for (Index i = elite_here_ ? 1 : 0; i < population(); ++i) {
-    if (!(usable(values, i) > best_value_)) continue;
+  for (Index i = 0; i < population(); ++i) {
+    if (i == elite_ || !(usable(values, i) > best_value_)) continue;
     best_value_ = usable(values, i);
     best_x_ = candidates_.col(i);
     best_count_ = 1;
@@ -205,7 +202,7 @@ void Cmaes::move_mean() {
   mean_ += sigma_ * step_;
 }
 
-// Hansen 2016, eqs. 43 and 44; the change is bounded when there were foreign candidates, Hansen 2011, eq. 7.
+// Hansen 2016, eqs. 43 and 44; the change is bounded when the elite was a candidate, Hansen 2011, eq. 7.
 void Cmaes::adapt_step() {
   const double c = constants_.c_sigma;
   covariance_.whiten(step_, whitened_);
@@ -214,7 +211,7 @@ void Cmaes::adapt_step() {
   const double settled = 1 - std::pow(1 - c, 2 * static_cast<double>(generation_ + 1));
   path_stalled_ = length / std::sqrt(settled) >= (1.4 + 2 / (n + 1)) * constants_.expected_norm;
   const double change = c / constants_.d_sigma * (length / constants_.expected_norm - 1);
-  sigma_ *= std::exp(foreign_ > 0 ? std::min(change, 1.0) : change);
+  sigma_ *= std::exp(elite_ != kNone ? std::min(change, 1.0) : change);
 }
 
 // Hansen 2016, eqs. 45 to 47.
@@ -228,7 +225,7 @@ void Cmaes::adapt_covariance() {
     const Index j = order_[static_cast<std::size_t>(i)];
     double weight = constants_.weights(i);
     if (weight < 0) {
-      const double length = j < foreign_ ? covariance_.length(steps_.col(j)) : normals_.row(j).norm();
+      const double length = j == elite_ ? covariance_.length(steps_.col(j)) : normals_.row(j).norm();
       weight *= n / (length * length + 1e-300);
     }
     ranked_.col(i < parents ? i : i + 1) = std::sqrt(c_mu * std::abs(weight)) * steps_.col(j);

@@ -17,8 +17,9 @@ namespace rehearse::optim {
 struct CmaesOptions {
   Index population = 0;  // λ; 0: 4 + ⌊3 ln n⌋
   bool active = true;    // negative weights for the worse half
-  bool elitism = false;  // the best point so far is evaluated again in every generation; its value is the mean of all
-                         // its evaluations, so that one lucky draw of a noisy objective does not stay
+  bool elitism = false;  // the best point so far is evaluated again in every generation, as another of its candidates
+                         // each time; its value is the mean of all its evaluations, so that one lucky draw of a noisy
+                         // objective does not stay
   double value_tolerance = 1e-12;  // stop when recent best values and the generation differ by less
   double step_tolerance = 1e-12;   // stop when all steps are below this fraction of the first σ
   double max_condition = 1e14;     // stop when the covariance is conditioned worse
@@ -52,10 +53,6 @@ class Cmaes {
   /// What these values (λ) lose because their draws left the box; `tell` without an order takes it into account.
   const Vector& penalties(const ConstVectorView& values);
 
-  /// Has x evaluated as one of the next generation, where it takes part like any other (Hansen 2011, Injecting
-  /// external solutions into CMA-ES). At most λ; later ones are dropped.
-  void inject(const Vector& x);
-
   /// Multiplies σ, as uncertainty handling does.
   void widen(double factor) { sigma_ *= factor; }
 
@@ -70,8 +67,9 @@ class Cmaes {
   Index dimension() const { return mean_.size(); }
 
  private:
+  static constexpr Index kNone = -1;
   void draw();
-  void place_injected();
+  void place_elite();
   void rank(const ConstVectorView& values);
   Vector deviations() const;
   void keep_best(const ConstVectorView& values);
@@ -100,9 +98,7 @@ class Cmaes {
   Matrix draws_;              // n × λ
   Matrix candidates_;         // n × λ, the draws projected onto the box
   std::vector<Index> order_;  // best first
-  std::vector<Vector> injected_;
-  Index foreign_ = 0;  // the first so many candidates of this generation were injected
-  bool elite_here_ = false;
+  Index elite_ = kNone;       // the candidate of this generation that is the best point so far
   bool asked_ = false;
   bool path_stalled_ = false;
   double sigma_, first_sigma_;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "rehearse/core/errors.hpp"
 
 namespace rehearse::optim {
@@ -21,9 +23,9 @@ class Race {
       : objective_(objective), options_(options), evaluator_(evaluator), listener_(listener) {
     for (Index i = 0; i < options.descents; ++i) {
       StreamKey own = key;
-      own.particle = static_cast<std::uint64_t>(i) + 1;  // particle 0 draws the starting points
+      own.descent = static_cast<std::uint64_t>(i);
       const bool given = i < static_cast<Index>(starts.size());
-      runners_.push_back({Cmaes(given ? starts[static_cast<std::size_t>(i)] : random_point(box, key, i),
+      runners_.push_back({Cmaes(given ? starts[static_cast<std::size_t>(i)] : random_point(box, own),
                                 given ? options.start_sigma : options.sigma, box, options.cmaes, own),
                           {}});
     }
@@ -33,6 +35,8 @@ class Race {
     for (Index round = 0; round < options_.rounds; ++round) {
       const Index end = options_.max_evaluations * (round + 1) / options_.rounds;
       run_round(end);
+      const bool last = round + 1 == options_.rounds;
+      if (!last && evaluations_ + judging_cost() > end) continue;  // its share goes to the next
       judge(round);
       retire(round);
     }
@@ -47,11 +51,8 @@ class Race {
     return a.value > b.value;
   }
 
-  static Vector random_point(const std::vector<Interval>& box, const StreamKey& key, Index descent) {
-    StreamKey own = key;
-    own.particle = 0;
-    own.candidate = static_cast<std::uint64_t>(descent);
-    Rng rng(own);
+  static Vector random_point(const std::vector<Interval>& box, const StreamKey& key) {
+    Rng rng(key);
     Vector x(static_cast<Index>(box.size()));
     for (std::size_t i = 0; i < box.size(); ++i) x(static_cast<Index>(i)) = rng.uniform(box[i].low, box[i].high);
     return x;
@@ -101,7 +102,7 @@ class Race {
       candidates_.col(2 * i) = runners_[static_cast<std::size_t>(i)].descent.best_x();
       candidates_.col(2 * i + 1) = runners_[static_cast<std::size_t>(i)].descent.mean();
     }
-    evaluate(options_.judgements);
+    evaluate(std::clamp((options_.max_evaluations - evaluations_) / (2 * n), Index{1}, options_.judgements));
     values_ = values_.array().isNaN().select(-std::numeric_limits<double>::infinity(), values_);
     for (Index i = 0; i < n; ++i) {
       const Index j = values_(2 * i + 1) > values_(2 * i) ? 2 * i + 1 : 2 * i;
@@ -155,6 +156,9 @@ RaceResult race(const BatchObjective& objective, const std::vector<Vector>& star
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("race", copy); })) violations.add(line);
   violations.require(!box.empty(), "race needs a box");
+  violations.require(options.max_evaluations / 2 >= options.descents,
+                     fmt::format("race.max_evaluations = {}, must be ≥ 2 × race.descents = {}", options.max_evaluations,
+                                 2 * options.descents));
   violations.throw_if_any();
   return Race(objective, starts, box, options, key, evaluator, listener).run();
 }

@@ -17,11 +17,12 @@ namespace rehearse::optim {
 struct RaceOptions {
   Index max_evaluations = 100000;  // of the objective, re-evaluations included
   Index descents = 32;             // that start
-  Index rounds = 5;                // of about equal numbers of evaluations
-  double survivors = 0.5;          // fraction of the descents that goes on after each round
-  double sigma = 1;                // first step size of descents from random points
-  double start_sigma = 0.5;        // and of those from given starts
-  Index judgements = 16;           // evaluations of a descent's best point and mean when a round ends
+  Index rounds = 5;          // of about equal numbers of evaluations; one too small to judge all goes on in the next
+  double survivors = 0.5;    // fraction of the descents that goes on after each round
+  double sigma = 1;          // first step size of descents from random points
+  double start_sigma = 0.5;  // and of those from given starts
+  Index judgements = 16;     // evaluations of a descent's best point and mean when a round ends; in the last one
+                             // fewer, where max_evaluations asks for it
   CmaesOptions cmaes{.population = 17};
   void fields(FieldVisitor& v);
 };

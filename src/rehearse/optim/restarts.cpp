@@ -54,6 +54,7 @@ class Search {
 
  private:
   Rng random() const;
+  StreamKey key_of(Index descent) const;
   bool next(Plan& plan);
   Plan small_descent(Rng& rng) const;
   void descend(const Plan& plan);
@@ -112,12 +113,13 @@ SearchResult Search::run() {
   return std::move(result_);
 }
 
-/// For what concerns descent number d as a whole: the counter differs from those of its generations.
-Rng Search::random() const {
+/// For the plan of the next descent.
+Rng Search::random() const { return Rng(key_of(static_cast<Index>(result_.descents.size()))); }
+
+StreamKey Search::key_of(Index descent) const {
   StreamKey key = key_;
-  key.candidate = result_.descents.size();
-  key.particle = 0;
-  return Rng(key);
+  key.descent = static_cast<std::uint64_t>(descent);
+  return key;
 }
 
 // Hansen 2009: the regime that used fewer evaluations goes next. The first descent counts as small.
@@ -149,9 +151,8 @@ Plan Search::small_descent(Rng& rng) const {
 Vector Search::start_of(Index descent) const {
   Vector unit = (start_ - low_).cwiseQuotient(width_).cwiseMax(0).cwiseMin(1);
   if (descent == 0) return unit;
-  StreamKey key = key_;
-  key.candidate = static_cast<std::uint64_t>(descent);
-  key.particle = 1;
+  StreamKey key = key_of(descent);
+  key.candidate = 1;  // 0 draws the plan
   Rng rng(key);
   for (double& u : unit) u = rng.uniform();
   return unit;
@@ -161,10 +162,7 @@ void Search::descend(const Plan& plan) {
   const Index number = static_cast<Index>(result_.descents.size());
   CmaesOptions cmaes_options = options_.cmaes;
   cmaes_options.population = plan.population;
-  StreamKey key = key_;
-  key.candidate = static_cast<std::uint64_t>(number);
-  key.particle = 0;
-  Cmaes cmaes(start_of(number), plan.step, unit_box_, cmaes_options, key);
+  Cmaes cmaes(start_of(number), plan.step, unit_box_, cmaes_options, key_of(number));
   UncertaintyHandler noise(options_.uncertainty, cmaes.dimension(), plan.population);
   values_.resize(plan.population);
   const Index before = result_.evaluations;

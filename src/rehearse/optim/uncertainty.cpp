@@ -78,6 +78,7 @@ std::vector<Index> order_of(const JointRanks& ranks, std::size_t count, const Co
 void UncertaintyOptions::fields(FieldVisitor& v) {
   v.boolean("enabled", enabled);
   v.number("reevaluated", reevaluated, between(0.01, 1));
+  v.integer("reevaluated_least", reevaluated_least, between(1, 1e6));
   v.number("tolerance", tolerance, between(0, 1));
   v.number("smoothing", smoothing, between(0.01, 1));
   v.integer("max_samples", max_samples, between(1, 1e6));
@@ -96,7 +97,9 @@ UncertaintyHandler::UncertaintyHandler(const UncertaintyOptions& options, Index 
 Index UncertaintyHandler::samples() const { return options_.enabled ? std::lround(real_samples_) : 1; }
 
 Index UncertaintyHandler::reevaluations() const {
-  return options_.enabled ? std::clamp(static_cast<Index>(carried_), Index{1}, population_) : 0;
+  return options_.enabled
+             ? std::clamp(static_cast<Index>(carried_), std::min(options_.reevaluated_least, population_), population_)
+             : 0;
 }
 
 Index UncertaintyHandler::generation_cost() const { return (population_ + reevaluations()) * samples(); }

@@ -9,12 +9,15 @@
 
 namespace rehearse::optim {
 
-/// The defaults are those of Hansen's pycma, who revised the paper's (in brackets).
+/// The defaults are those of Hansen's pycma, who revised the paper's (in brackets). libcmaes never evaluates a
+/// candidate more often but widens σ at once: reevaluated = 0.1, reevaluated_least = 2, tolerance = 0.2, smoothing = 1,
+/// max_samples = 1.
 struct UncertaintyOptions {
   bool enabled = false;
-  double reevaluated = 0.3;   // r_λ (0.3): fraction of the candidates that is evaluated twice in a generation
-  double tolerance = 0.5;     // θ (0.2): rank changes up to this fraction of those of pure noise are acceptable
-  double smoothing = 0.3;     // c_s (1): weight of the newest measurement
+  double reevaluated = 0.3;     // r_λ (0.3): fraction of the candidates that is evaluated twice in a generation
+  Index reevaluated_least = 1;  // candidates (libcmaes: 2)
+  double tolerance = 0.5;       // θ (0.2): rank changes up to this fraction of those of pure noise are acceptable
+  double smoothing = 0.3;       // c_s (1): weight of the newest measurement
   Index max_samples = 30;     // t_max: evaluations of a candidate at most; beyond, σ grows. Ours: with 10, σ diverged
                               // on a sphere times exp(N(0, 1)), with 100 the search was slower
   double samples_growth = 0;  // α_t (1.5): their growth while the noise is too large; 0: 1 + 2 / (n + 10)

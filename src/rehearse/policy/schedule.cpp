@@ -50,11 +50,11 @@ std::shared_ptr<const Policy> make_schedule(std::vector<Interval> bounds, double
   return std::make_shared<Schedule>(std::move(bounds), dt_s, steps);
 }
 
-Vector random_schedule(const Task& task, RandomActions actions, double hold_s, std::uint64_t seed,
-                       std::uint64_t trial) {
+Vector random_schedule(const Task& task, RandomActions actions, double hold_s, StreamKey key) {
   const auto hold =
       static_cast<Index>(std::lround(std::clamp(hold_s / task.dt_s, 1.0, static_cast<double>(task.horizon))));
-  Rng rng({.seed = seed, .trial = trial, .purpose = Purpose::random_policy});
+  key.purpose = Purpose::random_policy;
+  Rng rng(key);
   Vector theta(task.horizon * task.action_size());
   for (Index i = 0; i < theta.size(); ++i) {
     const Interval& bounds = task.actions[static_cast<std::size_t>(i / task.horizon)].bounds;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/policy/policy.hpp"
 
@@ -21,6 +22,6 @@ enum class RandomActions {
 
 /// θ of such a policy for the task's whole horizon: random actions, each held for `hold_s` (rounded to whole steps, at
 /// least one). Random numbers come from (seed, trial) alone.
-Vector random_schedule(const Task& task, RandomActions actions, double hold_s, std::uint64_t seed, std::uint64_t trial);
+Vector random_schedule(const Task& task, RandomActions actions, double hold_s, StreamKey key);
 
 }  // namespace rehearse::policy

@@ -55,10 +55,8 @@ class Chunk {
   }
 
   void start() {
-    StreamKey key = key_;
-    key.purpose = Purpose::imagined_start;
     const bool random = (task_.start_std.array() > 0).any();
-    if (random) fill_normals(key, b_.candidates.data(), b_.particles.data(), 0, b_.noise);
+    if (random) draw(Purpose::imagined_start, 0);
     for (Index s = 0; s < b_.X.cols(); ++s) {
       b_.X.col(s).setConstant(task_.start_mean(s));
       if (random) b_.X.col(s) += task_.start_std(s) * b_.noise.col(s);
@@ -89,15 +87,19 @@ class Chunk {
   const Matrix& measured(Index t) {
     const Vector& std = model_.measurement_std();
     if (std.size() == 0 || options_.measurement_noise == 0) return b_.X;
-    StreamKey key = key_;
-    key.purpose = Purpose::imagined_measurement;
-    fill_normals(key, b_.candidates.data(), b_.particles.data(), static_cast<std::uint64_t>(t), b_.noise);
+    draw(Purpose::imagined_measurement, t);
     b_.seen = b_.X + b_.noise * (options_.measurement_noise * std).asDiagonal();
     return b_.seen;
   }
 
-  void sample(Index t) {
+  /// Fills `noise` for step t.
+  void draw(Purpose purpose, Index t) {
+    key_.purpose = purpose;
     fill_normals(key_, b_.candidates.data(), b_.particles.data(), static_cast<std::uint64_t>(t), b_.noise);
+  }
+
+  void sample(Index t) {
+    draw(Purpose::imagined_noise, t);
     if (options_.noise_clip > 0) b_.noise = b_.noise.cwiseMin(options_.noise_clip).cwiseMax(-options_.noise_clip);
     model_.sample(b_.X, b_.U, b_.noise, b_.next);
   }

@@ -6,16 +6,26 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse {
 namespace {
 
-constexpr StreamKey kKey{.seed = 7, .trial = 3, .purpose = Purpose::imagined_start, .candidate = 11, .particle = 13};
+constexpr StreamKey kKey{.seed = 7,
+                         .trial = 3,
+                         .phase = Phase::prior,
+                         .stage = Stage::mean_search,
+                         .search = 5,
+                         .purpose = Purpose::imagined_start,
+                         .descent = 9,
+                         .candidate = 11,
+                         .particle = 13};
 
 // Computed by an implementation of Philox4x64-10 in Python that agrees with the known answers of Salmon 2011.
 TEST(Random, StreamsAreThoseOfPhilox) {
   Rng rng(kKey);
-  for (const std::uint64_t expected : {0x125ec0a97bdf88d2ull, 0xb6d222900d5d2e13ull, 0x69fba636008cecefull,
-                                       0xda69ad8da26500deull, 0xf73af8b5b3ec2d80ull})
+  for (const std::uint64_t expected : {0x80c9cba2551137e2ull, 0x4f9ff9fd8497c797ull, 0x6a0d7cc9aadfd8afull,
+                                       0x18507ef528d5a1acull, 0x942b949417c4c055ull})
     EXPECT_EQ(rng(), expected);
 }
 
@@ -23,17 +33,44 @@ TEST(Random, NormalsAreThoseOfPhiloxAndBoxMuller) {
   const std::uint64_t candidate = 11, particle = 13;
   Matrix normals(1, 5);
   fill_normals(kKey, &candidate, &particle, 5, normals);
-  const double expected[] = {1.276602958185008, 0.09261436309924208, -0.09664617447566873, 1.3598556004429738,
-                             -1.8573765743685042};
+  const double expected[] = {-0.006425184630158003, 0.8816593059588597, -0.4996341026645103, 0.7528412816828185,
+                             0.8939033087294563};
   for (Index c = 0; c < 5; ++c) EXPECT_NEAR(normals(0, c), expected[c], 1e-13);
 }
 
 TEST(Random, EveryPartOfTheKeyMatters) {
-  std::vector<StreamKey> keys(6, kKey);
+  std::vector<StreamKey> keys(10, kKey);
   ++keys[1].seed, ++keys[2].trial, ++keys[3].candidate, ++keys[4].particle, keys[5].purpose = Purpose::search;
+  keys[6].phase = Phase::robot, keys[7].stage = Stage::judging, ++keys[8].search, ++keys[9].descent;
   std::set<std::uint64_t> first;
   for (const StreamKey& key : keys) first.insert(Rng(key)());
   EXPECT_EQ(first.size(), keys.size());
+}
+
+TEST(Random, RefusesAFieldThatIsTooWide) {
+  EXPECT_THROW(Rng({.trial = std::uint64_t{1} << 32}), InvalidInput);
+  EXPECT_THROW(Rng({.search = 1 << 16}), InvalidInput);
+  EXPECT_THROW(Rng({.descent = std::uint64_t{1} << 32}), InvalidInput);
+  EXPECT_NO_THROW(Rng({.trial = 0xffffffff, .search = 0xffff, .descent = 0xffffffff, .candidate = ~std::uint64_t{0}}));
+}
+
+TEST(Random, OpenedStreamsCanBeObserved) {
+  std::vector<std::pair<StreamKey, std::optional<std::uint64_t>>> seen;
+  const std::uint64_t candidates[] = {4, 5}, particles[] = {6, 7};
+  Matrix normals(2, 3);
+  {
+    const ObservedStreams observed(
+        [&](const StreamKey& key, std::optional<std::uint64_t> step) { seen.emplace_back(key, step); });
+    Rng rng(kKey);
+    fill_normals(kKey, candidates, particles, 8, normals);
+  }
+  Rng unobserved(kKey);
+  ASSERT_EQ(seen.size(), 3u);
+  EXPECT_EQ(seen[0].first, kKey);
+  EXPECT_FALSE(seen[0].second);
+  EXPECT_EQ(seen[2].first.candidate, 5u);
+  EXPECT_EQ(seen[2].first.particle, 7u);
+  EXPECT_EQ(seen[2].second, 8u);
 }
 
 TEST(Random, ACopyGoesOnAlike) {

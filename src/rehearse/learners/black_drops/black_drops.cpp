@@ -17,9 +17,6 @@ namespace {
 
 using nlohmann::json;
 
-/// The searches of a trial differ in their streams.
-constexpr std::uint64_t kScouting = std::uint64_t{1} << 48;
-
 constexpr double kOften = 0.5;  // imagined episodes that solve the task: enough for a trial
 constexpr double kMeans = 0.1;  // and what it counts to solve it without doubts
 
@@ -105,7 +102,7 @@ class BlackDrops final : public Learner {
 
   void propose_at_random(Proposal& proposal) const {
     if (options_.first_trial.kind == FirstTrial::Kind::policy) {
-      proposal.theta = random_policy(*setting_.policy, options_.search, setting_.seed, trial());
+      proposal.theta = random_policy(*setting_.policy, options_.search, stream(Stage::episode));
       return;
     }
     const Task& task = setting_.task;
@@ -113,7 +110,7 @@ class BlackDrops final : public Learner {
     const bool extremes = options_.first_trial.kind == FirstTrial::Kind::extremes;
     proposal.theta =
         policy::random_schedule(task, extremes ? policy::RandomActions::extremes : policy::RandomActions::uniform,
-                                options_.first_trial.hold_s, setting_.seed, trial());
+                                options_.first_trial.hold_s, stream(Stage::episode));
   }
 
   void learn_model(Proposal& proposal, dynamics::WarmStart& state) {
@@ -174,7 +171,7 @@ class BlackDrops final : public Learner {
       starts.insert(starts.end(), scouted->runners_up.begin(), scouted->runners_up.begin() + others);
     }
     const auto search_from = [&](const std::vector<Vector>& from, Index i) {
-      SearchResult found = search_policy(problem, from, options_.search, setting_.seed, stream(i));
+      SearchResult found = search_policy(problem, from, options_.search, stream(Stage::search, i));
       count(found, proposal);
       return found;
     };
@@ -212,7 +209,7 @@ class BlackDrops final : public Learner {
 
   /// What a policy promises where the model's doubts count.
   SearchResult with_doubts(const SearchProblem& problem, const Vector& theta, Proposal& proposal) const {
-    SearchResult judged = judge(problem, theta, options_.search, setting_.seed, trial() + kScouting);
+    SearchResult judged = judge(problem, theta, options_.search, stream(Stage::judging));
     count(judged, proposal);
     return judged;
   }
@@ -271,8 +268,8 @@ class BlackDrops final : public Learner {
     means.imagine.sample = false;
     means.imagine.measurement_noise = 0;
     means.selection = 1;
-    const Vector rates = solving_rates(problem, policies, options_.search, setting_.seed, trial() + kScouting) +
-                         kMeans * solving_rates(problem, policies, means, setting_.seed, trial() + kScouting);
+    const Vector rates = solving_rates(problem, policies, options_.search, stream(Stage::solving)) +
+                         kMeans * solving_rates(problem, policies, means, stream(Stage::mean_solving));
     proposal.rollouts += rates.size() * (comparisons(problem, options_.search) + comparisons(problem, means));
     Index best = 0;
     const double solving = rates.maxCoeff(&best);
@@ -288,15 +285,21 @@ class BlackDrops final : public Learner {
       carried.resize(static_cast<std::size_t>(options_.carried));
   }
 
-  /// Of the i-th search of a trial.
-  std::uint64_t stream(Index i) const { return trial() + (static_cast<std::uint64_t>(i) << 24); }
+  /// The random numbers of this trial; `search` counts the searches of a stage.
+  StreamKey stream(Stage stage, Index search = 0) const {
+    return {.seed = setting_.seed,
+            .trial = trial(),
+            .phase = setting_.phase,
+            .stage = stage,
+            .search = static_cast<std::uint64_t>(search)};
+  }
 
   SearchResult search_means(SearchProblem problem, const std::vector<Vector>& starts, Index i,
                             Proposal& proposal) const {
     problem.expected = nullptr;
     SearchOptions options = options_.search;
     options.imagine.sample = false;
-    SearchResult found = search_policy(problem, starts, options, setting_.seed, stream(i) + kScouting);
+    SearchResult found = search_policy(problem, starts, options, stream(Stage::mean_search, i));
     count(found, proposal);
     return found;
   }
@@ -335,6 +338,7 @@ class BlackDrops final : public Learner {
     if (options_.start_from_last && first != returns_.end() && (starts.empty() || starts.back() != policies_.back()))
       starts.push_back(policies_.back());
     starts.insert(starts.end(), carried_.begin(), carried_.end());
+    if (!options_.start_from_examples) return starts;
     const Matrix examples = setting_.policy->examples();
     for (const auto& example : examples.rowwise()) starts.emplace_back(example.transpose());
     return starts;
@@ -404,7 +408,7 @@ void Scouting::fields(FieldVisitor& v) {
 }
 
 void Insistence::fields(FieldVisitor& v) {
-  v.integer("searches", searches, at_least(0));
+  v.integer("searches", searches, between(0, 1000));
   v.number("tolerance", tolerance, at_least(0));
   v.number("doubtful_tolerance", doubtful_tolerance, at_least(0));
 }
@@ -416,12 +420,21 @@ void Options::fields(FieldVisitor& v) {
   v.group("first_trial", first_trial);
   v.boolean("start_from_best", start_from_best);
   v.boolean("start_from_last", start_from_last);
+  v.boolean("start_from_examples", start_from_examples);
   v.group("explore", explore);
   v.group("scout", scout);
   v.group("insist", insist);
+  v.boolean("success_test", success_test);
   v.integer("carried", carried, at_least(0));
-  v.integer("prior_searches", prior_searches, at_least(1));
+  v.integer("prior_searches", prior_searches, between(1, 1000));
   v.number("prior_variance", prior_variance, at_least(0));
+}
+
+/// A learner that learns the reward knows neither it nor when the task is solved.
+void forget_reward(Task& task) {
+  task.reward = nullptr;
+  task.saturating_reward.reset();
+  task.solved = nullptr;
 }
 
 std::unique_ptr<Learner> make(Setting setting, Options options) {
@@ -434,6 +447,8 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
     for (const auto& line : violations_with(options, setting.task, *setting.policy)) violations.add(line);
   violations.throw_if_any();
   if (!needs_prior(options)) setting.prior.reset();
+  if (options.reward.learned) forget_reward(setting.task);
+  if (!options.success_test) setting.task.solved = nullptr;
   if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
   return std::make_unique<BlackDrops>(std::move(setting), std::move(options));
 }

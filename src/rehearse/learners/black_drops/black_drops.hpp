@@ -56,11 +56,15 @@ struct Options {
   dynamics::RewardOptions reward;
   SearchOptions search;
   FirstTrial first_trial;
-  bool start_from_best = true;   // one descent starts from the best policy observed; the authors' code
-  bool start_from_last = false;  // and one from the last policy tried: its trial told most of where it fails
+  bool start_from_best = true;      // one descent starts from the best policy observed; the authors' code
+  bool start_from_last = false;     // and one from the last policy tried: its trial told most of where it fails
+  bool start_from_examples = true;  // and one from each example that the policy brings; the paper: none, it has
+                                    // no prior on policies
   Exploration explore;
   Scouting scout;
   Insistence insist;
+  bool success_test = true;   // policies may be chosen by the task's test of success, where it gives one; false: by
+                              // their return alone (the paper), then insist has no effect
   Index carried = 3;          // and so many from the best other policies of the search before
   Index prior_searches = 1;   // searches on the prior before the first trial, each from the best of the one before
                               // (the authors' code: 2)

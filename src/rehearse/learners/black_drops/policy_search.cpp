@@ -22,9 +22,11 @@ class ImaginedReturn {
                          key_, options_.imagine, problem_.evaluator);
     values = imagined.returns.colwise().mean().transpose();
     rollouts_ += imagined.returns.size();
+    next_ = std::max(next_, first + static_cast<std::uint64_t>(Theta.cols()));
     failed_ += imagined.failed;
   }
 
+  std::uint64_t next() const { return next_; }  // the first candidate that no call has had
   Index rollouts() const { return rollouts_; }
   Index failed() const { return failed_; }
 
@@ -50,6 +52,7 @@ class ImaginedReturn {
   const SearchProblem& problem_;
   const SearchOptions& options_;
   StreamKey key_;
+  std::uint64_t next_ = 0;
   Index rollouts_ = 0, failed_ = 0;
 };
 
@@ -80,7 +83,7 @@ std::vector<Vector> find(const optim::BatchObjective& objective, const std::vect
     auto result = optim::race(objective, starts, box, race, key, problem.evaluator, listener);
     for (optim::Contender& contender : result.contenders) found.push_back(std::move(contender.x));
   } else {
-    const Vector start = starts.empty() ? random_policy(problem.policy, options, key.seed, key.trial) : starts.front();
+    const Vector start = starts.empty() ? random_policy(problem.policy, options, key) : starts.front();
     auto result = optim::maximise(objective, start, box, options.restarts, key, listener);
     for (optim::Candidate& candidate : result.candidates) found.push_back(std::move(candidate.x));
   }
@@ -95,18 +98,12 @@ void select(std::vector<Vector> found, const std::vector<Vector>& starts, Imagin
   for (Index i = 0; i < Theta.cols(); ++i)
     Theta.col(i) = i < finalists ? found[static_cast<std::size_t>(i)] : starts[static_cast<std::size_t>(i - finalists)];
   Vector values(Theta.cols());
-  objective(Theta, 0, rollouts, values);
+  objective(Theta, objective.next(), rollouts, values);
   Index best = 0;
   result.predicted_return = values.maxCoeff(&best);
   result.theta = Theta.col(best);
   if (best < finalists) found.erase(found.begin() + best);
   result.runners_up = std::move(found);
-}
-
-/// (seed, trial) alone decides what the comparison draws.
-ImaginedReturn comparison(const SearchProblem& problem, const SearchOptions& options, std::uint64_t seed,
-                          std::uint64_t trial) {
-  return {problem, options, {.seed = seed, .trial = trial, .purpose = Purpose::selection}};
 }
 
 }  // namespace
@@ -130,8 +127,7 @@ Index comparisons(const SearchProblem& problem, const SearchOptions& options) {
 }
 
 SearchResult search_policy(const SearchProblem& problem, const std::vector<Vector>& starts,
-                           const SearchOptions& options, std::uint64_t seed, std::uint64_t trial) {
-  const StreamKey key{.seed = seed, .trial = trial, .purpose = Purpose::imagined_noise};
+                           const SearchOptions& options, const StreamKey& key) {
   ImaginedReturn objective(problem, options, key);
   const Stopwatch watch;
   const Index budget = options.method == Method::race ? options.race.max_evaluations : options.restarts.max_evaluations;
@@ -144,19 +140,20 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
                       .rollouts_per_s = watch.per_s(objective.rollouts())});
   };
   const Box box(static_cast<std::size_t>(problem.policy.parameters()), interval_of(problem.policy, options));
-  std::vector<Vector> found = find(std::ref(objective), starts, box, problem, in_box_of(problem.policy, options),
-                                   {.seed = seed, .trial = trial, .purpose = Purpose::search}, report);
+  StreamKey candidates = key;
+  candidates.purpose = Purpose::search;
+  std::vector<Vector> found =
+      find(std::ref(objective), starts, box, problem, in_box_of(problem.policy, options), candidates, report);
   SearchResult result;
-  ImaginedReturn selection = comparison(problem, options, seed, trial);
-  select(std::move(found), starts, selection, options.finalists, comparisons(problem, options), result);
-  result.rollouts = objective.rollouts() + selection.rollouts();
-  result.failed_rollouts = objective.failed() + selection.failed();
+  select(std::move(found), starts, objective, options.finalists, comparisons(problem, options), result);
+  result.rollouts = objective.rollouts();
+  result.failed_rollouts = objective.failed();
   return result;
 }
 
-SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options, std::uint64_t seed,
-                   std::uint64_t trial) {
-  ImaginedReturn objective = comparison(problem, options, seed, trial);
+SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options,
+                   const StreamKey& key) {
+  ImaginedReturn objective(problem, options, key);
   Vector value(1);
   objective(theta, 0, comparisons(problem, options), value);
   return {.theta = theta,
@@ -166,10 +163,9 @@ SearchResult judge(const SearchProblem& problem, const Vector& theta, const Sear
 }
 
 Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,
-                     std::uint64_t seed, std::uint64_t trial) {
+                     const StreamKey& key) {
   Matrix rates = Matrix::Zero(1, static_cast<Index>(policies.size()));
   if (!problem.task.solved) return rates.transpose();
-  const StreamKey key{.seed = seed, .trial = trial, .purpose = Purpose::selection};
   const Index rollouts = comparisons(problem, options);
   problem.evaluator.evaluate(
       [&](Index j, VectorView rate) {
@@ -190,9 +186,9 @@ Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& po
   return rates.transpose();
 }
 
-Vector random_policy(const policy::Policy& policy, const SearchOptions& options, std::uint64_t seed,
-                     std::uint64_t trial) {
-  Rng rng({.seed = seed, .trial = trial, .purpose = Purpose::random_policy});
+Vector random_policy(const policy::Policy& policy, const SearchOptions& options, StreamKey key) {
+  key.purpose = Purpose::random_policy;
+  Rng rng(key);
   Vector theta(policy.parameters());
   const auto [low, high] = interval_of(policy, options);
   for (double& value : theta) value = rng.uniform(low, high);

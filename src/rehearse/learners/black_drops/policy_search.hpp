@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
 #include "rehearse/moments/expected_return.hpp"
@@ -66,21 +66,20 @@ struct SearchProblem {
 Index comparisons(const SearchProblem& problem, const SearchOptions& options);
 
 /// The policy of the highest expected return in the model, never worse there than `starts`, from which the first
-/// descents begin. Random numbers come from (seed, trial) alone.
+/// descents begin. `key` names the search: its stage and number tell it from the others of its trial.
 SearchResult search_policy(const SearchProblem& problem, const std::vector<Vector>& starts,
-                           const SearchOptions& options, std::uint64_t seed, std::uint64_t trial);
+                           const SearchOptions& options, const StreamKey& key);
 
-/// The expected return of one policy.
-SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options, std::uint64_t seed,
-                   std::uint64_t trial);
+/// The expected return of one policy, with the same random numbers for all policies that are judged with one key.
+SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options,
+                   const StreamKey& key);
 
 /// How often each policy solves the task in imagined episodes, all policies in the same; 0 if the task does
 /// not say.
 Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,
-                     std::uint64_t seed, std::uint64_t trial);
+                     const StreamKey& key);
 
 /// θ uniform in the box.
-Vector random_policy(const policy::Policy& policy, const SearchOptions& options, std::uint64_t seed,
-                     std::uint64_t trial);
+Vector random_policy(const policy::Policy& policy, const SearchOptions& options, StreamKey key);
 
 }  // namespace rehearse::learners::black_drops

@@ -38,6 +38,7 @@ class Builder final : public LearnerBuilder {
 void Options::fields(FieldVisitor& v) {
   v.group("model", model);
   v.group("search", search);
+  v.boolean("success_test", success_test);
   v.number("first_trial.hold_s", first_trial_hold_s, at_least(0));
   if (prior) prior->fields(v);
 }
@@ -59,6 +60,7 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   violations.require(!options.prior || setting.prior, "this learner needs a prior");
   violations.throw_if_any();
   if (!options.prior) setting.prior.reset();
+  if (!options.success_test) setting.task.solved = nullptr;
   if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
   return std::make_unique<Trials>(std::move(setting), options);
 }

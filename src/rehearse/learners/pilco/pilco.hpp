@@ -25,6 +25,8 @@ struct PriorPhaseOptions {
 struct Options {
   ModelOptions model;
   SearchOptions search;
+  bool success_test = true;  // searches begin anew until the task's test of success, where it gives one, is passed;
+                             // false: in every trial
   double first_trial_hold_s = 0;           // a random action of the first trial is held so long; PILCO: one step
   std::optional<PriorPhaseOptions> prior;  // PILCO learns on the prior first, and begins with that; empty: without one
   void fields(FieldVisitor& v);

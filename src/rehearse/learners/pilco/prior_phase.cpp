@@ -18,9 +18,6 @@ using nlohmann::json;
 
 constexpr const char* kStored = "prior";
 
-/// Episodes on the prior draw from trials that no robot ever does.
-constexpr std::uint64_t kFirstTrial = std::uint64_t{1} << 32;
-
 /// Where the phase is.
 struct State {
   PriorKnowledge knowledge;  // its counts and notes so far; all of it once the phase is over
@@ -78,6 +75,7 @@ class PriorPhase {
     Setting inner = setting_;
     inner.prior.reset();
     inner.store.reset();
+    inner.phase = Phase::prior;
     if (!inner.evaluator) inner.evaluator = make_thread_evaluator(1);
     if (setting_.progress) inner.progress = [this](const Progress& progress) { report(progress); };
     return inner;
@@ -117,7 +115,8 @@ class PriorPhase {
   void one_episode() {
     const Proposal& proposal = asked();
     const StreamKey key{.seed = setting_.seed,
-                        .trial = kFirstTrial + static_cast<std::uint64_t>(done()),
+                        .trial = static_cast<std::uint64_t>(done()) + 1,
+                        .phase = Phase::prior,
                         .purpose = Purpose::start_state};
     const prior::Prior& prior = *setting_.prior;
     const Episode episode = rollout::execute(*prior.simulator, prior.space.values(), *proposal.policy, proposal.theta,

@@ -39,10 +39,10 @@ Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting) {
   return proposal;
 }
 
-Proposal random_actions(const Setting& setting, double hold_s, std::uint64_t trial) {
+Proposal random_actions(const Setting& setting, double hold_s, const StreamKey& key) {
   const Task& task = setting.task;
   return {.policy = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon),
-          .theta = policy::random_schedule(task, policy::RandomActions::uniform, hold_s, setting.seed, trial)};
+          .theta = policy::random_schedule(task, policy::RandomActions::uniform, hold_s, key)};
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ Proposal Trials::propose() {
 }
 
 Proposal Trials::first_proposal() {
-  if (!options_.prior) return random_actions(setting_, options_.first_trial_hold_s, trial());
+  if (!options_.prior) return random_actions(setting_, options_.first_trial_hold_s, stream(Stage::episode));
   const Stopwatch watch;
   if (!prior_) prior_ = learn_on_prior(setting_, options_);
   Proposal proposal = proposal_of(*prior_, setting_);
@@ -122,9 +122,9 @@ Proposal Trials::next_proposal() {
   proposal.model = model.model;
   proposal.notes = std::move(model.notes);
   if (std::isfinite(model.log_evidence)) proposal.log_evidence = model.log_evidence;
-  proposal.theta = theta_.size() > 0
-                       ? theta_
-                       : initial_policy(*setting_.policy, start_state(setting_.task, options_.search), policies());
+  proposal.theta = theta_.size() > 0 ? theta_
+                                     : initial_policy(*setting_.policy, start_state(setting_.task, options_.search),
+                                                      stream(Stage::search));
   if (model.moments) proposal.search_s = seconds([&] { search(model, proposal); });
   if (model.model)
     proposal.moments =
@@ -144,7 +144,7 @@ Model Trials::learn_model() const {
 void Trials::search(const Model& model, Proposal& proposal) const {
   const SearchProblem problem{model.moments, *setting_.policy, setting_.task, *setting_.evaluator, setting_.progress};
   SearchResult found = solved_ ? search_policy(problem, proposal.theta, options_.search)
-                               : search_with_restarts(problem, proposal.theta, options_.search, policies(),
+                               : search_with_restarts(problem, proposal.theta, options_.search, stream(Stage::search),
                                                       repeated_ ? earned_ : std::nullopt);
   proposal.theta = std::move(found.theta);
   proposal.predicted_return = found.predicted_return;

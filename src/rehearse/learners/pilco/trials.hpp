@@ -26,7 +26,9 @@ class Trials final : public Learner {
 
  private:
   std::uint64_t trial() const { return trials_ + 1; }
-  StreamKey policies() const { return {.seed = setting_.seed, .trial = trial()}; }
+  StreamKey stream(Stage stage) const {
+    return {.seed = setting_.seed, .trial = trial(), .phase = setting_.phase, .stage = stage};
+  }
   void add(const Episode& episode);
   Proposal propose();
   Proposal first_proposal();

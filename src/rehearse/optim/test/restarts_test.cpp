@@ -133,8 +133,10 @@ TEST(Restarts, WithoutAnyFiniteValueTheStartComesBack) {
 }
 
 // 10-D sphere times exp(N(0, 1)), started 12.6 from its optimum; without handling, σ collapses at distances of 0.2
-// to 4. 5 seeds; of 12 measured, the worst distance was 0.03, so a false alarm is improbable whatever the seeds.
+// to 4. 5 seeds; of 40 measured one ended beyond 0.1, at 0.25, so that two of 5 do by chance with a probability of 0.6
+// %.
 TEST(Restarts, UncertaintyHandlingSolvesASphereWithMultiplicativeNoise) {
+  int solved = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const BatchObjective f = [&](const ConstMatrixView& X, std::uint64_t first, Index samples, VectorView values) {
       for (Index j = 0; j < X.cols(); ++j) {
@@ -148,8 +150,9 @@ TEST(Restarts, UncertaintyHandlingSolvesASphereWithMultiplicativeNoise) {
     options.cmaes.elitism = true;
     options.uncertainty.enabled = true;
     const auto result = maximise(f, Vector::Constant(10, -3), std::vector<Interval>(10, {-5, 5}), options, key(seed));
-    EXPECT_LT((result.x.array() - 1).matrix().norm(), 0.1) << result.stop;
+    solved += (result.x.array() - 1).matrix().norm() < 0.1;
   }
+  EXPECT_GE(solved, 4);
 }
 
 TEST(Restarts, ReportEveryViolation) {

@@ -1,6 +1,8 @@
 #include "rehearse/optim/uncertainty.hpp"
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -109,6 +111,52 @@ TEST(Uncertainty, ComesCloserToTheOptimumOfANoisySphere) {
   int closer = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) closer += distance(seed, true) < distance(seed, false);
   EXPECT_GE(closer, 9);
+}
+
+/// The mean and the standard error of s over generations in which every value is noise alone, libcmaes's settings.
+std::pair<double, double> uncertainty_of_pure_noise(bool elitism) {
+  constexpr int kGenerations = 4000;
+  Rng noise({.seed = 5, .purpose = Purpose::test});
+  Cmaes search(Vector::Zero(10), 1, {}, {.population = 20, .elitism = elitism, .stagnation = false}, {.seed = 5});
+  UncertaintyHandler handler(
+      {.enabled = true, .reevaluated = 0.1, .reevaluated_least = 2, .tolerance = 0.2, .smoothing = 1, .max_samples = 1},
+      10, 20);
+  double mean = 0, square = 0;
+  for (int g = 0; g < kGenerations; ++g) {
+    search.ask();
+    Vector values(20), again(handler.reevaluations());
+    for (double& value : values) value = noise.normal();
+    for (double& value : again) value = noise.normal();
+    search.tell(values, handler.rank(values, again));
+    mean += handler.uncertainty() / kGenerations;
+    square += handler.uncertainty() * handler.uncertainty() / kGenerations;
+  }
+  return {mean, std::sqrt((square - mean * mean) / kGenerations)};
+}
+
+// Two means of 4000 generations differ by more than 4.5 standard errors with a probability of 7e-6.
+TEST(Uncertainty, OfPureNoiseIsTheSameWithAnElite) {
+  const auto [without, error] = uncertainty_of_pure_noise(false);
+  const auto [with, other_error] = uncertainty_of_pure_noise(true);
+  RecordProperty("mean_s_without_elitism", std::to_string(without));
+  RecordProperty("mean_s_with_elitism", std::to_string(with));
+  EXPECT_GT(without, 20 * error) << "noise is seen";
+  EXPECT_NEAR(with, without, 4.5 * std::hypot(error, other_error));
+}
+
+TEST(Uncertainty, AsInLibcmaesWidensAtOnceAndNeverEvaluatesMoreOften) {
+  UncertaintyHandler handler(
+      {.enabled = true, .reevaluated = 0.1, .reevaluated_least = 2, .tolerance = 0.2, .smoothing = 1, .max_samples = 1},
+      10, 12);
+  EXPECT_EQ(handler.reevaluations(), 2);
+  Vector values = Vector::LinSpaced(12, 12, 1);
+  handler.rank(values, Vector{{0, 0}});  // both best fall to the end
+  EXPECT_GT(handler.uncertainty(), 0);
+  EXPECT_DOUBLE_EQ(handler.sigma_factor(), 1 + 2.0 / 20);
+  EXPECT_EQ(handler.samples(), 1);
+  values = Vector::LinSpaced(12, 12, 1);
+  handler.rank(values, values.head(2));
+  EXPECT_EQ(handler.sigma_factor(), 1);
 }
 
 }  // namespace

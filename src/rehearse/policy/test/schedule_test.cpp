@@ -33,7 +33,7 @@ TEST(Schedule, KeepsTheLawsOfPolicies) {
 TEST(RandomSchedule, OfExtremesHasBothBoundsAndNothingElse) {
   Task task = fixture::task();
   task.horizon = 50;  // that a bound does not come has a probability of 2⁻⁴⁸
-  const Vector theta = random_schedule(task, RandomActions::extremes, 0, 1, 1);
+  const Vector theta = random_schedule(task, RandomActions::extremes, 0, {.trial = 1});
   for (Index a = 0; a < 2; ++a) {
     const auto& [low, high] = task.actions[static_cast<std::size_t>(a)].bounds;
     const auto actions = theta.segment(a * task.horizon, task.horizon).array();
@@ -49,10 +49,10 @@ TEST(RandomSchedule, HoldsEachActionForItsTime) {
   task.dt_s = 0.2;
   task.horizon = 12;
   for (const auto& [hold_s, steps] : std::vector<std::pair<double, Index>>{{0, 1}, {0.2, 1}, {0.64, 3}}) {
-    const Vector theta = random_schedule(task, RandomActions::uniform, hold_s, 1, 1);
+    const Vector theta = random_schedule(task, RandomActions::uniform, hold_s, {.trial = 1});
     ASSERT_EQ(theta.size(), 2 * task.horizon);
-    EXPECT_EQ(theta, random_schedule(task, RandomActions::uniform, hold_s, 1, 1));
-    EXPECT_NE(theta, random_schedule(task, RandomActions::uniform, hold_s, 2, 1));
+    EXPECT_EQ(theta, random_schedule(task, RandomActions::uniform, hold_s, {.trial = 1}));
+    EXPECT_NE(theta, random_schedule(task, RandomActions::uniform, hold_s, {.seed = 2, .trial = 1}));
     for (Index i = 0; i < theta.size(); ++i) {
       const Index t = i % task.horizon;
       EXPECT_EQ(t % steps > 0, t > 0 && theta(i) == theta(i - 1)) << i;

@@ -25,7 +25,8 @@ SearchResult search(const std::vector<Vector>& starts, const SearchOptions& opti
   const dynamics::SimulatorModel model(slider::prior(), slider::kTruth, 0.0004);
   const auto policy = slider::policy();
   const Task task = slider::task();
-  return search_policy({model, *policy, task, evaluator, progress}, starts, options, seed, trial);
+  return search_policy({model, *policy, task, evaluator, progress}, starts, options,
+                       {.seed = seed, .trial = trial, .stage = Stage::search});
 }
 
 TEST(SearchPolicy, FindsAPolicyAsGoodAsPredicted) {
@@ -86,7 +87,8 @@ TEST(SolvingRates, CountImaginedEpisodesThatSolve) {
     task.solved = [beyond](const Episode& e) { return e.true_states(e.steps(), 0) > beyond; };
     SearchOptions options = small();
     options.selection = 1000;
-    return solving_rates({model, *policy, task, evaluator, {}}, {Vector{{-1, 0}}, Vector{{-5, 0}}}, options, 1, 1);
+    return solving_rates({model, *policy, task, evaluator, {}}, {Vector{{-1, 0}}, Vector{{-5, 0}}}, options,
+                         {.stage = Stage::solving});
   };
   const auto middle = [&](Index which) {
     const Vector theta = which == 0 ? Vector{{-1, 0}} : Vector{{-5, 0}};
@@ -99,7 +101,7 @@ TEST(SolvingRates, CountImaginedEpisodesThatSolve) {
   EXPECT_EQ(rates(sure, serial_evaluator(), beyond - 1e-6)(0), 1);
   EXPECT_EQ(rates(sure, serial_evaluator(), beyond + 1e-6)(0), 0);
   task.solved = nullptr;
-  EXPECT_EQ(solving_rates({sure, *policy, task, serial_evaluator(), {}}, {Vector{{-1, 0}}}, small(), 1, 1),
+  EXPECT_EQ(solving_rates({sure, *policy, task, serial_evaluator(), {}}, {Vector{{-1, 0}}}, small(), {}),
             Vector::Zero(1));
 }
 
@@ -110,9 +112,9 @@ TEST(RandomPolicy, IsUniformInTheBoxAndReproducible) {
   double sum = 0, largest = 0;
   constexpr int kSeeds = 500;  // 1000 numbers; their mean is beyond 0.18 (5 deviations) with probability 6e-7
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const Vector theta = random_policy(*policy, options, seed, 1);
+    const Vector theta = random_policy(*policy, options, {.seed = seed});
     ASSERT_EQ(theta.size(), 2);
-    EXPECT_EQ(theta, random_policy(*policy, options, seed, 1));
+    EXPECT_EQ(theta, random_policy(*policy, options, {.seed = seed}));
     sum += theta.sum();
     largest = std::max(largest, theta.cwiseAbs().maxCoeff());
   }

@@ -104,7 +104,7 @@ struct Outcome {
 /// Trials whose performance is measured with the noise that the GP assumes, σ² = 0.001.
 Outcome adapt(const Map& map, double length, double stop_ratio, std::uint64_t seed) {
   Adaptation adaptation(map.centres, map.promised, {.length = length, .stop_ratio = stop_ratio, .max_trials = 15});
-  Rng noise({.seed = seed, .purpose = Purpose::measurement_noise});
+  Rng noise({.seed = seed, .purpose = Purpose::test});
   const double reachable = map.real.maxCoeff();
   Outcome outcome;
   for (Index trial = 1; trial <= 15 && adaptation.stopped().empty(); ++trial) {

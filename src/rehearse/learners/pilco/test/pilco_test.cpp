@@ -196,7 +196,7 @@ TEST(Pilco, OneStepByMomentsIsThatOfTheSamples) {
   constexpr Index kSamples = 100000;
   const auto recorded =
       rollout::imagine_recorded(*proposal.model, *proposal.policy, task(), proposal.theta, kSamples,
-                                {.seed = 3, .trial = 1, .purpose = Purpose::prediction}, {.noise_clip = 0});
+                                {.seed = 3, .trial = 1, .stage = Stage::prediction}, {.noise_clip = 0});
   const ExpectedEpisode episode = proposal.moments();
   const auto expect_moments = [](const Vector& samples, double mean, double deviation) {
     const double error = deviation / std::sqrt(kSamples), found = samples.mean();
