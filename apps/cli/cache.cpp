@@ -35,7 +35,7 @@ fs::path own_folder() {
   const fs::path folder = root();
   if (folder.empty()) return {};
   try {
-    const std::string program = experiment::read_file("/proc/self/exe");
+    const std::string program = read_file("/proc/self/exe", Links::follow);
     return folder / fmt::format("{:016x}", checksum(program + optim::arithmetic()));
   } catch (const InvalidInput&) {
     return {};

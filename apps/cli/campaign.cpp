@@ -54,7 +54,7 @@ int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& ar
   violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
   violations.require(share.of == 1 || !arguments.check_claims, "--check-claims needs all runs, --share does some");
   violations.throw_if_any();
-  const std::string text = experiment::read_file(arguments.file);
+  const std::string text = read_file(arguments.file, Links::follow);
   if (arguments.dry_run) {
     const experiment::CampaignPlan plan = experiment::plan_campaign(catalogue, text, arguments.file);
     if (company.leads()) print_plan(plan);

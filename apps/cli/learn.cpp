@@ -41,7 +41,7 @@ std::optional<SpecFile> given_file(const LearnArguments& arguments, Violations& 
   };
   violations.require(!arguments.learner, given("--learner"));
   violations.require(!arguments.prior, given("--prior"));
-  return SpecFile(experiment::read_file(arguments.scenario), arguments.scenario);
+  return SpecFile(read_file(arguments.scenario, Links::follow), arguments.scenario);
 }
 
 Spec named_spec(const LearnArguments& arguments, Violations& violations) {
