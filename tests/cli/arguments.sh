@@ -70,6 +70,8 @@ printf 'format = 1\n[run]\nscenario = 3\nlearner = "gp-mi"\n' >number.toml
 expect 2 "number.toml: line 3: scenario must be text in quotes" 1 learn number.toml
 printf 'format = 1\nscenario = 3\nlearners = "gp-mi"\nseeds = 1\n' >number.toml
 expect 2 "number.toml: line 2: scenario must be text in quotes" 1 campaign number.toml --dry-run
+printf 'format = 1\ntitle = "\\u001b[31mred"\nscenario = "pendubot"\nlearners = "mi"\nseeds = 1\n' >coloured.toml
+expect 0 '\x1b[31mred: 1 run' - campaign coloured.toml --dry-run
 mkfifo fifo.toml
 expect 2 "cannot read fifo.toml: it is no regular file" 1 learn fifo.toml
 expect 2 "cannot read fifo.toml: it is no regular file" 1 campaign fifo.toml --dry-run
