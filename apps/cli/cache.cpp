@@ -3,11 +3,10 @@
 #include <cstdlib>
 #include <string_view>
 
-#include <fmt/format.h>
-
 #include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/files.hpp"
+#include "rehearse/core/files.hpp"
+#include "rehearse/experiment/cache.hpp"
 #include "rehearse/optim/arithmetic.hpp"
 
 namespace rehearse::apps {
@@ -35,8 +34,9 @@ fs::path own_folder() {
   const fs::path folder = root();
   if (folder.empty()) return {};
   try {
-    const std::string program = experiment::read_file("/proc/self/exe");
-    return folder / fmt::format("{:016x}", checksum(program + optim::arithmetic()));
+    experiment::prune_cache(experiment::cache_folders(folder));
+    const std::string program = read_file("/proc/self/exe", Links::follow);
+    return experiment::cache_folder_of(folder, checksum(program + optim::arithmetic()));
   } catch (const InvalidInput&) {
     return {};
   }

@@ -6,6 +6,7 @@
 
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/cli/complain.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/files.hpp"
 #include "rehearse/qd/archive_bytes.hpp"
@@ -22,7 +23,7 @@ std::string page_template() {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& folder : {program, program.parent_path()}) {
     const fs::path page = folder / "share/rehearse/report.html";
-    if (fs::exists(page)) return experiment::read_file(page);
+    if (fs::exists(page)) return read_file(page, Links::follow);
   }
   const std::string build = fs::exists(program / "CMakeCache.txt") ? program.string() : "BUILD_FOLDER";
   throw InvalidInput(fmt::format(
@@ -34,7 +35,7 @@ void check_is_ours(const fs::path& path) {
   if (path.empty()) throw InvalidInput("--out needs the name of a file");
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return;
-  const bool page = fs::is_regular_file(path, ignored) && experiment::read_file(path).starts_with(kPageBegins);
+  const bool page = fs::is_regular_file(path, ignored) && read_file(path).starts_with(kPageBegins);
   if (!page)
     throw InvalidInput(fmt::format("{} is no page of Rehearse and is left as it is; --out FILE.html names another file",
                                    path.string()));
@@ -53,8 +54,8 @@ int write_page(const fs::path& folder, const report::Report& report, const fs::p
   const std::string page = to_html(report, page_template());
   write(out, page);
   for (const report::Problem& problem : report.problems)
-    fmt::print(stderr, "rehearse: {}: {}\n", (folder / problem.where).string(), problem.what);
-  fmt::print("{} ({:.1f} MB) opens in a browser\n", out.string(), 1e-6 * static_cast<double>(page.size()));
+    complain(fmt::format("{}: {}", (folder / problem.where).string(), problem.what));
+  fmt::print("{} ({:.1f} MB) opens in a browser\n", printable(out.string()), 1e-6 * static_cast<double>(page.size()));
   return kSuccess;
 }
 

@@ -15,35 +15,42 @@ namespace {
 constexpr Index kFormat = 1;
 constexpr Index kMostSeeds = 100000;
 
-/// "3" or "1-30".
-std::optional<std::pair<Index, Index>> seed_range(std::string_view text) {
-  const auto number = [](std::string_view digits, Index& value) {
+/// Adds the seeds of "3" or "1-30". Throws InvalidInput.
+void add_seeds(const std::string& text, std::vector<Index>& seeds) {
+  const auto number = [&](std::string_view digits) {
+    Index value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    return error == std::errc{} && end == digits.data() + digits.size() && value >= 0 && value <= Index{1} << 53;
+    if (error != std::errc{} || end != digits.data() + digits.size() || value < 0 || value > Index{1} << 53)
+      throw InvalidInput(fmt::format("seeds = {}, must be whole numbers from 0 to 2^53, or \"FIRST-LAST\"", text));
+    return value;
   };
   const std::size_t dash = text.find('-');
-  Index first = 0, last = 0;
-  const bool ok =
-      number(text.substr(0, dash), first) && (dash == std::string_view::npos || number(text.substr(dash + 1), last));
-  if (dash == std::string_view::npos) last = first;
-  return ok && first <= last && last - first < kMostSeeds ? std::optional(std::pair{first, last}) : std::nullopt;
+  const Index first = number(std::string_view(text).substr(0, dash));
+  const Index last = dash == std::string::npos ? first : number(std::string_view(text).substr(dash + 1));
+  if (last < first) throw InvalidInput(fmt::format("seeds = \"{}\", the first must not be above the last", text));
+  if (last - first >= kMostSeeds)
+    throw InvalidInput(fmt::format("seeds = \"{}\" are {}, must be ≤ {}", text, last - first + 1, kMostSeeds));
+  for (Index seed = first; seed <= last; ++seed) seeds.push_back(seed);
 }
 
-/// A number, "A-B", or a list of numbers.
-std::optional<std::vector<Index>> seeds_of(const toml::node& node) {
+/// A number, "A-B", or a list of these. Throws InvalidInput.
+std::vector<Index> seeds_of(const toml::node& node) {
   std::vector<Index> seeds;
   const auto add = [&](const toml::node& element) {
-    if (!element.is_integer() && !element.is_string()) return false;
-    const auto range = seed_range(text_of(element));
-    for (Index seed = range ? range->first : 0; range && seed <= range->second; ++seed) seeds.push_back(seed);
-    return range.has_value();
+    if (!element.is_integer() && !element.is_string())
+      throw InvalidInput("seeds must be whole numbers, \"FIRST-LAST\", or a list of these");
+    add_seeds(text_of(element), seeds);
   };
-  const auto* list = node.as_array();
-  const bool ok = list ? std::all_of(list->begin(), list->end(), add) : add(node);
+  if (const auto* list = node.as_array())
+    for (const toml::node& element : *list) add(element);
+  else
+    add(node);
+  if (seeds.empty()) throw InvalidInput("seeds has none");
   std::vector<Index> sorted = seeds;
   std::sort(sorted.begin(), sorted.end());
-  const bool twice = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
-  return ok && !twice && !seeds.empty() ? std::optional(seeds) : std::nullopt;
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end()) throw InvalidInput(fmt::format("seeds has {} twice", *twice));
+  return seeds;
 }
 
 class CampaignReader {
@@ -75,20 +82,25 @@ class CampaignReader {
 
   void read_grid() {
     reader_.take("title", file_.title);
-    if (!reader_.take("scenario", file_.scenario) || file_.scenario.empty()) violations_.add(0, "scenario is missing");
+    if (!reader_.take("scenario", file_.scenario) || table_["scenario"].value<std::string>() == "")
+      violations_.add(0, "scenario is missing");
     if (!reader_.take("learners", file_.learners)) violations_.add(0, "learners is missing");
     reader_.take("priors", file_.priors);
     reader_.take_fields([&](FieldVisitor& v) {
       v.integer("trials", file_.trials, between(1, 1e6));
       v.boolean("until_solved", file_.until_solved);
     });
+    read_seeds();
+  }
+
+  void read_seeds() {
     const toml::node* seeds = reader_.take("seeds");
-    if (!seeds)
-      violations_.add(0, "seeds is missing; write for instance seeds = \"1-30\"");
-    else if (const auto list = seeds_of(*seeds))
-      file_.seeds = *list;
-    else
-      reader_.wrong("seeds", "seeds must be \"FIRST-LAST\" or a list of different whole numbers from 0 on");
+    if (!seeds) return violations_.add(0, "seeds is missing; write for instance seeds = \"1-30\"");
+    try {
+      file_.seeds = seeds_of(*seeds);
+    } catch (const InvalidInput& error) {
+      reader_.wrong("seeds", error.what());
+    }
   }
 
   std::vector<FileOption> options_of(const toml::table& table) {

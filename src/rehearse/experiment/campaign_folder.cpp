@@ -11,6 +11,7 @@
 #include "rehearse/experiment/campaign_summary.hpp"
 #include "rehearse/experiment/seal.hpp"
 #include "rehearse/experiment/spec_file.hpp"
+#include "rehearse/experiment/unborn.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -78,12 +79,11 @@ void check_only_adds(const CampaignPlan& begun, const CampaignPlan& plan, const 
   violations.throw_if_any();
 }
 
-/// What a run that was killed while its folder was made leaves behind: ".NAME.PROCESS".
-bool is_unborn(const std::string& name, const CampaignPlan& plan) {
-  return std::any_of(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) {
-    const std::string prefix = "." + run.name + ".";
-    return name.starts_with(prefix) && name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
-  });
+/// What a run of the plan that was killed while its folder was made leaves behind.
+bool is_unborn(const std::string& entry, const CampaignPlan& plan) {
+  const auto name = name_of_unborn(entry);
+  return name &&
+         std::any_of(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) { return run.name == *name; });
 }
 
 std::string complaint_about_spec(const fs::path& file, const PlannedRun& run) {
@@ -107,15 +107,6 @@ void begin(const Catalogue& catalogue, const fs::path& path, std::string_view te
     fs::create_directories(path / kRuns);
   } catch (const fs::filesystem_error& error) {
     throw InvalidInput(fmt::format("cannot write in {}: {}", path.string(), error.code().message()));
-  }
-}
-
-/// Whether this machine sees a file with this text; not while it is being replaced.
-bool shows(const fs::path& file, std::string_view text) {
-  try {
-    return read_file(file) == text;
-  } catch (const InvalidInput&) {
-    return false;
   }
 }
 
@@ -149,7 +140,7 @@ CampaignFolder CampaignFolder::open(const Catalogue& catalogue, const fs::path& 
 CampaignFolder CampaignFolder::join(const fs::path& given, std::string_view text) {
   const fs::path path = without_slash(given), file = path / kFile;
   const auto until = std::chrono::steady_clock::now() + kUntilVisible;
-  while (!shows(file, text)) {
+  while (!holds(file, text)) {
     if (std::chrono::steady_clock::now() > until)
       throw InvalidInput(
           fmt::format("this process does not see what rank 0 wrote to {}; the folder must be on a file system that all "

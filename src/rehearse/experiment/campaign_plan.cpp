@@ -11,6 +11,7 @@
 #include "rehearse/core/random.hpp"
 #include "rehearse/experiment/blame.hpp"
 #include "rehearse/experiment/campaign_claim_plan.hpp"
+#include "rehearse/experiment/campaign_overlaps.hpp"
 #include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/toml_reader.hpp"
 
@@ -20,24 +21,6 @@ namespace {
 constexpr std::size_t kMostRuns = 100000;
 
 using FileOptions = std::vector<FileOption>;
-
-/// The name without "PRIOR." in "prior.PRIOR.NAME".
-std::string without_prior(const std::string& key, const std::string& prior) {
-  const std::string prefix = fmt::format("prior.{}.", prior);
-  return key.starts_with(prefix) ? "prior." + key.substr(prefix.size()) : key;
-}
-
-/// Whether `--set key=…` reaches something in a run whose complete spec this is.
-bool has_option(const Spec& complete, const std::string& key) {
-  const bool several = complete.prior.find(',') != std::string::npos;
-  const std::string wanted = several ? key : without_prior(key, complete.prior);
-  for (const auto& [name, text] : complete.options) {
-    if (name == wanted || name == "scenario." + key || name == "learner." + key) return true;
-    if (!several || !name.starts_with("prior.") || !key.starts_with("prior.")) continue;
-    if (name.ends_with(key.substr(key.find('.')))) return true;  // prior.NAME of any of several
-  }
-  return false;
-}
 
 /// What the runs of a group have of [[variant]] and [vary].
 struct Varied {
@@ -132,6 +115,7 @@ class Planner {
     if (!complete) return;
     for (const auto& [key, text] : complete->options)
       known_options_.push_back(key.starts_with("prior.") ? key : key.substr(key.find('.') + 1));
+    for (const auto& [at, message] : overlaps(*complete, file_)) violations_.add(at, message);
     const FileOptions options = common_options(*complete);
     for (const Varied& varied : all_variants(*complete)) add_group(bare, options, draws_of(*complete), varied);
   }
@@ -218,7 +202,7 @@ class Planner {
   void too_many() { violations_.add(0, fmt::format("these are more than {} runs", kMostRuns)); }
 
   bool use(const Spec& complete, const std::string& key) {
-    const bool has = has_option(complete, key);
+    const bool has = !reached_options(complete, key).empty();
     if (has) used_.insert(key);
     return has;
   }

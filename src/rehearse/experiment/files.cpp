@@ -4,8 +4,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <stdexcept>
 #include <thread>
@@ -21,31 +19,6 @@
 
 namespace rehearse::experiment {
 namespace {
-
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  Descriptor(const std::filesystem::path& path, int flags) : file_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
-  ~Descriptor() {
-    if (file_ >= 0) ::close(file_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  bool open() const { return file_ >= 0; }
-  bool write(std::string_view bytes) const {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(file_, bytes.data(), bytes.size());
-      if (written < 0 && errno != EINTR) return false;
-      if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return true;
-  }
-  bool sync() const { return ::fsync(file_) == 0; }
-
- private:
-  int file_;
-};
 
 /// A name that goes with this object, unless the file has got another one by then.
 class Temporary {
@@ -71,8 +44,10 @@ class Temporary {
 
 void sync_folder(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const Descriptor descriptor(folder, O_RDONLY | O_DIRECTORY);
-  if (descriptor.open()) descriptor.sync();  // some file systems cannot; the rename is still in one step
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);  // some file systems cannot; the rename is still in one step
+  ::close(descriptor);
 }
 
 void replace(const std::filesystem::path& path, const std::string& suffix, std::string_view bytes,
@@ -80,7 +55,8 @@ void replace(const std::filesystem::path& path, const std::string& suffix, std::
   const bool durable = durability == Durability::power;
   Temporary temporary(path.string() + suffix);
   {
-    const Descriptor file(temporary.path(), O_WRONLY | O_CREAT | O_TRUNC);
+    ::unlink(temporary.path().c_str());  // whatever a kill, or somebody, left there
+    const RegularFile file(temporary.path(), O_WRONLY | O_CREAT | O_EXCL);
     if (!file.open() || !file.write(bytes) || (durable && !file.sync())) cannot("write", path);
   }
   if (!temporary.rename(path)) cannot("write", path);
@@ -93,12 +69,13 @@ std::filesystem::path without_slash(const std::filesystem::path& path) {
   return path.has_filename() ? path : path.parent_path();
 }
 
-std::string read_file(const std::filesystem::path& path) {
-  std::error_code ignored;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path, ignored))
-    throw InvalidInput(fmt::format("cannot read {}", path.string()));
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+bool holds(const std::filesystem::path& path, std::string_view bytes) {
+  try {
+    std::error_code none;
+    return std::filesystem::file_size(path, none) == bytes.size() && !none && read_file(path) == bytes;
+  } catch (const InvalidInput&) {
+    return false;
+  }
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes, Durability durability) {
@@ -132,9 +109,10 @@ bool rename_new(const std::filesystem::path& from, const std::filesystem::path& 
   return true;
 }
 
-FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind)
-    : file_(::open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
-  if (file_ < 0) throw InvalidInput(fmt::format("cannot write in {}: {}", folder.string(), std::strerror(errno)));
+FolderLock::FolderLock(const std::filesystem::path& folder, Kind kind) {
+  RegularFile lock(folder / "lock", O_RDWR | O_CREAT);
+  if (!lock.open()) throw InvalidInput(fmt::format("cannot write {}: {}", (folder / "lock").string(), lock.problem()));
+  file_ = lock.release();
   for (int attempt = 0; attempt < 40; ++attempt) {  // a process that was just killed may take a moment to go
     if (::flock(file_, (kind == Kind::shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0) return;
     if (errno != EWOULDBLOCK && errno != EINTR) return;  // the file system has no locks

@@ -4,20 +4,24 @@
 #include <string>
 #include <string_view>
 
+#include "rehearse/core/files.hpp"
+
 namespace rehearse::experiment {
+
+using rehearse::read_file;
 
 /// A folder's path without a "/" at its end.
 std::filesystem::path without_slash(const std::filesystem::path& path);
 
-/// A whole file. Throws InvalidInput if it cannot be read.
-std::string read_file(const std::filesystem::path& path);
+/// Whether a file can be read and has these bytes.
+bool holds(const std::filesystem::path& path, std::string_view bytes);
 
 enum class Durability {
   process,  // survives the process: whenever it is killed, the file holds its old bytes or the new ones
   power,    // and a power failure, at the price of waiting for the disk
 };
 
-/// Replaces a file in one step. Throws std::runtime_error (a full disk).
+/// Replaces a file, or a link of that name, in one step. Throws std::runtime_error (a full disk).
 void write_file(const std::filesystem::path& path, std::string_view bytes, Durability durability = Durability::process);
 
 /// The same for a file that several processes may replace at once, durably. Who is killed leaves a file of its own,

@@ -1,12 +1,12 @@
 #include "rehearse/experiment/run_folder.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/checkpoint.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/experiment/tables.hpp"
+#include "rehearse/experiment/unborn.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -16,19 +16,6 @@ namespace fs = std::filesystem;
 constexpr const char *kSpec = "spec.toml", *kCheckpoint = "checkpoint", *kDone = "done";
 
 fs::path trial_file(const fs::path& folder, Index trial) { return folder / fmt::format("trial-{:03}.csv", trial); }
-
-/// A folder beside `path`, on the same file system, that is renamed once it is complete.
-fs::path make_unborn(const fs::path& path) {
-  const fs::path unborn = path.parent_path() / fmt::format(".{}.{}", path.filename().string(), ::getpid());
-  try {
-    fs::remove_all(unborn);
-    fs::create_directories(unborn / "trajectories");
-    fs::create_directories(unborn / "predictions");
-  } catch (const fs::filesystem_error& error) {
-    throw InvalidInput(fmt::format("cannot create {}: {}", path.string(), error.code().message()));
-  }
-  return unborn;
-}
 
 std::string already_exists(const fs::path& path) {
   return fmt::format("{} already exists and is never overwritten; name another folder, or continue a run with `resume`",
@@ -113,8 +100,7 @@ void RunFolder::write_motion(const char* kind, Index trial, const std::string& j
 
 void RunFolder::write_archive(const std::string& bytes) const {
   const fs::path path = path_ / "archive.bin";
-  std::error_code none;
-  if (fs::file_size(path, none) != bytes.size() || none || read_file(path) != bytes) write_file(path, bytes);
+  if (!holds(path, bytes)) write_file(path, bytes);
 }
 
 void RunFolder::write_learners_table(const learners::Table& table) const {

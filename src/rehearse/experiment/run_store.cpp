@@ -4,6 +4,7 @@
 
 #include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/cache.hpp"
 #include "rehearse/experiment/files.hpp"
 #include "rehearse/experiment/seal.hpp"
 #include "rehearse/experiment/spec_file.hpp"
@@ -38,6 +39,7 @@ void write_cached(const fs::path& path, const std::string& bytes) {
   try {
     fs::create_directories(path.parent_path());
     write_shared_file(path, bytes);
+    prune_cache({path.parent_path()});
   } catch (const std::exception&) {  // a run does not depend on its cache
   }
 }
@@ -54,7 +56,7 @@ fs::path RunStore::kept(const std::string& name) const {
 fs::path RunStore::cached(const std::string& name) {
   if (!cache_folder_) cache_folder_ = cache_ ? cache_() : fs::path();
   if (cache_folder_->empty()) return {};
-  return *cache_folder_ / fmt::format("{}-{:016x}", name, checksum(owner_));
+  return *cache_folder_ / cache_entry(name, checksum(owner_));
 }
 
 std::optional<std::string> RunStore::read(const std::string& name) {

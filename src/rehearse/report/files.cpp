@@ -2,11 +2,10 @@
 
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
+#include "rehearse/core/files.hpp"
 #include "rehearse/core/options.hpp"
 
 namespace rehearse::report {
@@ -29,6 +28,13 @@ Json numbers(const statistics::Table& table, std::size_t position, NoNumber no_n
   return column;
 }
 
+/// What walks through values calls itself for each level, and nothing of ours has as many.
+bool check_depth(int depth, Json::parse_event_t, Json&) {
+  constexpr int kDeepest = 64;
+  if (depth > kDeepest) throw InvalidInput(fmt::format("it is nested deeper than {} levels", kDeepest));
+  return true;
+}
+
 Json sentences(const statistics::Table& table, std::size_t position) {
   Json column = Json::array();
   for (const auto& row : table.rows) column.push_back(row[position]);
@@ -37,19 +43,15 @@ Json sentences(const statistics::Table& table, std::size_t position) {
 
 }  // namespace
 
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) throw InvalidInput("it is not there");
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path, ignored)) throw InvalidInput("it cannot be read");
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
+std::string read_text(const std::filesystem::path& path) { return RegularFile(path).read(); }
 
 statistics::Table read_table(const std::filesystem::path& path) { return statistics::read_csv(read_text(path)); }
 
 Json read_json(const std::filesystem::path& path) {
   try {
-    return Json::parse(read_text(path));
+    return Json::parse(read_text(path), check_depth);
+  } catch (const Json::out_of_range&) {
+    throw InvalidInput("it has a number that is too large");
   } catch (const Json::parse_error&) {
     throw InvalidInput("it is truncated or no JSON");
   }

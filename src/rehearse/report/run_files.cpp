@@ -10,6 +10,7 @@
 #include <toml++/toml.h>
 
 #include "rehearse/core/checksum.hpp"
+#include "rehearse/core/files.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/report/archive_files.hpp"
 #include "rehearse/report/prediction_gap.hpp"
@@ -78,11 +79,9 @@ void check_checkpoint(const fs::path& path) {
 }
 
 void check_ends_with_line(const fs::path& path) {
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) throw InvalidInput("it is not there, or cannot be read");
-  const bool whole = std::fseek(file, -1, SEEK_END) == 0 && std::fgetc(file) == '\n';
-  std::fclose(file);
-  if (!whole) throw InvalidInput("it is cut short");
+  const RegularFile file(path);
+  if (!file.open()) throw InvalidInput(file.problem());
+  if (!file.ends_with('\n')) throw InvalidInput("it is cut short");
 }
 
 void check_trials(const fs::path& path, Index trials) {

@@ -308,7 +308,7 @@ search.step = 0.5
       "c.toml: line 3: unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)\n"
       "c.toml: line 4: priors names 'near' twice\n"
       "c.toml: line 4: unknown prior 'nowhere' of scenario line, did you mean 'near'? (known: near, far, oracle)\n"
-      "c.toml: line 5: seeds must be \"FIRST-LAST\" or a list of different whole numbers from 0 on\n"
+      "c.toml: line 5: seeds = \"3-1\", the first must not be above the last\n"
       "c.toml: line 6: trials = 0, must be between 1 and 1000000\n"
       "c.toml: line 8: unknown option 'search.stop', did you mean 'search.step'?\n"
       "c.toml: line 9: noise = -1, must be ≥ 0\n"
@@ -316,6 +316,29 @@ search.step = 0.5
       "c.toml: line 11: [learner.echo-alone] is none of the learners (echo, eco)\n"
       "c.toml: line 14: breaks has the value true twice\n"
       "c.toml: line 15: search.step must be a list of values in [vary]");
+}
+
+TEST(CampaignPlan, SaysWhatIsWrongWithSeeds) {
+  const auto about = [](const std::string& seeds) {
+    const std::string all = complaint("format = 1\nscenario = \"line\"\nlearners = \"echo\"\nseeds = " + seeds + "\n");
+    return all.substr(std::min(all.size(), std::string("c.toml: line 4: ").size()));
+  };
+  EXPECT_EQ(about("\"1-3\""), "");
+  EXPECT_EQ(about("[1, \"3-5\"]"), "");
+  EXPECT_EQ(about("\"3-1\""), "seeds = \"3-1\", the first must not be above the last");
+  EXPECT_EQ(about("\"1-10000000\""), "seeds = \"1-10000000\" are 10000000, must be ≤ 100000");
+  EXPECT_EQ(about("[2, \"1-3\"]"), "seeds has 2 twice");
+  EXPECT_EQ(about("[]"), "seeds has none");
+  EXPECT_EQ(about("-1"), "seeds = -1, must be whole numbers from 0 to 2^53, or \"FIRST-LAST\"");
+  EXPECT_EQ(about("\"1-x\""), "seeds = 1-x, must be whole numbers from 0 to 2^53, or \"FIRST-LAST\"");
+  EXPECT_EQ(about("1.5"), "seeds must be whole numbers, \"FIRST-LAST\", or a list of these");
+}
+
+TEST(CampaignPlan, AScenarioThatIsNoTextIsSaidOnce) {
+  const std::string rest = "learners = \"echo\"\nseeds = 1\n";
+  EXPECT_EQ(complaint("format = 1\nscenario = 3\n" + rest), "c.toml: line 2: scenario must be text in quotes");
+  EXPECT_EQ(complaint("format = 1\nscenario = \"\"\n" + rest), "c.toml: scenario is missing");
+  EXPECT_EQ(complaint("format = 1\n" + rest), "c.toml: scenario is missing");
 }
 
 TEST(CampaignPlan, TooManyRunsAreRefusedBeforeTheyArePlanned) {

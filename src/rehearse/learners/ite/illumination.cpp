@@ -1,15 +1,13 @@
 #include "rehearse/learners/ite/illumination.hpp"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/files.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/rollout/imagine.hpp"
@@ -178,12 +176,9 @@ class Illumination {
 /// An archive that somebody made. It is taken at its word, since on another processor a walk ends elsewhere. Throws
 /// InvalidInput.
 qd::Search read_archive(const std::string& file, const Task& task, const policy::Policy& policy) {
-  std::error_code ignored;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || !std::filesystem::is_regular_file(file, ignored))
-    throw InvalidInput(fmt::format("archive.file = {}: there is no such file, or it cannot be read", file));
-  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  qd::Search search = qd::from_bytes(bytes, "archive.file = " + file);
+  const RegularFile bytes(file, O_RDONLY, Links::follow);
+  if (!bytes.open()) throw InvalidInput(fmt::format("archive.file = {}: {}", file, bytes.problem()));
+  qd::Search search = qd::from_bytes(bytes.read(), "archive.file = " + file);
   const Index parameters = search.archive.parameters(), dimensions = search.archive.niches().dimensions();
   const auto descriptors = static_cast<Index>(task.descriptor_bounds.size());
   Violations violations;
@@ -215,7 +210,7 @@ void IlluminationOptions::fields(FieldVisitor& v) {
   v.integer("niches", niches, between(1, 1e7));
   v.integer("bins", bins, between(1, 1e6));
   v.integer("evaluations", evaluations, at_least(1));
-  v.number("box", box, above(0));
+  v.number("box", box, between(1e-6, 1e6));
   v.group("search", search);
 }
 

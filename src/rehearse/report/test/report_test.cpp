@@ -1,10 +1,12 @@
 #include "rehearse/report/report.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
@@ -299,6 +301,50 @@ TEST_F(ReportTest, WhatIsNoNumberOrNoMotionIsNamed) {
   EXPECT_EQ(motion_problem("[]", whole), "motion/trial-002.json: it is no motion");
   EXPECT_EQ(motion_problem(whole, R"({"frames":[["x",2,3,4]]})"),
             "motion/prediction-002.json: it has no frames of 4 numbers each");
+}
+
+TEST_F(ReportTest, HostileFilesAreProblems) {
+  write_run(folder_);
+  const auto problem_with = [&](const std::string& text) {
+    write(folder_ / "motion/trial-002.json", text);
+    const Lines all = problems_of(read_folder(folder_));
+    return all.size() == 1 ? all.front() : fmt::format("{} problems", all.size());
+  };
+  const std::string where = "motion/trial-002.json: ";
+  const std::string deep = where + "it is nested deeper than 64 levels";
+  EXPECT_EQ(problem_with(std::string(100000, '[')), deep);
+  EXPECT_EQ(problem_with(std::string(100000, '[') + std::string(100000, ']')), deep);
+  std::string objects;
+  for (int i = 0; i < 100000; ++i) objects += "{\"a\":";
+  EXPECT_EQ(problem_with(objects), deep);
+  EXPECT_EQ(problem_with(R"({"bodies":[],"frames":[[1e999]]})"), where + "it has a number that is too large");
+}
+
+TEST_F(ReportTest, WaitsForNoFifoAndFollowsNoLink) {
+  write_run(folder_);
+  for (const char* file : {"motion/trial-002.json", "trajectories/trial-001.csv", "timings.csv", "checkpoint"}) {
+    fs::remove(folder_ / file);
+    ASSERT_EQ(::mkfifo((folder_ / file).c_str(), 0600), 0);
+  }
+  fs::remove(folder_ / "notes.csv");
+  fs::create_symlink("errors.csv", folder_ / "notes.csv");
+  const std::string no_file = ": it is no regular file";
+  EXPECT_EQ(problems_of(read_folder(folder_)),
+            (Lines{"timings.csv" + no_file, "notes.csv: it is a link", "checkpoint" + no_file,
+                   "trajectories/trial-001.csv" + no_file, "motion/trial-002.json" + no_file}));
+  fs::remove(folder_ / "spec.toml");
+  ASSERT_EQ(::mkfifo((folder_ / "spec.toml").c_str(), 0600), 0);
+  EXPECT_EQ(error_of([&] { read_folder(folder_); }), (folder_ / "spec.toml").string() + no_file);
+}
+
+TEST_F(ReportTest, ACampaignWaitsForNoFifo) {
+  write_campaign();
+  const fs::path file = folder_ / "runs/run-1/trajectories/trial-001.csv";
+  fs::remove(file);
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  const Lines problems = problems_of(read_folder(folder_));
+  EXPECT_NE(std::find(problems.begin(), problems.end(), "runs/run-1/trajectories/trial-001.csv: it is no regular file"),
+            problems.end());
 }
 
 TEST_F(ReportTest, ADamagedRunIsReportedWithoutWhatIsDamaged) {

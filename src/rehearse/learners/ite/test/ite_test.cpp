@@ -249,7 +249,7 @@ TEST(Illumination, TakesAnArchiveFromAFile) {
   EXPECT_EQ(refused(setting()).find("archive.file = " + file + ": "), 0U) << refused(setting());
   EXPECT_EQ(builder(options)->violations(setting().task, *setting().policy).size(), 1U) << "before anything runs";
   std::filesystem::remove(file);
-  EXPECT_EQ(refused(setting()), "archive.file = " + file + ": there is no such file, or it cannot be read");
+  EXPECT_EQ(refused(setting()), "archive.file = " + file + ": it is not there");
 }
 
 TEST(Ite, RefusesToGoOnInAnotherArchive) {
