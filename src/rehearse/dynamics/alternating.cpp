@@ -129,7 +129,7 @@ class Search {
     std::vector<Estimate> all{given};
     if (!kind_.least_squares_start) return all;
     all.push_back(given);
-    all.back().phi = least_squares(estimation.residuals, *estimation.prior, given.phi, kind_.least_squares.subplex).phi;
+    all.back().phi = least_squares(estimation.residuals, *estimation.prior, given.phi, kind_.least_squares).phi;
     return all;
   }
 

@@ -6,6 +6,7 @@ namespace rehearse::dynamics {
 namespace {
 
 constexpr double kDifferences[] = {1e-5, 0.02};  // of a box; the larger where the smaller moves nothing
+constexpr double kPreciseStep = 1e-3;            // between five points
 
 Matrix slope(const std::function<Matrix(const Vector&)>& of, const Vector& z, const Matrix& at, Index i) {
   const double inwards = z(i) < 0.5 ? 1 : -1;
@@ -45,6 +46,21 @@ std::vector<Matrix> slopes(const std::function<Matrix(const Vector&)>& of, const
   std::vector<Matrix> all;
   for (Index i = 0; i < z.size(); ++i) all.push_back(slope(of, z, at, i));
   return all;
+}
+
+PreciseSlopes precise_slopes(const std::function<Matrix(const Vector&)>& of, const Vector& z, const Matrix& at) {
+  PreciseSlopes result;
+  for (Index i = 0; i < z.size(); ++i) {
+    const double step = z(i) < 0.5 ? kPreciseStep : -kPreciseStep;
+    const auto difference = [&](int steps) -> Matrix { return of(z + steps * step * Vector::Unit(z.size(), i)) - at; };
+    const Matrix d2 = difference(2), d4 = difference(4);
+    Matrix slope = (48 * difference(1) - 36 * d2 + 16 * difference(3) - 3 * d4) / (12 * step);
+    Matrix wider = (48 * d2 - 36 * d4 + 16 * difference(6) - 3 * difference(8)) / (24 * step);
+    if (!slope.allFinite() || !wider.allFinite() || slope.isZero(0)) slope = wider = dynamics::slope(of, z, at, i);
+    result.errors.push_back(wider - slope);
+    result.values.push_back(std::move(slope));
+  }
+  return result;
 }
 
 }  // namespace rehearse::dynamics

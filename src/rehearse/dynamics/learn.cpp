@@ -7,7 +7,6 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/alternating.hpp"
 #include "rehearse/dynamics/estimate.hpp"
-#include "rehearse/dynamics/least_squares.hpp"
 #include "rehearse/dynamics/measurement_noise.hpp"
 #include "rehearse/dynamics/residuals.hpp"
 #include "rehearse/dynamics/servos.hpp"
@@ -122,7 +121,7 @@ class NestedSearch {
     best_ = unfitted(phi, estimation_.residuals.scale().size(), kernels);
     Vector from = phi;
     if (kind.least_squares_start && prior.space.has_tunable()) {
-      const Vector other = least_squares(estimation_.residuals, prior, phi, kind.least_squares.subplex).phi;
+      const Vector other = least_squares(estimation_.residuals, prior, phi, kind.least_squares).phi;
       const double given = score(phi);
       if (score(other) > given) from = other;
     }
@@ -167,7 +166,7 @@ Learned learn_kind(const GpMi& kind, const Problem& problem) {
 Learned learn_kind(const Mi& kind, const Problem& problem) {
   const prior::Prior& prior = *problem.prior;
   const Residuals residuals(problem.data, problem.features);
-  const Identified identified = least_squares(residuals, prior, problem.start.phi, kind.subplex);
+  const Identified identified = least_squares(residuals, prior, problem.start.phi, kind);
   Learned learned;
   learned.model = std::make_shared<SimulatorModel>(prior, identified.phi);
   learned.state.phi = identified.phi;

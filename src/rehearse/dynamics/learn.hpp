@@ -12,6 +12,7 @@
 #include "rehearse/core/feature_map.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/dynamics/least_squares.hpp"
 #include "rehearse/dynamics/phi_posterior.hpp"
 #include "rehearse/dynamics/score.hpp"
 #include "rehearse/gp/fit.hpp"
@@ -67,13 +68,6 @@ struct ResidualGpOptions : GpOptions {
 struct FixedPrior {
   ResidualGpOptions gp;
   void fields(FieldVisitor& v) { v.group("gp", gp); }
-};
-
-/// How the φ of the least squared one-step error is found.
-struct LeastSquares {
-  // The authors' code: 2000 evaluations, tolerances 1e-6, not repeated.
-  optim::SubplexOptions subplex{.max_evaluations = 4000, .x_tolerance = 1e-6, .value_tolerance = 1e-6, .repeat = true};
-  void fields(FieldVisitor& v) { v.group("subplex", subplex); }
 };
 
 /// The prior's parameters alone, by the squared one-step error; variance 0.

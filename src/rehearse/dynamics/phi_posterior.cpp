@@ -4,27 +4,25 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "rehearse/dynamics/coordinates.hpp"
+#include "rehearse/dynamics/doubts.hpp"
+#include "rehearse/dynamics/reach.hpp"
 #include "rehearse/gp/evidence.hpp"
 
 namespace rehearse::dynamics {
 namespace {
 
-constexpr double kNormal = 1.959963984540054;  // standard deviations of a normal distribution hold 95 % on both sides
-constexpr double kBoxPrecision = 12;           // of a uniform distribution, in units of the box
-constexpr double kLeastDeviation = 1e-6;       // of white residuals, as a fraction of the changes: gp::Bounds' floor
-constexpr double kUnsure = 0.1;                // half an interval that is worth a sentence, as a fraction of the box
-constexpr double kOthersKnown = 0.3;  // of a deviation is left once the others are known: they cannot be told apart.
-                                      // Of two parameters that is a correlation of 0.95
-constexpr double kLinked = 0.5;       // correlation of those that are named together
-constexpr double kAtEnd = 1e-3;       // of the box
+constexpr double kBoxPrecision = 12;        // of a uniform distribution, in units of the box
+constexpr double kLeastDeviation = 1e-6;    // of white residuals, as a fraction of the changes: gp::Bounds' floor
+constexpr double kErrors = 2;               // times those of derivatives by differences: less is not resolved
+constexpr double kWeak = 0.1;               // deviation, as a fraction of the boxes, of a direction that is followed
+constexpr double kTakesPart = 0.05;         // of a unit direction: the least component of a parameter that is
+constexpr double kFar = 3.841458820694124;  // of a sum of squares, above its minimum: 95 % of one direction
 
 /// An output's residuals y: their covariance K = L Lᵀ and their misfit.
 struct Spread {
@@ -70,149 +68,207 @@ Spread spread_of_white(const ConstVectorView& y, double scale, Index parameters,
   return {[deviation](const Matrix& Y) { return Matrix(Y / deviation); }, std::max(0.0, y.squaredNorm() - white) / n};
 }
 
-/// What an output says of z near a point: the precision, and the gradient of its log evidence.
+/// What an output says of z near a point.
 struct Told {
-  Matrix precision;
-  Vector gradient;
+  Matrix factor;    // F (rows × q): the precision is Fᵀ F, which would lose directions that are hardly known
+  Vector gradient;  // q, of the log evidence
+  Matrix data;      // F of the data alone, without the misfit
 };
 
 /// Jᵀ C⁻¹ J and −Jᵀ C⁻¹ y, with C = K + extra Q Qᵀ and Q an orthonormal basis of the columns of J (n × q). NaN if it
 /// cannot be computed.
 Told told_by(const Matrix& J, const Vector& y, const Spread& spread, double extra) {
   const Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Index rank = svd.rank();
-  if (rank == 0) return {Matrix::Zero(J.cols(), J.cols()), Vector::Zero(J.cols())};
+  const Index rank = svd.rank(), q = J.cols();
+  if (rank == 0) return {Matrix(0, q), Vector::Zero(q), Matrix(0, q)};
   const Matrix whitened = spread.whiten(svd.matrixU().leftCols(rank));
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(whitened.transpose() * whitened);
   if (!whitened.allFinite() || eigen.info() != Eigen::Success) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    return {Matrix::Constant(J.cols(), J.cols(), nan), Vector::Constant(J.cols(), nan)};
+    return {Matrix::Constant(1, q, nan), Vector::Constant(q, nan), Matrix::Constant(1, q, nan)};
   }
   const Vector precisions = eigen.eigenvalues().cwiseMax(0);
   const Vector shrink = (1 + extra * precisions.array()).inverse();
   const Matrix turned =
       svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).asDiagonal() * eigen.eigenvectors();
   const Vector pull = eigen.eigenvectors().transpose() * (whitened.transpose() * spread.whiten(y));
-  return {turned * shrink.cwiseProduct(precisions).asDiagonal() * turned.transpose(),
-          -turned * shrink.cwiseProduct(pull)};
+  return {shrink.cwiseProduct(precisions).cwiseSqrt().asDiagonal() * turned.transpose(),
+          -turned * shrink.cwiseProduct(pull), precisions.cwiseSqrt().asDiagonal() * turned.transpose()};
+}
+
+Matrix stacked(const std::vector<Told>& all, Matrix Told::*which, Index q) {
+  Matrix rows(0, q);
+  for (const Told& told : all) {
+    const Matrix& next = told.*which;
+    rows.conservativeResize(rows.rows() + next.rows(), q);
+    rows.bottomRows(next.rows()) = next;
+  }
+  return rows;
+}
+
+/// Directions of z (q × q), and the precision of each: that of the boxes, and of these factors what differences
+/// resolve. `errors` is the Gram matrix of those of the whitened derivatives.
+struct Directions {
+  Matrix vectors;
+  Vector precisions;
+};
+Directions directions_of(const Matrix& factor, const Matrix& errors) {
+  const Index q = errors.cols();
+  Matrix with_box(factor.rows() + q, q);
+  with_box << factor, std::sqrt(kBoxPrecision) * Matrix::Identity(q, q);
+  const Eigen::JacobiSVD<Matrix> svd(with_box, Eigen::ComputeThinV);
+  const Matrix& V = svd.matrixV();
+  const Vector unresolved = kErrors * kErrors * (V.transpose() * errors * V).diagonal();
+  return {V, (svd.singularValues().cwiseAbs2() - unresolved).cwiseMax(kBoxPrecision)};
 }
 
 /// Of z (q); where the search stopped short of the best z in the box, the way that is left counts as a standard
 /// deviation. Empty if it cannot be computed.
-Matrix covariance_of(const std::vector<Told>& all, const Vector& z) {
-  const Index q = z.size();
-  Matrix precision = kBoxPrecision * Matrix::Identity(q, q);
-  Vector gradient = Vector::Zero(q);
-  for (const Told& told : all) precision += told.precision, gradient += told.gradient;
-  const Eigen::LLT<Matrix> factor(precision);
-  if (!precision.allFinite() || factor.info() != Eigen::Success) return {};
-  const Vector left = (z + factor.solve(gradient)).cwiseMax(0).cwiseMin(1) - z;
-  return factor.solve(Matrix::Identity(q, q)) + left * left.transpose();
+Matrix covariance_of(const std::vector<Told>& all, const Matrix& errors, const Vector& z) {
+  Vector gradient = Vector::Zero(z.size());
+  for (const Told& told : all) gradient += told.gradient;
+  const Matrix factor = stacked(all, &Told::factor, z.size());
+  if (!factor.allFinite() || !gradient.allFinite() || !errors.allFinite()) return {};
+  const Directions directions = directions_of(factor, errors);
+  const Matrix root = directions.vectors * directions.precisions.cwiseSqrt().cwiseInverse().asDiagonal();
+  const Matrix covariance = root * root.transpose();
+  const Vector left = (z + covariance * gradient).cwiseMax(0).cwiseMin(1) - z;
+  return covariance + left * left.transpose();
 }
 
-/// The posterior around φ, given what is known of each output's residuals.
-std::optional<PhiPosterior> posterior_of(const Residuals& residuals, const prior::Prior& prior, const Vector& phi,
-                                         const Residuals::Rows& rows, const std::function<Spread(Index)>& spread_of,
-                                         const PhiPosteriorOptions& options, const Evaluator& evaluator) {
-  const Coordinates coordinates(prior.space, phi);
-  const Index q = coordinates.size(), outputs = rows.targets.cols();
-  const auto targets = [&](const Vector& z) -> Matrix {
-    Matrix all = residuals.targets(&prior, coordinates.phi(z));
-    if (rows.kept.empty()) return all;
-    return all(rows.kept, Eigen::all);
-  };
-  const auto derivatives = slopes(targets, coordinates.start(), rows.targets);
-  std::vector<Told> told(static_cast<std::size_t>(outputs));
-  evaluator.for_each(outputs, [&](Index e) {
-    Matrix J(rows.targets.rows(), q);
-    for (Index i = 0; i < q; ++i) J.col(i) = derivatives[static_cast<std::size_t>(i)].col(e);
-    const Spread spread = spread_of(e);
-    const double extra = spread.misfit * static_cast<double>(J.rows()) / options.misfit_observations;
-    told[static_cast<std::size_t>(e)] = told_by(J, rows.targets.col(e), spread, extra);
-  });
-  const Matrix covariance = covariance_of(told, coordinates.start());
-  if (covariance.size() == 0 || !covariance.allFinite()) return {};
-  const auto scale = coordinates.widths().asDiagonal();
-  PhiPosterior posterior{.mean = phi(coordinates.parameters()), .covariance = scale * covariance * scale};
-  for (const Index i : coordinates.parameters()) posterior.parameters.push_back(prior.space[i]);
-  return posterior;
+/// Those of z (q × some) that the data alone leave to the boxes.
+Matrix weak_directions(const std::vector<Told>& all, const Matrix& errors) {
+  const Directions directions = directions_of(stacked(all, &Told::data, errors.cols()), errors);
+  std::vector<Index> weak;
+  for (Index k = 0; k < directions.precisions.size(); ++k)
+    if (directions.precisions(k) < kBoxPrecision + 1 / (kWeak * kWeak)) weak.push_back(k);
+  return directions.vectors(Eigen::all, weak);
 }
+
+/// The residuals around a φ, with what is known of their spread.
+class Around {
+ public:
+  Around(const Residuals& residuals, const prior::Prior& prior, const Vector& phi, const Residuals::Rows& rows,
+         const Evaluator& evaluator)
+      : residuals_(residuals),
+        prior_(prior),
+        phi_(phi),
+        rows_(rows),
+        evaluator_(evaluator),
+        coordinates_(prior.space, phi) {}
+
+  /// Empty if a number is not finite.
+  std::optional<PhiPosterior> posterior(const std::function<Spread(Index)>& spread_of,
+                                        const PhiPosteriorOptions& options) {
+    const Index q = coordinates_.size(), outputs = rows_.targets.cols();
+    const Vector z = coordinates_.start();
+    const PreciseSlopes slopes =
+        precise_slopes([this](const Vector& other) { return targets(other); }, z, rows_.targets);
+    std::vector<Told> told(static_cast<std::size_t>(outputs));
+    std::vector<Matrix> errors(told.size());
+    spreads_.resize(told.size());
+    evaluator_.for_each(outputs, [&](Index e) {
+      const auto k = static_cast<std::size_t>(e);
+      const Matrix J = of_output(slopes.values, e);
+      spreads_[k] = spread_of(e);
+      const double extra = spreads_[k].misfit * static_cast<double>(J.rows()) / options.misfit_observations;
+      told[k] = told_by(J, rows_.targets.col(e), spreads_[k], extra);
+      const Matrix unresolved = spreads_[k].whiten(of_output(slopes.errors, e));
+      errors[k] = unresolved.transpose() * unresolved;
+    });
+    const Matrix all_errors = std::accumulate(errors.begin(), errors.end(), Matrix(Matrix::Zero(q, q)));
+    const Matrix covariance = covariance_of(told, all_errors, z);
+    if (covariance.size() == 0 || !covariance.allFinite()) return {};
+    const auto scale = coordinates_.widths().asDiagonal();
+    PhiPosterior posterior{.mean = phi_(coordinates_.parameters()), .covariance = scale * covariance * scale};
+    for (const Index i : coordinates_.parameters()) posterior.parameters.push_back(prior_.space[i]);
+    follow(weak_directions(told, all_errors), posterior);
+    return posterior;
+  }
+
+ private:
+  Matrix targets(const Vector& z) const {
+    Matrix all = residuals_.targets(&prior_, coordinates_.phi(z));
+    if (rows_.kept.empty()) return all;
+    return all(rows_.kept, Eigen::all);
+  }
+
+  static Matrix of_output(const std::vector<Matrix>& slopes, Index e) {
+    Matrix J(slopes.front().rows(), static_cast<Index>(slopes.size()));
+    for (Index i = 0; i < J.cols(); ++i) J.col(i) = slopes[static_cast<std::size_t>(i)].col(e);
+    return J;
+  }
+
+  /// Columns of an output each, one output below the other.
+  Matrix whitened(const std::function<Matrix(Index)>& of_output) const {
+    std::vector<Matrix> parts(spreads_.size());
+    evaluator_.for_each(static_cast<Index>(parts.size()), [&](Index e) {
+      const auto k = static_cast<std::size_t>(e);
+      parts[k] = spreads_[k].whiten(of_output(e));
+    });
+    const Index n = parts.front().rows();
+    Matrix all(n * static_cast<Index>(parts.size()), parts.front().cols());
+    for (std::size_t k = 0; k < parts.size(); ++k) all.middleRows(static_cast<Index>(k) * n, n) = parts[k];
+    return all;
+  }
+
+  /// The whitened residuals as a function of z.
+  optim::SquaresProblem problem() const {
+    const auto errors = [this](const Vector& z) -> Vector {
+      const Matrix at = targets(z);
+      return whitened([&](Index e) { return Matrix(at.col(e)); });
+    };
+    const auto derivatives = [this](const Vector& z, const Vector&) {
+      const auto all = slopes([this](const Vector& other) { return targets(other); }, z, targets(z));
+      return whitened([&](Index e) { return of_output(all, e); });
+    };
+    return {errors, derivatives, Vector::Zero(coordinates_.size()), Vector::Ones(coordinates_.size())};
+  }
+
+  /// How far the parameters that take part in these directions get.
+  void follow(const Matrix& directions, PhiPosterior& posterior) const {
+    std::vector<Index> moved;
+    for (Index i = 0; i < directions.rows(); ++i)
+      if (directions.row(i).norm() > kTakesPart) moved.push_back(i);
+    if (moved.empty()) return;
+    Reach found = reach(problem(), coordinates_.start(), moved, kFar);
+    const Vector &low = coordinates_.low(), &width = coordinates_.widths();
+    for (const Index i : moved)
+      if (auto& range = found.ranges[static_cast<std::size_t>(i)])
+        range = {low(i) + width(i) * range->low, low(i) + width(i) * range->high};
+    posterior.reach = std::move(found.ranges);
+    posterior.alternatives = (width.asDiagonal() * found.points).colwise() + low;
+    posterior.unknown_directions = directions.cols();
+  }
+
+  const Residuals& residuals_;
+  const prior::Prior& prior_;
+  const Vector& phi_;
+  const Residuals::Rows& rows_;
+  const Evaluator& evaluator_;
+  const Coordinates coordinates_;
+  std::vector<Spread> spreads_;
+};
 
 bool tunes_nothing(const prior::Prior* prior) {
   return !prior || prior->space.of_kind(Parameter::Kind::continuous).empty();
-}
-
-double width(const Interval& box) { return box.high - box.low; }
-
-/// About parameters that the data cannot tell apart, or one that could be anything in a range.
-std::string doubt(const std::vector<std::string>& names, const Interval& range) {
-  if (names.size() == 1)
-    return fmt::format("{} is not determined by these trials: {:.3g} to {:.3g}", names.front(), range.low, range.high);
-  return fmt::format("{} and {} cannot be told apart by these trials", fmt::join(names.begin(), names.end() - 1, ", "),
-                     names.back());
-}
-
-Matrix correlations(const Matrix& covariance) {
-  const Vector inverse = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  return inverse.asDiagonal() * covariance * inverse.asDiagonal();
-}
-
-/// These parameters in groups: those that the data cannot tell apart together, each of the others alone.
-std::vector<std::vector<Index>> groups_of(std::vector<Index> parameters, const Matrix& covariance) {
-  const Matrix precision = covariance.llt().solve(Matrix::Identity(covariance.rows(), covariance.cols()));
-  const Matrix links = correlations(covariance).cwiseAbs().cwiseMax(correlations(precision).cwiseAbs());
-  const auto needs_others = [&](Index i) {
-    return 1 / (covariance(i, i) * precision(i, i)) < kOthersKnown * kOthersKnown;
-  };
-  std::vector<std::vector<Index>> groups;
-  while (!parameters.empty()) {
-    std::vector<Index> group{parameters.front()};
-    parameters.erase(parameters.begin());
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      const auto apart = [&, from = group[i]](Index to) {
-        return !needs_others(from) || !needs_others(to) || links(from, to) < kLinked;
-      };
-      const auto linked = std::stable_partition(parameters.begin(), parameters.end(), apart);
-      group.insert(group.end(), linked, parameters.end());
-      parameters.erase(linked, parameters.end());
-    }
-    std::sort(group.begin(), group.end());
-    groups.push_back(std::move(group));
-  }
-  return groups;
 }
 
 }  // namespace
 
 std::vector<Interval> PhiPosterior::intervals() const {
   std::vector<Interval> all(parameters.size());
-  for (Index i = 0; i < mean.size(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto i = static_cast<Index>(k);
     const double half = kNormal * std::sqrt(covariance(i, i));
-    all[k] = {std::max(parameters[k].box.low, mean(i) - half), std::min(parameters[k].box.high, mean(i) + half)};
+    Interval range{mean(i) - half, mean(i) + half};
+    if (!reach.empty() && reach[k]) range = {std::min(range.low, reach[k]->low), std::max(range.high, reach[k]->high)};
+    all[k] = {std::max(parameters[k].box.low, range.low), std::min(parameters[k].box.high, range.high)};
   }
   return all;
 }
 
-std::vector<std::string> PhiPosterior::doubts() const {
-  const auto of = [&](Index i) -> const Parameter& { return parameters[static_cast<std::size_t>(i)]; };
-  std::vector<Index> unsure;
-  for (Index i = 0; i < mean.size(); ++i)
-    if (kNormal * std::sqrt(covariance(i, i)) > kUnsure * width(of(i).box)) unsure.push_back(i);
-  std::vector<std::string> sentences;
-  const std::vector<Interval> ranges = intervals();
-  for (const std::vector<Index>& group : groups_of(unsure, covariance)) {
-    std::vector<std::string> names;
-    for (const Index i : group) names.push_back(of(i).name);
-    sentences.push_back(doubt(names, ranges[static_cast<std::size_t>(group.front())]));
-  }
-  for (Index i = 0; i < mean.size(); ++i)
-    for (const double end : {of(i).box.low, of(i).box.high})
-      if (std::abs(mean(i) - end) <= kAtEnd * width(of(i).box))
-        sentences.push_back(
-            fmt::format("{} is at the end of its box, {:.3g}: a better value may lie beyond", of(i).name, end));
-  return sentences;
-}
+std::vector<std::string> PhiPosterior::doubts() const { return doubts_of(*this); }
 
 std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Estimate& estimate,
                                           const PhiPosteriorOptions& options) {
@@ -223,8 +279,8 @@ std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Es
     const gp::FitStart& kernel = estimate.kernels[static_cast<std::size_t>(e)];
     return spread_of_gp(*rows.inputs, kernel.hyperparameters, rows.targets.col(e));
   };
-  return posterior_of(estimation.residuals, *estimation.prior, estimate.phi, rows, spread_of, options,
-                      estimation.evaluator);
+  return Around(estimation.residuals, *estimation.prior, estimate.phi, rows, estimation.evaluator)
+      .posterior(spread_of, options);
 }
 
 std::optional<PhiPosterior> phi_posterior(const Residuals& residuals, const prior::Prior& prior, const Vector& phi,
@@ -237,7 +293,7 @@ std::optional<PhiPosterior> phi_posterior(const Residuals& residuals, const prio
   const auto spread_of = [&](Index e) {
     return spread_of_white(rows.targets.col(e), residuals.scale()(e), parameters, nearest);
   };
-  return posterior_of(residuals, prior, phi, rows, spread_of, options, evaluator);
+  return Around(residuals, prior, phi, rows, evaluator).posterior(spread_of, options);
 }
 
 }  // namespace rehearse::dynamics

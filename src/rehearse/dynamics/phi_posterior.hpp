@@ -11,17 +11,26 @@
 
 namespace rehearse::dynamics {
 
+/// Standard deviations of a normal distribution that hold 95 % on both sides.
+inline constexpr double kNormal = 1.959963984540054;
+
 /// What the data say of the prior's continuous parameters: a normal distribution around the φ learned.
 struct PhiPosterior {
   std::vector<Parameter> parameters;  // q: the continuous ones, with their boxes
   Vector mean;                        // q, the φ learned
   Matrix covariance;                  // q × q, positive definite
 
+  // Where the data leave a direction to the boxes, the valley there is followed: how far each parameter gets in it
+  // (empty: not at all), φ on the way (q × points), and how many such directions there are.
+  std::vector<std::optional<Interval>> reach = {};
+  Matrix alternatives = {};
+  Index unknown_directions = 0;
+
   /// 95 %, of each parameter whatever the others are, inside its box.
   std::vector<Interval> intervals() const;
 
   /// What the data cannot tell, a sentence each: parameters that only together fit or do not, those that could be
-  /// nearly anything, and those at the end of their box.
+  /// nearly anything, and those at the end of their box; with the former what is known of them, if that is simple.
   std::vector<std::string> doubts() const;
 };
 
@@ -37,8 +46,10 @@ struct PhiPosteriorOptions {
 /// 2.7), plus that of a uniform distribution in the box. What φ cannot explain looks like the prior's own doing, so
 /// that GPs alone take it for far less than it is (Brynjarsdóttir and O'Hagan 2014): K_e has the misfit's mean
 /// square × rows / misfit_observations added in each direction of J_e. The misfit is the part of the residuals that
-/// the GP predicts from other rows. Empty if the prior has no continuous parameter or the estimate no finite score, or
-/// if a number is not finite.
+/// the GP predicts from other rows. Along directions of which the data alone tell less than a tenth of the boxes, or
+/// no more than derivatives by differences can resolve, the normal distribution is not trusted: there the sum of
+/// squares itself says how far φ may go (reach.hpp). Empty if the prior has no continuous parameter or the estimate no
+/// finite score, or if a number is not finite.
 std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Estimate& estimate,
                                           const PhiPosteriorOptions& options);
 
