@@ -30,10 +30,6 @@ Index Adaptation::next() const {
   return best;
 }
 
-Index Adaptation::best_observed() const {
-  return tried_[static_cast<std::size_t>(std::max_element(observed_.begin(), observed_.end()) - observed_.begin())];
-}
-
 void Adaptation::observe(Index elite, double performance) {
   if (!stopped_.empty()) return;
   tried_.push_back(elite);
@@ -74,7 +70,7 @@ void Adaptation::condition() {
 
 void Adaptation::judge() {
   const double best = *std::max_element(observed_.begin(), observed_.end()), expected = means_.maxCoeff();
-  if (options_.stop_ratio > 0 && best >= options_.stop_ratio * expected)
+  if (options_.stop_ratio > 0 && expected > 0 && best >= options_.stop_ratio * expected)
     stopped_ =
         fmt::format("after trial {} the best observed is {:.3g} of the largest predicted", trials(), best / expected);
   else if (trials() >= options_.max_trials)

@@ -14,8 +14,9 @@ struct AdaptationOptions {
   double signal_variance = 1;     // σ_f²
   double noise_variance = 0.001;  // of an observed performance
   double kappa = 0.05;            // of the upper confidence bound
-  double stop_ratio = 0.9;        // stop once the best observed ≥ so much of the largest predicted; 0: never
-  Index max_trials = 20;          // or after so many
+  double stop_ratio = 0.9;  // stop once the best observed ≥ so much of the largest predicted, where that is above
+                            // 0; 0: never
+  Index max_trials = 20;    // or after so many
   void fields(FieldVisitor& v);
 };
 
@@ -36,9 +37,6 @@ class Adaptation {
 
   /// Why there is nothing more to try; empty: there is.
   const std::string& stopped() const { return stopped_; }
-  /// The elite of the best performance observed.
-  Index best_observed() const;
-
   const Vector& means() const { return means_; }            // n, expected performances
   const Vector& deviations() const { return deviations_; }  // n, their standard deviations, without noise
 

@@ -1,5 +1,7 @@
 #include "rehearse/learners/ite/ite.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -15,8 +17,13 @@ using nlohmann::json;
 
 constexpr std::uint64_t kUnknown = 0;
 
-/// What a policy can earn at least: performances are counted from here.
+/// What a policy can earn at least.
 double floor_of(const Task& task) { return static_cast<double>(task.horizon) * task.reward_floor; }
+
+struct Trial {
+  double total_reward = 0;
+  bool fell = false;
+};
 
 class Ite final : public Learner {
  public:
@@ -30,8 +37,8 @@ class Ite final : public Learner {
   void tell(const Episode& episode) override {
     ask();
     tried_.push_back(elite_);
-    returns_.push_back(episode.total_reward());
-    learn(returns_.size() - 1);
+    trials_.push_back({episode.total_reward(), episode.ended});
+    learn(trials_.size() - 1);
     proposal_.reset();
   }
 
@@ -44,8 +51,8 @@ class Ite final : public Learner {
     state.at("tried").get_to(tried_);
     learned_in_ = state.value("archive", kUnknown);
     if (tried_.size() != episodes.size()) throw InvalidInput("the learner's state does not fit the episodes");
-    returns_.clear();
-    for (const Episode& episode : episodes) returns_.push_back(episode.total_reward());
+    trials_.clear();
+    for (const Episode& episode : episodes) trials_.push_back({episode.total_reward(), episode.ended});
     adaptation_.reset();
     proposal_.reset();
   }
@@ -54,17 +61,17 @@ class Ite final : public Learner {
   Proposal propose() {
     Proposal proposal{.policy = setting_.policy};
     proposal.search_s = seconds([&] { prepare(); });
-    elite_ = adaptation_->stopped().empty() ? adaptation_->next() : adaptation_->best_observed();
+    elite_ = adaptation_->stopped().empty() ? adaptation_->next() : best_tried();
     proposal.theta = search_->archive.solution(elite_);
-    proposal.predicted_return = floor_of(setting_.task) + unit_ * adaptation_->means()(elite_);
+    proposal.predicted_return = unit_ * adaptation_->means()(elite_);
     proposal.phi = setting_.prior->space.values();
     proposal.model = std::make_shared<dynamics::SimulatorModel>(*setting_.prior, *proposal.phi);
     proposal.archive = bytes_;
-    if (returns_.empty()) {
+    if (trials_.empty()) {
       proposal.rollouts = static_cast<Index>(search_->evaluations);
       proposal.failed_rollouts = static_cast<Index>(search_->failed);
     }
-    if (static_cast<std::size_t>(adaptation_->trials()) == returns_.size() && !adaptation_->stopped().empty())
+    if (static_cast<std::size_t>(adaptation_->trials()) == trials_.size() && !adaptation_->stopped().empty())
       proposal.notes.push_back("the best policy is tried again from now on: " + adaptation_->stopped());
     return proposal;
   }
@@ -78,16 +85,18 @@ class Ite final : public Learner {
       check_archive();
     }
     const qd::Archive& archive = search_->archive;
-    unit_ = archive.statistics().best - floor_of(setting_.task);
+    const double best = archive.statistics().best;
+    fall_scores_zero_ = best > 0;
+    unit_ = best > 0 ? best : best - floor_of(setting_.task);
     if (!(unit_ > 0)) unit_ = 1;  // nothing earns more than failing
     Matrix descriptors(archive.niches().dimensions(), archive.size());
     Vector promised(archive.size());
     for (Index e = 0; e < archive.size(); ++e) {
       descriptors.col(e) = archive.niches().to_unit(archive.descriptor(e));
-      promised(e) = in_units(archive.performance(e));
+      promised(e) = archive.performance(e) / unit_;
     }
     adaptation_.emplace(std::move(descriptors), std::move(promised), options_.adaptation);
-    for (std::size_t trial = 0; trial < returns_.size(); ++trial) learn(trial);
+    for (std::size_t trial = 0; trial < trials_.size(); ++trial) learn(trial);
   }
 
   /// What was learned of elites by number says nothing about those of another archive.
@@ -111,7 +120,7 @@ class Ite final : public Learner {
       table.rows.row(e).head(D) = archive.descriptor(e).transpose();
       table.rows(e, D) = archive.performance(e);
     }
-    table.rows.col(D + 1) = (floor_of(setting_.task) + unit_ * adaptation_->means().array()).matrix();
+    table.rows.col(D + 1) = unit_ * adaptation_->means();
     table.rows.col(D + 2) = unit_ * adaptation_->deviations();
     return table;
   }
@@ -128,23 +137,32 @@ class Ite final : public Learner {
     return table;
   }
 
-  double in_units(double total_reward) const { return (total_reward - floor_of(setting_.task)) / unit_; }
+  /// The return; a fall scores 0 (the authors' code), unless nothing is promised to be better than that.
+  double performance(const Trial& trial) const { return trial.fell && fall_scores_zero_ ? 0 : trial.total_reward; }
+
+  /// The elite of the trial that earned most, of those that something was learned from. A fall earns what it earns.
+  Index best_tried() const {
+    const auto learned = trials_.begin() + adaptation_->trials();
+    const auto less = [](const Trial& a, const Trial& b) { return a.total_reward < b.total_reward; };
+    return tried_[static_cast<std::size_t>(std::max_element(trials_.begin(), learned, less) - trials_.begin())];
+  }
 
   void learn(std::size_t trial) {
     if (tried_[trial] < 0 || tried_[trial] >= search_->archive.size())
       throw InvalidInput(fmt::format("trial {}: the archive has no elite {}", trial + 1, tried_[trial]));
-    adaptation_->observe(tried_[trial], in_units(returns_[trial]));
+    adaptation_->observe(tried_[trial], performance(trials_[trial]) / unit_);
   }
 
   Setting setting_;
   Options options_;
   std::shared_ptr<const qd::Search> search_;
   std::shared_ptr<const std::string> bytes_;  // of the search
-  double unit_ = 1;                           // of performance: the best in the archive
+  double unit_ = 1;                           // of performance: the best in the archive, where that is above 0
+  bool fall_scores_zero_ = true;              // something is promised that is better than that
   std::optional<Adaptation> adaptation_;
   std::uint64_t learned_in_ = kUnknown;  // the checksum of the archive that `tried_` are in, where they were loaded
   std::vector<Index> tried_;             // elites
-  std::vector<double> returns_;
+  std::vector<Trial> trials_;
   Index elite_ = 0;  // of the proposal
   std::optional<Proposal> proposal_;
 };

@@ -23,6 +23,8 @@ constexpr std::array<Hip, kLegs> kHips = {{{-0.13, 0.04, 0.3},
 
 const char* name_of(Segment segment) { return std::array{"coxa", "femur", "tibia"}[static_cast<std::size_t>(segment)]; }
 
+Segment segment_of(Index joint) { return kSegments[static_cast<std::size_t>(joint % kJointsOfLeg)]; }
+
 SegmentModel model_of(Segment segment) {
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), left = Eigen::Vector3d::UnitY();
   switch (segment) {

@@ -17,6 +17,7 @@ enum class Segment { coxa, femur, tibia };
 inline constexpr std::array<Segment, kJointsOfLeg> kSegments = {Segment::coxa, Segment::femur, Segment::tibia};
 
 const char* name_of(Segment segment);
+Segment segment_of(Index joint);  // joints are numbered leg by leg
 
 inline const Eigen::Vector3d kTrunkSize{0.24, 0.20, 0.04};  // m
 inline constexpr double kTrunkMass = 1.031;                 // kg

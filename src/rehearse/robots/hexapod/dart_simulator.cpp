@@ -115,10 +115,11 @@ class DartWorld {
   }
 
   /// NaN if it is left where DART survives.
-  void change(const ConstVectorView& x, const ConstVectorView& u, int steps, Joints moved, VectorView dx) {
+  void change(const ConstVectorView& x, const ConstVectorView& u, int steps, Joints moved, double lag_s,
+              VectorView dx) {
     set(x);
     for (int i = 0; i < steps && sane(); ++i) {
-      command(u, moved == Joints::driven ? kStep * (steps - i) : kServoTime);
+      command(u, moved == Joints::driven ? kStep * (steps - i) : kServoTime + lag_s);
       if (sane()) step();
     }
     if (sane())
@@ -228,15 +229,15 @@ class Worlds {
 
 }  // namespace
 
-std::shared_ptr<const system::Simulator> make_dart_simulator(double dt_s, Joints moved) {
+std::shared_ptr<const system::Simulator> make_dart_simulator(double dt_s, Joints moved, double lag_s) {
   const auto worlds = std::make_shared<Worlds>();
   const int steps = static_cast<int>(std::lround(dt_s / kStep));
-  const auto change = [worlds, steps, moved](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi,
-                                             MatrixView dX) {
+  const auto change = [worlds, steps, moved, lag_s](const ConstMatrixView& X, const ConstMatrixView& U,
+                                                    const Vector& phi, MatrixView dX) {
     worlds->with(std::lround(phi(0)), [&](DartWorld& world) {
       Vector dx(X.cols());
       for (Index i = 0; i < X.rows(); ++i) {
-        world.change(X.row(i).transpose().eval(), U.row(i).transpose().eval(), steps, moved, dx);
+        world.change(X.row(i).transpose().eval(), U.row(i).transpose().eval(), steps, moved, lag_s, dx);
         dX.row(i) = dx.transpose();
       }
     });

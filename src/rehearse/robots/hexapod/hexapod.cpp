@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/errors.hpp"
 #include "rehearse/policy/gait.hpp"
 #include "rehearse/robots/hexapod/dart_simulator.hpp"
 #include "rehearse/robots/hexapod/drawing.hpp"
@@ -59,6 +60,8 @@ Task make_task(const Options& options) {
   task.actions = action_variables();
   task.start_mean = rest();
   task.start_std = Vector::Zero(kStateSize);
+  task.start_std.segment(kAngles, kJoints).setConstant(options.start_noise);
+  task.start_std(kRotation + 2) = options.start_noise;
   task.dt_s = kControlStep;
   task.horizon = options.horizon;
   task.reward = reward(options.drift_m, options.integral);
@@ -74,18 +77,29 @@ Task make_task(const Options& options) {
   return task;
 }
 
-std::optional<DamagedLeg> damaged_leg(const Options& options) {
-  if (options.damage == Options::Leg::none) return std::nullopt;
-  return DamagedLeg{static_cast<Index>(options.damage) - 1, options.kind};
+/// Damage that contradicts itself would leave a robot that nobody asked for.
+void check_damage(const Options& options) {
+  const bool first = options.damage != Options::Leg::none, second = options.second_damage != Options::Leg::none;
+  const bool removed = options.kind == Damage::removed, whole = options.joint == Options::Joint::all;
+  Violations violations;
+  violations.require(first || !second, "second_damage names a leg, but damage = none: name the first there");
+  violations.require(!first || options.damage != options.second_damage,
+                     "second_damage names the leg of damage, must be another one");
+  violations.require(first || (removed && whole), "damage_kind and damage_joint need a leg, but damage = none");
+  violations.require(!removed || whole, "damage_joint must be all where damage_kind = removed");
+  violations.throw_if_any();
 }
 
-std::optional<Index> removed_leg(const Options& options) {
-  const auto damaged = damaged_leg(options);
-  return damaged && damaged->damage == Damage::removed ? std::optional(damaged->leg) : std::nullopt;
+DamagedLegs damaged_legs(const Options& options) {
+  DamagedLegs damaged{.legs = {}, .damage = options.kind, .segment = std::nullopt};
+  for (const Options::Leg leg : {options.damage, options.second_damage})
+    if (leg != Options::Leg::none) damaged.legs.push_back(static_cast<Index>(leg) - 1);
+  if (options.joint != Options::Joint::all) damaged.segment = kSegments[static_cast<std::size_t>(options.joint) - 1];
+  return damaged;
 }
 
 std::shared_ptr<const system::Simulator> make_simulator(const Options& options, Joints moved) {
-  auto simulator = make_dart_simulator(kControlStep, moved);
+  auto simulator = make_dart_simulator(kControlStep, moved, options.servo_lag_s);
   return options.isolated ? system::isolated(simulator) : simulator;
 }
 
@@ -93,8 +107,14 @@ std::shared_ptr<const system::Simulator> make_simulator(const Options& options, 
 
 void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
-  v.choice("damage", damage, {"none", "rear-left", "mid-left", "front-left", "front-right", "mid-right", "rear-right"});
+  std::vector<std::string> legs{"none"};
+  legs.insert(legs.end(), kLegNames.begin(), kLegNames.end());
+  v.choice("damage", damage, legs);
+  v.choice("second_damage", second_damage, legs);
   v.choice("damage_kind", kind, {"removed", "blocked", "weak"});
+  v.choice("damage_joint", joint, {"all", "coxa", "femur", "tibia"});
+  v.number("start_noise", start_noise, between(0, 0.5));
+  v.number("servo_lag_s", servo_lag_s, between(0, 10));
   v.integer("horizon", horizon, between(1, 1e6));
   v.number("drift_m", drift_m, above(0));
   v.number("fall_reward", fall_reward, between(-1e6, 0));
@@ -103,14 +123,18 @@ void Options::fields(FieldVisitor& v) {
 }
 
 scenario::Scenario make(const Options& options) {
+  check_damage(options);
   const auto simulator = make_simulator(options, Joints::servos);
-  return {.name = "hexapod",
-          .task = make_task(options),
-          .make_plant = [options] { return make_mujoco_plant(options.plant, damaged_leg(options), kControlStep); },
-          .priors = {{"intact", simulator, simulator->parameters(), make_simulator(options, Joints::driven)}},
-          .policy = policy::make_gait(kLegs),
-          .drawing = drawing(removed_leg(options)),
-          .learner_options = learner_options()};
+  const DamagedLegs damaged = damaged_legs(options);
+  return {
+      .name = "hexapod",
+      .task = make_task(options),
+      .make_plant = [options,
+                     damaged] { return make_mujoco_plant(options.plant, damaged, options.start_noise, kControlStep); },
+      .priors = {{"intact", simulator, simulator->parameters(), make_simulator(options, Joints::driven)}},
+      .policy = policy::make_gait(kLegs),
+      .drawing = drawing(damaged.removed()),
+      .learner_options = learner_options()};
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> builder() {

@@ -13,11 +13,16 @@ namespace rehearse::robots::hexapod {
 
 struct Options {
   enum class Leg { none, rear_left, mid_left, front_left, front_right, mid_right, rear_right };
+  enum class Joint { all, coxa, femur, tibia };
   Hardware plant;
-  Leg damage = Leg::none;  // which leg suffers
+  Leg damage = Leg::none;         // which leg suffers
+  Leg second_damage = Leg::none;  // and another one, from the same
   Damage kind = Damage::removed;
-  Index horizon = 40;          // steps of 0.1 s
-  double drift_m = 0.5;        // to the side, beyond which nothing is earned (the authors' code: 0.5)
+  Joint joint = Joint::all;  // which of its joints is blocked or weak
+  double start_noise = 0;    // rad, std of joints and heading at the start of each trial
+  double servo_lag_s = 0;    // added to the time constant of the prior's servos, π/100 s; 0.12 is nearest to the plant
+  Index horizon = 40;        // steps of 0.1 s
+  double drift_m = 0.5;      // to the side, beyond which nothing is earned (the authors' code: 0.5)
   double fall_reward = -0.02;  // m, for each step that a fall leaves out
   bool integral = false;       // earn x·dt a step instead of the way made (the authors' code)
   bool isolated = true;        // DART runs in processes of its own, which it may end

@@ -64,10 +64,11 @@ ModelPointer load(const std::string& xml) {
 
 class MujocoPlant final : public system::Plant {
  public:
-  MujocoPlant(const Hardware& hardware, std::optional<DamagedLeg> damaged, double dt_s)
+  MujocoPlant(const Hardware& hardware, DamagedLegs damaged, double start_noise, double dt_s)
       : hardware_(hardware),
-        damaged_(damaged),
-        model_(load(mujoco_model(hardware, missing()))),
+        damaged_(std::move(damaged)),
+        start_noise_(start_noise),
+        model_(load(mujoco_model(hardware, damaged_.removed()))),
         data_(mj_makeData(model_.get())),
         steps_(static_cast<int>(std::lround(dt_s / kStep))),
         late_(static_cast<int>(std::lround(hardware.latency_s / kStep))) {
@@ -79,9 +80,10 @@ class MujocoPlant final : public system::Plant {
   }
 
   Vector reset(Rng& rng) override {
-    rng_ = rng;
     mj_resetData(model_.get(), data_.get());
     data_->qpos[2] = kRestHeight;
+    if (start_noise_ > 0) scatter(rng);
+    rng_ = rng;
     target_ = late_target_ = Vector::Zero(kJoints);
     mj_forward(model_.get(), data_.get());
     return measured();
@@ -120,22 +122,21 @@ class MujocoPlant final : public system::Plant {
     int angle, speed;  // where MuJoCo keeps them
   };
 
-  std::optional<Index> missing() const {
-    if (damaged_ && damaged_->damage == Damage::removed) return damaged_->leg;
-    return std::nullopt;
-  }
-
-  bool suffers(Index joint, Damage damage) const {
-    return damaged_ && damaged_->damage == damage && joint / kJointsOfLeg == damaged_->leg;
+  /// Nobody puts a robot down twice in the same way.
+  void scatter(Rng& rng) {
+    for (const Joint& joint : joints_) data_->qpos[joint.angle] = start_noise_ * rng.normal();
+    const double heading = start_noise_ * rng.normal();
+    data_->qpos[3] = std::cos(heading / 2);
+    data_->qpos[6] = std::sin(heading / 2);
   }
 
   /// A servo's torque falls with its speed.
   void push(const Vector& targets) {
     for (const Joint& joint : joints_) {
-      const bool blocked = suffers(joint.number, Damage::blocked);
+      const bool blocked = damaged_.suffer(joint.number, Damage::blocked);
       const double target = blocked ? 0 : targets(joint.number);
       const double angle = data_->qpos[joint.angle], speed = data_->qvel[joint.speed];
-      const double strength = suffers(joint.number, Damage::weak) ? kWeakness : 1;
+      const double strength = damaged_.suffer(joint.number, Damage::weak) ? kWeakness : 1;
       const double most =
           blocked ? 100 * hardware_.stall_torque
                   : strength * hardware_.stall_torque * std::max(0.0, 1 - std::abs(speed) / hardware_.free_speed);
@@ -149,9 +150,9 @@ class MujocoPlant final : public system::Plant {
     const auto blur = [&](Index first, Index count, double std) {
       for (Index i = first; i < first + count; ++i) x(i) += std * rng_->normal();
     };
-    for (const Joint& joint : joints_) {
-      blur(kAngles + joint.number, 1, hardware_.angle_noise);
-      blur(kSpeeds + joint.number, 1, hardware_.speed_noise);
+    for (Index joint = 0; joint < kJoints; ++joint) {  // of a missing leg, too: its sensor lines are open, not silent
+      blur(kAngles + joint, 1, hardware_.angle_noise);
+      blur(kSpeeds + joint, 1, hardware_.speed_noise);
     }
     blur(kRotation, 6, hardware_.angle_noise);
     blur(kTurning, 6, hardware_.speed_noise);
@@ -159,7 +160,8 @@ class MujocoPlant final : public system::Plant {
   }
 
   Hardware hardware_;
-  std::optional<DamagedLeg> damaged_;
+  DamagedLegs damaged_;
+  double start_noise_;
   ModelPointer model_;
   std::unique_ptr<mjData, DataDeleter> data_;
   int steps_, late_;
@@ -181,10 +183,17 @@ void Hardware::fields(FieldVisitor& v) {
   v.number("speed_noise", speed_noise, at_least(0));
 }
 
-std::string mujoco_model(const Hardware& hardware, std::optional<Index> missing) {
+bool DamagedLegs::suffer(Index joint, Damage what) const {
+  const bool here = std::find(legs.begin(), legs.end(), joint / kJointsOfLeg) != legs.end();
+  return here && damage == what && (!segment || *segment == segment_of(joint));
+}
+
+std::vector<Index> DamagedLegs::removed() const { return damage == Damage::removed ? legs : std::vector<Index>(); }
+
+std::string mujoco_model(const Hardware& hardware, const std::vector<Index>& removed) {
   std::string legs;
   for (Index leg = 0; leg < kLegs; ++leg)
-    if (leg != missing) legs += leg_xml(leg, 0);
+    if (std::find(removed.begin(), removed.end(), leg) == removed.end()) legs += leg_xml(leg, 0);
   return fmt::format(
       R"(<mujoco model="hexapod"><compiler angle="radian" autolimits="true"/><option timestep="{}" cone="elliptic"/>
 <default><joint damping="0.05" frictionloss="0.08" armature="0.01"/><geom friction="{} 0.005 0.0001" contype="1" conaffinity="0"/></default>
@@ -195,9 +204,9 @@ std::string mujoco_model(const Hardware& hardware, std::optional<Index> missing)
       numbers(kTrunkSize / 2), legs);
 }
 
-std::unique_ptr<system::Plant> make_mujoco_plant(const Hardware& hardware, std::optional<DamagedLeg> damaged,
-                                                 double dt_s) {
-  return std::make_unique<MujocoPlant>(hardware, damaged, dt_s);
+std::unique_ptr<system::Plant> make_mujoco_plant(const Hardware& hardware, const DamagedLegs& damaged,
+                                                 double start_noise, double dt_s) {
+  return std::make_unique<MujocoPlant>(hardware, damaged, start_noise, dt_s);
 }
 
 }  // namespace rehearse::robots::hexapod

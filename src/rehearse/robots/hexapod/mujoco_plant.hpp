@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rehearse/core/options.hpp"
 #include "rehearse/robots/hexapod/body.hpp"
@@ -29,17 +30,22 @@ enum class Damage {
   weak,     // its servos have a quarter of their torque
 };
 
-struct DamagedLeg {
-  Index leg = 0;
+struct DamagedLegs {
+  std::vector<Index> legs;  // none: the robot is intact
   Damage damage = Damage::removed;
+  std::optional<Segment> segment;  // whose joint alone suffers; of a leg that is removed all do
+
+  bool suffer(Index joint, Damage what) const;
+  std::vector<Index> removed() const;
 };
 
 /// The hexapod in MuJoCo, in the place of a real one: torque-limited servos with latency, joint friction, soft elliptic
-/// contacts, noisy sensors. An episode starts with the robot standing. step throws if the simulation diverges.
-std::unique_ptr<system::Plant> make_mujoco_plant(const Hardware& hardware, std::optional<DamagedLeg> damaged,
-                                                 double dt_s);
+/// contacts, noisy sensors. An episode starts with the robot standing, its joints and its heading N(0, start_noise²),
+/// rad. Joints of a leg that is removed read 0 with the noise of the others. step throws if the simulation diverges.
+std::unique_ptr<system::Plant> make_mujoco_plant(const Hardware& hardware, const DamagedLegs& damaged,
+                                                 double start_noise, double dt_s);
 
 /// Its model in MuJoCo's own format.
-std::string mujoco_model(const Hardware& hardware, std::optional<Index> missing);
+std::string mujoco_model(const Hardware& hardware, const std::vector<Index>& removed);
 
 }  // namespace rehearse::robots::hexapod

@@ -5,8 +5,6 @@
 namespace rehearse::robots::hexapod {
 namespace {
 
-Segment segment_of(Index joint) { return kSegments[static_cast<std::size_t>(joint % kJointsOfLeg)]; }
-
 std::string joint_name(Index joint) {
   return fmt::format("{} {}", kLegNames[static_cast<std::size_t>(joint / kJointsOfLeg)], name_of(segment_of(joint)));
 }

@@ -14,8 +14,8 @@ namespace rehearse::robots::hexapod {
 inline constexpr Index kAngles = 0, kSpeeds = kJoints, kRotation = 2 * kJoints, kPosition = kRotation + 3,
                        kTurning = kPosition + 3, kMoving = kTurning + 3, kStateSize = kMoving + 3;
 
-/// Angles and speeds of joints leg by leg (those of a leg that is missing are 0), the trunk's rotation vector and
-/// position in the world, its angular and linear velocity in its own frame.
+/// Angles and speeds of joints leg by leg (those of a leg that is missing are 0, and measured with noise), the trunk's
+/// rotation vector and position in the world, its angular and linear velocity in its own frame.
 std::vector<StateVariable> state_variables();
 
 /// Targets of the joints' angles, leg by leg.

@@ -136,6 +136,74 @@ TEST(Ite, OnceItStopsTheBestPolicyIsRepeated) {
   EXPECT_EQ(proposals[3].notes[0], "the best policy is tried again from now on: after trial 3: adaptation.max_trials");
 }
 
+/// How the slider went, `offset` more for each step; a task that charges `floor` for steps which a fall leaves out.
+struct Shifted {
+  double offset = 0, floor = 0;
+  bool falls = false;  // in the end
+  double gain = 1;     // of the prior
+
+  Setting setting() const {
+    Setting shifted = ite::setting(gain);
+    shifted.task.reward_floor = floor;
+    shifted.task.reward = [offset = offset](const ConstMatrixView& X, const ConstMatrixView& U,
+                                            const ConstMatrixView& next, VectorView rewards) {
+      slider::reward(X, U, next, rewards);
+      rewards.array() += offset;
+    };
+    return shifted;
+  }
+  Episode trial(const Proposal& proposal) const {
+    Episode episode = run_trial(proposal, 1);
+    episode.rewards.array() += offset;
+    episode.ended = falls;
+    if (falls) episode.rewards(episode.steps() - 1) = -100;
+    return episode;
+  }
+};
+
+/// Whether it stops after one trial, and why.
+std::vector<std::string> notes_after_a_trial(const Shifted& how) {
+  const auto learner = builder()->build(how.setting());
+  learner->tell(how.trial(learner->ask()));
+  return learner->ask().notes;
+}
+
+// A prior that pulls the other way: the first trial earns less than 0.1 of the 8 that are promised.
+TEST(Ite, StopsByTheReturnItselfWhateverFailingCosts) {
+  EXPECT_TRUE(notes_after_a_trial({.gain = -0.5}).empty());
+  EXPECT_TRUE(notes_after_a_trial({.floor = -100, .gain = -0.5}).empty());
+  EXPECT_FALSE(notes_after_a_trial({.offset = 10, .gain = -0.5}).empty())
+      << "10 a step are earned by doing nothing, too";
+  EXPECT_TRUE(notes_after_a_trial({.offset = -10, .floor = -100, .gain = -0.5}).empty())
+      << "nothing above 0 is promised";
+}
+
+TEST(Ite, AFallScoresNothingAndIsNotRepeated) {
+  const auto expected = [](const Shifted& how) {
+    const auto learner = builder()->build(how.setting());
+    const Episode episode = how.trial(learner->ask());
+    learner->tell(episode);
+    const auto tables = learner->tables();
+    const auto tried = static_cast<Index>(table(tables, "tried").rows(0, 1)) - 1;
+    return std::pair(table(tables, "elites").rows(tried, 3), episode.total_reward());
+  };
+  const auto [walks, earned] = expected({});
+  EXPECT_NEAR(walks, earned, 0.02);
+  EXPECT_NEAR(expected({.falls = true}).first, 0, 0.02) << "and not −90";
+  const auto [negative, lost] = expected({.offset = -10, .floor = -20, .falls = true});
+  EXPECT_NEAR(negative, lost, 0.02 * 240) << "where all returns are negative a fall is what it costs";
+
+  const auto learner = builder({{"adaptation.stop_ratio", "0"}, {"adaptation.max_trials", "2"}})->build(setting());
+  const Vector first = learner->ask().theta;
+  learner->tell(Shifted{.falls = true}.trial(learner->ask()));
+  const Vector second = learner->ask().theta;
+  Episode backwards = run_trial(learner->ask(), 2);
+  backwards.rewards.setConstant(-0.1);
+  learner->tell(backwards);
+  EXPECT_NE(first, second);
+  EXPECT_EQ(learner->ask().theta, second) << "it earned less than the 0 that the fall scores, and more than the fall";
+}
+
 TEST(Illumination, ComesFromTheStoreAndIsTheSame) {
   const auto store = std::make_shared<MemoryStore>();
   Setting with = setting();
