@@ -66,7 +66,12 @@ namespace rehearse::robots::cartpole {
 HWY_EXPORT(DerivativeKernel);
 HWY_EXPORT(ChangeKernel);
 
-system::OdeKernel kernel() { return {&HWY_DYNAMIC_DISPATCH(DerivativeKernel), &HWY_DYNAMIC_DISPATCH(ChangeKernel)}; }
+// Dispatched at each call: the address of a dispatched function is, before its first call, that of Highway's chooser,
+// which asks the processor for its instruction sets every time.
+system::OdeKernel kernel() {
+  return {[](auto... arguments) { return HWY_DYNAMIC_DISPATCH(DerivativeKernel)(arguments...); },
+          [](auto... arguments) { return HWY_DYNAMIC_DISPATCH(ChangeKernel)(arguments...); }};
+}
 
 }  // namespace rehearse::robots::cartpole
 #endif

@@ -6,6 +6,7 @@
 
 #include "rehearse/core/random.hpp"
 #include "rehearse/robots/cartpole/kernel.hpp"
+#include "rehearse/testing/check_ode_kernel.hpp"
 #include "rehearse/testing/check_scenario.hpp"
 
 namespace rehearse::robots::cartpole {
@@ -53,6 +54,11 @@ TEST(Cartpole, SimulatorIsWithin2e6OfTheAdaptiveIntegratorEverywhere) {
   RecordProperty("worst_error", std::to_string(worst));
   EXPECT_LT(worst, 2e-6);
   EXPECT_LT(worst_error({.dt_s = 0.05, .horizon = 60}), 2e-6);
+}
+
+TEST(Cartpole, KernelKeepsItsInstructionSet) {
+  EXPECT_EQ(testing::check_ode_kernel(kernel, Vector{{0, 0, 0.1, 0.2}}, Vector{{0.5, 0.5, 0.6, 0.1}}),
+            std::vector<std::string>{});
 }
 
 TEST(Cartpole, KeepsTheLaws) {

@@ -6,6 +6,7 @@
 
 #include "rehearse/core/random.hpp"
 #include "rehearse/robots/pendulum/kernel.hpp"
+#include "rehearse/testing/check_ode_kernel.hpp"
 #include "rehearse/testing/check_scenario.hpp"
 
 namespace rehearse::robots::pendulum {
@@ -34,6 +35,10 @@ TEST(Pendulum, SimulatorIsWithin2e6OfTheAdaptiveIntegratorEverywhere) {
   const double worst = (dX - data.changes).cwiseAbs().maxCoeff();
   RecordProperty("worst_error", std::to_string(worst));
   EXPECT_LT(worst, 2e-6);
+}
+
+TEST(Pendulum, KernelKeepsItsInstructionSet) {
+  EXPECT_EQ(testing::check_ode_kernel(kernel, Vector{{0.1, 0.2}}, Vector{{1, 1, 0.01}}), std::vector<std::string>{});
 }
 
 TEST(Pendulum, KeepsTheLaws) {

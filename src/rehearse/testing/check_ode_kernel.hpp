@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rehearse/system/ode.hpp"
+
+namespace rehearse::testing {
+
+/// What is wrong with a kernel, called at one state and φ: one that keeps the address of Highway's chooser asks the
+/// processor for its instruction sets at every call, which takes far longer than the equations. One thread.
+std::vector<std::string> check_ode_kernel(system::OdeKernel (*kernel)(), const Vector& x, const Vector& phi);
+
+}  // namespace rehearse::testing
