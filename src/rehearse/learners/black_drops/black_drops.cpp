@@ -389,24 +389,24 @@ class Builder final : public LearnerBuilder {
 }  // namespace
 
 void FirstTrial::fields(FieldVisitor& v) {
-  v.choice("kind", kind, {"actions", "extremes", "policy"});
-  v.number("hold_s", hold_s, at_least(0));
+  v.choice("kind", kind, {"actions", "extremes", "policy"}, published("policy"));
+  v.number("hold_s", hold_s, at_least(0), published(0, kAuthors));
 }
 
 void Exploration::fields(FieldVisitor& v) {
-  v.number("gain", gain, at_least(0));
+  v.number("gain", gain, at_least(0), published(0));
   v.number("promise", promise, at_least(0));
 }
 
 void Scouting::fields(FieldVisitor& v) {
-  v.integer("policies", policies, at_least(0));
+  v.integer("policies", policies, at_least(0), published(0));
   v.number("tolerance", tolerance, at_least(0));
 }
 
 void Insistence::fields(FieldVisitor& v) {
-  v.integer("searches", searches, at_least(0));
+  v.integer("searches", searches, at_least(0), published(0));
   v.number("tolerance", tolerance, at_least(0));
-  v.number("doubtful_tolerance", doubtful_tolerance, at_least(0));
+  v.number("doubtful_tolerance", doubtful_tolerance, at_least(0), published(0));
 }
 
 void Options::fields(FieldVisitor& v) {
@@ -419,7 +419,7 @@ void Options::fields(FieldVisitor& v) {
   v.group("explore", explore);
   v.group("scout", scout);
   v.group("insist", insist);
-  v.integer("carried", carried, at_least(0));
+  v.integer("carried", carried, at_least(0), published(0));
   v.integer("prior_searches", prior_searches, at_least(1));
   v.number("prior_variance", prior_variance, at_least(0));
 }

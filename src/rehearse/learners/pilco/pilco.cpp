@@ -44,7 +44,7 @@ void Options::fields(FieldVisitor& v) {
 
 void PriorPhaseOptions::fields(FieldVisitor& v) {
   v.integer("pilco.prior_episodes", episodes, at_least(1));
-  v.integer("pilco.prior_settled", settled, at_least(0));
+  v.integer("pilco.prior_settled", settled, at_least(0), published(0));
   v.integer("pilco.prior_inducing", inducing, between(1, 1e5));
 }
 
