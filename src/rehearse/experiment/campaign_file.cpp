@@ -76,6 +76,7 @@ class CampaignReader {
   void read_grid() {
     reader_.take("title", file_.title);
     if (!reader_.take("scenario", file_.scenario) || file_.scenario.empty()) violations_.add(0, "scenario is missing");
+    reader_.take("preset", file_.preset);
     if (!reader_.take("learners", file_.learners)) violations_.add(0, "learners is missing");
     reader_.take("priors", file_.priors);
     reader_.take_fields([&](FieldVisitor& v) {
@@ -164,6 +165,7 @@ class CampaignReader {
     for (const Variant& other : file_.variants)
       if (other.name == variant.name)
         violations_.add(variant.line, fmt::format("there are two variants '{}'", variant.name));
+    reader.take("preset", variant.preset);
     if (const toml::table* set = reader.take_table("set")) variant.options = options_of(*set);
     reader.finish();
     file_.variants.push_back(std::move(variant));

@@ -11,6 +11,7 @@
 #include "rehearse/core/random.hpp"
 #include "rehearse/experiment/blame.hpp"
 #include "rehearse/experiment/campaign_claim_plan.hpp"
+#include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/toml_reader.hpp"
 
@@ -43,6 +44,8 @@ bool has_option(const Spec& complete, const std::string& key) {
 struct Varied {
   std::string name;
   FileOptions options;
+  std::string preset = {};  // of the variant in line `line`
+  Index line = 0;
 
   void add(const FileOption& option) {
     name += fmt::format("{}{}={}", name.empty() ? "" : ",", option.key, option.text);
@@ -133,7 +136,22 @@ class Planner {
     for (const auto& [key, text] : complete->options)
       known_options_.push_back(key.starts_with("prior.") ? key : key.substr(key.find('.') + 1));
     const FileOptions options = common_options(*complete);
-    for (const Varied& varied : all_variants(*complete)) add_group(bare, options, draws_of(*complete), varied);
+    for (const Varied& varied : all_variants(*complete)) {
+      auto begun = begun_with(file_.preset, bare, line("preset"));
+      if (begun) begun = begun_with(varied.preset, *begun, varied.line);
+      if (begun) add_group(*begun, options, draws_of(*complete), varied);
+    }
+  }
+
+  /// The spec with the options of this preset, if there is one, or nothing and violations, at this line.
+  std::optional<Spec> begun_with(const std::string& preset, const Spec& spec, Index line) {
+    if (preset.empty()) return spec;
+    try {
+      return with_preset(catalogue_, spec, preset);
+    } catch (const InvalidInput& error) {
+      for (const std::string& message : error.violations()) violations_.add(line, message);
+      return std::nullopt;
+    }
   }
 
   /// The complete spec without the file's options, or nothing and violations, at this line.
@@ -187,7 +205,7 @@ class Planner {
     for (const Variant& variant : file_.variants) {
       bool has_all = true;
       for (const FileOption& option : variant.options) has_all &= use(complete, option.key);
-      if (has_all) found.push_back({variant.name, variant.options});
+      if (has_all) found.push_back({variant.name, variant.options, variant.preset, variant.line});
     }
     if (found.empty()) found.emplace_back();
     return found;
@@ -229,6 +247,7 @@ class Planner {
     if (plan_.runs.size() + file_.seeds.size() > kMostRuns) return too_many();
     if (!complete) return;
     plan_.groups.push_back({bare.learner, complete->prior, varied.name, {}});
+    if (!varied.preset.empty()) plan_.groups.back().options.emplace_back("preset", varied.preset);
     for (const FileOption& option : varied.options) plan_.groups.back().options.emplace_back(option.key, option.text);
     for (Index seed : file_.seeds) {
       if (!draws.empty()) complete = resolved(bare, with_draws(options, draws, seed));
