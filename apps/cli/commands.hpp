@@ -19,7 +19,7 @@ struct ListArguments {
 
 struct LearnArguments {
   std::string scenario;  // a name, or a spec.toml
-  std::optional<std::string> learner, prior, trials, seed, threads, out;
+  std::optional<std::string> learner, prior, preset, trials, seed, threads, out;
   bool until_solved = false;
   std::vector<std::string> set;
 };

@@ -10,6 +10,7 @@
 #include "apps/cli/signals.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/files.hpp"
+#include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/run.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 
@@ -32,6 +33,16 @@ void add_options(Spec& spec, const std::vector<std::string>& settings, Violation
       violations.add(fmt::format("--set {}: must be KEY=VALUE", setting));
     else
       spec.options.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+}
+
+/// The spec as it was where that cannot be.
+Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string& name, Violations& violations) {
+  try {
+    return experiment::with_preset(catalogue, spec, name);
+  } catch (const InvalidInput& error) {
+    for (const std::string& line : error.violations()) violations.add(line);
+    return spec;
   }
 }
 
@@ -125,6 +136,7 @@ int learn(const Catalogue& catalogue, const LearnArguments& arguments, const Com
   set_numbers(spec, arguments.trials, arguments.seed, violations);
   const Index threads = threads_of(arguments.threads, violations);
   spec.until_solved |= arguments.until_solved;
+  if (arguments.preset) spec = with_preset(catalogue, spec, *arguments.preset, violations);
   add_options(spec, arguments.set, violations);
   violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
   spec = resolved_spec(catalogue, spec, file, violations);

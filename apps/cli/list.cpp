@@ -1,9 +1,12 @@
+#include <map>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/commands.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/experiment/preset.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -15,15 +18,31 @@ std::vector<std::pair<std::string, std::string>> options_of(Builder& builder) {
   return list_fields([&](FieldVisitor& v) { builder.fields(v); });
 }
 
+/// By name, where it is another than the default.
+template <class Builder>
+std::map<std::string, Published> published_otherwise(Builder& builder) {
+  std::map<std::string, Published> all;
+  for (const auto& [name, published] : list_published([&](FieldVisitor& v) { builder.fields(v); }))
+    all.emplace(name, published);
+  for (const auto& [name, text] : options_of(builder))
+    if (const auto found = all.find(name); found != all.end() && found->second.text == text) all.erase(found);
+  return all;
+}
+
 template <class Builder>
 Json described(Builder& builder) {
-  Json options = Json::object();
+  Json options = Json::object(), published = Json::object();
   for (const auto& [name, text] : options_of(builder)) options[name] = text;
-  return {{"name", builder.name()}, {"summary", builder.summary()}, {"options", options}};
+  for (const auto& [name, known] : published_otherwise(builder))
+    published[name] = {{"value", known.text}, {"source", known.source}};
+  return {{"name", builder.name()}, {"summary", builder.summary()}, {"options", options}, {"published", published}};
 }
 
 Json as_json(const experiment::Catalogue& catalogue) {
-  Json all = {{"scenarios", Json::array()}, {"learners", Json::array()}, {"not_built", Json::array()}};
+  Json all = {{"scenarios", Json::array()},
+              {"learners", Json::array()},
+              {"presets", Json::array()},
+              {"not_built", Json::array()}};
   for (const auto& builder : catalogue.scenario_builders()) {
     all["scenarios"].push_back(described(*builder));
     all["scenarios"].back()["priors"] = builder->prior_names();
@@ -33,6 +52,8 @@ Json as_json(const experiment::Catalogue& catalogue) {
     all["learners"].back()["takes_prior"] = builder->prior_use() != learners::PriorUse::none;
     all["learners"].back()["chooses_priors"] = builder->chooses_priors();
   }
+  for (const auto& preset : catalogue.presets)
+    all["presets"].push_back({{"name", preset.name}, {"title", experiment::Preset(preset.text, preset.name).title()}});
   for (const auto& missing : catalogue.not_built)
     all["not_built"].push_back({{"name", missing.name}, {"reason", missing.reason}});
   return all;
@@ -43,7 +64,13 @@ void print_entry(Builder& builder, const std::string& remark, bool with_options)
   fmt::print("  {:<18} {}\n", builder.name(), builder.summary());
   fmt::print("  {:<18} {}\n", "", remark);
   if (!with_options) return;
-  for (const auto& [name, text] : options_of(builder)) fmt::print("  {:<18}   {} = {}\n", "", name, text);
+  const auto otherwise = published_otherwise(builder);
+  for (const auto& [name, text] : options_of(builder)) {
+    const auto found = otherwise.find(name);
+    const std::string remark =
+        found == otherwise.end() ? "" : fmt::format("  ({}: {})", found->second.source, found->second.text);
+    fmt::print("  {:<18}   {} = {}{}\n", "", name, text, remark);
+  }
 }
 
 std::string prior_remark(const learners::LearnerBuilder& builder) {
@@ -61,6 +88,9 @@ void print(const experiment::Catalogue& catalogue, bool with_options) {
   for (const auto& builder : catalogue.scenario_builders()) print_entry(*builder, prior_remark(*builder), with_options);
   fmt::print("\nLearners\n");
   for (const auto& builder : catalogue.learner_builders()) print_entry(*builder, prior_remark(*builder), with_options);
+  if (!catalogue.presets.empty()) fmt::print("\nPresets\n");
+  for (const auto& preset : catalogue.presets)
+    fmt::print("  {:<18} {}\n", preset.name, experiment::Preset(preset.text, preset.name).title());
   if (!catalogue.not_built.empty()) fmt::print("\nNot built\n");
   for (const auto& missing : catalogue.not_built) fmt::print("  {:<18} {}\n", missing.name, missing.reason);
   if (!with_options) fmt::print("\nOptions for --set, with their defaults: rehearse list --options\n");

@@ -38,6 +38,7 @@ What there is to learn, and with what:
 constexpr const char* kLearnExample = R"(Examples:
   rehearse learn pendubot --learner gp-mi --prior misleading --trials 10 --seed 1
   rehearse learn pendubot --learner gp-mi --set plant.b1=0.2 --set prior.l2=0.3
+  rehearse learn pendubot --learner gp-mi --preset as-published
   rehearse learn runs/demo/spec.toml --out runs/again
 
 The folder holds one row a trial in trials.csv, the trajectories, the model's predictions,
@@ -59,7 +60,8 @@ CLI::Option* add(Command* command, const std::string& name, T& value, const std:
 CLI::App* add_list(CLI::App& app, ListArguments& arguments) {
   CLI::App* command = app.add_subcommand("list", "Show the scenarios, their priors, and the learners");
   command->add_flag("--json", arguments.json, "As JSON, with all options");
-  command->add_flag("--options", arguments.options, "With all options that --set can change, and their defaults");
+  command->add_flag("--options", arguments.options,
+                    "With all options that --set can change, their defaults, and what is published of them");
   return command;
 }
 
@@ -71,6 +73,10 @@ CLI::App* add_learn(CLI::App& app, LearnArguments& arguments) {
   add(command, "--prior", arguments.prior,
       "The guess to start from: one of the scenario's, several as a,b,c for a learner that can choose, or `oracle`, "
       "the plant's own dynamics. Default: the scenario's first",
+      "NAME");
+  add(command, "--preset", arguments.preset,
+      "Options that go together: a preset of `rehearse list`, for instance as-published, or a file FILE.toml; --set "
+      "comes after it",
       "NAME");
   add(command, "--trials", arguments.trials, "How often the plant may be used. Default: 10", "N");
   command->add_flag("--until-solved", arguments.until_solved, "End before, with a trial that solves the task");

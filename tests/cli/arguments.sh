@@ -24,6 +24,9 @@ expect 0 "--prior" - learn --help
 expect 0 "misleading" - list
 expect 0 '"takes_prior": true' - list --json
 expect 0 "search.race.max_evaluations = " - list --options
+expect 0 "search.method = race  (the paper: restarts)" - list --options
+expect 0 "as-published       the paper's settings" - list
+expect 0 '"value": "restarts"' - list --json
 
 expect 2 "a command is missing (list, learn, resume, " 1
 expect 2 "unknown command 'lern', did you mean 'learn'?" 1 lern
@@ -57,6 +60,12 @@ expect 2 "plant.m1 = -1, must be > 0" 1 learn pendubot --learner gp-mi --set pla
 expect 2 "l2 = 99, must be between" 1 learn pendubot --learner gp-mi --set prior.l2=99
 expect 2 "--seed = x" 4 learn pendubot --learner gp-mi --seed x --trials -1 --set colour=red --prior usful
 expect 2 "the scenario gives no initial_reward" 1 learn pendubot --learner gp-mi --set reward.learned=true
+expect 2 "unknown preset 'as-publisht', did you mean 'as-published'? (known: as-published)" 1 \
+  learn pendubot --learner gp-mi --preset as-publisht
+expect 2 "cannot read mine.toml" 1 learn pendubot --learner gp-mi --preset mine.toml
+printf 'format = 1\n[set]\nsearch.box = 4\nserch.box = 4\n' >mine.toml
+expect 2 "mine.toml: line 4: unknown option 'serch.box', did you mean 'search.box'?" 1 \
+  learn pendubot --learner gp-mi --preset mine.toml
 expect 2 "cannot read nothing.toml" 1 learn nothing.toml
 expect 2 "search.box = 1e+308, must be between 1e-06 and 1000000" 1 learn pendubot --learner gp-mi --set search.box=1e308
 expect 2 "archive.box = 1e+308, must be between 1e-06 and 1000000" 1 learn pendubot --learner ite --set archive.box=1e308
@@ -97,6 +106,15 @@ expect 2 "wrong-spec.toml: line $(grep -n '^plant.b3' wrong-spec.toml | cut -d: 
 [ "$before" = "$(cat $run/* 2>/dev/null | cksum)" ] || fail "a refused run changed the folder"
 expect 0 "best return" 3 learn $run/spec.toml --out again
 cmp $run/trials.csv again/trials.csv || fail "spec.toml gives another trials.csv"
+
+# A preset comes before --set; the spec is complete.
+expect 0 "best return" 3 learn pendubot --learner gp-mi --preset as-published --trials 1 \
+  --set search.restarts.max_evaluations=200 --set model.score=harmonic --out published
+for line in 'search.method = "restarts"' 'policy_gain = 1' 'model.gp.smooth = false' 'model.score = "harmonic"'; do
+  grep -qFx "$line" published/spec.toml || fail "published/spec.toml has no line '$line'"
+done
+expect 0 "best return" 3 learn published/spec.toml --out published-again
+cmp published/trials.csv published-again/trials.csv || fail "the spec of a preset gives another trials.csv"
 
 expect 0 "best return" - resume $run
 expect 2 "nothing is not a folder" 1 resume nothing

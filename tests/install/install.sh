@@ -13,4 +13,5 @@ for trial in 2 3; do
   grep -q "^trial $trial: return 1[0-9]\.[0-9]*, mass 1\.6[0-9]* kg$" "$work/output" ||
     { echo "trial $trial did not find the mass of 1.6 kg and a good policy" >&2; exit 1; }
 done
-"$work/prefix/bin/rehearse" list >/dev/null
+(cd "$work" && prefix/bin/rehearse list >listed)
+grep -q "as-published" "$work/listed" || { echo "the installed program has no presets" >&2; exit 1; }

@@ -50,6 +50,23 @@ class Lister final : public FieldVisitor {
   }
 };
 
+class PublishedLister final : public FieldVisitor {
+ public:
+  std::vector<std::pair<std::string, Published>> fields;
+
+ protected:
+  void visit(const std::string& name, double&, Bound) override { add(name); }
+  void visit(const std::string& name, Index&, Bound) override { add(name); }
+  void visit(const std::string& name, bool&) override { add(name); }
+  void visit(const std::string& name, std::string&) override { add(name); }
+  void visit(const std::string& name, int&, const std::vector<std::string>&) override { add(name); }
+
+ private:
+  void add(const std::string& name) {
+    if (!published().text.empty()) fields.emplace_back(name, published());
+  }
+};
+
 class Checker final : public FieldVisitor {
  public:
   std::vector<std::string> violations;
@@ -131,6 +148,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::string FieldVisitor::enter(std::string_view name, Published published) {
+  std::string whole = full(name);
+  const auto known = known_.find(whole);
+  published_ = known == known_.end() ? std::move(published) : known->second;
+  return whole;
+}
+
+std::vector<std::pair<std::string, Published>> list_published(const Fields& fields) {
+  PublishedLister lister;
+  fields(lister);
+  return std::move(lister.fields);
+}
 
 std::vector<std::pair<std::string, std::string>> list_fields(const Fields& fields) {
   Lister lister;

@@ -3,12 +3,16 @@
 // validation and help.
 //
 //   struct SubplexOptions {
-//     Index max_evaluations = 1000;  // Chatzilygeroudis 2018
-//     void fields(FieldVisitor& v) { v.integer("max_evaluations", max_evaluations, at_least(1)); }
+//     Index max_evaluations = 1000;
+//     void fields(FieldVisitor& v) {
+//       v.integer("max_evaluations", max_evaluations, at_least(1), published(500, kAuthors));
+//     }
 //   };
 
+#include <concepts>
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,23 +34,54 @@ inline Bound at_least(double low) { return {.low = low}; }
 inline Bound above(double low) { return {.low = low, .low_open = true}; }
 inline Bound between(double low, double high) { return {.low = low, .high = high}; }
 
+inline constexpr const char* kPaper = "the paper";            // Chatzilygeroudis 2018
+inline constexpr const char* kAuthors = "the authors' code";  // where the paper does not say
+
+/// The value of an option in a publication, where the default is another or what the publication lacks: then its "off".
+struct Published {
+  std::string text;  // as `set_field` reads it; empty: the default is as published
+  std::string source;
+};
+
+/// The shortest text that reads back as the same double.
+std::string to_text(double value);
+
+template <std::same_as<bool> Flag>
+Published published(Flag value, std::string source = kPaper) {
+  return {value ? "true" : "false", std::move(source)};
+}
+inline Published published(double value, std::string source = kPaper) { return {to_text(value), std::move(source)}; }
+inline Published published(int value, std::string source = kPaper) {
+  return {std::to_string(value), std::move(source)};
+}
+inline Published published(const char* name, std::string source = kPaper) { return {name, std::move(source)}; }
+
 /// Is shown the fields of an options struct, one after the other. Names are joined with dots by `group`.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
 
-  void number(std::string_view name, double& value, Bound bound = {}) { visit(full(name), value, bound); }
-  void integer(std::string_view name, Index& value, Bound bound = {}) { visit(full(name), value, bound); }
-  void boolean(std::string_view name, bool& value) { visit(full(name), value); }
-  void text(std::string_view name, std::string& value) { visit(full(name), value); }
+  void number(std::string_view name, double& value, Bound bound = {}, Published published = {}) {
+    visit(enter(name, std::move(published)), value, bound);
+  }
+  void integer(std::string_view name, Index& value, Bound bound = {}, Published published = {}) {
+    visit(enter(name, std::move(published)), value, bound);
+  }
+  void boolean(std::string_view name, bool& value, Published published = {}) {
+    visit(enter(name, std::move(published)), value);
+  }
+  void text(std::string_view name, std::string& value) { visit(enter(name, {}), value); }
 
   /// An enumeration whose values 0, 1, … are called `names`.
   template <class Enum>
-  void choice(std::string_view name, Enum& value, const std::vector<std::string>& names) {
+  void choice(std::string_view name, Enum& value, const std::vector<std::string>& names, Published published = {}) {
     int index = static_cast<int>(value);
-    visit(full(name), index, names);
+    visit(enter(name, std::move(published)), index, names);
     value = static_cast<Enum>(index);
   }
+
+  /// What is published of a field that comes later, whatever is said there: for structs that several others have.
+  void publish(std::string_view name, Published published) { known_.emplace(full(name), std::move(published)); }
 
   /// The fields of a nested options struct, as "name.field".
   template <class Options>
@@ -64,9 +99,16 @@ class FieldVisitor {
   virtual void visit(const std::string& name, std::string& value) = 0;
   virtual void visit(const std::string& name, int& value, const std::vector<std::string>& names) = 0;
 
+  /// Of the field that is visited.
+  const Published& published() const { return published_; }
+
  private:
   std::string full(std::string_view name) const { return prefix_ + std::string(name); }
+  std::string enter(std::string_view name, Published published);
+
   std::string prefix_;
+  std::map<std::string, Published> known_;
+  Published published_;
 };
 
 /// Anything with fields: `[&](FieldVisitor& v) { v.group("search", search); }`.
@@ -74,6 +116,9 @@ using Fields = std::function<void(FieldVisitor&)>;
 
 /// Every field with its value as text that `set_field` reads back exactly, in order of declaration.
 std::vector<std::pair<std::string, std::string>> list_fields(const Fields& fields);
+
+/// Every field whose published value is known, in order of declaration.
+std::vector<std::pair<std::string, Published>> list_published(const Fields& fields);
 
 /// Sets one field from text. Returns false if there is no field of that name.
 /// Throws InvalidInput if the text is no such value or violates the bound ("cmaes.population = 0, must be ≥ 4").
@@ -84,9 +129,6 @@ std::vector<std::string> field_violations(const Fields& fields);
 
 /// Of the names, those most like `name`, for "did you mean".
 std::string closest(std::string_view name, const std::vector<std::string>& names);
-
-/// The shortest text that reads back as the same double.
-std::string to_text(double value);
 
 /// Reads a whole text as a double. Returns false if it is not one.
 bool from_text(std::string_view text, double& value);

@@ -30,11 +30,11 @@ struct GpOptions {
   double tolerance = 0.01;  // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
   void fields(FieldVisitor& v) {
     v.group("fit", fit);
-    v.boolean("trend", fit.trend);
-    v.boolean("joint_angles", joint_angles);
-    v.boolean("integrate_rates", integrate_rates);
-    v.boolean("smooth", smooth);
-    v.number("tolerance", tolerance, between(0, 1));
+    v.boolean("trend", fit.trend, published(false));
+    v.boolean("joint_angles", joint_angles, published(false));
+    v.boolean("integrate_rates", integrate_rates, published(false));
+    v.boolean("smooth", smooth, published(false));
+    v.number("tolerance", tolerance, between(0, 1), published(0));
     v.choice("variance", variance, {"latent", "noisy"});
   }
 };
@@ -59,8 +59,8 @@ struct ResidualGpOptions : GpOptions {
   }
   void fields(FieldVisitor& v) {
     GpOptions::fields(v);
-    v.boolean("midpoint", midpoint);
-    v.boolean("servos", servos);
+    v.boolean("midpoint", midpoint, published(false));
+    v.boolean("servos", servos, published(false));
   }
 };
 
@@ -99,10 +99,10 @@ struct GpMi {
   GpMi() { gp.fit.starts = 1, gp.fit.part_rows = 0; }  // the alternating search tries other kernels itself
   void fields(FieldVisitor& v) {
     v.group("gp", gp);
-    v.choice("score", score, {"sum", "product", "harmonic"});
-    v.choice("search", search, {"alternating", "nested"});
+    v.choice("score", score, {"sum", "product", "harmonic"}, published("sum"));
+    v.choice("search", search, {"alternating", "nested"}, published("nested"));
     v.group("subplex", subplex);
-    v.boolean("least_squares_start", least_squares_start);
+    v.boolean("least_squares_start", least_squares_start, published(false));
     v.group("least_squares", least_squares);
     v.group("posterior", posterior);
   }

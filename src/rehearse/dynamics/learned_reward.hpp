@@ -31,12 +31,12 @@ struct RewardOptions {
   RewardOptions() { fit.penalties.length = fit.penalties.snr = true; }  // the authors' code
   void fields(FieldVisitor& v) {
     v.boolean("learned", learned);
-    v.choice("scale", scale, {"linear", "logarithmic", "evidence"});
+    v.choice("scale", scale, {"linear", "logarithmic", "evidence"}, published("linear", kAuthors));
     v.number("floor", floor, between(0, 1));
     v.number("ceiling", ceiling, at_least(1));
     v.number("caution", caution, at_least(0));
     v.group("fit", fit);
-    v.number("tolerance", tolerance, between(0, 1));
+    v.number("tolerance", tolerance, between(0, 1), published(0));
   }
 };
 

@@ -19,7 +19,7 @@ struct LeastSquares {
   optim::SubplexOptions subplex{
       .max_evaluations = 2000, .x_tolerance = 1e-6, .value_tolerance = 1e-6};  // the authors' code
   void fields(FieldVisitor& v) {
-    v.choice("method", method, {"gauss-newton", "subplex"});
+    v.choice("method", method, {"gauss-newton", "subplex"}, published("subplex"));
     v.integer("starts", starts, between(1, 1000));
     v.group("subplex", subplex);
   }

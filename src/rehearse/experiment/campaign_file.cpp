@@ -84,6 +84,7 @@ class CampaignReader {
     reader_.take("title", file_.title);
     if (!reader_.take("scenario", file_.scenario) || table_["scenario"].value<std::string>() == "")
       violations_.add(0, "scenario is missing");
+    reader_.take("preset", file_.preset);
     if (!reader_.take("learners", file_.learners)) violations_.add(0, "learners is missing");
     reader_.take("priors", file_.priors);
     reader_.take_fields([&](FieldVisitor& v) {
@@ -176,6 +177,7 @@ class CampaignReader {
     for (const Variant& other : file_.variants)
       if (other.name == variant.name)
         violations_.add(variant.line, fmt::format("there are two variants '{}'", variant.name));
+    reader.take("preset", variant.preset);
     if (const toml::table* set = reader.take_table("set")) variant.options = options_of(*set);
     reader.finish();
     file_.variants.push_back(std::move(variant));

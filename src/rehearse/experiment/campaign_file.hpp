@@ -25,6 +25,7 @@ struct Axis {
 /// Options that go together, under a name.
 struct Variant {
   std::string name;
+  std::string preset;  // empty: none
   std::vector<FileOption> options;
   Index line = 0;
 };
@@ -78,6 +79,7 @@ struct Claim {
 
 struct CampaignFile {
   std::string title, scenario;
+  std::string preset;  // empty: none
   std::vector<std::string> learners, priors;
   std::vector<Index> seeds;
   Index trials = 10;

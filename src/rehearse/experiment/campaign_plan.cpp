@@ -12,6 +12,7 @@
 #include "rehearse/experiment/blame.hpp"
 #include "rehearse/experiment/campaign_claim_plan.hpp"
 #include "rehearse/experiment/campaign_overlaps.hpp"
+#include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/toml_reader.hpp"
 
@@ -26,6 +27,8 @@ using FileOptions = std::vector<FileOption>;
 struct Varied {
   std::string name;
   FileOptions options;
+  std::string preset = {};  // of the variant in line `line`
+  Index line = 0;
 
   void add(const FileOption& option) {
     name += fmt::format("{}{}={}", name.empty() ? "" : ",", option.key, option.text);
@@ -117,7 +120,22 @@ class Planner {
       known_options_.push_back(key.starts_with("prior.") ? key : key.substr(key.find('.') + 1));
     for (const auto& [at, message] : overlaps(*complete, file_)) violations_.add(at, message);
     const FileOptions options = common_options(*complete);
-    for (const Varied& varied : all_variants(*complete)) add_group(bare, options, draws_of(*complete), varied);
+    for (const Varied& varied : all_variants(*complete)) {
+      auto begun = begun_with(file_.preset, bare, line("preset"));
+      if (begun) begun = begun_with(varied.preset, *begun, varied.line);
+      if (begun) add_group(*begun, options, draws_of(*complete), varied);
+    }
+  }
+
+  /// The spec with the options of this preset, if there is one, or nothing and violations, at this line.
+  std::optional<Spec> begun_with(const std::string& preset, const Spec& spec, Index line) {
+    if (preset.empty()) return spec;
+    try {
+      return with_preset(catalogue_, spec, preset);
+    } catch (const InvalidInput& error) {
+      for (const std::string& message : error.violations()) violations_.add(line, message);
+      return std::nullopt;
+    }
   }
 
   /// The complete spec without the file's options, or nothing and violations, at this line.
@@ -171,7 +189,7 @@ class Planner {
     for (const Variant& variant : file_.variants) {
       bool has_all = true;
       for (const FileOption& option : variant.options) has_all &= use(complete, option.key);
-      if (has_all) found.push_back({variant.name, variant.options});
+      if (has_all) found.push_back({variant.name, variant.options, variant.preset, variant.line});
     }
     if (found.empty()) found.emplace_back();
     return found;
@@ -213,6 +231,7 @@ class Planner {
     if (plan_.runs.size() + file_.seeds.size() > kMostRuns) return too_many();
     if (!complete) return;
     plan_.groups.push_back({bare.learner, complete->prior, varied.name, {}});
+    if (!varied.preset.empty()) plan_.groups.back().options.emplace_back("preset", varied.preset);
     for (const FileOption& option : varied.options) plan_.groups.back().options.emplace_back(option.key, option.text);
     for (Index seed : file_.seeds) {
       if (!draws.empty()) complete = resolved(bare, with_draws(options, draws, seed));

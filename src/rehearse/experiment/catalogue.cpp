@@ -50,6 +50,11 @@ std::string Catalogue::why_missing(const std::string& kind, const std::string& n
     if (missing.name == name) return fmt::format("{} '{}' is not built: {}", kind, name, missing.reason);
   const auto known = kind == "scenario" ? names_of(scenario_builders()) : names_of(learner_builders());
   if (name.empty()) return fmt::format("no {} is named (known: {})", kind, fmt::join(known, ", "));
+  return unknown_name(kind, name, known);
+}
+
+std::string unknown_name(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
+  if (known.empty()) return fmt::format("unknown {} '{}': there are none", kind, name);
   return fmt::format("unknown {} '{}', did you mean '{}'? (known: {})", kind, name, closest(name, known),
                      fmt::join(known, ", "));
 }

@@ -16,12 +16,19 @@ struct NotBuilt {
   std::string reason;  // "DART 6.12 was not found"
 };
 
-/// What there is to choose from. apps generates one from the folders of robots and learners; a program with a robot of
-/// its own makes one by hand. A value; every call makes new builders, because their options can be set.
+/// A file that comes with the program.
+struct NamedText {
+  std::string name, text;
+};
+
+/// What there is to choose from. apps generates one from the folders of robots, learners and presets; a program with a
+/// robot of its own makes one by hand. A value; every call makes new builders, because their options can be set.
 struct Catalogue {
   std::vector<std::function<std::unique_ptr<scenario::ScenarioBuilder>()>> scenarios;
   std::vector<std::function<std::vector<std::unique_ptr<learners::LearnerBuilder>>()>> learner_families;
   std::vector<NotBuilt> not_built;
+  std::vector<NamedText> presets;          // "as-published"
+  std::vector<NamedText> default_presets;  // each under the name of its scenario, where it applies unasked
 
   std::vector<std::unique_ptr<scenario::ScenarioBuilder>> scenario_builders() const;
   std::vector<std::unique_ptr<learners::LearnerBuilder>> learner_builders() const;
@@ -33,5 +40,8 @@ struct Catalogue {
   /// One line that says why there is no `kind` ("scenario", "learner") of that name, and what is closest to it.
   std::string why_missing(const std::string& kind, const std::string& name) const;
 };
+
+/// "unknown KIND 'NAME', did you mean 'X'? (known: …)"
+std::string unknown_name(const std::string& kind, const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace rehearse::experiment

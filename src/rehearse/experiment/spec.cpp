@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/priors.hpp"
+#include "rehearse/experiment/toml_reader.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -23,7 +25,8 @@ class Resolver {
   Resolver(const Catalogue& catalogue, const Spec& spec)
       : spec_(spec),
         scenario_builder_(catalogue.scenario(spec.scenario)),
-        learner_builder_(catalogue.learner(spec.learner)) {
+        learner_builder_(catalogue.learner(spec.learner)),
+        default_preset_(default_preset(catalogue, spec.scenario)) {
     for (const auto& line : field_violations([this](FieldVisitor& v) { spec_.fields(v); })) violations_.add(line);
     if (!scenario_builder_) violations_.add(catalogue.why_missing("scenario", spec.scenario));
     if (!learner_builder_) violations_.add(catalogue.why_missing("learner", spec.learner));
@@ -31,7 +34,7 @@ class Resolver {
   }
 
   Resolved resolve(bool ask_learner) {
-    for (const auto& [key, text] : scenario_builder_->learner_options()) set_field_of(*learner_builder_, key, text);
+    if (default_preset_) set_defaults(*default_preset_);
     for (const auto& [key, text] : spec_.options) set_option(key, text);
     const std::vector<std::string> names = prior_names();
     const auto scenario = contained([&] { return scenario_builder_->build(); });
@@ -63,18 +66,29 @@ class Resolver {
     }
   }
 
-  template <class Builder>
-  bool set_field_of(Builder& builder, std::string_view key, const std::string& text) {
-    return contained([&] { return set_field(fields_of(builder), key, text); }).value_or(true);
+  /// Returns false if there is no such option. Throws InvalidInput.
+  bool set_named(std::string_view key, const std::string& text) {
+    const Fields scenario = fields_of(*scenario_builder_), learner = fields_of(*learner_builder_);
+    return set_field(scenario, key, text) || set_field(learner, key, text) ||
+           (key.starts_with(kScenario) && set_field(scenario, key.substr(kScenario.size()), text)) ||
+           (key.starts_with(kLearner) && set_field(learner, key.substr(kLearner.size()), text));
   }
 
   void set_option(const std::string& key, const std::string& text) {
-    const std::string_view name = key;
-    if (set_field_of(*scenario_builder_, key, text) || set_field_of(*learner_builder_, key, text)) return;
-    if (name.starts_with(kPrior)) return;  // once the scenario is built
-    if (name.starts_with(kScenario) && set_field_of(*scenario_builder_, name.substr(kScenario.size()), text)) return;
-    if (name.starts_with(kLearner) && set_field_of(*learner_builder_, name.substr(kLearner.size()), text)) return;
-    violations_.add(unknown_option(key, options_like(key)));
+    const bool known = contained([&] { return set_named(key, text); }).value_or(true);
+    if (!known && !key.starts_with(kPrior))  // these wait until the scenario is built
+      violations_.add(unknown_option(key, options_like(key)));
+  }
+
+  void set_defaults(const Preset& preset) {
+    for (const FileOption& option : preset.options(spec_.scenario, spec_.learner)) {
+      try {
+        if (!set_named(option.key, option.text))
+          throw InvalidInput(unknown_option(option.key, options_like(option.key)));
+      } catch (const InvalidInput& error) {
+        violations_.add(in_file(preset.source(), option.line, error.what()));
+      }
+    }
   }
 
   /// Those that the key may mean, written as it is: with the prefix if it has one, then of that section alone.
@@ -139,6 +153,7 @@ class Resolver {
   Violations violations_;
   std::unique_ptr<scenario::ScenarioBuilder> scenario_builder_;
   std::unique_ptr<learners::LearnerBuilder> learner_builder_;
+  std::optional<Preset> default_preset_;
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ struct Penalties {
     v.number("length_limit", length_limit, {.low = 1, .low_open = true});
     v.boolean("snr", snr);
     v.number("snr_limit", snr_limit, {.low = 1, .low_open = true});
-    v.number("length_deviation", length_deviation, at_least(0));
+    v.number("length_deviation", length_deviation, at_least(0), published(0));
     v.number("length_median", length_median, above(0));
   }
 };

@@ -28,11 +28,11 @@ struct FitOptions {
   Penalties penalties;
   Bounds bounds;
   void fields(FieldVisitor& v) {
-    v.choice("method", method, {"rprop", "bfgs"});
+    v.choice("method", method, {"rprop", "bfgs"}, published("rprop"));
     v.group("rprop", rprop);
     v.group("bfgs", bfgs);
-    v.integer("starts", starts, between(1, 1000));
-    v.integer("part_rows", part_rows, between(0, 1e6));
+    v.integer("starts", starts, between(1, 1000), published(1, kAuthors));
+    v.integer("part_rows", part_rows, between(0, 1e6), published(0, kAuthors));
     v.group("penalties", penalties);
     v.group("bounds", bounds);
   }

@@ -247,12 +247,13 @@ void Search::choose() {
 void SearchOptions::fields(FieldVisitor& v) {
   v.choice("strategy", strategy, {"single", "ipop", "bipop"});
   v.integer("max_evaluations", max_evaluations, at_least(1));
-  v.number("step", step, between(1e-6, 10));
+  v.number("step", step, between(1e-6, 10), published(0.5, kAuthors));
   v.number("start_step", start_step, between(0, 10));
   v.integer("max_doublings", max_doublings, between(0, 30));
   v.number("target", target, any_value());
   v.integer("candidates", candidates, between(1, 1e6));
   v.integer("final_samples", final_samples, between(0, 1e6));
+  v.publish("cmaes.elitism", published(true));
   v.group("cmaes", cmaes);
   v.group("uncertainty", uncertainty);
 }

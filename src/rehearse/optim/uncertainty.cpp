@@ -76,12 +76,12 @@ std::vector<Index> order_of(const JointRanks& ranks, std::size_t count, const Co
 }  // namespace
 
 void UncertaintyOptions::fields(FieldVisitor& v) {
-  v.boolean("enabled", enabled);
-  v.number("reevaluated", reevaluated, between(0.01, 1));
-  v.integer("reevaluated_least", reevaluated_least, between(1, 1e6));
-  v.number("tolerance", tolerance, between(0, 1));
-  v.number("smoothing", smoothing, between(0.01, 1));
-  v.integer("max_samples", max_samples, between(1, 1e6));
+  v.boolean("enabled", enabled, published(true));
+  v.number("reevaluated", reevaluated, between(0.01, 1), published(0.1, "libcmaes"));
+  v.integer("reevaluated_least", reevaluated_least, between(1, 1e6), published(2, "libcmaes"));
+  v.number("tolerance", tolerance, between(0, 1), published(0.2, "libcmaes"));
+  v.number("smoothing", smoothing, between(0.01, 1), published(1, "libcmaes"));
+  v.integer("max_samples", max_samples, between(1, 1e6), published(1, "libcmaes"));
   v.number("samples_growth", samples_growth, at_least(0));
   v.number("samples_decay", samples_decay, between(0, 1));
   v.number("sigma_growth", sigma_growth, at_least(0));

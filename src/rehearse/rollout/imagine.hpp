@@ -13,15 +13,15 @@
 namespace rehearse::rollout {
 
 struct ImagineOptions {
-  double noise_clip = 1;  // samples are clipped to ± so many standard deviations; 0: not clipped (the authors' code: 1)
-  bool sample = true;     // false: the mean prediction alone is followed
+  double noise_clip = 1;         // samples are clipped to ± so many standard deviations; 0: not clipped
+  bool sample = true;            // false: the mean prediction alone is followed
   double measurement_noise = 1;  // times what the model takes for noise of measurements, which the policy meets, with
                                  // samples or without; 0: it sees the true state (the paper)
   bool common_random_numbers = false;  // every candidate meets the same noise
   void fields(FieldVisitor& v) {
-    v.number("noise_clip", noise_clip, at_least(0));
+    v.number("noise_clip", noise_clip, at_least(0), published(1, kAuthors));
     v.boolean("sample", sample);
-    v.number("measurement_noise", measurement_noise, at_least(0));
+    v.number("measurement_noise", measurement_noise, at_least(0), published(0));
     v.boolean("common_random_numbers", common_random_numbers);
   }
 };

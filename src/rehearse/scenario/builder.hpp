@@ -24,7 +24,6 @@ class OptionsBuilder final : public ScenarioBuilder {
     for (const NamedPrior& prior : by_default_.priors) names.push_back(prior.name);
     return names;
   }
-  OptionTexts learner_options() const override { return by_default_.learner_options; }
   void fields(FieldVisitor& v) override { options_.fields(v); }
   Scenario build() const override { return make_(options_); }
 
@@ -35,8 +34,7 @@ class OptionsBuilder final : public ScenarioBuilder {
   Scenario by_default_;
 };
 
-/// `make` must give the scenario the same name and priors of the same names and the same learner_options
-/// whatever the options.
+/// `make` must give the scenario the same name and priors of the same names whatever the options.
 template <class Options>
 std::unique_ptr<ScenarioBuilder> make_builder(std::string summary, Scenario (*make)(const Options&)) {
   return std::make_unique<OptionsBuilder<Options>>(std::move(summary), make);

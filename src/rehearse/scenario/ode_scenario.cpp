@@ -35,8 +35,7 @@ Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options) 
                     .oracle = simulator(parts.plant),
                     .policy = make_policy(options.policy, task, parts.policy_scale),
                     .drawing = parts.drawing,
-                    .evaluations = options.evaluations,
-                    .learner_options = parts.learner_options};
+                    .evaluations = options.evaluations};
   for (const Guess& guess : parts.guesses)
     scenario.priors.push_back({guess.name, simulator(guess.parameters), guess.parameters});
   return scenario;

@@ -41,7 +41,6 @@ struct OdeScenario {
   std::vector<Guess> guesses;
   Vector policy_scale;  // what the policy's inputs are divided by, one a feature
   std::optional<Drawing> drawing;
-  OptionTexts learner_options;
 };
 Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options);
 

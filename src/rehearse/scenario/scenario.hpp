@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "rehearse/core/options.hpp"
@@ -26,9 +25,6 @@ struct NamedPrior {
   std::shared_ptr<const system::Simulator> driven = nullptr;
 };
 
-/// Names of options with their values as text.
-using OptionTexts = std::vector<std::pair<std::string, std::string>>;
-
 /// A task, a plant to do it on, guesses of the plant, and the policy to learn.
 struct Scenario {
   std::string name;
@@ -40,7 +36,6 @@ struct Scenario {
   std::optional<Drawing> drawing;  // empty: it cannot be shown
   Index evaluations = 0;           // extra episodes of each trial's policy on a plant of their own, which are no
                                    // interaction: their mean return is recorded as expected_return; 0: none
-  OptionTexts learner_options;  // that suit it better than the learners' defaults; who has no such option, ignores it
 };
 
 /// A scenario whose options can still be set: what a robot's folder gives to the catalogue.
@@ -50,7 +45,6 @@ class ScenarioBuilder {
   virtual std::string name() const = 0;
   virtual std::string summary() const = 0;  // one line for `rehearse list`
   virtual std::vector<std::string> prior_names() const = 0;
-  virtual OptionTexts learner_options() const { return {}; }
   virtual void fields(FieldVisitor& v) = 0;  // plant.NAME, noise, …
   virtual Scenario build() const = 0;        // throws InvalidInput
 };

@@ -65,6 +65,51 @@ TEST(Options, AreListedInTheirOrder) {
   EXPECT_EQ(list_fields(fields_of(options)), expected);
 }
 
+struct Kept {
+  double width = 0.5;
+  Index count = 3;
+  bool active = true;
+  Colour colour = Colour::green;
+  Inner inner, other;
+  void fields(FieldVisitor& v) {
+    v.number("width", width, above(0), published(0.1));
+    v.integer("count", count, at_least(1), published(40000000, kAuthors));
+    v.boolean("active", active, published(false));
+    v.choice("colour", colour, {"red", "green"}, published("red", "a book"));
+    v.publish("inner.population", published(10));
+    v.group("inner", inner);
+    v.group("other", other);
+  }
+};
+
+TEST(Options, KnowWhatIsPublishedOfThem) {
+  Kept options;
+  const auto list = list_published([&](FieldVisitor& v) { v.group("kept", options); });
+  std::string text;
+  for (const auto& [name, published] : list) text += name + " = " + published.text + " (" + published.source + ")\n";
+  EXPECT_EQ(text,
+            "kept.width = 0.1 (the paper)\n"
+            "kept.count = 40000000 (the authors' code)\n"
+            "kept.active = false (the paper)\n"
+            "kept.colour = red (a book)\n"
+            "kept.inner.population = 10 (the paper)\n");
+}
+
+TEST(Options, WhoHasAStructSaysMoreOfWhatIsPublishedThanTheStruct) {
+  struct Outermost {
+    Kept kept;
+    void fields(FieldVisitor& v) {
+      v.publish("kept.width", {});
+      v.publish("kept.inner.population", published(12));
+      v.group("kept", kept);
+    }
+  } options;
+  const auto list = list_published([&](FieldVisitor& v) { options.fields(v); });
+  ASSERT_EQ(list.size(), 4u);
+  EXPECT_EQ(list[0].first, "kept.count");
+  EXPECT_EQ(list[3].second.text, "12");
+}
+
 TEST(Options, AreSetFromText) {
   Outer options;
   EXPECT_TRUE(set_field(fields_of(options), "width", "+1e-3"));

@@ -64,6 +64,46 @@ TEST(CampaignPlan, OptionsReachTheRunsThatHaveThem) {
   EXPECT_EQ(option(plan.run(1, 0), "learner.search.step"), "3");
 }
 
+TEST(CampaignPlan, PresetsComeBeforeWhatTheFileSets) {
+  Catalogue catalogue = fake::catalogue();
+  catalogue.presets = {{"bold", "format = 1\n[set]\nsearch.step = 5\nnoise = 2\n"},
+                       {"careful", "format = 1\n[[for]]\nlearners = [\"echo\"]\nset.search.step = 0.1\n"}};
+  const auto plan_of = [&](const std::string& rest) { return plan_campaign(catalogue, kHead + rest, "c.toml"); };
+  const CampaignPlan plan = plan_of(R"(
+    learners = ["echo"]
+    preset = "bold"
+    [set]
+    noise = 1
+    [[variant]]
+    name = "bold"
+    [[variant]]
+    name = "careful"
+    preset = "careful"
+    [[variant]]
+    name = "own"
+    preset = "careful"
+    set.search.step = 7
+  )");
+  ASSERT_EQ(plan.groups.size(), 3u);
+  const std::vector<std::string> steps = {"5", "0.1", "7"};
+  for (std::size_t group = 0; group < 3; ++group) {
+    EXPECT_EQ(option(plan.run(group, 0), "learner.search.step"), steps[group]);
+    EXPECT_EQ(option(plan.run(group, 0), "scenario.noise"), "1");
+  }
+  EXPECT_EQ(plan.groups[1].options, (std::vector<std::pair<std::string, std::string>>{{"preset", "careful"}}));
+  EXPECT_EQ(fake::message_of<InvalidInput>([&] {
+              plan_of(
+                  "learners = [\"echo\", \"echo-alone\"]\npreset = \"brave\"\n[[variant]]\nname = \"a\"\n"
+                  "[[variant]]\nname = \"b\"\npreset = \"careful\"\n");
+            }),
+            "c.toml: line 6: unknown preset 'brave', did you mean 'bold'? (known: bold, careful); a file is named with "
+            "its .toml");
+  EXPECT_EQ(fake::message_of<InvalidInput>([&] {
+              plan_of("learners = [\"echo\", \"echo-alone\"]\n[[variant]]\nname = \"b\"\npreset = \"careful\"\n");
+            }),
+            "c.toml: line 6: presets/careful.toml: nothing is set for learner echo-alone on scenario line");
+}
+
 TEST(CampaignPlan, VariesOptionsAndRunsOnceWhereThereIsNone) {
   const CampaignPlan plan = plan_of(R"(
     learners = ["echo", "echo-alone"]
@@ -149,7 +189,7 @@ name = "c"
             "c.toml: line 9: the variant's name 'a b' must be of letters, digits and . _ + - alone\n"
             "c.toml: line 11: the variant has no name\n"
             "c.toml: line 12: unknown option 'search.stop', did you mean 'search.step'?\n"
-            "c.toml: line 15: unknown key 'ste' in [[variant]], did you mean 'set'? (known: name, set)\n"
+            "c.toml: line 15: unknown key 'ste' in [[variant]], did you mean 'set'? (known: name, preset, set)\n"
             "c.toml: line 16: there are two variants 'c'");
   EXPECT_EQ(complaint(kHead + "learners = [\"echo\"]\n[draw]\nnoise = [-2, -1]\n"),
             "c.toml: line 7: noise = -1.7215323291170614, must be ≥ 0");

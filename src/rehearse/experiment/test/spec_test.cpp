@@ -42,16 +42,17 @@ TEST(Spec, OptionsReachScenarioLearnerAndPrior) {
   EXPECT_EQ(resolved.prior->space[1].value, 1);
 }
 
-TEST(Spec, AScenariosOptionsComeBeforeTheUsers) {
-  class Knowing final : public fake::LineBuilder {
-   public:
-    scenario::OptionTexts learner_options() const override { return {{"search.step", "0.5"}, {"of.others", "1"}}; }
-  };
+TEST(Spec, DefaultsOfAScenarioComeBeforeTheUsersOptions) {
   Catalogue catalogue = fake::catalogue();
-  catalogue.scenarios = {[] { return std::make_unique<Knowing>(); }};
+  catalogue.default_presets = {{"line",
+                                "format = 1\n[[for]]\nlearners = ['echo']\nset.search.step = 0.5\n"
+                                "[[for]]\nlearners = ['echo-alone']\nset.of.others = 1\n"},
+                               {"other", "no TOML"}};
   const std::pair<std::string, std::string> known{"learner.search.step", "0.5"}, wanted{"learner.search.step", "2"};
   EXPECT_EQ(resolve(catalogue, spec_of("echo", "near")).spec.options[4], known);
   EXPECT_EQ(resolve(catalogue, spec_of("echo", "near", {{"search.step", "2"}})).spec.options[4], wanted);
+  EXPECT_EQ(fake::message_of<InvalidInput>([&] { resolve(catalogue, spec_of("echo-alone", "")); }),
+            "presets/defaults/line.toml: line 7: unknown option 'of.others', did you mean 'noise'?");
 }
 
 TEST(Spec, OracleIsFixedAndCannotBeChanged) {

@@ -393,24 +393,24 @@ class Builder final : public LearnerBuilder {
 }  // namespace
 
 void FirstTrial::fields(FieldVisitor& v) {
-  v.choice("kind", kind, {"actions", "extremes", "policy"});
-  v.number("hold_s", hold_s, at_least(0));
+  v.choice("kind", kind, {"actions", "extremes", "policy"}, published("policy"));
+  v.number("hold_s", hold_s, at_least(0), published(0, kAuthors));
 }
 
 void Exploration::fields(FieldVisitor& v) {
-  v.number("gain", gain, at_least(0));
+  v.number("gain", gain, at_least(0), published(0));
   v.number("promise", promise, at_least(0));
 }
 
 void Scouting::fields(FieldVisitor& v) {
-  v.integer("policies", policies, at_least(0));
+  v.integer("policies", policies, at_least(0), published(0));
   v.number("tolerance", tolerance, at_least(0));
 }
 
 void Insistence::fields(FieldVisitor& v) {
-  v.integer("searches", searches, between(0, 1000));
+  v.integer("searches", searches, between(0, 1000), published(0));
   v.number("tolerance", tolerance, at_least(0));
-  v.number("doubtful_tolerance", doubtful_tolerance, at_least(0));
+  v.number("doubtful_tolerance", doubtful_tolerance, at_least(0), published(0));
 }
 
 void Options::fields(FieldVisitor& v) {
@@ -420,12 +420,12 @@ void Options::fields(FieldVisitor& v) {
   v.group("first_trial", first_trial);
   v.boolean("start_from_best", start_from_best);
   v.boolean("start_from_last", start_from_last);
-  v.boolean("start_from_examples", start_from_examples);
+  v.boolean("start_from_examples", start_from_examples, published(false));
   v.group("explore", explore);
   v.group("scout", scout);
   v.group("insist", insist);
-  v.boolean("success_test", success_test);
-  v.integer("carried", carried, at_least(0));
+  v.boolean("success_test", success_test, published(false));
+  v.integer("carried", carried, at_least(0), published(0));
   v.integer("prior_searches", prior_searches, between(1, 1000));
   v.number("prior_variance", prior_variance, at_least(0));
 }

@@ -109,15 +109,15 @@ void select(std::vector<Vector> found, const std::vector<Vector>& starts, Imagin
 }  // namespace
 
 void SearchOptions::fields(FieldVisitor& v) {
-  v.choice("method", method, {"race", "restarts"});
+  v.choice("method", method, {"race", "restarts"}, published("restarts"));
   v.choice("evaluation", evaluation, {"samples", "moments"});
   v.number("box", box, between(1e-6, 1e6));
   v.integer("particles", particles, between(1, 1e6));
   v.group("imagine", imagine);
   v.group("race", race);
   v.group("restarts", restarts);
-  v.integer("finalists", finalists, between(1, 1e6));
-  v.integer("selection", selection, between(1, 1e6));
+  v.integer("finalists", finalists, between(1, 1e6), published(1));
+  v.integer("selection", selection, between(1, 1e6), published(1));
 }
 
 Index comparisons(const SearchProblem& problem, const SearchOptions& options) {

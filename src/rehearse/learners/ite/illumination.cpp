@@ -206,11 +206,13 @@ std::optional<std::string> violation_of_file(const std::string& file, const Task
 
 void IlluminationOptions::fields(FieldVisitor& v) {
   v.text("file", file);
-  v.choice("kind", kind, {"cvt", "grid"});
+  v.choice("kind", kind, {"cvt", "grid"}, published("grid", "Cully 2015"));
   v.integer("niches", niches, between(1, 1e7));
   v.integer("bins", bins, between(1, 1e6));
-  v.integer("evaluations", evaluations, at_least(1));
+  v.integer("evaluations", evaluations, at_least(1), published(40000000, "Cully 2015"));
   v.number("box", box, between(1e-6, 1e6));
+  v.publish("search.examples", published(0, "Cully 2015"));
+  v.publish("search.variation.kind", published("reset", "Cully 2015"));
   v.group("search", search);
 }
 

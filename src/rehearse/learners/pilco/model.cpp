@@ -77,9 +77,12 @@ dynamics::Kind kind(const ModelOptions& options, bool around_a_mean) {
 }  // namespace
 
 void ModelOptions::fields(FieldVisitor& v) {
+  v.publish("fit.method", {});  // PILCO's, too, goes along conjugate gradients or BFGS
+  v.publish("fit.starts", published(1, "PILCO"));
+  v.publish("fit.part_rows", published(0, "PILCO"));
   v.group("fit", fit);
-  v.integer("inducing", inducing, between(1, 1e5));
-  v.integer("inducing_line_searches", inducing_line_searches, at_least(0));
+  v.integer("inducing", inducing, between(1, 1e5), published(300, "PILCO"));
+  v.integer("inducing_line_searches", inducing_line_searches, at_least(0), published(500, "PILCO"));
 }
 
 Model learn(const Task& task, const Dataset& data, const ModelOptions& options,

@@ -72,9 +72,10 @@ SearchResult search(Objective& objective, const Vector& start, const SearchOptio
 }  // namespace
 
 void SearchOptions::fields(FieldVisitor& v) {
+  v.publish("patience", published(0, "PILCO"));
   bfgs.fields(v);
-  v.number("start_std", start_std, between(0, 1e6));
-  v.integer("restarts", restarts, between(0, 1000));
+  v.number("start_std", start_std, between(0, 1e6), published(0.1, "PILCO"));
+  v.integer("restarts", restarts, between(0, 1000), published(0, "PILCO"));
 }
 
 Gaussian start_state(const Task& task, const SearchOptions& options) {

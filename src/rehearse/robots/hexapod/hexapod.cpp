@@ -35,19 +35,6 @@ Reward reward(double drift_m, bool integral) {
   };
 }
 
-/// A rollout costs what a thousand of the pendubot's do. And no policies of the mean predictions, which fall.
-scenario::OptionTexts learner_options() {
-  return {{"search.race.max_evaluations", "4000"},
-          {"search.race.descents", "2"},
-          {"search.race.judgements", "4"},
-          {"search.selection", "20"},
-          {"search.imagine.noise_clip", "0"},
-          {"scout.policies", "0"},
-          {"insist.searches", "0"},
-          {"explore.gain", "0"},
-          {"archive.kind", "grid"}};
-}
-
 std::vector<std::string> descriptor_names() {
   std::vector<std::string> names;
   for (const char* leg : kLegNames) names.push_back(fmt::format("time on the floor, {}", leg));
@@ -133,8 +120,7 @@ scenario::Scenario make(const Options& options) {
                      damaged] { return make_mujoco_plant(options.plant, damaged, options.start_noise, kControlStep); },
       .priors = {{"intact", simulator, simulator->parameters(), make_simulator(options, Joints::driven)}},
       .policy = policy::make_gait(kLegs),
-      .drawing = drawing(damaged.removed()),
-      .learner_options = learner_options()};
+      .drawing = drawing(damaged.removed())};
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> builder() {

@@ -133,6 +133,9 @@ void Physics::fields(FieldVisitor& v) {
 
 void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
+  v.publish("box_low", published(0, kAuthors));
+  v.publish("box_high", published(1, kAuthors));
+  v.publish("policy_gain", published(1));
   ode.fields(v);
 }
 

@@ -90,8 +90,7 @@ scenario::Scenario make(const Options& options) {
                                       .plant = parameters(options.plant),
                                       .guesses = guesses(options.ode.box()),
                                       .policy_scale = kPolicyScale,
-                                      .drawing = drawing(options.plant.l),
-                                      .learner_options = {{"search.start_std", "0.1"}}},  // PILCO's
+                                      .drawing = drawing(options.plant.l)},
                                      options.ode);
 }
 

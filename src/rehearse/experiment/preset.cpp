@@ -1,0 +1,138 @@
+#include "rehearse/experiment/preset.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/files.hpp"
+#include "rehearse/experiment/toml_reader.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+constexpr std::int64_t kFormat = 1;
+
+bool is_among(const std::string& name, const std::vector<std::string>& names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<FileOption> options_in(const toml::table* table, FileViolations& violations) {
+  std::vector<FileOption> options;
+  if (!table) return options;
+  for (const auto& [key, node] : leaves(*table)) {
+    try {
+      options.push_back({key, text_of(*node), line_of(*node)});
+    } catch (const InvalidInput& error) {
+      violations.add(line_of(*node), fmt::format("{}: {}", key, error.what()));
+    }
+  }
+  return options;
+}
+
+/// What is wrong with a spec, whatever the learner says of the task.
+std::vector<std::string> said_of(const Catalogue& catalogue, const Spec& spec) {
+  try {
+    completed(catalogue, spec);
+    return {};
+  } catch (const InvalidInput& error) {
+    return error.violations();
+  }
+}
+
+bool is_known(const Catalogue& catalogue, const std::string& name, bool there) {
+  return there || std::any_of(catalogue.not_built.begin(), catalogue.not_built.end(),
+                              [&](const NotBuilt& missing) { return missing.name == name; });
+}
+
+}  // namespace
+
+Preset::Preset(std::string_view text, std::string source) : source_(std::move(source)) {
+  const toml::table file = parse_toml(text, source_);
+  FileViolations violations(source_);
+  TomlReader reader(file, "", violations);
+  const toml::node* format = reader.take("format");
+  if (!format || format->value<std::int64_t>() != kFormat)
+    violations.add(format ? line_of(*format) : 0, fmt::format("a preset begins with format = {}", kFormat));
+  reader.take("title", title_);
+  parts_.push_back({.options = options_in(reader.take_table("set"), violations)});
+  const toml::node* parts = reader.take("for");
+  if (parts && !parts->is_array_of_tables()) reader.wrong("for", "parts for some runs are written as [[for]]");
+  if (parts && parts->is_array_of_tables())
+    for (const toml::node& node : *parts->as_array()) {
+      TomlReader part(*node.as_table(), "[[for]]", violations);
+      Part& added = parts_.emplace_back(Part{.line = line_of(node)});
+      part.take("scenarios", added.scenarios);
+      part.take("learners", added.learners);
+      added.options = options_in(part.take_table("set"), violations);
+      part.finish();
+    }
+  reader.finish();
+  violations.throw_if_any();
+}
+
+std::vector<FileOption> Preset::options(const std::string& scenario, const std::string& learner) const {
+  std::vector<FileOption> options;
+  for (const Part& part : parts_)
+    if ((part.scenarios.empty() || is_among(scenario, part.scenarios)) &&
+        (part.learners.empty() || is_among(learner, part.learners)))
+      options.insert(options.end(), part.options.begin(), part.options.end());
+  return options;
+}
+
+std::vector<std::string> Preset::unknown_names(const Catalogue& catalogue) const {
+  std::vector<std::string> lines;
+  for (const Part& part : parts_) {
+    for (const std::string& name : part.scenarios)
+      if (!is_known(catalogue, name, catalogue.scenario(name) != nullptr))
+        lines.push_back(in_file(source_, part.line, catalogue.why_missing("scenario", name)));
+    for (const std::string& name : part.learners)
+      if (!is_known(catalogue, name, catalogue.learner(name) != nullptr))
+        lines.push_back(in_file(source_, part.line, catalogue.why_missing("learner", name)));
+  }
+  return lines;
+}
+
+std::vector<std::string> Preset::violations(const Catalogue& catalogue, const Spec& spec) const {
+  std::vector<std::string> lines = unknown_names(catalogue);
+  const std::vector<FileOption> own = options(spec.scenario, spec.learner);
+  if (own.empty() && lines.empty())
+    lines.push_back(
+        in_file(source_, 0, fmt::format("nothing is set for learner {} on scenario {}", spec.learner, spec.scenario)));
+  const std::vector<std::string> before = said_of(catalogue, spec);
+  for (const std::string& violation : said_of(catalogue, with_options(spec, own))) {
+    if (is_among(violation, before)) continue;
+    const auto causes = [&](const FileOption& option) {
+      return is_among(violation, said_of(catalogue, with_options(spec, {option})));
+    };
+    const auto option = std::find_if(own.begin(), own.end(), causes);
+    lines.push_back(in_file(source_, option == own.end() ? 0 : option->line, violation));
+  }
+  return lines;
+}
+
+Preset find_preset(const Catalogue& catalogue, const std::string& name_or_file) {
+  if (name_or_file.ends_with(".toml")) return {read_file(name_or_file), name_or_file};
+  std::vector<std::string> known;
+  for (const NamedText& preset : catalogue.presets) {
+    if (preset.name == name_or_file) return {preset.text, fmt::format("presets/{}.toml", preset.name)};
+    known.push_back(preset.name);
+  }
+  throw InvalidInput(unknown_name("preset", name_or_file, known) + "; a file is named with its .toml");
+}
+
+Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string& name_or_file) {
+  const Preset preset = find_preset(catalogue, name_or_file);
+  Violations violations;
+  for (const std::string& line : preset.violations(catalogue, spec)) violations.add(line);
+  violations.throw_if_any();
+  return with_options(spec, preset.options(spec.scenario, spec.learner));
+}
+
+std::optional<Preset> default_preset(const Catalogue& catalogue, const std::string& scenario) {
+  for (const NamedText& preset : catalogue.default_presets)
+    if (preset.name == scenario) return Preset(preset.text, fmt::format("presets/defaults/{}.toml", scenario));
+  return std::nullopt;
+}
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,116 @@
+// Holds presets/ and the table of deviations against what the options say of themselves. With REHEARSE_UPDATE=1 in the
+// environment (scripts/published) both are made anew; then the table lacks why new rows deviate.
+
+#include <cstdlib>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "apps/catalogue.hpp"
+#include "published.hpp"
+#include "rehearse/experiment/files.hpp"
+#include "rehearse/experiment/preset.hpp"
+
+namespace rehearse::presets {
+namespace {
+
+using experiment::Catalogue, experiment::FileOption, experiment::Preset, experiment::Spec;
+
+const std::string kPreset = PROJECT_FOLDER "/presets/as-published.toml";
+const std::string kPage = PROJECT_FOLDER "/docs/architecture.md";
+const std::string kMadePart = "\n# What the options say of themselves (fields()); made by scripts/published.\n";
+const std::string kHandPart = "\n# By hand: what depends on the scenario and the learner together.\n";
+
+bool updates() { return std::getenv("REHEARSE_UPDATE") != nullptr; }
+
+void write(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
+
+/// The position after the line that begins a part of the preset.
+std::size_t after(const std::string& text, const std::string& mark) {
+  const std::size_t found = text.find(mark);
+  EXPECT_NE(found, std::string::npos) << mark;
+  return found == std::string::npos ? text.size() : found + mark.size();
+}
+
+/// Calls `check` with every learner on every scenario.
+template <class Check>
+void for_all_runs(const Catalogue& catalogue, Check check) {
+  for (const auto& scenario : catalogue.scenario_builders())
+    for (const auto& learner : catalogue.learner_builders()) {
+      const bool can = learner->prior_use() == learners::PriorUse::none || !scenario->prior_names().empty();
+      if (can) check(*scenario, *learner, Spec{.scenario = scenario->name(), .learner = learner->name()});
+    }
+}
+
+std::map<std::string, std::string> by_key(const std::vector<FileOption>& options) {
+  std::map<std::string, std::string> texts;
+  for (const FileOption& option : options) texts[option.key] = option.text;
+  return texts;
+}
+
+TEST(AsPublished, IsMadeFromWhatTheOptionsSay) {
+  const std::string made = preset_text(published_options(apps::catalogue()));
+  std::string text = experiment::read_file(kPreset);
+  const std::size_t begin = after(text, kMadePart), end = text.find(kHandPart);
+  ASSERT_NE(end, std::string::npos);
+  if (updates()) write(kPreset, text.replace(begin, end - begin, made));
+  EXPECT_EQ(experiment::read_file(kPreset).substr(begin, made.size() + kHandPart.size()), made + kHandPart)
+      << "scripts/published makes it anew";
+}
+
+/// Also where a scenario's defaults are others than the learner's.
+TEST(AsPublished, GivesEachRunWhatIsPublished) {
+  const Catalogue catalogue = apps::catalogue();
+  const std::string text = experiment::read_file(kPreset);
+  const Preset by_hand("format = 1\n" + text.substr(after(text, kHandPart)), "by hand");
+  std::size_t checked = 0;
+  for_all_runs(catalogue, [&](auto& scenario, auto& learner, const Spec& spec) {
+    std::map<std::string, std::string> got;
+    for (const auto& [key, value] : completed(catalogue, with_preset(catalogue, spec, kPreset)).options)
+      got[key] = value;
+    auto wanted = by_key(by_hand.options(spec.scenario, spec.learner));
+    for (const auto& [key, published] : list_published([&](FieldVisitor& v) { learner.fields(v); }))
+      wanted.emplace("learner." + key, wanted.contains(key) ? wanted[key] : published.text);
+    for (const auto& [key, published] : list_published([&](FieldVisitor& v) { scenario.fields(v); }))
+      wanted.emplace("scenario." + key, wanted.contains(key) ? wanted[key] : published.text);
+    for (const auto& [key, value] : wanted) {
+      if (!key.starts_with("learner.") && !key.starts_with("scenario.")) continue;
+      EXPECT_EQ(got[key], value) << key << " of " << spec.learner << " on " << spec.scenario;
+      ++checked;
+    }
+  });
+  EXPECT_GT(checked, 300u);
+}
+
+TEST(Presets, FitTheRunsThatTheyName) {
+  const Catalogue catalogue = apps::catalogue();
+  ASSERT_FALSE(catalogue.presets.empty());
+  ASSERT_FALSE(catalogue.default_presets.empty());
+  std::vector<Preset> all;
+  for (const auto& preset : catalogue.presets) all.push_back(find_preset(catalogue, preset.name));
+  for (const auto& preset : catalogue.default_presets) all.push_back(*default_preset(catalogue, preset.name));
+  for (const Preset& preset : all) {
+    std::size_t fitting = 0;
+    for_all_runs(catalogue, [&](auto&, auto&, const Spec& spec) {
+      if (preset.options(spec.scenario, spec.learner).empty()) return;
+      ++fitting;
+      for (const std::string& line : preset.violations(catalogue, spec)) ADD_FAILURE() << line;
+    });
+    EXPECT_GT(fitting, 0u) << preset.source();
+  }
+}
+
+TEST(Deviations, TableIsMadeFromWhatTheOptionsSay) {
+  const std::vector<Deviation> told = read_table(experiment::read_file(kPage));
+  std::vector<Deviation> rows = deviations(published_options(apps::catalogue()));
+  for (Deviation& row : rows)
+    for (const Deviation& old : told)
+      if (old.option == row.option && (row.why.empty() || old.of == row.of)) row.why = old.why;
+  if (updates()) write(kPage, with_table(experiment::read_file(kPage), rows));
+  const std::string page = experiment::read_file(kPage);
+  EXPECT_EQ(page, with_table(page, rows)) << "scripts/published makes it anew";
+  for (const Deviation& row : rows) EXPECT_FALSE(row.why.empty()) << "docs/architecture.md: why " << row.option << "?";
+}
+
+}  // namespace
+}  // namespace rehearse::presets
