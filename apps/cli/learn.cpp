@@ -36,7 +36,7 @@ void add_options(Spec& spec, const std::vector<std::string>& settings, Violation
   }
 }
 
-/// The spec as it was where that cannot be.
+/// Unchanged, with violations, where a preset cannot be had.
 Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string& name, Violations& violations) {
   try {
     return experiment::with_preset(catalogue, spec, name);

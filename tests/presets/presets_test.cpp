@@ -18,8 +18,8 @@ using experiment::Catalogue, experiment::FileOption, experiment::Preset, experim
 
 const std::string kPreset = PROJECT_FOLDER "/presets/as-published.toml";
 const std::string kPage = PROJECT_FOLDER "/docs/architecture.md";
-const std::string kMadePart = "\n# What the options say of themselves (fields()); made by scripts/published.\n";
-const std::string kHandPart = "\n# By hand: what depends on the scenario and the learner together.\n";
+const std::string kMadePart = "\n# Made by scripts/published from what the options say of themselves (fields()).\n";
+const std::string kHandPart = "\n# By hand: options that depend on the scenario and the learner together.\n";
 
 bool updates() { return std::getenv("REHEARSE_UPDATE") != nullptr; }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the options of all learners and scenarios say of what is published, as text for files.
+// Text for files, made from what the options of all learners and scenarios say is published of them.
 
 #include <string>
 #include <vector>

@@ -37,7 +37,7 @@ inline Bound between(double low, double high) { return {.low = low, .high = high
 inline constexpr const char* kPaper = "the paper";            // Chatzilygeroudis 2018
 inline constexpr const char* kAuthors = "the authors' code";  // where the paper does not say
 
-/// The value of an option in a publication, where the default is another or what the publication lacks: then its "off".
+/// The value that a publication has for an option; where it has no such thing, the one that turns the option off.
 struct Published {
   std::string text;  // as `set_field` reads it; empty: the default is as published
   std::string source;
@@ -80,7 +80,7 @@ class FieldVisitor {
     value = static_cast<Enum>(index);
   }
 
-  /// What is published of a field that comes later, whatever is said there: for structs that several others have.
+  /// Says what is published of a field that comes later, whatever is said there: for structs that several others have.
   void publish(std::string_view name, Published published) { known_.emplace(full(name), std::move(published)); }
 
   /// The fields of a nested options struct, as "name.field".
@@ -99,7 +99,7 @@ class FieldVisitor {
   virtual void visit(const std::string& name, std::string& value) = 0;
   virtual void visit(const std::string& name, int& value, const std::vector<std::string>& names) = 0;
 
-  /// Of the field that is visited.
+  /// That of the field which is visited.
   const Published& published() const { return published_; }
 
  private:

@@ -106,7 +106,8 @@ std::vector<std::string> Preset::violations(const Catalogue& catalogue, const Sp
       return is_among(violation, said_of(catalogue, with_options(spec, {option})));
     };
     const auto option = std::find_if(own.begin(), own.end(), causes);
-    lines.push_back(in_file(source_, option == own.end() ? 0 : option->line, violation));
+    lines.push_back(in_file(source_, option == own.end() ? 0 : option->line,
+                            fmt::format("{} (learner {} on {})", violation, spec.learner, spec.scenario)));
   }
   return lines;
 }

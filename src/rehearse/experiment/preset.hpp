@@ -44,7 +44,7 @@ Preset find_preset(const Catalogue& catalogue, const std::string& name_or_file);
 /// The spec with those options of such a preset that are for its runs, after its own. Throws InvalidInput.
 Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string& name_or_file);
 
-/// What applies to a scenario unasked, if anything.
+/// The one that applies to a scenario unasked, if any.
 std::optional<Preset> default_preset(const Catalogue& catalogue, const std::string& scenario);
 
 }  // namespace rehearse::experiment

@@ -95,7 +95,7 @@ TEST(Options, KnowWhatIsPublishedOfThem) {
             "kept.inner.population = 10 (the paper)\n");
 }
 
-TEST(Options, WhoHasAStructSaysMoreOfWhatIsPublishedThanTheStruct) {
+TEST(Options, AnOwnersWordOnWhatIsPublishedCountsMoreThanTheStructs) {
   struct Outermost {
     Kept kept;
     void fields(FieldVisitor& v) {

@@ -61,7 +61,7 @@ TEST(Preset, IsAFileWhereItIsNamedSo) {
   EXPECT_EQ(with_preset(fake::catalogue(), spec_of("echo"), file).options, (Options{{"noise", "0.25"}}));
   std::ofstream(file) << "format = 1\n[set]\nnoise = 0.25\n\nnosie = 1\n";
   EXPECT_EQ(fake::message_of<InvalidInput>([&] { with_preset(fake::catalogue(), spec_of("echo"), file); }),
-            file + ": line 5: unknown option 'nosie', did you mean 'noise'?");
+            file + ": line 5: unknown option 'nosie', did you mean 'noise'? (learner echo on line)");
   std::remove(file.c_str());
 }
 
@@ -72,10 +72,11 @@ TEST(Preset, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(fake::message_of<InvalidInput>([] { find_preset(fake::catalogue(), "bold"); }),
             "unknown preset 'bold': there are none; a file is named with its .toml");
   EXPECT_EQ(complaint(""), "presets/careful.toml: nothing is set for learner echo on scenario line");
-  EXPECT_EQ(complaint("[set]\nnoise = -1\nsearch.stp = 1\n[[for]]\nlearners = [\"eco\"]\n"),
-            "presets/careful.toml: line 5: unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)\n"
-            "presets/careful.toml: line 3: noise = -1, must be ≥ 0\n"
-            "presets/careful.toml: line 4: unknown option 'search.stp', did you mean 'search.step'?");
+  EXPECT_EQ(
+      complaint("[set]\nnoise = -1\nsearch.stp = 1\n[[for]]\nlearners = [\"eco\"]\n"),
+      "presets/careful.toml: line 5: unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)\n"
+      "presets/careful.toml: line 3: noise = -1, must be ≥ 0 (learner echo on line)\n"
+      "presets/careful.toml: line 4: unknown option 'search.stp', did you mean 'search.step'? (learner echo on line)");
   EXPECT_EQ(complaint("colour = 1\nfor = 3\n[set]\nnoise = [1, 2]\n"),
             "presets/careful.toml: line 2: unknown key 'colour', did you mean 'for'? (known: format, title, set, for)\n"
             "presets/careful.toml: line 3: parts for some runs are written as [[for]]\n"
@@ -84,7 +85,7 @@ TEST(Preset, SaysWhatIsWrongAndWhere) {
             "x.toml: a preset begins with format = 1");
 }
 
-/// What is wrong without the preset is not its fault.
+/// An option that is wrong without the preset is not its fault.
 TEST(Preset, IsNotBlamedForOthers) {
   EXPECT_EQ(with_preset(with("[set]\nnoise = 1\n"), spec_of("echo", {{"colour", "red"}}), "careful").options.size(),
             2u);
