@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/files.hpp"
+#include "rehearse/core/files.hpp"
 #include "rehearse/experiment/toml_reader.hpp"
 
 namespace rehearse::experiment {
@@ -113,7 +113,7 @@ std::vector<std::string> Preset::violations(const Catalogue& catalogue, const Sp
 }
 
 Preset find_preset(const Catalogue& catalogue, const std::string& name_or_file) {
-  if (name_or_file.ends_with(".toml")) return {read_file(name_or_file), name_or_file};
+  if (name_or_file.ends_with(".toml")) return {read_file(name_or_file, Links::follow), name_or_file};
   std::vector<std::string> known;
   for (const NamedText& preset : catalogue.presets) {
     if (preset.name == name_or_file) return {preset.text, fmt::format("presets/{}.toml", preset.name)};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@ namespace rehearse::learners::ite {
 namespace {
 
 constexpr const char* kKept = "archive";
+constexpr std::string_view kSeed = "{seed}";  // in the name of a file
 constexpr int kRevision = 1;              // of what an archive is made by; another one makes those kept before stale
 constexpr Index kCheckpointRows = 16384;  // evaluations between two states that are kept
 constexpr Index kTriedAgain = 16;         // elites of an archive that was kept
@@ -195,7 +197,7 @@ qd::Search read_archive(const std::string& file, const Task& task, const policy:
 
 std::optional<std::string> violation_of_file(const std::string& file, const Task& task, const policy::Policy& policy) {
   try {
-    if (!file.empty()) read_archive(file, task, policy);
+    if (!file.empty() && file.find(kSeed) == std::string::npos) read_archive(file, task, policy);
     return {};
   } catch (const InvalidInput& wrong) {
     return wrong.what();
@@ -232,6 +234,12 @@ std::vector<std::string> violations(const IlluminationOptions& options, const Ta
                                  task.descriptor_bounds.size(), niches, qd::kMostNiches));
   if (auto violation = violation_of_file(options.file, task, policy)) violations.add(*std::move(violation));
   return violations.list();
+}
+
+IlluminationOptions for_seed(IlluminationOptions options, std::uint64_t seed) {
+  const std::size_t at = options.file.find(kSeed);
+  if (at != std::string::npos) options.file.replace(at, kSeed.size(), std::to_string(seed));
+  return options;
 }
 
 std::shared_ptr<const qd::Search> illuminate(const Setting& setting, const IlluminationOptions& options) {

@@ -12,7 +12,8 @@ namespace rehearse::learners::ite {
 
 /// How the archive of policies is made.
 struct IlluminationOptions {
-  std::string file;  // of an archive that was made before and is taken as it is; empty: one is made
+  std::string file;  // of an archive that was made before and is taken as it is, {seed} in it the run's seed; empty:
+                     // one is made
   enum class Kind { cvt, grid };
   Kind kind = Kind::cvt;
   Index niches = 10000;        // of the tessellation (Vassiliades 2018)
@@ -30,7 +31,11 @@ struct IlluminationOptions {
 /// file is no archive of such policies.
 std::shared_ptr<const qd::Search> illuminate(const Setting& setting, const IlluminationOptions& options);
 
-/// A line for everything that the task lacks, or the options and their file cannot do with it and the policy.
+/// The options for a run of this seed, which their file may name.
+IlluminationOptions for_seed(IlluminationOptions options, std::uint64_t seed);
+
+/// A line for everything that the task lacks, or the options and their file cannot do with it and the policy. A file
+/// that names the seed is checked once that is known.
 std::vector<std::string> violations(const IlluminationOptions& options, const Task& task, const policy::Policy& policy);
 
 }  // namespace rehearse::learners::ite

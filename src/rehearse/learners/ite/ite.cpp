@@ -193,6 +193,7 @@ void Options::fields(FieldVisitor& v) {
 }
 
 std::unique_ptr<Learner> make(Setting setting, Options options) {
+  options.archive = for_seed(std::move(options.archive), setting.seed);
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { options.fields(v); })) violations.add(line);
   for (const auto& line : setting.task.violations()) violations.add(line);

@@ -15,8 +15,7 @@ namespace {
 double error_of_joints(double lag_s, const Episode& walk) {
   const Index T = walk.steps();
   Matrix dX(T, kStateSize);
-  make_dart_simulator(0.1, Joints::servos, lag_s)
-      ->change(walk.true_states.topRows(T), walk.actions, Vector{{-1}}, dX);
+  make_dart_simulator(0.1, Joints::servos, lag_s)->change(walk.true_states.topRows(T), walk.actions, Vector{{-1}}, dX);
   const Matrix errors = walk.true_states.topRows(T) + dX - walk.true_states.bottomRows(T);
   return std::sqrt(errors.leftCols(kJoints).squaredNorm() / static_cast<double>(kJoints * T));
 }
@@ -39,7 +38,8 @@ TEST(DartSimulator, APriorWhoseServosLagKeepsTheLaws) {
   const Episode walk = tripod_on({});
   const auto lagging = make_dart_simulator(0.1, Joints::servos, 0.12);
   for (const double missing : {-1.0, 2.0})
-    for (const auto& broken : testing::check_simulator(*lagging, walk.true_states.middleRows(5, 6), walk.actions.middleRows(5, 6), Vector{{missing}}))
+    for (const auto& broken : testing::check_simulator(*lagging, walk.true_states.middleRows(5, 6),
+                                                       walk.actions.middleRows(5, 6), Vector{{missing}}))
       ADD_FAILURE() << broken;
 }
 

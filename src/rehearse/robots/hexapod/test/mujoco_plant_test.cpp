@@ -26,8 +26,8 @@ TEST(MujocoPlant, AMissingLegIsMeasuredWithTheNoiseOfTheOthers) {
     }
 }
 
-/// Root mean square, rad a step, of what the prior without that leg says wrongly of the trunk's rotation in a walk, told
-/// where the joints got to.
+/// Root mean square, rad a step, of what the prior without that leg says wrongly of the trunk's rotation in a walk,
+/// told where the joints got to.
 double unexplained(const Episode& walk, double missing) {
   static const auto simulator = make_dart_simulator(0.1, Joints::driven);
   const Index T = walk.steps();
