@@ -225,7 +225,7 @@ void Search::finish(const Cmaes& cmaes, const UncertaintyHandler& noise, Descent
 
 void Search::choose() {
   auto& all = result_.candidates;
-  all = bests_;
+  if (!options_.means_alone) all = bests_;
   all.insert(all.end(), means_.begin(), means_.end());
   if (options_.final_samples > 0) {
     Matrix X(low_.size(), static_cast<Index>(all.size()));
@@ -252,6 +252,7 @@ void SearchOptions::fields(FieldVisitor& v) {
   v.integer("max_doublings", max_doublings, between(0, 30));
   v.number("target", target, any_value());
   v.integer("candidates", candidates, between(1, 1e6));
+  v.boolean("means_alone", means_alone, published(true, "libcmaes"));
   v.integer("final_samples", final_samples, between(0, 1e6));
   v.publish("cmaes.elitism", published(true));
   v.group("cmaes", cmaes);

@@ -24,9 +24,10 @@ struct SearchOptions {
   double start_step = 0;           // the same for the descent from the given start; 0: step
   Index max_doublings = 9;         // of the population; Hansen 2009
   double target = std::numeric_limits<double>::infinity();  // stop at this value
-  Index candidates = 4;     // of the best points, and as many of the means, go into the result
-  Index final_samples = 0;  // evaluations of each of these at the end, to choose by; 0: chosen as they were seen
-  CmaesOptions cmaes{};     // its population is the smallest; its step tolerance a fraction of `step`
+  Index candidates = 4;      // of the best points, and as many of the means, go into the result
+  bool means_alone = false;  // no best points: with noise these are the luckiest (libcmaes with uncertainty handling)
+  Index final_samples = 0;   // evaluations of each of these at the end, to choose by; 0: chosen as they were seen
+  CmaesOptions cmaes{};      // its population is the smallest; its step tolerance a fraction of `step`
   UncertaintyOptions uncertainty{};
   void fields(FieldVisitor& v);
 };

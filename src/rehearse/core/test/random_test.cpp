@@ -38,13 +38,31 @@ TEST(Random, NormalsAreThoseOfPhiloxAndBoxMuller) {
   for (Index c = 0; c < 5; ++c) EXPECT_NEAR(normals(0, c), expected[c], 1e-13);
 }
 
-TEST(Random, EveryPartOfTheKeyMatters) {
+/// kKey, and every key that differs from it in one field.
+std::vector<StreamKey> neighbours() {
   std::vector<StreamKey> keys(10, kKey);
   ++keys[1].seed, ++keys[2].trial, ++keys[3].candidate, ++keys[4].particle, keys[5].purpose = Purpose::search;
   keys[6].phase = Phase::robot, keys[7].stage = Stage::judging, ++keys[8].search, ++keys[9].descent;
+  return keys;
+}
+
+TEST(Random, EveryPartOfTheKeyMatters) {
   std::set<std::uint64_t> first;
-  for (const StreamKey& key : keys) first.insert(Rng(key)());
-  EXPECT_EQ(first.size(), keys.size());
+  for (const StreamKey& key : neighbours()) first.insert(Rng(key)());
+  EXPECT_EQ(first.size(), neighbours().size());
+}
+
+// 10 000 normals a stream, 45 pairs: one correlation is beyond 5 standard errors with a probability of 3e-5.
+TEST(Random, StreamsThatDifferInOneFieldAreIndependent) {
+  constexpr Index kNumbers = 10000;
+  Matrix numbers(kNumbers, 10);
+  for (Index s = 0; s < numbers.cols(); ++s) {
+    Rng rng(neighbours()[static_cast<std::size_t>(s)]);
+    for (double& number : numbers.col(s)) number = rng.normal();
+  }
+  const Matrix correlations = numbers.transpose() * numbers / static_cast<double>(kNumbers);
+  for (Index i = 0; i < 10; ++i)
+    for (Index j = 0; j < i; ++j) EXPECT_LT(std::abs(correlations(i, j)), 0.05) << i << " and " << j;
 }
 
 TEST(Random, RefusesAFieldThatIsTooWide) {

@@ -107,6 +107,17 @@ TEST(Restarts, CandidatesHoldBestPointsAndMeansInOrder) {
   EXPECT_EQ(result.x, result.candidates.front().x);
 }
 
+TEST(Restarts, MayLeaveOutTheBestPoints) {
+  SearchOptions options{.max_evaluations = 3000};
+  const auto both = maximise(each(sphere), Vector::Zero(5), box5, options, key(1));
+  options.means_alone = true;
+  const auto means = maximise(each(sphere), Vector::Zero(5), box5, options, key(1));
+  ASSERT_FALSE(means.candidates.empty());
+  for (const Candidate& candidate : means.candidates) EXPECT_TRUE(candidate.mean);
+  EXPECT_GT(both.candidates.size(), means.candidates.size());
+  EXPECT_EQ(means.value, means.candidates.front().value);
+}
+
 TEST(Restarts, SingleSaysWhyItsDescentStopped) {
   const SearchOptions options{.strategy = Strategy::single};
   const auto result = maximise(each(sphere), Vector::Zero(5), box5, options, key(1));

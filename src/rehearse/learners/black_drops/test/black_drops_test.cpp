@@ -98,6 +98,50 @@ TEST_P(EachLearner, KeepsTheLawsWithALearnedReward) {
             std::vector<std::string>{});
 }
 
+TEST_P(EachLearner, IsNotToldTheSuccessTestWhereItIsKeptFromIt) {
+  const auto untold = builder(GetParam());
+  EXPECT_TRUE(set_field([&](FieldVisitor& v) { untold->fields(v); }, "success_test", "false"));
+  Setting blind = setting();
+  blind.task.solved = [](const Episode&) {
+    ADD_FAILURE() << "whether the task is solved is not to be asked";
+    return false;
+  };
+  learn(*untold->build(blind), 2);
+}
+
+/// The slider's policy, with an example that earns much.
+class PolicyWithExample final : public policy::Policy {
+ public:
+  std::string name() const override { return policy_->name(); }
+  Index parameters() const override { return policy_->parameters(); }
+  Index actions() const override { return policy_->actions(); }
+  Matrix examples() const override { return Matrix{{-5, 0}}; }
+  void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double t_s, MatrixView U) const override {
+    policy_->act(Theta, X, t_s, U);
+  }
+
+ private:
+  std::shared_ptr<const policy::Policy> policy_ = slider::policy();
+};
+
+// The first descent begins at the example, or at a random point, and is cut off before it gets anywhere else.
+TEST(BlackDrops, StartsFromThePolicysExamplesUnlessToldNotTo) {
+  const auto first = [](const char* from_examples) {
+    const auto with = builder("mi", "64");
+    for (const auto& [name, value] : std::map<std::string, std::string>{{"start_from_examples", from_examples},
+                                                                        {"search.race.descents", "1"},
+                                                                        {"search.race.start_sigma", "1e-6"},
+                                                                        {"search.race.sigma", "1e-6"},
+                                                                        {"insist.searches", "0"}})
+      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
+    Setting own = setting();
+    own.policy = std::make_shared<PolicyWithExample>();
+    return with->build(own)->ask().theta;
+  };
+  EXPECT_LT((first("true") - Vector{{-5, 0}}).norm(), 1e-3);
+  EXPECT_GT((first("false") - Vector{{-5, 0}}).norm(), 1e-2);
+}
+
 TEST(BlackDrops, ALearnedRewardNeedsAnInitialOneWithAPriorOnly) {
   for (const char* name : slider::kWithPrior) {
     const auto message = [&]() -> std::string {

@@ -51,6 +51,26 @@ TEST(SearchPolicy, DependsOnSeedAndTrialAlone) {
   EXPECT_NE(one.theta, search({}, small(), 1, 2).theta);
 }
 
+// A trial's searches and comparisons draw the same whatever comes first, and each its own.
+TEST(SearchPolicy, OfAnotherStageOrNumberDrawsItsOwnNumbersInAnyOrder) {
+  const dynamics::SimulatorModel model(slider::prior(), slider::kTruth, 0.0004);
+  const auto policy = slider::policy();
+  const Task task = slider::task();
+  const SearchProblem problem{model, *policy, task, serial_evaluator(), {}};
+  const std::vector<StreamKey> keys = {
+      {.stage = Stage::search}, {.stage = Stage::search, .search = 1}, {.stage = Stage::mean_search}};
+  const auto search = [&](const StreamKey& key) { return search_policy(problem, {}, small(), key).theta; };
+  std::vector<Vector> forwards, backwards;
+  for (const StreamKey& key : keys) forwards.push_back(search(key));
+  for (auto key = keys.rbegin(); key != keys.rend(); ++key) backwards.insert(backwards.begin(), search(*key));
+  EXPECT_EQ(forwards, backwards);
+  EXPECT_NE(forwards[0], forwards[1]);
+  EXPECT_NE(forwards[0], forwards[2]);
+  const Vector theta{{-2, 0}};
+  EXPECT_NE(judge(problem, theta, small(), {.stage = Stage::judging}).predicted_return,
+            judge(problem, theta, small(), {.stage = Stage::search}).predicted_return);
+}
+
 TEST(SearchPolicy, AGoodStartIsNotLost) {
   SearchOptions tiny = small();
   tiny.race.max_evaluations = 64;
