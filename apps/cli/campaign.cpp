@@ -8,9 +8,10 @@
 #include "apps/cli/cache.hpp"
 #include "apps/cli/campaign_console.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/cli/complain.hpp"
 #include "apps/cli/signals.hpp"
+#include "rehearse/core/files.hpp"
 #include "rehearse/experiment/campaign_claims.hpp"
-#include "rehearse/experiment/files.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -41,8 +42,8 @@ experiment::Share share_of(const std::optional<std::string>& text, Violations& v
 }
 
 void say_unfinished(const Campaign& campaign) {
-  fmt::print(stderr, "rehearse: interrupted with {} of {} runs done; to continue, give the same command again\n",
-             campaign.count(RunState::done), campaign.runs.size());
+  complain(fmt::format("interrupted with {} of {} runs done; to continue, give the same command again",
+                       campaign.count(RunState::done), campaign.runs.size()));
 }
 
 }  // namespace
@@ -62,7 +63,7 @@ int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& ar
   }
   const std::string folder = arguments.out.value_or("runs/" + std::filesystem::path(arguments.file).stem().string());
   if (company.leads() && !company.difference.empty())
-    fmt::print(stderr, "rehearse: the last bits of a run depend on the machine that does it: {}\n", company.difference);
+    complain(fmt::format("the last bits of a run depend on the machine that does it: {}", company.difference));
 
   CampaignConsole console(folder, share);
   catch_signals();

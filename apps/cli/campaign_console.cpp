@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "apps/cli/complain.hpp"
 #include "rehearse/experiment/campaign_claims.hpp"
 #include "rehearse/experiment/campaign_summary.hpp"
 
@@ -93,7 +94,7 @@ void print_failures(const Campaign& campaign) {
   if (campaign.count(RunState::failed) > 0) fmt::print("\nFailed; tried again when the campaign is started again\n");
   for (std::size_t i = 0; i < campaign.runs.size(); ++i)
     if (campaign.runs[i].state == RunState::failed)
-      fmt::print("  {}: {}\n", campaign.plan.runs[i].name, campaign.runs[i].reason);
+      fmt::print("  {}: {}\n", campaign.plan.runs[i].name, printable(campaign.runs[i].reason));
 }
 
 const char* word_for(Verdict verdict) { return verdict == Verdict::fail ? "FAIL" : to_text(verdict); }
@@ -126,10 +127,11 @@ void print_claims(const Campaign& campaign) {
   for (std::size_t i = 0; i < results.size(); ++i) {
     const auto& [claim, parts, missing] = campaign.plan.claims[i];
     const PartResult& first = results[i].parts.front();
-    fmt::print("  {:<10} {} ({}: {})\n", word_for(results[i].verdict), claim.text, first.measure, first.required);
+    fmt::print("  {:<10} {} ({}: {})\n", word_for(results[i].verdict), printable(claim.text), first.measure,
+               first.required);
     for (std::size_t k = 0; k < parts.size(); ++k)
       fmt::print("    {:<10} {}\n", word_for(results[i].parts[k].verdict),
-                 part_text(campaign, parts[k], results[i].parts[k]));
+                 printable(part_text(campaign, parts[k], results[i].parts[k])));
   }
 }
 
@@ -142,11 +144,11 @@ std::string headline(const experiment::CampaignPlan& plan) {
 }  // namespace
 
 void print_plan(const experiment::CampaignPlan& plan) {
-  fmt::print("{}\n", headline(plan));
-  for (const CampaignGroup& group : plan.groups) fmt::print("  {}\n", label_of(group));
+  fmt::print("{}\n", printable(headline(plan)));
+  for (const CampaignGroup& group : plan.groups) fmt::print("  {}\n", printable(label_of(group)));
   for (const auto& [name, reason] : plan.missing) fmt::print("  missing: {}\n", reason);
   if (!plan.claims.empty()) fmt::print("Claims\n");
-  for (const experiment::PlannedClaim& claim : plan.claims) fmt::print("  {}\n", claim.claim.text);
+  for (const experiment::PlannedClaim& claim : plan.claims) fmt::print("  {}\n", printable(claim.claim.text));
 }
 
 void CampaignConsole::started(const Campaign& campaign, Index at_once) {

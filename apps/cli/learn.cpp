@@ -5,10 +5,11 @@
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/cache.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/cli/complain.hpp"
 #include "apps/cli/console.hpp"
 #include "apps/cli/signals.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/files.hpp"
+#include "rehearse/core/files.hpp"
 #include "rehearse/experiment/run.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 
@@ -79,6 +80,15 @@ void require_same_arithmetic(const Company& company) {
                     company.difference));
 }
 
+std::string advice_after(const experiment::RunFailed& error, const std::filesystem::path& folder) {
+  if (error.resume_may_help())
+    return fmt::format("what was done is kept; once there is room: rehearse resume {}", folder.string());
+  return fmt::format(
+      "what was done is kept in {}; resumed, it would come to the same: learn with other options or "
+      "another seed",
+      folder.string());
+}
+
 /// Runs with signals caught and the console listening.
 template <class Start>
 int run_on_console(const std::filesystem::path& folder, Index threads, const Company& company, Start start) {
@@ -96,14 +106,13 @@ int run_on_console(const std::filesystem::path& folder, Index threads, const Com
   } catch (const Interrupted&) {
     console.clear_line();
     if (company.leads())
-      fmt::print(stderr, "rehearse: interrupted after {} trials; to continue: rehearse resume {}\n",
-                 console.trials_done(), folder.string());
+      complain(fmt::format("interrupted after {} trials; to continue: rehearse resume {}", console.trials_done(),
+                           folder.string()));
     return exit_code_of_signal();
   } catch (const experiment::RunFailed& error) {
     console.clear_line();
     if (!company.leads()) throw;
-    throw std::runtime_error(
-        fmt::format("{}\nwhat was done is kept; to try again: rehearse resume {}", error.what(), folder.string()));
+    throw std::runtime_error(fmt::format("{}\n{}", error.what(), advice_after(error, folder)));
   }
 }
 

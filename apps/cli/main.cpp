@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iostream>
+#include <new>
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
@@ -10,6 +12,7 @@
 
 #include "apps/catalogue.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/cli/complain.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 
@@ -190,15 +193,6 @@ int run(int argc, char** argv, const Company& company) {
   return replay(replay_arguments);
 }
 
-/// One line on standard error for each line of the message.
-void complain(std::string_view message) {
-  while (!message.empty()) {
-    const std::size_t end = std::min(message.find('\n'), message.size());
-    fmt::print(stderr, "rehearse: {}\n", message.substr(0, end));
-    message.remove_prefix(std::min(end + 1, message.size()));
-  }
-}
-
 /// Where standard streams are closed the next files would take their place, and get what is printed.
 void keep_standard_descriptors() {
   for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -220,9 +214,18 @@ End end_of(Command command) {
     return {kWrongInput, error.what()};
   } catch (const std::filesystem::filesystem_error& error) {
     return {kWrongInput, fmt::format("cannot use {}: {}", error.path1().string(), error.code().message())};
+  } catch (const std::bad_alloc&) {
+    return {kFailed, "there is not enough memory"};
   } catch (const std::exception& error) {
     return {kFailed, error.what()};
   }
+}
+
+/// What was printed must have got where it was to go.
+End after_output(End end) {
+  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.flush().good();
+  if (!written && end.code == kSuccess) return {kFailed, "cannot write to standard output"};
+  return end;
 }
 
 /// Waits for the other ranks; what went wrong on one of them alone is said, too.
@@ -245,6 +248,7 @@ int main(int argc, char** argv) {
     join(company, started, argc, argv);
     return run(argc, argv, company);
   });
+  end = after_output(std::move(end));
   if (company.ranks) end = end_with(*company.ranks, end);
   if (started.rank == 0) complain(end.message);
   return end.code;

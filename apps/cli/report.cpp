@@ -6,6 +6,7 @@
 
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/cli/complain.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/files.hpp"
 #include "rehearse/qd/archive_bytes.hpp"
@@ -53,8 +54,8 @@ int write_page(const fs::path& folder, const report::Report& report, const fs::p
   const std::string page = to_html(report, page_template());
   write(out, page);
   for (const report::Problem& problem : report.problems)
-    fmt::print(stderr, "rehearse: {}: {}\n", (folder / problem.where).string(), problem.what);
-  fmt::print("{} ({:.1f} MB) opens in a browser\n", out.string(), 1e-6 * static_cast<double>(page.size()));
+    complain(fmt::format("{}: {}", (folder / problem.where).string(), problem.what));
+  fmt::print("{} ({:.1f} MB) opens in a browser\n", printable(out.string()), 1e-6 * static_cast<double>(page.size()));
   return kSuccess;
 }
 

@@ -6,6 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "apps/cli/complain.hpp"
 #include "apps/cli/ranks.hpp"
 
 namespace rehearse::apps {
@@ -29,7 +30,7 @@ StatusLine::StatusLine() : terminal_(::isatty(STDOUT_FILENO) == 1 && launch().si
 
 void StatusLine::print(const std::string& line) {
   clear();
-  fmt::print("{}\n", line);
+  fmt::print("{}\n", printable(line));
   std::fflush(stdout);
 }
 

@@ -58,6 +58,23 @@ expect 2 "l2 = 99, must be between" 1 learn pendubot --learner gp-mi --set prior
 expect 2 "--seed = x" 4 learn pendubot --learner gp-mi --seed x --trials -1 --set colour=red --prior usful
 expect 2 "the scenario gives no initial_reward" 1 learn pendubot --learner gp-mi --set reward.learned=true
 expect 2 "cannot read nothing.toml" 1 learn nothing.toml
+expect 2 "search.box = 1e+308, must be between 1e-06 and 1000000" 1 learn pendubot --learner gp-mi --set search.box=1e308
+expect 2 "archive.box = 1e+308, must be between 1e-06 and 1000000" 1 learn pendubot --learner ite --set archive.box=1e308
+expect 2 'unknown learner '"'"'\x1b[31mred\x9b\x07'"'" 1 learn pendubot --learner $'\e[31mred\xc2\x9b\a'
+grep -q '[[:cntrl:]]' <(tr -d '\n' <stderr) && fail "escapes of a terminal are printed as they are"
+for command in list "list --json" --help --version "learn --help"; do
+  "$program" $command >/dev/full 2>stderr
+  [ $? = 1 ] && grep -q "cannot write" stderr || fail "'$command' to a full disk exits with $?: $(cat stderr)"
+done
+printf 'format = 1\n[run]\nscenario = 3\nlearner = "gp-mi"\n' >number.toml
+expect 2 "number.toml: line 3: scenario must be text in quotes" 1 learn number.toml
+printf 'format = 1\nscenario = 3\nlearners = "gp-mi"\nseeds = 1\n' >number.toml
+expect 2 "number.toml: line 2: scenario must be text in quotes" 1 campaign number.toml --dry-run
+printf 'format = 1\ntitle = "\\u001b[31mred"\nscenario = "pendubot"\nlearners = "mi"\nseeds = 1\n' >coloured.toml
+expect 0 '\x1b[31mred: 1 run' - campaign coloured.toml --dry-run
+mkfifo fifo.toml
+expect 2 "cannot read fifo.toml: it is no regular file" 1 learn fifo.toml
+expect 2 "cannot read fifo.toml: it is no regular file" 1 campaign fifo.toml --dry-run
 echo 'not = [toml' >broken.toml
 expect 2 "broken.toml: line" 1 learn broken.toml
 [ -e runs ] && fail "wrong arguments leave a folder"
@@ -96,6 +113,62 @@ cp $run/checkpoint again/checkpoint
 expect 2 "again" 1 resume again
 rm again/spec.toml
 expect 2 "it has no spec.toml" 1 resume again
+
+# Links, FIFOs and what a kill left.
+cp -r $run linked
+echo precious >victim
+for file in trials.csv checkpoint; do ln -s ../victim linked/$file.tmp; done
+rm linked/errors.csv linked/lock
+ln -s ../victim linked/errors.csv
+ln -s ../nowhere linked/lock
+expect 2 "cannot write linked/lock: it is a link" 1 resume linked
+[ -e nowhere ] && fail "a lock is made through a link"
+rm linked/lock
+expect 0 "best return" - resume linked --trials 2
+[ "$(cat victim)" = precious ] || fail "resume writes through a link"
+[ -f linked/errors.csv ] && [ ! -L linked/errors.csv ] || fail "a link in the place of a table is not replaced"
+rm linked/checkpoint linked/lock
+mkfifo linked/checkpoint linked/lock
+expect 2 "cannot write linked/lock: it is no regular file" 1 resume linked
+rm linked/lock
+expect 2 "cannot read linked/checkpoint: it is no regular file" 1 resume linked
+mv linked/spec.toml kept.toml
+mkfifo linked/spec.toml
+expect 2 "linked/spec.toml: it is no regular file" 1 report linked
+expect 2 "linked/spec.toml: it is no regular file" 1 replay linked --trial 1
+sleep 0 & killed=$!
+wait $killed
+mkdir -p begun/.run.$killed/trajectories
+expect 0 "best return" - learn pendubot --learner gp-mi "${quick[@]}" --out begun/run
+[ "$(ls -A begun)" = run ] || fail "of a beginning that was killed remains $(ls -A begun)"
+
+# What went wrong outside of a run is cured by resuming it, what it computes is not.
+(
+  ulimit -v 3000000
+  "$program" list >/dev/null 2>&1 || exit 0  # not with a sanitizer
+  expect 1 "there is not enough memory; the largest sizes that are asked for: learner.search.selection = 1000000, scenario.hidden = 3000" 2 \
+    learn pendulum --learner gp-mi --trials 1 --threads 1 --set search.selection=1000000 --set hidden=3000 --out large
+  grep -q "once there is room: rehearse resume large" stderr || fail "without memory it says $(cat stderr)"
+  exit $failures
+) || fail "see above"
+(
+  trap '' XFSZ
+  ulimit -f 8
+  expect 1 "cannot write full/" 2 learn pendubot --learner gp-mi "${quick[@]}" --out full
+  grep -q "once there is room: rehearse resume full" stderr || fail "on a full disk it says $(cat stderr)"
+  exit $failures
+) || fail "see above"
+expect 0 "best return" - resume full
+cmp $run/trials.csv full/trials.csv || fail "a run that met a full disk ends with other bytes"
+
+# The cache is bounded.
+mkdir -p cache/0123456789abcdef
+truncate -s 2G cache/0123456789abcdef/archive-0123456789abcdef
+echo kept >cache/0123456789abcdef/letter
+REHEARSE_CACHE=$PWD/cache "$program" learn pendubot --learner ite --trials 1 --set archive.niches=100 \
+  --set archive.evaluations=500 --out cached >/dev/null || fail "a run with a cache fails"
+[ ! -e cache/0123456789abcdef/archive-0123456789abcdef ] || fail "the cache is not pruned"
+[ "$(ls cache/*/archive-* | wc -l)" = 1 ] && [ -f cache/0123456789abcdef/letter ] || fail "the cache has $(ls cache/*)"
 
 # Campaigns; what is wrong with a file is tested in the room, what running one does in tests/campaign.
 expect 0 "--check-claims" - campaign --help

@@ -88,6 +88,18 @@ truncate -s -9 damaged/archive.bin
 grep -q "damaged/archive.bin: it is no usable archive: truncated" stderr || fail "the report says $(cat stderr)"
 [ "$(wc -l <stderr)" = 1 ] || fail "the report names other problems: $(cat stderr)"
 
+cp -r run hostile
+head -c 100000 /dev/zero | tr '\0' '[' >hostile/motion/trial-001.json
+sed 's/"frames":\[\[/"frames":[[1e999,/' run/motion/trial-002.json >hostile/motion/trial-002.json
+rm hostile/timings.csv && mkfifo hostile/timings.csv
+for command in "report hostile" "replay hostile --trial 1" "replay hostile --trial 2"; do
+  timeout 60 "$program" $command >/dev/null 2>>hostile/said || fail "'$command' exits with $?"
+done
+for problem in "motion/trial-001.json: it is nested deeper than 64 levels" \
+  "motion/trial-002.json: it has a number that is too large" "timings.csv: it is no regular file"; do
+  [ "$(grep -cF "rehearse: hostile/$problem" hostile/said)" -ge 2 ] || fail "reports do not say '$problem' but: $(cat hostile/said)"
+done
+
 cp -r run bent
 sed -i '3s/^2,[^,]*,[^,]*,/2,five,7.0x3,/' bent/trials.csv
 "$program" report bent >/dev/null 2>stderr

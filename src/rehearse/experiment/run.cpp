@@ -1,11 +1,14 @@
 #include "rehearse/experiment/run.hpp"
 
+#include <new>
+
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/checkpoint.hpp"
 #include "rehearse/experiment/evaluation.hpp"
 #include "rehearse/experiment/forecast.hpp"
+#include "rehearse/experiment/memory.hpp"
 #include "rehearse/experiment/motion.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/spec_file.hpp"
@@ -90,8 +93,26 @@ template <class Step>
 auto named_failure(Index trial, const char* who, Step step) -> decltype(step()) {
   try {
     return step();
+  } catch (const std::bad_alloc&) {
+    throw;  // with the options that ask for so much
   } catch (const std::exception& error) {
     throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()));
+  }
+}
+
+/// The value of `run`, whose failures say what can be done about them.
+template <class Run>
+auto with_causes(const Catalogue& catalogue, const Spec& complete, Run run) -> decltype(run()) {
+  try {
+    return run();
+  } catch (const std::bad_alloc&) {
+    throw RunFailed(not_enough_memory(catalogue, complete), true);
+  } catch (const RunFailed&) {
+    throw;
+  } catch (const InvalidInput&) {
+    throw;
+  } catch (const std::runtime_error& error) {  // a file could not be written
+    throw RunFailed(error.what(), true);
   }
 }
 
@@ -334,7 +355,7 @@ RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::fil
   Participants participants(resolve(catalogue, spec), options);
   std::optional<RunFolder> folder;
   participants.lead("create", [&] { folder.emplace(RunFolder::create(path, participants.resolved().spec)); });
-  return Run(participants, folder, {}).finish();
+  return with_causes(catalogue, participants.resolved().spec, [&] { return Run(participants, folder, {}).finish(); });
 }
 
 RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& path, std::optional<Until> until,
@@ -352,7 +373,8 @@ RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& pa
   participants.lead(fmt::format("continue to {}", extended.trials), [&] {
     folder->change_end({extended.trials, extended.until_solved});
   });
-  return Run(participants, folder, std::move(history)).finish();
+  return with_causes(catalogue, participants.resolved().spec,
+                     [&] { return Run(participants, folder, std::move(history)).finish(); });
 }
 
 }  // namespace rehearse::experiment

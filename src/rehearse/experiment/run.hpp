@@ -42,10 +42,17 @@ struct RunResult {
   std::vector<std::string> doubts;  // what the trials could not tell of φ, as of the last trial's model
 };
 
-/// The plant or the learner failed in a trial. What was done before is kept, and the run can be resumed.
+/// The plant or the learner failed in a trial, or memory or the disk did not suffice. What was done before is kept.
 class RunFailed : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit RunFailed(const std::string& message, bool resume_may_help = false)
+      : std::runtime_error(message), resume_may_help_(resume_may_help) {}
+
+  /// The cause is outside of the run: a full disk. What a run computes it computes again in the same way.
+  bool resume_may_help() const { return resume_may_help_; }
+
+ private:
+  bool resume_may_help_;
 };
 
 /// Runs a spec in a new folder. Throws InvalidInput before the folder exists, then RunFailed or Interrupted.

@@ -349,6 +349,26 @@ TEST(Resume, OneProcessAtATime) {
             std::string::npos);
 }
 
+/// Of what fails when the run in a folder is resumed.
+bool may_resuming_help(const fs::path& folder) {
+  try {
+    resume_run(fake::catalogue(), folder, 9, {});
+  } catch (const RunFailed& error) {
+    return error.resume_may_help();
+  }
+  ADD_FAILURE() << "nothing failed";
+  return false;
+}
+
+TEST(Resume, MayHelpWhereAFileCouldNotBeWritten) {
+  const fs::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(8), folder, {});
+  fs::create_directory(folder / "trials.csv.tmp");  // which a file cannot replace
+  EXPECT_TRUE(may_resuming_help(folder));
+  fs::remove(folder / "trials.csv.tmp");
+  EXPECT_EQ(resume_run(fake::catalogue(), folder, 9, {}).trials, 9);
+}
+
 TEST(Run, AFailingPlantKeepsWhatWasDone) {
   const fs::path folder = fake::test_folder() / "run";
   Spec spec = line_spec(8);
@@ -358,6 +378,7 @@ TEST(Run, AFailingPlantKeepsWhatWasDone) {
   const auto kept = lines_of(folder / "trials.csv").size();
   EXPECT_LT(kept, 9u);
   EXPECT_EQ(fake::message_of<RunFailed>([&] { resume_run(fake::catalogue(), folder, {}, {}); }), message);
+  EXPECT_FALSE(may_resuming_help(folder)) << "it fails in the same way";
   EXPECT_EQ(lines_of(folder / "trials.csv").size(), kept);
 }
 

@@ -114,7 +114,7 @@ ImaginedReturn comparison(const SearchProblem& problem, const SearchOptions& opt
 void SearchOptions::fields(FieldVisitor& v) {
   v.choice("method", method, {"race", "restarts"});
   v.choice("evaluation", evaluation, {"samples", "moments"});
-  v.number("box", box, above(0));
+  v.number("box", box, between(1e-6, 1e6));
   v.integer("particles", particles, between(1, 1e6));
   v.group("imagine", imagine);
   v.group("race", race);

@@ -210,7 +210,7 @@ void IlluminationOptions::fields(FieldVisitor& v) {
   v.integer("niches", niches, between(1, 1e7));
   v.integer("bins", bins, between(1, 1e6));
   v.integer("evaluations", evaluations, at_least(1));
-  v.number("box", box, above(0));
+  v.number("box", box, between(1e-6, 1e6));
   v.group("search", search);
 }
 

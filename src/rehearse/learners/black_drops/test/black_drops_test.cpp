@@ -393,7 +393,8 @@ TEST(BlackDrops, SaysEverythingThatIsWrongAtOnce) {
     FAIL();
   } catch (const InvalidInput& error) {
     const std::string text = error.what();
-    for (const char* part : {"search.box = -1, must be > 0", "horizon = 0", "needs a prior", "needs a policy"})
+    for (const char* part :
+         {"search.box = -1, must be between 1e-06 and 1000000", "horizon = 0", "needs a prior", "needs a policy"})
       EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   }
 }
