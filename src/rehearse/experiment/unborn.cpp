@@ -73,7 +73,7 @@ std::optional<std::string> name_of_unborn(const std::string& entry) {
 fs::path make_unborn(const fs::path& path) {
   const std::string name = path.filename().string();
   const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const fs::path unborn = path.parent_path() / unborn_name(name);
+  fs::path unborn = path.parent_path() / unborn_name(name);
   try {
     remove_abandoned(folder, name);
     fs::remove_all(unborn);

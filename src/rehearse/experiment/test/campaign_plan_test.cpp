@@ -358,22 +358,6 @@ search.step = 0.5
       "c.toml: line 15: search.step must be a list of values in [vary]");
 }
 
-TEST(CampaignPlan, SaysWhatIsWrongWithSeeds) {
-  const auto about = [](const std::string& seeds) {
-    const std::string all = complaint("format = 1\nscenario = \"line\"\nlearners = \"echo\"\nseeds = " + seeds + "\n");
-    return all.substr(std::min(all.size(), std::string("c.toml: line 4: ").size()));
-  };
-  EXPECT_EQ(about("\"1-3\""), "");
-  EXPECT_EQ(about("[1, \"3-5\"]"), "");
-  EXPECT_EQ(about("\"3-1\""), "seeds = \"3-1\", the first must not be above the last");
-  EXPECT_EQ(about("\"1-10000000\""), "seeds = \"1-10000000\" are 10000000, must be ≤ 100000");
-  EXPECT_EQ(about("[2, \"1-3\"]"), "seeds has 2 twice");
-  EXPECT_EQ(about("[]"), "seeds has none");
-  EXPECT_EQ(about("-1"), "seeds = -1, must be whole numbers from 0 to 2^53, or \"FIRST-LAST\"");
-  EXPECT_EQ(about("\"1-x\""), "seeds = 1-x, must be whole numbers from 0 to 2^53, or \"FIRST-LAST\"");
-  EXPECT_EQ(about("1.5"), "seeds must be whole numbers, \"FIRST-LAST\", or a list of these");
-}
-
 TEST(CampaignPlan, AScenarioThatIsNoTextIsSaidOnce) {
   const std::string rest = "learners = \"echo\"\nseeds = 1\n";
   EXPECT_EQ(complaint("format = 1\nscenario = 3\n" + rest), "c.toml: line 2: scenario must be text in quotes");
