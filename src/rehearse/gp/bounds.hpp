@@ -12,11 +12,11 @@ namespace rehearse::gp {
 struct Bounds {
   double signal_floor = 1e-6;  // σ_f ≥ this × scale
   double noise_floor = 1e-6;   // σ_n ≥ this × scale
-  double max_snr = 1e5;        // σ_f / σ_n ≤ this: beyond it double precision has no gradient
-  double min_length = 1e-3;    // ℓ_d ≥ this × spread of x_d
-  double max_length = 1e4;     // ℓ_d ≤ this × spread of x_d; without it those of irrelevant inputs reach e^400
-  double min_trend = 1e-10;    // τ_0², and τ_d² × magnitude of x_d squared, ≥ this × scale
-  double max_trend = 1e3;      // and ≤ this × scale
+  double max_snr = 1e5;  // σ_f / σ_n ≤ this: at 10⁶ the variances of predictions are rounding (docs/performance.md)
+  double min_length = 1e-3;  // ℓ_d ≥ this × spread of x_d
+  double max_length = 1e4;   // ℓ_d ≤ this × spread of x_d; without it those of irrelevant inputs reach e^400
+  double min_trend = 1e-10;  // τ_0², and τ_d² × magnitude of x_d squared, ≥ this × scale
+  double max_trend = 1e3;    // and ≤ this × scale
   void fields(FieldVisitor& v) {
     v.number("signal_floor", signal_floor, above(0));
     v.number("noise_floor", noise_floor, above(0));

@@ -17,17 +17,19 @@ struct Summary {
   std::vector<Index> points;  // r
   Matrix covariance;          // r × r, C_PP + ρ (TᵀT)⁻¹, lower triangle
   Vector targets;             // r
-  double mean_error = 0;      // bound of |difference| from the exact posterior mean at any input
+  double mean_error = 0;      // bound of |difference| from the exact posterior mean, where s̃ ≤ 1; elsewhere × s̃
 };
 
-/// C: n × n correlations (lower triangle); ρ = σ_n²/σ_f²; weights w = (C + ρI)⁻¹ y. The points leave a remainder
-/// R = C − T C_PP Tᵀ of trace at most tρ. Then at any input, where s̃ is the standard deviation of the summary and s
-/// that of all points in units of σ_f,
+/// C: n × n covariances over σ_f² (lower triangle), with a trend or without; ρ = σ_n²/σ_f²; weights w = (C + ρI)⁻¹ y.
+/// The points leave a remainder R = C − T C_PP Tᵀ of trace at most tρ. Then at any input, where s̃ is the standard
+/// deviation of the summary and s that of all points in units of σ_f,
 ///
-///   |s − s̃| ≤ (t + √t) s̃,   |m − m̃| ≤ √(wᵀRw) (1 + √t):
+///   |s − s̃| ≤ (t + √t) s̃,   |m − m̃| ≤ √(wᵀRw) (1 + √t) s̃:
 ///
-/// R acts as a further noise between 0 and tρ whose correlation with the rest is √t at most. None if more than `most`
-/// points are needed, or a factorisation fails.
+/// R acts as a further noise between 0 and tρ whose correlation with the rest is √t at most. With ã the weights of the
+/// targets in m̃, ρ‖ã‖² and the variance that the points leave of f(x) are both s̃² at most. Without a trend s̃ ≤ 1; with
+/// one s̃ grows without end away from the data, and so do the errors. None if more than `most` points are needed, or a
+/// factorisation fails.
 std::optional<Summary> summarise(const Matrix& C, double noise_ratio, const ConstVectorView& y,
                                  const ConstVectorView& weights, double t, Index most);
 

@@ -5,6 +5,7 @@
 
 #include "rehearse/gp/cholesky.hpp"
 #include "rehearse/gp/kernel.hpp"
+#include "rehearse/gp/sizes.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -22,6 +23,12 @@ double wall(double position, double limit, double& value) {
   const double t = position / std::log(limit);
   value -= std::pow(t, kWallPower);
   return -kWallPower * std::pow(t, kWallPower - 1) / std::log(limit);
+}
+
+/// D + 2 of them, or 2 D + 3.
+void check_flat(const Inputs& inputs, const ConstVectorView& flat) {
+  const Index D = inputs.dimensions();
+  if (flat.size() != 2 * D + 3) require_size("log hyperparameters", flat.size(), D + 2);
 }
 
 /// b = (L Lᵀ)⁻¹ y / σ_f in place; returns y' b / σ_f = ‖L⁻¹ y‖² / σ_f².
@@ -92,6 +99,7 @@ void Workspace::resize(Index n, Index dimensions, bool trend) {
 
 KnownNoise::KnownNoise(const Matrix& covariance)
     : size_(covariance.rows()), tiles_(static_cast<std::size_t>(tiles_size(size_))) {
+  require_shape("noise", covariance.rows(), covariance.cols(), size_, size_);
   for (Index j = 0; j < size_; ++j)
     for (Index i = j; i < size_; ++i) tiles_[static_cast<std::size_t>(entry_offset(i, j))] = covariance(i, j);
 }
@@ -99,6 +107,9 @@ KnownNoise::KnownNoise(const Matrix& covariance)
 Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVectorView& flat, Workspace& workspace,
                   Vector* gradient, const KnownNoise* noise) {
   const Index n = inputs.size(), D = inputs.dimensions();
+  check_flat(inputs, flat);
+  require_size("rows of targets", y.size(), n);
+  if (noise) require_size("rows of noise", noise->size(), n);
   if (gradient) gradient->resize(flat.size());
   const double jitter = y.allFinite() ? factorise_at(inputs, flat, noise, workspace) : kNaN;
   if (std::isnan(jitter)) return failure(gradient);
@@ -114,6 +125,7 @@ Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVec
 
 Whitening::Whitening(const Inputs& inputs, const Hyperparameters& kernel)
     : size_(inputs.size()), inverse_signal_(std::exp(-kernel.log_signal)) {
+  check_flat(inputs, kernel.flat());
   Workspace workspace;
   const double jitter = factorise_at(inputs, kernel.flat(), nullptr, workspace);
   log_constant_ = std::isnan(jitter) ? kNaN : log_constant(size_, workspace.tiles(), kernel.log_signal);
@@ -121,6 +133,7 @@ Whitening::Whitening(const Inputs& inputs, const Hyperparameters& kernel)
 }
 
 Matrix Whitening::operator()(const ConstMatrixView& Y) const {
+  require_size("rows of targets", Y.rows(), size_);
   Matrix whitened = Matrix::Zero(padded(size_), Y.cols());
   whitened.topRows(size_) = Y * inverse_signal_;
   tiles_solve(size_, tiles_.data(), whitened.data(), Y.cols());
@@ -128,11 +141,13 @@ Matrix Whitening::operator()(const ConstMatrixView& Y) const {
 }
 
 double Whitening::log_evidence(const ConstVectorView& whitened) const {
+  require_size("rows of whitened targets", whitened.size(), size_);
   return log_constant_ - whitened.squaredNorm() / 2;
 }
 
 double penalty(const Inputs& inputs, const ConstVectorView& flat, const Penalties& penalties, Vector* gradient) {
   const Index D = inputs.dimensions();
+  check_flat(inputs, flat);
   double value = 0;
   if (penalties.length) {
     for (Index d = 0; d < D; ++d) {

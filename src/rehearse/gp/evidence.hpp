@@ -70,8 +70,8 @@ class KnownNoise {
 };
 
 /// The log evidence of targets y (n) at flat log hyperparameters (D + 2, or 2 D + 3; Rasmussen 2006, eq. 5.8) and,
-/// unless null, its gradient with respect to them (eq. 5.9); with `noise` unless null. No value of `flat` or `y`
-/// throws: what cannot be computed has value and gradient NaN.
+/// unless null, its gradient with respect to them (eq. 5.9); with `noise` unless null. Throws
+/// InvalidInput on wrong sizes, on no value of `flat` or `y`: what cannot be computed has value and gradient NaN.
 Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVectorView& flat, Workspace& workspace,
                   Vector* gradient = nullptr, const KnownNoise* noise = nullptr);
 

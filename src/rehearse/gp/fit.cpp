@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -30,28 +29,24 @@ struct Point {
 
 bool better(const Point& a, const Point& b) { return std::isfinite(a.value()) && !(a.value() <= b.value()); }
 
-/// The other starts: how ln ℓ and ln σ_n of the default one move. Chosen, and ordered, by how often they led higher on
-/// the pendubot's data: residuals of right and wrong priors, 50 to 1000 rows, with and without noise.
-constexpr struct { double length, noise; } kOtherStarts[] = {{1, 2}, {-2, 2}, {-3, 1}, {0, -4}, {-1, 0}};
+constexpr double kNoisierLength = 1, kNoisierNoise = 2;  // how ln ℓ and ln σ_n of the default start move
+constexpr Index kTried = 40;  // so many points more than are climbed from are tried, and the likeliest taken
+constexpr Interval kTriedLengths{-1, 4}, kTriedNoise{-6, 0};  // ln ℓ in spreads, ln σ_n in σ_f
+constexpr double kTriedSignal = 0.5;                          // ln σ_f above that of the default start
 
-/// The default start moved: as above, then by up to a factor of 20 in each length and of 10 in σ_n, spread evenly
-/// (Roberts 2018, the additive recurrence with the generalised golden ratio).
-Vector other_start(const Vector& standard, Index D, std::size_t i) {
-  Vector flat = standard;
-  if (i < std::size(kOtherStarts)) {
-    flat.head(D).array() += kOtherStarts[i].length;
-    flat(D + 1) += kOtherStarts[i].noise;
-    return flat;
-  }
+/// The i-th of points spread evenly over lengths and noise (Roberts 2018, the additive recurrence with the generalised
+/// golden ratio): optima differ in what inputs matter, which no start with like lengths tells.
+Vector spread_point(const Vector& standard, Index D, Index i) {
   double ratio = 2;  // the root of ratio^(D + 2) = ratio + 1
   for (int k = 0; k < 60; ++k) ratio = std::pow(1 + ratio, 1 / static_cast<double>(D + 2));
-  const double number = static_cast<double>(i - std::size(kOtherStarts) + 1);
-  const auto fraction = [&](Index d) {
-    const double t = 0.5 + number * std::pow(ratio, -static_cast<double>(d + 1));
-    return 2 * (t - std::floor(t)) - 1;
+  const auto within = [&](Interval range, Index d) {
+    const double t = 0.5 + static_cast<double>(i + 1) * std::pow(ratio, -static_cast<double>(d + 1));
+    return range.low + (range.high - range.low) * (t - std::floor(t));
   };
-  for (Index d = 0; d < D; ++d) flat(d) += 3 * fraction(d);
-  flat(D + 1) += 2.3 * fraction(D);
+  Vector flat = standard;
+  for (Index d = 0; d < D; ++d) flat(d) += within(kTriedLengths, d);
+  flat(D) += kTriedSignal;
+  flat(D + 1) = flat(D) + within(kTriedNoise, D);
   return flat;
 }
 
@@ -127,11 +122,26 @@ struct Problem {
     return better(other, given) ? other : given;
   }
 
+  /// That one, a noisier one, and the likeliest of points all over.
   std::vector<Point> starts(const FitStart& start) {
     std::vector<Point> all{first_start(start)};
-    for (Index i = 0; i + 1 < options.starts; ++i)
-      all.push_back({other_start(standard, inputs.dimensions(), static_cast<std::size_t>(i))});
+    if (options.starts < 2) return all;
+    Vector noisier = standard;
+    noisier.head(inputs.dimensions()).array() += kNoisierLength;
+    noisier(inputs.dimensions() + 1) += kNoisierNoise;
+    all.push_back({noisier});
+    const std::vector<Point> others = likeliest(options.starts - 2);
+    all.insert(all.end(), others.begin(), others.end());
     return all;
+  }
+
+  std::vector<Point> likeliest(Index count) {
+    std::vector<Point> tried;
+    for (Index i = 0; count > 0 && i < count + kTried; ++i)
+      tried.push_back(at(bounds.clamped(spread_point(standard, inputs.dimensions(), i))));
+    std::stable_sort(tried.begin(), tried.end(), better);
+    tried.resize(static_cast<std::size_t>(count));
+    return tried;
   }
 };
 

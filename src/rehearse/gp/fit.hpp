@@ -21,8 +21,8 @@ struct FitOptions {
   bool parsimonious =
       false;              // for many inputs: the likeliest of a length for each, one for all, and noise alone, where
                           // each hyperparameter costs half a ln n nats (Schwarz 1978); without a trend. No field
-  Index starts = 4;       // the better of the given start and the default one; then noisier, smoother, rougher ones
-                          // (the authors: 1)
+  Index starts = 3;       // the better of the given start and the default one; a noisier one; the likeliest of some 40
+                          // points all over, which differ in what inputs matter (the authors: 1)
   Index part_rows = 200;  // with at least twice as many rows, all starts are tried on a part of about so many, and the
                           // best is continued on all rows; 0: never (the authors)
   Penalties penalties;

@@ -133,6 +133,7 @@ std::vector<MomentTerm> fitc_terms(const ConstMatrixView& X, const ConstMatrixVi
 
 double fitc_evidence(const ConstMatrixView& X, const ConstVectorView& y, const ConstMatrixView& Z,
                      const Hyperparameters& hyperparameters, Matrix* gradient, double ridge) {
+  check(X, y, Z, {hyperparameters}, ridge);
   if (gradient) gradient->setConstant(Z.rows(), Z.cols(), kNaN);
   const Fitc f(X, Z, hyperparameters, ridge);
   if (!f.ok) return kNaN;

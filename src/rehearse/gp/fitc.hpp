@@ -16,7 +16,7 @@ std::vector<MomentTerm> fitc_terms(const ConstMatrixView& X, const ConstMatrixVi
                                    const std::vector<Hyperparameters>& hyperparameters, double ridge = kFitcRidge);
 
 /// The log evidence in nats of targets y (n) of one output at inputs X (n × D), and, unless null, its gradient with
-/// respect to Z (m × D). Both NaN where a matrix cannot be factorised. No value throws. Any thread.
+/// respect to Z (m × D). Both NaN where a matrix cannot be factorised. Throws InvalidInput on wrong sizes. Any thread.
 double fitc_evidence(const ConstMatrixView& X, const ConstVectorView& y, const ConstMatrixView& Z,
                      const Hyperparameters& hyperparameters, Matrix* gradient = nullptr, double ridge = kFitcRidge);
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/gp/sizes.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -48,7 +49,7 @@ struct MeanGeometry {
   Small inverse;
 };
 
-void check(const std::vector<MomentTerm>& terms, Index outputs, bool parameters) {
+void check_terms(const std::vector<MomentTerm>& terms, Index outputs, bool parameters) {
   Violations violations;
   violations.require(!terms.empty(), "moments: no terms");
   const Index D = terms.empty() ? 0 : terms.front().inputs();
@@ -105,7 +106,7 @@ struct MomentMatching::Geometry {
 
 MomentMatching::MomentMatching(std::vector<MomentTerm> terms, Index outputs, bool parameters)
     : terms_(std::move(terms)), outputs_(outputs), parameters_(parameters) {
-  check(terms_, outputs, parameters);
+  check_terms(terms_, outputs, parameters);
   inputs_ = terms_.front().inputs();
   pair_weights_.resize(terms_.size());
   for (Index a = 0; a < static_cast<Index>(terms_.size()); ++a) {
@@ -234,8 +235,14 @@ bool MomentMatching::combine(const MomentTape& tape, Transformed& result) const 
   return result.mean.allFinite() && result.covariance.allFinite() && result.gain.allFinite();
 }
 
+void MomentMatching::check(const Gaussian& input) const {
+  require_size("inputs of moments", input.mean.size(), inputs_);
+  require_shape("covariance of moments' inputs", input.covariance.rows(), input.covariance.cols(), inputs_, inputs_);
+}
+
 bool MomentMatching::forward(const Gaussian& input, MomentTape& tape, Transformed& result,
                              const Evaluator& evaluator) const {
+  check(input);
   if (!input.mean.allFinite() || !input.covariance.allFinite()) return false;
   prepare(input, tape);
   const Index pairs = static_cast<Index>(pairs_.size()), tasks = pairs + static_cast<Index>(terms_.size());
@@ -308,6 +315,13 @@ void MomentMatching::adjoint(const Gaussian& input, const MomentTape& tape, cons
                              const Transformed& adjoint, Gaussian& input_adjoint,
                              std::vector<TermAdjoint>* terms) const {
   const Index D = inputs_;
+  check(input), check(input_adjoint);
+  for (const Transformed* one : {&result, &adjoint}) {
+    require_size("outputs of moments", one->mean.size(), outputs_);
+    require_shape("covariance of moments", one->covariance.rows(), one->covariance.cols(), outputs_, outputs_);
+    require_shape("gain of moments", one->gain.rows(), one->gain.cols(), D, outputs_);
+  }
+  if (terms) require_size("terms of moments", static_cast<Index>(terms->size()), static_cast<Index>(terms_.size()));
   const Matrix symmetric = adjoint.covariance + adjoint.covariance.transpose();
   const Vector by_mean = adjoint.mean - symmetric * result.mean;
   for (Index a = 0; a < static_cast<Index>(terms_.size()); ++a) {

@@ -42,9 +42,10 @@ class MomentMatching {
   Index outputs() const { return outputs_; }
   const std::vector<MomentTerm>& terms() const { return terms_; }
 
-  /// False, and `result` undefined, if the input is not a Gaussian (not finite, or its covariance far from positive
-  /// semi-definite). The covariance of the result has the uncertainty of the functions, no measurement noise. The pairs
-  /// of terms are spread over the evaluator's threads where that is worth it; the result is the same for any number.
+  /// Throws InvalidInput on wrong sizes. False, and `result` undefined, if the input is not a Gaussian (not finite, or
+  /// its covariance far from positive semi-definite). The covariance of the result has the uncertainty of the
+  /// functions, no measurement noise. The pairs of terms are spread over the evaluator's threads where that is worth
+  /// it; the result is the same for any number.
   bool forward(const Gaussian& input, MomentTape& tape, Transformed& result,
                const Evaluator& evaluator = serial_evaluator()) const;
 
@@ -63,6 +64,7 @@ class MomentMatching {
   const MomentTerm& term(Index a) const { return terms_[static_cast<std::size_t>(a)]; }
   WeightedPoints weighted(Index a, const MomentTape& tape, const double* weights) const;
   const double* weights(Index a) const { return weights_[static_cast<std::size_t>(a)].data(); }
+  void check(const Gaussian& input) const;
   void prepare(const Gaussian& input, MomentTape& tape) const;
   bool mean(const Gaussian& input, Index a, MomentTape& tape) const;
   bool pair(const Gaussian& input, Index p, MomentTape& tape) const;

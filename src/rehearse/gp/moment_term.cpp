@@ -1,7 +1,10 @@
 #include "rehearse/gp/moment_term.hpp"
 
+#include <fmt/format.h>
+
 #include "rehearse/core/errors.hpp"
 #include "rehearse/gp/correlations.hpp"
+#include "rehearse/gp/sizes.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -50,6 +53,9 @@ std::vector<MomentTerm> mean_terms(std::vector<MomentTerm> terms, double jitter)
 Matrix evaluate_means(const std::vector<MomentTerm>& terms, Index outputs, const ConstMatrixView& X) {
   Matrix means = Matrix::Zero(X.rows(), outputs);
   for (const MomentTerm& term : terms) {
+    require_size("inputs of moments", X.cols(), term.inputs());
+    if (term.output < 0 || term.output >= outputs)
+      throw InvalidInput(fmt::format("gp output = {}, must be below {}", term.output, outputs));
     const Vector inverse_lengths = (-term.log_lengths).array().exp();
     const Matrix C = correlations(X * inverse_lengths.asDiagonal(), term.centres * inverse_lengths.asDiagonal());
     for (Index i = 0; i < term.size(); ++i) means.col(term.output) += term.weights(i) * C.col(i);

@@ -11,6 +11,7 @@
 #include "rehearse/gp/evidence.hpp"
 #include "rehearse/gp/kernel.hpp"
 #include "rehearse/gp/prediction_kernel.hpp"
+#include "rehearse/gp/sizes.hpp"
 #include "rehearse/gp/tiles.hpp"
 
 namespace rehearse::gp {
@@ -63,12 +64,13 @@ Vector packed_inverse(Index n, double* tiles) {
   return packed;
 }
 
-/// Below this ratio of σ_n²/σ_f² the trace that may be left out drowns in the rounding of a correlation matrix.
+/// Below this ratio of σ_n² to the largest variance of a point the trace that may be left out drowns in the rounding of
+/// a covariance matrix.
 constexpr double kLeastNoiseRatio = 1e-7;
 
 /// The trace to leave out, in units of σ_n² (compression.hpp). √t = tolerance · √ρ keeps the error below
-/// tolerance · σ_n at every input. Small ρ would need more digits for that than there are; t = 2ρ is measured to be
-/// enough (docs/performance.md).
+/// tolerance · σ_n s̃/σ_f at every input, and so below tolerance · σ_n where s̃ ≤ σ_f. Small ρ would need more digits for
+/// that than there are; t = 2ρ is measured to be enough (docs/performance.md).
 double remainder(double noise_ratio, double tolerance) {
   const double share = noise_ratio >= 0.01 ? noise_ratio : 2e4 * noise_ratio;
   return tolerance * tolerance * std::min(share, 1.0);
@@ -263,10 +265,11 @@ std::optional<Posterior::Output> Posterior::compress(Index e, const ConstVectorV
                                                      double tolerance, Workspace& workspace) const {
   if (tolerance <= 0) return std::nullopt;
   const double noise_ratio = noise_variances_(e) / exact.signal_variance + jitters_(e);
-  if (noise_ratio < kLeastNoiseRatio) return std::nullopt;
+  if (noise_ratio < kLeastNoiseRatio) return std::nullopt;  // before C is made
   const auto worthwhile = static_cast<Index>(0.75 * static_cast<double>(size()));
-  const auto summary = summarise(correlations(size(), dimensions(), workspace), noise_ratio, y, exact.weights,
-                                 remainder(noise_ratio, tolerance), worthwhile);
+  const Matrix C = correlations(size(), dimensions(), workspace);
+  if (noise_ratio < kLeastNoiseRatio * C.diagonal().maxCoeff()) return std::nullopt;
+  const auto summary = summarise(C, noise_ratio, y, exact.weights, remainder(noise_ratio, tolerance), worthwhile);
   if (!summary) return std::nullopt;
   std::optional<Output> few = condition(*summary, exact, workspace);
   if (!few) return std::nullopt;
@@ -334,6 +337,9 @@ void Posterior::predict(const ConstMatrixView& F, bool only_mean, Write write) c
 }
 
 void Posterior::predict(const ConstMatrixView& F, MatrixView mean, MatrixView variance) const {
+  require_shape("inputs", F.rows(), F.cols(), F.rows(), dimensions());
+  require_shape("mean", mean.rows(), mean.cols(), F.rows(), outputs());
+  require_shape("variance", variance.rows(), variance.cols(), F.rows(), outputs());
   predict(F, false, [&](Index row, Index q, Index e, const Scratch& s) {
     mean(row, e) = s.mean(q);
     variance(row, e) = s.variance(q, output(e));
@@ -341,6 +347,8 @@ void Posterior::predict(const ConstMatrixView& F, MatrixView mean, MatrixView va
 }
 
 void Posterior::predict_mean(const ConstMatrixView& F, MatrixView mean) const {
+  require_shape("inputs", F.rows(), F.cols(), F.rows(), dimensions());
+  require_shape("mean", mean.rows(), mean.cols(), F.rows(), outputs());
   predict(F, true, [&](Index row, Index q, Index e, const Scratch& s) { mean(row, e) = s.mean(q); });
 }
 

@@ -20,9 +20,10 @@ class Posterior {
   /// not finite. The jitter ladder of cholesky.hpp applies.
   ///
   /// `tolerance` > 0 allows errors of the mean and of the standard deviation, as a fraction of σ_n: an output whose
-  /// data a few points sum up (compression.hpp) is predicted from these. That of the mean is bounded at every input;
-  /// that of the standard deviation too where σ_n² ≥ σ_f²/100, elsewhere it is measured at, between and beyond the
-  /// training inputs, and kept below a fifth of the tolerance there.
+  /// data a few points sum up (compression.hpp) is predicted from these. At every input, s̃ the standard deviation
+  /// there, the error of the mean is at most tolerance · σ_n · max(1, s̃/σ_f), where s̃ exceeds σ_f only far from the
+  /// data of a trend; that of the standard deviation too if σ_n² ≥ σ_f²/100. Elsewhere the latter is at most tolerance
+  /// · s̃, and measured at, between and beyond the training inputs, where it is kept below a fifth of tolerance · σ_n.
   Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperparameters> hyperparameters,
             double tolerance = 0);
 

@@ -103,6 +103,36 @@ TEST(Posterior, WithinTheToleranceFewPointsStandForAll) {
   EXPECT_EQ(few.log_evidences(), exact.log_evidences());
 }
 
+// Far from the data of a trend s̃ exceeds σ_f by far: the errors grow with it, as the header says, and do exceed
+// tolerance · σ_n there.
+TEST(Posterior, TheToleranceHoldsInUnitsOfTheDoubtsOfATrend) {
+  const Index n = 220;
+  const double tolerance = 0.01;
+  const Matrix X = naive::normals(n, 2, 17);
+  Matrix F(1500, 2);
+  F << naive::normals(500, 2, 19), 5 * naive::normals(500, 2, 20), 200 * naive::normals(500, 2, 21);
+  double beyond = 0;
+  for (const double trend : {0.3, 3.0}) {
+    for (const double noise : {0.5, 0.15, 0.02, 1e-3}) {
+      const Hyperparameters theta = naive::with_trend(naive::hyperparameters(2, 2, 1, noise), trend);
+      const Vector y = naive::draw(X, theta, 18);
+      const Prediction a = predict(Posterior(Inputs(X), y, {theta}), F);
+      const Posterior few(Inputs(X), y, {theta}, tolerance);
+      const Prediction b = predict(few, F);
+      EXPECT_LT(few.variance_points(0), noise > 0.1 ? n / 2 : n + 1) << trend << " " << noise;
+      const Eigen::ArrayXd doubt = b.variance.col(0).cwiseSqrt(), scale = doubt.max(1.0);
+      const Eigen::ArrayXd mean_error = (a.mean - b.mean).col(0).cwiseAbs();
+      const Eigen::ArrayXd deviation_error = (a.variance.col(0).array().sqrt() - doubt).abs();
+      EXPECT_LE((mean_error / scale).maxCoeff(), tolerance * noise) << trend << " " << noise;
+      EXPECT_LE((deviation_error / doubt).maxCoeff(), tolerance) << trend << " " << noise;
+      if (noise < 0.1) continue;
+      EXPECT_LE((deviation_error / scale).maxCoeff(), tolerance * noise) << trend << " " << noise;
+      beyond = std::max(beyond, deviation_error.maxCoeff() / (tolerance * noise));
+    }
+  }
+  EXPECT_GT(beyond, 1) << "the bound without s̃ would do";
+}
+
 TEST(Posterior, ARowIsTheSameToTheBitHoweverManyComeWithIt) {
   for (const Index n : {1, 5, 50, 130, 200, 331, -200}) {
     const Posterior posterior = n > 0 ? make(n, 7) : smooth(-n, 0.01);

@@ -1,0 +1,90 @@
+#include "rehearse/gp/sizes.hpp"
+
+#include <gtest/gtest.h>
+
+#include "naive.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/gp/evidence.hpp"
+#include "rehearse/gp/fitc.hpp"
+#include "rehearse/gp/moment_matching.hpp"
+
+namespace rehearse::gp {
+namespace {
+
+template <class Call>
+std::string complaint(Call call) {
+  try {
+    call();
+  } catch (const InvalidInput& wrong) {
+    return wrong.what();
+  }
+  return "none";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+struct Sizes : testing::Test {
+  Matrix X = naive::normals(12, 3, 1), Y = naive::normals(12, 2, 2);
+  Inputs inputs{X};
+  Hyperparameters theta = naive::hyperparameters(3, 1, 1, 0.1);
+  Posterior posterior{inputs, Y, {theta, theta}};
+};
+
+TEST_F(Sizes, SayNameValueAndBound) {
+  EXPECT_EQ(complaint([] { require_size("rows", 3, 4); }), "gp rows = 3, must be 4");
+  EXPECT_EQ(complaint([] { require_shape("mean", 3, 2, 3, 1); }), "gp mean is 3 × 2, must be 3 × 1");
+  EXPECT_EQ(complaint([] { require_size("rows", 4, 4), require_shape("mean", 3, 2, 3, 2); }), "none");
+}
+
+TEST_F(Sizes, OfPredictions) {
+  Matrix mean(12, 2), variance(12, 2), few(11, 2), narrow(12, 1);
+  EXPECT_TRUE(contains(complaint([&] { posterior.predict(X.leftCols(2), mean, variance); }), "12 × 2, must be 12 × 3"));
+  EXPECT_TRUE(contains(complaint([&] { posterior.predict(X, few, variance); }), "11 × 2, must be 12 × 2"));
+  EXPECT_TRUE(contains(complaint([&] { posterior.predict(X, mean, narrow); }), "12 × 1, must be 12 × 2"));
+  EXPECT_TRUE(contains(complaint([&] { posterior.predict_mean(X.leftCols(2), mean); }), "must be 12 × 3"));
+  EXPECT_TRUE(contains(complaint([&] { posterior.predict_mean(X, narrow); }), "must be 12 × 2"));
+}
+
+TEST_F(Sizes, OfEvidence) {
+  Workspace workspace;
+  const Vector y = Y.col(0), flat = theta.flat();
+  const KnownNoise of_nine(Matrix::Identity(9, 9));
+  EXPECT_TRUE(contains(complaint([&] { evidence(inputs, y.head(9), flat, workspace); }), "= 9, must be 12"));
+  EXPECT_TRUE(contains(complaint([&] { evidence(inputs, y, flat.head(4), workspace); }), "= 4, must be 5"));
+  EXPECT_TRUE(contains(complaint([&] { evidence(inputs, y, flat, workspace, nullptr, &of_nine); }), "= 9, must be 12"));
+  EXPECT_TRUE(contains(complaint([&] { KnownNoise(Matrix::Identity(9, 8)); }), "9 × 8, must be 9 × 9"));
+  EXPECT_TRUE(contains(complaint([&] { penalty(inputs, flat.head(4), {}); }), "= 4, must be 5"));
+  const Whitening whitening(inputs, theta);
+  EXPECT_TRUE(contains(complaint([&] { whitening(Y.topRows(9)); }), "= 9, must be 12"));
+  EXPECT_TRUE(contains(complaint([&] { (void)whitening.log_evidence(y.head(9)); }), "= 9, must be 12"));
+  EXPECT_TRUE(contains(complaint([&] { Whitening(inputs, naive::hyperparameters(2, 1, 1, 0.1)); }), "= 4, must be 5"));
+}
+
+TEST_F(Sizes, OfInducingInputs) {
+  const Vector y = Y.col(0);
+  EXPECT_TRUE(contains(complaint([&] { fitc_evidence(X, y.head(9), X, theta); }), "9 targets for 12 inputs"));
+  EXPECT_TRUE(contains(complaint([&] { fitc_evidence(X, y, X.leftCols(2), theta); }), "must be m × 3"));
+}
+
+TEST_F(Sizes, OfMoments) {
+  const MomentMatching matching(exact_terms(posterior), 2);
+  MomentTape tape;
+  Transformed result, adjoint;
+  Gaussian x{Vector::Zero(3), 0.1 * Matrix::Identity(3, 3)}, input = Gaussian::zero(3);
+  const auto forward = [&](const Gaussian& at) { return complaint([&] { matching.forward(at, tape, result); }); };
+  EXPECT_TRUE(contains(forward({Vector::Zero(2), Matrix::Zero(3, 3)}), "= 2, must be 3"));
+  EXPECT_TRUE(contains(forward({Vector::Zero(3), Matrix::Zero(3, 2)}), "3 × 2, must be 3 × 3"));
+  EXPECT_EQ(forward(x), "none");
+  adjoint = result;
+  const auto backward = [&] { return complaint([&] { matching.adjoint(x, tape, result, adjoint, input); }); };
+  EXPECT_EQ(backward(), "none");
+  adjoint.gain.resize(2, 3);
+  EXPECT_TRUE(contains(backward(), "2 × 3, must be 3 × 2"));
+  adjoint = result, input = Gaussian::zero(2);
+  EXPECT_TRUE(contains(backward(), "= 2, must be 3"));
+  EXPECT_TRUE(contains(complaint([&] { evaluate_means(exact_terms(posterior), 2, X.leftCols(2)); }), "= 2, must be 3"));
+  EXPECT_TRUE(contains(complaint([&] { evaluate_means(exact_terms(posterior), 1, X); }), "must be below 1"));
+}
+
+}  // namespace
+}  // namespace rehearse::gp
