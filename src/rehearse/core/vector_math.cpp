@@ -5,6 +5,7 @@
 // Highway's order matters: the functions come after the target.
 #include <hwy/contrib/math/math-inl.h>
 
+#include "rehearse/core/sine-inl.hpp"
 #include "rehearse/core/vector_math.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -41,17 +42,11 @@ void TanhKernel(const double* in, double* out, Index n) {
   map(in, out, n, [](D d, auto x) HWY_ATTR { return keep_nan(x, hn::Tanh(d, x)); });
 }
 
-// Highway's sine and cosine are valid up to 39 000 rad; an angle beyond is no angle but a simulation that lost its way.
-template <class V>
-HWY_INLINE V nan_outside(D d, V angle, V out) {
-  return hn::IfThenElse(hn::Lt(hn::Abs(angle), hn::Set(d, 39000.0)), out, hn::NaN(d));
-}
-
 void SinKernel(const double* in, double* out, Index n) {
-  map(in, out, n, [](D d, auto x) HWY_ATTR { return nan_outside(d, x, hn::Sin(d, x)); });
+  map(in, out, n, [](D d, auto x) HWY_ATTR { return sine(d, x); });
 }
 void CosKernel(const double* in, double* out, Index n) {
-  map(in, out, n, [](D d, auto x) HWY_ATTR { return nan_outside(d, x, hn::Cos(d, x)); });
+  map(in, out, n, [](D d, auto x) HWY_ATTR { return cosine(d, x); });
 }
 
 // With sin 3a = 3 sin a − 4 sin³ a.

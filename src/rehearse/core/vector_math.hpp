@@ -10,7 +10,7 @@ namespace rehearse {
 
 void vector_exp(const double* in, double* out, Index n);
 void vector_tanh(const double* in, double* out, Index n);
-/// Beyond ± 39 000 rad the results are NaN.
+/// Of any finite angle, within 1e-15; of others NaN.
 void vector_sin_cos(const double* in, double* sine, double* cosine, Index n);
 
 /// (9 sin a + sin 3a)/8, in [−1, 1] (Deisenroth 2010, eq. 3.46). Beyond ± 10⁴ rad, where it has no meaning, as there.

@@ -49,6 +49,7 @@ class Gait final : public Policy {
   }
 
   void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double t_s, MatrixView U) const override {
+    check_sizes(*this, -1, Theta, X, U);
     constexpr double eighth = std::numbers::pi / 8;
     for (Index i = 0; i < Theta.rows(); ++i)
       for (Index leg = 0; leg < legs_; ++leg) {

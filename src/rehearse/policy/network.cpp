@@ -36,6 +36,7 @@ class Network : public Policy {
   }
 
   void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double, MatrixView U) const override {
+    check_sizes(*this, features_.states(), Theta, X, U);
     thread_local Matrix inputs, units;
     const Index rows = X.rows(), n = features_.features();
     inputs.resize(rows, n);

@@ -35,8 +35,12 @@ class Policy {
   virtual std::optional<AnalyticOptions> analytic() const { return {}; }
 
   /// Theta: n × parameters(), one policy a row; X: n × dx; t_s: time since the episode's start; U: n × du, written.
-  /// A row with a NaN state gets a NaN action.
+  /// A row with a NaN state gets a NaN action. Throws InvalidInput where sizes are wrong.
   virtual void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double t_s, MatrixView U) const = 0;
 };
+
+/// Throws InvalidInput unless what `act` was given has the sizes that it says. states: dx; −1: any.
+void check_sizes(const Policy& policy, Index states, const ConstMatrixView& Theta, const ConstMatrixView& X,
+                 const ConstMatrixView& U);
 
 }  // namespace rehearse::policy

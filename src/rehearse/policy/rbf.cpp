@@ -35,6 +35,7 @@ class Rbf final : public Policy {
   std::optional<AnalyticOptions> analytic() const override { return &options_; }
 
   void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double, MatrixView U) const override {
+    check_sizes(*this, options_.features.states(), Theta, X, U);
     thread_local Matrix inputs;
     const Index rows = X.rows();
     inputs.resize(rows, shape_.inputs);

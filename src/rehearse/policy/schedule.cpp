@@ -22,6 +22,7 @@ class Schedule final : public Policy {
   Index actions() const override { return static_cast<Index>(bounds_.size()); }
 
   void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double t_s, MatrixView U) const override {
+    check_sizes(*this, -1, Theta, X, U);
     const Index step = std::clamp<Index>(std::lround(t_s / dt_s_), 0, steps_ - 1);
     for (Index row = 0; row < X.rows(); ++row) {
       const bool lost = X.row(row).array().isNaN().any();

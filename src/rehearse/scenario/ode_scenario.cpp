@@ -10,7 +10,7 @@ void OdeOptions::fields(FieldVisitor& v) {
   v.number("measurement_noise", measurement_noise, at_least(0));
   v.number("box_low", box_low, at_least(0));
   v.number("box_high", box_high, above(0));
-  v.integer("substeps", substeps, between(1, 1e6));
+  v.integer("substeps", substeps, between(1, 1e4));
   v.number("initial_reward_width", initial_reward_width, at_least(0));
   v.integer("evaluations", evaluations, between(0, 1e6));
   policy.fields(v);

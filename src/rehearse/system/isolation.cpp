@@ -184,6 +184,7 @@ class Isolated final : public Simulator {
   const ParameterSpace& parameters() const override { return simulator_->parameters(); }
 
   void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
+    check_sizes(*this, X, U, phi, dX);
     const Index n = X.rows();
     std::unique_ptr<Worker> worker = take();
     for (Index done = 0, suspect = -1; done < n;) {

@@ -7,6 +7,9 @@
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
 
 namespace rehearse::system {
 namespace {
@@ -33,6 +36,7 @@ class OdeSimulator final : public Simulator {
   const ParameterSpace& parameters() const override { return parameters_; }
 
   void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
+    check_sizes(*this, X, U, phi, dX);
     for (Index i = 0; i < X.rows(); ++i) {
       const Vector u = U.row(i).transpose();
       State state = to_state(X.row(i).transpose());
@@ -63,6 +67,7 @@ class OdePlant final : public Plant {
   }
 
   Vector step(const Vector& u) override {
+    if (!rng_) throw std::logic_error("the plant makes a step before it was reset");
     x_ = integrate_adaptive(options_.ode, x_, u, options_.phi, options_.dt_s, options_.tolerance);
     return measured();
   }
@@ -87,8 +92,16 @@ Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, cons
                           double tolerance) {
   namespace odeint = boost::numeric::odeint;
   State state = to_state(x);
-  odeint::integrate_adaptive(odeint::make_controlled<Stepper>(tolerance, tolerance), rhs_of(ode, u, phi), state, 0.0,
-                             duration_s, duration_s / 16);
+  Index evaluations = 0;
+  const auto counted = [&evaluations, rhs = rhs_of(ode, u, phi)](const State& at, State& change, double t) mutable {
+    if (evaluations++ == kMostEvaluations)
+      throw std::runtime_error(fmt::format(
+          "the equation was evaluated {} times within one step: its parameters are too extreme to follow it",
+          kMostEvaluations));
+    rhs(at, change, t);
+  };
+  odeint::integrate_adaptive(odeint::make_controlled<Stepper>(tolerance, tolerance), counted, state, 0.0, duration_s,
+                             duration_s / 16);
   return Vector::Map(state.data(), x.size());
 }
 
@@ -112,6 +125,15 @@ std::shared_ptr<const Simulator> make_ode_simulator(OdeKernel kernel, ParameterS
 }
 
 std::unique_ptr<Plant> make_ode_plant(OdePlantOptions options) {
+  const Index n = options.start_mean.size(), noisy = options.measurement_std.size();
+  Violations violations;
+  violations.require(
+      options.start_std.size() == n,
+      fmt::format("start_std has {} entries, must have the {} of start_mean", options.start_std.size(), n));
+  violations.require(noisy == 0 || noisy == n,
+                     fmt::format("measurement_std has {} entries, must have none or the {} of start_mean", noisy, n));
+  violations.require(options.dt_s > 0, fmt::format("dt_s = {}, must be > 0", options.dt_s));
+  violations.throw_if_any();
   return std::make_unique<OdePlant>(std::move(options));
 }
 

@@ -14,8 +14,11 @@ namespace rehearse::system {
 /// dx/dt at state x (dx) under the constant action u (du), written to dxdt (dx). Any thread.
 using Ode = std::function<void(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt)>;
 
+/// What an adaptive integration may cost; a robot's control step takes some hundreds.
+constexpr Index kMostEvaluations = 1'000'000;
+
 /// The state after `duration_s`, by adaptive Dormand–Prince 5 with absolute and relative tolerance. Throws
-/// std::runtime_error if the step size vanishes.
+/// std::runtime_error if the step size vanishes, or if that takes more than kMostEvaluations of the equation.
 Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, const Vector& phi, double duration_s,
                           double tolerance = 1e-12);
 

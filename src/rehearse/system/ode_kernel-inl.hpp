@@ -14,6 +14,7 @@
 // Highway's order matters: the functions come after the target.
 #include <hwy/contrib/math/math-inl.h>
 
+#include "rehearse/core/sine-inl.hpp"
 #include "rehearse/core/types.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -99,7 +100,7 @@ HWY_INLINE void for_each_block(const double* X, Index x_stride, const double* U,
 //   Equations(D d, const double* phi);
 //   void operator()(const V* x, const V* trig, V u, V* dxdt);  // trig: sine and cosine of each angle
 
-constexpr double kLargestAngle = 30000;  // rad; Highway's sine and cosine are valid up to 39 000
+constexpr double kLargestTurn = 30000;  // rad in a control step; what turns further is a simulation that lost its way
 
 template <class Equations>
 constexpr int angles_of = sizeof(Equations::kAngles) / sizeof(int);
@@ -107,8 +108,8 @@ constexpr int angles_of = sizeof(Equations::kAngles) / sizeof(int);
 template <class Equations, class D>
 HWY_INLINE void sines_and_cosines(D d, const Vec<D>* x, Vec<D>* trig) {
   for (int a = 0; a < angles_of<Equations>; ++a) {
-    trig[2 * a] = hn::Sin(d, x[Equations::kAngles[a]]);
-    trig[2 * a + 1] = hn::Cos(d, x[Equations::kAngles[a]]);
+    trig[2 * a] = rehearse::HWY_NAMESPACE::sine(d, x[Equations::kAngles[a]]);
+    trig[2 * a + 1] = rehearse::HWY_NAMESPACE::cosine(d, x[Equations::kAngles[a]]);
   }
 }
 
@@ -162,18 +163,26 @@ class TurningEquations {
   Vec<D> u_, angle_[kCount], trig_[2 * kCount];
 };
 
-/// x after `duration`; NaN where an angle is beyond kLargestAngle.
+/// Leaves NaN in all of x where one of `angles`, which were `before`, has turned by more than kLargestTurn or is NaN.
+template <int N, class D, std::size_t Angles>
+HWY_INLINE void blank_lost(D d, const int (&angles)[Angles], const Vec<D>* before, Vec<D>* x) {
+  auto valid = hn::Eq(before[0], before[0]);
+  for (std::size_t a = 0; a < Angles; ++a)
+    valid = hn::And(valid, hn::Lt(hn::Abs(hn::Sub(x[angles[a]], before[a])), hn::Set(d, kLargestTurn)));
+  for (int i = 0; i < N; ++i) x[i] = hn::IfThenElse(valid, x[i], hn::NaN(d));
+}
+
+/// x after `duration`; NaN where an angle turns by more than kLargestTurn.
 template <class Equations, class D>
 HWY_INLINE void integrate_angles(D d, const Equations& equations, Vec<D>* x, Vec<D> u, double duration, Index steps) {
+  Vec<D> before[angles_of<Equations>];
+  for (int a = 0; a < angles_of<Equations>; ++a) before[a] = x[Equations::kAngles[a]];
   TurningEquations<Equations, D> rhs(d, equations, x, u);
   for (Index step = 0; step < steps; ++step) {
     dopri5_step<Equations::kStates>(d, rhs, x, duration / static_cast<double>(steps));
     rhs.advance(d, x);
   }
-  auto valid = hn::Eq(u, u);
-  for (const int angle : Equations::kAngles)
-    valid = hn::And(valid, hn::Lt(hn::Abs(x[angle]), hn::Set(d, kLargestAngle)));
-  for (int i = 0; i < Equations::kStates; ++i) x[i] = hn::IfThenElse(valid, x[i], hn::NaN(d));
+  blank_lost<Equations::kStates>(d, Equations::kAngles, before, x);
 }
 
 /// Changes of n states (X, dX: n × kStates) under n actions over `duration`.

@@ -3,6 +3,10 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::system {
 namespace {
 
@@ -28,6 +32,7 @@ class FunctionSimulator final : public Simulator {
 
   const ParameterSpace& parameters() const override { return parameters_; }
   void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
+    check_sizes(*this, X, U, phi, dX);
     change_(X, U, phi, dX);
   }
 
@@ -38,12 +43,23 @@ class FunctionSimulator final : public Simulator {
 
 }  // namespace
 
+void check_sizes(const Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi,
+                 const ConstMatrixView& dX) {
+  const Index parameters = simulator.parameters().size();
+  if (U.rows() == X.rows() && dX.rows() == X.rows() && dX.cols() == X.cols() && phi.size() >= parameters) return;
+  throw InvalidInput(fmt::format(
+      "a simulator of {} parameters was given states {} × {}, actions {} × {}, phi of {} and changes {} × {}; rows, "
+      "states and parameters must agree",
+      parameters, X.rows(), X.cols(), U.rows(), U.cols(), phi.size(), dX.rows(), dX.cols()));
+}
+
 std::shared_ptr<const Simulator> make_simulator(ParameterSpace parameters, Change change) {
   return std::make_shared<FunctionSimulator>(std::move(parameters), std::move(change));
 }
 
 Index change_contained(const Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U,
                        const Vector& phi, MatrixView dX) {
+  check_sizes(simulator, X, U, phi, dX);
   try {
     simulator.change(X, U, phi, dX);
   } catch (...) {

@@ -28,11 +28,15 @@ class Simulator {
 using Change =
     std::function<void(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX)>;
 
+/// Throws InvalidInput unless all have the same rows, X and dX the same columns, and φ no fewer values than parameters.
+void check_sizes(const Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi,
+                 const ConstMatrixView& dX);
+
 /// A simulator that is no more than a function.
 std::shared_ptr<const Simulator> make_simulator(ParameterSpace parameters, Change change);
 
-/// Contains a hostile simulator: if the batch throws it is retried row by row, and rows that throw again, or are not
-/// finite, come back as NaN. Returns how many rows failed.
+/// Contains a hostile simulator: if the batch, of the right sizes, throws it is retried row by row, and rows that throw
+/// again, or are not finite, come back as NaN. Returns how many rows failed.
 Index change_contained(const Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U,
                        const Vector& phi, MatrixView dX);
 

@@ -16,8 +16,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace ode = rehearse::system::HWY_NAMESPACE;
 
-constexpr double kGravity = 9.82;        // m/s²
-constexpr double kLargestAngle = 30000;  // rad; Highway's sine and cosine are valid up to 39 000
+constexpr double kGravity = 9.82;  // m/s²
 
 /// Chatzilygeroudis 2018, section V: absolute angles counter-clockwise from upright. A θ̈ = b, A symmetric 2 × 2.
 ///
@@ -44,10 +43,10 @@ class Equations {
   /// From θ̇1, θ̇2, θ1, θ2 and back.
   static HWY_INLINE void extend(D d, const V* state, V* x) {
     x[0] = state[0], x[1] = state[1], x[6] = state[2], x[7] = state[3];
-    x[2] = hn::Sin(d, x[6]);
-    x[3] = hn::Cos(d, x[6]);
-    x[4] = hn::Sin(d, x[7]);
-    x[5] = hn::Cos(d, x[7]);
+    x[2] = rehearse::HWY_NAMESPACE::sine(d, x[6]);
+    x[3] = rehearse::HWY_NAMESPACE::cosine(d, x[6]);
+    x[4] = rehearse::HWY_NAMESPACE::sine(d, x[7]);
+    x[5] = rehearse::HWY_NAMESPACE::cosine(d, x[7]);
   }
   static HWY_INLINE void shorten(const V* x, V* state) {
     state[0] = x[0], state[1] = x[1], state[2] = x[6], state[3] = x[7];
@@ -95,12 +94,12 @@ void ChangeKernel(const double* X, Index x_stride, const double* U, const Consta
   const auto step = [&](D d, V* x, const V* u) HWY_ATTR {
     const auto rhs = [&](D, const V* state, V* slope) HWY_ATTR { equations(state, u[0], slope); };
     V extended[E::kStates];
+    const V before[] = {x[2], x[3]};
     E::extend(d, x, extended);
     ode::dopri5<E::kStates, E::kInner>(d, rhs, extended, dt_s, substeps);
     E::shorten(extended, x);
-    const auto limit = hn::Set(d, kLargestAngle);
-    const auto valid = hn::And(hn::Lt(hn::Abs(x[2]), limit), hn::Lt(hn::Abs(x[3]), limit));
-    for (int i = 0; i < 4; ++i) x[i] = hn::IfThenElse(valid, x[i], hn::NaN(d));
+    static constexpr int kAngles[] = {2, 3};
+    ode::blank_lost<4>(d, kAngles, before, x);
   };
   ode::for_each_block<4, 1>(X, x_stride, U, 0, dX, dx_stride, rows, step);
 }

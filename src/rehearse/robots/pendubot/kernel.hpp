@@ -13,7 +13,7 @@ struct Constants {
 void derivative(const double* x, double u, const Constants& constants, double* dxdt);
 
 /// Changes of n states (n × 4, columns `stride` apart) under n torques over dt_s, by `substeps` steps of
-/// Dormand–Prince 5; vectorised over rows. A row whose angles are beyond 30 000 rad comes back as NaN.
+/// Dormand–Prince 5; vectorised over rows. A row whose angles turn by more than 30 000 rad comes back as NaN.
 void change(const double* X, Index x_stride, const double* U, const Constants& constants, double dt_s, Index substeps,
             double* dX, Index dx_stride, Index rows);
 

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::system {
 namespace {
 
@@ -61,6 +63,26 @@ TEST(IntegrateAdaptive, AStateThatIsNoStateComesToAnEnd) {
   } catch (const std::exception&) {
   }
   EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(20));
+}
+
+TEST(IntegrateAdaptive, AStepThatCostsTooMuchIsRefusedWithTheReason) {
+  Index evaluations = 0;
+  const auto stiff = [&](const Vector& x, const Vector&, const Vector& phi, Vector& dxdt) {
+    ++evaluations;
+    dxdt(0) = phi(0) * (1 - x(0));
+  };
+  EXPECT_NEAR(integrate_adaptive(stiff, Vector{{0}}, Vector{{0}}, Vector{{1e3}}, 0.1)(0), 1, 1e-9);
+  EXPECT_LT(evaluations, kMostEvaluations / 100);
+  evaluations = 0;
+  try {
+    integrate_adaptive(stiff, Vector{{0}}, Vector{{0}}, Vector{{1e9}}, 0.1);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(),
+                 "the equation was evaluated 1000000 times within one step: its parameters are too extreme to follow "
+                 "it");
+  }
+  EXPECT_EQ(evaluations, kMostEvaluations);
 }
 
 // The fifth order: half the step, 2^5 = 32 times less error.
@@ -137,6 +159,18 @@ TEST(OdePlant, WithoutNoiseFollowsTheEquation) {
     EXPECT_LT((measured - expected).norm(), 1e-9);
     EXPECT_EQ(measured, plant->truth());
   }
+}
+
+TEST(OdePlant, WrongSizesAndAStepBeforeTheStartAreRefused) {
+  OdePlantOptions wrong = plant_options();
+  wrong.start_std = Vector{{0}}, wrong.measurement_std = Vector{{1, 1, 1}}, wrong.dt_s = 0;
+  try {
+    make_ode_plant(wrong);
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.violations().size(), 3u) << error.what();
+  }
+  EXPECT_THROW(make_ode_plant(plant_options())->step(Vector{{0}}), std::logic_error);
 }
 
 // Seed 1, n = 4000 measurements: the standard deviation of their noise is within 5 √(1/2n) = 5.6 % with probability

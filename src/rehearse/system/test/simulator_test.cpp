@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::system {
 namespace {
 
@@ -52,6 +54,17 @@ TEST(ChangeContained, RowsThatAreNotFiniteOrHugeAreBlanked) {
     expect_contained(simulator);
     EXPECT_EQ(simulator.calls.size(), 1u) << "no retry is needed";
   }
+}
+
+TEST(ChangeContained, WrongSizesAreTheCallersFault) {
+  const auto simulator = make_simulator(ParameterSpace({Parameter::fixed("m", 1)}), [](auto...) { FAIL(); });
+  const Vector phi{{1}};
+  Matrix dX(5, 2), short_dX(4, 2), narrow_dX(5, 1);
+  EXPECT_THROW(change_contained(*simulator, kX, kU, {}, dX), InvalidInput);
+  EXPECT_THROW(change_contained(*simulator, kX, kU, phi, short_dX), InvalidInput);
+  EXPECT_THROW(change_contained(*simulator, kX, kU, phi, narrow_dX), InvalidInput);
+  EXPECT_THROW(change_contained(*simulator, kX, kU.topRows(4), phi, dX), InvalidInput);
+  EXPECT_THROW(simulator->change(kX, kU, {}, dX), InvalidInput);
 }
 
 TEST(ChangeContained, ABatchThatThrowsIsRetriedRowByRow) {

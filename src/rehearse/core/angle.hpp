@@ -1,0 +1,17 @@
+#pragma once
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse {
+
+/// Up to here vectorised sines and cosines take an angle as it is; Highway's are valid up to some 39 000 rad.
+constexpr double kDirectAngle = 39000;
+
+/// x − 2πk in [−π, π] for a whole k, within three units of its last place for any finite x (Payne and Hanek 1983); else
+/// NaN. Whole numbers and one product: the same bytes on every processor.
+double reduced_angle(double x);
+
+/// Those of n angles that are not below kDirectAngle in magnitude, in place.
+void reduce_far_angles(double* x, Index n);
+
+}  // namespace rehearse
