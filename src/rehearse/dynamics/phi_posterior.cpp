@@ -68,7 +68,7 @@ Spread spread_of_white(const ConstVectorView& y, double scale, Index parameters,
   return {[deviation](const Matrix& Y) { return Matrix(Y / deviation); }, std::max(0.0, y.squaredNorm() - white) / n};
 }
 
-/// What an output says of z near a point.
+/// An output's information about z near a point.
 struct Told {
   Matrix factor;    // F (rows × q): the precision is Fᵀ F, which would lose directions that are hardly known
   Vector gradient;  // q, of the log evidence
@@ -122,8 +122,8 @@ Directions directions_of(const Matrix& factor, const Matrix& errors) {
   return {V, (svd.singularValues().cwiseAbs2() - unresolved).cwiseMax(kBoxPrecision)};
 }
 
-/// Of z (q); where the search stopped short of the best z in the box, the way that is left counts as a standard
-/// deviation. Empty if it cannot be computed.
+/// The covariance of z (q); where the search stopped short of the best z in the box, the way that is left counts as a
+/// standard deviation. Empty if it cannot be computed.
 Matrix covariance_of(const std::vector<Told>& all, const Matrix& errors, const Vector& z) {
   Vector gradient = Vector::Zero(z.size());
   for (const Told& told : all) gradient += told.gradient;
@@ -136,7 +136,7 @@ Matrix covariance_of(const std::vector<Told>& all, const Matrix& errors, const V
   return covariance + left * left.transpose();
 }
 
-/// Those of z (q × some) that the data alone leave to the boxes.
+/// The directions (q × some) that the data alone leave to the boxes.
 Matrix weak_directions(const std::vector<Told>& all, const Matrix& errors) {
   const Directions directions = directions_of(stacked(all, &Told::data, errors.cols()), errors);
   std::vector<Index> weak;
