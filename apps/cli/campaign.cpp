@@ -41,6 +41,12 @@ experiment::Share share_of(const std::optional<std::string>& text, Violations& v
   return {numbers[0], numbers[1]};
 }
 
+/// What is said where runs do not stop by themselves; with ranks, mpirun ends those that do not.
+std::function<std::string()> last_words(const Company& company) {
+  if (company.ranks) return nullptr;
+  return [] { return "interrupted; to continue, give the same command again"; };
+}
+
 void say_unfinished(const Campaign& campaign) {
   complain(fmt::format("interrupted with {} of {} runs done; to continue, give the same command again",
                        campaign.count(RunState::done), campaign.runs.size()));
@@ -66,14 +72,17 @@ int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& ar
     complain(fmt::format("the last bits of a run depend on the machine that does it: {}", company.difference));
 
   CampaignConsole console(folder, share);
-  catch_signals();
-  const Campaign done = experiment::run_campaign(catalogue, text, arguments.file, folder,
-                                                 {.threads = company.threads(threads),
-                                                  .listener = company.leads() ? &console : nullptr,
-                                                  .stop = [] { return caught_signal() != 0; },
-                                                  .share = share,
-                                                  .cache = cache_folder,
-                                                  .ranks = company.ranks.get()});
+  const auto run = [&] {
+    const SignalWatch watch(last_words(company));
+    return experiment::run_campaign(catalogue, text, arguments.file, folder,
+                                    {.threads = company.threads(threads),
+                                     .listener = company.leads() ? &console : nullptr,
+                                     .stop = [] { return caught_signal() != 0; },
+                                     .share = share,
+                                     .cache = cache_folder,
+                                     .ranks = company.ranks.get()});
+  };
+  const Campaign done = run();
   if (!company.leads()) return kSuccess;
   if (done.count(RunState::unfinished) > 0) {
     console.clear_line();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ class Console final : public experiment::RunListener {
   /// Wipes the line that is being rewritten.
   void clear_line() { line_.clear(); }
 
+  /// Any thread.
   Index trials_done() const { return done_; }
 
  private:
@@ -29,7 +31,7 @@ class Console final : public experiment::RunListener {
 
   StatusLine line_;
   Index trials_ = 0;
-  Index done_ = 0;
+  std::atomic<Index> done_ = 0;
   Index done_before_ = 0;
   std::vector<std::string> phi_names_;
   std::string phase_;

@@ -100,25 +100,34 @@ std::string advice_after(const experiment::RunFailed& error, const std::filesyst
       folder.string());
 }
 
+std::string interrupted(const Console& console, const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder)) return "interrupted before anything was done";
+  return fmt::format("interrupted after {} trials; to continue: rehearse resume {}", console.trials_done(),
+                     folder.string());
+}
+
+/// What is said where work does not stop by itself; with ranks, mpirun ends those that do not.
+std::function<std::string()> last_words(const Company& company, std::function<std::string()> words) {
+  return company.ranks ? nullptr : std::move(words);
+}
+
 /// Runs with signals caught and the console listening.
 template <class Start>
 int run_on_console(const std::filesystem::path& folder, Index threads, const Company& company, Start start) {
   require_same_arithmetic(company);
   Console console;
-  catch_signals();
   const RunOptions options{.evaluator = evaluator_of(company, threads),
                            .listener = company.leads() ? &console : nullptr,
                            .stop = [&] { return company.ranks ? company.ranks->stopped() : caught_signal() != 0; },
                            .cache = cache_folder};
   try {
+    const SignalWatch watch(last_words(company, [&] { return interrupted(console, folder); }));
     const RunResult result = start(options);
     if (company.leads()) console.finished(result);
     return kSuccess;
   } catch (const Interrupted&) {
     console.clear_line();
-    if (company.leads())
-      complain(fmt::format("interrupted after {} trials; to continue: rehearse resume {}", console.trials_done(),
-                           folder.string()));
+    if (company.leads()) complain(interrupted(console, folder));
     return exit_code_of_signal();
   } catch (const experiment::RunFailed& error) {
     console.clear_line();

@@ -1,20 +1,67 @@
 #include "apps/cli/signals.hpp"
 
+#include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <semaphore.h>
+#include <unistd.h>
 
 namespace rehearse::apps {
 namespace {
 
-volatile std::sig_atomic_t remembered = 0;
+constexpr auto kGrace = std::chrono::seconds(1);
 
-}  // namespace
+volatile std::sig_atomic_t remembered = 0;
+sem_t came;  // posted by the first signal, and by the end of the watch
+
+void remember(int signal) {
+  remembered = signal;
+  for (const int number : {SIGINT, SIGTERM}) std::signal(number, SIG_DFL);
+  sem_post(&came);
+}
 
 void catch_signals() {
   struct sigaction action {};
-  action.sa_handler = [](int signal) { remembered = signal; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+  action.sa_handler = remember;
+  for (const int number : {SIGINT, SIGTERM}) ::sigaction(number, &action, nullptr);
+}
+
+/// On a terminal the line that is being rewritten gives way.
+void say(const std::string& line) {
+  const std::string text = fmt::format("{}rehearse: {}\n", ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", line);
+  std::fputs(text.c_str(), stderr);
+}
+
+}  // namespace
+
+SignalWatch::SignalWatch(std::function<std::string()> last_words) : last_words_(std::move(last_words)) {
+  sem_init(&came, 0, 0);
+  catch_signals();
+  thread_ = std::thread([this] { watch(); });
+}
+
+SignalWatch::~SignalWatch() {
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+  }
+  over_changed_.notify_all();
+  sem_post(&came);
+  thread_.join();
+}
+
+void SignalWatch::watch() {
+  while (sem_wait(&came) != 0 && errno == EINTR) {
+  }
+  std::unique_lock lock(mutex_);
+  if (remembered == 0 || !last_words_) return;
+  say("stopping; again to end at once");
+  if (over_changed_.wait_for(lock, kGrace, [this] { return over_; })) return;
+  say(last_words_());
+  ::_exit(exit_code_of_signal());
 }
 
 int caught_signal() { return remembered; }

@@ -1,10 +1,34 @@
 #pragma once
 
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+
 namespace rehearse::apps {
 
-/// From here on the first SIGINT or SIGTERM is only remembered, so that work stops where it can be continued; a second
-/// one ends the process as usual.
-void catch_signals();
+/// While it lives the first SIGINT or SIGTERM is remembered and answered on standard error, so that work stops where it
+/// can be continued; a second one ends the process as usual. Work that has not stopped 1 s later (a factorisation, a
+/// simulator's step, memory that is being written) is left as it is, which folders are made for: `last_words` are
+/// printed, and the process ends. One at a time.
+class SignalWatch {
+ public:
+  /// last_words: called on another thread. Empty: nothing is said, and the process ends when the work does.
+  explicit SignalWatch(std::function<std::string()> last_words);
+  ~SignalWatch();
+  SignalWatch(const SignalWatch&) = delete;
+  SignalWatch& operator=(const SignalWatch&) = delete;
+
+ private:
+  void watch();
+
+  std::function<std::string()> last_words_;
+  std::mutex mutex_;
+  std::condition_variable over_changed_;
+  bool over_ = false;
+  std::thread thread_;
+};
 
 /// 0 if there was none.
 int caught_signal();

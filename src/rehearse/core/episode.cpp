@@ -13,6 +13,7 @@ void append_rows(Matrix& matrix, const Matrix& rows) {
 
 void Dataset::append(const Episode& episode) {
   const Index steps = episode.steps();
+  if (steps == 0) return;
   append_rows(states, episode.states.topRows(steps));
   append_rows(actions, episode.actions);
   append_rows(changes, episode.states.bottomRows(steps) - episode.states.topRows(steps));

@@ -9,6 +9,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "rehearse/core/events.hpp"
+
 namespace rehearse {
 namespace {
 
@@ -61,7 +63,44 @@ class ThreadEvaluator final : public Evaluator {
   mutable tbb::task_arena arena_;
 };
 
+class StoppableEvaluator final : public Evaluator {
+ public:
+  StoppableEvaluator(std::shared_ptr<const Evaluator> evaluator, std::function<bool()> stop)
+      : evaluator_(std::move(evaluator)), stop_(std::move(stop)) {}
+
+  void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
+    const auto asking = [&](Index i, VectorView result) {
+      stop_if_asked();
+      task(i, result);
+    };
+    evaluator_->evaluate(asking, results);
+  }
+  void for_each(Index n, const std::function<void(Index)>& task) const override {
+    const auto asking = [&](Index i) {
+      stop_if_asked();
+      task(i);
+    };
+    evaluator_->for_each(n, asking);
+  }
+  std::string once(std::string_view step, const std::function<std::string()>& work) const override {
+    return evaluator_->once(step, work);
+  }
+  void stop_if_asked() const override {
+    if (stop_()) throw Interrupted{};
+  }
+  int concurrency() const override { return evaluator_->concurrency(); }
+
+ private:
+  std::shared_ptr<const Evaluator> evaluator_;
+  std::function<bool()> stop_;
+};
+
 }  // namespace
+
+std::shared_ptr<const Evaluator> make_stoppable(std::shared_ptr<const Evaluator> evaluator,
+                                                std::function<bool()> stop) {
+  return std::make_shared<StoppableEvaluator>(std::move(evaluator), std::move(stop));
+}
 
 const Evaluator& serial_evaluator() {
   static const SerialEvaluator evaluator;

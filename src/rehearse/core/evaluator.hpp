@@ -30,10 +30,17 @@ class Evaluator {
 
   /// How many tasks run at once; must not decide results.
   virtual int concurrency() const = 0;
+
+  /// Throws Interrupted if the user asked to stop; long tasks call it as they go. Any thread.
+  virtual void stop_if_asked() const {}
 };
 
 /// One after the other, on the calling thread.
 const Evaluator& serial_evaluator();
+
+/// The same evaluator, which asks `stop` before each task: once true, Interrupted comes out of whatever it was asked to
+/// do. stop: any thread.
+std::shared_ptr<const Evaluator> make_stoppable(std::shared_ptr<const Evaluator> evaluator, std::function<bool()> stop);
 
 /// On `threads` threads (≥ 1) of oneTBB; 0 means all cores.
 std::unique_ptr<Evaluator> make_thread_evaluator(int threads);

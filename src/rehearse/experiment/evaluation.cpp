@@ -23,13 +23,14 @@ std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const 
 }
 
 double return_of_episode(const Resolved& resolved, system::Plant& plant, const policy::Policy& policy,
-                         const TrialRecord& trial, Index episode) {
+                         const TrialRecord& trial, Index episode, const Evaluator& evaluator) {
   const StreamKey key{.seed = static_cast<std::uint64_t>(resolved.spec.seed),
                       .trial = static_cast<std::uint64_t>(trial.trial),
                       .stage = Stage::evaluation,
                       .purpose = Purpose::start_state,
                       .candidate = static_cast<std::uint64_t>(episode)};
-  return rollout::execute(plant, policy, trial.theta, resolved.scenario.task, Rng(key)).total_reward();
+  const auto ask = [&] { evaluator.stop_if_asked(); };
+  return rollout::execute(plant, policy, trial.theta, resolved.scenario.task, Rng(key), ask).total_reward();
 }
 
 /// What `number` returns on rank 0, on every rank.
@@ -45,18 +46,17 @@ double once(const Evaluator& evaluator, const std::string& step, const std::func
 
 }  // namespace
 
-std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator,
-                                      const std::function<void()>& before_each) {
+std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator) {
   const scenario::Scenario& scenario = resolved.scenario;
   if (scenario.evaluations == 0) return std::nullopt;
   const auto policy = policy_of(trial, scenario);
   std::unique_ptr<system::Plant> plant;
   Vector returns(scenario.evaluations);
   for (Index i = 0; i < returns.size(); ++i) {
-    before_each();
+    evaluator.stop_if_asked();
     returns(i) = once(evaluator, fmt::format("evaluation {} of trial {}", i + 1, trial.trial), [&] {
       if (!plant) plant = scenario.make_plant();
-      return return_of_episode(resolved, *plant, *policy, trial, i);
+      return return_of_episode(resolved, *plant, *policy, trial, i, evaluator);
     });
   }
   return returns(0) + (returns.array() - returns(0)).mean();  // of equal returns exactly that

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "rehearse/core/evaluator.hpp"
@@ -11,9 +10,8 @@ namespace rehearse::experiment {
 
 /// Mean return of the trial's policy over the scenario's `evaluations` episodes, on a plant made for them and from
 /// random streams of their own: the trial, and whatever follows it, never notices. Empty if the scenario asks for none.
-/// Every rank calls it; rank 0 has the plant. before_each: called before every episode; may throw, to stop. Throws what
-/// the plant throws.
-std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator,
-                                      const std::function<void()>& before_each);
+/// Every rank calls it; rank 0 has the plant. Asks the evaluator before every step whether to stop. Throws what the
+/// plant throws.
+std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator);
 
 }  // namespace rehearse::experiment

@@ -22,8 +22,9 @@ namespace {
 constexpr Index kPredictionParticles = 100;
 
 std::shared_ptr<const Evaluator> evaluator_of(const RunOptions& options) {
-  return options.evaluator ? options.evaluator
-                           : std::shared_ptr<const Evaluator>(&serial_evaluator(), [](const Evaluator*) {});
+  auto evaluator = options.evaluator ? options.evaluator
+                                     : std::shared_ptr<const Evaluator>(&serial_evaluator(), [](const Evaluator*) {});
+  return options.stop ? make_stoppable(std::move(evaluator), options.stop) : evaluator;
 }
 
 /// Everything of a run but its folder: makes the learner and the plant, so that wrong input is found first.
@@ -31,13 +32,15 @@ class Participants {
  public:
   Participants(Resolved resolved, const RunOptions& options)
       : options_(options),
+        evaluator_(evaluator_of(options)),
         resolved_(std::move(resolved)),
-        store_(std::make_shared<RunStore>(evaluator_of(options), resolved_.spec, options.cache)),
+        store_(std::make_shared<RunStore>(evaluator_, resolved_.spec, options.cache)),
         learner_(resolved_.learner->build(setting())) {}
   Participants(const Participants&) = delete;  // the learner's progress points here
   Participants& operator=(const Participants&) = delete;
 
   const RunOptions& options() const { return options_; }
+  const Evaluator& evaluator() const { return *evaluator_; }
   const Resolved& resolved() const { return resolved_; }
   const Task& task() const { return resolved_.scenario.task; }
   learners::Learner& learner() const { return *learner_; }
@@ -45,17 +48,13 @@ class Participants {
   /// Work with the plant or the folder: on rank 0 alone; its failure is that of every rank.
   template <class Work>
   void lead(std::string_view step, Work work) const {
-    evaluator_of(options_)->once(step, [&] { return work(), std::string(); });
+    evaluator_->once(step, [&] { return work(), std::string(); });
   }
 
   /// Connected when it is first needed; rank 0's.
   system::Plant& plant() {
     if (!plant_) plant_ = resolved_.scenario.make_plant();
     return *plant_;
-  }
-
-  void stop_if_asked() const {
-    if (options_.stop && options_.stop()) throw Interrupted{};
   }
 
   /// Where the learner's store is, on rank 0.
@@ -70,17 +69,18 @@ class Participants {
             .policy = resolved_.scenario.policy,
             .prior = resolved_.prior,
             .seed = static_cast<std::uint64_t>(resolved_.spec.seed),
-            .evaluator = evaluator_of(options_),
+            .evaluator = evaluator_,
             .progress = [this](const Progress& progress) { report(progress); },
             .store = store_};
   }
 
   void report(const Progress& progress) const {
-    stop_if_asked();
+    evaluator_->stop_if_asked();
     if (options_.listener) options_.listener->progress(trial_, progress);
   }
 
   RunOptions options_;
+  std::shared_ptr<const Evaluator> evaluator_;
   Resolved resolved_;
   std::shared_ptr<RunStore> store_;
   std::unique_ptr<learners::Learner> learner_;
@@ -171,10 +171,10 @@ class Run {
 
   const learners::Proposal& ask(Index trial) {
     with_.begin_trial(trial);
-    with_.stop_if_asked();
+    with_.evaluator().stop_if_asked();
     const auto& proposal = named_failure(
         trial, "learner", [&]() -> const learners::Proposal& { return checked(trial, with_.learner().ask()); });
-    with_.stop_if_asked();
+    with_.evaluator().stop_if_asked();
     return proposal;
   }
 
@@ -200,9 +200,10 @@ class Run {
 
   /// Rank 0's episode, on every rank.
   Episode execute(Index trial, const learners::Proposal& proposal) const {
-    return to_episode(evaluator_of(with_.options())->once(named("episode", trial), [&] {
+    return to_episode(with_.evaluator().once(named("episode", trial), [&] {
       const Rng rng({.seed = seed(), .trial = number(trial), .purpose = Purpose::start_state});
-      return to_bytes(rollout::execute(with_.plant(), *proposal.policy, proposal.theta, with_.task(), rng));
+      return to_bytes(rollout::execute(with_.plant(), *proposal.policy, proposal.theta, with_.task(), rng,
+                                       [&] { with_.evaluator().stop_if_asked(); }));
     }));
   }
 
@@ -212,7 +213,7 @@ class Run {
     if (size != wanted || !proposal.theta.allFinite())
       throw std::runtime_error(fmt::format("it proposed {} parameters, the policy has {} finite ones", size, wanted));
     const auto bytes = [&] { return bytes_of(proposal.theta); };
-    const std::string leading = evaluator_of(with_.options())->once(named("policy", trial), bytes);
+    const std::string leading = with_.evaluator().once(named("policy", trial), bytes);
     if (leading != bytes())  // or ranks would go on with different runs
       throw std::runtime_error("it proposes another policy than that of rank 0");
     return proposal;
@@ -250,6 +251,7 @@ class Run {
                        .notes = proposal.notes,
                        .model_s = proposal.model_s,
                        .search_s = proposal.search_s};
+    if (!episode.failure.empty()) record.notes.push_back("the episode ended at the reward floor: " + episode.failure);
     add_posterior(record, proposal);
     if (task.solved) record.solved = task.solved(episode);
     if (proposal.model) record.forecast = forecast_errors(*proposal.model, task, episode);
@@ -308,9 +310,8 @@ class Run {
   void evaluate_last() {
     TrialRecord& last = history_.trials.back();
     if (last.expected_return) return;
-    last.expected_return = named_failure(last.trial, "plant of the evaluations", [&] {
-      return expected_return(with_.resolved(), last, *evaluator_of(with_.options()), [&] { with_.stop_if_asked(); });
-    });
+    last.expected_return = named_failure(last.trial, "plant of the evaluations",
+                                         [&] { return expected_return(with_.resolved(), last, with_.evaluator()); });
     if (!last.expected_return) return;
     with_.lead(named("save evaluation", last.trial), [&] {
       folder_->write_checkpoint(history_);

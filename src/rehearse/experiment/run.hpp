@@ -30,8 +30,9 @@ class RunListener {
 struct RunOptions {
   std::shared_ptr<const Evaluator> evaluator;  // null: serial
   RunListener* listener = nullptr;             // null: nobody listens
-  std::function<bool()> stop;                  // polled; once true, the run ends with Interrupted and can be resumed
-  CacheFolder cache;                           // of what learners keep for other runs; null: none
+  std::function<bool()> stop;  // polled by any thread, before every step of an episode, imagined ones too;
+                               // once true, the run ends with Interrupted and can be resumed
+  CacheFolder cache;           // of what learners keep for other runs; null: none
 };
 
 struct RunResult {

@@ -15,9 +15,11 @@ json to_json(const Matrix& m) {
 }
 
 json to_json(const Episode& e) {
-  return {{"states", to_json(e.states)},   {"true_states", to_json(e.true_states)},
-          {"actions", to_json(e.actions)}, {"rewards", to_json(e.rewards)},
-          {"charged", e.charged},          {"ended", e.ended}};
+  json j = {{"states", to_json(e.states)},   {"true_states", to_json(e.true_states)},
+            {"actions", to_json(e.actions)}, {"rewards", to_json(e.rewards)},
+            {"charged", e.charged},          {"ended", e.ended}};
+  if (!e.failure.empty()) j["failure"] = e.failure;
+  return j;
 }
 
 Vector to_vector(const json& j) {
@@ -46,6 +48,7 @@ Episode to_episode(const json& j) {
   e.rewards = to_vector(j.at("rewards"));
   e.charged = j.at("charged").get<double>();
   e.ended = j.at("ended").get<bool>();
+  e.failure = j.value("failure", "");
   return e;
 }
 

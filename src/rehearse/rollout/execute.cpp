@@ -1,5 +1,6 @@
 #include "rehearse/rollout/execute.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -29,9 +30,10 @@ double reward_of(const Task& task, const Episode& episode, Index t) {
   return reward(0);
 }
 
-/// Ends an episode after `steps`: the rest earns the reward floor.
-void end(Episode& episode, Index steps, const Task& task) {
+/// Ends an episode after `steps`: the rest earns the reward floor. failure: why, if that is no fall.
+void end(Episode& episode, Index steps, const Task& task, std::string failure = "") {
   episode.ended = true;
+  episode.failure = std::move(failure);
   episode.charged = static_cast<double>(task.horizon - steps) * task.reward_floor;
   episode.states.conservativeResize(steps + 1, Eigen::NoChange);
   episode.true_states.conservativeResize(steps + 1, Eigen::NoChange);
@@ -63,12 +65,21 @@ class SimulatedPlant final : public system::Plant {
   Vector state_;
 };
 
+void check(const policy::Policy& policy, const Vector& theta, const Task& task) {
+  Violations violations;
+  violations.require(theta.size() == policy.parameters(),
+                     fmt::format("theta has {} numbers, must have the {} of the policy '{}'", theta.size(),
+                                 policy.parameters(), policy.name()));
+  violations.require(policy.actions() == task.action_size(),
+                     fmt::format("the policy '{}' has {} actions, must have the {} of the task", policy.name(),
+                                 policy.actions(), task.action_size()));
+  violations.throw_if_any();
+}
+
 /// contained: a state that is not finite is a fall, and the plant's fault otherwise.
 Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng& rng,
-            bool contained) {
-  if (theta.size() != policy.parameters())
-    throw InvalidInput(fmt::format("theta has {} numbers, must have the {} of the policy '{}'", theta.size(),
-                                   policy.parameters(), policy.name()));
+            const std::function<void()>& before_step, bool contained) {
+  check(policy, theta, task);
   const Index T = task.horizon;
   Episode episode{.states = Matrix(T + 1, task.state_size()),
                   .true_states = Matrix(T + 1, task.state_size()),
@@ -78,15 +89,25 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
   Matrix u(1, task.action_size());
   record_state(episode, 0, checked(plant.reset(rng), task.state_size(), 0), plant);
   for (Index t = 0; t < T; ++t) {
+    if (before_step) before_step();
     policy.act(Theta, episode.states.middleRows(t, 1), static_cast<double>(t) * task.dt_s, u);
+    if (!u.allFinite()) {
+      end(episode, t, task, fmt::format("an action at step {} is not finite", t));
+      break;
+    }
     episode.actions.row(t) = u;
     const Vector next = plant.step(u.transpose());
     if (contained && !next.allFinite()) {
-      end(episode, t, task);
+      end(episode, t, task, fmt::format("the state at step {} is not finite", t + 1));
       break;
     }
     record_state(episode, t + 1, checked(next, task.state_size(), t + 1), plant);
     episode.rewards(t) = reward_of(task, episode, t);
+    if (!std::isfinite(episode.rewards(t))) {
+      episode.rewards(t) = task.reward_floor;
+      end(episode, t + 1, task, fmt::format("the reward at step {} is not finite", t + 1));
+      break;
+    }
     if (task.ended && task.ended(episode.true_states.row(t + 1).transpose())) {
       end(episode, t + 1, task);
       break;
@@ -97,14 +118,15 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
 
 }  // namespace
 
-Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng rng) {
-  return run(plant, policy, theta, task, rng, false);
+Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng rng,
+                const std::function<void()>& before_step) {
+  return run(plant, policy, theta, task, rng, before_step, false);
 }
 
 Episode execute(const system::Simulator& simulator, const Vector& phi, const policy::Policy& policy,
                 const Vector& theta, const Task& task, Rng rng) {
   SimulatedPlant plant(simulator, phi, task);
-  return run(plant, policy, theta, task, rng, true);
+  return run(plant, policy, theta, task, rng, {}, true);
 }
 
 }  // namespace rehearse::rollout

@@ -1,5 +1,9 @@
 #include "rehearse/rollout/forecast.hpp"
 
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::rollout {
 namespace {
 
@@ -15,6 +19,10 @@ Matrix known_states(const Matrix& predicted, const Episode& episode) {
 
 std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode& episode,
                              const std::vector<Index>& horizons) {
+  for (std::size_t i = 0; i < horizons.size(); ++i)
+    if (horizons[i] < (i > 0 ? horizons[i - 1] : 1) || horizons[i] > episode.steps())
+      throw InvalidInput(fmt::format("horizon {} of a forecast, must be ascending and within the {} steps", horizons[i],
+                                     episode.steps()));
   std::vector<Matrix> arrived;
   Matrix predicted = episode.states.topRows(episode.steps()), mean, variance;
   Index step = 0;

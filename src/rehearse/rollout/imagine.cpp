@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::rollout {
 namespace {
 
@@ -151,11 +155,21 @@ class Chunk {
   Index failed_ = 0;
 };
 
+/// parameters: of one θ.
+void check(const policy::Policy& policy, const Task& task, Index parameters, Index particles) {
+  if (parameters == policy.parameters() && policy.actions() == task.action_size() && particles >= 1) return;
+  throw InvalidInput(
+      fmt::format("theta has {} numbers for the {} of the policy '{}', which has {} actions for the {} of the task; "
+                  "particles = {}, must be ≥ 1",
+                  parameters, policy.parameters(), policy.name(), policy.actions(), task.action_size(), particles));
+}
+
 }  // namespace
 
 Imagined imagine(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
                  const ConstMatrixView& Theta, std::uint64_t first_candidate, Index particles, const StreamKey& key,
                  const ImagineOptions& options, const Evaluator& evaluator) {
+  check(policy, task, Theta.rows(), particles);
   const Index total = Theta.cols() * particles, most = rows_of_chunk(total);
   const Index chunks = (total + most - 1) / most;
   Matrix results(most + 1, chunks);  // returns, and how many failed
@@ -168,7 +182,10 @@ Imagined imagine(const dynamics::DynamicsModel& model, const policy::Policy& pol
                     static_cast<std::uint64_t>(particle));
     }
     chunk.start();
-    for (Index t = 0; t < task.horizon; ++t) chunk.step(t);
+    for (Index t = 0; t < task.horizon; ++t) {
+      evaluator.stop_if_asked();
+      chunk.step(t);
+    }
     result.head(rows) = chunk.returns();
     result(most) = static_cast<double>(chunk.failed());
   };
@@ -185,6 +202,7 @@ Imagined imagine(const dynamics::DynamicsModel& model, const policy::Policy& pol
 
 Recorded imagine_recorded(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
                           const Vector& theta, Index particles, const StreamKey& key, const ImagineOptions& options) {
+  check(policy, task, theta.size(), particles);
   Buffers buffers;
   Chunk chunk(model, policy, task, key, options, particles, buffers);
   for (Index p = 0; p < particles; ++p) chunk.set_row(p, theta, 0, static_cast<std::uint64_t>(p));
@@ -206,6 +224,7 @@ Recorded imagine_recorded(const dynamics::DynamicsModel& model, const policy::Po
 void imagine_episodes(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
                       const ConstMatrixView& Theta, std::uint64_t first_candidate, const StreamKey& key,
                       const ImagineOptions& options, Episodes& episodes) {
+  check(policy, task, Theta.cols(), 1);
   const Index rows = Theta.rows(), T = task.horizon;
   episodes.states.resize(static_cast<std::size_t>(T + 1));
   episodes.actions.resize(static_cast<std::size_t>(T));

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/core/events.hpp"
+
 namespace rehearse {
 namespace {
 
@@ -73,6 +75,26 @@ TEST_P(EachEvaluator, NeverRunsMoreThanItSays) {
     --running;
   });
   EXPECT_LE(most, evaluator_->concurrency());
+}
+
+TEST_P(EachEvaluator, MayBeStoppedBetweenTasksAndWithin) {
+  std::atomic<bool> stop = false;
+  std::atomic<Index> begun = 0, ended = 0;
+  const auto stoppable = make_stoppable(make_thread_evaluator(GetParam()), [&] { return stop.load(); });
+  const auto task = [&](Index) {
+    if (++begun == 10) stop = true;
+    stoppable->stop_if_asked();
+    ++ended;
+  };
+  EXPECT_EQ(stoppable->concurrency(), GetParam());
+  EXPECT_THROW(stoppable->for_each(100000, task), Interrupted);
+  EXPECT_LE(begun, 10 + GetParam()) << "those that had begun";
+  EXPECT_LT(ended, begun);
+  Matrix results(1, 3);
+  EXPECT_THROW(stoppable->evaluate([&](Index, VectorView) { FAIL(); }, results), Interrupted);
+  stop = false;
+  stoppable->evaluate([](Index i, VectorView result) { result(0) = static_cast<double>(i); }, results);
+  EXPECT_EQ(results, (Matrix{{0, 1, 2}}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, EachEvaluator, ::testing::Values(1, 2, 4));

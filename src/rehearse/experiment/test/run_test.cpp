@@ -242,11 +242,13 @@ TEST(Resume, AfterAStopAnywhereGivesTheSameBytes) {
   const fs::path folder = fake::test_folder();
   Spec spec = line_spec(4);
   spec.options = {{"evaluations", "5"}};
-  start_run(fake::catalogue(), spec, folder / "whole", {});
+  constexpr Index kSteps = 12, kPolls = 3 + kSteps + 5 * (1 + kSteps);  // of a trial: policy, episode, evaluations
+  Index polls_of_all = 0;
+  start_run(fake::catalogue(), spec, folder / "whole", {.stop = [&] { return ++polls_of_all == 0; }});
+  EXPECT_EQ(polls_of_all, 4 * kPolls);
   const std::string expected = results_of(folder / "whole");
   bool stopped = true;
-  Index stops = 0;
-  for (; stopped; ++stops) {
+  for (Index stops = 0; stopped; stops += 7) {
     const fs::path run = folder / ("stopped-" + std::to_string(stops));
     Index polls = 0;
     stopped = false;
@@ -255,12 +257,36 @@ TEST(Resume, AfterAStopAnywhereGivesTheSameBytes) {
     } catch (const Interrupted&) {
       stopped = true;
       EXPECT_FALSE(fs::exists(run / "done"));
-      EXPECT_EQ(RunFolder::open(run).load().done(), (stops + 5) / 8) << "stops: three for a policy, five for episodes";
+      EXPECT_EQ(RunFolder::open(run).load().done(), (stops + kPolls - 3 - kSteps) / kPolls) << stops;
       resume_run(fake::catalogue(), run, {}, {});
     }
     EXPECT_EQ(results_of(run), expected) << stops;
   }
-  EXPECT_EQ(stops, 4 * 8 + 1);
+}
+
+TEST(Run, AnEpisodeThatFailsIsSaidInTheNotes) {
+  const fs::path folder = fake::test_folder();
+  Catalogue catalogue = fake::catalogue();
+  catalogue.scenarios = {[] {
+    /// The line, whose reward is no number.
+    class Faulty final : public fake::LineBuilder {
+     public:
+      scenario::Scenario build() const override {
+        scenario::Scenario scenario = LineBuilder::build();
+        scenario.task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&,
+                                  VectorView rewards) { rewards.setConstant(std::nan("")); };
+        return scenario;
+      }
+    };
+    return std::make_unique<Faulty>();
+  }};
+  start_run(catalogue, line_spec(2), folder / "run", {});
+  const auto notes = lines_of(folder / "run/notes.csv");
+  for (const std::string trial : {"1", "2"})
+    EXPECT_EQ(std::count(notes.begin(), notes.end(),
+                         trial + ",the episode ended at the reward floor: the reward at step 1 is not finite"),
+              1);
+  EXPECT_EQ(read_file(folder / "run/trials.csv").find("nan"), std::string::npos);
 }
 
 /// Runs in a process of its own that kills itself; true if it did.

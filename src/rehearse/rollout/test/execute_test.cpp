@@ -43,6 +43,9 @@ const Rng kRng({.seed = 5, .trial = 1, .purpose = Purpose::start_state});
 TEST(Execute, RefusesParametersOfAnotherPolicy) {
   CartPlant plant;
   EXPECT_THROW(execute(plant, *cart::policy(), Vector::Zero(40), cart::task(), kRng), InvalidInput);
+  Task two = cart::task();
+  two.actions.push_back({"torque", "N m", {-1, 1}});
+  EXPECT_THROW(execute(plant, *cart::policy(), cart::candidates(1), two, kRng), InvalidInput);
   EXPECT_TRUE(plant.actions.empty());
 }
 
@@ -137,6 +140,53 @@ TEST(Execute, AStateThatIsNoStateIsAnError) {
   }
 }
 
+TEST(Execute, ARewardThatIsNotFiniteEndsTheEpisodeAtTheFloor) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Task task = cart::task();
+    int steps = 0;
+    task.reward = [&](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView rewards) {
+      rewards.setConstant(++steps == 7 ? bad : 1);
+    };
+    CartPlant plant;
+    const Episode episode = execute(plant, *cart::policy(), cart::candidates(1), task, kRng);
+    EXPECT_EQ(episode.failure, "the reward at step 7 is not finite");
+    EXPECT_TRUE(episode.ended);
+    EXPECT_EQ(episode.steps(), 7) << "its states are known";
+    EXPECT_DOUBLE_EQ(episode.total_reward(), 6 + 14 * task.reward_floor);
+  }
+}
+
+TEST(Execute, AnActionThatIsNotFiniteNeverReachesThePlant) {
+  /// Whose fourth action is no number.
+  class Broken final : public policy::Policy {
+   public:
+    std::string name() const override { return "broken"; }
+    Index parameters() const override { return 1; }
+    Index actions() const override { return 1; }
+    void act(const ConstMatrixView&, const ConstMatrixView&, double t_s, MatrixView U) const override {
+      U.setConstant(t_s < 0.25 ? 1 : std::numeric_limits<double>::quiet_NaN());
+    }
+  };
+  const Task task = cart::task();
+  CartPlant plant;
+  const Episode episode = execute(plant, Broken(), Vector::Zero(1), task, kRng);
+  EXPECT_EQ(plant.actions, (std::vector<double>{1, 1, 1}));
+  EXPECT_EQ(episode.failure, "an action at step 3 is not finite");
+  EXPECT_TRUE(episode.ended);
+  EXPECT_EQ(episode.steps(), 3);
+  EXPECT_DOUBLE_EQ(episode.charged, 17 * task.reward_floor);
+}
+
+TEST(Execute, MayBeStoppedBeforeAnyStep) {
+  struct Stop {};
+  CartPlant plant;
+  const auto stop = [&] {
+    if (plant.actions.size() == 5) throw Stop{};
+  };
+  EXPECT_THROW(execute(plant, *cart::policy(), cart::candidates(1), cart::task(), kRng, stop), Stop);
+  EXPECT_EQ(plant.actions.size(), 5u);
+}
+
 TEST(Execute, ASimulatorInThePlaceOfThePlant) {
   const Task task = cart::task();
   const ParameterSpace space({{.name = "push", .unit = "1/kg", .value = 0.1}});
@@ -172,6 +222,7 @@ TEST(Execute, AStepThatCannotBeSimulatedIsAFall) {
   EXPECT_EQ(episode.steps(), 3);
   EXPECT_EQ(episode.states.rows(), 4);
   EXPECT_TRUE(episode.ended && episode.states.allFinite());
+  EXPECT_EQ(episode.failure, "the state at step 4 is not finite");
   EXPECT_EQ(episode.charged, -0.5 * 17);
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "cart.hpp"
+#include "rehearse/core/errors.hpp"
 
 namespace rehearse::rollout {
 namespace {
@@ -56,6 +57,11 @@ TEST(Forecast, WhatFailsStaysNanInItsRowAndIsNoInputForTheModel) {
   for (const Matrix& states : predicted)
     for (Index t = 0; t < states.rows(); ++t)
       EXPECT_TRUE(t == 1 ? states.row(t).array().isNaN().all() : states.row(t) == taken.states.row(t)) << t;
+}
+
+TEST(Forecast, HorizonsOutsideTheEpisodeAreRefused) {
+  for (const std::vector<Index>& horizons : {std::vector<Index>{0}, {5}, {2, 1}})
+    EXPECT_THROW(forecast(cart::Model(), episode(4), horizons), InvalidInput);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "cart.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/events.hpp"
 
 namespace rehearse::rollout {
 namespace {
@@ -304,6 +306,27 @@ TEST(ImagineEpisodes, RecordsWhatTheReturnsAreMadeOf) {
     EXPECT_GT(whole, 0);
     EXPECT_EQ(ended > 0, falls);
   }
+}
+
+TEST(Imagine, IsStoppedBetweenTheStepsOfALongHorizon) {
+  Task task = cart::task();
+  task.horizon = 1'000'000'000;
+  int asked = 0;
+  const auto evaluator = make_stoppable(make_thread_evaluator(1), [&] { return ++asked == 100; });
+  EXPECT_THROW(imagine(cart::Model(), *cart::policy(), task, cart::candidates(1), 0, 1, kKey, {}, *evaluator),
+               Interrupted);
+  EXPECT_EQ(asked, 100);
+}
+
+TEST(Imagine, WrongSizesAreRefused) {
+  const Task task = cart::task();
+  const auto policy = cart::policy();
+  const Matrix wrong = Matrix::Zero(policy->parameters() + 1, 2), right = cart::candidates(2);
+  EXPECT_THROW(imagine(cart::Model(), *policy, task, wrong, 0, 1, kKey, {}, serial_evaluator()), InvalidInput);
+  EXPECT_THROW(imagine(cart::Model(), *policy, task, right, 0, 0, kKey, {}, serial_evaluator()), InvalidInput);
+  EXPECT_THROW(imagine_recorded(cart::Model(), *policy, task, wrong.col(0), 1, kKey, {}), InvalidInput);
+  Episodes episodes;
+  EXPECT_THROW(imagine_episodes(cart::Model(), *policy, task, right, 0, kKey, {}, episodes), InvalidInput);
 }
 
 }  // namespace
