@@ -1,6 +1,6 @@
 // How far fits of kernels are from the best that many starts find, and what the limit of the signal-to-noise ratio
-// costs: `fits [--quick] [--starts N] [--rows N] [--noisy N] [--exact N]`. Data are seeded: waves, draws from kernels, and
-// the steps of a pendubot under random policies. Processor time on one thread.
+// costs: `fits [--quick] [--starts N] [--rows N] [--noisy N] [--exact N]`. Data are seeded: waves, draws from kernels,
+// and the steps of a pendubot under random policies. Processor time on one thread.
 
 #include <cmath>
 #include <string>
@@ -40,9 +40,8 @@ Data smooth_function(Index rows, Index D, double noise, Rng& rng) {
   for (int wave = 0; wave < 4; ++wave) {
     Vector slope(D);
     for (Index d = 0; d < D; ++d) slope(d) = rng.normal() * std::pow(0.5, static_cast<double>(d));
-    f += rng.normal() * (X * slope).array().unaryExpr([phase = rng.uniform(0, 6)](double t) {
-      return std::sin(t + phase);
-    }).matrix();
+    f += rng.normal() *
+         (X * slope).array().unaryExpr([phase = rng.uniform(0, 6)](double t) { return std::sin(t + phase); }).matrix();
   }
   const Vector y = f.head(rows) + noise * normals(rows, 1, rng);
   return {"waves", X.topRows(rows), X.bottomRows(rows), y, f.tail(rows), gp::standard_deviation(y)};
@@ -71,9 +70,12 @@ Data pendubot_steps(Index rows, Index output, double noise, std::uint64_t seed, 
   Matrix states = all.states.topRows(rows);
   states += noise * normals(rows, states.cols(), rng);
   Vector y = all.changes.col(output).head(rows) + std::sqrt(2.0) * noise * normals(rows, 1, rng);
-  return {"pendubot", dynamics::gp_inputs(features, states, all.actions.topRows(rows)),
-          dynamics::gp_inputs(features, all.states.bottomRows(rows), all.actions.bottomRows(rows)), y,
-          all.changes.col(output).tail(rows), gp::standard_deviation(y)};
+  return {"pendubot",
+          dynamics::gp_inputs(features, states, all.actions.topRows(rows)),
+          dynamics::gp_inputs(features, all.states.bottomRows(rows), all.actions.bottomRows(rows)),
+          y,
+          all.changes.col(output).tail(rows),
+          gp::standard_deviation(y)};
 }
 
 Data data_set(Index k, Index rows, bool noisy) {
@@ -169,13 +171,15 @@ void study_starts(Index sets, Index rows, Index starts) {
     std::fflush(stdout);
   }
   for (int c = 0; c < 4; ++c)
-    fmt::print("{} starts: {} of {} end more than {} nats below, {:.2f} in all; {:.2f} ms a fit\n", counts[c], missed[c],
-               sets, kMissed, lost[c], ms[c]);
+    fmt::print("{} starts: {} of {} end more than {} nats below, {:.2f} in all; {:.2f} ms a fit\n", counts[c],
+               missed[c], sets, kMissed, lost[c], ms[c]);
 }
 
 void study_limits(Index sets, Index rows) {
-  fmt::print("without noise, {} rows\n| set | inputs | limit | evidence | evaluations | ms | signal-to-noise | jitter | "
-             "error | log density |\n", rows);
+  fmt::print(
+      "without noise, {} rows\n| set | inputs | limit | evidence | evaluations | ms | signal-to-noise | jitter | "
+      "error | log density |\n",
+      rows);
   for (Index k = 0; k < sets; ++k) {
     const Data data = data_set(k, rows, false);
     const gp::Inputs inputs(data.X);
@@ -186,8 +190,8 @@ void study_limits(Index sets, Index rows) {
       const Result result = fit(inputs, data, options);
       const Quality quality = predict(inputs, data, result.fit.hyperparameters);
       fmt::print("| {} {} | {} | {:.0e} | {:.3f} | {} | {:.1f} | {:.1e} | {:.0e} | {:.2e} | {:.2f} |\n", data.name, k,
-                 inputs.dimensions(), limit, result.fit.log_evidence, result.fit.evaluations, result.ms, snr(result.fit),
-                 result.fit.jitter, quality.error, quality.log_density);
+                 inputs.dimensions(), limit, result.fit.log_evidence, result.fit.evaluations, result.ms,
+                 snr(result.fit), result.fit.jitter, quality.error, quality.log_density);
       std::fflush(stdout);
     }
   }

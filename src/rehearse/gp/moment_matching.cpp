@@ -1,11 +1,13 @@
 #include "rehearse/gp/moment_matching.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/gp/moment_narrow.hpp"
 #include "rehearse/gp/sizes.hpp"
 
 namespace rehearse::gp {
@@ -60,6 +62,9 @@ void check_terms(const std::vector<MomentTerm>& terms, Index outputs, bool param
     const Index n = t.size();
     const bool sizes = n >= 1 && t.inputs() == D && t.log_lengths.size() == D && t.weights.size() == n &&
                        (t.reduction.size() == 0 || (t.reduction.rows() == n && t.reduction.cols() == n));
+    violations.require(t.factor.size() == 0 || (t.factor.rows() == n && t.factor.cols() == n),
+                       fmt::format("moments: the factor of term {} is {} × {}, must be {} × {}", k, t.factor.rows(),
+                                   t.factor.cols(), n, n));
     violations.require(sizes, fmt::format("moments: sizes of term {} do not agree", k));
     violations.require(t.output >= 0 && t.output < outputs,
                        fmt::format("moments: output {} of term {}, must be below {}", t.output, k, outputs));
@@ -119,6 +124,7 @@ MomentMatching::MomentMatching(std::vector<MomentTerm> terms, Index outputs, boo
     centres_of_.push_back(static_cast<Index>(place));
     weights_.push_back(Vector::Zero(stride));
     weights_.back().head(n) = t.weights;
+    for (Index b = 0; b <= a; ++b) narrow_limits_.push_back(narrow_limit(term(b), t));
     if (t.reduction.size() == 0) continue;
     pair_weights_[at(a)] = pair_weights(t.weights * t.weights.transpose() - t.reduction);
   }
@@ -142,6 +148,7 @@ void MomentMatching::prepare(const Gaussian& input, MomentTape& tape) const {
   tape.means.resize(terms, 1);
   tape.gains.resize(D, terms);
   tape.pairs.resize(1 + D + D * D, pairs);
+  tape.covariances.setConstant(pairs, std::numeric_limits<double>::quiet_NaN());
   tape.ok.resize(terms_.size() + pairs_.size());
   if (!parameters_) return;
   tape.sums.resize(3 * D * D, pairs);
@@ -171,6 +178,7 @@ bool MomentMatching::pair(const Gaussian& input, Index p, MomentTape& tape) cons
   const Index D = inputs_;
   const Geometry g(input, term(a), term(b));
   if (!g.ok) return false;
+  if (!parameters_ && narrow_pair(input, p, g, tape)) return true;
   const Small AQ = g.A.asDiagonal() * g.Q, BQ = g.B.asDiagonal() * g.Q;
   Small form_a = AQ * g.A.asDiagonal(), form_b = BQ * g.B.asDiagonal();
   const Small form_c = 2 * AQ * g.B.asDiagonal();
@@ -201,18 +209,59 @@ bool MomentMatching::pair(const Gaussian& input, Index p, MomentTape& tape) cons
             a == b && own_weights.size() > 0 ? own_weights.data() : nullptr, sums, scratch.data());
   if (a == b) first_b = first_a, bb = aa;  // a network with itself
 
-  const double scale = g.shrinkage.scale, total = scale * sums.a.total;
-  aa *= scale, bb *= scale, ab *= scale;
-  auto column = tape.pairs.col(p);
-  column(0) = total;
-  column.segment(1, D) = scale * (g.back * (g.A.cwiseProduct(first_a) + g.B.cwiseProduct(first_b)));
-  Eigen::Map<Matrix>(column.data() + 1 + D, D, D) =
-      (g.back * g.spread(aa, bb, ab) * g.back.transpose() - total * g.K) / 2;
+  const double scale = g.shrinkage.scale;
+  first_a *= scale, first_b *= scale, aa *= scale, bb *= scale, ab *= scale;
+  sums.b = {0, first_b.data(), bb.data()};
+  keep(p, g, scale * sums.a.total, sums, tape);
   if (!parameters_) return true;
   auto kept = tape.sums.col(p);
   kept.segment(0, D * D) = aa.reshaped();
   kept.segment(D * D, D * D) = bb.reshaped();
   kept.segment(2 * D * D, D * D) = ab.reshaped();
+  return true;
+}
+
+/// E[f g] and its derivatives, from sums that include the scale.
+void MomentMatching::keep(Index p, const Geometry& g, double total, const PairSums& sums, MomentTape& tape) const {
+  const Index D = inputs_;
+  const auto vector = [&](const double* data) { return SmallVector(Eigen::Map<const Vector>(data, D)); };
+  const auto matrix = [&](const double* data) { return Small(Eigen::Map<const Matrix>(data, D, D)); };
+  auto column = tape.pairs.col(p);
+  column(0) = total;
+  column.segment(1, D) = g.back * (g.A.cwiseProduct(vector(sums.a.first)) + g.B.cwiseProduct(vector(sums.b.first)));
+  const Small spread = g.spread(matrix(sums.a.second), matrix(sums.b.second), matrix(sums.cross));
+  Eigen::Map<Matrix>(column.data() + 1 + D, D, D) = (g.back * spread * g.back.transpose() - total * g.K) / 2;
+}
+
+/// False, and nothing done, if the input is too wide for it.
+bool MomentMatching::narrow_pair(const Gaussian& input, Index p, const Geometry& g, MomentTape& tape) const {
+  const auto [a, b] = pairs_[at(p)];
+  const bool own = a == b && term(a).reduction.size() > 0;
+  if (own && term(a).factor.size() == 0) return false;
+  const Index D = inputs_;
+  const auto points = [&](Index k) -> const Matrix& { return tape.points[at(centres_of_[at(k)])]; };
+  const auto forward = [&](const SmallVector& A) { return Matrix(A.asDiagonal() * g.Q * A.asDiagonal()); };
+  if (!(largest_cross(points(a), forward(g.A), points(b), forward(g.B)) <= narrow_limits_[at(p)])) return false;
+  const auto side = [&](Index k, const SmallVector& A) {
+    const MeanGeometry mean(input, term(k));
+    const auto& root = mean.shrinkage.root;
+    const Matrix narrowing = root.asDiagonal() * (mean.shrinkage.scaled * mean.shrinkage.inverse) * root.asDiagonal();
+    NarrowSide side{term(k), points(k), forward(A), forward(A) - narrowing / 2, 0, Vector(points(k).rows())};
+    side.form.diagonal() -= A / 2;
+    side.scale_change = std::log(g.shrinkage.scale) / 2 - std::log(mean.shrinkage.scale);
+    mean_correlations(weighted(k, tape, weights(k)), D, mean.inverse.data(), mean.shrinkage.scale,
+                      side.correlations.data());
+    side.correlations.conservativeResize(term(k).size());
+    return side;
+  };
+  const NarrowSide side_a = side(a, g.A), side_b = side(b, g.B);
+  Vector first_a(D), first_b(D);
+  Matrix aa(D, D), bb(D, D), ab(D, D);
+  PairSums sums{{0, first_a.data(), aa.data()}, {0, first_b.data(), bb.data()}, ab.data(), nullptr};
+  const Matrix C = 2 * g.A.asDiagonal() * g.Q * g.B.asDiagonal();
+  const double mean_a = term(a).weights.dot(side_a.correlations), mean_b = term(b).weights.dot(side_b.correlations);
+  tape.covariances(p) = narrow_sums(side_a, side_b, C, std::log(g.shrinkage.scale), own, sums);
+  keep(p, g, tape.covariances(p) + mean_a * mean_b, sums, tape);
   return true;
 }
 
@@ -228,7 +277,9 @@ bool MomentMatching::combine(const MomentTape& tape, Transformed& result) const 
   }
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const auto [a, b] = pairs_[p];
-    const double covariance = tape.pairs(0, static_cast<Index>(p)) - tape.means(a) * tape.means(b);
+    const double narrow = tape.covariances(static_cast<Index>(p));
+    const double covariance =
+        std::isnan(narrow) ? tape.pairs(0, static_cast<Index>(p)) - tape.means(a) * tape.means(b) : narrow;
     result.covariance(term(a).output, term(b).output) += covariance;
     if (a != b) result.covariance(term(b).output, term(a).output) += covariance;
   }

@@ -17,6 +17,7 @@ struct MomentTape {
   std::vector<Vector> kernels;  // a term: E[c(x, x_i)], stride
   Matrix means, gains;          // a term: its mean; D × terms
   Matrix pairs;                 // a pair of terms: E[f g], its derivatives by m and s: a column of 1 + D + D²
+  Vector covariances;           // a pair of terms under a narrow input: cov[f, g], less σ_f²; else NaN
   Matrix sums;                  // with parameters, a pair: PairSums' second of a and b, cross: a column of 3 D²
   std::vector<Matrix> rows;     // with parameters: PairSums' of a pair and of its mirror image
   std::vector<char> ok;         // of what runs in parallel
@@ -44,8 +45,12 @@ class MomentMatching {
 
   /// Throws InvalidInput on wrong sizes. False, and `result` undefined, if the input is not a Gaussian (not finite, or
   /// its covariance far from positive semi-definite). The covariance of the result has the uncertainty of the
-  /// functions, no measurement noise. The pairs of terms are spread over the evaluator's threads where that is worth
-  /// it; the result is the same for any number.
+  /// functions, no measurement noise. Its sums over pairs of points cancel: rounding leaves
+  /// some 1e-14 of ‖N‖ or ‖w‖² (moment_term.hpp), 1e-8 σ_f² where σ_f = 100 σ_n and far more at the limit of fits,
+  /// which may make a variance negative. Not so under an input so narrow that this would matter most
+  /// (moment_narrow.hpp): of exact GPs the variance is that of the prediction at no input covariance, and never
+  /// negative. Inducing inputs have no such way; their ridge bounds the rounding. The pairs of terms are spread over
+  /// the evaluator's threads where that is worth it; the result is the same for any number.
   bool forward(const Gaussian& input, MomentTape& tape, Transformed& result,
                const Evaluator& evaluator = serial_evaluator()) const;
 
@@ -68,6 +73,8 @@ class MomentMatching {
   void prepare(const Gaussian& input, MomentTape& tape) const;
   bool mean(const Gaussian& input, Index a, MomentTape& tape) const;
   bool pair(const Gaussian& input, Index p, MomentTape& tape) const;
+  bool narrow_pair(const Gaussian& input, Index p, const Geometry& g, MomentTape& tape) const;
+  void keep(Index p, const Geometry& g, double total, const PairSums& sums, MomentTape& tape) const;
   bool combine(const MomentTape& tape, Transformed& result) const;
   void mean_adjoint(const Gaussian& input, const MomentTape& tape, Index a, double by_mean,
                     const ConstVectorView& by_gain, Gaussian& input_adjoint, TermAdjoint* term) const;
@@ -79,6 +86,7 @@ class MomentMatching {
   bool parameters_;
   double work_ = 0;  // kernel values of a call
   std::vector<Pair> pairs_;
+  std::vector<double> narrow_limits_;   // a pair: narrow_limit()
   std::vector<const Matrix*> centres_;  // distinct
   std::vector<Index> centres_of_;       // a term: where its own are
   std::vector<Vector> weights_;         // a term, padded

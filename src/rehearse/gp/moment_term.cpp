@@ -1,5 +1,7 @@
 #include "rehearse/gp/moment_term.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
@@ -28,6 +30,7 @@ std::vector<MomentTerm> exact_terms(const Posterior& posterior) {
     const Matrix inverse_factor = posterior.inverse_factor(e);
     term.variance = signal;
     term.reduction = signal * (inverse_factor.transpose() * inverse_factor);
+    term.factor = std::sqrt(signal) * inverse_factor;
     terms.push_back(std::move(term));
   }
   return terms;
@@ -46,6 +49,7 @@ std::vector<MomentTerm> mean_terms(std::vector<MomentTerm> terms, double jitter)
   for (MomentTerm& term : terms) {
     term.variance = jitter;
     term.reduction.resize(0, 0);
+    term.factor.resize(0, 0);
   }
   return terms;
 }

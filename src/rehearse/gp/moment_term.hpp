@@ -17,6 +17,7 @@ struct MomentTerm {
   Vector weights;       // n; of a GP σ_f² (K + σ_n² I)⁻¹ y
   double variance = 0;  // σ_f², or what is added to the output's variance where there is no N
   Matrix reduction;     // N: n × n, symmetric; of a GP σ_f⁴ (K + σ_n² I)⁻¹; empty: none
+  Matrix factor = {};   // F: n × n with N = Fᵀ F, or empty: where it is known, variances at narrow inputs use it
 
   Index size() const { return centres.rows(); }
   Index inputs() const { return centres.cols(); }
