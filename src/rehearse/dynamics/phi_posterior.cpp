@@ -47,6 +47,18 @@ Spread spread_of_gp(const gp::Inputs& inputs, const gp::Hyperparameters& kernel,
   return {std::move(whiten), misfit};
 }
 
+/// Mean squares, one an output, positive.
+Vector misfits(const Estimation& estimation, const Estimate& estimate) {
+  const Residuals::Rows rows = estimation.residuals.at(estimation.prior, estimate.phi);
+  Vector all(rows.targets.cols());
+  estimation.evaluator.for_each(all.size(), [&](Index e) {
+    const double floor = std::pow(kLeastDeviation * gp::usable_scale(estimation.residuals.scale()(e)), 2);
+    const gp::FitStart& kernel = estimate.kernels[static_cast<std::size_t>(e)];
+    all(e) = std::max(floor, spread_of_gp(*rows.inputs, kernel.hyperparameters, rows.targets.col(e)).misfit);
+  });
+  return all;
+}
+
 /// The row nearest to each in the space of the inputs, of equals the first; of a single row itself.
 std::vector<Index> nearest_rows(const gp::Inputs& inputs) {
   const Matrix X = (inputs.unit() * inputs.half_range().cwiseQuotient(inputs.spread()).asDiagonal()).transpose();
@@ -110,16 +122,17 @@ Matrix covariance_of(const std::vector<Told>& all, const Vector& z) {
   return factor.solve(Matrix::Identity(q, q)) + left * left.transpose();
 }
 
-/// The posterior around φ, given what is known of each output's residuals.
+/// The posterior around φ, given what is known of each output's residuals. `arranged`: makes other outputs of them.
 std::optional<PhiPosterior> posterior_of(const Residuals& residuals, const prior::Prior& prior, const Vector& phi,
                                          const Residuals::Rows& rows, const std::function<Spread(Index)>& spread_of,
-                                         const PhiPosteriorOptions& options, const Evaluator& evaluator) {
+                                         const PhiPosteriorOptions& options, const Evaluator& evaluator,
+                                         const std::function<Matrix(const Matrix&)>& arranged = {}) {
   const Coordinates coordinates(prior.space, phi);
   const Index q = coordinates.size(), outputs = rows.targets.cols();
   const auto targets = [&](const Vector& z) -> Matrix {
     Matrix all = residuals.targets(&prior, coordinates.phi(z));
-    if (rows.kept.empty()) return all;
-    return all(rows.kept, Eigen::all);
+    if (!rows.kept.empty()) all = Matrix(all(rows.kept, Eigen::all));
+    return arranged ? arranged(all) : all;
   };
   const auto derivatives = slopes(targets, coordinates.start(), rows.targets);
   std::vector<Told> told(static_cast<std::size_t>(outputs));
@@ -225,6 +238,26 @@ std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Es
   };
   return posterior_of(estimation.residuals, *estimation.prior, estimate.phi, rows, spread_of, options,
                       estimation.evaluator);
+}
+
+std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Estimate& estimate,
+                                          const ErrorsInVariables& steps, const PhiPosteriorOptions& options) {
+  if (tunes_nothing(estimation.prior) || !std::isfinite(estimate.score)) return {};
+  const Vector units = misfits(estimation, estimate).cwiseSqrt();
+  const auto in_units = [&](const Vector& r) { return Vector(r.cwiseQuotient(steps.repeated(units))); };
+  const auto arranged = [&](const Matrix& targets) -> Matrix { return in_units(steps.residuals(targets)); };
+  const auto whiten = [&](const Matrix& columns) {
+    Matrix white(columns.rows(), columns.cols());
+    for (Index i = 0; i < columns.cols(); ++i)
+      white.col(i) = steps.whitened(columns.col(i).cwiseProduct(steps.repeated(units)));
+    return white;
+  };
+  const Residuals on_path = estimation.residuals.of(steps.path());
+  const Residuals::Rows rows{
+      .inputs = {}, .targets = arranged(on_path.targets(estimation.prior, estimate.phi)), .left_out = 0, .kept = {}};
+  const auto spread_of = [&](Index) { return Spread{whiten, 1 / static_cast<double>(units.size())}; };
+  return posterior_of(on_path, *estimation.prior, estimate.phi, rows, spread_of, options, estimation.evaluator,
+                      arranged);
 }
 
 std::optional<PhiPosterior> phi_posterior(const Residuals& residuals, const prior::Prior& prior, const Vector& phi,
