@@ -11,15 +11,15 @@ namespace {
 constexpr Index kMostNumbers = 800;  // of a block
 
 /// Each number of `values` n times.
-Vector repeated(const Vector& values, Index n) { return values.transpose().replicate(n, 1).reshaped(); }
+Vector each(const Vector& values, Index n) { return values.transpose().replicate(n, 1).reshaped(); }
 
 }  // namespace
 
-ErrorsInVariables::ErrorsInVariables(const Dataset& measured, const Evaluator& evaluator)
+ErrorsInVariables::ErrorsInVariables(const Dataset& measured, const Evaluator& evaluator, Measurements measurements)
     : measured_(measured),
       evaluator_(evaluator),
       dx_(measured.states.cols()),
-      blocks_(blocks_of(measured, std::max<Index>(1, kMostNumbers / dx_))),
+      blocks_(blocks_of(measured, std::max<Index>(1, kMostNumbers / dx_), measurements)),
       Y_(measurements_of(measured, blocks_)),
       X_(Y_),
       along_(Y_),
@@ -46,14 +46,14 @@ ErrorsInVariables::Sparse ErrorsInVariables::errors_of(const Block& block, const
 
 Matrix ErrorsInVariables::covariance_of_errors(std::size_t b) const {
   const Sparse& B = blocks_of_r_[b].B;
-  return Matrix(B * repeated(R_, blocks_[b].measurements).asDiagonal() * B.transpose());
+  return Matrix(B * each(R_, blocks_[b].measurements).asDiagonal() * B.transpose());
 }
 
 /// `of_errors`: covariance_of_errors(b).
 Matrix ErrorsInVariables::covariance(std::size_t b, Matrix of_errors, const Vector& W) const {
   const Index rows = blocks_[b].rows;
   Matrix C = std::move(of_errors);
-  C.diagonal() += repeated(W, rows);
+  C.diagonal() += each(W, rows);
   for (Index e = 0; e < dx_; ++e)
     C.block(e * rows, e * rows, rows, rows) += blocks_of_r_[b].K[static_cast<std::size_t>(e)];
   return C;
@@ -68,6 +68,10 @@ Vector ErrorsInVariables::stacked(const Matrix& rows) const {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     r(numbers(b)) = rows.middleRows(blocks_[b].first, blocks_[b].rows).reshaped();
   return r;
+}
+
+Vector ErrorsInVariables::repeated(const Vector& values) const {
+  return stacked(values.transpose().replicate(measured_.size(), 1));
 }
 
 Vector ErrorsInVariables::residuals(const Matrix& on_path) const {
@@ -116,7 +120,7 @@ void ErrorsInVariables::subtract_errors(const Vector& r) {
   for_each_block([&](std::size_t b) {
     const auto& [K, B, factor] = blocks_of_r_[b];
     const Index n = blocks_[b].measurements;
-    const Vector v = repeated(R_, n).cwiseProduct(B.transpose() * factor.solve(Vector(r(numbers(b)))));
+    const Vector v = each(R_, n).cwiseProduct(B.transpose() * factor.solve(Vector(r(numbers(b)))));
     X_(measurements(b), Eigen::all) = Y_(measurements(b), Eigen::all) - v.reshaped(n, dx_);
   });
 }

@@ -18,7 +18,8 @@ namespace rehearse::dynamics {
 /// vector of n · dx: block by block, in a block output by output. References must outlive this.
 class ErrorsInVariables {
  public:
-  ErrorsInVariables(const Dataset& measured, const Evaluator& evaluator);
+  ErrorsInVariables(const Dataset& measured, const Evaluator& evaluator,
+                    Measurements measurements = Measurements::shared);
 
   const Dataset& path() const { return path_; }  // around which all is linear; the measured rows at first
 
@@ -48,6 +49,9 @@ class ErrorsInVariables {
 
   /// Rows × dx as a vector.
   Vector stacked(const Matrix& rows) const;
+
+  /// A number of each output (dx) as one of each step's.
+  Vector repeated(const Vector& values) const;
 
   /// Residuals on the path (n × dx) as a vector, with what the errors of the path's own states add.
   Vector residuals(const Matrix& on_path) const;

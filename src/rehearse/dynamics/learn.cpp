@@ -37,9 +37,9 @@ gp::FitOptions fit_options(const GpOptions& options, const Residuals& residuals)
   return dynamics::fit_options(options.fit, residuals.features().features() + residuals.data().actions.cols());
 }
 
-/// `measurement_std`: null where it is to be told from what the kernels take for noise.
+/// `smoothed`: null where noise of measurements is to be told from what the kernels take for noise.
 Learned model_of(const Estimation& estimation, const Estimate& estimate, const GpOptions& options,
-                 const Vector* measurement_std = nullptr) {
+                 const Smoothed* smoothed) {
   const Residuals& residuals = estimation.residuals;
   const Residuals::Rows rows = residuals.at(estimation.prior, estimate.phi);
   if (!rows.inputs) throw InvalidInput("no row of the data set has a finite prior mean: nothing to learn from");
@@ -50,9 +50,9 @@ Learned model_of(const Estimation& estimation, const Estimate& estimate, const G
   const auto model = std::make_shared<GpModel>(
       residuals.features(), residuals.kinematics(), mean,
       gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance), options.variance);
-  model->set_measurement_std(
-      measurement_std ? *measurement_std
-                      : dynamics::measurement_std(*model, residuals.data(), model->posterior().noise_variances()));
+  model->set_measurement_std(smoothed
+                                 ? smoothed->measurement_std
+                                 : measurement_std(*model, residuals.data(), model->posterior().noise_variances()));
   learned.model = model;
   if (estimation.prior) learned.state.phi = estimate.phi;
   learned.log_evidence = estimate.log_evidences.sum();
@@ -65,7 +65,7 @@ Learned model_of(const Estimation& estimation, const Estimate& estimate, const G
 }
 
 /// The model of an estimate, or of what smoothing makes of it where that is likelier. finish(estimation, estimate,
-/// measurement_std) makes the model.
+/// smoothed) makes the model; the last is null where nothing was smoothed.
 template <class Finish>
 Learned smoothed_if_likelier(const Problem& problem, const GpOptions& options, const Estimation& measured,
                              const Estimate& estimate, bool moves_phi, Finish finish) {
@@ -78,9 +78,9 @@ Learned smoothed_if_likelier(const Problem& problem, const GpOptions& options, c
   const std::optional<Smoothed> smoothed = smooth(on(residuals), estimate, moves_phi);
   if (!smoothed) return finish(measured, estimate, nullptr);
   const Residuals of_smoothed = residuals.of(smoothed->data);
-  Learned learned = finish(on(of_smoothed), smoothed->estimate, &smoothed->measurement_std);
+  Learned learned = finish(on(of_smoothed), smoothed->estimate, &*smoothed);
   learned.log_evidence = smoothed->estimate.score;
-  if (learned.posterior) learned.posterior->covariance += smoothed->phi_covariance;
+  if (!moves_phi && learned.score) learned.score = estimate.score;
   learned.state.kernels = hyperparameters(estimate);  // of measured rows, which the next trial starts with
   return learned;
 }
@@ -92,8 +92,8 @@ Learned learn_gps(const Problem& problem, const GpOptions& options, const prior:
   Estimate estimate =
       unfitted(prior ? prior->space.values() : Vector(), residuals.scale().size(), problem.start.kernels);
   estimation.refit(estimate);
-  const auto finish = [&](const Estimation& of, const Estimate& made, const Vector* measurement_std) {
-    return model_of(of, made, options, measurement_std);
+  const auto finish = [&](const Estimation& of, const Estimate& made, const Smoothed* smoothed) {
+    return model_of(of, made, options, smoothed);
   };
   return smoothed_if_likelier(problem, options, estimation, estimate, false, finish);
 }
@@ -154,13 +154,17 @@ Learned learn_kind(const GpMi& kind, const Problem& problem) {
   Estimate found = kind.search == PhiSearch::nested ? NestedSearch(estimation).run(kind, phi, problem.start.kernels)
                                                     : search_by_turns(kind, estimation, problem.start);
   if (!std::isfinite(found.score)) estimation.refit(found);
-  const auto finish = [&](const Estimation& of, const Estimate& estimate, const Vector* measurement_std) {
-    Learned learned = model_of(of, estimate, kind.gp, measurement_std);
+  const auto finish = [&](const Estimation& of, const Estimate& estimate, const Smoothed* smoothed) {
+    Learned learned = model_of(of, estimate, kind.gp, smoothed);
     learned.score = estimate.score;
-    add_posterior(learned, prior, phi_posterior(of, estimate, kind.posterior));
+    add_posterior(learned, prior,
+                  smoothed ? phi_posterior(of, estimate, smoothed->steps, kind.posterior)
+                           : phi_posterior(of, estimate, kind.posterior));
     return learned;
   };
-  return smoothed_if_likelier(problem, kind.gp, estimation, found, true, finish);
+  // Smoothing climbs the product of likelihoods by turns; what another score or search chose stays.
+  const bool moves_phi = kind.score == Score::product && kind.search == PhiSearch::alternating;
+  return smoothed_if_likelier(problem, kind.gp, estimation, found, moves_phi, finish);
 }
 
 Learned learn_kind(const Mi& kind, const Problem& problem) {

@@ -21,14 +21,15 @@ void for_each_row(const std::vector<Block>& blocks, Visit visit) {
 
 }  // namespace
 
-std::vector<Block> blocks_of(const Dataset& data, Index most) {
+std::vector<Block> blocks_of(const Dataset& data, Index most, Measurements measurements) {
+  const bool shared = measurements == Measurements::shared;
   std::vector<Block> blocks;
   Index count = 0;
   for (Index row = 0; row < data.size(); ++row) {
     const bool full = blocks.empty() || blocks.back().rows == most;
     if (full) blocks.push_back({.first = row, .first_measurement = count});
     Block& block = blocks.back();
-    const Index before = !full && continues(data, row) ? count - 1 : count;
+    const Index before = shared && !full && continues(data, row) ? count - 1 : count;
     count = before + 2;
     block.before.push_back(before - block.first_measurement);
     block.measurements = count - block.first_measurement;

@@ -14,8 +14,11 @@ struct Block {
   std::vector<Index> before;  // of each row, the measurement of the block that it starts from; it ends in the next one
 };
 
+/// Whether steps of an episode share the measurement between them, or each has two of its own.
+enum class Measurements { shared, own };
+
 /// At most `most` rows each. Rows are steps of one episode where one starts in the state in which the last one ended.
-std::vector<Block> blocks_of(const Dataset& data, Index most);
+std::vector<Block> blocks_of(const Dataset& data, Index most, Measurements measurements = Measurements::shared);
 
 /// All measurements, block by block (any × dx).
 Matrix measurements_of(const Dataset& data, const std::vector<Block>& blocks);

@@ -45,6 +45,18 @@ Spread spread_of_gp(const gp::Inputs& inputs, const gp::Hyperparameters& kernel,
   return {std::move(whiten), misfit};
 }
 
+/// Mean squares, one an output, positive.
+Vector misfits(const Estimation& estimation, const Estimate& estimate) {
+  const Residuals::Rows rows = estimation.residuals.at(estimation.prior, estimate.phi);
+  Vector all(rows.targets.cols());
+  estimation.evaluator.for_each(all.size(), [&](Index e) {
+    const double floor = std::pow(kLeastDeviation * gp::usable_scale(estimation.residuals.scale()(e)), 2);
+    const gp::FitStart& kernel = estimate.kernels[static_cast<std::size_t>(e)];
+    all(e) = std::max(floor, spread_of_gp(*rows.inputs, kernel.hyperparameters, rows.targets.col(e)).misfit);
+  });
+  return all;
+}
+
 /// The row nearest to each in the space of the inputs, of equals the first; of a single row itself.
 std::vector<Index> nearest_rows(const gp::Inputs& inputs) {
   const Matrix X = (inputs.unit() * inputs.half_range().cwiseQuotient(inputs.spread()).asDiagonal()).transpose();
@@ -145,17 +157,20 @@ Matrix weak_directions(const std::vector<Told>& all, const Matrix& errors) {
   return directions.vectors(Eigen::all, weak);
 }
 
-/// The residuals around a φ, with what is known of their spread.
+using Arrange = std::function<Matrix(const Matrix&)>;
+
+/// The residuals around a φ, with what is known of their spread. `arranged`: makes other outputs of them.
 class Around {
  public:
   Around(const Residuals& residuals, const prior::Prior& prior, const Vector& phi, const Residuals::Rows& rows,
-         const Evaluator& evaluator)
+         const Evaluator& evaluator, Arrange arranged = {})
       : residuals_(residuals),
         prior_(prior),
         phi_(phi),
         rows_(rows),
         evaluator_(evaluator),
-        coordinates_(prior.space, phi) {}
+        coordinates_(prior.space, phi),
+        arranged_(std::move(arranged)) {}
 
   /// Empty if a number is not finite.
   std::optional<PhiPosterior> posterior(const std::function<Spread(Index)>& spread_of,
@@ -189,8 +204,8 @@ class Around {
  private:
   Matrix targets(const Vector& z) const {
     Matrix all = residuals_.targets(&prior_, coordinates_.phi(z));
-    if (rows_.kept.empty()) return all;
-    return all(rows_.kept, Eigen::all);
+    if (!rows_.kept.empty()) all = Matrix(all(rows_.kept, Eigen::all));
+    return arranged_ ? arranged_(all) : all;
   }
 
   static Matrix of_output(const std::vector<Matrix>& slopes, Index e) {
@@ -247,6 +262,7 @@ class Around {
   const Residuals::Rows& rows_;
   const Evaluator& evaluator_;
   const Coordinates coordinates_;
+  const Arrange arranged_;
   std::vector<Spread> spreads_;
 };
 
@@ -280,6 +296,26 @@ std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Es
     return spread_of_gp(*rows.inputs, kernel.hyperparameters, rows.targets.col(e));
   };
   return Around(estimation.residuals, *estimation.prior, estimate.phi, rows, estimation.evaluator)
+      .posterior(spread_of, options);
+}
+
+std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Estimate& estimate,
+                                          const ErrorsInVariables& steps, const PhiPosteriorOptions& options) {
+  if (tunes_nothing(estimation.prior) || !std::isfinite(estimate.score)) return {};
+  const Vector units = misfits(estimation, estimate).cwiseSqrt();
+  const auto in_units = [&](const Vector& r) { return Vector(r.cwiseQuotient(steps.repeated(units))); };
+  const auto arranged = [&](const Matrix& targets) -> Matrix { return in_units(steps.residuals(targets)); };
+  const auto whiten = [&](const Matrix& columns) {
+    Matrix white(columns.rows(), columns.cols());
+    for (Index i = 0; i < columns.cols(); ++i)
+      white.col(i) = steps.whitened(columns.col(i).cwiseProduct(steps.repeated(units)));
+    return white;
+  };
+  const Residuals on_path = estimation.residuals.of(steps.path());
+  const Residuals::Rows rows{
+      .inputs = {}, .targets = arranged(on_path.targets(estimation.prior, estimate.phi)), .left_out = 0, .kept = {}};
+  const auto spread_of = [&](Index) { return Spread{whiten, 1 / static_cast<double>(units.size())}; };
+  return Around(on_path, *estimation.prior, estimate.phi, rows, estimation.evaluator, arranged)
       .posterior(spread_of, options);
 }
 

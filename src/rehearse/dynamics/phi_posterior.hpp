@@ -7,6 +7,7 @@
 
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/parameters.hpp"
+#include "rehearse/dynamics/errors_in_variables.hpp"
 #include "rehearse/dynamics/estimate.hpp"
 
 namespace rehearse::dynamics {
@@ -52,6 +53,12 @@ struct PhiPosteriorOptions {
 /// finite score, or if a number is not finite.
 std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Estimate& estimate,
                                           const PhiPosteriorOptions& options);
+
+/// The same where errors of measurements make steps depend on one another (smoothing.hpp): `steps` has the residuals of
+/// all outputs and their covariance C, which takes the place of the K_e. `estimate` is of the rows that GPs learn from,
+/// and tells the misfits; C has it added in directions of all outputs together, each output in units of its misfit.
+std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Estimate& estimate,
+                                          const ErrorsInVariables& steps, const PhiPosteriorOptions& options);
 
 /// The same around a φ of least squares, without GPs: the residuals' variance takes the place of K_e, and the misfit is
 /// what rows of nearly the same input have in common.

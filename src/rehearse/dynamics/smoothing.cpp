@@ -21,12 +21,11 @@ namespace {
 
 constexpr Index kMostStates = 12;
 constexpr int kRounds = 5, kVarianceSteps = 4, kPhiSteps = 4, kHalvings = 8;
-constexpr Index kStarts = 5;              // of the kernels' fits
+constexpr Index kStarts = 5;              // of the kernels' fits, and of their rival's
 constexpr double kShare = 0.3;            // of an output's noise is at least measurement noise at first
 constexpr double kLeastVariance = 1e-12;  // of measurement noise, as a fraction of the changes'
 constexpr double kLargestNoise = 1e3;     // times the changes' variance
 constexpr double kBoxPrecision = 12;      // of a uniform distribution, in units of the box
-constexpr double kLikelier = 0.15;        // nats a number measured that smoothing must gain
 constexpr double kTolerance = 0.01;       // of the model whose slopes are looked at (gp::Posterior)
 
 /// The white noise that leaves a function of covariance K as uncertain at the rows as `left`, the sum of its posterior
@@ -65,6 +64,7 @@ class Smoother {
       steps_.factorise(noise_variances());
     }
     estimate_.score = steps_.log_evidence(r);
+    score_of_own_errors_ = score_of_own_errors(r);
     steps_.subtract_errors(r);
     given_ = steps_.given_others(r, noise_variances());
     return std::isfinite(estimate_.score) && steps_.states().allFinite() && given_.residuals.allFinite() &&
@@ -72,9 +72,7 @@ class Smoother {
   }
 
   void fit_kernels() {
-    gp::FitOptions options = estimation_.fit;
-    options.starts = std::max(options.starts, kStarts);
-    options.penalties.snr = false;  // σ_n is not all of the noise
+    const gp::FitOptions options = fit_options();
     for_each_output([&](std::size_t e) {
       const gp::KnownNoise noise(given_.errors[e]);
       gp::FitStart& kernel = estimate_.kernels[e];
@@ -84,14 +82,22 @@ class Smoother {
     });
   }
 
-  /// The log evidence of what was measured.
-  double score() const { return estimate_.score; }
+  /// Whether what was measured is clearly likelier than a rival makes it, and than if every step had errors of its own.
+  bool beats(double rival) const { return estimate_.score > std::max(rival, score_of_own_errors_) + margin(); }
+
+  /// The log evidence of GPs of the measured rows at this φ, fitted like these and from where these are.
+  double without_errors() const {
+    Estimate rival = estimate_;
+    estimation_.refit(rival, fit_options());
+    return rival.log_evidences.sum();
+  }
 
   Smoothed result() && {
     std::vector<gp::Hyperparameters> white = white_kernels();
     estimate_.kernels.clear();
     for (gp::Hyperparameters& kernel : white) estimate_.kernels.push_back({std::move(kernel), {}});
-    return {std::move(white_), std::move(estimate_), steps_.variances().cwiseSqrt(), std::move(phi_covariance_)};
+    const Vector std = steps_.variances().cwiseSqrt();
+    return {std::move(white_), std::move(estimate_), std, std::move(steps_)};
   }
 
  private:
@@ -102,6 +108,19 @@ class Smoother {
 
   const gp::Hyperparameters& kernel(std::size_t e) const { return estimate_.kernels[e].hyperparameters; }
   double scale(std::size_t e) const { return gp::usable_scale(estimation_.residuals.scale()(static_cast<Index>(e))); }
+  /// The price of a variance a state (Schwarz 1978), nats.
+  double margin() const {
+    const auto numbers = static_cast<double>(estimation_.residuals.data().states.size());
+    return static_cast<double>(dx_) / 2 * std::log(numbers);
+  }
+
+  gp::FitOptions fit_options() const {
+    gp::FitOptions options = estimation_.fit;
+    options.starts = std::max(options.starts, kStarts);
+    options.penalties.snr = false;  // σ_n is not all of the noise
+    return options;
+  }
+
   Residuals on_path() const { return estimation_.residuals.of(steps_.path()); }
 
   Vector noise_variances() const {
@@ -143,20 +162,34 @@ class Smoother {
     const Residuals::Rows rows = on_path().at(estimation_.prior, estimate_.phi);
     if (rows.left_out > 0) return false;
     inputs_ = rows.inputs;
-    std::vector<Matrix> before = transition_slopes(*model, steps_.path()), after(before.size());
-    for (std::size_t d = 0; d < before.size(); ++d) {
-      if (!before[d].allFinite()) return false;
-      before[d] *= -1;
-      after[d] = Matrix::Zero(steps_.path().size(), dx_);
-      after[d].col(static_cast<Index>(d)).setOnes();
-      for (Matrix* errors : {&before[d], &after[d]})
+    before_ = transition_slopes(*model, steps_.path());
+    after_.assign(before_.size(), Matrix());
+    for (std::size_t d = 0; d < before_.size(); ++d) {
+      if (!before_[d].allFinite()) return false;
+      before_[d] *= -1;
+      after_[d] = Matrix::Zero(steps_.path().size(), dx_);
+      after_[d].col(static_cast<Index>(d)).setOnes();
+      for (Matrix* errors : {&before_[d], &after_[d]})
         subtract_integrals(estimation_.residuals.kinematics(), steps_.path().states, true, *errors);
     }
+    linearise(steps_);
+    return true;
+  }
+
+  void linearise(ErrorsInVariables& steps) const {
     const Matrix F = inputs_->values();
-    steps_.linearise(before, after, [&](Index e, Index first, Index count) {
+    steps.linearise(before_, after_, [&](Index e, Index first, Index count) {
       return gp::covariance(F.middleRows(first, count), kernel(static_cast<std::size_t>(e)));
     });
-    return true;
+  }
+
+  /// The log evidence if no two steps shared a measurement.
+  double score_of_own_errors(const Vector& r) const {
+    ErrorsInVariables own(estimation_.residuals.data(), estimation_.evaluator, Measurements::own);
+    own.set_variances(steps_.variances());
+    linearise(own);
+    own.factorise(noise_variances());
+    return own.log_evidence(r);
   }
 
   /// φ by Gauss–Newton steps, halved until they lead down.
@@ -177,7 +210,6 @@ class Smoother {
       const Matrix precision = kBoxPrecision * Matrix::Identity(q, q) + J.transpose() * J;
       Vector step = -precision.llt().solve(J.transpose() * w);
       if (!step.allFinite()) return false;
-      phi_covariance_ = precision.inverse();
       bool moved = false;
       for (int halving = 0; halving < kHalvings && !moved; ++halving, step /= 2) {
         const Vector next_z = (z + step).cwiseMax(0).cwiseMin(1);
@@ -188,7 +220,6 @@ class Smoother {
       if (!moved) break;
     }
     estimate_.phi = coordinates.phi(z);
-    phi_covariance_ = coordinates.widths().asDiagonal() * phi_covariance_ * coordinates.widths().asDiagonal();
     return true;
   }
 
@@ -219,26 +250,27 @@ class Smoother {
   const Estimation& estimation_;
   const Index dx_;
   ErrorsInVariables steps_;
+  std::vector<Matrix> before_, after_;  // what an error of each state adds to the residuals (ErrorsInVariables)
   Estimate estimate_;
   std::shared_ptr<const gp::Inputs> inputs_;  // of the path
   ErrorsInVariables::Given given_;
   Dataset white_;
   Vector white_variances_;
-  Matrix phi_covariance_;
+  double score_of_own_errors_ = 0;
 };
 
 }  // namespace
 
 std::optional<Smoothed> smooth(const Estimation& estimation, const Estimate& estimate, bool moves_phi) {
   if (estimation.residuals.data().states.cols() > kMostStates || estimate.left_out > 0) return {};
-  const double enough =
-      estimate.log_evidences.sum() + kLikelier * static_cast<double>(estimation.residuals.data().states.size());
+  const double measured = estimate.log_evidences.sum();
   Smoother smoother(estimation, estimate);
   for (int i = 0; i < kRounds; ++i) {
     if (i > 0) smoother.fit_kernels();
     if (!smoother.round(moves_phi)) return {};
-    if (i > 0 && !(smoother.score() > enough)) return {};
+    if (i > 0 && !smoother.beats(measured)) return {};
   }
+  if (!smoother.beats(smoother.without_errors())) return {};
   return std::move(smoother).result();
 }
 

@@ -23,8 +23,8 @@ struct Steps {
         for (double& s : slope.reshaped()) s = rng.normal();
       }
   }
-  ErrorsInVariables errors() const {
-    ErrorsInVariables errors(data, serial_evaluator());
+  ErrorsInVariables errors(Measurements measurements = Measurements::shared) const {
+    ErrorsInVariables errors(data, serial_evaluator(), measurements);
     errors.set_variances(R);
     errors.linearise(before, after, [&](Index e, Index, Index) { return K[static_cast<std::size_t>(e)]; });
     errors.factorise(W);
@@ -72,6 +72,18 @@ TEST(ErrorsInVariables, EvidenceIsThatOfANormalDistribution) {
   const ErrorsInVariables errors = steps.errors();
   EXPECT_NEAR(errors.log_evidence(kResiduals), expected, 1e-10);
   EXPECT_NEAR(errors.whitened(kResiduals).squaredNorm(), kResiduals.dot(C.inverse() * kResiduals), 1e-10);
+}
+
+TEST(ErrorsInVariables, StepsWithErrorsOfTheirOwnHaveOnlyCovariancesWithinAStep) {
+  const Steps steps;
+  Matrix C = steps.covariance() - steps.covariance(true);
+  const Matrix S = steps.covariance(true);
+  for (Index i = 0; i < 6; ++i)
+    for (Index j = 0; j < 6; ++j)
+      if (i % 3 == j % 3) C(i, j) += S(i, j);
+  const double expected =
+      -0.5 * kResiduals.dot(C.inverse() * kResiduals) - 0.5 * std::log(C.determinant()) - 3 * std::log(2 * M_PI);
+  EXPECT_NEAR(steps.errors(Measurements::own).log_evidence(kResiduals), expected, 1e-10);
 }
 
 TEST(ErrorsInVariables, OutputsAreGivenTheOthersAsInANormalDistribution) {

@@ -46,6 +46,16 @@ TEST(MeasuredPath, BlocksHaveMeasurementsOfTheirOwn) {
   EXPECT_EQ(measurements_of(data, blocks).rows(), 3 + 4 + 3 + 2);
 }
 
+TEST(MeasuredPath, StepsMayHaveMeasurementsOfTheirOwn) {
+  const Dataset data = episodes();
+  const std::vector<Block> blocks = blocks_of(data, 4, Measurements::own);
+  ASSERT_EQ(blocks.size(), 2u);
+  EXPECT_EQ(blocks[0].before, (std::vector<Index>{0, 2, 4, 6}));
+  const Matrix Y = measurements_of(data, blocks);
+  EXPECT_EQ(Y.rows(), 14);
+  EXPECT_NEAR(Y(1, 0), Y(2, 0), 1e-12);
+}
+
 TEST(MeasuredPath, IsTheDataAgain) {
   const Dataset steps = swing::data(5, 1), data = episodes();
   for (const Dataset& all : {data, steps}) {  // the latter: each step on its own

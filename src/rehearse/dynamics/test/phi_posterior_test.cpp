@@ -113,6 +113,60 @@ TEST(PhiPosterior, IsTheInverseOfThePrecisionAndTheWayLeft) {
   }
 }
 
+/// The steps of two outputs around the path, with errors of measurements and with that kernel for both.
+ErrorsInVariables steps_around(const Dataset& data, const Vector& variances) {
+  ErrorsInVariables steps(data, serial_evaluator());
+  const Matrix none = Matrix::Zero(data.size(), 2);
+  std::vector<Matrix> before(2, none), after(2, none);
+  for (std::size_t d = 0; d < 2; ++d) before[d].col(static_cast<Index>(d)).setConstant(-1), after[d] = -before[d];
+  Matrix K = covariance_of_rows(data, kernel());
+  K.diagonal().array() -= kernel().noise_variance();
+  steps.set_variances(variances);
+  steps.linearise(before, after, [&](Index, Index first, Index count) { return K.block(first, first, count, count); });
+  steps.factorise(Vector::Constant(2, kernel().noise_variance()));
+  return steps;
+}
+
+TEST(PhiPosterior, OfStepsWithoutErrorsIsThatOfRows) {
+  const Dataset data = data_with_errors(15, 3);
+  const Residuals residuals(data, swing::features());
+  const prior::Prior prior = swing_prior();
+  const Estimation estimation{residuals, &prior, Score::product, {}, serial_evaluator()};
+  const Estimate estimate = held_at(estimation, swing::kTruth);
+  const ErrorsInVariables steps = steps_around(data, Vector::Zero(2));
+  const Matrix rows = phi_posterior(estimation, estimate, kClassical)->covariance;
+  EXPECT_LT((phi_posterior(estimation, estimate, steps, kClassical)->covariance - rows).norm(), 1e-9 * rows.norm());
+}
+
+TEST(PhiPosterior, OfStepsWithErrorsCountsThemOnce) {
+  const Dataset data = data_with_errors(15, 3);
+  const Residuals residuals(data, swing::features());
+  const prior::Prior prior = swing_prior();
+  const Estimation estimation{residuals, &prior, Score::product, {}, serial_evaluator()};
+  const Estimate estimate = held_at(estimation, swing::kTruth);
+  const Vector variances{{0.1 * 0.1, 0.05 * 0.05}};
+  const ErrorsInVariables steps = steps_around(data, variances);
+  const Matrix K = covariance_of_rows(data, kernel()), targets = residuals.targets(&prior, swing::kTruth);
+  Matrix J(30, 2), C = Matrix::Zero(30, 30);
+  Vector units(30);
+  for (Index e = 0; e < 2; ++e) {
+    const auto own = Eigen::seqN(15 * e, 15);
+    J(own, Eigen::all) = slopes_of_mean(data, prior, e);
+    C(own, own) = K + 2 * variances(e) * Matrix::Identity(15, 15);  // these steps share no measurement
+    units(own).setConstant(std::sqrt(predictable(K, targets.col(e))));
+  }
+  const Matrix scaled = units.cwiseInverse().asDiagonal() * J;
+  const Matrix Q = units.asDiagonal() * (Eigen::HouseholderQR<Matrix>(scaled).householderQ() * Matrix::Identity(30, 2));
+  C += 15.0 / 4 * Q * Q.transpose();
+  Matrix precision = J.transpose() * C.inverse() * J;
+  precision.diagonal() += Vector{{12 / (1.7 * 1.7), 12.0}};
+  const Matrix inverse = precision.inverse();
+  const Vector left = inverse * J.transpose() * C.inverse() * targets.reshaped();
+  const Matrix expected = inverse + left * left.transpose();
+  const Matrix covariance = phi_posterior(estimation, estimate, steps, {.misfit_observations = 4})->covariance;
+  EXPECT_LT((covariance - expected).norm(), 1e-3 * expected.norm());
+}
+
 // 400 data sets of 25 rows, seeds 1 to 400, errors drawn from the kernel: each interval holds the truth with
 // probability 0.95; fewer than 0.91 or more than 0.985 of 400 have a probability below 0.001.
 TEST(PhiPosterior, CoversTheTruthAsOftenAsItSaysIfTheKernelIsRight) {
