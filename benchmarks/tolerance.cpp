@@ -44,8 +44,9 @@ bd::Options options_of(dynamics::Kind kind, Index evaluations) {
 
 Experience learn_and_try(const scenario::Scenario& scenario, const std::optional<prior::Prior>& prior,
                          const dynamics::Kind& kind, const Size& size, std::shared_ptr<const Evaluator> evaluator) {
-  const auto learner = bd::make({scenario.task, scenario.policy, prior, 1, std::move(evaluator), {}},
-                                options_of(kind, size.evaluations));
+  const auto learner =
+      bd::make({.task = scenario.task, .policy = scenario.policy, .prior = prior, .evaluator = std::move(evaluator)},
+               options_of(kind, size.evaluations));
   const auto plant = scenario.make_plant();
   Experience experience;
   for (Index trial = 1; trial <= size.trials; ++trial) {
