@@ -240,8 +240,8 @@ bool MomentMatching::narrow_pair(const Gaussian& input, Index p, const Geometry&
   if (own && term(a).factor.size() == 0) return false;
   const Index D = inputs_;
   const auto points = [&](Index k) -> const Matrix& { return tape.points[at(centres_of_[at(k)])]; };
-  const auto forward = [&](const SmallVector& A) { return Matrix(A.asDiagonal() * g.Q * A.asDiagonal()); };
-  if (!(largest_cross(points(a), forward(g.A), points(b), forward(g.B)) <= narrow_limits_[at(p)])) return false;
+  const auto forward = [&](const SmallVector& A) { return Small(A.asDiagonal() * g.Q * A.asDiagonal()); };
+  if (!crosses_within(points(a), forward(g.A), points(b), forward(g.B), narrow_limits_[at(p)])) return false;
   const auto side = [&](Index k, const SmallVector& A) {
     const MeanGeometry mean(input, term(k));
     const auto& root = mean.shrinkage.root;

@@ -46,7 +46,8 @@ void point_part(const ConstMatrixView& Z, const Vector& G, PointSums& out) {
 /// Σ_j W_ij h_j (1 + t_ij) h_i from P = W H.
 Vector row_sums(const Matrix& P, const Matrix& H, const Matrix& C) {
   const Index D = C.rows();
-  return P.col(0).cwiseProduct(H.col(0)) + (P.rightCols(D) * C.transpose()).cwiseProduct(H.rightCols(D)).rowwise().sum();
+  return P.col(0).cwiseProduct(H.col(0)) +
+         (P.rightCols(D) * C.transpose()).cwiseProduct(H.rightCols(D)).rowwise().sum();
 }
 
 }  // namespace
@@ -56,11 +57,21 @@ double narrow_limit(const MomentTerm& a, const MomentTerm& b) {
   return size > 0 ? std::sqrt(rounding_root(a) * rounding_root(b) / size) : 0;
 }
 
-double largest_cross(const Matrix& points_a, const Matrix& forward_a, const Matrix& points_b, const Matrix& forward_b) {
-  const auto largest = [](const Matrix& Z, const Matrix& form) {
-    return std::max(0.0, (Z * form).cwiseProduct(Z).rowwise().sum().maxCoeff());
+bool crosses_within(const Matrix& points_a, const ConstMatrixView& forward_a, const Matrix& points_b,
+                    const ConstMatrixView& forward_b, double limit) {
+  const auto form = [](const Matrix& Z, Index i, const ConstMatrixView& forward) {
+    double sum = 0;
+    for (Index d = 0; d < Z.cols(); ++d)
+      for (Index k = 0; k < Z.cols(); ++k) sum += forward(k, d) * Z(i, k) * Z(i, d);
+    return sum;
   };
-  return 2 * std::sqrt(largest(points_a, forward_a) * largest(points_b, forward_b));
+  double a = 0, b = 0;
+  for (Index i = 0; i < std::max(points_a.rows(), points_b.rows()); ++i) {
+    if (i < points_a.rows()) a = std::max(a, form(points_a, i, forward_a));
+    if (i < points_b.rows()) b = std::max(b, form(points_b, i, forward_b));
+    if (!(2 * std::sqrt(a * b) <= limit)) return false;
+  }
+  return true;
 }
 
 double narrow_sums(const NarrowSide& a, const NarrowSide& b, const Matrix& C, double log_scale, bool own,
@@ -69,8 +80,8 @@ double narrow_sums(const NarrowSide& a, const NarrowSide& b, const Matrix& C, do
   const Expansion ea(a, log_scale), eb(b, log_scale);
   const auto Za = a.points.topRows(a.term.size()), Zb = b.points.topRows(b.term.size());
   Matrix P = a.term.weights * eb.sums.transpose();  // Σ_j W_ij h_j (1, z_j)
-  double covariance = ea.mean_change * eb.mean + eb.mean_change * (ea.mean + ea.mean_change) +
-                      ea.sums.tail(D).dot(C * eb.sums.tail(D));
+  double covariance =
+      ea.mean_change * eb.mean + eb.mean_change * (ea.mean + ea.mean_change) + ea.sums.tail(D).dot(C * eb.sums.tail(D));
   if (own) {
     const Matrix whitened = a.term.factor * ea.H;
     const double reduction =

@@ -14,19 +14,21 @@ struct NarrowSide {
   const MomentTerm& term;
   const Matrix& points;  // less the mean of the input, at least n rows
   Matrix form;           // D × D, A
-  Matrix form_change;    // D × D: A less that of the mean's correlations q_i = scale exp(z_iᵀ (A − form_change) z_i)
-  double scale_change;   // ln of √scale over the mean's
-  Vector correlations;   // n, the mean's, E[c_i]
+  Matrix form_change;  // D × D: A less that of the mean's correlations q_i = scale exp(z_iᵀ (A − form_change) z_i)
+  double scale_change;  // ln of √scale over the mean's
+  Vector correlations;  // n, the mean's, E[c_i]
 };
 
 /// The largest |t_ij| that leaves out less than rounding would add to the sums of all pairs.
 double narrow_limit(const MomentTerm& a, const MomentTerm& b);
 
-/// A bound of |t_ij|; forward_a, forward_b: PairForm's A plus ½ diag ℓ⁻², of a and of b.
-double largest_cross(const Matrix& points_a, const Matrix& forward_a, const Matrix& points_b, const Matrix& forward_b);
+/// Whether no |t_ij| exceeds the limit, by a bound; forward_a, forward_b: PairForm's A plus ½ diag ℓ⁻², of a and of b.
+/// A few operations where the first points exceed it.
+bool crosses_within(const Matrix& points_a, const ConstMatrixView& forward_a, const Matrix& points_b,
+                    const ConstMatrixView& forward_b, double limit);
 
-/// cov[f_a, f_b], less σ_f² where both are one GP, whose variance is then ≥ 0; and what PairSums has (a.first, a.second,
-/// b.first, b.second, cross), scale included. `own`: both are one function with an uncertainty.
+/// cov[f_a, f_b], less σ_f² where both are one GP, whose variance is then ≥ 0; and what PairSums has (a.first,
+/// a.second, b.first, b.second, cross), scale included. `own`: both are one function with an uncertainty.
 double narrow_sums(const NarrowSide& a, const NarrowSide& b, const Matrix& C, double log_scale, bool own,
                    PairSums& sums);
 
