@@ -192,7 +192,7 @@ name = "c"
             "c.toml: line 15: unknown key 'ste' in [[variant]], did you mean 'set'? (known: name, preset, set)\n"
             "c.toml: line 16: there are two variants 'c'");
   EXPECT_EQ(complaint(kHead + "learners = [\"echo\"]\n[draw]\nnoise = [-2, -1]\n"),
-            "c.toml: line 7: noise = -1.7215323291170614, must be ≥ 0");
+            "c.toml: line 7: noise = -1.0530104217580396, must be ≥ 0");
 }
 
 TEST(CampaignPlan, SeveralPriorsOfOneRunAndTheOracle) {

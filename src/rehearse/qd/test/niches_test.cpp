@@ -65,9 +65,9 @@ double distortion(Index iterations) {
   return sum / 10000;
 }
 
-// Of 100 random points it is 0.5/100 on average, of hexagons (the best there is) 0.1604/100.
+// Of 100 random points it is 1/(100 π) = 0.0032 on average and more at the edges, of hexagons (the best there is) 0.0016.
 TEST(Cvt, SpreadsItsCentroidsEvenly) {
-  EXPECT_GT(distortion(0), 0.0035);
+  EXPECT_GT(distortion(0), 0.0025);
   EXPECT_LT(distortion(30), 0.0018);
   EXPECT_GT(distortion(30), 0.0016);
 }
