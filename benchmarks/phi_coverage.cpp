@@ -92,7 +92,7 @@ Result measure(const Condition& condition, std::uint64_t seed) {
     return {judge(learned.posterior.value(), truth), judge(other.value(), truth)};
   }
   const dynamics::GpMi kind;
-  const auto learned = dynamics::learn(data, features, {}, &prior, kind, {}, evaluator);
+  const auto learned = dynamics::learn(data, features, scenario.task.kinematics(), &prior, kind, {}, evaluator);
   const dynamics::Estimation estimation{residuals, &prior, kind.score, kind.gp.fit, evaluator};
   auto estimate = dynamics::unfitted(*learned.state.phi, residuals.scale().size(), learned.state.kernels);
   estimate.score = *learned.score;

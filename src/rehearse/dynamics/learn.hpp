@@ -26,7 +26,8 @@ struct GpOptions {
   PredictedVariance variance = PredictedVariance::latent;
   bool joint_angles = true;      // inputs have those that the task names too
   bool integrate_rates = false;  // positions follow from their rates, GPs learn what is left (integration.hpp)
-  bool smooth = false;      // noisy states are smoothed where that makes what was measured likelier (smoothing.hpp)
+  bool smooth = false;      // noisy states are smoothed where that makes what was measured likelier (smoothing.hpp); φ
+                            // moves with them where the score is the product and the search alternating
   double tolerance = 0.01;  // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
   void fields(FieldVisitor& v) {
     v.group("fit", fit);

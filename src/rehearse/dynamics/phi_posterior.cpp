@@ -27,25 +27,28 @@ constexpr double kFar = 3.841458820694124;  // of a sum of squares, above its mi
 /// An output's residuals y: their covariance K = L Lᵀ and their misfit.
 struct Spread {
   std::function<Matrix(const Matrix&)> whiten;  // L⁻¹
-  double misfit;                                // mean square
+  double misfit;                                // mean square, of a GP a degree of freedom
 };
 
-/// Mean square of y less that of its errors of leave-one-out predictions (Rasmussen 2006, eq. 5.12).
-double predictable(const gp::Whitening& whiten, const ConstVectorView& y) {
+/// Mean square of y less that of its errors of leave-one-out predictions (Rasmussen 2006, eq. 5.12), a degree of
+/// freedom of the GP, which has the trace of (K − σ_n² I) K⁻¹.
+double predictable(const gp::Whitening& whiten, const ConstVectorView& y, double noise_variance) {
   const Matrix inverse_factor = whiten(Matrix::Identity(y.size(), y.size()));
   const Vector weights = inverse_factor.transpose() * whiten(y).col(0);
   const Vector precisions = inverse_factor.colwise().squaredNorm();
   const double errors = weights.cwiseQuotient(precisions).squaredNorm();
-  return std::max(0.0, y.squaredNorm() - errors) / static_cast<double>(y.size());
+  const auto n = static_cast<double>(y.size());
+  const double freedom = std::max(1.0, n - noise_variance * precisions.sum());
+  return std::max(0.0, y.squaredNorm() - errors) / (n * freedom);
 }
 
 Spread spread_of_gp(const gp::Inputs& inputs, const gp::Hyperparameters& kernel, const ConstVectorView& y) {
   gp::Whitening whiten(inputs, kernel);
-  const double misfit = predictable(whiten, y);
+  const double misfit = predictable(whiten, y, kernel.noise_variance());
   return {std::move(whiten), misfit};
 }
 
-/// Mean squares, one an output, positive.
+/// Mean squares a degree of freedom, one an output, positive.
 Vector misfits(const Estimation& estimation, const Estimate& estimate) {
   const Residuals::Rows rows = estimation.residuals.at(estimation.prior, estimate.phi);
   Vector all(rows.targets.cols());

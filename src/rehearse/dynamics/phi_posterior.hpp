@@ -36,9 +36,10 @@ struct PhiPosterior {
 };
 
 struct PhiPosteriorOptions {
-  // What the prior cannot explain counts as so many observations of each output, however many there are. Large: as
-  // many as there are, which is overconfident where a parameter that is not tuned is wrong (docs/results.md).
-  double misfit_observations = 4;
+  // What the prior cannot explain counts as so many observations a degree of freedom of what explains it, however many
+  // rows there are: tuned on other data than docs/results.md's. Large: as many as there are, which is overconfident
+  // where a parameter that is not tuned is wrong.
+  double misfit_observations = 2;
   void fields(FieldVisitor& v) { v.number("misfit_observations", misfit_observations, above(0)); }
 };
 
@@ -46,11 +47,12 @@ struct PhiPosteriorOptions {
 /// output e, the precision is the sum over the outputs of J_eᵀ K_e⁻¹ J_e (Gauss and Newton's; Rasmussen 2006, section
 /// 2.7), plus that of a uniform distribution in the box. What φ cannot explain looks like the prior's own doing, so
 /// that GPs alone take it for far less than it is (Brynjarsdóttir and O'Hagan 2014): K_e has the misfit's mean
-/// square × rows / misfit_observations added in each direction of J_e. The misfit is the part of the residuals that
-/// the GP predicts from other rows. Along directions of which the data alone tell less than a tenth of the boxes, or
-/// no more than derivatives by differences can resolve, the normal distribution is not trusted: there the sum of
-/// squares itself says how far φ may go (reach.hpp). Empty if the prior has no continuous parameter or the estimate no
-/// finite score, or if a number is not finite.
+/// square × rows / (misfit_observations × the GP's degrees of freedom) added in each direction of J_e, as if each of
+/// these had an equal share of it. The misfit is the part of the residuals that the GP predicts from other rows; its
+/// degrees of freedom are the trace of the matrix that smooths the rows (Rasmussen 2006, section 2.6). Along directions
+/// of which the data alone tell less than a tenth of the boxes, or no more than derivatives by differences can resolve,
+/// the normal distribution is not trusted: there the sum of squares itself says how far φ may go (reach.hpp). Empty if
+/// the prior has no continuous parameter or the estimate no finite score, or if a number is not finite.
 std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Estimate& estimate,
                                           const PhiPosteriorOptions& options);
 
@@ -61,7 +63,7 @@ std::optional<PhiPosterior> phi_posterior(const Estimation& estimation, const Es
                                           const ErrorsInVariables& steps, const PhiPosteriorOptions& options);
 
 /// The same around a φ of least squares, without GPs: the residuals' variance takes the place of K_e, and the misfit is
-/// what rows of nearly the same input have in common.
+/// what rows of nearly the same input have in common, of one degree of freedom.
 std::optional<PhiPosterior> phi_posterior(const Residuals& residuals, const prior::Prior& prior, const Vector& phi,
                                           const PhiPosteriorOptions& options, const Evaluator& evaluator);
 

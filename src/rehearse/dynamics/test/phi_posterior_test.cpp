@@ -73,7 +73,7 @@ Matrix slopes_of_mean(const Dataset& data, const prior::Prior& prior, Index e) {
   return J;
 }
 
-/// The residuals' part that the GP predicts, by leaving out one row after the other.
+/// The residuals' part that the GP predicts, by leaving out one row after the other, a degree of freedom.
 double predictable(const Matrix& K, const Vector& y) {
   double errors = 0;
   for (Index i = 0; i < y.size(); ++i) {
@@ -83,7 +83,8 @@ double predictable(const Matrix& K, const Vector& y) {
     const Vector weights = Matrix(K(others, others)).ldlt().solve(Vector(K(others, i)));
     errors += std::pow(y(i) - weights.dot(y(others)), 2);
   }
-  return (y.squaredNorm() - errors) / static_cast<double>(y.size());
+  const double n = static_cast<double>(y.size());
+  return (y.squaredNorm() - errors) / n / (n - kernel().noise_variance() * K.inverse().trace());
 }
 
 TEST(PhiPosterior, IsTheInverseOfThePrecisionAndTheWayLeft) {
