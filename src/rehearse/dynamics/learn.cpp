@@ -81,6 +81,7 @@ Learned smoothed_if_likelier(const Problem& problem, const GpOptions& options, c
   const Residuals of_smoothed = residuals.of(smoothed->data);
   Learned learned = finish(on(of_smoothed), smoothed->estimate, &smoothed->measurement_std);
   learned.log_evidence = smoothed->estimate.score;
+  learned.smoothed = SmoothedRows{smoothed->data, hyperparameters(smoothed->estimate)};
   if (learned.posterior) learned.posterior->covariance += smoothed->phi_covariance;
   learned.state.kernels = hyperparameters(estimate);  // of measured rows, which the next trial starts with
   return learned;
