@@ -2,25 +2,43 @@
 
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "rehearse/core/errors.hpp"
 
 namespace rehearse {
 
 FeatureMoments::FeatureMoments(const FeatureMap& features) : outputs_(features.features()) {
-  if (!features.joints().empty()) throw InvalidInput("no moments of features with joint angles");
+  const Index dx = features.states(), joints = static_cast<Index>(features.joints().size());
   Index output = 0;
-  for (Index input = 0; input < features.states(); ++input) {
+  const auto add_angle = [&](Index input) {
+    sines_.push_back({.output = output++, .input = input, .phase = std::numbers::pi / 2});
+    sines_.push_back({.output = output++, .input = input});
+  };
+  for (Index input = 0; input < dx; ++input) {
     const StateKind kind = features.kinds()[static_cast<std::size_t>(input)];
     if (kind == StateKind::plain) plain_.push_back({output++, input});
-    if (kind == StateKind::angle) {
-      sines_.push_back({.output = output++, .input = input, .phase = std::numbers::pi / 2});
-      sines_.push_back({.output = output++, .input = input});
-    }
+    if (kind == StateKind::angle) add_angle(input);
+  }
+  angles_ = Matrix::Identity(dx + joints, dx);
+  for (Index j = 0; j < joints; ++j) {
+    const auto [angle, carrier] = features.joints()[static_cast<std::size_t>(j)];
+    angles_(dx + j, angle) = 1;
+    angles_(dx + j, carrier) = -1;
+    add_angle(dx + j);
   }
 }
 
+Gaussian FeatureMoments::angles(const Gaussian& state) const {
+  return {angles_ * state.mean, angles_ * state.covariance * angles_.transpose()};
+}
+
 Transformed FeatureMoments::operator()(const Gaussian& state) const {
-  Transformed result = sine_moments(sines_, outputs_, state);
+  if (state.size() != states() || state.covariance.rows() != states() || state.covariance.cols() != states())
+    throw InvalidInput(fmt::format("features: a state of {} variables, must be of {}", state.size(), states()));
+  const bool joints = angles_.rows() > angles_.cols();
+  Transformed result = sine_moments(sines_, outputs_, joints ? angles(state) : state);
+  if (joints) result.gain = (angles_.transpose() * result.gain).eval();
   for (const Plain& p : plain_) {
     result.mean(p.output) = state.mean(p.input);
     result.gain(p.input, p.output) = 1;
@@ -43,7 +61,12 @@ void FeatureMoments::adjoint(const Gaussian& state, const Transformed& result, c
     state_adjoint.covariance.row(p.input) += (result.gain * cross).transpose();
     of_sines.gain += state.covariance.col(p.input) * cross.transpose();
   }
-  sine_adjoint(sines_, state, of_sines, state_adjoint);
+  if (angles_.rows() == angles_.cols()) return sine_adjoint(sines_, state, of_sines, state_adjoint);
+  of_sines.gain = (angles_ * of_sines.gain).eval();
+  Gaussian of_angles = Gaussian::zero(angles_.rows());
+  sine_adjoint(sines_, angles(state), of_sines, of_angles);
+  state_adjoint.mean += angles_.transpose() * of_angles.mean;
+  state_adjoint.covariance += angles_.transpose() * of_angles.covariance * angles_;
 }
 
 }  // namespace rehearse

@@ -6,13 +6,15 @@
 namespace rehearse {
 
 /// The exact moments of the features of a Gaussian state: cosines and sines of its angles, other states as they are
-/// (Deisenroth 2010, appendix A.1). Immutable; any thread.
+/// (Deisenroth 2010, appendix A.1). A joint's angle is a difference of two angles, which is Gaussian with them.
+/// Immutable; any thread.
 class FeatureMoments {
  public:
-  /// Throws InvalidInput if there are joint angles: their moments are not implemented.
   explicit FeatureMoments(const FeatureMap& features);
 
-  /// state: dx; the result has features.features() outputs.
+  Index states() const { return angles_.cols(); }
+
+  /// state: dx; the result has features.features() outputs. Throws InvalidInput if the state has another size.
   Transformed operator()(const Gaussian& state) const;
 
   /// Adds to the adjoint of the state what the adjoint of the result brings. `result`: of the same state.
@@ -23,8 +25,11 @@ class FeatureMoments {
   struct Plain {
     Index output, input;
   };
+  Gaussian angles(const Gaussian& state) const;
+
   std::vector<Plain> plain_;
-  std::vector<Sine> sines_;
+  std::vector<Sine> sines_;  // of the states and, after them, the joints' angles
+  Matrix angles_;            // both of a state, linear in it: (dx + joints) × dx
   Index outputs_;
 };
 

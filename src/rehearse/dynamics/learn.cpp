@@ -81,6 +81,7 @@ Learned smoothed_if_likelier(const Problem& problem, const GpOptions& options, c
   Learned learned = finish(on(of_smoothed), smoothed->estimate, &*smoothed);
   learned.log_evidence = smoothed->estimate.score;
   if (!moves_phi && learned.score) learned.score = estimate.score;
+  learned.smoothed = SmoothedRows{smoothed->data, hyperparameters(smoothed->estimate)};
   learned.state.kernels = hyperparameters(estimate);  // of measured rows, which the next trial starts with
   return learned;
 }

@@ -117,12 +117,19 @@ struct WarmStart {
   std::optional<Vector> phi;                 // of the prior; empty: its own values
 };
 
+/// What GPs learned from instead of the data set.
+struct SmoothedRows {
+  Dataset data;
+  std::vector<gp::Hyperparameters> kernels;  // one an output
+};
+
 struct Learned {
   std::shared_ptr<const DynamicsModel> model;
   WarmStart state;                        // kernels and φ found
   std::optional<double> log_evidence;     // of all outputs together, nats; none without GPs
   std::optional<double> score;            // GP-MI's, nats
   std::optional<PhiPosterior> posterior;  // of GP-MI and MI
+  std::optional<SmoothedRows> smoothed;   // where states were smoothed
   Index left_out_rows = 0;                // rows whose prior mean was not finite
   Index evaluations = 0;                  // of φ
   std::vector<std::string> notes;         // numerical failures survived

@@ -8,6 +8,9 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/moments/requirements.hpp"
+#include "rehearse/policy/network.hpp"
+#include "rehearse/policy/rbf.hpp"
 #include "rehearse/reward/saturating_moments.hpp"
 
 namespace rehearse::moments {
@@ -16,6 +19,18 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// What the dynamics are of: joint angles too where they have as many inputs.
+FeatureMap features_of(const Task& task, const gp::MomentMatching* dynamics) {
+  if (!dynamics) throw InvalidInput("dynamics: there are none");
+  FeatureMap with_joints = model_features(task, true);
+  return dynamics->inputs() == with_joints.features() + task.action_size() ? with_joints : task.feature_map();
+}
+
+/// The features that policy and reward see.
+Gaussian seen(const Transformed& features, Index count) {
+  return {features.mean.head(count), features.covariance.topLeftCorner(count, count)};
+}
 
 void check(const Task& task, const policy::Policy& policy, const gp::MomentMatching& dynamics, const Gaussian& start) {
   Violations violations;
@@ -26,10 +41,23 @@ void check(const Task& task, const policy::Policy& policy, const gp::MomentMatch
   violations.require(task.saturating_reward.has_value(),
                      "the task's reward has no analytic moments: it must be a saturating one of distances that are "
                      "linear in the features (Task::saturating_reward)");
-  const Index inputs = task.feature_map().features() + task.action_size(), states = task.state_size();
-  violations.require(dynamics.inputs() == inputs && dynamics.outputs() == states,
-                     fmt::format("dynamics: {} inputs and {} outputs, must be {} and {}", dynamics.inputs(),
-                                 dynamics.outputs(), inputs, states));
+  const Index features = task.feature_map().features(), states = task.state_size();
+  if (const auto& reward = task.saturating_reward)
+    violations.require(reward->goal.size() == features && reward->distances.cols() == features,
+                       fmt::format("saturating_reward: of {} and {} features, must be of {}", reward->goal.size(),
+                                   reward->distances.cols(), features));
+  if (const auto analytic = policy.analytic()) {
+    const Index seen = std::visit([](const auto* options) { return options->scale.size(); }, *analytic);
+    violations.require(seen == features && policy.actions() == task.action_size(),
+                       fmt::format("policy = {}: {} features and {} actions, the task has {} and {}", policy.name(),
+                                   seen, policy.actions(), features, task.action_size()));
+  }
+  const Index inputs = features + task.action_size();
+  const Index with_joints = model_features(task, true).features() + task.action_size();
+  violations.require(
+      (dynamics.inputs() == inputs || dynamics.inputs() == with_joints) && dynamics.outputs() == states,
+      fmt::format("dynamics: {} inputs and {} outputs, must be {}{} and {}", dynamics.inputs(), dynamics.outputs(),
+                  inputs, with_joints > inputs ? fmt::format(" (with joint angles {})", with_joints) : "", states));
   violations.require(start.size() == states && start.covariance.rows() == states && start.covariance.cols() == states,
                      fmt::format("start: {} states, must be {}", start.size(), states));
   violations.require(task.horizon >= 1, fmt::format("horizon = {}, must be ≥ 1", task.horizon));
@@ -49,8 +77,8 @@ bool Return::ok() const { return std::isfinite(value); }
 
 ExpectedReturn::ExpectedReturn(const Task& task, const policy::Policy& policy,
                                std::shared_ptr<const gp::MomentMatching> dynamics, std::optional<Gaussian> start)
-    : features_(task.feature_map()),
-      dynamics_(std::move(dynamics)),
+    : dynamics_(std::move(dynamics)),
+      features_(features_of(task, dynamics_.get())),
       start_(start ? std::move(*start) : start_of(task)),
       horizon_(task.horizon) {
   check(task, policy, *dynamics_, start_);
@@ -71,7 +99,7 @@ bool ExpectedReturn::roll_out(const PolicyMoments& policy, ReturnWorkspace& work
       return false;
     Transformed& f = workspace.features[at(t + 1)];
     f = features_(next);
-    const reward::RewardMoments moments = reward::saturating_moments(reward_, {f.mean, f.covariance});
+    const reward::RewardMoments moments = reward::saturating_moments(reward_, seen(f, reward_.goal.size()));
     if (!std::isfinite(moments.mean)) return false;
     result.rewards(t) = moments.mean;
     result.variances(t) = moments.variance;
@@ -88,9 +116,10 @@ Vector ExpectedReturn::differentiate(const PolicyMoments& policy, const ReturnWo
   Transformed features_later = Transformed::zero(dx, workspace.features[0].outputs());
   for (Index t = horizon_ - 1; t >= 0; --t) {
     const Transformed& f = workspace.features[at(t + 1)];
-    const reward::RewardMoments moments = reward::saturating_moments(reward_, {f.mean, f.covariance});
-    features_later.mean += moments.by_mean.mean;
-    features_later.covariance += moments.by_mean.covariance;
+    const Index rewarded = reward_.goal.size();
+    const reward::RewardMoments moments = reward::saturating_moments(reward_, seen(f, rewarded));
+    features_later.mean.head(rewarded) += moments.by_mean.mean;
+    features_later.covariance.topLeftCorner(rewarded, rewarded) += moments.by_mean.covariance;
     features_.adjoint(workspace.states[at(t + 1)], f, features_later, later);
     Gaussian state = Gaussian::zero(dx);
     features_later = Transformed::zero(dx, f.outputs());

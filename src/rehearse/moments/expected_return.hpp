@@ -30,8 +30,8 @@ struct Return {
 /// θ ↦ Σ_t E[r(x_t)], x_0 ~ start, under the policy at θ on `dynamics`. Immutable; any thread.
 class ExpectedReturn {
  public:
-  /// Throws InvalidInput with what to use instead if policy or reward have no analytic moments, and if sizes do not
-  /// agree. `start`: where not the task's.
+  /// dynamics: of `model_features` with joint angles or without, and actions. Throws InvalidInput with what to use
+  /// instead if policy or reward have no analytic moments, and if sizes do not agree. `start`: where not the task's.
   ExpectedReturn(const Task& task, const policy::Policy& policy, std::shared_ptr<const gp::MomentMatching> dynamics,
                  std::optional<Gaussian> start = {});
 
@@ -48,10 +48,10 @@ class ExpectedReturn {
                 const Evaluator& evaluator) const;
   Vector differentiate(const PolicyMoments& policy, const ReturnWorkspace& workspace, const Evaluator& evaluator) const;
 
-  FeatureMoments features_;
+  std::shared_ptr<const gp::MomentMatching> dynamics_;
+  FeatureMoments features_;  // inputs of the dynamics
   PolicyMomentsAt policy_;
   SaturatingReward reward_;
-  std::shared_ptr<const gp::MomentMatching> dynamics_;
   Gaussian start_;
   Index horizon_;
 };

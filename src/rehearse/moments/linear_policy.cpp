@@ -7,7 +7,7 @@
 namespace rehearse::moments {
 
 LinearPolicy::LinearPolicy(const policy::LinearOptions& options, const ConstVectorView& theta)
-    : PolicyMoments(options.squash.bounds) {
+    : PolicyMoments(options.scale.size(), options.squash.bounds) {
   const Index inputs = options.scale.size(), actions = static_cast<Index>(options.squash.bounds.size());
   Violations violations;
   violations.require(theta.size() == actions * (inputs + 1),

@@ -1,5 +1,8 @@
 #include "rehearse/moments/policy_moments.hpp"
 
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
 #include "rehearse/moments/linear_policy.hpp"
 #include "rehearse/moments/rbf_policy.hpp"
 
@@ -17,6 +20,10 @@ PolicyMomentsAt moments_of(const policy::LinearOptions& options) {
 
 bool PolicyMoments::forward(const Gaussian& features, PolicyTape& tape, Transformed& action,
                             const Evaluator& evaluator) const {
+  const Index rows = features.covariance.rows(), columns = features.covariance.cols();
+  if (features.size() != features_ || rows != features_ || columns != features_)
+    throw InvalidInput(fmt::format("policy: {} features and a covariance of {} × {}, must be {} and {} × {}",
+                                   features.size(), rows, columns, features_, features_, features_));
   if (!forward_before(features, tape, evaluator)) return false;
   tape.squash = squash_({tape.before.mean, tape.before.covariance});
   action.mean = tape.squash.mean;

@@ -32,7 +32,11 @@ class PolicyMoments {
   /// False: θ is not finite, or so extreme that there are no moments; nothing else may be called then.
   virtual bool ok() const = 0;
 
-  /// False if there are no moments, as in gp/moment_matching.hpp.
+  Index features() const { return features_; }
+  Index actions() const { return actions_; }
+
+  /// False if there are no moments, as in gp/moment_matching.hpp. Throws InvalidInput if the features are not as many
+  /// as the policy's.
   bool forward(const Gaussian& features, PolicyTape& tape, Transformed& action, const Evaluator& evaluator) const;
 
   /// Adds to the adjoints of the features and of the policy what the adjoint of the action brings.
@@ -44,7 +48,8 @@ class PolicyMoments {
   virtual Vector gradient(const PolicyAdjoint& adjoint) const = 0;
 
  protected:
-  explicit PolicyMoments(const std::vector<Interval>& bounds) : squash_(bounds) {}
+  PolicyMoments(Index features, const std::vector<Interval>& bounds)
+      : features_(features), actions_(static_cast<Index>(bounds.size())), squash_(bounds) {}
 
  private:
   /// The same of the actions before the squash, which is shared: tape.before is written, and read.
@@ -52,6 +57,7 @@ class PolicyMoments {
   virtual void adjoint_before(const Gaussian& features, const PolicyTape& tape, const Transformed& adjoint,
                               Gaussian& features_adjoint, PolicyAdjoint& policy) const = 0;
 
+  Index features_, actions_;
   policy::SquashMoments squash_;
 };
 

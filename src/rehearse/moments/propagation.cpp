@@ -1,17 +1,49 @@
 #include "rehearse/moments/propagation.hpp"
 
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::moments {
+namespace {
+
+/// The features that the policy sees.
+Gaussian seen(const Transformed& features, const PolicyMoments& policy) {
+  const Index n = policy.features();
+  return {features.mean.head(n), features.covariance.topLeftCorner(n, n)};
+}
+
+void check(const Gaussian& state, const Transformed& features, Index states, Index wanted) {
+  const Index dx = state.size(), F = features.outputs();
+  const bool agree = state.covariance.rows() == dx && state.covariance.cols() == dx &&
+                     features.covariance.rows() == F && features.covariance.cols() == F && features.gain.rows() == dx &&
+                     features.gain.cols() == F;
+  if (dx != states || F != wanted || !agree)
+    throw InvalidInput(fmt::format("propagation: {} states and {} features{}, must be {} and {}", dx, F,
+                                   agree ? "" : " whose covariances have other sizes", states, wanted));
+}
+
+}  // namespace
+
+Propagation::Propagation(const gp::MomentMatching& dynamics, const PolicyMoments& policy, const Evaluator& evaluator)
+    : dynamics_(dynamics), policy_(policy), evaluator_(evaluator) {
+  const Index least = policy.features() + policy.actions();
+  if (dynamics.inputs() < least)
+    throw InvalidInput(
+        fmt::format("dynamics: {} inputs, must be ≥ {}, the policy's features and actions", dynamics.inputs(), least));
+}
 
 bool Propagation::forward(const Gaussian& state, const Transformed& features, StepTape& tape, Gaussian& next) const {
-  if (!policy_.forward({features.mean, features.covariance}, tape.policy, tape.action, evaluator_)) return false;
-  const Index F = features.outputs(), U = tape.action.outputs();
+  const Index F = features.outputs(), U = policy_.actions(), P = policy_.features();
+  check(state, features, dynamics_.outputs(), dynamics_.inputs() - U);
+  if (!policy_.forward(seen(features, policy_), tape.policy, tape.action, evaluator_)) return false;
   tape.inputs.mean.resize(F + U);
   tape.inputs.mean << features.mean, tape.action.mean;
-  const Matrix cross = features.covariance * tape.action.gain;
+  const Matrix cross = features.covariance.leftCols(P) * tape.action.gain;
   tape.inputs.covariance.resize(F + U, F + U);
   tape.inputs.covariance << features.covariance, cross, cross.transpose(), tape.action.covariance;
   tape.gain.resize(state.size(), F + U);
-  tape.gain << features.gain, features.gain * tape.action.gain;
+  tape.gain << features.gain, features.gain.leftCols(P) * tape.action.gain;
   if (!dynamics_.forward(tape.inputs, tape.dynamics, tape.change, evaluator_)) return false;
   const Matrix with_change = state.covariance * (tape.gain * tape.change.gain);
   next.mean = state.mean + tape.change.mean;
@@ -23,7 +55,7 @@ bool Propagation::forward(const Gaussian& state, const Transformed& features, St
 void Propagation::adjoint(const Gaussian& state, const Transformed& features, const StepTape& tape,
                           const Gaussian& next_adjoint, Gaussian& state_adjoint, Transformed& features_adjoint,
                           PolicyAdjoint& policy) const {
-  const Index F = features.outputs(), U = tape.action.outputs();
+  const Index F = features.outputs(), U = policy_.actions(), P = policy_.features();
   const Matrix by_next = (next_adjoint.covariance + next_adjoint.covariance.transpose()) / 2;
   state_adjoint.mean += next_adjoint.mean;
   state_adjoint.covariance += by_next + 2 * by_next * (tape.gain * tape.change.gain).transpose();
@@ -36,14 +68,18 @@ void Propagation::adjoint(const Gaussian& state, const Transformed& features, co
   const auto by_action_gain = by_gain.rightCols(U);
   const Matrix by_cross = inputs.covariance.topRightCorner(F, U) + inputs.covariance.bottomLeftCorner(U, F).transpose();
 
-  const Transformed action{inputs.mean.tail(U), inputs.covariance.bottomRightCorner(U, U),
-                           features.covariance * by_cross + features.gain.transpose() * by_action_gain};
-  Gaussian of_features = Gaussian::zero(F);
-  policy_.adjoint({features.mean, features.covariance}, tape.policy, action, of_features, policy);
-  features_adjoint.mean += inputs.mean.head(F) + of_features.mean;
-  features_adjoint.covariance +=
-      inputs.covariance.topLeftCorner(F, F) + of_features.covariance + by_cross * tape.action.gain.transpose();
-  features_adjoint.gain += by_gain.leftCols(F) + by_action_gain * tape.action.gain.transpose();
+  const Transformed action{
+      inputs.mean.tail(U), inputs.covariance.bottomRightCorner(U, U),
+      features.covariance.topRows(P) * by_cross + features.gain.leftCols(P).transpose() * by_action_gain};
+  Gaussian of_seen = Gaussian::zero(P);
+  policy_.adjoint(seen(features, policy_), tape.policy, action, of_seen, policy);
+  features_adjoint.mean += inputs.mean.head(F);
+  features_adjoint.mean.head(P) += of_seen.mean;
+  features_adjoint.covariance += inputs.covariance.topLeftCorner(F, F);
+  features_adjoint.covariance.topLeftCorner(P, P) += of_seen.covariance;
+  features_adjoint.covariance.leftCols(P) += by_cross * tape.action.gain.transpose();
+  features_adjoint.gain += by_gain.leftCols(F);
+  features_adjoint.gain.leftCols(P) += by_action_gain * tape.action.gain.transpose();
 }
 
 }  // namespace rehearse::moments

@@ -18,13 +18,15 @@ struct StepTape {
 
 /// One control step of a Gaussian state under a policy: features → action → inputs of the dynamics → change of the
 /// state → next state (Deisenroth 2011, section 2.2; PILCO's propagate). `dynamics` is of (features, actions), its
-/// outputs are the changes of all states. References must outlive it. Any thread.
+/// outputs are the changes of all states; the policy sees the first of the features, as many as it has. References must
+/// outlive it. Any thread.
 class Propagation {
  public:
-  Propagation(const gp::MomentMatching& dynamics, const PolicyMoments& policy, const Evaluator& evaluator)
-      : dynamics_(dynamics), policy_(policy), evaluator_(evaluator) {}
+  /// Throws InvalidInput if the dynamics have fewer inputs than the policy has features and actions.
+  Propagation(const gp::MomentMatching& dynamics, const PolicyMoments& policy, const Evaluator& evaluator);
 
-  /// features: of the state. False, and `next` undefined, where there are no moments.
+  /// features: of the state. False, and `next` undefined, where there are no moments. Throws InvalidInput if states or
+  /// features are not as many as those of the dynamics.
   bool forward(const Gaussian& state, const Transformed& features, StepTape& tape, Gaussian& next) const;
 
   /// Adds to the adjoints of the state, of its features and of the policy what the adjoint of the next state brings.

@@ -34,26 +34,24 @@ Vector solve(const std::vector<double>& tiles, const ConstVectorView& y) {
 }  // namespace
 
 RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& theta, double jitter)
-    : PolicyMoments(options.bounds),
-      inputs_(options.features.features()),
+    : PolicyMoments(options.features.features(), options.bounds),
       centres_(options.centres),
-      actions_(static_cast<Index>(options.bounds.size())),
       theta_(theta),
       scale_(options.scale) {
-  const Index size = inputs_ * actions_ + centres_ * (inputs_ + actions_);
+  const Index size = features() * actions() + centres_ * (features() + actions());
   if (theta.size() != size)
     throw InvalidInput(fmt::format("policy: θ has {} numbers, must have {}", theta.size(), size));
   if (!theta.allFinite()) return;
-  unscaled_ = theta.segment(centres_at(), centres_ * inputs_).reshaped(inputs_, centres_).transpose();
-  std::vector<double> scaled(at(gp::padded(centres_) * inputs_));
+  unscaled_ = theta.segment(centres_at(), centres_ * features()).reshaped(features(), centres_).transpose();
+  std::vector<double> scaled(at(gp::padded(centres_) * features()));
   std::vector<gp::MomentTerm> terms;
-  for (Index a = 0; a < actions_; ++a) {
-    const Vector log_lengths = clamped(theta.segment(lengths_at(a), inputs_));
+  for (Index a = 0; a < actions(); ++a) {
+    const Vector log_lengths = clamped(theta.segment(lengths_at(a), features()));
     inverse_lengths_.push_back((-log_lengths).array().exp());
     factors_.emplace_back(at(gp::tiles_size(centres_)));
-    gp::scale_inputs(unscaled_.data(), centres_, inputs_, inverse_lengths_.back().data(), scaled.data());
+    gp::scale_inputs(unscaled_.data(), centres_, features(), inverse_lengths_.back().data(), scaled.data());
     const double jitter_of_ladder =
-        gp::factorise(scaled.data(), centres_, inputs_, options.noise * options.noise, factors_.back().data());
+        gp::factorise(scaled.data(), centres_, features(), options.noise * options.noise, factors_.back().data());
     if (std::isnan(jitter_of_ladder)) return;
     terms.push_back({.output = a,
                      .centres = unscaled_ * scale_.asDiagonal(),
@@ -62,7 +60,7 @@ RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& t
                      .variance = jitter});
     if (!terms.back().weights.allFinite() || !terms.back().centres.allFinite()) return;
   }
-  network_.emplace(std::move(terms), actions_, true);
+  network_.emplace(std::move(terms), actions(), true);
   ok_ = true;
 }
 
@@ -90,18 +88,18 @@ void RbfPolicy::add_covariance_gradient(Index action, const Vector& by_targets, 
 
 Vector RbfPolicy::gradient(const PolicyAdjoint& adjoint) const {
   Vector gradient(theta_.size());
-  Matrix centres = Matrix::Zero(centres_, inputs_);
-  for (Index a = 0; a < actions_; ++a) {
+  Matrix centres = Matrix::Zero(centres_, features());
+  for (Index a = 0; a < actions(); ++a) {
     const gp::TermAdjoint& network = adjoint.networks[at(a)];
     const Vector by_targets = solve(factors_[at(a)], network.weights);
     Vector log_lengths = network.log_lengths;
     centres += network.centres * scale_.asDiagonal();
     add_covariance_gradient(a, by_targets, centres, log_lengths);
-    const auto given = theta_.segment(lengths_at(a), inputs_).array();
-    gradient.segment(lengths_at(a), inputs_) = (given.abs() <= kLargestLogLength).select(log_lengths.array(), 0);
+    const auto given = theta_.segment(lengths_at(a), features()).array();
+    gradient.segment(lengths_at(a), features()) = (given.abs() <= kLargestLogLength).select(log_lengths.array(), 0);
     gradient.segment(targets_at(a), centres_) = by_targets;
   }
-  gradient.segment(centres_at(), centres_ * inputs_) = centres.transpose().reshaped();
+  gradient.segment(centres_at(), centres_ * features()) = centres.transpose().reshaped();
   return gradient;
 }
 

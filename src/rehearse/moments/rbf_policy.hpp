@@ -25,12 +25,12 @@ class RbfPolicy final : public PolicyMoments {
   bool forward_before(const Gaussian& features, PolicyTape& tape, const Evaluator& evaluator) const override;
   void adjoint_before(const Gaussian& features, const PolicyTape& tape, const Transformed& adjoint,
                       Gaussian& features_adjoint, PolicyAdjoint& policy) const override;
-  Index lengths_at(Index action) const { return action * inputs_; }
-  Index centres_at() const { return actions_ * inputs_; }
-  Index targets_at(Index action) const { return centres_at() + centres_ * inputs_ + action * centres_; }
+  Index lengths_at(Index action) const { return action * features(); }
+  Index centres_at() const { return actions() * features(); }
+  Index targets_at(Index action) const { return centres_at() + centres_ * features() + action * centres_; }
   void add_covariance_gradient(Index action, const Vector& by_targets, Matrix& centres, Vector& log_lengths) const;
 
-  Index inputs_, centres_, actions_;
+  Index centres_;
   Vector theta_, scale_;
   Matrix unscaled_;                           // centres as θ has them, centres × inputs
   std::vector<Vector> inverse_lengths_;       // an action

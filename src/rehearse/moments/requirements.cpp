@@ -7,8 +7,12 @@
 
 namespace rehearse::moments {
 
-std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, std::string_view who,
-                                         std::string_view otherwise) {
+FeatureMap model_features(const Task& task, bool joint_angles) {
+  return joint_angles ? FeatureMap(task.feature_map().kinds(), task.model_features().joints()) : task.feature_map();
+}
+
+std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, const Need& need) {
+  const auto& [who, otherwise, joint_angles] = need;
   Violations violations;
   violations.require(policy.analytic().has_value(),
                      fmt::format("policy = {} has no analytic moments, which {} needs: choose policy = rbf "
@@ -18,7 +22,7 @@ std::vector<std::string> without_moments(const Task& task, const policy::Policy&
                      fmt::format("the scenario's reward has no analytic moments, which {} needs: give the task a "
                                  "saturating_reward, or choose {}",
                                  who, otherwise));
-  const Index inputs = task.feature_map().features() + task.action_size();
+  const Index inputs = model_features(task, joint_angles).features() + task.action_size();
   violations.require(inputs <= gp::kMostMomentInputs,
                      fmt::format("{} features and actions, {} takes at most {}: choose {}", inputs, who,
                                  gp::kMostMomentInputs, otherwise));

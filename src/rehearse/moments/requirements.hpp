@@ -9,8 +9,16 @@
 
 namespace rehearse::moments {
 
-/// What of a task or a policy has no analytic moments, a line each. who: needs them; otherwise: what else to choose.
-std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, std::string_view who,
-                                         std::string_view otherwise);
+/// Of a state, for models that have moments: those of policies, then, if wanted, the joint angles that the task names.
+FeatureMap model_features(const Task& task, bool joint_angles);
+
+/// Who needs moments.
+struct Need {
+  std::string_view who, otherwise;  // what else to choose
+  bool joint_angles = false;        // are inputs of the model
+};
+
+/// What of a task or a policy has no analytic moments, a line each.
+std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, const Need& need);
 
 }  // namespace rehearse::moments

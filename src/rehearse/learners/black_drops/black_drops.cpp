@@ -88,12 +88,14 @@ class BlackDrops final : public Learner {
     });
     std::optional<moments::ExpectedReturn> expected;
     if (options_.search.evaluation == Evaluation::moments)
-      expected.emplace(task, *setting_.policy, moments_of(task, data_, state.kernels));
+      expected.emplace(task, *setting_.policy, moments_of(options_, task, data_, state.kernels));
     proposal.search_s = seconds([&] { search(proposal, task, expected ? &*expected : nullptr, carried); });
     if (has_moments)
       proposal.moments = moments::expected_episode(
           setting_.task, setting_.policy,
-          [task = setting_.task, data = data_, kernels = state.kernels] { return moments_of(task, data, kernels); },
+          [options = options_, task = setting_.task, data = data_, kernels = state.kernels] {
+            return moments_of(options, task, data, kernels);
+          },
           proposal.theta);
     state_ = std::move(state);
     carried_ = std::move(carried);

@@ -1,5 +1,7 @@
 #include "rehearse/learners/black_drops/moments.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
@@ -20,10 +22,13 @@ void check_model(const dynamics::GpOptions& gp, const Task& task, Violations& vi
   refuse(gp.fit.trend, "model.gp.trend = true", "model.gp.trend = false");
   refuse(gp.integrate_rates && !task.kinematics().pairs.empty(), "model.gp.integrate_rates = true",
          "model.gp.integrate_rates = false");
-  refuse(gp.joint_angles && !task.model_features().joints().empty(), "model.gp.joint_angles = true",
-         "model.gp.joint_angles = false");
   refuse(gp.smooth, "model.gp.smooth = true", "model.gp.smooth = false");
   refuse(gp.variance == dynamics::PredictedVariance::noisy, "model.gp.variance = noisy", "model.gp.variance = latent");
+}
+
+bool joint_angles(const Options& options) {
+  const auto* zero_mean = std::get_if<dynamics::ZeroMean>(&options.model);
+  return zero_mean && zero_mean->gp.joint_angles;
 }
 
 }  // namespace
@@ -41,13 +46,19 @@ std::vector<std::string> without_moments(const Options& options, const Task& tas
                      fmt::format("reward.learned = true has no analytic moments, which {} needs: choose "
                                  "reward.learned = false, or {}",
                                  kWho, kOtherwise));
-  for (const std::string& line : moments::without_moments(task, policy, kWho, kOtherwise)) violations.add(line);
+  violations.require(
+      std::ranges::all_of(task.model_features().targets(), [](Index state) { return state < 0; }),
+      fmt::format("an action that is the target of a state has no analytic moments, which {} needs: choose {}", kWho,
+                  kOtherwise));
+  for (const std::string& line : moments::without_moments(task, policy, {kWho, kOtherwise, joint_angles(options)}))
+    violations.add(line);
   return violations.list();
 }
 
-std::shared_ptr<const gp::MomentMatching> moments_of(const Task& task, const Dataset& data,
+std::shared_ptr<const gp::MomentMatching> moments_of(const Options& options, const Task& task, const Dataset& data,
                                                      const std::vector<gp::Hyperparameters>& kernels) {
-  const gp::Inputs inputs(dynamics::gp_inputs(task.feature_map(), data.states, data.actions));
+  const FeatureMap features = moments::model_features(task, joint_angles(options));
+  const gp::Inputs inputs(dynamics::gp_inputs(features, data.states, data.actions));
   return std::make_shared<gp::MomentMatching>(gp::exact_terms(gp::Posterior(inputs, data.changes, kernels)),
                                               task.state_size());
 }

@@ -15,8 +15,8 @@ namespace rehearse::learners::black_drops {
 /// What of a learner with these options has no analytic moments, and what to use instead, a line each; empty: all has.
 std::vector<std::string> without_moments(const Options& options, const Task& task, const policy::Policy& policy);
 
-/// The GPs of all rows with these kernels, of a learner whose parts all have moments.
-std::shared_ptr<const gp::MomentMatching> moments_of(const Task& task, const Dataset& data,
+/// The GPs of all rows with these kernels, of a learner with these options, whose parts all have moments.
+std::shared_ptr<const gp::MomentMatching> moments_of(const Options& options, const Task& task, const Dataset& data,
                                                      const std::vector<gp::Hyperparameters>& kernels);
 
 }  // namespace rehearse::learners::black_drops

@@ -8,6 +8,7 @@
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/gp/fitc.hpp"
 #include "rehearse/gp/posterior.hpp"
+#include "rehearse/moments/requirements.hpp"
 #include "rehearse/optim/cautious_bfgs.hpp"
 #include "rehearse/prior/network.hpp"
 
@@ -68,6 +69,7 @@ dynamics::Kind kind(const ModelOptions& options, bool around_a_mean) {
   const auto adapt = [&](auto kind) {  // each state has a GP of its own, whose moments are known
     static_cast<dynamics::GpOptions&>(kind.gp) = {};
     kind.gp.fit = options.fit;
+    kind.gp.smooth = options.smooth;
     if constexpr (requires { kind.gp.midpoint; }) kind.gp.midpoint = false;
     return dynamics::Kind(kind);
   };
@@ -81,6 +83,8 @@ void ModelOptions::fields(FieldVisitor& v) {
   v.publish("fit.starts", published(1, "PILCO"));
   v.publish("fit.part_rows", published(0, "PILCO"));
   v.group("fit", fit);
+  v.boolean("joint_angles", joint_angles, published(false, "PILCO"));
+  v.boolean("smooth", smooth, published(false, "PILCO"));
   v.integer("inducing", inducing, between(1, 1e5), published(300, "PILCO"));
   v.integer("inducing_line_searches", inducing_line_searches, at_least(0), published(500, "PILCO"));
 }
@@ -89,19 +93,21 @@ Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
             const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator,
             const std::vector<gp::MomentTerm>& mean, const ProgressSink& progress) {
   Model model{.kernels = start, .log_evidence = std::numeric_limits<double>::quiet_NaN()};
-  const FeatureMap features = task.feature_map();
+  const FeatureMap features = moments::model_features(task, options.joint_angles);
   std::optional<prior::Prior> prior;
   if (!mean.empty()) prior = prior::network("network", features, mean);
   try {
-    dynamics::Learned learned = dynamics::learn(data, features, task.kinematics(), prior ? &*prior : nullptr,
+    const Kinematics none{.dt_s = task.dt_s};  // neither integrals of rates nor servos, which have no moments
+    dynamics::Learned learned = dynamics::learn(data, features, none, prior ? &*prior : nullptr,
                                                 kind(options, !mean.empty()), {start, {}}, evaluator);
     model.notes = std::move(learned.notes);
-    const Matrix X = dynamics::gp_inputs(features, data.states, data.actions);
-    Matrix Y = data.changes;
+    const Dataset& rows = learned.smoothed ? learned.smoothed->data : data;
+    const auto& kernels = learned.smoothed ? learned.smoothed->kernels : learned.state.kernels;
+    const Matrix X = dynamics::gp_inputs(features, rows.states, rows.actions);
+    Matrix Y = rows.changes;
     if (!mean.empty()) Y -= gp::evaluate_means(mean, Y.cols(), X);
-    model.moments =
-        around(mean, terms(X, Y, options, learned.state.kernels, evaluator, model.notes, progress), task.state_size());
-    model.moments_of_all_rows = [X, Y, mean, kernels = learned.state.kernels] {
+    model.moments = around(mean, terms(X, Y, options, kernels, evaluator, model.notes, progress), task.state_size());
+    model.moments_of_all_rows = [X, Y, mean, kernels] {
       return around(mean, gp::exact_terms(gp::Posterior(gp::Inputs(X), Y, kernels)), Y.cols());
     };
     model.model = std::move(learned.model);
@@ -116,7 +122,8 @@ Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
 std::vector<gp::MomentTerm> terms_of(const Task& task, const Dataset& data, const ModelOptions& options,
                                      const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
                                      std::vector<std::string>& notes, const ProgressSink& progress) {
-  const Matrix X = dynamics::gp_inputs(task.feature_map(), data.states, data.actions);
+  const FeatureMap features = moments::model_features(task, options.joint_angles);
+  const Matrix X = dynamics::gp_inputs(features, data.states, data.actions);
   return terms(X, data.changes, options, kernels, evaluator, notes, progress);
 }
 

@@ -18,6 +18,9 @@ namespace rehearse::learners::pilco {
 
 struct ModelOptions {
   gp::FitOptions fit;
+  bool joint_angles = true;            // inputs have those that the task names too; PILCO: angles as they are
+  bool smooth = false;                 // noisy states are smoothed where that makes what was measured likelier
+                                       // (dynamics/smoothing.hpp); PILCO: never
   Index inducing = 1500;               // more rows than so many are summed up by so many inducing inputs: FITC, which
                                        // may lose a swing that all rows know (PILCO: 300)
   Index inducing_line_searches = 100;  // that place them, from rows spread evenly over the trials (PILCO: 500, from

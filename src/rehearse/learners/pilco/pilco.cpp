@@ -7,9 +7,11 @@
 namespace rehearse::learners::pilco {
 namespace {
 
-std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, bool with_prior) {
-  return with_prior ? moments::without_moments(task, policy, "pilco-prior", "the learner black-drops-prior")
-                    : moments::without_moments(task, policy, "pilco", "the learner black-drops");
+std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, const Options& options) {
+  const bool joint_angles = options.model.joint_angles;
+  const moments::Need need = options.prior ? moments::Need{"pilco-prior", "the learner black-drops-prior", joint_angles}
+                                           : moments::Need{"pilco", "the learner black-drops", joint_angles};
+  return moments::without_moments(task, policy, need);
 }
 
 class Builder final : public LearnerBuilder {
@@ -24,7 +26,7 @@ class Builder final : public LearnerBuilder {
   bool chooses_priors() const override { return false; }
   void fields(FieldVisitor& v) override { options_.fields(v); }
   std::vector<std::string> violations(const Task& task, const policy::Policy& policy) const override {
-    return without_moments(task, policy, options_.prior.has_value());
+    return without_moments(task, policy, options_);
   }
   std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }
 
@@ -55,8 +57,7 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   for (const auto& line : setting.task.violations()) violations.add(line);
   violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
   if (setting.policy)
-    for (const auto& line : without_moments(setting.task, *setting.policy, options.prior.has_value()))
-      violations.add(line);
+    for (const auto& line : without_moments(setting.task, *setting.policy, options)) violations.add(line);
   violations.require(!options.prior || setting.prior, "this learner needs a prior");
   violations.throw_if_any();
   if (!options.prior) setting.prior.reset();

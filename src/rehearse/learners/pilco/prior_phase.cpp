@@ -82,6 +82,7 @@ class PriorPhase {
   }
   static Options inner_options(Options options) {
     options.prior.reset();
+    options.model.smooth = false;  // episodes on the prior are measured without noise
     return options;
   }
 

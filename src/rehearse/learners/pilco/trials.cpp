@@ -10,6 +10,7 @@
 #include "rehearse/learners/json.hpp"
 #include "rehearse/learners/pilco/initial_policy.hpp"
 #include "rehearse/moments/expected_return.hpp"
+#include "rehearse/moments/requirements.hpp"
 #include "rehearse/policy/schedule.hpp"
 #include "rehearse/prior/network.hpp"
 
@@ -20,10 +21,11 @@ using learners::to_json;
 using nlohmann::json;
 
 /// A policy that was learned on the prior, before anything is known of the robot.
-Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting) {
+Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting, const ModelOptions& options) {
   const prior::Prior& given = *setting.prior;
+  const FeatureMap features = moments::model_features(setting.task, options.joint_angles);
   const prior::Prior model =
-      knowledge.network.empty() ? given : prior::network(given.name, setting.task.feature_map(), knowledge.network);
+      knowledge.network.empty() ? given : prior::network(given.name, features, knowledge.network);
   Proposal proposal{.policy = setting.policy,
                     .theta = knowledge.theta,
                     .predicted_return = knowledge.predicted_return,
@@ -110,7 +112,7 @@ Proposal Trials::first_proposal() {
   if (!options_.prior) return random_actions(setting_, options_.first_trial_hold_s, stream(Stage::episode));
   const Stopwatch watch;
   if (!prior_) prior_ = learn_on_prior(setting_, options_);
-  Proposal proposal = proposal_of(*prior_, setting_);
+  Proposal proposal = proposal_of(*prior_, setting_, options_.model);
   proposal.search_s = watch.seconds();
   return proposal;
 }

@@ -63,18 +63,19 @@ double largest_difference(const Matrix& a, const Matrix& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
 
-void expect_plain_formulas(const scenario::Scenario& scenario, const std::shared_ptr<const policy::Policy>& policy) {
+void expect_plain_formulas(const scenario::Scenario& scenario, const std::shared_ptr<const policy::Policy>& policy,
+                           bool joint_angles = false) {
   const Task& task = scenario.task;
-  Problem problem(scenario, 30, policy);
+  Problem problem(scenario, 0, policy, fixture::random_dynamics(scenario, 30, joint_angles));
   const Vector theta = fixture::random_theta(*policy);
   const naive::Preaction preaction =
       std::visit([&](const auto* options) { return naive::preaction(*options, theta); }, *policy->analytic());
   const Return result = problem.expected(theta, nullptr, problem.workspace);
-  const fixture::Data data = fixture::random_data(scenario, 30);
+  const fixture::Data data = fixture::random_data(scenario, 30, joint_angles);
   const naive::Gp dynamics{data.inputs, data.changes, fixture::plain_hyperparameters(data)};
   Gaussian state{task.start_mean, 0.01 * Matrix::Identity(4, 4)};
   for (Index t = 0; t < task.horizon; ++t) {
-    state = naive::propagate(task.feature_map(), dynamics, preaction, state);
+    state = naive::propagate(model_features(task, joint_angles), dynamics, preaction, state);
     const Gaussian& ours = problem.workspace.states[static_cast<std::size_t>(t + 1)];
     ASSERT_LT(largest_difference(ours.mean, state.mean), 1e-8) << t;
     ASSERT_LT(largest_difference(ours.covariance, state.covariance), 1e-8) << t;
@@ -89,6 +90,13 @@ TEST(ExpectedReturn, IsThatOfPlainFormulas) {
     expect_plain_formulas(scenario, fixture::rbf(scenario.task, 12));
     expect_plain_formulas(scenario, fixture::linear(scenario.task));
   }
+}
+
+TEST(ExpectedReturn, IsThatOfPlainFormulasWithJointAngles) {
+  const scenario::Scenario pendubot = robots::pendubot::make({});
+  ASSERT_EQ(model_features(pendubot.task, true).features(), 8);
+  expect_plain_formulas(pendubot, fixture::rbf(pendubot.task, 12), true);
+  expect_plain_formulas(pendubot, fixture::linear(pendubot.task), true);
 }
 
 TEST(ExpectedReturn, ItsEpisodeHasTheDeviationsOfEveryStep) {
@@ -133,6 +141,18 @@ TEST(ExpectedReturn, GradientOfThePendubotAgreesWithDifferences) {
     const Vector theta = fixture::random_theta(*pendubot.policy);
     pendubot.expect_gradient(theta, random_directions(theta.size(), 3), 1e-4);
     pendubot.expect_gradient(theta, coordinates(theta.size(), theta.size() / 7), 1e-3);
+  }
+}
+
+TEST(ExpectedReturn, GradientWithJointAnglesAgreesWithDifferences) {
+  const scenario::Scenario scenario = robots::pendubot::make({});
+  const auto dynamics = fixture::random_dynamics(scenario, 30, true);
+  ASSERT_EQ(dynamics->inputs(), 9);
+  for (const auto& policy : {fixture::rbf(scenario.task, 20), fixture::linear(scenario.task)}) {
+    Problem problem(scenario, 0, policy, dynamics);
+    const Vector theta = fixture::random_theta(*policy);
+    problem.expect_gradient(theta, random_directions(theta.size(), 3), 1e-4);
+    problem.expect_gradient(theta, coordinates(theta.size(), std::max<Index>(1, theta.size() / 7)));
   }
 }
 
@@ -225,9 +245,10 @@ TEST(ExpectedReturn, NoParametersEscapeAsNan) {
 TEST(ExpectedReturn, RefusesWhatHasNoAnalyticMoments) {
   const scenario::Scenario scenario = robots::cartpole::make({});
   const auto dynamics = fixture::random_dynamics(scenario, 10);
-  const auto refusal = [&](const Task& task, const policy::Policy& policy) -> std::string {
+  const auto refusal = [&](const Task& task, const policy::Policy& policy,
+                           bool without_dynamics = false) -> std::string {
     try {
-      ExpectedReturn(task, policy, dynamics);
+      ExpectedReturn(task, policy, without_dynamics ? nullptr : dynamics);
     } catch (const InvalidInput& error) {
       return error.what();
     }
@@ -240,6 +261,29 @@ TEST(ExpectedReturn, RefusesWhatHasNoAnalyticMoments) {
   other.saturating_reward.reset();
   EXPECT_NE(refusal(other, *fixture::rbf(other, 3)).find("the task's reward has no analytic moments"),
             std::string::npos);
+  EXPECT_EQ(refusal(scenario.task, *fixture::rbf(scenario.task, 3), true), "dynamics: there are none");
+}
+
+TEST(ExpectedReturn, RefusesSizesThatDoNotAgree) {
+  const scenario::Scenario cartpole = robots::cartpole::make({}), pendubot = robots::pendubot::make({});
+  const auto refusal = [](const Task& task, const policy::Policy& policy,
+                          const std::shared_ptr<const gp::MomentMatching>& dynamics) -> std::string {
+    try {
+      ExpectedReturn(task, policy, dynamics);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto dynamics = fixture::random_dynamics(pendubot, 10), of_cartpole = fixture::random_dynamics(cartpole, 10);
+  const auto policy = fixture::rbf(pendubot.task, 3);
+  EXPECT_EQ(refusal(pendubot.task, *policy, of_cartpole),
+            "dynamics: 6 inputs and 4 outputs, must be 7 (with joint angles 9) and 4");
+  EXPECT_EQ(refusal(pendubot.task, *fixture::rbf(cartpole.task, 3), dynamics),
+            "policy = rbf: 5 features and 1 actions, the task has 6 and 1");
+  Task other = pendubot.task;
+  other.saturating_reward->goal = Vector::Zero(8);
+  EXPECT_EQ(refusal(other, *policy, dynamics), "saturating_reward: of 8 and 6 features, must be of 6");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/gp/fit.hpp"
 #include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/moments/requirements.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
 #include "rehearse/scenario/scenario.hpp"
@@ -17,7 +18,7 @@ namespace rehearse::moments::fixture {
 struct Data {
   Matrix inputs, changes;
 };
-inline Data random_data(const scenario::Scenario& scenario, Index rows) {
+inline Data random_data(const scenario::Scenario& scenario, Index rows, bool joint_angles = false) {
   const Task& task = scenario.task;
   Matrix X = tools::normals(rows, task.state_size(), 1), U(rows, task.action_size());
   X.rowwise() += task.start_mean.transpose();
@@ -26,7 +27,7 @@ inline Data random_data(const scenario::Scenario& scenario, Index rows) {
     const Interval bounds = task.actions[static_cast<std::size_t>(a)].bounds;
     for (double& u : U.col(a)) u = rng.uniform(bounds.low, bounds.high);
   }
-  Data data{dynamics::gp_inputs(task.feature_map(), X, U), Matrix(rows, task.state_size())};
+  Data data{dynamics::gp_inputs(model_features(task, joint_angles), X, U), Matrix(rows, task.state_size())};
   scenario.oracle->change(X, U, scenario.oracle->parameters().values(), data.changes);
   return data;
 }
@@ -38,13 +39,14 @@ inline std::vector<gp::Hyperparameters> plain_hyperparameters(const Data& data) 
   return list;
 }
 
-inline gp::Posterior random_posterior(const scenario::Scenario& scenario, Index rows) {
-  const Data data = random_data(scenario, rows);
+inline gp::Posterior random_posterior(const scenario::Scenario& scenario, Index rows, bool joint_angles = false) {
+  const Data data = random_data(scenario, rows, joint_angles);
   return {gp::Inputs(data.inputs), data.changes, plain_hyperparameters(data)};
 }
 
-inline std::shared_ptr<const gp::MomentMatching> random_dynamics(const scenario::Scenario& scenario, Index rows) {
-  return std::make_shared<gp::MomentMatching>(gp::exact_terms(random_posterior(scenario, rows)),
+inline std::shared_ptr<const gp::MomentMatching> random_dynamics(const scenario::Scenario& scenario, Index rows,
+                                                                 bool joint_angles = false) {
+  return std::make_shared<gp::MomentMatching>(gp::exact_terms(random_posterior(scenario, rows, joint_angles)),
                                               scenario.task.state_size());
 }
 

@@ -90,6 +90,7 @@ struct Joint {
 /// The action of a policy before the squash; one action.
 struct Preaction {
   std::function<Transformed(const Gaussian& features)> moments;
+  Index features;  // the first so many of the state's
   std::vector<Interval> bounds;
 };
 
@@ -102,7 +103,7 @@ inline Preaction preaction(const policy::RbfOptions& options, const Vector& thet
                               .log_signal = 0,
                               .log_noise = std::log(options.noise)}},
                    .jitter = 1e-6};
-  return {[network](const Gaussian& features) { return moments(network, features); }, options.bounds};
+  return {[network](const Gaussian& features) { return moments(network, features); }, F, options.bounds};
 }
 
 /// θ in the order of policy/network.hpp.
@@ -112,7 +113,7 @@ inline Preaction preaction(const policy::LinearOptions& options, const Vector& t
   const auto moments = [=](const Gaussian& x) -> Transformed {
     return {Vector{{slopes.dot(x.mean) + offset}}, Matrix{{slopes.dot(x.covariance * slopes)}}, slopes};
   };
-  return {moments, options.squash.bounds};
+  return {moments, slopes.size(), options.squash.bounds};
 }
 
 inline Gaussian propagate(const FeatureMap& features, const Gp& dynamics, const Preaction& policy,
@@ -121,7 +122,7 @@ inline Gaussian propagate(const FeatureMap& features, const Gp& dynamics, const 
   Joint joint{state};
   joint.append(0, FeatureMoments(features)(state));
   Joint with_preaction = joint;  // the action before the squash is no input of the dynamics
-  with_preaction.append(dx, policy.moments(joint.part(dx, F)));
+  with_preaction.append(dx, policy.moments(joint.part(dx, policy.features)));
   const Transformed squash = policy::SquashMoments(policy.bounds)(with_preaction.part(dx + F, 1));
   with_preaction.append(dx + F, squash);
   const auto kept = [&] {

@@ -91,6 +91,8 @@ TEST_P(PolicyMomentsTest, AdjointAgreesWithDifferences) {
 TEST_P(PolicyMomentsTest, SayWhatCannotBeComputed) {
   const Case& c = GetParam();
   EXPECT_THROW(c.at(Vector::Zero(5)), InvalidInput);
+  EXPECT_THROW(moments(c, theta(c), Gaussian::zero(4)), InvalidInput);
+  EXPECT_THROW(moments(c, theta(c), {Vector::Zero(3), Matrix::Zero(2, 2)}), InvalidInput);
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     Vector at = theta(c);
     at(7) = bad;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fixture.hpp"
+#include "rehearse/core/errors.hpp"
 #include "rehearse/moments/rbf_policy.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
@@ -16,13 +17,18 @@ class PropagationTest : public ::testing::Test {
     Transformed features;
     StepTape tape;
   };
-  Step step(const Gaussian& state, const gp::MomentMatching& dynamics) const {
+  Step step(const Gaussian& state, const gp::MomentMatching& dynamics, const FeatureMoments& features) const {
     Step result;
-    result.features = features_(state);
+    result.features = features(state);
     const Propagation propagation(dynamics, policy_, serial_evaluator());
     EXPECT_TRUE(propagation.forward(state, result.features, result.tape, result.next));
     return result;
   }
+
+  Step step(const Gaussian& state, const gp::MomentMatching& dynamics) const {
+    return step(state, dynamics, features_);
+  }
+  void expect_adjoint(const gp::MomentMatching& dynamics, const FeatureMoments& moments) const;
 
   scenario::Scenario scenario_ = robots::pendubot::make({});
   gp::Posterior posterior_ = fixture::random_posterior(scenario_, 40);
@@ -49,22 +55,44 @@ TEST_F(PropagationTest, OfANearlyKnownStateIsTheLinearisedStep) {
   EXPECT_EQ(next, next.transpose());
 }
 
-TEST_F(PropagationTest, AdjointAgreesWithDifferences) {
+void PropagationTest::expect_adjoint(const gp::MomentMatching& dynamics, const FeatureMoments& moments) const {
   const Gaussian state{mean_, tools::random_gaussian(4, 0.2, 2).covariance};
   const Gaussian by{tools::normals(4, 1, 3), tools::normals(4, 4, 4)};
-  const gp::MomentMatching dynamics(gp::exact_terms(posterior_), 4);
-  const Step taken = step(state, dynamics);
+  const Step taken = step(state, dynamics, moments);
   Gaussian adjoint = Gaussian::zero(4);
-  Transformed features = Transformed::zero(4, 6);
+  Transformed features = Transformed::zero(4, taken.features.outputs());
   auto networks = policy_.zero_adjoints();
   Propagation(dynamics, policy_, serial_evaluator())
       .adjoint(state, taken.features, taken.tape, by, adjoint, features, networks);
-  features_.adjoint(state, taken.features, features, adjoint);
+  moments.adjoint(state, taken.features, features, adjoint);
   const auto f = [&](const Gaussian& at) {
-    const Gaussian next = step(at, dynamics).next;
+    const Gaussian next = step(at, dynamics, moments).next;
     return by.mean.dot(next.mean) + by.covariance.cwiseProduct(next.covariance).sum();
   };
   tools::expect_slopes(f, state, adjoint, 1e-3, 1e-6);
+}
+
+TEST_F(PropagationTest, AdjointAgreesWithDifferences) {
+  expect_adjoint(gp::MomentMatching(gp::exact_terms(posterior_), 4), features_);
+}
+
+TEST_F(PropagationTest, AdjointWithJointAnglesThatThePolicyDoesNotSeeAgreesWithDifferences) {
+  expect_adjoint(*fixture::random_dynamics(scenario_, 40, true), FeatureMoments(model_features(scenario_.task, true)));
+}
+
+TEST_F(PropagationTest, RefusesSizesThatDoNotAgree) {
+  const gp::MomentMatching dynamics(gp::exact_terms(posterior_), 4);
+  const Propagation propagation(dynamics, policy_, serial_evaluator());
+  const Gaussian state{mean_, Matrix::Zero(4, 4)};
+  Gaussian next;
+  StepTape tape;
+  EXPECT_THROW(propagation.forward(Gaussian::zero(3), features_(state), tape, next), InvalidInput);
+  EXPECT_THROW(propagation.forward(state, Transformed::zero(4, 5), tape, next), InvalidInput);
+  EXPECT_THROW(propagation.forward(state, Transformed::zero(3, 6), tape, next), InvalidInput);
+  EXPECT_THROW(propagation.forward({mean_, Matrix::Zero(3, 4)}, features_(state), tape, next), InvalidInput);
+  const gp::MomentMatching few(
+      {{.centres = Matrix::Zero(1, 6), .log_lengths = Vector::Zero(6), .weights = Vector{{1}}}}, 4);
+  EXPECT_THROW(Propagation(few, policy_, serial_evaluator()), InvalidInput);
 }
 
 }  // namespace

@@ -56,6 +56,22 @@ TEST(Moments, AProposalHasThemWhereAllPartsDo) {
   EXPECT_FALSE(second("black-drops-prior", with_prior).moments);
 }
 
+// The task names which link carries which; the GPs see the angle between them.
+TEST(Moments, OfJointAnglesAreOfTheKernelsInputs) {
+  Setting with = setting();
+  with.task.states = {{"x", "m"}, {"a", "rad", StateKind::angle}, {"b", "rad", StateKind::angle, "", "a"}};
+  Options options;
+  dynamics::ZeroMean model;
+  Dataset data{Matrix::Random(6, 3), Matrix::Random(6, 1), Matrix::Random(6, 3), Vector::Zero(6)};
+  for (const bool joint_angles : {true, false}) {
+    model.gp.joint_angles = joint_angles;
+    options.model = model;
+    const Index inputs = joint_angles ? 8 : 6;
+    const std::vector<gp::Hyperparameters> kernels(3, {.log_lengths = Vector::Zero(inputs)});
+    EXPECT_EQ(moments_of(options, with.task, data, kernels)->inputs(), inputs);
+  }
+}
+
 /// What is said of a task whose rates and joints are named.
 std::string refusal(const Options& options, const Task& task, const policy::Policy& policy) {
   std::string all;
@@ -66,6 +82,7 @@ std::string refusal(const Options& options, const Task& task, const policy::Poli
 TEST(Moments, RefusesWhatHasNoneAndSaysWhatToUse) {
   Task task = setting().task;
   task.states = {{"a", "rad", StateKind::angle, "v"}, {"v", "rad/s"}, {"b", "rad", StateKind::angle, "", "a"}};
+  task.actions.front().target_of = "v";
   task.saturating_reward.reset();
   Options options;
   dynamics::ZeroMean model;
@@ -75,7 +92,7 @@ TEST(Moments, RefusesWhatHasNoneAndSaysWhatToUse) {
   options.reward.learned = true;
   const std::string all = refusal(options, task, *slider::policy());
   for (const char* part : {"model.gp.trend = false", "model.gp.smooth = false", "model.gp.integrate_rates = false",
-                           "model.gp.joint_angles = false", "model.gp.variance = latent", "reward.learned = false",
+                           "model.gp.variance = latent", "reward.learned = false", "the target of a state",
                            "policy = rbf", "saturating_reward", "search.evaluation = samples"})
     EXPECT_NE(all.find(part), std::string::npos) << part << " in\n" << all;
   options.model = dynamics::GpMi{};

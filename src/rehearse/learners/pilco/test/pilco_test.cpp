@@ -8,8 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/learners/pilco/initial_policy.hpp"
 #include "rehearse/moments/expected_return.hpp"
+#include "rehearse/moments/requirements.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/rollout/imagine.hpp"
 #include "rehearse/testing/check_learner.hpp"
@@ -82,6 +84,21 @@ TEST(Pilco, BeginsAnewUntilATrialSolvesTheTask) {
   };
   EXPECT_GT(rollouts(false, "2"), 2 * rollouts(false, "0"));
   EXPECT_EQ(rollouts(true, "2"), rollouts(true, "0"));
+}
+
+TEST(Pilco, BeginsAlwaysAnewWhereNothingSaysWhatIsSolved) {
+  Setting unknown = setting();
+  unknown.task.solved = nullptr;
+  const auto restarting = builder({{"search.line_searches", "10"}, {"search.restarts", "2"}});
+  EXPECT_EQ(testing::check_learner(*restarting, unknown, run_trial), std::vector<std::string>{});
+  Setting unsolved = setting();
+  unsolved.task.solved = [](const Episode&) { return false; };
+  const auto thetas = [&](const Setting& with) {
+    std::vector<Vector> thetas;
+    for (const Proposal& proposal : learn(*restarting->build(with), 4).proposals) thetas.push_back(proposal.theta);
+    return thetas;
+  };
+  EXPECT_EQ(thetas(unknown), thetas(unsolved));
 }
 
 // Rewards teach the GPs nothing, so the searches are the same.
@@ -223,6 +240,70 @@ TEST(Model, HasInducingInputsBeyondTheLimitOnly) {
   EXPECT_EQ(points(24), 24);
   EXPECT_EQ(points(23), 23);
   EXPECT_EQ(points(8), 8);
+}
+
+/// Two links of which nothing but the angle between them matters, in states of no particular order.
+Dataset two_links(double noise) {
+  Rng rng({.seed = 7});
+  constexpr Index kSteps = 40;
+  Episode episode{.actions = Matrix(kSteps, 1), .rewards = Vector::Zero(kSteps)};
+  Matrix X(kSteps + 1, 3);
+  X.row(0) << 0, 0.3, -0.5;
+  for (Index t = 0; t < kSteps; ++t) {
+    const double u = episode.actions(t, 0) = rng.uniform(-1, 1), turn = 0.5 * u + 0.2;
+    X.row(t + 1) = X.row(t) + Eigen::RowVector3d(std::sin(X(t, 2) - X(t, 1)) + 0.3 * u, turn, 0.1 - 2 * turn);
+  }
+  episode.true_states = X;
+  for (double& x : X.reshaped()) x += noise * rng.normal();
+  episode.states = X;
+  Dataset data;
+  data.append(episode);
+  return data;
+}
+Task two_link_task() {
+  Task task = slider::task();
+  task.states = {{"v", "m/s"}, {"a", "rad", StateKind::angle}, {"b", "rad", StateKind::angle, "", "a"}};
+  return task;
+}
+
+// The last two features of a model with joint angles are cosine and sine of theirs, before the action.
+TEST(Model, HasJointAnglesAsInputsWhereTheTaskNamesThem) {
+  const Dataset data = two_links(0);
+  ModelOptions options;
+  const Model with = pilco::learn(two_link_task(), data, options, {}, serial_evaluator());
+  options.joint_angles = false;
+  const Model without = pilco::learn(two_link_task(), data, options, {}, serial_evaluator());
+  ASSERT_TRUE(with.moments && without.moments);
+  EXPECT_EQ(with.moments->inputs(), 8);
+  EXPECT_EQ(without.moments->inputs(), 6);
+  EXPECT_GT(with.log_evidence, without.log_evidence + 10);
+
+  const Gaussian known{Vector{{0.1, 0.4, -0.9}}, Matrix::Zero(3, 3)};
+  Gaussian inputs = Gaussian::zero(8);
+  inputs.mean << FeatureMoments(moments::model_features(two_link_task(), true))(known).mean, 0.2;
+  gp::MomentTape tape;
+  Transformed change = Transformed::zero(8, 3);
+  ASSERT_TRUE(with.moments->forward(inputs, tape, change));
+  Matrix mean(1, 3), variance(1, 3);
+  with.model->predict(known.mean.transpose(), Matrix::Constant(1, 1, 0.2), mean, variance);
+  EXPECT_LT((change.mean - mean.transpose()).norm(), 0.02) << "forecasts and searches have the same inputs";
+}
+
+// With measurement noise the GPs of searches are those of forecasts, of smoothed states and without.
+TEST(Model, SearchesAndForecastsLearnFromTheSameStates) {
+  const Dataset data = two_links(0.02);
+  for (const bool smooth : {false, true}) {
+    ModelOptions options;
+    options.smooth = smooth;
+    const Model model = pilco::learn(two_link_task(), data, options, {}, serial_evaluator());
+    ASSERT_TRUE(model.moments && model.model);
+    const FeatureMap features = moments::model_features(two_link_task(), true);
+    const Matrix inputs = dynamics::gp_inputs(features, data.states, data.actions);
+    Matrix mean(data.size(), 3);
+    model.model->predict_mean(data.states, data.actions, mean);
+    const Matrix of_search = gp::evaluate_means(model.moments->terms(), 3, inputs);
+    EXPECT_LT((of_search - mean).cwiseAbs().maxCoeff(), 2e-3) << smooth;  // forecasts may be off by 0.01 σ_n
+  }
 }
 
 TEST(Model, CanBeInterruptedWhileItPlacesInducingInputs) {
