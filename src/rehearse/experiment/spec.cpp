@@ -71,6 +71,8 @@ class Resolver {
   void set_option(const std::string& key, const std::string& text) {
     const std::string_view name = key;
     if (set_field_of(*scenario_builder_, key, text) || set_field_of(*learner_builder_, key, text)) return;
+    const Fields of_run = [this](FieldVisitor& v) { spec_.settable_fields(v); };
+    if (contained([&] { return set_field(of_run, key, text); }).value_or(true)) return;
     if (name.starts_with(kPrior)) return;  // once the scenario is built
     if (name.starts_with(kScenario) && set_field_of(*scenario_builder_, name.substr(kScenario.size()), text)) return;
     if (name.starts_with(kLearner) && set_field_of(*learner_builder_, name.substr(kLearner.size()), text)) return;
@@ -86,6 +88,8 @@ class Resolver {
     const bool of_learner = key.starts_with(kLearner), of_scenario = key.starts_with(kScenario);
     if (!of_learner) add(of_scenario ? kScenario : "", list_fields(fields_of(*scenario_builder_)));
     if (!of_scenario) add(of_learner ? kLearner : "", list_fields(fields_of(*learner_builder_)));
+    Spec of_run = spec_;
+    if (!of_learner && !of_scenario) add("", list_fields([&](FieldVisitor& v) { of_run.settable_fields(v); }));
     return known;
   }
 
