@@ -158,11 +158,10 @@ class Run {
 
   /// Brings a new learner to where the history ends.
   void catch_up() {
-    const auto told = history_.episodes.begin() + history_.told;
+    std::vector<Episode> told;
+    for (Index i = 0; i < history_.told; ++i) told.push_back(as_told(history_.episodes[static_cast<std::size_t>(i)]));
     if (history_.told > 0)
-      named_failure(history_.told, "learner", [&] {
-        with_.learner().load({history_.episodes.begin(), told}, history_.learner);
-      });
+      named_failure(history_.told, "learner", [&] { with_.learner().load(told, history_.learner); });
     if (history_.told == history_.done()) return;
     if (ask(history_.done()).theta != history_.trials.back().theta)  // it may learn from what it proposed, too
       throw RunFailed(fmt::format("trial {}: the learner no longer proposes what it did", history_.done()));
@@ -178,9 +177,14 @@ class Run {
     return proposal;
   }
 
+  Episode as_told(const Episode& episode) const {
+    const bool measured = with_.resolved().spec.told_by == ToldBy::measured;
+    return measured ? rollout::as_measured(episode, with_.task()) : episode;
+  }
+
   void tell_last() {
     named_failure(history_.done(), "learner", [&] {
-      with_.learner().tell(history_.episodes.back());
+      with_.learner().tell(as_told(history_.episodes.back()));
       history_.learner = with_.learner().save();
     });
     ++history_.told;

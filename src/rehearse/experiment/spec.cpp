@@ -75,7 +75,8 @@ class Resolver {
   }
 
   void set_option(const std::string& key, const std::string& text) {
-    const bool known = contained([&] { return set_named(key, text); }).value_or(true);
+    const Fields of_run = [this](FieldVisitor& v) { spec_.settable_fields(v); };
+    const bool known = contained([&] { return set_named(key, text) || set_field(of_run, key, text); }).value_or(true);
     if (!known && !key.starts_with(kPrior))  // these wait until the scenario is built
       violations_.add(unknown_option(key, options_like(key)));
   }
@@ -100,6 +101,8 @@ class Resolver {
     const bool of_learner = key.starts_with(kLearner), of_scenario = key.starts_with(kScenario);
     if (!of_learner) add(of_scenario ? kScenario : "", list_fields(fields_of(*scenario_builder_)));
     if (!of_scenario) add(of_learner ? kLearner : "", list_fields(fields_of(*learner_builder_)));
+    Spec of_run = spec_;
+    if (!of_learner && !of_scenario) add("", list_fields([&](FieldVisitor& v) { of_run.settable_fields(v); }));
     return known;
   }
 

@@ -20,6 +20,10 @@ struct Until {
   bool solved;  // or before, with a trial that solves the task
 };
 
+/// The states by which the learner is told what an episode earned and whether it solved the task. Rows of trials.csv
+/// are always by the noise-free ones, where the plant knows them.
+enum class ToldBy { truth, measured };
+
 /// What a run is asked to be: everything that decides its results, and nothing else.
 struct Spec {
   std::string scenario;
@@ -28,9 +32,11 @@ struct Spec {
   Index trials = 10;
   bool until_solved = false;  // ends before, with a trial that solves the task
   Index seed = 1;
+  ToldBy told_by = ToldBy::truth;  // measured: as a robot without other sensors would
 
   /// Key and value as text. A key is a field of the scenario, else one of the learner (`scenario.KEY` and
-  /// `learner.KEY` say which), or a parameter's starting value, `prior.NAME` (`prior.PRIOR.NAME` in one of several).
+  /// `learner.KEY` say which), `told_by`, or a parameter's starting value, `prior.NAME` (`prior.PRIOR.NAME` in one of
+  /// several).
   std::vector<std::pair<std::string, std::string>> options;
 
   /// Whether the run ends with a trial. solved: whether that trial solves the task.
@@ -40,7 +46,10 @@ struct Spec {
     v.integer("trials", trials, between(1, 1e6));
     v.boolean("until_solved", until_solved);
     v.integer("seed", seed, between(0, 9007199254740992.0));  // 2^53: survives every file format
+    settable_fields(v);
   }
+  /// Those that --set changes, too.
+  void settable_fields(FieldVisitor& v) { v.choice("told_by", told_by, {"truth", "measured"}); }
 };
 
 /// A spec with everything it names.

@@ -100,6 +100,7 @@ std::string to_toml(const Spec& spec) {
       kFormat, in_quotes(spec.scenario), in_quotes(spec.learner));
   if (!spec.prior.empty()) text += fmt::format("prior = {}\n", in_quotes(spec.prior));
   text += fmt::format("trials = {}\nuntil_solved = {}\nseed = {}\n", spec.trials, spec.until_solved, spec.seed);
+  if (spec.told_by == ToldBy::measured) text += "told_by = \"measured\"\n";
   for (std::string_view name : kSections) text += section(spec, name);
   return text;
 }

@@ -129,4 +129,10 @@ Episode execute(const system::Simulator& simulator, const Vector& phi, const pol
   return run(plant, policy, theta, task, rng, {}, true);
 }
 
+Episode as_measured(Episode episode, const Task& task) {
+  episode.true_states = episode.states;
+  for (Index t = 0; t < episode.steps(); ++t) episode.rewards(t) = reward_of(task, episode, t);
+  return episode;
+}
+
 }  // namespace rehearse::rollout

@@ -23,4 +23,8 @@ Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector
 Episode execute(const system::Simulator& simulator, const Vector& phi, const policy::Policy& policy,
                 const Vector& theta, const Task& task, Rng rng);
 
+/// The episode as one who sees measurements alone knows it: they are its true states, and what it earned follows from
+/// them. That it ended early is known.
+Episode as_measured(Episode episode, const Task& task);
+
 }  // namespace rehearse::rollout

@@ -161,6 +161,71 @@ TEST(Run, ExpectedReturnsSurviveAResume) {
   EXPECT_EQ(read_file(folder / "resumed/trials.csv"), read_file(folder / "whole/trials.csv"));
 }
 
+/// A learner that keeps what it is told.
+class Listener final : public learners::Learner {
+ public:
+  Listener(std::unique_ptr<learners::Learner> echo, std::vector<Episode>* told) : echo_(std::move(echo)), told_(told) {}
+  const learners::Proposal& ask() override { return echo_->ask(); }
+  void tell(const Episode& episode) override {
+    told_->push_back(episode);
+    echo_->tell(episode);
+  }
+  nlohmann::json save() const override { return echo_->save(); }
+  std::vector<learners::Table> tables() const override { return echo_->tables(); }
+  void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override {
+    *told_ = episodes;
+    echo_->load(episodes, state);
+  }
+
+ private:
+  std::unique_ptr<learners::Learner> echo_;
+  std::vector<Episode>* told_;
+};
+Catalogue with_listener(std::vector<Episode>& told) {
+  class Builder final : public fake::EchoBuilder {
+   public:
+    explicit Builder(std::vector<Episode>* told) : EchoBuilder(true, {}), told_(told) {}
+    std::unique_ptr<learners::Learner> build(learners::Setting setting) const override {
+      return std::make_unique<Listener>(EchoBuilder::build(std::move(setting)), told_);
+    }
+
+   private:
+    std::vector<Episode>* told_;
+  };
+  Catalogue catalogue = fake::catalogue();
+  catalogue.learner_families = {[&told] {
+    std::vector<std::unique_ptr<learners::LearnerBuilder>> family;
+    family.push_back(std::make_unique<Builder>(&told));
+    return family;
+  }};
+  return catalogue;
+}
+
+// Also what it loads when a run is resumed; the folder tells of the noise-free states in any case.
+TEST(Run, LearnersAreToldByNoiseFreeOrByMeasuredStates) {
+  const fs::path folder = fake::test_folder();
+  Spec spec = line_spec(3);
+  spec.options = {{"noise", "0.05"}};
+  std::vector<Episode> by_truth, by_measured;
+  start_run(with_listener(by_truth), spec, folder / "truth", {});
+  spec.options.emplace_back("told_by", "measured");
+  spec.trials = 2;
+  start_run(with_listener(by_measured), spec, folder / "measured", {});
+  resume_run(with_listener(by_measured), folder / "measured", 3, {});
+  ASSERT_EQ(by_truth.size(), 3u);
+  ASSERT_EQ(by_measured.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(by_measured[i].states, by_truth[i].states);
+    EXPECT_EQ(by_measured[i].true_states, by_truth[i].states);
+    EXPECT_NE(by_truth[i].true_states, by_truth[i].states);
+    const Vector x = by_truth[i].states.bottomRows(12).col(0);
+    EXPECT_TRUE(by_measured[i].rewards.isApprox((-x.array().square()).exp().matrix()));
+    EXPECT_NE(by_measured[i].rewards, by_truth[i].rewards);
+  }
+  for (const char* file : {"trials.csv", "trajectories/trial-003.csv"})
+    EXPECT_EQ(read_file(folder / "measured" / file), read_file(folder / "truth" / file)) << file;
+}
+
 /// The line whose every plant but the first of a run, the robot, fails in its first step; the robot's episodes count.
 Catalogue evaluations_fail(Index& robot_episodes) {
   class Plant final : public system::Plant {

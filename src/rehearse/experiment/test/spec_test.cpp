@@ -126,6 +126,18 @@ TEST(SpecFile, ComesBackAsItWas) {
   }
 }
 
+TEST(SpecFile, SaysByWhatLearnersAreToldWhereThatIsNotTheTruth) {
+  const Spec plain = resolve(fake::catalogue(), spec_of("echo", "near")).spec;
+  EXPECT_EQ(to_toml(plain).find("told_by"), std::string::npos);
+  const Spec spec = resolve(fake::catalogue(), spec_of("echo", "near", {{"told_by", "measured"}})).spec;
+  EXPECT_EQ(spec.told_by, ToldBy::measured);
+  EXPECT_EQ(spec.options, plain.options);
+  EXPECT_NE(fingerprint(spec), fingerprint(plain));
+  EXPECT_EQ(from_toml(to_toml(spec), "spec.toml").told_by, ToldBy::measured);
+  EXPECT_EQ(complaint(spec_of("echo", "near", {{"told_by", "rumour"}})),
+            "told_by = rumour, must be one of truth, measured");
+}
+
 TEST(SpecFile, KeepsTextThatLooksLikeSomethingElse) {
   const Options options = {{"learner.a", "-0"},   {"learner.b", "inf"},          {"learner.c", "1e+20"},
                            {"learner.d", "true"}, {"learner.e.f", "say \"no\""}, {"learner.odd key@b", "1_000"},
@@ -147,7 +159,7 @@ TEST(SpecFile, SaysWhereItIsWrong) {
   EXPECT_EQ(
       complaint_about("format = 1\n[run]\ntrails = 3\nseed = -1\n[learner]\nx = [1]\n[lerner]\n"),
       "x.toml: line 3: unknown key 'trails' in [run], did you mean 'trials'? (known: scenario, learner, prior, "
-      "trials, until_solved, seed)\n"
+      "trials, until_solved, seed, told_by)\n"
       "x.toml: line 4: seed = -1, must be between 0 and 9007199254740992\n"
       "x.toml: line 6: a value must be a number, true, false or text\n"
       "x.toml: line 7: unknown key 'lerner', did you mean 'learner'? (known: format, run, scenario, learner, prior)");

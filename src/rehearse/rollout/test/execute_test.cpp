@@ -49,6 +49,24 @@ TEST(Execute, RefusesParametersOfAnotherPolicy) {
   EXPECT_TRUE(plant.actions.empty());
 }
 
+// Measured 0.01 too far: what was earned is that of such states, and all else is as it was.
+TEST(Execute, AsMeasuredEarnsWhatTheMeasuredStatesDo) {
+  const Task task = cart::task();
+  CartPlant plant;
+  const Episode episode = execute(plant, *cart::policy(), cart::candidates(1), task, kRng);
+  const Episode measured = as_measured(episode, task);
+  EXPECT_EQ(measured.true_states, episode.states);
+  EXPECT_EQ(measured.states, episode.states);
+  EXPECT_EQ(measured.actions, episode.actions);
+  Vector rewards(episode.steps());
+  task.reward(episode.states.topRows(20), episode.actions, episode.states.bottomRows(20), rewards);
+  EXPECT_TRUE(measured.rewards.isApprox(rewards, 1e-14));
+  EXPECT_NE(measured.total_reward(), episode.total_reward());
+  CartPlant without_truth(false);
+  const Episode same = execute(without_truth, *cart::policy(), cart::candidates(1), task, kRng);
+  EXPECT_EQ(as_measured(same, task).rewards, same.rewards);
+}
+
 TEST(Execute, RecordsWhatHappened) {
   const Task task = cart::task();
   CartPlant plant;
