@@ -1,8 +1,10 @@
 // No two things that happen in a run draw the same random numbers.
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <ostream>
 #include <set>
 #include <tuple>
 
@@ -22,6 +24,7 @@ struct Case {
   const char* scenario;
   Options options;
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.learner << " on " << c.scenario; }
 
 const Options kSmallSearch = {
     {"search.race.max_evaluations", "600"}, {"search.race.descents", "4"}, {"search.race.rounds", "2"},
