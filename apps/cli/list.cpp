@@ -4,6 +4,7 @@
 
 #include "apps/cli/commands.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/experiment/spec.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -56,11 +57,20 @@ std::string prior_remark(const scenario::ScenarioBuilder& builder) {
   return fmt::format("priors: {}{}", fmt::join(builder.prior_names(), ", "), oracle);
 }
 
+/// Of any scenario with any learner.
+void print_run_options() {
+  experiment::Spec spec;
+  fmt::print("\nRuns\n");
+  for (const auto& [name, text] : list_fields([&](FieldVisitor& v) { spec.settable_fields(v); }))
+    fmt::print("  {:<18}   {} = {}\n", "", name, text);
+}
+
 void print(const experiment::Catalogue& catalogue, bool with_options) {
   fmt::print("Scenarios\n");
   for (const auto& builder : catalogue.scenario_builders()) print_entry(*builder, prior_remark(*builder), with_options);
   fmt::print("\nLearners\n");
   for (const auto& builder : catalogue.learner_builders()) print_entry(*builder, prior_remark(*builder), with_options);
+  if (with_options) print_run_options();
   if (!catalogue.not_built.empty()) fmt::print("\nNot built\n");
   for (const auto& missing : catalogue.not_built) fmt::print("  {:<18} {}\n", missing.name, missing.reason);
   if (!with_options) fmt::print("\nOptions for --set, with their defaults: rehearse list --options\n");
