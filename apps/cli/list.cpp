@@ -7,6 +7,7 @@
 #include "apps/cli/commands.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/experiment/preset.hpp"
+#include "rehearse/experiment/spec.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -83,6 +84,14 @@ std::string prior_remark(const scenario::ScenarioBuilder& builder) {
   return fmt::format("priors: {}{}", fmt::join(builder.prior_names(), ", "), oracle);
 }
 
+/// Of any scenario with any learner.
+void print_run_options() {
+  experiment::Spec spec;
+  fmt::print("\nRuns\n");
+  for (const auto& [name, text] : list_fields([&](FieldVisitor& v) { spec.settable_fields(v); }))
+    fmt::print("  {:<18}   {} = {}\n", "", name, text);
+}
+
 void print(const experiment::Catalogue& catalogue, bool with_options) {
   fmt::print("Scenarios\n");
   for (const auto& builder : catalogue.scenario_builders()) print_entry(*builder, prior_remark(*builder), with_options);
@@ -91,6 +100,7 @@ void print(const experiment::Catalogue& catalogue, bool with_options) {
   if (!catalogue.presets.empty()) fmt::print("\nPresets\n");
   for (const auto& preset : catalogue.presets)
     fmt::print("  {:<18} {}\n", preset.name, experiment::Preset(preset.text, preset.name).title());
+  if (with_options) print_run_options();
   if (!catalogue.not_built.empty()) fmt::print("\nNot built\n");
   for (const auto& missing : catalogue.not_built) fmt::print("  {:<18} {}\n", missing.name, missing.reason);
   if (!with_options) fmt::print("\nOptions for --set, with their defaults: rehearse list --options\n");

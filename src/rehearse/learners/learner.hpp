@@ -71,7 +71,7 @@ class Learner {
  public:
   virtual ~Learner() = default;
   virtual const Proposal& ask() = 0;
-  virtual void tell(const Episode& episode) = 0;
+  virtual void tell(const Episode& episode) = 0;  // its true states, rewards: of the plant, or as measured (a run says)
 
   /// What is not in the episodes (warm starts); small. Called between `tell` and `ask`.
   virtual nlohmann::json save() const = 0;

@@ -40,8 +40,8 @@ class Trials final : public Learner {
   Options options_;
   std::optional<PriorKnowledge> prior_;  // once it is learned
   Dataset data_;
-  bool solved_ = false;           // by the last trial, as far as known
-  std::optional<double> earned_;  // by the last trial
+  bool solved_ = false;           // by the last trial, as far as known: by its true states, which are noise-free where
+  std::optional<double> earned_;  // the plant knows them, unless the run tells measured ones; so is what it earned
   bool repeated_ = false;         // it earned what the one before did
   std::uint64_t trials_ = 0;
   Vector theta_;  // of the last trial; empty before there was one of the setting's policy
