@@ -14,9 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bbob_functions.hpp"
+#include "rehearse/core/processor.hpp"
 #include "rehearse/optim/restarts.hpp"
-
-extern "C" char* openblas_get_corename();
 
 namespace {
 
@@ -206,10 +205,10 @@ std::string table(const nlohmann::json& report) {
       "bbob-noisy/2009, "
       "pptables.html); it had neither active update nor uncertainty handling. UH: uncertainty handling with "
       "elitism.\n\n"
-      "Processor: {} (OpenBLAS core {}), one thread. Commit: {}. Command: `{}`.\n\n"
+      "Processor: {} (kernels for {}), one thread. Commit: {}. Command: `{}`.\n\n"
       "| function | n | UH | solved to 1e-8 | ERT to 1e-8 | ERT to 1e-7 | published to 1e-7 | ratio |\n"
       "|---|---|---|---|---|---|---|---|\n",
-      report["runs"].get<int>(), report["processor"].get<std::string>(), report["openblas_core"].get<std::string>(),
+      report["runs"].get<int>(), report["processor"].get<std::string>(), report["kernels"].get<std::string>(),
       report["commit"].get<std::string>(), report["command"].get<std::string>());
   for (const auto& row : report["cases"]) {
     const auto published = row.value("published_ert_1e-7", 0.0);
@@ -252,7 +251,7 @@ int main(int argc, char** argv) {
   }
   const int seeds = quick ? 1 : 15;
   nlohmann::json report{{"processor", processor()},
-                        {"openblas_core", openblas_get_corename()},
+                        {"kernels", kernel_target()},
                         {"commit", commit},
                         {"command", command},
                         {"runs", seeds}};

@@ -6,8 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "rehearse/core/processor.hpp"
 #include "rehearse/core/random.hpp"
-#include "rehearse/core/vector_math.hpp"
 #include "rehearse/gp/evidence.hpp"
 #include "rehearse/gp/fit.hpp"
 #include "rehearse/gp/posterior.hpp"
@@ -134,7 +134,7 @@ BENCHMARK(fit)->ArgsProduct({{200}, {0, 1}, {0, 1}})->Unit(benchmark::kMilliseco
 int main(int argc, char** argv) {
   openblas_set_num_threads(1);
   benchmark::AddCustomContext("blas_core", openblas_get_corename());
-  benchmark::AddCustomContext("vector_target", vector_target());
+  benchmark::AddCustomContext("vector_target", kernel_target());
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

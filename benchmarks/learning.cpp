@@ -12,9 +12,8 @@
 
 #include "cpu_time.hpp"
 #include "episodes.hpp"
-#include "rehearse/core/vector_math.hpp"
+#include "rehearse/core/processor.hpp"
 #include "rehearse/dynamics/learn.hpp"
-#include "rehearse/optim/blas.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
 namespace {
@@ -165,8 +164,7 @@ void register_gp_mi() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  optim::use_one_blas_thread();
-  benchmark::AddCustomContext("vector_target", vector_target());
+  benchmark::AddCustomContext("vector_target", kernel_target());
   register_gp_mi();
   register_searches();
   benchmark::Initialize(&argc, argv);

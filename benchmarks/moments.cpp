@@ -11,7 +11,7 @@
 
 #include "cpu_time.hpp"
 #include "episodes.hpp"
-#include "rehearse/core/vector_math.hpp"
+#include "rehearse/core/processor.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/gp/fit.hpp"
 #include "rehearse/gp/fitc.hpp"
@@ -101,7 +101,7 @@ Times time(const Case& c, int repetitions) {
 
 int main(int argc, char** argv) {
   const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
-  fmt::print("vector target {}\n\n", vector_target());
+  fmt::print("vector target {}\n\n", kernel_target());
   fmt::print("| robot | steps | centres | rows | inducing | prior's | return | with gradient | Octave | ratio |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Case& c : kCases) {

@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cpu_time.hpp"
+#include "rehearse/core/processor.hpp"
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/qd/map_elites.hpp"
 
@@ -166,7 +167,7 @@ int main(int argc, char** argv) {
   const std::vector<double> milestones = quick ? std::vector{2e4} : std::vector{1e5, 1e6, 1e7};
   nlohmann::json report{{"processor", processor()},
                         {"load", load()},
-                        {"vector_target", vector_target()},
+                        {"vector_target", kernel_target()},
                         {"commit", commit},
                         {"threads", threads}};
   fmt::print("| problem | evaluations | coverage | QD score | best | million/s | million/s of processor time |\n");

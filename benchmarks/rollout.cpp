@@ -13,6 +13,7 @@
 
 #include "cpu_time.hpp"
 #include "episodes.hpp"
+#include "rehearse/core/processor.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
@@ -264,7 +265,7 @@ BENCHMARK(threads)->Arg(50)->Arg(200)->Arg(500)->Arg(1000)->UseManualTime()->Uni
 int main(int argc, char** argv) {
   openblas_set_num_threads(1);
   benchmark::AddCustomContext("blas_core", openblas_get_corename());
-  benchmark::AddCustomContext("vector_target", vector_target());
+  benchmark::AddCustomContext("vector_target", kernel_target());
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -15,14 +15,13 @@ find_package(Threads REQUIRED)
 set(MPI_CXX_SKIP_MPICXX TRUE)
 find_package(MPI QUIET COMPONENTS CXX)
 
-# The pthread flavour's static library, because the serial one is not thread-safe and the shared
-# ones are exchanged behind our back by Debian's alternatives.
-find_library(REHEARSE_OPENBLAS_LIBRARY NAMES libopenblas.a PATH_SUFFIXES openblas-pthread REQUIRED)
 find_path(REHEARSE_RANDOM123_INCLUDE_DIR NAMES Random123/philox.h REQUIRED)
 
-if(NOT TARGET rehearse::openblas)
-  add_library(rehearse::openblas STATIC IMPORTED)
-  set_target_properties(rehearse::openblas PROPERTIES
-    IMPORTED_LOCATION ${REHEARSE_OPENBLAS_LIBRARY}
-    INTERFACE_LINK_LIBRARIES "Threads::Threads;gfortran;m")
+# Kernel files are compiled for AVX2 (with fused multiply-add) and for AVX-512, and for nothing older: what has no fused
+# multiply-add would round differently. core/processor.hpp refuses such processors.
+if(NOT TARGET rehearse::highway)
+  add_library(rehearse::highway INTERFACE IMPORTED)
+  set_target_properties(rehearse::highway PROPERTIES
+    INTERFACE_LINK_LIBRARIES hwy::hwy
+    INTERFACE_COMPILE_DEFINITIONS HWY_BASELINE_TARGETS=HWY_AVX2)
 endif()

@@ -7,7 +7,6 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/files.hpp"
 #include "rehearse/experiment/cache.hpp"
-#include "rehearse/optim/arithmetic.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -29,14 +28,14 @@ fs::path root() {
   return {};
 }
 
-/// Another program, or another processor, may give other last bits.
+/// Another program may give other bits.
 fs::path own_folder() {
   const fs::path folder = root();
   if (folder.empty()) return {};
   try {
     experiment::prune_cache(experiment::cache_folders(folder));
     const std::string program = read_file("/proc/self/exe", Links::follow);
-    return experiment::cache_folder_of(folder, checksum(program + optim::arithmetic()));
+    return experiment::cache_folder_of(folder, checksum(program));
   } catch (const InvalidInput&) {
     return {};
   }

@@ -68,8 +68,6 @@ int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& ar
     return kSuccess;
   }
   const std::string folder = arguments.out.value_or("runs/" + std::filesystem::path(arguments.file).stem().string());
-  if (company.leads() && !company.difference.empty())
-    complain(fmt::format("the last bits of a run depend on the machine that does it: {}", company.difference));
 
   CampaignConsole console(folder, share);
   const auto run = [&] {

@@ -82,15 +82,6 @@ std::shared_ptr<const Evaluator> evaluator_of(const Company& company, Index aske
   return company.ranks ? make_rank_evaluator(*company.ranks, threads) : make_thread_evaluator(threads);
 }
 
-/// Every rank computes what must be the same, the search's state and the model, and shares only the rollouts.
-void require_same_arithmetic(const Company& company) {
-  if (!company.difference.empty())
-    throw InvalidInput(
-        fmt::format("the processes compute differently ({}): use machines of one kind, or one setting of "
-                    "OPENBLAS_CORETYPE",
-                    company.difference));
-}
-
 std::string advice_after(const experiment::RunFailed& error, const std::filesystem::path& folder) {
   if (error.resume_may_help())
     return fmt::format("what was done is kept; once there is room: rehearse resume {}", folder.string());
@@ -114,7 +105,6 @@ std::function<std::string()> last_words(const Company& company, std::function<st
 /// Runs with signals caught and the console listening.
 template <class Start>
 int run_on_console(const std::filesystem::path& folder, Index threads, const Company& company, Start start) {
-  require_same_arithmetic(company);
   Console console;
   const RunOptions options{.evaluator = evaluator_of(company, threads),
                            .listener = company.leads() ? &console : nullptr,

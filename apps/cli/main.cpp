@@ -15,6 +15,7 @@
 #include "apps/cli/complain.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/core/processor.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -251,6 +252,7 @@ int main(int argc, char** argv) {
   const Launch started = launch(argc, argv);
   Company company;
   End end = end_of([&] {
+    rehearse::require_processor();
     join(company, started, argc, argv);
     return run(argc, argv, company);
   });

@@ -10,7 +10,6 @@
 #include "rehearse/core/errors.hpp"
 #ifdef REHEARSE_MPI
 #include "rehearse/mpi/ranks.hpp"
-#include "rehearse/optim/arithmetic.hpp"
 #endif
 
 namespace rehearse::apps {
@@ -39,13 +38,6 @@ void check_arguments(Ranks& ranks, int argc, char** argv) {
           fmt::format("processes that are started together need the same arguments, but rank 0 has '{}' "
                       "and rank {} '{}'",
                       lines[0].substr(1), i, lines[i].substr(1)));
-}
-
-std::string difference_between(const std::vector<std::string>& processors) {
-  for (std::size_t i = 1; i < processors.size(); ++i)
-    if (processors[i] != processors[0])
-      return fmt::format("rank 0 computes with {}, rank {} with {}", processors[0], i, processors[i]);
-  return {};
 }
 
 #endif
@@ -82,7 +74,6 @@ void join(Company& company, const Launch& launch, int argc, char** argv) {
   const std::string own = mpi::cores();
   const std::vector<std::string> cores = ranks.exchange("cores", own);
   company.sharing = static_cast<int>(std::count(cores.begin(), cores.end(), own));
-  company.difference = difference_between(ranks.exchange("arithmetic", optim::arithmetic()));
 }
 
 #else

@@ -24,7 +24,6 @@ Launch launch(int argc, char** argv);
 struct Company {
   std::unique_ptr<Ranks> ranks;  // null: it is alone, and MPI was not initialised
   int sharing = 1;               // how many processes, this one included, may use the same cores
-  std::string difference;        // of processors that may give other last bits; empty: there is none
 
   bool leads() const { return !ranks || ranks->rank() == 0; }
 

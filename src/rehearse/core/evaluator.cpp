@@ -10,12 +10,15 @@
 #include <tbb/task_arena.h>
 
 #include "rehearse/core/events.hpp"
+#include "rehearse/core/processor.hpp"
 
 namespace rehearse {
 namespace {
 
 class SerialEvaluator final : public Evaluator {
  public:
+  SerialEvaluator() { require_processor(); }
+
   void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
     for (Index i = 0; i < results.cols(); ++i) task(i, results.col(i));
   }
@@ -29,7 +32,10 @@ constexpr std::size_t kMostThreads = 4096;
 
 class ThreadEvaluator final : public Evaluator {
  public:
-  explicit ThreadEvaluator(int threads) : arena_(threads) { allow_more_threads_than_cores(); }
+  explicit ThreadEvaluator(int threads) : arena_(threads) {
+    require_processor();
+    allow_more_threads_than_cores();
+  }
 
   void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
     for_each(results.cols(), [&](Index i) { task(i, results.col(i)); });

@@ -88,8 +88,6 @@ void BoxMullerKernel(const double* u1, const double* u2, double* first, double* 
   }
 }
 
-const char* TargetKernel() { return hwy::TargetName(HWY_TARGET); }
-
 }  // namespace HWY_NAMESPACE
 }  // namespace rehearse
 HWY_AFTER_NAMESPACE();
@@ -103,7 +101,6 @@ HWY_EXPORT(SinKernel);
 HWY_EXPORT(CosKernel);
 HWY_EXPORT(SineSquashKernel);
 HWY_EXPORT(BoxMullerKernel);
-HWY_EXPORT(TargetKernel);
 
 void vector_exp(const double* in, double* out, Index n) { HWY_DYNAMIC_DISPATCH(ExpKernel)(in, out, n); }
 void vector_tanh(const double* in, double* out, Index n) { HWY_DYNAMIC_DISPATCH(TanhKernel)(in, out, n); }
@@ -120,7 +117,6 @@ void vector_sine_squash(const double* in, double* out, Index n) { HWY_DYNAMIC_DI
 void box_muller(const double* uniform1, const double* uniform2, double* first, double* second, Index n) {
   HWY_DYNAMIC_DISPATCH(BoxMullerKernel)(uniform1, uniform2, first, second, n);
 }
-std::string vector_target() { return HWY_DYNAMIC_DISPATCH(TargetKernel)(); }
 
 }  // namespace rehearse
 #endif

@@ -2,8 +2,6 @@
 // Elementary functions over contiguous doubles, vectorised by Highway for the processor found at run time.
 // All may run concurrently; `out` may be `in`. A NaN comes back as NaN.
 
-#include <string>
-
 #include "rehearse/core/types.hpp"
 
 namespace rehearse {
@@ -18,8 +16,5 @@ void vector_sine_squash(const double* in, double* out, Index n);
 
 /// Two independent N(0, 1) from two uniforms in [0, 1) (Box and Muller 1958); `second` may be null.
 void box_muller(const double* uniform1, const double* uniform2, double* first, double* second, Index n);
-
-/// The instruction set chosen, for the log.
-std::string vector_target();
 
 }  // namespace rehearse

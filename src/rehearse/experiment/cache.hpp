@@ -10,7 +10,7 @@ namespace rehearse::experiment {
 /// Of all that a cache keeps together: some 200 archives of the hexapod's size.
 constexpr std::uintmax_t kMostCacheBytes = std::uintmax_t{1} << 30;
 
-/// The cache folder below `root` for what one program on one kind of processor keeps; key: of both.
+/// The cache folder below `root` for what one program keeps; key: of its bytes.
 std::filesystem::path cache_folder_of(const std::filesystem::path& root, std::uint64_t key);
 
 /// All such folders below `root`.

@@ -3,29 +3,66 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "rehearse/optim/blas.hpp"
+#include "rehearse/core/linear_algebra.hpp"
 
 namespace rehearse::gp {
 namespace {
 
+using Indices = Eigen::Matrix<Index, Eigen::Dynamic, 1>;
+
 /// The pivoted factor of C: C ≈ L Lᵀ, rows in the order of `order`.
 struct Pivoted {
-  std::vector<Index> order;  // n
+  Indices order;  // n
   Matrix L;                  // n × r, lower trapezoidal
 };
+
+/// Rows and columns j < p of a symmetric matrix, of which the lower triangle counts, change places. So do rows j and p of
+/// the factor's columns before j.
+void exchange(Matrix& C, Index j, Index p) {
+  const Index n = C.rows();
+  C.row(j).head(j).swap(C.row(p).head(j));
+  std::swap(C(j, j), C(p, p));
+  C.col(j).segment(j + 1, p - j - 1).swap(C.row(p).segment(j + 1, p - j - 1).transpose());
+  C.col(j).tail(n - p - 1).swap(C.col(p).tail(n - p - 1));
+}
+
+/// The factor's columns j, one pivot after the other, until the largest diagonal that is left is at most `least`; C: what
+/// is to be factorised, in its lower triangle, and then the factor. Returns the number of columns (Higham 1990, in
+/// blocks: what is right of one is updated once for all of its columns).
+Index factorise_pivoted(Matrix& C, double least, Indices& order) {
+  constexpr Index kBlock = 32;
+  const Index n = C.rows();
+  Vector left = C.diagonal();
+  for (Index first = 0; first < n; first += kBlock) {
+    const Index end = std::min(first + kBlock, n);
+    for (Index j = first; j < end; ++j) {
+      Index pivot = 0;
+      const double largest = left.tail(n - j).maxCoeff(&pivot);
+      pivot += j;
+      if (!(largest > least)) return j;
+      if (pivot != j) exchange(C, j, pivot), std::swap(left(j), left(pivot)), std::swap(order(j), order(pivot));
+      auto column = C.col(j).tail(n - j - 1);
+      column.noalias() -= C.block(j + 1, first, n - j - 1, j - first) * C.row(j).segment(first, j - first).transpose();
+      C(j, j) = std::sqrt(largest);
+      column /= C(j, j);
+      left.tail(n - j - 1) -= column.cwiseAbs2();
+    }
+    const auto block = C.block(end, first, n - end, end - first);
+    add_product(C.bottomRightCorner(n - end, n - end), Sign::minus, block, block.transpose(), Part::lower);
+  }
+  return n;
+}
 
 /// As few columns as leave a trace ≤ remainder. The factorisation stops at a largest diagonal of remainder / n; each
 /// column that is dropped again adds its squared norm to the trace.
 std::optional<Pivoted> pivoted_cholesky(Matrix C, double remainder, Index most) {
-  const int n = static_cast<int>(C.rows());
-  const double pivot = 0.5 * remainder / n;
-  std::vector<int> order(static_cast<std::size_t>(n));
-  Vector work(2 * n);
-  int rank = 0, info = 0;
-  dpstrf_("L", &n, C.data(), &n, order.data(), &rank, &pivot, work.data(), &info);
-  if (info < 0) return std::nullopt;
-  double trace = pivot * (n - rank);
+  const Index n = C.rows();
+  const double least = 0.5 * remainder / static_cast<double>(n);
+  Pivoted pivoted{.order = Indices::LinSpaced(n, 0, n - 1), .L = {}};
+  Index rank = factorise_pivoted(C, least, pivoted.order);
+  double trace = least * static_cast<double>(n - rank);
   while (rank > 1) {
     const double column = C.col(rank - 1).tail(n - rank + 1).squaredNorm();
     if (trace + column > remainder) break;
@@ -33,8 +70,7 @@ std::optional<Pivoted> pivoted_cholesky(Matrix C, double remainder, Index most) 
     --rank;
   }
   if (rank > most) return std::nullopt;
-  Pivoted pivoted{.order = {}, .L = C.leftCols(rank)};
-  for (const int row : order) pivoted.order.push_back(row - 1);
+  pivoted.L = C.leftCols(rank);
   pivoted.L.triangularView<Eigen::StrictlyUpper>().setZero();
   return pivoted;
 }
@@ -52,31 +88,29 @@ double remaining_energy(const Pivoted& pivoted, double noise_ratio, const ConstV
 
 std::optional<Summary> summarise(const Matrix& C, double noise_ratio, const ConstVectorView& y,
                                  const ConstVectorView& weights, double t, Index most) {
-  optim::use_one_blas_thread();
   std::optional<Pivoted> pivoted = pivoted_cholesky(C, t * noise_ratio, most);
   if (!pivoted) return std::nullopt;
   const Matrix& L = pivoted->L;
-  const int n = static_cast<int>(L.rows()), r = static_cast<int>(L.cols()), rest = n - r;
-  const double one = 1, zero = 0;
+  const Index n = L.rows(), r = L.cols(), rest = n - r;
 
-  Matrix W = L.bottomRows(rest);  // becomes the rows of T that are not of the identity
-  if (rest > 0) dtrsm_("R", "L", "N", "N", &rest, &r, &one, L.data(), &n, W.data(), &rest);
+  Matrix W = L.bottomRows(rest).transpose();  // becomes the rows of T that are not of the identity, transposed
+  solve_lower_transposed(L.topRows(r), W);
   Matrix noise = Matrix::Identity(r, r);
-  if (rest > 0) dsyrk_("L", "T", &r, &rest, &one, W.data(), &rest, &one, noise.data(), &r);
-  int info = 0;
-  dpotrf_("L", &r, noise.data(), &r, &info);
-  if (info != 0) return std::nullopt;
+  add_product(noise, Sign::plus, W, W.transpose(), Part::lower);
+  if (!cholesky(noise)) return std::nullopt;
 
   Vector ordered = y(pivoted->order);
   Summary summary;
-  summary.targets = ordered.head(r) + W.transpose() * ordered.tail(rest);
+  summary.targets = ordered.head(r) + W * ordered.tail(rest);
   noise.triangularView<Eigen::Lower>().solveInPlace(summary.targets);
   noise.triangularView<Eigen::Lower>().transpose().solveInPlace(summary.targets);
-  dpotri_("L", &r, noise.data(), &r, &info);
+  Matrix inverse = Matrix::Identity(r, r);
+  solve_lower(noise, inverse);
 
-  summary.covariance.resize(r, r);
-  dsyrk_("L", "N", &r, &r, &one, L.data(), &n, &zero, summary.covariance.data(), &r);
-  summary.covariance.triangularView<Eigen::Lower>() += noise_ratio * noise;
+  summary.covariance = Matrix::Zero(r, r);
+  add_product(summary.covariance, Sign::plus, inverse.transpose(), inverse, Part::lower);
+  summary.covariance.triangularView<Eigen::Lower>() *= noise_ratio;
+  add_product(summary.covariance, Sign::plus, L.topRows(r), L.topRows(r).transpose(), Part::lower);
   summary.mean_error = std::sqrt(remaining_energy(*pivoted, noise_ratio, y, weights)) * (1 + std::sqrt(t));
   summary.points.assign(pivoted->order.begin(), pivoted->order.begin() + r);
   return summary;

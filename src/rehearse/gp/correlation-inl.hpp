@@ -9,15 +9,21 @@
 #include <cstdint>
 
 #include <hwy/highway.h>
+// Highway's order matters: the functions come after the target.
+#include "rehearse/core/eight-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace rehearse::gp {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::CappedTag<double, 8>;
-using V = hn::Vec<Tag>;
-constexpr Tag kTag;
+using rehearse::HWY_NAMESPACE::kParts;
+using rehearse::HWY_NAMESPACE::kTag;
+using rehearse::HWY_NAMESPACE::lanes;
+using rehearse::HWY_NAMESPACE::place_in_eight;
+using rehearse::HWY_NAMESPACE::sum_of_eight;
+using rehearse::HWY_NAMESPACE::Tag;
+using rehearse::HWY_NAMESPACE::V;
 
 HWY_INLINE V constant(double x) { return hn::Set(kTag, x); }
 

@@ -6,42 +6,30 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/linear_algebra.hpp"
 #include "rehearse/gp/correlations.hpp"
 #include "rehearse/gp/evidence.hpp"
-#include "rehearse/optim/blas.hpp"
 
 namespace rehearse::gp {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kOne = 1;
 
-int size(Index n) { return static_cast<int>(n); }
-
-/// op(A) op(B), with op the transpose where 'T'.
-Matrix product(const Matrix& A, const Matrix& B, char transpose_a = 'N', char transpose_b = 'N') {
-  const int m = size(transpose_a == 'N' ? A.rows() : A.cols()), n = size(transpose_b == 'N' ? B.cols() : B.rows());
-  const int k = size(transpose_a == 'N' ? A.cols() : A.rows()), lda = size(A.rows()), ldb = size(B.rows());
-  Matrix C(m, n);
-  const double zero = 0;
-  dgemm_(&transpose_a, &transpose_b, &m, &n, &k, &kOne, A.data(), &lda, B.data(), &ldb, &zero, C.data(), &m);
-  return C;
+/// L⁻¹ B and L⁻ᵀ B.
+Matrix solve(const Matrix& L, Matrix B) {
+  solve_lower(L, B);
+  return B;
 }
-
-/// L⁻¹ B, or L⁻ᵀ B where 'T'.
-Matrix solve(const Matrix& L, Matrix B, char transpose = 'N') {
-  const int m = size(B.rows()), n = size(B.cols());
-  dtrsm_("L", "L", &transpose, "N", &m, &n, &kOne, L.data(), &m, B.data(), &m);
+Matrix solve_transposed(const Matrix& L, Matrix B) {
+  solve_lower_transposed(L, B);
   return B;
 }
 
 /// The lower Cholesky factor; false if A is not positive definite.
 bool factorise(Matrix& A) {
-  const int n = size(A.rows());
-  int info = 0;
-  dpotrf_("L", &n, A.data(), &n, &info);
+  const bool found = cholesky(A);
   A.triangularView<Eigen::StrictlyUpper>().setZero();
-  return info == 0 && A.allFinite();
+  return found && A.allFinite();
 }
 
 /// With Q = K_nm K_mm⁻¹ K_mn, the covariance of y is taken to be Q + Λ, Λ = diag(K_nn − Q) + σ_n² I (Snelson 2006, eq.
@@ -54,13 +42,12 @@ struct Fitc {
         Kmm(theta.signal_variance() * correlations(points, points)),
         Kmn(theta.signal_variance() * correlations(points, inputs)),
         L(Kmm) {
-    optim::use_one_blas_thread();
     L.diagonal().array() += ridge;
     if (!factorise(L)) return;
     V = solve(L, Kmn);
     const double noise = theta.noise_variance();
     rest = (theta.signal_variance() - V.colwise().squaredNorm().transpose().array()).max(0) + noise;
-    F = product(V * rest.cwiseInverse().asDiagonal(), V, 'N', 'T');
+    F = product(Matrix(V * rest.cwiseInverse().asDiagonal()), V.transpose());
     F.diagonal().array() += 1;
     ok = factorise(F) && V.allFinite() && (rest.array() > 0).all() && rest.allFinite();
   }
@@ -76,13 +63,13 @@ struct Fitc {
 MomentTerm fitc_term(const Fitc& fitc, const Vector& y, const Matrix& Z, const Hyperparameters& theta, Index e) {
   const double signal = theta.signal_variance();
   const Matrix inverse_L = solve(fitc.L, Matrix::Identity(Z.rows(), Z.rows())), both = solve(fitc.F, inverse_L);
-  const Matrix weights = product(both, solve(fitc.F, fitc.V * y.cwiseQuotient(fitc.rest)), 'T');
+  const Matrix weights = product(both.transpose(), solve(fitc.F, fitc.V * y.cwiseQuotient(fitc.rest)));
   return {.output = e,
           .centres = Z,
           .log_lengths = theta.log_lengths,
           .weights = signal * weights,
           .variance = signal,
-          .reduction = signal * signal * (product(inverse_L, inverse_L, 'T') - product(both, both, 'T'))};
+          .reduction = signal * signal * (product(inverse_L.transpose(), inverse_L) - product(both.transpose(), both))};
 }
 
 /// With G = ½ (α αᵀ − Σ⁻¹) the gradient by the covariance Σ of y, of which only what is off the diagonal depends on Z:
@@ -90,9 +77,9 @@ MomentTerm fitc_term(const Fitc& fitc, const Vector& y, const Matrix& Z, const H
 Matrix gradient_by_points(const Fitc& f, const Vector& alpha) {
   const Matrix whitened = solve(f.F, f.V * f.rest.cwiseInverse().asDiagonal());  // Σ⁻¹ = Λ⁻¹ − whitenedᵀ whitened
   const Vector by_diagonal = alpha.cwiseAbs2() - f.rest.cwiseInverse() + whitened.colwise().squaredNorm().transpose();
-  const Matrix by_V = f.V * alpha * alpha.transpose() - solve(f.F, whitened, 'T') - f.V * by_diagonal.asDiagonal();
-  const Matrix P = solve(f.L, by_V, 'T');
-  const Matrix by_Kmm = product(P, solve(f.L, f.V, 'T'), 'N', 'T');
+  const Matrix by_V = f.V * alpha * alpha.transpose() - solve_transposed(f.F, whitened) - f.V * by_diagonal.asDiagonal();
+  const Matrix P = solve_transposed(f.L, by_V);
+  const Matrix by_Kmm = product(P, solve_transposed(f.L, f.V).transpose());
   const Matrix mn = P.cwiseProduct(f.Kmn), mm = (by_Kmm + by_Kmm.transpose()).cwiseProduct(f.Kmm) / -2;
   const Vector sums = mn.rowwise().sum() + mm.rowwise().sum();
   return (product(mn, f.inputs) + product(mm, f.points) - sums.asDiagonal() * f.points) *
@@ -144,7 +131,7 @@ double fitc_evidence(const ConstMatrixView& X, const ConstVectorView& y, const C
   const double value = -(log_determinant + quadratic + static_cast<double>(y.size()) * kLogTwoPi) / 2;
   if (!std::isfinite(value)) return kNaN;
   if (gradient) {
-    const Vector alpha = scaled - (f.V.transpose() * solve(f.F, whitened, 'T')).cwiseQuotient(f.rest);
+    const Vector alpha = scaled - (f.V.transpose() * solve_transposed(f.F, whitened)).cwiseQuotient(f.rest);
     *gradient = gradient_by_points(f, alpha);
   }
   return value;

@@ -15,8 +15,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kStrip = 4;  // vectors of rows taken together
 
-HWY_INLINE Size lanes() { return static_cast<Size>(hn::Lanes(kTag)); }
-
 /// Correlations of kHeight vectors of points with one point; coordinates are kTile apart.
 template <int kHeight>
 HWY_INLINE void correlations(const double* rows, const double* point, Size dimensions, V* out) {
@@ -97,37 +95,42 @@ void TrendGradientSumsKernel(const double* z, Size n, Size dimensions, const dou
         }
         for (Size d = 0; d < dimensions; ++d) {
           const V zz = hn::Mul(hn::LoadU(kTag, rows + d * kTile + r), constant(point[d * kTile]));
-          hn::StoreU(hn::MulAdd(twice, zz, hn::LoadU(kTag, sums + 8 * d)), kTag, sums + 8 * d);
+          double* sum = sums + 8 * d + place_in_eight(r);
+          hn::StoreU(hn::MulAdd(twice, zz, hn::LoadU(kTag, sum)), kTag, sum);
         }
       }
     }
   }
-  for (Size d = 0; d < dimensions; ++d) sums[d] = hn::GetLane(hn::SumOfLanes(kTag, hn::LoadU(kTag, sums + 8 * d)));
+  for (Size d = 0; d < dimensions; ++d) sums[d] = sum_of_eight(sums + 8 * d);
 }
 
-/// What kHeight vectors of rows of column c of a tile add to the sums. kDiagonal: only the rows below c count, of which
+/// What kHeight vectors of rows of column c of a tile, the first beginning at row r, add to the sums. kDiagonal: only the rows below c count, of which
 /// the first vector begins at row r.
 template <int kHeight, bool kDiagonal>
 HWY_INLINE void add_to_sums(const double* rows, const double* point, Size dimensions, const double* b, double b_column,
                             const double* inverse, Size r, Size c, double* sums) {
-  V w[kHeight], total = hn::Zero(kTag);
+  V w[kHeight], totals[kParts];
+  double* last = sums + 8 * dimensions + place_in_eight(r);
+  constexpr int kSums = std::min(kHeight, kParts);  // vectors of rows that are added to sums of their own
+  for (int p = 0; p < kSums; ++p) totals[p] = hn::LoadU(kTag, last + p * lanes());
   correlations<kHeight>(rows, point, dimensions, w);
   for (int v = 0; v < kHeight; ++v) {
     const V bb = hn::Mul(hn::LoadU(kTag, b + v * lanes()), constant(b_column));
     w[v] = hn::Mul(w[v], hn::Sub(bb, hn::LoadU(kTag, inverse + v * lanes())));
     if (kDiagonal && r <= c) w[v] = hn::IfThenZeroElse(hn::FirstN(kTag, static_cast<size_t>(c + 1 - r)), w[v]);
-    total = hn::Add(total, w[v]);
+    totals[v % kSums] = hn::Add(totals[v % kSums], w[v]);
   }
+  for (int p = 0; p < kSums; ++p) hn::StoreU(totals[p], kTag, last + p * lanes());
   for (Size d = 0; d < dimensions; ++d) {
-    V sum = hn::LoadU(kTag, sums + 8 * d);
+    double* to = sums + 8 * d + place_in_eight(r);
+    V sum[kSums];
+    for (int p = 0; p < kSums; ++p) sum[p] = hn::LoadU(kTag, to + p * lanes());
     for (int v = 0; v < kHeight; ++v) {
       const V difference = hn::Sub(hn::LoadU(kTag, rows + d * kTile + v * lanes()), constant(point[d * kTile]));
-      sum = hn::MulAdd(hn::Mul(w[v], difference), difference, sum);
+      sum[v % kSums] = hn::MulAdd(hn::Mul(w[v], difference), difference, sum[v % kSums]);
     }
-    hn::StoreU(sum, kTag, sums + 8 * d);
+    for (int p = 0; p < kSums; ++p) hn::StoreU(sum[p], kTag, to + p * lanes());
   }
-  double* last = sums + 8 * dimensions;
-  hn::StoreU(hn::Add(hn::LoadU(kTag, last), total), kTag, last);
 }
 
 void GradientSumsKernel(const double* scaled, Size n, Size dimensions, const double* b, const double* inverse,
@@ -149,7 +152,7 @@ void GradientSumsKernel(const double* scaled, Size n, Size dimensions, const dou
       }
     }
   }
-  for (Size d = 0; d <= dimensions; ++d) sums[d] = hn::GetLane(hn::SumOfLanes(kTag, hn::LoadU(kTag, sums + 8 * d)));
+  for (Size d = 0; d <= dimensions; ++d) sums[d] = sum_of_eight(sums + 8 * d);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -6,7 +6,7 @@
 // would lose the last digits of close points, which the posterior variance needs. Those below e^−80 are set to 0:
 // their products would be subnormal numbers, which are slow.
 
-#include "rehearse/gp/tiles.hpp"
+#include "rehearse/core/tiles.hpp"
 
 namespace rehearse::gp {
 

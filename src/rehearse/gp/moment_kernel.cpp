@@ -13,15 +13,13 @@ namespace rehearse::gp {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int kWidest = 8;  // lanes of the widest vector
+constexpr int kWidest = 8;  // partial sums of what is summed over points
 
 /// Only the sums over rows, as a network with itself; those over columns too; or half of a symmetric matrix.
 enum class PairKind { rows, columns, triangle };
 
-HWY_INLINE Index lanes() { return static_cast<Index>(hn::Lanes(kTag)); }
 HWY_INLINE V load(const double* p) { return hn::LoadU(kTag, p); }
 HWY_INLINE void add_to(double* p, V value) { hn::StoreU(hn::Add(load(p), value), kTag, p); }
-HWY_INLINE double sum(V v) { return hn::GetLane(hn::SumOfLanes(kTag, v)); }
 
 /// exp(x), 0 below e^−80. x ≤ 0 but for rounding.
 HWY_INLINE V exponential(V x) {
@@ -82,40 +80,42 @@ struct Loops {
     }
   }
 
-  /// Sums kept lane by lane until the end, in kWidest doubles each.
+  /// Sums over points, eight partial ones each until the end.
   class Sums {
    public:
     HWY_INLINE explicit Sums(int D) : D_(D) { std::fill(memory_, memory_ + kWidest * (1 + D + D * D), 0.0); }
 
-    HWY_INLINE void add(const V* z, V g, bool second) {
-      add_to(memory_, g);
+    /// Of the points from i on, one a lane.
+    HWY_INLINE void add(Index i, const V* z, V g, bool second) {
+      const Index place = place_in_eight(i);
+      add_to(memory_ + place, g);
       for (int d = 0; d < D_; ++d) {
         const V gz = hn::Mul(g, z[d]);
-        add_to(first(d), gz);
+        add_to(first(d) + place, gz);
         if (!second) continue;
         for (int k = 0; k <= d; ++k) {
-          double* entry = matrix(d, k);
+          double* entry = matrix(d, k) + place;
           hn::StoreU(hn::MulAdd(gz, z[k], load(entry)), kTag, entry);
         }
       }
     }
-    HWY_INLINE void add_product(const V* z, const V* h) {  // of z hᵀ
+    HWY_INLINE void add_product(Index i, const V* z, const V* h) {  // of z hᵀ
       for (int d = 0; d < D_; ++d)
         for (int k = 0; k < D_; ++k) {
-          double* entry = matrix(d, k);
+          double* entry = matrix(d, k) + place_in_eight(i);
           hn::StoreU(hn::MulAdd(z[d], h[k], load(entry)), kTag, entry);
         }
     }
     HWY_INLINE void give(PointSums& sums) const {
-      sums.total = sum(load(memory_));
-      for (int d = 0; d < D_; ++d) sums.first[d] = sum(load(first(d)));
+      sums.total = sum_of_eight(memory_);
+      for (int d = 0; d < D_; ++d) sums.first[d] = sum_of_eight(first(d));
       if (!sums.second) return;
       for (int d = 0; d < D_; ++d)
-        for (int k = 0; k <= d; ++k) sums.second[d * D_ + k] = sums.second[k * D_ + d] = sum(load(matrix(d, k)));
+        for (int k = 0; k <= d; ++k) sums.second[d * D_ + k] = sums.second[k * D_ + d] = sum_of_eight(matrix(d, k));
     }
     HWY_INLINE void give_product(double* cross) const {
       for (int d = 0; d < D_; ++d)
-        for (int k = 0; k < D_; ++k) cross[k * D_ + d] = sum(load(matrix(d, k)));
+        for (int k = 0; k < D_; ++k) cross[k * D_ + d] = sum_of_eight(matrix(d, k));
     }
 
    private:
@@ -133,7 +133,7 @@ struct Loops {
     V z[kSize];
     for (Index i = 0; i < a.stride; i += lanes()) {
       load_point(a, D, i, z);
-      sums.add(z, load(a.weights + i), out.second != nullptr);
+      sums.add(i, z, load(a.weights + i), out.second != nullptr);
     }
     sums.give(out);
   }
@@ -155,7 +155,7 @@ struct Loops {
     const double *points = b.points, *weights_b = b.weights;
     const Index stride = b.stride, size = (b.size + kGroup - 1) / kGroup * kGroup;  // of the padding, weights are 0
     double* own = scratch;
-    double* columns = scratch + stride;  // Σ_i of b's points, lane by lane
+    double* columns = scratch + stride;  // Σ_i of b's points, eight partial ones each
     own_terms(b, D, form.B, own);
     if (kKind != PairKind::rows) std::fill(columns, columns + kWidest * stride, 0.0);
     Sums sums(D), products(D);
@@ -176,7 +176,7 @@ struct Loops {
           for (int g = 0; g < kGroup; ++g) G[g] = hn::MulAdd(slope[d], constant(points[d * stride + j + g]), G[g]);
         exponentials(G);
         for (int g = 0; g < kGroup; ++g) {
-          double* column = columns + kWidest * (j + g);
+          double* column = columns + kWidest * (j + g) + place_in_eight(i);
           if (kKind == PairKind::columns) hn::StoreU(hn::MulAdd(G[g], w, load(column)), kTag, column);
           G[g] = hn::Mul(
               G[g], kKind == PairKind::triangle ? load(weights + (j + g) * a.stride + i) : constant(weights_b[j + g]));
@@ -189,8 +189,8 @@ struct Loops {
         for (int d = 0; d <= D; ++d) hn::StoreU(h[d], kTag, out.rows + d * a.stride + i);
       if (kKind != PairKind::triangle)
         for (int d = 0; d <= D; ++d) h[d] = hn::Mul(h[d], w);
-      sums.add(z, h[0], true);
-      products.add_product(z, h + 1);
+      sums.add(i, z, h[0], true);
+      products.add_product(i, z, h + 1);
     }
     sums.give(out.a);
     products.give_product(out.cross);
@@ -201,7 +201,7 @@ struct Loops {
   static HWY_INLINE void give_columns(const WeightedPoints& b, int D, const double* columns, double* total,
                                       PointSums& out) {
     std::fill(total, total + b.stride, 0.0);
-    for (Index j = 0; j < b.size; ++j) total[j] = b.weights[j] * sum(load(columns + kWidest * j));
+    for (Index j = 0; j < b.size; ++j) total[j] = b.weights[j] * sum_of_eight(columns + kWidest * j);
     point_sums({b.points, total, b.size, b.stride}, D, out);
   }
 
@@ -211,7 +211,7 @@ struct Loops {
     double first[kSize], second[kSize * kSize];
     PointSums mirror{0, first, second};
     std::fill(total, total + b.stride, 0.0);
-    for (Index j = 0; j < b.size; ++j) total[j] = sum(load(columns + kWidest * j));
+    for (Index j = 0; j < b.size; ++j) total[j] = sum_of_eight(columns + kWidest * j);
     point_sums({b.points, total, b.size, b.stride}, D, mirror);
     out.a.total += mirror.total;
     for (int d = 0; d < D; ++d) {

@@ -12,7 +12,7 @@
 #include "rehearse/gp/kernel.hpp"
 #include "rehearse/gp/prediction_kernel.hpp"
 #include "rehearse/gp/sizes.hpp"
-#include "rehearse/gp/tiles.hpp"
+#include "rehearse/core/tiles.hpp"
 
 namespace rehearse::gp {
 namespace {

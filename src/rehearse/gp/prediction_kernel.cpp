@@ -18,8 +18,6 @@ constexpr int kVectors = hn::MaxLanes(Tag()) == 8 ? 4 : 2;
 
 static_assert(kVectors * static_cast<int>(hn::MaxLanes(Tag())) <= kGroup);
 
-HWY_INLINE Size lanes() { return static_cast<Size>(hn::Lanes(kTag)); }
-
 /// Calls group<vectors>(q) for groups that cover the queries 0 … rows − 1.
 template <class Wide, class Narrow>
 HWY_INLINE void for_each_group(Size rows, Wide wide, Narrow narrow) {

@@ -3,7 +3,7 @@
 // through the same operations whatever its place among them and however many there are. Raw pointers; may run
 // concurrently.
 
-#include "rehearse/gp/tiles.hpp"
+#include "rehearse/core/tiles.hpp"
 
 namespace rehearse::gp {
 

@@ -24,10 +24,10 @@ Vector clamped(const ConstVectorView& log_lengths) {
 /// (L Lᵀ)⁻¹ y
 Vector solve(const std::vector<double>& tiles, const ConstVectorView& y) {
   const Index n = y.size();
-  Vector x = Vector::Zero(gp::padded(n));
+  Vector x = Vector::Zero(padded(n));
   x.head(n) = y;
-  gp::tiles_solve(n, tiles.data(), x.data());
-  gp::tiles_solve_transposed(n, tiles.data(), x.data());
+  tiles_solve(n, tiles.data(), x.data());
+  tiles_solve_transposed(n, tiles.data(), x.data());
   return x.head(n);
 }
 
@@ -43,12 +43,12 @@ RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& t
     throw InvalidInput(fmt::format("policy: θ has {} numbers, must have {}", theta.size(), size));
   if (!theta.allFinite()) return;
   unscaled_ = theta.segment(centres_at(), centres_ * features()).reshaped(features(), centres_).transpose();
-  std::vector<double> scaled(at(gp::padded(centres_) * features()));
+  std::vector<double> scaled(at(padded(centres_) * features()));
   std::vector<gp::MomentTerm> terms;
   for (Index a = 0; a < actions(); ++a) {
     const Vector log_lengths = clamped(theta.segment(lengths_at(a), features()));
     inverse_lengths_.push_back((-log_lengths).array().exp());
-    factors_.emplace_back(at(gp::tiles_size(centres_)));
+    factors_.emplace_back(at(tiles_size(centres_)));
     gp::scale_inputs(unscaled_.data(), centres_, features(), inverse_lengths_.back().data(), scaled.data());
     const double jitter_of_ladder =
         gp::factorise(scaled.data(), centres_, features(), options.noise * options.noise, factors_.back().data());

@@ -1,43 +1,22 @@
 #include "rehearse/optim/covariance.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-#include "rehearse/optim/blas.hpp"
+#include "rehearse/core/linear_algebra.hpp"
 
 namespace rehearse::optim {
-namespace {
 
-int as_int(Index n) { return static_cast<int>(n); }
-
-/// C ← beta·C + alpha A Aᵀ on the lower triangle.
-void add_products(double beta, double alpha, const ConstMatrixView& A, Matrix& C) {
-  const int n = as_int(C.rows()), k = as_int(A.cols()), stride = as_int(A.outerStride());
-  dsyrk_("L", "N", &n, &k, &alpha, A.data(), &stride, &beta, C.data(), &n);
-}
-
-/// y = A x or Aᵀ x.
-void multiply(const char* transposed, const Matrix& A, const double* x, double* y) {
-  const int n = as_int(A.rows()), one = 1;
-  const double unit = 1, zero = 0;
-  dgemv_(transposed, &n, &n, &unit, A.data(), &n, x, &one, &zero, y, &one);
-}
-
-}  // namespace
-
-Covariance::Covariance(Index n, Root root)
-    : root_(root), C_(Matrix::Identity(n, n)), A_(C_), projected_(n), next_(n, n) {
-  use_one_blas_thread();
+Covariance::Covariance(Index n, Root root) : root_(root), C_(Matrix::Identity(n, n)), A_(C_), projected_(n), next_(n, n) {
   if (root == Root::cholesky) return;
   B_ = C_;
   eigenvalues_ = Vector::Ones(n);
-  values_.resize(n);
-  work_.resize(static_cast<std::size_t>(1 + 6 * n + 2 * n * n));
-  iwork_.resize(static_cast<std::size_t>(3 + 5 * n));
 }
 
 void Covariance::update(double decay, const ConstMatrixView& P, const ConstMatrixView& N) {
-  add_products(decay, 1, P, C_);
-  if (N.cols() > 0) add_products(1, -1, N, C_);
+  C_.triangularView<Eigen::Lower>() *= decay;
+  add_product(C_, Sign::plus, P, P.transpose(), Part::lower);
+  if (N.cols() > 0) add_product(C_, Sign::minus, N, N.transpose(), Part::lower);
 }
 
 void Covariance::scale(Index i, double factor) {
@@ -49,49 +28,42 @@ void Covariance::scale(Index i, double factor) {
 bool Covariance::decompose() { return root_ == Root::eigen ? decompose_eigen() : decompose_cholesky(); }
 
 bool Covariance::decompose_eigen() {
-  const int n = as_int(size()), lwork = static_cast<int>(work_.size()), liwork = static_cast<int>(iwork_.size());
-  int info = 0;
-  next_ = C_;
-  dsyevd_("V", "L", &n, next_.data(), &n, values_.data(), work_.data(), &lwork, iwork_.data(), &liwork, &info);
-  if (info != 0 || !(values_(0) > 0) || !std::isfinite(values_(size() - 1))) return false;
-  B_.swap(next_);
-  eigenvalues_.swap(values_);
+  solver_.compute(C_);  // of the lower triangle
+  if (solver_.info() != Eigen::Success) return false;
+  const Vector& values = solver_.eigenvalues();
+  if (!(values(0) > 0) || !std::isfinite(values(size() - 1))) return false;
+  B_ = solver_.eigenvectors();
+  eigenvalues_ = values;
   A_.noalias() = B_ * eigenvalues_.cwiseSqrt().asDiagonal();
   return true;
 }
 
 bool Covariance::decompose_cholesky() {
-  const int n = as_int(size());
-  int info = 0;
   next_.triangularView<Eigen::Lower>() = C_;
   next_.triangularView<Eigen::StrictlyUpper>().setZero();
-  dpotrf_("L", &n, next_.data(), &n, &info);
-  if (info != 0 || !next_.diagonal().allFinite()) return false;
+  if (!cholesky(next_) || !next_.diagonal().allFinite()) return false;
   A_.swap(next_);
   return true;
 }
 
 void Covariance::colour(const ConstMatrixView& Z, MatrixView Y) const {
-  const int n = as_int(size()), k = as_int(Z.rows());
-  const int stride_z = as_int(Z.outerStride()), stride_y = as_int(Y.outerStride());
-  const double unit = 1, zero = 0;
-  if (root_ == Root::eigen) {
-    dgemm_("N", "T", &n, &k, &n, &unit, A_.data(), &n, Z.data(), &stride_z, &zero, Y.data(), &stride_y);
-  } else {
-    Y = Z.transpose();
-    dtrmm_("L", "L", "N", "N", &n, &k, &unit, A_.data(), &n, Y.data(), &stride_y);
+  Y.setZero();
+  if (root_ == Root::eigen) return add_product(Y, Sign::plus, A_, Z.transpose());
+  constexpr Index kBlock = 120;  // rows that are multiplied without the zeros to the right of them
+  for (Index i = 0; i < size(); i += kBlock) {
+    const Index rows = std::min(kBlock, size() - i), inner = i + rows;
+    add_product(Y.middleRows(i, rows), Sign::plus, A_.block(i, 0, rows, inner), Z.leftCols(inner).transpose());
   }
 }
 
 void Covariance::whiten(const ConstVectorView& y, VectorView z) const {
   if (root_ == Root::eigen) {
-    multiply("T", B_, y.data(), projected_.data());
+    projected_.noalias() = B_.transpose() * y;
     projected_.array() /= eigenvalues_.array().sqrt();
-    multiply("N", B_, projected_.data(), z.data());
+    z.noalias() = B_ * projected_;
   } else {
-    const int n = as_int(size()), one = 1;
     z = y;
-    dtrsv_("L", "N", "N", &n, A_.data(), &n, z.data(), &one);
+    A_.triangularView<Eigen::Lower>().solveInPlace(z);
   }
 }
 
@@ -100,7 +72,7 @@ double Covariance::length(const ConstVectorView& y) const {
     whiten(y, projected_);
     return projected_.norm();
   }
-  multiply("T", B_, y.data(), projected_.data());
+  projected_.noalias() = B_.transpose() * y;
   return std::sqrt((projected_.array().square() / eigenvalues_.array()).sum());
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // The covariance matrix C of a search distribution and a square root A of it, C = A Aᵀ.
 
-#include <vector>
+#include <Eigen/Eigenvalues>
 
 #include "rehearse/core/types.hpp"
 
@@ -47,10 +47,8 @@ class Covariance {
   Matrix B_;            // eigenvectors, one a column
   Vector eigenvalues_;  // ascending
   mutable Vector projected_;
-  Matrix next_;  // A_ or B_ in the making
-  Vector values_;
-  std::vector<double> work_;
-  std::vector<int> iwork_;
+  Matrix next_;  // A_ in the making
+  Eigen::SelfAdjointEigenSolver<Matrix> solver_;
 };
 
 }  // namespace rehearse::optim

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "naive.hpp"
+#include "rehearse/core/test/tile_tools.hpp"
 #include "rehearse/gp/kernel.hpp"
-#include "tile_tools.hpp"
 
 namespace rehearse::gp {
 namespace {

@@ -4,7 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tile_tools.hpp"
+#include "naive.hpp"
+#include "rehearse/core/test/tile_tools.hpp"
 
 namespace rehearse::gp {
 namespace {

@@ -1,12 +1,12 @@
 #pragma once
-// Symmetric and triangular n × n matrices of the training points, kept as the lower triangle of square tiles that fit
-// in the first-level cache. OpenBLAS 0.3.21 inverts with 12 GFLOP/s at n = 200 and 25 at 1000 where its products reach
-// 60, and fits spend their time there; these routines stay near 60. Vectorised by Highway; raw pointers; may run
-// concurrently; the same bits on every thread.
+// Symmetric and triangular n × n matrices, kept as the lower triangle of square tiles that fit in the first-level cache.
+// OpenBLAS 0.3.21 inverts with 12 GFLOP/s at n = 200 and 25 at 1000 where its products reach 60, and fits of Gaussian
+// processes spend their time there; these routines stay near 60. Vectorised by Highway; raw pointers; may run
+// concurrently; the same bits on every thread and processor.
 
 #include <cstddef>
 
-namespace rehearse::gp {
+namespace rehearse {
 
 using Size = std::ptrdiff_t;
 
@@ -42,4 +42,4 @@ constexpr Size transposed_offset(Size row, Size column) {
 /// What tiles_invert_factor left becomes L⁻ᵀ L⁻¹ = A⁻¹; its lower triangle is defined.
 void tiles_multiply_inverse(Size n, double* tiles);
 
-}  // namespace rehearse::gp
+}  // namespace rehearse

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "naive.hpp"
-#include "rehearse/gp/tiles.hpp"
+#include "rehearse/core/tiles.hpp"
+#include "rehearse/core/types.hpp"
 
-namespace rehearse::gp {
+namespace rehearse {
 
 inline Matrix lower(const Matrix& A) { return A.triangularView<Eigen::Lower>(); }
 
@@ -24,4 +24,4 @@ inline std::vector<double> to_tiles(const Matrix& A) {
   return tiles;
 }
 
-}  // namespace rehearse::gp
+}  // namespace rehearse

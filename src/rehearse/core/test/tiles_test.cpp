@@ -1,20 +1,19 @@
-#include "rehearse/gp/tiles.hpp"
+#include "rehearse/core/tiles.hpp"
 
+#include <cmath>
 #include <limits>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "matrix_tools.hpp"
 #include "tile_tools.hpp"
 
-namespace rehearse::gp {
+namespace rehearse {
 namespace {
 
 const Index kSizes[] = {1, 2, 5, 31, 32, 33, 63, 64, 70, 97, 161};
-
-Matrix positive_definite(Index n) {
-  const Matrix A = naive::normals(n, n, 1);
-  return A * A.transpose() / static_cast<double>(n) + 0.1 * Matrix::Identity(n, n);
-}
 
 TEST(Tiles, EveryEntryHasItsOwnPlace) {
   for (const Index n : kSizes) {
@@ -36,9 +35,10 @@ TEST(Tiles, Cholesky) {
 
 TEST(Tiles, CholeskyOfAnIllConditionedMatrixIsBackwardStable) {
   const Index n = 161;
-  const Matrix X = naive::normals(n, 1, 2);
-  const Matrix A = naive::noisy_covariance(
-      X, {.log_lengths = Vector::Zero(1), .log_signal = 0, .log_noise = std::log(1e-6)});  // condition 1e14
+  const Vector x = normals(n, 1, 2);
+  Matrix A(n, n);  // of condition 1e14
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) A(i, j) = std::exp(-std::pow(x(i) - x(j), 2) / 2) + (i == j ? 1e-12 : 0);
   auto tiles = to_tiles(A);
   ASSERT_TRUE(tiles_cholesky(n, tiles.data()));
   const Matrix L = lower_from_tiles(n, tiles);
@@ -60,7 +60,7 @@ TEST(Tiles, Solve) {
     const Matrix A = positive_definite(n), L = A.llt().matrixL();
     auto tiles = to_tiles(A);
     tiles_cholesky(n, tiles.data());
-    const Vector y = naive::normals(n, 1, 3);
+    const Vector y = normals(n, 1, 3);
     Vector x = Vector::Zero(padded(n));
     x.head(n) = y;
     tiles_solve(n, tiles.data(), x.data());
@@ -88,4 +88,4 @@ TEST(Tiles, Inverse) {
 }
 
 }  // namespace
-}  // namespace rehearse::gp
+}  // namespace rehearse

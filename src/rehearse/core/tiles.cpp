@@ -1,27 +1,22 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "rehearse/gp/tiles.cpp"
+#define HWY_TARGET_INCLUDE "rehearse/core/tiles.cpp"
 #include <algorithm>
 #include <cmath>
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // Highway's order matters: the functions come after the target.
-#include "rehearse/gp/tiles.hpp"
+#include "rehearse/core/eight-inl.hpp"
+#include "rehearse/core/tiles.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace rehearse::gp {
+namespace rehearse {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using Tag = hn::CappedTag<double, 8>;
-using V = hn::Vec<Tag>;
-constexpr Tag kTag;
 
 /// Vectors of rows and columns that `multiply` keeps in registers.
 constexpr int kStrip = hn::MaxLanes(Tag()) == 8 ? 4 : 2;
 constexpr int kColumns = 4;
-
-HWY_INLINE Size lanes() { return static_cast<Size>(hn::Lanes(kTag)); }
 
 /// Rows (and columns) of tile t that belong to the matrix.
 HWY_INLINE Size tile_rows(Size n, Size t) { return std::min(kTile, n - t * kTile); }
@@ -155,10 +150,14 @@ void SolveKernel(Size n, const double* tiles, Size columns, double* x) {
 /// y − Aᵀ x for a tile of `rows` rows; x is zero past them.
 HWY_INLINE void subtract_transposed_product(const double* a, const double* x, double* y) {
   for (Size c = 0; c < kTile; ++c) {
-    V sum = hn::Zero(kTag);
-    for (Size i = 0; i < kTile; i += lanes())
-      sum = hn::MulAdd(hn::LoadU(kTag, a + c * kTile + i), hn::LoadU(kTag, x + i), sum);
-    y[c] -= hn::GetLane(hn::SumOfLanes(kTag, sum));
+    V sums[kParts];
+    for (V& sum : sums) sum = hn::Zero(kTag);
+    for (Size i = 0; i < kTile; i += 8)
+      for (int p = 0; p < kParts; ++p) {
+        const Size row = i + p * lanes();
+        sums[p] = hn::MulAdd(hn::LoadU(kTag, a + c * kTile + row), hn::LoadU(kTag, x + row), sums[p]);
+      }
+    y[c] -= sum_of_eight(sums);
   }
 }
 
@@ -222,11 +221,11 @@ void MultiplyInverseKernel(Size n, double* tiles) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace rehearse::gp
+}  // namespace rehearse
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace rehearse::gp {
+namespace rehearse {
 
 HWY_EXPORT(CholeskyKernel);
 HWY_EXPORT(SolveKernel);
@@ -244,5 +243,5 @@ void tiles_solve_transposed(Size n, const double* tiles, double* x) {
 void tiles_invert_factor(Size n, double* tiles) { HWY_DYNAMIC_DISPATCH(InvertFactorKernel)(n, tiles); }
 void tiles_multiply_inverse(Size n, double* tiles) { HWY_DYNAMIC_DISPATCH(MultiplyInverseKernel)(n, tiles); }
 
-}  // namespace rehearse::gp
+}  // namespace rehearse
 #endif
