@@ -17,11 +17,11 @@ Factor factor(const M& A) {
   return {A.data(), A.rowStride(), A.colStride()};
 }
 
-/// C ← C ± A B. C must not be a factor.
+/// C ← scale·C ± A B. C must not be a factor.
 template <class A, class B>
-void add_product(MatrixView C, Sign sign, const A& a, const B& b, Part part = Part::all) {
+void add_product(MatrixView C, Sign sign, const A& a, const B& b, Part part = Part::all, double scale = 1) {
   assert(C.rows() == a.rows() && C.cols() == b.cols() && a.cols() == b.rows());
-  add_product(sign, part, C.rows(), C.cols(), a.cols(), factor(a), factor(b), C.data(), C.outerStride());
+  add_product(sign, part, C.rows(), C.cols(), a.cols(), factor(a), factor(b), C.data(), C.outerStride(), scale);
 }
 
 /// A B.

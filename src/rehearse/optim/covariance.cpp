@@ -14,9 +14,11 @@ Covariance::Covariance(Index n, Root root) : root_(root), C_(Matrix::Identity(n,
 }
 
 void Covariance::update(double decay, const ConstMatrixView& P, const ConstMatrixView& N) {
-  C_.triangularView<Eigen::Lower>() *= decay;
-  add_product(C_, Sign::plus, P, P.transpose(), Part::lower);
-  if (N.cols() > 0) add_product(C_, Sign::minus, N, N.transpose(), Part::lower);
+  both_.resize(size(), P.cols() + N.cols()), signed_.resizeLike(both_);
+  both_.leftCols(P.cols()) = signed_.leftCols(P.cols()) = P;
+  both_.rightCols(N.cols()) = N;
+  signed_.rightCols(N.cols()) = -N;
+  add_product(C_, Sign::plus, both_, signed_.transpose(), Part::lower, decay);
 }
 
 void Covariance::scale(Index i, double factor) {

@@ -47,7 +47,8 @@ class Covariance {
   Matrix B_;            // eigenvectors, one a column
   Vector eigenvalues_;  // ascending
   mutable Vector projected_;
-  Matrix next_;  // A_ in the making
+  Matrix next_;           // A_ in the making
+  Matrix both_, signed_;  // of an update: P and N, P and −N side by side
   Eigen::SelfAdjointEigenSolver<Matrix> solver_;
 };
 

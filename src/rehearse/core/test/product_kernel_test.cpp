@@ -32,6 +32,14 @@ TEST(ProductKernel, IsAChainOfFusedMultiplyAdds) {
   }
 }
 
+TEST(ProductKernel, ScalesWhatWasThere) {
+  const Index m = 50, n = 9, k = 300;
+  const Matrix A = normals(m, k, 1), B = normals(k, n, 2), C = normals(m, n, 3);
+  Matrix scaled = C;
+  add_product(Sign::plus, Part::all, m, n, k, factor(A), factor(B), scaled.data(), m, 0.7);
+  EXPECT_EQ(scaled, chain(0.7 * C, 1, A, B));
+}
+
 TEST(ProductKernel, LeavesWhatIsAboveALowerTriangle) {
   for (const Index n : {1, 7, 24, 50, 130, 530}) {
     const Matrix A = normals(n, 5, 1), B = normals(5, n, 2), C = normals(n, n, 3);
