@@ -53,7 +53,7 @@ if [ -z "$qemu" ] || [[ $qemu = *NOTFOUND ]]; then
 fi
 "$qemu" -cpu Nehalem "$program" list >output 2>&1
 [ $? = 2 ] && grep -q "^rehearse: this processor lacks AVX2" output || fail "a processor of 2008: $(cat output)"
-for name in ${REHEARSE_EMULATED:-gp-mi-pendulum pilco}; do
+for name in ${REHEARSE_EMULATED:-gp-mi-pendulum mi black-drops pilco}; do
   begin=$(milliseconds)
   run "haswell-$name" "$name" "$qemu" -cpu Haswell-noTSX 2>>warnings  # of features that QEMU leaves out
   compare "native-$name" "haswell-$name"

@@ -175,7 +175,7 @@ class Illumination {
   std::string about_;
 };
 
-/// An archive that somebody made. It is taken at its word, since on another processor a walk ends elsewhere. Throws
+/// An archive that somebody made. It is taken at its word: another version of the simulator may have made it. Throws
 /// InvalidInput.
 qd::Search read_archive(const std::string& file, const Task& task, const policy::Policy& policy) {
   const RegularFile bytes(file, O_RDONLY, Links::follow);
