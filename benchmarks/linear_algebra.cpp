@@ -1,9 +1,10 @@
 // Products and factorisations of core/linear_algebra.hpp against OpenBLAS's: `linear_algebra_benchmark`, with
 // OPENBLAS_CORETYPE unset, which would choose other kernels than this processor's.
 
+#include "rehearse/core/linear_algebra.hpp"
+
 #include <benchmark/benchmark.h>
 
-#include "rehearse/core/linear_algebra.hpp"
 #include "rehearse/core/processor.hpp"
 #include "rehearse/core/random.hpp"
 

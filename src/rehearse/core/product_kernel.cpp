@@ -26,7 +26,8 @@ constexpr Size kInner = 256, kRowBlock = 120, kColumnBlock = 512;
 static_assert(kRowBlock % kRows == 0 && kColumnBlock % kColumns == 0);
 
 /// `count` rows (or columns) of a factor as panels of `width`, one inner index after the other, padded with zeros.
-HWY_INLINE void pack(const double* from, Size stride, Size inner_stride, Size count, Size inner, Size width, double* to) {
+HWY_INLINE void pack(const double* from, Size stride, Size inner_stride, Size count, Size inner, Size width,
+                     double* to) {
   for (Size first = 0; first < count; first += width) {
     const Size here = std::min(width, count - first);
     const double* panel = from + first * stride;
@@ -61,8 +62,8 @@ HWY_INLINE void multiply_tile(Panel panel, const double* b, Size inner, double s
     for (int j = 0; j < kColumns; ++j) {
       const V entry = hn::Set(kTag, b[j]);
       for (int v = 0; v < kVectors; ++v)
-        sums[j][v] = kSign == Sign::minus ? hn::NegMulAdd(rows[v], entry, sums[j][v])
-                                          : hn::MulAdd(rows[v], entry, sums[j][v]);
+        sums[j][v] =
+            kSign == Sign::minus ? hn::NegMulAdd(rows[v], entry, sums[j][v]) : hn::MulAdd(rows[v], entry, sums[j][v]);
     }
   }
   for (int j = 0; j < kColumns; ++j)
@@ -81,8 +82,8 @@ HWY_INLINE void multiply_border(Panel panel, const double* b, Size inner, double
     for (Size i = std::max(Size{0}, diagonal + j); i < rows; ++i) c[j * stride + i] = tile[j * kRows + i];
 }
 
-/// Rows of A, the inner indices of a block: packed in panels; or where they are and, packed, what is left of them behind
-/// the last whole panel.
+/// Rows of A, the inner indices of a block: packed in panels; or where they are and, packed, what is left of them
+/// behind the last whole panel.
 struct Rows {
   HWY_INLINE Panel panel(Size i, Size m, Size inner) const {
     if (step == 0) return {packed + i * inner, kRows};
@@ -162,8 +163,8 @@ namespace rehearse {
 
 HWY_EXPORT(AddProductKernel);
 
-void add_product(Sign sign, Part part, std::ptrdiff_t m, std::ptrdiff_t n, std::ptrdiff_t k, Factor A, Factor B, double* C,
-                 std::ptrdiff_t stride, double scale) {
+void add_product(Sign sign, Part part, std::ptrdiff_t m, std::ptrdiff_t n, std::ptrdiff_t k, Factor A, Factor B,
+                 double* C, std::ptrdiff_t stride, double scale) {
   HWY_DYNAMIC_DISPATCH(AddProductKernel)(sign, part, m, n, k, A, B, C, stride, scale);
 }
 

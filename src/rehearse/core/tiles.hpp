@@ -1,7 +1,7 @@
 #pragma once
-// Symmetric and triangular n × n matrices, kept as the lower triangle of square tiles that fit in the first-level cache.
-// OpenBLAS 0.3.21 inverts with 12 GFLOP/s at n = 200 and 25 at 1000 where its products reach 60, and fits of Gaussian
-// processes spend their time there; these routines stay near 60. Vectorised by Highway; raw pointers; may run
+// Symmetric and triangular n × n matrices, kept as the lower triangle of square tiles that fit in the first-level
+// cache. OpenBLAS 0.3.21 inverts with 12 GFLOP/s at n = 200 and 25 at 1000 where its products reach 60, and fits of
+// Gaussian processes spend their time there; these routines stay near 60. Vectorised by Highway; raw pointers; may run
 // concurrently; the same bits on every thread and processor.
 
 #include <cstddef>

@@ -15,11 +15,11 @@ using Indices = Eigen::Matrix<Index, Eigen::Dynamic, 1>;
 /// The pivoted factor of C: C ≈ L Lᵀ, rows in the order of `order`.
 struct Pivoted {
   Indices order;  // n
-  Matrix L;                  // n × r, lower trapezoidal
+  Matrix L;       // n × r, lower trapezoidal
 };
 
-/// Rows and columns j < p of a symmetric matrix, of which the lower triangle counts, change places. So do rows j and p of
-/// the factor's columns before j.
+/// Rows and columns j < p of a symmetric matrix, of which the lower triangle counts, change places. So do rows j and p
+/// of the factor's columns before j.
 void exchange(Matrix& C, Index j, Index p) {
   const Index n = C.rows();
   C.row(j).head(j).swap(C.row(p).head(j));
@@ -28,8 +28,8 @@ void exchange(Matrix& C, Index j, Index p) {
   C.col(j).tail(n - p - 1).swap(C.col(p).tail(n - p - 1));
 }
 
-/// The factor's columns j, one pivot after the other, until the largest diagonal that is left is at most `least`; C: what
-/// is to be factorised, in its lower triangle, and then the factor. Returns the number of columns (Higham 1990, in
+/// The factor's columns j, one pivot after the other, until the largest diagonal that is left is at most `least`; C:
+/// what is to be factorised, in its lower triangle, and then the factor. Returns the number of columns (Higham 1990, in
 /// blocks: what is right of one is updated once for all of its columns).
 Index factorise_pivoted(Matrix& C, double least, Indices& order) {
   constexpr Index kBlock = 32;

@@ -77,7 +77,8 @@ MomentTerm fitc_term(const Fitc& fitc, const Vector& y, const Matrix& Z, const H
 Matrix gradient_by_points(const Fitc& f, const Vector& alpha) {
   const Matrix whitened = solve(f.F, f.V * f.rest.cwiseInverse().asDiagonal());  // Σ⁻¹ = Λ⁻¹ − whitenedᵀ whitened
   const Vector by_diagonal = alpha.cwiseAbs2() - f.rest.cwiseInverse() + whitened.colwise().squaredNorm().transpose();
-  const Matrix by_V = f.V * alpha * alpha.transpose() - solve_transposed(f.F, whitened) - f.V * by_diagonal.asDiagonal();
+  const Matrix by_V =
+      f.V * alpha * alpha.transpose() - solve_transposed(f.F, whitened) - f.V * by_diagonal.asDiagonal();
   const Matrix P = solve_transposed(f.L, by_V);
   const Matrix by_Kmm = product(P, solve_transposed(f.L, f.V).transpose());
   const Matrix mn = P.cwiseProduct(f.Kmn), mm = (by_Kmm + by_Kmm.transpose()).cwiseProduct(f.Kmm) / -2;

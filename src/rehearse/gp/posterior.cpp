@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/tiles.hpp"
 #include "rehearse/gp/compression.hpp"
 #include "rehearse/gp/evidence.hpp"
 #include "rehearse/gp/kernel.hpp"
 #include "rehearse/gp/prediction_kernel.hpp"
 #include "rehearse/gp/sizes.hpp"
-#include "rehearse/core/tiles.hpp"
 
 namespace rehearse::gp {
 namespace {

@@ -7,7 +7,8 @@
 
 namespace rehearse::optim {
 
-Covariance::Covariance(Index n, Root root) : root_(root), C_(Matrix::Identity(n, n)), A_(C_), projected_(n), next_(n, n) {
+Covariance::Covariance(Index n, Root root)
+    : root_(root), C_(Matrix::Identity(n, n)), A_(C_), projected_(n), next_(n, n) {
   if (root == Root::cholesky) return;
   B_ = C_;
   eigenvalues_ = Vector::Ones(n);

@@ -21,7 +21,8 @@ Factor factor(const Matrix& A) { return {A.data(), 1, A.rows()}; }
 
 // Sizes below, at and beyond the blocks of the kernel: 24 × 8 or 12 × 4 tiles, 120 rows, 256 inner, 512 columns.
 TEST(ProductKernel, IsAChainOfFusedMultiplyAdds) {
-  const Index sizes[][3] = {{1, 1, 1}, {24, 8, 3}, {25, 9, 256}, {12, 4, 257}, {121, 513, 40}, {250, 30, 600}, {5, 7, 0}};
+  const Index sizes[][3] = {{1, 1, 1},      {24, 8, 3},     {25, 9, 256}, {12, 4, 257},
+                            {121, 513, 40}, {250, 30, 600}, {5, 7, 0}};
   for (const auto& [m, n, k] : sizes) {
     const Matrix A = normals(m, k, 1), B = normals(k, n, 2), C = normals(m, n, 3);
     Matrix plus = C, minus = C;
