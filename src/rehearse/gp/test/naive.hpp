@@ -6,18 +6,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "rehearse/core/random.hpp"
+#include "rehearse/core/test/matrix_tools.hpp"
 #include "rehearse/gp/hyperparameters.hpp"
 
 namespace rehearse::gp::naive {
 
-inline Matrix normals(Index rows, Index columns, std::uint64_t seed) {
-  Rng rng({.seed = seed});
-  Matrix X(rows, columns);
-  for (Index j = 0; j < columns; ++j)
-    for (Index i = 0; i < rows; ++i) X(i, j) = rng.normal();
-  return X;
-}
+using rehearse::normals;
 
 inline Hyperparameters hyperparameters(Index dimensions, double length, double signal, double noise) {
   return {.log_lengths = Vector::LinSpaced(dimensions, std::log(length), std::log(2 * length)),
