@@ -10,7 +10,7 @@
 
 namespace rehearse {
 
-/// Of a matrix, a block of one, or the transpose of these.
+/// The factor that a matrix, a block of one, or the transpose of these is.
 template <class M>
 Factor factor(const M& A) {
   static_assert((M::Flags & Eigen::DirectAccessBit) != 0, "a factor of a product stands in memory");

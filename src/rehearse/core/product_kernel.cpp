@@ -135,7 +135,7 @@ HWY_INLINE void multiply(Part part, Size m, Size n, Size k, Factor A, Factor B, 
     for (Size p = 0; p == 0 || p < k; p += kInner) {  // C is scaled even where there is nothing to add
       const Size inner = std::min(kInner, k - p);
       pack(B.data + p * B.row + j * B.column, B.column, B.row, columns, inner, kColumns, b);
-      // Of a lower triangle nothing is above the block's first column.
+      // The rows above a block's first column have nothing in the lower triangle.
       for (Size i = part == Part::lower ? j / kRowBlock * kRowBlock : 0; i < m; i += kRowBlock) {
         const Size rows = std::min(kRowBlock, m - i);
         const Rows taken = take_rows({A.data + i * A.row + p * A.column, A.row, A.column}, rows, inner, n, a);

@@ -109,8 +109,7 @@ std::optional<Summary> summarise(const Matrix& C, double noise_ratio, const Cons
 
   summary.covariance = Matrix::Zero(r, r);
   add_product(summary.covariance, Sign::plus, inverse.transpose(), inverse, Part::lower);
-  summary.covariance.triangularView<Eigen::Lower>() *= noise_ratio;
-  add_product(summary.covariance, Sign::plus, L.topRows(r), L.topRows(r).transpose(), Part::lower);
+  add_product(summary.covariance, Sign::plus, L.topRows(r), L.topRows(r).transpose(), Part::lower, noise_ratio);
   summary.mean_error = std::sqrt(remaining_energy(*pivoted, noise_ratio, y, weights)) * (1 + std::sqrt(t));
   summary.points.assign(pivoted->order.begin(), pivoted->order.begin() + r);
   return summary;

@@ -104,7 +104,7 @@ void TrendGradientSumsKernel(const double* z, Size n, Size dimensions, const dou
   for (Size d = 0; d < dimensions; ++d) sums[d] = sum_of_eight(sums + 8 * d);
 }
 
-/// What kHeight vectors of rows of column c of a tile, the first beginning at row r, add to the sums. kDiagonal: only
+/// Adds to the sums kHeight vectors of rows of column c of a tile, the first beginning at row r. kDiagonal: only
 /// the rows below c count, of which the first vector begins at row r.
 template <int kHeight, bool kDiagonal>
 HWY_INLINE void add_to_sums(const double* rows, const double* point, Size dimensions, const double* b, double b_column,

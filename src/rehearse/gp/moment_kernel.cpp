@@ -85,7 +85,7 @@ struct Loops {
    public:
     HWY_INLINE explicit Sums(int D) : D_(D) { std::fill(memory_, memory_ + kWidest * (1 + D + D * D), 0.0); }
 
-    /// Of the points from i on, one a lane.
+    /// Adds the points from i on, one a lane.
     HWY_INLINE void add(Index i, const V* z, V g, bool second) {
       const Index place = place_in_eight(i);
       add_to(memory_ + place, g);

@@ -9,7 +9,7 @@
 namespace rehearse {
 namespace {
 
-/// What the header promises, entry by entry.
+/// The chain of the header, entry by entry.
 Matrix chain(Matrix C, double sign, const Matrix& A, const Matrix& B) {
   for (Index j = 0; j < C.cols(); ++j)
     for (Index i = 0; i < C.rows(); ++i)
