@@ -13,9 +13,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "rehearse/dynamics/learn.hpp"
 #include "rehearse/dynamics/servos.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/identification/learn.hpp"
 #include "rehearse/policy/gait.hpp"
 #include "rehearse/robots/hexapod/state.hpp"
 #include "rehearse/rollout/execute.hpp"
@@ -163,10 +163,10 @@ void print_identified(const std::vector<Index>& learned_from) {
       for (const Trial& trial : trials(robot, n, kToLearnFrom)) data.append(trial.episode);
       fmt::print("| {} | {} |", name, n);
       for (const bool servos : {true, false}) {
-        dynamics::GpMi kind;
+        identification::GpMi kind;
         kind.gp.servos = servos;
-        const auto learned =
-            dynamics::learn(data, robot.task.model_features(), robot.task.kinematics(), &prior, kind, {}, *evaluator);
+        const auto learned = identification::learn(data, robot.task.model_features(), robot.task.kinematics(), &prior,
+                                                   kind, {}, *evaluator);
         const auto leg = static_cast<Index>((*learned.state.phi)(0));
         fmt::print(" {} |", leg < 0 ? "none" : hexapod::kLegNames[static_cast<std::size_t>(leg)]);
       }
@@ -212,15 +212,15 @@ int main(int argc, char** argv) {
     Dataset data;
     for (const Trial& trial : trials(robot, n, kToLearnFrom)) data.append(trial.episode);
     const auto evaluator = make_thread_evaluator(2);
-    dynamics::FixedPrior kind;
+    identification::FixedPrior kind;
     const auto servos = std::make_shared<dynamics::Servos>(data, robot.task.model_features(),
                                                            robot.task.kinematics().servos, kind.gp, *evaluator);
     evaluate(fmt::format("behind servos of {} trials", n),
              dynamics::ServoModel(servos, std::make_shared<dynamics::SimulatorModel>(driven)), robot, unseen);
     for (const bool behind_servos : {true, false}) {
       kind.gp.servos = behind_servos;
-      const auto learned =
-          dynamics::learn(data, robot.task.model_features(), robot.task.kinematics(), &prior, kind, {}, *evaluator);
+      const auto learned = identification::learn(data, robot.task.model_features(), robot.task.kinematics(), &prior,
+                                                 kind, {}, *evaluator);
       evaluate(behind_servos ? "and with GPs" : "GPs alone", *learned.model, robot, unseen);
     }
   }

@@ -13,7 +13,7 @@
 #include "cpu_time.hpp"
 #include "episodes.hpp"
 #include "rehearse/core/processor.hpp"
-#include "rehearse/dynamics/learn.hpp"
+#include "rehearse/identification/learn.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
 namespace {
@@ -34,9 +34,9 @@ struct Problem {
     for (const auto& named : scenario.priors)
       if (named.name == prior_name) prior = prior::Prior{named.name, named.simulator, named.parameters};
   }
-  dynamics::Learned learn(const dynamics::Kind& kind, const Evaluator& evaluator) const {
-    return dynamics::learn(data, scenario.task.model_features(), scenario.task.kinematics(), prior ? &*prior : nullptr,
-                           kind, {}, evaluator);
+  identification::Learned learn(const identification::Kind& kind, const Evaluator& evaluator) const {
+    return identification::learn(data, scenario.task.model_features(), scenario.task.kinematics(),
+                                 prior ? &*prior : nullptr, kind, {}, evaluator);
   }
 
   scenario::Scenario scenario;
@@ -45,25 +45,25 @@ struct Problem {
 };
 
 /// The largest of the masses' and lengths' errors, as a fraction of the truth (0.5 each).
-double error_of(const dynamics::Learned& learned) {
+double error_of(const identification::Learned& learned) {
   return (learned.state.phi->head(4).array() - 0.5).abs().maxCoeff() / 0.5;
 }
 
 /// Learns once; the counters say what was reached.
-void learn(benchmark::State& state, const dynamics::Kind& kind, const char* prior, int threads) {
+void learn(benchmark::State& state, const identification::Kind& kind, const char* prior, int threads) {
   const Problem problem(prior, state.range(0), state.range(1) != 0, 1);
   const auto evaluator = make_thread_evaluator(threads);
-  dynamics::Learned learned;
+  identification::Learned learned;
   for (auto _ : state) learned = problem.learn(kind, *evaluator);
   state.counters["evidence"] = *learned.log_evidence;
-  if (!std::holds_alternative<dynamics::GpMi>(kind)) return;
+  if (!std::holds_alternative<identification::GpMi>(kind)) return;
   state.counters["evaluations"] = static_cast<double>(learned.evaluations);
   state.counters["error"] = error_of(learned);
 }
 
 /// Four kernels. 1: as by default; 0: as the authors, 300 iterations of Rprop from one start.
 void fit(benchmark::State& state) {
-  dynamics::ZeroMean kind;
+  identification::ZeroMean kind;
   kind.gp.tolerance = 0;  // of the prediction, which is not measured here
   kind.gp.fit.penalties = {};
   if (state.range(2) == 0) {
@@ -80,8 +80,8 @@ BENCHMARK(fit)
     ->Iterations(1)
     ->Unit(benchmark::kSecond);
 
-void gp_mi(benchmark::State& state, const char* prior, dynamics::PhiSearch search, int threads) {
-  dynamics::GpMi kind;
+void gp_mi(benchmark::State& state, const char* prior, identification::PhiSearch search, int threads) {
+  identification::GpMi kind;
   kind.search = search;
   learn(state, kind, prior, threads);
 }
@@ -91,10 +91,10 @@ struct Reached {
   double score, error, cpu_s;
 };
 
-Reached reach(const Problem& problem, dynamics::GpMi kind, dynamics::PhiSearch search) {
+Reached reach(const Problem& problem, identification::GpMi kind, identification::PhiSearch search) {
   kind.search = search;
   const double start = benchmarks::cpu_s();
-  const dynamics::Learned learned = problem.learn(kind, serial_evaluator());
+  const identification::Learned learned = problem.learn(kind, serial_evaluator());
   return {learned.score.value(), error_of(learned), benchmarks::cpu_s() - start};
 }
 
@@ -107,14 +107,14 @@ double median(std::vector<double> values) {
 /// median of how much higher it ends, the median of how many times faster it is, and errors of φ.
 void searches(benchmark::State& state, const char* prior) {
   constexpr int kSeeds = 5;
-  dynamics::GpMi kind;
-  kind.score = static_cast<dynamics::Score>(state.range(2));
+  identification::GpMi kind;
+  kind.score = static_cast<identification::Score>(state.range(2));
   std::vector<double> gains, speedups, errors, nested_errors;
   for (auto _ : state)
     for (int seed = 1; seed <= kSeeds; ++seed) {
       const Problem problem(prior, state.range(0), state.range(1) != 0, static_cast<std::uint64_t>(seed));
-      const Reached nested = reach(problem, kind, dynamics::PhiSearch::nested);
-      const Reached alternating = reach(problem, kind, dynamics::PhiSearch::alternating);
+      const Reached nested = reach(problem, kind, identification::PhiSearch::nested);
+      const Reached alternating = reach(problem, kind, identification::PhiSearch::alternating);
       gains.push_back(alternating.score - nested.score);
       speedups.push_back(nested.cpu_s / alternating.cpu_s);
       errors.push_back(alternating.error);
@@ -141,13 +141,13 @@ void register_searches() {
 void register_gp_mi() {
   const struct {
     const char* name;
-    dynamics::PhiSearch search;
+    identification::PhiSearch search;
     int threads;
     std::vector<std::int64_t> rows;
-  } cases[] = {{"alternating", dynamics::PhiSearch::alternating, 1, {50, 100, 200, 400, 800, 1300, 2000, 3000}},
-               {"alternating", dynamics::PhiSearch::alternating, 2, {200, 1300}},
-               {"nested", dynamics::PhiSearch::nested, 1, {50, 100, 200, 400}},
-               {"nested", dynamics::PhiSearch::nested, 2, {1300}}};
+  } cases[] = {{"alternating", identification::PhiSearch::alternating, 1, {50, 100, 200, 400, 800, 1300, 2000, 3000}},
+               {"alternating", identification::PhiSearch::alternating, 2, {200, 1300}},
+               {"nested", identification::PhiSearch::nested, 1, {50, 100, 200, 400}},
+               {"nested", identification::PhiSearch::nested, 2, {1300}}};
   for (const auto& c : cases)
     for (const char* prior : {"misleading", "partial"})
       benchmark::RegisterBenchmark(

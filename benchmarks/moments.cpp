@@ -14,8 +14,8 @@
 #include "rehearse/core/processor.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/gp/fit.hpp"
-#include "rehearse/gp/fitc.hpp"
 #include "rehearse/moments/expected_return.hpp"
+#include "rehearse/moments/fitc.hpp"
 #include "rehearse/policy/rbf.hpp"
 #include "rehearse/robots/cartpole/cartpole.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
@@ -42,25 +42,25 @@ scenario::Scenario make(const Case& c) {
 }
 
 /// The time does not depend on its values: what it leaves of the changes is as good as they are.
-std::vector<gp::MomentTerm> network(const scenario::Scenario& scenario, Index centres) {
+std::vector<moments::MomentTerm> network(const scenario::Scenario& scenario, Index centres) {
   const Dataset data = benchmarks::random_episodes(scenario, centres);
   const gp::Inputs inputs(dynamics::gp_inputs(scenario.task.feature_map(), data.states, data.actions));
   std::vector<gp::Hyperparameters> theta;
   for (Index e = 0; e < data.changes.cols(); ++e) theta.push_back(gp::default_start(inputs, data.changes.col(e), 1));
-  return gp::mean_terms(gp::Posterior(inputs, 0.01 * data.changes, theta));
+  return moments::mean_terms(gp::Posterior(inputs, 0.01 * data.changes, theta));
 }
 
-std::shared_ptr<const gp::MomentMatching> learn(const scenario::Scenario& scenario, const Case& c) {
+std::shared_ptr<const moments::MomentMatching> learn(const scenario::Scenario& scenario, const Case& c) {
   const Dataset data = benchmarks::random_episodes(scenario, c.rows);
   const Matrix F = dynamics::gp_inputs(scenario.task.feature_map(), data.states, data.actions);
   const gp::Inputs inputs(F);
   std::vector<gp::Hyperparameters> theta;
   for (Index e = 0; e < data.changes.cols(); ++e) theta.push_back(gp::default_start(inputs, data.changes.col(e), 1));
-  auto terms = c.inducing ? gp::fitc_terms(F, data.changes, F.topRows(c.inducing), theta)
-                          : gp::exact_terms({inputs, data.changes, theta});
+  auto terms = c.inducing ? moments::fitc_terms(F, data.changes, F.topRows(c.inducing), theta)
+                          : moments::exact_terms({inputs, data.changes, theta});
   if (c.network > 0)
-    for (gp::MomentTerm& term : network(scenario, c.network)) terms.push_back(std::move(term));
-  return std::make_shared<gp::MomentMatching>(std::move(terms), data.changes.cols());
+    for (moments::MomentTerm& term : network(scenario, c.network)) terms.push_back(std::move(term));
+  return std::make_shared<moments::MomentMatching>(std::move(terms), data.changes.cols());
 }
 
 std::shared_ptr<const policy::Policy> rbf(const Task& task, Index centres) {
@@ -79,7 +79,7 @@ Times time(const Case& c, int repetitions) {
   scenario::Scenario scenario = make(c);
   scenario.task.horizon = c.steps;
   const auto policy = rbf(scenario.task, c.centres);
-  const Gaussian start{scenario.task.start_mean, 0.01 * Matrix::Identity(4, 4)};
+  const moments::Gaussian start{scenario.task.start_mean, 0.01 * Matrix::Identity(4, 4)};
   const moments::ExpectedReturn expected(scenario.task, *policy, learn(scenario, c), start);
   Rng rng({.seed = 1});
   const Vector theta = Vector::NullaryExpr(policy->parameters(), [&] { return 0.5 * rng.normal(); });

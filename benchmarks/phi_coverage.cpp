@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "episodes.hpp"
-#include "rehearse/dynamics/learn.hpp"
+#include "rehearse/identification/learn.hpp"
 #include "rehearse/robots/cartpole/cartpole.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 #include "rehearse/statistics/quantiles.hpp"
@@ -61,7 +61,7 @@ struct Judged {
   double distance = 0;  // of the truth, squared, in the posterior's own metric: χ² with q degrees of freedom if right
 };
 
-Judged judge(const dynamics::PhiPosterior& posterior, const Vector& truth) {
+Judged judge(const identification::PhiPosterior& posterior, const Vector& truth) {
   const Vector error = truth - posterior.mean;
   const auto intervals = posterior.intervals();
   Judged judged{.distance = error.dot(posterior.covariance.llt().solve(error))};
@@ -85,19 +85,19 @@ Result measure(const Condition& condition, std::uint64_t seed) {
   const FeatureMap features = scenario.task.model_features();
   const Vector truth = scenario.oracle->parameters().values()(prior.space.of_kind(Parameter::Kind::continuous));
   const dynamics::Residuals residuals(data, features);
-  const dynamics::PhiPosteriorOptions classical{.misfit_observations = 1e12};
+  const identification::PhiPosteriorOptions classical{.misfit_observations = 1e12};
   const Evaluator& evaluator = serial_evaluator();
   if (condition.learner == "mi") {
-    const auto learned = dynamics::learn(data, features, {}, &prior, dynamics::Mi{}, {}, evaluator);
-    const auto other = dynamics::phi_posterior(residuals, prior, *learned.state.phi, classical, evaluator);
+    const auto learned = identification::learn(data, features, {}, &prior, identification::Mi{}, {}, evaluator);
+    const auto other = identification::phi_posterior(residuals, prior, *learned.state.phi, classical, evaluator);
     return {judge(learned.posterior.value(), truth), judge(other.value(), truth)};
   }
-  const dynamics::GpMi kind;
-  const auto learned = dynamics::learn(data, features, scenario.task.kinematics(), &prior, kind, {}, evaluator);
-  const dynamics::Estimation estimation{residuals, &prior, kind.score, kind.gp.fit, evaluator};
-  auto estimate = dynamics::unfitted(*learned.state.phi, residuals.scale().size(), learned.state.kernels);
-  estimate.score = *learned.score;
-  const auto other = dynamics::phi_posterior(estimation, estimate, classical);
+  const identification::GpMi kind;
+  const auto learned = identification::learn(data, features, scenario.task.kinematics(), &prior, kind, {}, evaluator);
+  const identification::FitProblem problem{residuals, &prior, kind.score, kind.gp.fit, evaluator};
+  auto fit = identification::unfitted(*learned.state.phi, residuals.scale().size(), learned.state.kernels);
+  fit.score = *learned.score;
+  const auto other = identification::phi_posterior(problem, fit, classical);
   return {judge(learned.posterior.value(), truth), judge(other.value(), truth)};
 }
 

@@ -35,7 +35,7 @@ struct Experience {
   std::vector<Vector> policies;
 };
 
-bd::Options options_of(dynamics::Kind kind, Index evaluations) {
+bd::Options options_of(identification::Kind kind, Index evaluations) {
   bd::Options options{.model = std::move(kind)};
   options.search.race.max_evaluations = evaluations;
   options.search.race.descents = 4;
@@ -43,7 +43,8 @@ bd::Options options_of(dynamics::Kind kind, Index evaluations) {
 }
 
 Experience learn_and_try(const scenario::Scenario& scenario, const std::optional<prior::Prior>& prior,
-                         const dynamics::Kind& kind, const Size& size, std::shared_ptr<const Evaluator> evaluator) {
+                         const identification::Kind& kind, const Size& size,
+                         std::shared_ptr<const Evaluator> evaluator) {
   const auto learner =
       bd::make({.task = scenario.task, .policy = scenario.policy, .prior = prior, .evaluator = std::move(evaluator)},
                options_of(kind, size.evaluations));
@@ -111,14 +112,14 @@ Timed predict(const gp::Posterior& posterior, const Matrix& F) {
 }
 
 std::shared_ptr<const dynamics::GpModel> model_of(const Experience& experience, const scenario::Scenario& scenario,
-                                                  const std::optional<prior::Prior>& prior, dynamics::Kind kind,
+                                                  const std::optional<prior::Prior>& prior, identification::Kind kind,
                                                   double tolerance, const Evaluator& evaluator) {
   const auto set = [&](auto& k) {
     if constexpr (requires { k.gp; }) k.gp.tolerance = tolerance;
   };
   std::visit(set, kind);
-  auto learned = dynamics::learn(experience.data, scenario.task.model_features(), scenario.task.kinematics(),
-                                 prior ? &*prior : nullptr, kind, {}, evaluator);
+  auto learned = identification::learn(experience.data, scenario.task.model_features(), scenario.task.kinematics(),
+                                       prior ? &*prior : nullptr, kind, {}, evaluator);
   return std::dynamic_pointer_cast<const dynamics::GpModel>(learned.model);
 }
 
@@ -180,7 +181,7 @@ int main(int argc, char** argv) {
   nlohmann::json rows = nlohmann::json::array();
   double error = 0;
   const auto examine = [&](const scenario::Scenario& scenario, const std::string& learner,
-                           const std::optional<prior::Prior>& prior, const dynamics::Kind& kind) {
+                           const std::optional<prior::Prior>& prior, const identification::Kind& kind) {
     const Experience experience = learn_and_try(scenario, prior, kind, size, evaluator);
     const auto exact = model_of(experience, scenario, prior, kind, 0, *evaluator);
     const auto few = model_of(experience, scenario, prior, kind, 0.01, *evaluator);
@@ -194,11 +195,11 @@ int main(int argc, char** argv) {
   for (const auto& builder : apps::catalogue().scenario_builders()) {
     const scenario::Scenario scenario = builder->build();
     if (!only.empty() && scenario.name != only) continue;
-    examine(scenario, "black-drops", {}, dynamics::ZeroMean());
+    examine(scenario, "black-drops", {}, identification::ZeroMean());
     for (const scenario::NamedPrior& named : scenario.priors) {
       const prior::Prior prior{named.name, named.simulator, named.parameters};
-      examine(scenario, "black-drops-prior", prior, dynamics::FixedPrior());
-      examine(scenario, "gp-mi", prior, dynamics::GpMi());
+      examine(scenario, "black-drops-prior", prior, identification::FixedPrior());
+      examine(scenario, "gp-mi", prior, identification::GpMi());
       if (quick) break;
     }
     if (quick) break;

@@ -1,16 +1,25 @@
-# rehearse_room(NAME [USES room...] [LINKS target...] [PRIVATE_LINKS target...])
+# rehearse_room(NAME [USES room...] [FOLDERS folder...] [LINKS target...] [PRIVATE_LINKS target...] [TEST_USES room...]
+#               [TEST_LINKS target...])
 #
 # Makes the folder it is called from a room: one static library rehearse_NAME (rehearse::NAME when installed) of its
-# *.cpp, and one test program of its test/*.cpp. USES is the room's row in the table of docs/architecture.md: a
-# source that includes a header of another room is an error at configure time, so the build enforces the direction.
+# *.cpp, those of FOLDERS included, and one test program of its test/*.cpp. USES is the room's row in the table of
+# docs/architecture.md, TEST_USES what its tests use beside that: a file that includes a header of another room is an
+# error at configure time, so the build enforces the direction.
 function(rehearse_room name)
-  cmake_parse_arguments(ROOM "" "" "USES;LINKS;PRIVATE_LINKS;TEST_LINKS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "USES;FOLDERS;LINKS;PRIVATE_LINKS;TEST_USES;TEST_LINKS" ${ARGN})
   string(REPLACE "/" "_" target ${name})
-  string(REGEX REPLACE "/.*" "" top ${name})
 
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   file(GLOB headers CONFIGURE_DEPENDS *.hpp *.h)
-  rehearse_check_includes(${name} ${top} "${ROOM_USES}" "${sources};${headers}")
+  foreach(folder IN LISTS ROOM_FOLDERS)
+    file(GLOB more_sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+    file(GLOB more_headers CONFIGURE_DEPENDS ${folder}/*.hpp)
+    list(APPEND sources ${more_sources})
+    list(APPEND all_headers ${more_headers})
+    install(FILES ${more_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rehearse/${name}/${folder})
+  endforeach()
+  list(APPEND all_headers ${headers})
+  rehearse_check_includes("${name}" "${ROOM_USES}" "${sources};${all_headers}")
 
   list(TRANSFORM ROOM_USES REPLACE "/" "_" OUTPUT_VARIABLE uses)
   list(TRANSFORM uses PREPEND rehearse_)
@@ -37,26 +46,41 @@ function(rehearse_room name)
   set_property(GLOBAL APPEND PROPERTY REHEARSE_ROOMS ${name})
 
   file(GLOB tests CONFIGURE_DEPENDS test/*.cpp)
+  file(GLOB test_headers CONFIGURE_DEPENDS test/*.hpp)
+  rehearse_check_includes("${name}" "${ROOM_USES};${ROOM_TEST_USES}" "${tests};${test_headers}")
   if(REHEARSE_TESTS AND tests)
     add_executable(test_${target} ${tests})
     # -O1: what is measured is in the libraries, and Eigen at -O3 takes the compiler minutes.
     target_compile_options(test_${target} PRIVATE $<$<CONFIG:Release>:-O1> -Wall -Wextra -Wpedantic -Wno-missing-field-initializers)
     target_compile_definitions(test_${target} PRIVATE TEST_DATA_DIR="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
-    list(TRANSFORM ROOM_TEST_LINKS PREPEND rehearse_)
-    target_link_libraries(test_${target} PRIVATE rehearse_${target} ${ROOM_TEST_LINKS} GTest::gtest GTest::gtest_main)
+    list(TRANSFORM ROOM_TEST_USES REPLACE "/" "_" OUTPUT_VARIABLE test_uses)
+    list(TRANSFORM test_uses PREPEND rehearse_)
+    target_link_libraries(test_${target} PRIVATE rehearse_${target} ${test_uses} ${ROOM_TEST_LINKS} GTest::gtest GTest::gtest_main)
     gtest_discover_tests(test_${target} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
   endif()
 endfunction()
 
-function(rehearse_check_includes name top uses files)
+# The room of a path below src/rehearse ("learners/pilco/model.hpp"): the innermost folder that calls itself one.
+function(rehearse_room_of path result)
+  set(rooms_folder ${PROJECT_SOURCE_DIR}/src/rehearse)
+  get_filename_component(folder ${path} DIRECTORY)
+  while(folder AND NOT EXISTS ${rooms_folder}/${folder}/CMakeLists.txt)
+    get_filename_component(folder "${folder}" DIRECTORY)
+  endwhile()
+  set(${result} "${folder}" PARENT_SCOPE)
+endfunction()
+
+# Stops unless these files include headers of the room `name` and of the rooms it uses alone.
+function(rehearse_check_includes name uses files)
   foreach(file IN LISTS files)
     if(NOT file)
       continue()
     endif()
     file(STRINGS ${file} includes REGEX "#include [\"<]rehearse/")
     foreach(line IN LISTS includes)
-      string(REGEX REPLACE ".*rehearse/([a-z_]+)/.*" "\\1" other "${line}")
-      if(NOT other STREQUAL top AND NOT other IN_LIST uses)
+      string(REGEX REPLACE ".*[\"<]rehearse/([^\">]*)[\">].*" "\\1" header "${line}")
+      rehearse_room_of(${header} other)
+      if(NOT other STREQUAL name AND NOT other IN_LIST uses)
         message(FATAL_ERROR "${file} includes a header of room '${other}', which room '${name}' may not use:\n  ${line}\n"
                             "Rooms and their direction: docs/architecture.md")
       endif()

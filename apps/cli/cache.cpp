@@ -3,10 +3,10 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/core/files.hpp"
 #include "rehearse/experiment/cache.hpp"
+#include "rehearse/files/checksum.hpp"
+#include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -34,8 +34,8 @@ fs::path own_folder() {
   if (folder.empty()) return {};
   try {
     experiment::prune_cache(experiment::cache_folders(folder));
-    const std::string program = read_file("/proc/self/exe", Links::follow);
-    return experiment::cache_folder_of(folder, checksum(program));
+    const std::string program = files::read_file("/proc/self/exe", files::Links::follow);
+    return experiment::cache_folder_of(folder, files::checksum(program));
   } catch (const InvalidInput&) {
     return {};
   }

@@ -10,22 +10,22 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
 #include "apps/cli/signals.hpp"
-#include "rehearse/core/files.hpp"
-#include "rehearse/experiment/campaign_claims.hpp"
+#include "rehearse/campaign/claims.hpp"
+#include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::apps {
 namespace {
 
-using experiment::Campaign, experiment::CampaignOptions, experiment::RunState;
+using campaign::Campaign, campaign::CampaignOptions, campaign::RunState;
 
 bool a_claim_failed(const Campaign& campaign) {
-  for (const experiment::ClaimResult& claim : experiment::judge(campaign))
-    if (claim.verdict == experiment::Verdict::fail) return true;
+  for (const campaign::ClaimResult& claim : campaign::judge(campaign))
+    if (claim.verdict == campaign::Verdict::fail) return true;
   return false;
 }
 
 /// "3/20"
-experiment::Share share_of(const std::optional<std::string>& text, Violations& violations) {
+campaign::Share share_of(const std::optional<std::string>& text, Violations& violations) {
   if (!text) return {};
   const std::size_t slash = text->find('/');
   std::array<Index, 2> numbers{};
@@ -57,13 +57,13 @@ void say_unfinished(const Campaign& campaign) {
 int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const Company& company) {
   Violations violations;
   const Index threads = threads_of(arguments.threads, violations);
-  const experiment::Share share = share_of(arguments.share, violations);
+  const campaign::Share share = share_of(arguments.share, violations);
   violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
   violations.require(share.of == 1 || !arguments.check_claims, "--check-claims needs all runs, --share does some");
   violations.throw_if_any();
-  const std::string text = read_file(arguments.file, Links::follow);
+  const std::string text = files::read_file(arguments.file, files::Links::follow);
   if (arguments.dry_run) {
-    const experiment::CampaignPlan plan = experiment::plan_campaign(catalogue, text, arguments.file);
+    const campaign::CampaignPlan plan = campaign::plan_campaign(catalogue, text, arguments.file);
     if (company.leads()) print_plan(plan);
     return kSuccess;
   }
@@ -72,13 +72,13 @@ int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& ar
   CampaignConsole console(folder, share);
   const auto run = [&] {
     const SignalWatch watch(last_words(company));
-    return experiment::run_campaign(catalogue, text, arguments.file, folder,
-                                    {.threads = company.threads(threads),
-                                     .listener = company.leads() ? &console : nullptr,
-                                     .stop = [] { return caught_signal() != 0; },
-                                     .share = share,
-                                     .cache = cache_folder,
-                                     .ranks = company.ranks.get()});
+    return campaign::run_campaign(catalogue, text, arguments.file, folder,
+                                  {.threads = company.threads(threads),
+                                   .listener = company.leads() ? &console : nullptr,
+                                   .stop = [] { return caught_signal() != 0; },
+                                   .share = share,
+                                   .cache = cache_folder,
+                                   .ranks = company.ranks.get()});
   };
   const Campaign done = run();
   if (!company.leads()) return kSuccess;

@@ -7,15 +7,14 @@
 #include <fmt/ranges.h>
 
 #include "apps/cli/complain.hpp"
-#include "rehearse/experiment/campaign_claims.hpp"
-#include "rehearse/experiment/campaign_summary.hpp"
+#include "rehearse/campaign/claims.hpp"
+#include "rehearse/campaign/summary.hpp"
 
 namespace rehearse::apps {
 namespace {
 
-using experiment::Campaign, experiment::CampaignGroup, experiment::ClaimPart, experiment::ClaimResult,
-    experiment::PartResult, experiment::RunOutcome, experiment::RunState, experiment::TrialStatistics,
-    experiment::Verdict;
+using campaign::Campaign, campaign::CampaignGroup, campaign::ClaimPart, campaign::ClaimResult, campaign::PartResult,
+    campaign::RunOutcome, campaign::RunState, campaign::TrialStatistics, campaign::Verdict;
 using Seconds = std::chrono::duration<double>;
 
 std::string counted(std::size_t number, const char* what) {
@@ -37,7 +36,7 @@ std::string outcome_text(const RunOutcome& outcome, Index trials) {
 }
 
 /// "3 of 3 (0.29 to 1)"
-std::string rate_text(const std::optional<experiment::SuccessRate>& rate) {
+std::string rate_text(const std::optional<campaign::SuccessRate>& rate) {
   if (!rate) return "-";
   return fmt::format("{} of {} ({:.2g} to {:.2g})", rate->count, rate->runs, rate->interval.low, rate->interval.high);
 }
@@ -77,7 +76,7 @@ void print_groups(const Campaign& campaign) {
                                                  fmt::format("return of trial {} (quartiles)", last),
                                                  "first solved at, by seed"}};
   for (std::size_t i = 0; i < campaign.plan.groups.size(); ++i) {
-    const std::vector<TrialStatistics> trials = experiment::trial_statistics(campaign, i);
+    const std::vector<TrialStatistics> trials = campaign::trial_statistics(campaign, i);
     const bool reached = !trials.empty() && trials.back().trial == last;
     const Index runs = reached ? trials.back().runs : 0;
     rows.push_back({label_of(campaign.plan.groups[i]), fmt::format("{}/{}", runs, campaign.plan.seeds.size()),
@@ -122,7 +121,7 @@ std::string part_text(const Campaign& campaign, const ClaimPart& part, const Par
 }
 
 void print_claims(const Campaign& campaign) {
-  const std::vector<ClaimResult> results = experiment::judge(campaign);
+  const std::vector<ClaimResult> results = campaign::judge(campaign);
   if (!results.empty()) fmt::print("\nClaims, with 95 % intervals\n");
   for (std::size_t i = 0; i < results.size(); ++i) {
     const auto& [claim, parts, missing] = campaign.plan.claims[i];
@@ -135,7 +134,7 @@ void print_claims(const Campaign& campaign) {
   }
 }
 
-std::string headline(const experiment::CampaignPlan& plan) {
+std::string headline(const campaign::CampaignPlan& plan) {
   return fmt::format("{}: {} ({} × {}) of {}{}", plan.title, counted(plan.runs.size(), "run"),
                      counted(plan.groups.size(), "group"), counted(plan.seeds.size(), "seed"),
                      plan.until_solved ? "up to " : "", counted(static_cast<std::size_t>(plan.trials), "trial"));
@@ -143,12 +142,12 @@ std::string headline(const experiment::CampaignPlan& plan) {
 
 }  // namespace
 
-void print_plan(const experiment::CampaignPlan& plan) {
+void print_plan(const campaign::CampaignPlan& plan) {
   fmt::print("{}\n", printable(headline(plan)));
   for (const CampaignGroup& group : plan.groups) fmt::print("  {}\n", printable(label_of(group)));
   for (const auto& [name, reason] : plan.missing) fmt::print("  missing: {}\n", reason);
   if (!plan.claims.empty()) fmt::print("Claims\n");
-  for (const experiment::PlannedClaim& claim : plan.claims) fmt::print("  {}\n", printable(claim.claim.text));
+  for (const campaign::PlannedClaim& claim : plan.claims) fmt::print("  {}\n", printable(claim.claim.text));
 }
 
 void CampaignConsole::started(const Campaign& campaign, Index at_once) {
@@ -220,7 +219,7 @@ void CampaignConsole::finished(const Campaign& campaign) {
 }
 
 std::string CampaignConsole::name_of(std::size_t run) const {
-  const experiment::PlannedRun& planned = plan_.runs[run];
+  const campaign::PlannedRun& planned = plan_.runs[run];
   return fmt::format("{} seed {}", label_of(plan_.groups[planned.group]), planned.spec.seed);
 }
 

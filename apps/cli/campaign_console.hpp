@@ -7,21 +7,21 @@
 #include <vector>
 
 #include "apps/cli/status_line.hpp"
-#include "rehearse/experiment/campaign.hpp"
+#include "rehearse/campaign/campaign.hpp"
 
 namespace rehearse::apps {
 
 /// Shows a campaign on standard output: one line a run that ends, and on a terminal a last line that is rewritten.
-class CampaignConsole final : public experiment::CampaignListener {
+class CampaignConsole final : public campaign::CampaignListener {
  public:
-  CampaignConsole(std::string folder, experiment::Share share) : folder_(std::move(folder)), share_(share) {}
-  void started(const experiment::Campaign& campaign, Index at_once) override;
+  CampaignConsole(std::string folder, campaign::Share share) : folder_(std::move(folder)), share_(share) {}
+  void started(const campaign::Campaign& campaign, Index at_once) override;
   void run_started(std::size_t run, Index done) override;
   void progress(std::size_t run, Index trial, const Progress& progress) override;
-  void run_ended(std::size_t run, const experiment::RunOutcome& outcome) override;
+  void run_ended(std::size_t run, const campaign::RunOutcome& outcome) override;
 
   /// The tables of results and claims, or of a share what failed.
-  void finished(const experiment::Campaign& campaign);
+  void finished(const campaign::Campaign& campaign);
   void clear_line() { line_.clear(); }
 
  private:
@@ -46,8 +46,8 @@ class CampaignConsole final : public experiment::CampaignListener {
 
   StatusLine line_;
   std::string folder_;
-  experiment::Share share_;
-  experiment::CampaignPlan plan_;
+  campaign::Share share_;
+  campaign::CampaignPlan plan_;
   Index at_once_ = 1;
   Index ended_ = 0;
   Index failed_ = 0;
@@ -57,6 +57,6 @@ class CampaignConsole final : public experiment::CampaignListener {
 };
 
 /// What a campaign would do.
-void print_plan(const experiment::CampaignPlan& plan);
+void print_plan(const campaign::CampaignPlan& plan);
 
 }  // namespace rehearse::apps

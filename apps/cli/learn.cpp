@@ -9,10 +9,10 @@
 #include "apps/cli/console.hpp"
 #include "apps/cli/signals.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/core/files.hpp"
 #include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/run.hpp"
 #include "rehearse/experiment/spec_file.hpp"
+#include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -53,7 +53,7 @@ std::optional<SpecFile> given_file(const LearnArguments& arguments, Violations& 
   };
   violations.require(!arguments.learner, given("--learner"));
   violations.require(!arguments.prior, given("--prior"));
-  return SpecFile(read_file(arguments.scenario, Links::follow), arguments.scenario);
+  return SpecFile(files::read_file(arguments.scenario, files::Links::follow), arguments.scenario);
 }
 
 Spec named_spec(const LearnArguments& arguments, Violations& violations) {

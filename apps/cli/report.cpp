@@ -8,7 +8,7 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/files.hpp"
+#include "rehearse/files/write.hpp"
 #include "rehearse/qd/archive_bytes.hpp"
 
 namespace rehearse::apps {
@@ -23,7 +23,7 @@ std::string page_template() {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& folder : {program, program.parent_path()}) {
     const fs::path page = folder / "share/rehearse/report.html";
-    if (fs::exists(page)) return read_file(page, Links::follow);
+    if (fs::exists(page)) return files::read_file(page, files::Links::follow);
   }
   const std::string build = fs::exists(program / "CMakeCache.txt") ? program.string() : "BUILD_FOLDER";
   throw InvalidInput(fmt::format(
@@ -35,7 +35,7 @@ void check_is_ours(const fs::path& path) {
   if (path.empty()) throw InvalidInput("--out needs the name of a file");
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return;
-  const bool page = fs::is_regular_file(path, ignored) && read_file(path).starts_with(kPageBegins);
+  const bool page = fs::is_regular_file(path, ignored) && files::read_file(path).starts_with(kPageBegins);
   if (!page)
     throw InvalidInput(fmt::format("{} is no page of Rehearse and is left as it is; --out FILE.html names another file",
                                    path.string()));
@@ -44,7 +44,7 @@ void check_is_ours(const fs::path& path) {
 void write(const fs::path& path, const std::string& page) {
   check_is_ours(path);
   try {
-    experiment::write_file(path, page);
+    files::write_file(path, page);
   } catch (const std::runtime_error& error) {
     throw InvalidInput(fmt::format("{}; --out FILE.html names another file", error.what()));
   }

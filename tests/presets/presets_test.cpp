@@ -8,8 +8,8 @@
 
 #include "apps/catalogue.hpp"
 #include "published.hpp"
-#include "rehearse/core/files.hpp"
 #include "rehearse/experiment/preset.hpp"
+#include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::presets {
 namespace {
@@ -50,18 +50,18 @@ std::map<std::string, std::string> by_key(const std::vector<FileOption>& options
 
 TEST(AsPublished, IsMadeFromWhatTheOptionsSay) {
   const std::string made = preset_text(published_options(apps::catalogue()));
-  std::string text = read_file(kPreset);
+  std::string text = files::read_file(kPreset);
   const std::size_t begin = after(text, kMadePart), end = text.find(kHandPart);
   ASSERT_NE(end, std::string::npos);
   if (updates()) write(kPreset, text.replace(begin, end - begin, made));
-  EXPECT_EQ(read_file(kPreset).substr(begin, made.size() + kHandPart.size()), made + kHandPart)
+  EXPECT_EQ(files::read_file(kPreset).substr(begin, made.size() + kHandPart.size()), made + kHandPart)
       << "scripts/published makes it anew";
 }
 
 /// Also where a scenario's defaults are others than the learner's.
 TEST(AsPublished, GivesEachRunWhatIsPublished) {
   const Catalogue catalogue = apps::catalogue();
-  const std::string text = read_file(kPreset);
+  const std::string text = files::read_file(kPreset);
   const Preset by_hand("format = 1\n" + text.substr(after(text, kHandPart)), "by hand");
   std::size_t checked = 0;
   for_all_runs(catalogue, [&](auto& scenario, auto& learner, const Spec& spec) {
@@ -101,13 +101,13 @@ TEST(Presets, FitTheRunsThatTheyName) {
 }
 
 TEST(Deviations, TableIsMadeFromWhatTheOptionsSay) {
-  const std::vector<Deviation> told = read_table(read_file(kPage));
+  const std::vector<Deviation> told = read_table(files::read_file(kPage));
   std::vector<Deviation> rows = deviations(published_options(apps::catalogue()));
   for (Deviation& row : rows)
     for (const Deviation& old : told)
       if (old.option == row.option && (row.why.empty() || old.of == row.of)) row.why = old.why;
-  if (updates()) write(kPage, with_table(read_file(kPage), rows));
-  const std::string page = read_file(kPage);
+  if (updates()) write(kPage, with_table(files::read_file(kPage), rows));
+  const std::string page = files::read_file(kPage);
   EXPECT_EQ(page, with_table(page, rows)) << "scripts/published makes it anew";
   for (const Deviation& row : rows) EXPECT_FALSE(row.why.empty()) << "docs/architecture.md: why " << row.option << "?";
 }

@@ -4,7 +4,6 @@
 #include <map>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/dynamics/estimate.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
 
 namespace rehearse::dynamics {

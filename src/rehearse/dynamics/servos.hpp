@@ -10,7 +10,7 @@
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/kinematics.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
-#include "rehearse/dynamics/learn.hpp"
+#include "rehearse/dynamics/gp_options.hpp"
 #include "rehearse/gp/posterior.hpp"
 
 namespace rehearse::dynamics {

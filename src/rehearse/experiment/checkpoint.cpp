@@ -1,7 +1,7 @@
 #include "rehearse/experiment/checkpoint.hpp"
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/seal.hpp"
+#include "rehearse/files/seal.hpp"
 #include "rehearse/learners/json.hpp"
 
 namespace rehearse::experiment {
@@ -119,11 +119,11 @@ std::string to_checkpoint(const History& history, std::uint64_t spec_fingerprint
                     {"learner", history.learner}};
   std::string body;
   json::to_cbor(all, body);
-  return seal(kKind, body);
+  return files::seal(kKind, body);
 }
 
 History from_checkpoint(std::string_view bytes, std::uint64_t spec_fingerprint) {
-  const std::string_view body = unseal(kKind, bytes);
+  const std::string_view body = files::unseal(kKind, bytes);
   try {
     const json all = json::from_cbor(body);
     if (all.at("spec").get<std::uint64_t>() != spec_fingerprint)

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/core/files.hpp"
-#include "rehearse/experiment/toml_reader.hpp"
+#include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -17,14 +17,14 @@ bool is_among(const std::string& name, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::vector<FileOption> options_in(const toml::table* table, FileViolations& violations) {
+std::vector<FileOption> options_in(const toml::table* table, files::FileViolations& violations) {
   std::vector<FileOption> options;
   if (!table) return options;
-  for (const auto& [key, node] : leaves(*table)) {
+  for (const auto& [key, node] : files::leaves(*table)) {
     try {
-      options.push_back({key, text_of(*node), line_of(*node)});
+      options.push_back({key, files::text_of(*node), files::line_of(*node)});
     } catch (const InvalidInput& error) {
-      violations.add(line_of(*node), fmt::format("{}: {}", key, error.what()));
+      violations.add(files::line_of(*node), fmt::format("{}: {}", key, error.what()));
     }
   }
   return options;
@@ -48,20 +48,20 @@ bool is_known(const Catalogue& catalogue, const std::string& name, bool there) {
 }  // namespace
 
 Preset::Preset(std::string_view text, std::string source) : source_(std::move(source)) {
-  const toml::table file = parse_toml(text, source_);
-  FileViolations violations(source_);
-  TomlReader reader(file, "", violations);
+  const toml::table file = files::parse_toml(text, source_);
+  files::FileViolations violations(source_);
+  files::TomlReader reader(file, "", violations);
   const toml::node* format = reader.take("format");
   if (!format || format->value<std::int64_t>() != kFormat)
-    violations.add(format ? line_of(*format) : 0, fmt::format("a preset begins with format = {}", kFormat));
+    violations.add(format ? files::line_of(*format) : 0, fmt::format("a preset begins with format = {}", kFormat));
   reader.take("title", title_);
   parts_.push_back({.options = options_in(reader.take_table("set"), violations)});
   const toml::node* parts = reader.take("for");
   if (parts && !parts->is_array_of_tables()) reader.wrong("for", "parts for some runs are written as [[for]]");
   if (parts && parts->is_array_of_tables())
     for (const toml::node& node : *parts->as_array()) {
-      TomlReader part(*node.as_table(), "[[for]]", violations);
-      Part& added = parts_.emplace_back(Part{.line = line_of(node)});
+      files::TomlReader part(*node.as_table(), "[[for]]", violations);
+      Part& added = parts_.emplace_back(Part{.line = files::line_of(node)});
       part.take("scenarios", added.scenarios);
       part.take("learners", added.learners);
       added.options = options_in(part.take_table("set"), violations);
@@ -85,10 +85,10 @@ std::vector<std::string> Preset::unknown_names(const Catalogue& catalogue) const
   for (const Part& part : parts_) {
     for (const std::string& name : part.scenarios)
       if (!is_known(catalogue, name, catalogue.scenario(name) != nullptr))
-        lines.push_back(in_file(source_, part.line, catalogue.why_missing("scenario", name)));
+        lines.push_back(files::in_file(source_, part.line, catalogue.why_missing("scenario", name)));
     for (const std::string& name : part.learners)
       if (!is_known(catalogue, name, catalogue.learner(name) != nullptr))
-        lines.push_back(in_file(source_, part.line, catalogue.why_missing("learner", name)));
+        lines.push_back(files::in_file(source_, part.line, catalogue.why_missing("learner", name)));
   }
   return lines;
 }
@@ -97,8 +97,8 @@ std::vector<std::string> Preset::violations(const Catalogue& catalogue, const Sp
   std::vector<std::string> lines = unknown_names(catalogue);
   const std::vector<FileOption> own = options(spec.scenario, spec.learner);
   if (own.empty() && lines.empty())
-    lines.push_back(
-        in_file(source_, 0, fmt::format("nothing is set for learner {} on scenario {}", spec.learner, spec.scenario)));
+    lines.push_back(files::in_file(
+        source_, 0, fmt::format("nothing is set for learner {} on scenario {}", spec.learner, spec.scenario)));
   const std::vector<std::string> before = said_of(catalogue, spec);
   for (const std::string& violation : said_of(catalogue, with_options(spec, own))) {
     if (is_among(violation, before)) continue;
@@ -106,14 +106,14 @@ std::vector<std::string> Preset::violations(const Catalogue& catalogue, const Sp
       return is_among(violation, said_of(catalogue, with_options(spec, {option})));
     };
     const auto option = std::find_if(own.begin(), own.end(), causes);
-    lines.push_back(in_file(source_, option == own.end() ? 0 : option->line,
-                            fmt::format("{} (learner {} on {})", violation, spec.learner, spec.scenario)));
+    lines.push_back(files::in_file(source_, option == own.end() ? 0 : option->line,
+                                   fmt::format("{} (learner {} on {})", violation, spec.learner, spec.scenario)));
   }
   return lines;
 }
 
 Preset find_preset(const Catalogue& catalogue, const std::string& name_or_file) {
-  if (name_or_file.ends_with(".toml")) return {read_file(name_or_file, Links::follow), name_or_file};
+  if (name_or_file.ends_with(".toml")) return {files::read_file(name_or_file, files::Links::follow), name_or_file};
   std::vector<std::string> known;
   for (const NamedText& preset : catalogue.presets) {
     if (preset.name == name_or_file) return {preset.text, fmt::format("presets/{}.toml", preset.name)};

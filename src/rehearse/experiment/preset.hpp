@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rehearse/experiment/blame.hpp"
+#include "rehearse/experiment/location.hpp"
 
 namespace rehearse::experiment {
 

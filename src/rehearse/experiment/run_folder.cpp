@@ -24,18 +24,18 @@ std::string already_exists(const fs::path& path) {
 
 }  // namespace
 
-RunFolder::RunFolder(fs::path path, Spec spec, FolderLock lock)
+RunFolder::RunFolder(fs::path path, Spec spec, files::FolderLock lock)
     : path_(std::move(path)), spec_(std::move(spec)), lock_(std::move(lock)) {}
 
 RunFolder RunFolder::create(const fs::path& given, const Spec& spec) {
-  const fs::path path = without_slash(given);
+  const fs::path path = files::without_slash(given);
   if (fs::exists(fs::symlink_status(path))) throw InvalidInput(already_exists(path));
   const fs::path unborn = make_unborn(path);
   try {
-    FolderLock lock(unborn);
-    write_file(unborn / kSpec, to_toml(spec), Durability::power);
-    write_file(unborn / kCheckpoint, to_checkpoint({}, fingerprint(spec)), Durability::power);
-    if (!rename_new(unborn, path)) throw InvalidInput(already_exists(path));
+    files::FolderLock lock(unborn);
+    files::write_file(unborn / kSpec, to_toml(spec), files::Durability::power);
+    files::write_file(unborn / kCheckpoint, to_checkpoint({}, fingerprint(spec)), files::Durability::power);
+    if (!files::rename_new(unborn, path)) throw InvalidInput(already_exists(path));
     return {path, spec, std::move(lock)};
   } catch (...) {
     std::error_code ignored;
@@ -45,14 +45,14 @@ RunFolder RunFolder::create(const fs::path& given, const Spec& spec) {
 }
 
 RunFolder RunFolder::open(const fs::path& given) {
-  const fs::path path = without_slash(given);
+  const fs::path path = files::without_slash(given);
   if (!fs::is_directory(path)) throw InvalidInput(fmt::format("{} is not a folder", path.string()));
   for (const char* file : {kSpec, kCheckpoint})
     if (!fs::exists(path / file))
       throw InvalidInput(fmt::format("{} is not a run folder: it has no {}", path.string(), file));
-  FolderLock lock(path);
+  files::FolderLock lock(path);
   const fs::path spec = path / kSpec;
-  return {path, from_toml(read_file(spec), spec.string()), std::move(lock)};
+  return {path, from_toml(files::read_file(spec), spec.string()), std::move(lock)};
 }
 
 void RunFolder::change_end(Until until) {
@@ -60,54 +60,54 @@ void RunFolder::change_end(Until until) {
   spec_.trials = until.trials;
   spec_.until_solved = until.solved;
   mark_unfinished();
-  write_file(path_ / kSpec, to_toml(spec_), Durability::power);
+  files::write_file(path_ / kSpec, to_toml(spec_), files::Durability::power);
 }
 
 History RunFolder::load() const {
   try {
-    return from_checkpoint(read_file(path_ / kCheckpoint), fingerprint(spec_));
+    return from_checkpoint(files::read_file(path_ / kCheckpoint), fingerprint(spec_));
   } catch (const InvalidInput& error) {
     throw InvalidInput(fmt::format("{}: {}", path_.string(), error.what()));
   }
 }
 
 void RunFolder::write_checkpoint(const History& history) const {
-  write_file(path_ / kCheckpoint, to_checkpoint(history, fingerprint(spec_)), Durability::power);
+  files::write_file(path_ / kCheckpoint, to_checkpoint(history, fingerprint(spec_)), files::Durability::power);
 }
 
 void RunFolder::write_tables(const History& history, const Resolved& resolved) const {
-  write_file(path_ / "trials.csv",
-             trials_csv(history.trials, tunable_names(resolved.prior), resolved.scenario.evaluations > 0));
-  write_file(path_ / "timings.csv", timings_csv(history.trials));
-  write_file(path_ / "errors.csv", errors_csv(history.trials, resolved.scenario.task));
-  write_file(path_ / "doubts.csv", doubts_csv(history.trials));
-  write_file(path_ / "notes.csv", notes_csv(history.trials));
-  write_file(path_ / "policy.json", policies_json(history.trials, resolved));
+  files::write_file(path_ / "trials.csv",
+                    trials_csv(history.trials, tunable_names(resolved.prior), resolved.scenario.evaluations > 0));
+  files::write_file(path_ / "timings.csv", timings_csv(history.trials));
+  files::write_file(path_ / "errors.csv", errors_csv(history.trials, resolved.scenario.task));
+  files::write_file(path_ / "doubts.csv", doubts_csv(history.trials));
+  files::write_file(path_ / "notes.csv", notes_csv(history.trials));
+  files::write_file(path_ / "policy.json", policies_json(history.trials, resolved));
 }
 
 void RunFolder::write_prediction(Index trial, const std::string& csv) const {
-  write_file(trial_file(path_ / "predictions", trial), csv);
+  files::write_file(trial_file(path_ / "predictions", trial), csv);
 }
 
 void RunFolder::write_trajectory(Index trial, const std::string& csv) const {
-  write_file(trial_file(path_ / "trajectories", trial), csv);
+  files::write_file(trial_file(path_ / "trajectories", trial), csv);
 }
 
 void RunFolder::write_motion(const char* kind, Index trial, const std::string& json) const {
   fs::create_directories(path_ / "motion");  // a scenario that cannot be drawn has none
-  write_file(path_ / "motion" / fmt::format("{}-{:03}.json", kind, trial), json);
+  files::write_file(path_ / "motion" / fmt::format("{}-{:03}.json", kind, trial), json);
 }
 
 void RunFolder::write_archive(const std::string& bytes) const {
   const fs::path path = path_ / "archive.bin";
-  if (!holds(path, bytes)) write_file(path, bytes);
+  if (!files::holds(path, bytes)) files::write_file(path, bytes);
 }
 
 void RunFolder::write_learners_table(const learners::Table& table) const {
-  write_file(path_ / (table.name + ".csv"), learners_csv(table));
+  files::write_file(path_ / (table.name + ".csv"), learners_csv(table));
 }
 
-void RunFolder::mark_done(Index trials) const { write_file(path_ / kDone, fmt::format("{} trials\n", trials)); }
+void RunFolder::mark_done(Index trials) const { files::write_file(path_ / kDone, fmt::format("{} trials\n", trials)); }
 
 void RunFolder::mark_unfinished() const { fs::remove(path_ / kDone); }
 

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "rehearse/experiment/files.hpp"
 #include "rehearse/experiment/record.hpp"
 #include "rehearse/experiment/spec.hpp"
+#include "rehearse/files/write.hpp"
 #include "rehearse/learners/learner.hpp"
 
 namespace rehearse::experiment {
@@ -51,11 +51,11 @@ class RunFolder {
   void mark_unfinished() const;
 
  private:
-  RunFolder(std::filesystem::path path, Spec spec, FolderLock lock);
+  RunFolder(std::filesystem::path path, Spec spec, files::FolderLock lock);
 
   std::filesystem::path path_;
   Spec spec_;
-  FolderLock lock_;
+  files::FolderLock lock_;
 };
 
 }  // namespace rehearse::experiment

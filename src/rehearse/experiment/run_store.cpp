@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/cache.hpp"
-#include "rehearse/experiment/files.hpp"
-#include "rehearse/experiment/seal.hpp"
 #include "rehearse/experiment/spec_file.hpp"
+#include "rehearse/files/checksum.hpp"
+#include "rehearse/files/seal.hpp"
+#include "rehearse/files/write.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -26,8 +26,8 @@ std::string owner_of(Spec spec) {
 std::optional<std::string> read_kept(const fs::path& path, const std::string& owner) {
   if (path.empty() || !fs::exists(path)) return {};
   try {
-    const std::string bytes = read_file(path);
-    const std::string_view body = unseal(kKind, bytes);
+    const std::string bytes = files::read_file(path);
+    const std::string_view body = files::unseal(kKind, bytes);
     if (!body.starts_with(owner + '\0')) return {};
     return std::string(body.substr(owner.size() + 1));
   } catch (const InvalidInput&) {  // a damaged one
@@ -38,7 +38,7 @@ std::optional<std::string> read_kept(const fs::path& path, const std::string& ow
 void write_cached(const fs::path& path, const std::string& bytes) {
   try {
     fs::create_directories(path.parent_path());
-    write_shared_file(path, bytes);
+    files::write_shared_file(path, bytes);
     prune_cache({path.parent_path()});
   } catch (const std::exception&) {  // a run does not depend on its cache
   }
@@ -56,7 +56,7 @@ fs::path RunStore::kept(const std::string& name) const {
 fs::path RunStore::cached(const std::string& name) {
   if (!cache_folder_) cache_folder_ = cache_ ? cache_() : fs::path();
   if (cache_folder_->empty()) return {};
-  return *cache_folder_ / cache_entry(name, checksum(owner_));
+  return *cache_folder_ / cache_entry(name, files::checksum(owner_));
 }
 
 std::optional<std::string> RunStore::read(const std::string& name) {
@@ -71,10 +71,10 @@ std::optional<std::string> RunStore::read(const std::string& name) {
 
 void RunStore::write(const std::string& name, const std::string& bytes) {
   evaluator_->once(fmt::format("keep {} {}", name, ++steps_), [&] {
-    const std::string sealed = seal(kKind, owner_ + '\0' + bytes);
+    const std::string sealed = files::seal(kKind, owner_ + '\0' + bytes);
     if (const fs::path path = kept(name); !path.empty()) {
       fs::create_directories(path.parent_path());
-      write_file(path, sealed, Durability::power);
+      files::write_file(path, sealed, files::Durability::power);
     }
     if (const fs::path path = cached(name); !path.empty()) write_cached(path, sealed);
     return std::string();

@@ -7,7 +7,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/priors.hpp"
-#include "rehearse/experiment/toml_reader.hpp"
+#include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -87,7 +87,7 @@ class Resolver {
         if (!set_named(option.key, option.text))
           throw InvalidInput(unknown_option(option.key, options_like(option.key)));
       } catch (const InvalidInput& error) {
-        violations_.add(in_file(preset.source(), option.line, error.what()));
+        violations_.add(files::in_file(preset.source(), option.line, error.what()));
       }
     }
   }

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/core/checksum.hpp"
-#include "rehearse/experiment/files.hpp"
-#include "rehearse/experiment/toml_reader.hpp"
+#include "rehearse/files/checksum.hpp"
+#include "rehearse/files/toml_reader.hpp"
+#include "rehearse/files/write.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -32,7 +32,7 @@ std::string in_quotes(std::string_view text) {
 std::string value(const std::string& text) {
   try {
     const toml::table parsed = toml::parse("v = " + text);
-    if (parsed.size() == 1 && !parsed["v"].is_string() && text_of(*parsed.get("v")) == text) return text;
+    if (parsed.size() == 1 && !parsed["v"].is_string() && files::text_of(*parsed.get("v")) == text) return text;
   } catch (const std::runtime_error&) {  // no TOML value: quoted
   }
   return in_quotes(text);
@@ -67,7 +67,7 @@ void check_format(const toml::table& file, const std::string& source) {
                                    format, kFormat));
 }
 
-void read_run(TomlReader run, Spec& spec) {
+void read_run(files::TomlReader run, Spec& spec) {
   run.take("scenario", spec.scenario);
   run.take("learner", spec.learner);
   run.take("prior", spec.prior);
@@ -75,17 +75,18 @@ void read_run(TomlReader run, Spec& spec) {
   run.finish();
 }
 
-std::vector<FileOption> read_options(const toml::table& file, TomlReader& reader, FileViolations& violations) {
+std::vector<FileOption> read_options(const toml::table& file, files::TomlReader& reader,
+                                     files::FileViolations& violations) {
   std::vector<FileOption> options;
   for (const std::string_view section : kSections) reader.take_table(std::string(section));
-  for (const auto& [key, node] : leaves(file)) {
+  for (const auto& [key, node] : files::leaves(file)) {
     const std::string_view section = std::string_view(key).substr(0, key.find('.'));
     if (section.size() == key.size() || std::find(kSections.begin(), kSections.end(), section) == kSections.end())
       continue;
     try {
-      options.push_back({key, text_of(*node), line_of(*node)});
+      options.push_back({key, files::text_of(*node), files::line_of(*node)});
     } catch (const InvalidInput& error) {
-      violations.add(line_of(*node), error.what());
+      violations.add(files::line_of(*node), error.what());
     }
   }
   return options;
@@ -106,15 +107,15 @@ std::string to_toml(const Spec& spec) {
 }
 
 SpecFile::SpecFile(std::string_view text, const std::string& source) : source_(source) {
-  const toml::table file = parse_toml(text, source);
+  const toml::table file = files::parse_toml(text, source);
   check_format(file, source);
-  FileViolations violations(source);
-  TomlReader reader(file, "", violations);
+  files::FileViolations violations(source);
+  files::TomlReader reader(file, "", violations);
   reader.take("format");
   const toml::table& run = *reader.take_table("run");
-  read_run(TomlReader(run, "[run]", violations), bare_);
-  run_lines_[""] = line_of(run);
-  for (const auto& [key, node] : run) run_lines_[std::string(key.str())] = line_of(node);
+  read_run(files::TomlReader(run, "[run]", violations), bare_);
+  run_lines_[""] = files::line_of(run);
+  for (const auto& [key, node] : run) run_lines_[std::string(key.str())] = files::line_of(node);
   options_ = read_options(file, reader, violations);
   reader.finish();
   violations.throw_if_any();
@@ -128,7 +129,7 @@ std::string SpecFile::located(const Catalogue& catalogue, const std::string& vio
     line = line_of_names(violation);
   else if (const FileOption* option = cause(catalogue, bare_, options_, violation))
     line = option->line;
-  return in_file(source_, line, violation);
+  return files::in_file(source_, line, violation);
 }
 
 /// That of the name which is quoted, or of [run].
@@ -146,7 +147,7 @@ Spec from_toml(std::string_view text, const std::string& source_name) { return S
 std::uint64_t fingerprint(Spec spec) {
   spec.trials = 0;
   spec.until_solved = false;
-  return checksum(to_toml(spec));
+  return files::checksum(to_toml(spec));
 }
 
 }  // namespace rehearse::experiment

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/experiment/csv.hpp"
 #include "rehearse/experiment/forecast.hpp"
+#include "rehearse/files/csv.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -25,16 +25,16 @@ void add_states(Row& header, const Task& task, const std::string& format) {
 
 template <class RowOfMatrix>
 void add_numbers(Row& row, const RowOfMatrix& numbers) {
-  for (Index i = 0; i < numbers.size(); ++i) row.push_back(Csv::cell(double{numbers(i)}));
+  for (Index i = 0; i < numbers.size(); ++i) row.push_back(files::Csv::cell(double{numbers(i)}));
 }
 
 /// Three cells a parameter: its value and the ends of its interval.
 void add_parameters(Row& row, const TrialRecord& trial) {
   for (std::size_t i = 0; i < trial.phi.size(); ++i) {
-    row.push_back(Csv::cell(trial.phi[i]));
+    row.push_back(files::Csv::cell(trial.phi[i]));
     const auto interval = i < trial.phi_intervals.size() ? trial.phi_intervals[i] : std::nullopt;
-    row.push_back(interval ? Csv::cell(interval->low) : "");
-    row.push_back(interval ? Csv::cell(interval->high) : "");
+    row.push_back(interval ? files::Csv::cell(interval->low) : "");
+    row.push_back(interval ? files::Csv::cell(interval->high) : "");
   }
 }
 
@@ -76,17 +76,17 @@ std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector
   if (evaluated) header.push_back("expected_return");
   for (const std::string& name : phi_names)
     for (const char* end : {"", ".low", ".high"}) header.push_back("phi." + name + end);
-  Csv csv(header);
+  files::Csv csv(header);
   for (const TrialRecord& t : trials) {
-    Row row = {Csv::cell(t.trial),
-               Csv::cell(t.interaction_s),
-               Csv::cell(t.total_reward),
-               Csv::cell(as_number(t.solved)),
-               Csv::cell(t.predicted_return),
-               Csv::cell(t.rollouts),
-               Csv::cell(t.failed_rollouts),
-               Csv::cell(t.log_evidence)};
-    if (evaluated) row.push_back(Csv::cell(t.expected_return));
+    Row row = {files::Csv::cell(t.trial),
+               files::Csv::cell(t.interaction_s),
+               files::Csv::cell(t.total_reward),
+               files::Csv::cell(as_number(t.solved)),
+               files::Csv::cell(t.predicted_return),
+               files::Csv::cell(t.rollouts),
+               files::Csv::cell(t.failed_rollouts),
+               files::Csv::cell(t.log_evidence)};
+    if (evaluated) row.push_back(files::Csv::cell(t.expected_return));
     add_parameters(row, t);
     row.resize(header.size());
     csv.row(row);
@@ -95,10 +95,11 @@ std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector
 }
 
 std::string timings_csv(const std::vector<TrialRecord>& trials) {
-  Csv csv({"trial", "model_s", "search_s", "rollouts_per_s"});
+  files::Csv csv({"trial", "model_s", "search_s", "rollouts_per_s"});
   for (const TrialRecord& t : trials) {
     const double per_s = t.search_s > 0 ? static_cast<double>(t.rollouts) / t.search_s : std::nan("");
-    csv.row({Csv::cell(t.trial), Csv::cell(t.model_s), Csv::cell(t.search_s), Csv::cell(per_s)});
+    csv.row({files::Csv::cell(t.trial), files::Csv::cell(t.model_s), files::Csv::cell(t.search_s),
+             files::Csv::cell(per_s)});
   }
   return csv.text();
 }
@@ -106,10 +107,11 @@ std::string timings_csv(const std::vector<TrialRecord>& trials) {
 std::string errors_csv(const std::vector<TrialRecord>& trials, const Task& task) {
   Row header = {"trial", "horizon", "compared", "failed"};
   add_states(header, task, "rms {}");
-  Csv csv(header);
+  files::Csv csv(header);
   for (const TrialRecord& t : trials)
     for (const ForecastError& error : t.forecast) {
-      Row row = {Csv::cell(t.trial), Csv::cell(error.horizon), Csv::cell(error.compared), Csv::cell(error.failed)};
+      Row row = {files::Csv::cell(t.trial), files::Csv::cell(error.horizon), files::Csv::cell(error.compared),
+                 files::Csv::cell(error.failed)};
       add_numbers(row, error.rms);
       csv.row(row);
     }
@@ -117,20 +119,20 @@ std::string errors_csv(const std::vector<TrialRecord>& trials, const Task& task)
 }
 
 std::string notes_csv(const std::vector<TrialRecord>& trials) {
-  Csv csv({"trial", "note"});
+  files::Csv csv({"trial", "note"});
   for (const TrialRecord& t : trials) {
-    for (const std::string& note : t.notes) csv.row({Csv::cell(t.trial), note});
+    for (const std::string& note : t.notes) csv.row({files::Csv::cell(t.trial), note});
     if (t.left_out_rows > 0)
-      csv.row({Csv::cell(t.trial),
+      csv.row({files::Csv::cell(t.trial),
                fmt::format("{} training rows left out: the prior's prediction was not finite", t.left_out_rows)});
   }
   return csv.text();
 }
 
 std::string doubts_csv(const std::vector<TrialRecord>& trials) {
-  Csv csv({"trial", "doubt"});
+  files::Csv csv({"trial", "doubt"});
   for (const TrialRecord& t : trials)
-    for (const std::string& doubt : t.doubts) csv.row({Csv::cell(t.trial), doubt});
+    for (const std::string& doubt : t.doubts) csv.row({files::Csv::cell(t.trial), doubt});
   return csv.text();
 }
 
@@ -150,7 +152,7 @@ std::string policies_json(const std::vector<TrialRecord>& trials, const Resolved
 }
 
 std::string learners_csv(const learners::Table& table) {
-  Csv csv(table.columns);
+  files::Csv csv(table.columns);
   for (Index i = 0; i < table.rows.rows(); ++i) {
     Row row;
     add_numbers(row, table.rows.row(i));
@@ -165,16 +167,16 @@ std::string trajectory_csv(const Task& task, const Episode& episode) {
   add_states(header, task, "true {}");
   for (const ActionVariable& action : task.actions) header.push_back(titled(action.name, action.unit));
   header.push_back("reward");
-  Csv csv(header);
+  files::Csv csv(header);
   for (Index t = 0; t <= episode.steps(); ++t) {
-    Row row = {Csv::cell(seconds(static_cast<Index>(t), task.dt_s))};
+    Row row = {files::Csv::cell(seconds(static_cast<Index>(t), task.dt_s))};
     add_numbers(row, episode.states.row(t));
     add_numbers(row, episode.true_states.row(t));
     if (t < episode.steps())
       add_numbers(row, episode.actions.row(t));
     else
       row.resize(row.size() + task.actions.size());
-    row.push_back(t > 0 ? Csv::cell(episode.rewards(t - 1)) : "");
+    row.push_back(t > 0 ? files::Csv::cell(episode.rewards(t - 1)) : "");
     csv.row(row);
   }
   return csv.text();
@@ -186,11 +188,11 @@ std::string prediction_csv(const Task& task, const rollout::Recorded& recorded, 
   for (const std::string format : {"{} mean", "{} 5%", "{} 25%", "{} 50%", "{} 75%", "{} 95%"})
     add_states(header, task, format);
   if (moments) add_moments_header(header, task);
-  Csv csv(header);
+  files::Csv csv(header);
   for (std::size_t t = 0; t < recorded.states.size(); ++t) {
     const Matrix& states = recorded.states[t];
     const Index going = (states.col(0).array() == states.col(0).array()).count();  // the others are NaN
-    Row row = {Csv::cell(seconds(static_cast<Index>(t), task.dt_s)), Csv::cell(going)};
+    Row row = {files::Csv::cell(seconds(static_cast<Index>(t), task.dt_s)), files::Csv::cell(going)};
     add_numbers(row, mean_of_finite(states));
     for (double fraction : kFractions) add_numbers(row, quantiles(states, fraction));
     if (moments) add_moments(row, recorded, *moments, static_cast<Index>(t));

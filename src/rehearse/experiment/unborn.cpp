@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/files.hpp"
+#include "rehearse/files/write.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -47,7 +47,7 @@ void remove_if_abandoned(const fs::directory_entry& entry, const std::string& ow
   const auto name = name_of_unborn(entry.path().filename().string());
   if (!name || !fs::is_directory(entry.symlink_status()) || is_alive(entry.path())) return;
   if (!has_a_beginning(entry.path()) || (*name != own_name && fs::is_empty(entry.path()))) return;
-  const FolderLock lock(entry.path());
+  const files::FolderLock lock(entry.path());
   fs::remove_all(entry.path());
 }
 

@@ -16,7 +16,7 @@
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
-#include "rehearse/dynamics/phi_posterior.hpp"
+#include "rehearse/identification/phi_posterior.hpp"
 #include "rehearse/learners/store.hpp"
 #include "rehearse/policy/policy.hpp"
 #include "rehearse/prior/prior.hpp"
@@ -28,19 +28,19 @@ struct Proposal {
   std::shared_ptr<const policy::Policy> policy;  // whose parameters theta are: mostly the setting's
   Vector theta;
   std::optional<double> predicted_return;
-  Index rollouts = 0;                                    // imagined to choose this policy
-  Index failed_rollouts = 0;                             // of these, ended by a failed simulation
-  std::optional<double> log_evidence;                    // of the data under the model
-  std::optional<Vector> phi;                             // of the prior, in the order of its space
-  std::optional<dynamics::PhiPosterior> posterior;       // of its continuous parameters, where it was learned
-  std::shared_ptr<const dynamics::DynamicsModel> model;  // that predicted the return; null before there is one
-  std::function<ExpectedEpisode()> moments;              // what that model expects of the policy from the task's start,
-                                                         // by moment matching; empty: it has no analytic moments
-  Index left_out_rows = 0;                               // training rows whose prior mean was not finite
-  std::vector<std::string> notes;                        // numerical failures survived, a line each
-  std::shared_ptr<const std::string> archive;            // of elites, as bytes (qd/archive_bytes.hpp)
-  double model_s = 0;                                    // time spent learning the model
-  double search_s = 0;                                   // and searching the policy
+  Index rollouts = 0;                                     // imagined to choose this policy
+  Index failed_rollouts = 0;                              // of these, ended by a failed simulation
+  std::optional<double> log_evidence;                     // of the data under the model
+  std::optional<Vector> phi;                              // of the prior, in the order of its space
+  std::optional<identification::PhiPosterior> posterior;  // of its continuous parameters, where it was learned
+  std::shared_ptr<const dynamics::DynamicsModel> model;   // that predicted the return; null before there is one
+  std::function<ExpectedEpisode()> moments;    // what that model expects of the policy from the task's start,
+                                               // by moment matching; empty: it has no analytic moments
+  Index left_out_rows = 0;                     // training rows whose prior mean was not finite
+  std::vector<std::string> notes;              // numerical failures survived, a line each
+  std::shared_ptr<const std::string> archive;  // of elites, as bytes (qd/archive_bytes.hpp)
+  double model_s = 0;                          // time spent learning the model
+  double search_s = 0;                         // and searching the policy
 };
 
 /// What a learner makes of its trials, for whoever looks into the run folder: NAME.csv there.

@@ -9,9 +9,9 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/moments/requirements.hpp"
+#include "rehearse/moments/saturating_moments.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
-#include "rehearse/reward/saturating_moments.hpp"
 
 namespace rehearse::moments {
 namespace {
@@ -21,7 +21,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// What the dynamics are of: joint angles too where they have as many inputs.
-FeatureMap features_of(const Task& task, const gp::MomentMatching* dynamics) {
+FeatureMap features_of(const Task& task, const MomentMatching* dynamics) {
   if (!dynamics) throw InvalidInput("dynamics: there are none");
   FeatureMap with_joints = model_features(task, true);
   return dynamics->inputs() == with_joints.features() + task.action_size() ? with_joints : task.feature_map();
@@ -32,7 +32,7 @@ Gaussian seen(const Transformed& features, Index count) {
   return {features.mean.head(count), features.covariance.topLeftCorner(count, count)};
 }
 
-void check(const Task& task, const policy::Policy& policy, const gp::MomentMatching& dynamics, const Gaussian& start) {
+void check(const Task& task, const policy::Policy& policy, const MomentMatching& dynamics, const Gaussian& start) {
   Violations violations;
   violations.require(policy.analytic().has_value(),
                      fmt::format("policy = {}: its actions have no analytic moments, must be rbf, or linear with a "
@@ -76,7 +76,7 @@ Gaussian start_of(const Task& task) { return {task.start_mean, Matrix(task.start
 bool Return::ok() const { return std::isfinite(value); }
 
 ExpectedReturn::ExpectedReturn(const Task& task, const policy::Policy& policy,
-                               std::shared_ptr<const gp::MomentMatching> dynamics, std::optional<Gaussian> start)
+                               std::shared_ptr<const MomentMatching> dynamics, std::optional<Gaussian> start)
     : dynamics_(std::move(dynamics)),
       features_(features_of(task, dynamics_.get())),
       start_(start ? std::move(*start) : start_of(task)),
@@ -99,7 +99,7 @@ bool ExpectedReturn::roll_out(const PolicyMoments& policy, ReturnWorkspace& work
       return false;
     Transformed& f = workspace.features[at(t + 1)];
     f = features_(next);
-    const reward::RewardMoments moments = reward::saturating_moments(reward_, seen(f, reward_.goal.size()));
+    const RewardMoments moments = saturating_moments(reward_, seen(f, reward_.goal.size()));
     if (!std::isfinite(moments.mean)) return false;
     result.rewards(t) = moments.mean;
     result.variances(t) = moments.variance;
@@ -117,7 +117,7 @@ Vector ExpectedReturn::differentiate(const PolicyMoments& policy, const ReturnWo
   for (Index t = horizon_ - 1; t >= 0; --t) {
     const Transformed& f = workspace.features[at(t + 1)];
     const Index rewarded = reward_.goal.size();
-    const reward::RewardMoments moments = reward::saturating_moments(reward_, seen(f, rewarded));
+    const RewardMoments moments = saturating_moments(reward_, seen(f, rewarded));
     features_later.mean.head(rewarded) += moments.by_mean.mean;
     features_later.covariance.topLeftCorner(rewarded, rewarded) += moments.by_mean.covariance;
     features_.adjoint(workspace.states[at(t + 1)], f, features_later, later);

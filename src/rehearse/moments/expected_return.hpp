@@ -32,7 +32,7 @@ class ExpectedReturn {
  public:
   /// dynamics: of `model_features` with joint angles or without, and actions. Throws InvalidInput with what to use
   /// instead if policy or reward have no analytic moments, and if sizes do not agree. `start`: where not the task's.
-  ExpectedReturn(const Task& task, const policy::Policy& policy, std::shared_ptr<const gp::MomentMatching> dynamics,
+  ExpectedReturn(const Task& task, const policy::Policy& policy, std::shared_ptr<const MomentMatching> dynamics,
                  std::optional<Gaussian> start = {});
 
   /// The gradient by θ in reverse mode, unless null; NaN where the value is. The result is the same for any number of
@@ -48,7 +48,7 @@ class ExpectedReturn {
                 const Evaluator& evaluator) const;
   Vector differentiate(const PolicyMoments& policy, const ReturnWorkspace& workspace, const Evaluator& evaluator) const;
 
-  std::shared_ptr<const gp::MomentMatching> dynamics_;
+  std::shared_ptr<const MomentMatching> dynamics_;
   FeatureMoments features_;  // inputs of the dynamics
   PolicyMomentsAt policy_;
   SaturatingReward reward_;
@@ -57,7 +57,7 @@ class ExpectedReturn {
 };
 
 /// The dynamics, made when it is called.
-using MakeMoments = std::function<std::shared_ptr<const gp::MomentMatching>()>;
+using MakeMoments = std::function<std::shared_ptr<const MomentMatching>()>;
 
 /// ExpectedReturn::episode from the task's start, computed when it is called: most proposals, those of episodes on a
 /// prior, are never asked.

@@ -4,24 +4,24 @@
 #include <memory>
 #include <vector>
 
-#include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/moments/moment_matching.hpp"
+#include "rehearse/moments/squash_moments.hpp"
 #include "rehearse/policy/policy.hpp"
-#include "rehearse/policy/squash_moments.hpp"
 
 namespace rehearse::moments {
 
 /// What the adjoint needs of the forward pass; reused without allocation of what grows with the centres.
 struct PolicyTape {
-  gp::MomentTape network;  // of an RBF policy
-  Transformed before;      // the squash
+  MomentTape network;  // of an RBF policy
+  Transformed before;  // the squash
   Transformed squash;
 };
 
 /// The adjoint of what a policy is made of, summed over the steps of a rollout.
 struct PolicyAdjoint {
-  std::vector<gp::TermAdjoint> networks;  // of an RBF policy, one an action
-  Matrix slopes;                          // of a linear policy, actions × features
-  Vector offsets;                         // of a linear policy, one an action
+  std::vector<TermAdjoint> networks;  // of an RBF policy, one an action
+  Matrix slopes;                      // of a linear policy, actions × features
+  Vector offsets;                     // of a linear policy, one an action
 };
 
 /// The moments of a policy at one θ, where its features are Gaussian. Immutable; any thread.
@@ -35,8 +35,8 @@ class PolicyMoments {
   Index features() const { return features_; }
   Index actions() const { return actions_; }
 
-  /// False if there are no moments, as in gp/moment_matching.hpp. Throws InvalidInput if the features are not as many
-  /// as the policy's.
+  /// False if there are no moments, as in moments/moment_matching.hpp. Throws InvalidInput if the features are not as
+  /// many as the policy's.
   bool forward(const Gaussian& features, PolicyTape& tape, Transformed& action, const Evaluator& evaluator) const;
 
   /// Adds to the adjoints of the features and of the policy what the adjoint of the action brings.
@@ -58,7 +58,7 @@ class PolicyMoments {
                               Gaussian& features_adjoint, PolicyAdjoint& policy) const = 0;
 
   Index features_, actions_;
-  policy::SquashMoments squash_;
+  SquashMoments squash_;
 };
 
 /// θ ↦ the moments of a policy at θ; throws InvalidInput if it has another size. Empty if the policy has none.

@@ -25,7 +25,7 @@ void check(const Gaussian& state, const Transformed& features, Index states, Ind
 
 }  // namespace
 
-Propagation::Propagation(const gp::MomentMatching& dynamics, const PolicyMoments& policy, const Evaluator& evaluator)
+Propagation::Propagation(const MomentMatching& dynamics, const PolicyMoments& policy, const Evaluator& evaluator)
     : dynamics_(dynamics), policy_(policy), evaluator_(evaluator) {
   const Index least = policy.features() + policy.actions();
   if (dynamics.inputs() < least)

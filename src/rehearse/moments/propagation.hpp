@@ -1,7 +1,7 @@
 #pragma once
 
-#include "rehearse/core/feature_moments.hpp"
-#include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/moments/feature_moments.hpp"
+#include "rehearse/moments/moment_matching.hpp"
 #include "rehearse/moments/policy_moments.hpp"
 
 namespace rehearse::moments {
@@ -12,7 +12,7 @@ struct StepTape {
   Transformed action;
   Gaussian inputs;  // of the dynamics: features of the state, then actions
   Matrix gain;      // of the inputs, dx × (features + du)
-  gp::MomentTape dynamics;
+  MomentTape dynamics;
   Transformed change;
 };
 
@@ -23,7 +23,7 @@ struct StepTape {
 class Propagation {
  public:
   /// Throws InvalidInput if the dynamics have fewer inputs than the policy has features and actions.
-  Propagation(const gp::MomentMatching& dynamics, const PolicyMoments& policy, const Evaluator& evaluator);
+  Propagation(const MomentMatching& dynamics, const PolicyMoments& policy, const Evaluator& evaluator);
 
   /// features: of the state. False, and `next` undefined, where there are no moments. Throws InvalidInput if states or
   /// features are not as many as those of the dynamics.
@@ -34,7 +34,7 @@ class Propagation {
                Gaussian& state_adjoint, Transformed& features_adjoint, PolicyAdjoint& policy) const;
 
  private:
-  const gp::MomentMatching& dynamics_;
+  const MomentMatching& dynamics_;
   const PolicyMoments& policy_;
   const Evaluator& evaluator_;
 };

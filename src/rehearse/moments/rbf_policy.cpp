@@ -44,7 +44,7 @@ RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& t
   if (!theta.allFinite()) return;
   unscaled_ = theta.segment(centres_at(), centres_ * features()).reshaped(features(), centres_).transpose();
   std::vector<double> scaled(at(padded(centres_) * features()));
-  std::vector<gp::MomentTerm> terms;
+  std::vector<MomentTerm> terms;
   for (Index a = 0; a < actions(); ++a) {
     const Vector log_lengths = clamped(theta.segment(lengths_at(a), features()));
     inverse_lengths_.push_back((-log_lengths).array().exp());
@@ -90,7 +90,7 @@ Vector RbfPolicy::gradient(const PolicyAdjoint& adjoint) const {
   Vector gradient(theta_.size());
   Matrix centres = Matrix::Zero(centres_, features());
   for (Index a = 0; a < actions(); ++a) {
-    const gp::TermAdjoint& network = adjoint.networks[at(a)];
+    const TermAdjoint& network = adjoint.networks[at(a)];
     const Vector by_targets = solve(factors_[at(a)], network.weights);
     Vector log_lengths = network.log_lengths;
     centres += network.centres * scale_.asDiagonal();

@@ -35,7 +35,7 @@ class RbfPolicy final : public PolicyMoments {
   Matrix unscaled_;                           // centres as θ has them, centres × inputs
   std::vector<Vector> inverse_lengths_;       // an action
   std::vector<std::vector<double>> factors_;  // an action: the Cholesky factor of K + σ_n² I in tiles
-  std::optional<gp::MomentMatching> network_;
+  std::optional<MomentMatching> network_;
   bool ok_ = false;
 };
 

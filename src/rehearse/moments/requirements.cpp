@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/gp/moment_kernel.hpp"
+#include "rehearse/moments/moment_kernel.hpp"
 
 namespace rehearse::moments {
 
@@ -23,9 +23,8 @@ std::vector<std::string> without_moments(const Task& task, const policy::Policy&
                                  "saturating_reward, or choose {}",
                                  who, otherwise));
   const Index inputs = model_features(task, joint_angles).features() + task.action_size();
-  violations.require(inputs <= gp::kMostMomentInputs,
-                     fmt::format("{} features and actions, {} takes at most {}: choose {}", inputs, who,
-                                 gp::kMostMomentInputs, otherwise));
+  violations.require(inputs <= kMostMomentInputs, fmt::format("{} features and actions, {} takes at most {}: choose {}",
+                                                              inputs, who, kMostMomentInputs, otherwise));
   return violations.list();
 }
 

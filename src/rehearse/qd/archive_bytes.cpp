@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/files/checksum.hpp"
 
 namespace rehearse::qd {
 namespace {
@@ -124,7 +124,7 @@ Header checked_header(std::string_view bytes) {
   if (static_cast<double>(bytes.size()) < expected)
     throw InvalidInput(fmt::format("truncated or damaged: {} bytes, should be {:.0f}", bytes.size(), expected));
   if (static_cast<double>(bytes.size()) > expected || h.byte_order != kByteOrder || h.grid > 1 ||
-      h.checksum != checksum(bytes.substr(kUnchecked)))
+      h.checksum != files::checksum(bytes.substr(kUnchecked)))
     throw InvalidInput("damaged: the checksum does not fit");
   return h;
 }
@@ -163,7 +163,7 @@ std::string to_bytes(const Search& search) {
   out.put(search.about.data(), static_cast<Index>(search.about.size()));
   put_niches(niches, out);
   put_elites(archive, out);
-  h.checksum = checksum(std::string_view(out.bytes()).substr(kUnchecked));
+  h.checksum = files::checksum(std::string_view(out.bytes()).substr(kUnchecked));
   std::memcpy(out.bytes().data(), &h, sizeof(Header));
   return std::move(out.bytes());
 }

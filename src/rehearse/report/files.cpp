@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/core/files.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::report {
 namespace {
@@ -43,7 +43,7 @@ Json sentences(const statistics::Table& table, std::size_t position) {
 
 }  // namespace
 
-std::string read_text(const std::filesystem::path& path) { return RegularFile(path).read(); }
+std::string read_text(const std::filesystem::path& path) { return files::RegularFile(path).read(); }
 
 statistics::Table read_table(const std::filesystem::path& path) { return statistics::read_csv(read_text(path)); }
 

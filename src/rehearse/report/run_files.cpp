@@ -4,14 +4,14 @@
 #include <array>
 #include <cstdio>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
-#include "rehearse/core/checksum.hpp"
-#include "rehearse/core/files.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/files/checksum.hpp"
+#include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/toml_reader.hpp"
 #include "rehearse/report/archive_files.hpp"
 #include "rehearse/report/prediction_gap.hpp"
 
@@ -32,34 +32,12 @@ toml::table parse(const std::string& text) {
   }
 }
 
-std::string text_of(const toml::node& node) {
-  if (const auto text = node.value_exact<std::string>()) return *text;
-  if (const auto number = node.value_exact<double>()) return to_text(*number);
-  std::ostringstream out;
-  node.visit([&](const auto& value) { out << value; });
-  return out.str();
-}
-
-void add_options(const toml::table& table, const std::string& prefix,
-                 std::vector<std::pair<toml::source_position, std::pair<std::string, std::string>>>& options) {
-  for (const auto& [key, node] : table) {
-    const std::string name = fmt::format("{}{}", prefix, key.str());
-    if (const toml::table* inner = node.as_table())
-      add_options(*inner, name + ".", options);
-    else
-      options.push_back({node.source().begin, {name, text_of(node)}});
-  }
-}
-
 /// Under every section but [run].
 std::vector<std::pair<std::string, std::string>> options_of(const toml::table& file) {
-  std::vector<std::pair<toml::source_position, std::pair<std::string, std::string>>> found;
-  for (const auto& [section, node] : file)
-    if (section != "run" && node.is_table()) add_options(*node.as_table(), std::string(section.str()) + ".", found);
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::pair<std::string, std::string>> options;
-  options.reserve(found.size());
-  for (auto& [position, option] : found) options.push_back(std::move(option));
+  for (const auto& [name, node] : files::leaves(file))
+    if (!name.starts_with("run.") && name.find('.') != std::string::npos)
+      options.emplace_back(name, files::text_of(*node));
   return options;
 }
 
@@ -75,11 +53,11 @@ void check_checkpoint(const fs::path& path) {
     throw InvalidInput("it is truncated or none of Rehearse");
   if (format != kFormat) throw InvalidInput(fmt::format("format {} is that of another version of Rehearse", format));
   const std::string_view body = std::string_view(bytes).substr(line + 1);
-  if (size != body.size() || sum != checksum(body)) throw InvalidInput("it is truncated or damaged");
+  if (size != body.size() || sum != files::checksum(body)) throw InvalidInput("it is truncated or damaged");
 }
 
 void check_ends_with_line(const fs::path& path) {
-  const RegularFile file(path);
+  const files::RegularFile file(path);
   if (!file.open()) throw InvalidInput(file.problem());
   if (!file.ends_with('\n')) throw InvalidInput("it is cut short");
 }

@@ -7,7 +7,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
-#include "rehearse/dynamics/learn.hpp"
+#include "rehearse/identification/learn.hpp"
 #include "rehearse/system/simulator.hpp"
 #include "swing.hpp"
 

@@ -13,10 +13,13 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "rehearse/core/test/test_tools.hpp"
 #include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/policy/schedule.hpp"
 
 namespace rehearse::experiment::fake {
+
+using rehearse::message_of, rehearse::test_folder;
 
 inline ParameterSpace line_parameters(double gain) {
   return ParameterSpace(
@@ -245,40 +248,6 @@ inline Catalogue catalogue_with(const std::function<MakePlant(MakePlant)>& wrap)
   Catalogue wrapped = catalogue();
   wrapped.scenarios = {[wrap] { return std::make_unique<LineBuilder>(wrap); }};
   return wrapped;
-}
-
-/// Removes folders when the program ends.
-class Remover {
- public:
-  ~Remover() {
-    std::error_code ignored;
-    for (const std::filesystem::path& path : paths) std::filesystem::remove_all(path, ignored);
-  }
-  std::vector<std::filesystem::path> paths;
-};
-
-/// A folder of its own for each test, empty at its start; in memory where there is such a place, because checkpoints
-/// wait for the disk.
-inline std::filesystem::path test_folder() {
-  static Remover remover;
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  std::filesystem::path root = "/dev/shm";
-  if (!is_directory(root)) root = testing::TempDir();
-  remover.paths.push_back(root / ("rehearse-test-" + std::to_string(::getpid())));
-  const std::filesystem::path path = remover.paths.back() / info->test_suite_name() / info->name();
-  std::filesystem::create_directories(path);
-  return path;
-}
-
-/// The message of the exception that `action` throws; empty if it throws none.
-template <class Error, class Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace rehearse::experiment::fake

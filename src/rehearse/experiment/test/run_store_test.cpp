@@ -6,8 +6,8 @@
 
 #include "fake.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/files.hpp"
-#include "rehearse/experiment/seal.hpp"
+#include "rehearse/files/seal.hpp"
+#include "rehearse/files/write.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -56,7 +56,7 @@ TEST(RunStore, DamagedFilesCountAsNone) {
   fs::create_directories(run);
   store(run, spec(), cache).write("prior", "learned");
   const fs::path kept = run / "kept" / "prior";
-  std::string bytes = read_file(kept);
+  std::string bytes = files::read_file(kept);
   bytes.back() ^= 1;
   std::ofstream(kept, std::ios::binary) << bytes;
   EXPECT_FALSE(store(run, spec()).read("prior"));
@@ -76,10 +76,10 @@ TEST(RunStore, DoesNotDependOnItsCache) {
 }
 
 TEST(Seal, TellsWhatIsWhole) {
-  const std::string sealed = seal("kept", "body");
-  EXPECT_EQ(unseal("kept", sealed), "body");
+  const std::string sealed = files::seal("kept", "body");
+  EXPECT_EQ(files::unseal("kept", sealed), "body");
   const auto refusal = [](std::string_view kind, std::string_view bytes) {
-    return fake::message_of<InvalidInput>([&] { unseal(kind, bytes); });
+    return fake::message_of<InvalidInput>([&] { files::unseal(kind, bytes); });
   };
   EXPECT_EQ(refusal("kept", sealed.substr(0, sealed.size() - 1)), "the kept is truncated or damaged");
   EXPECT_EQ(refusal("checkpoint", sealed), "the checkpoint is truncated or not one of Rehearse");

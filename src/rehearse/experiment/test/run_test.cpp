@@ -11,9 +11,9 @@
 
 #include "fake.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/files.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/spec_file.hpp"
+#include "rehearse/files/write.hpp"
 #include "rehearse/statistics/table.hpp"
 
 namespace rehearse::experiment {
@@ -26,7 +26,7 @@ Spec line_spec(Index trials, const std::string& learner = "echo") {
 }
 
 std::vector<std::string> lines_of(const fs::path& path) {
-  std::istringstream text(read_file(path));
+  std::istringstream text(files::read_file(path));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) lines.push_back(line);
   return lines;
@@ -37,9 +37,9 @@ std::string results_of(const fs::path& folder) {
   std::string bytes;
   for (const std::string name :
        {"spec.toml", "trials.csv", "errors.csv", "doubts.csv", "notes.csv", "memories.csv", "policy.json", "done"})
-    bytes += name + "\n" + read_file(folder / name);
+    bytes += name + "\n" + files::read_file(folder / name);
   for (const std::string name : {"trajectories/trial-001.csv", "predictions/trial-003.csv"})
-    bytes += name + "\n" + read_file(folder / name);
+    bytes += name + "\n" + files::read_file(folder / name);
   return bytes;
 }
 
@@ -85,7 +85,7 @@ TEST(Run, FolderHoldsWhatTheContractSays) {
   EXPECT_TRUE(memories[1].starts_with("3,")) << memories[1];
   EXPECT_EQ(memories[2], "0,");
 
-  const auto policies = nlohmann::json::parse(read_file(folder / "policy.json"));
+  const auto policies = nlohmann::json::parse(files::read_file(folder / "policy.json"));
   EXPECT_EQ(policies["trials"].size(), 3u);
   EXPECT_EQ(policies["best"]["return"].get<double>(), result.best_return);
   EXPECT_EQ(policies["best"]["theta"].size(), 2u);
@@ -103,7 +103,7 @@ TEST(Run, LearnerWithoutPriorHasNoModelColumns) {
 
 /// The cells of a column of a run's trials.csv.
 std::vector<std::string> column_of(const fs::path& folder, const std::string& name) {
-  const statistics::Table table = statistics::read_csv(read_file(folder / "trials.csv"));
+  const statistics::Table table = statistics::read_csv(files::read_file(folder / "trials.csv"));
   const auto place = static_cast<std::size_t>(table.column(name));
   std::vector<std::string> cells;
   for (const auto& row : table.rows) cells.push_back(row.at(place));
@@ -144,10 +144,10 @@ TEST(Run, EvaluationsChangeNothingElse) {
   Spec spec = line_spec(4);
   spec.options = {{"evaluations", "5"}};
   start_run(fake::catalogue(), spec, folder / "with", {});
-  for (const std::string& name : statistics::read_csv(read_file(folder / "without/trials.csv")).header)
+  for (const std::string& name : statistics::read_csv(files::read_file(folder / "without/trials.csv")).header)
     EXPECT_EQ(column_of(folder / "with", name), column_of(folder / "without", name)) << name;
   for (const char* file : {"trajectories/trial-004.csv", "predictions/trial-004.csv", "errors.csv", "policy.json"})
-    EXPECT_EQ(read_file(folder / "with" / file), read_file(folder / "without" / file)) << file;
+    EXPECT_EQ(files::read_file(folder / "with" / file), files::read_file(folder / "without" / file)) << file;
 }
 
 TEST(Run, ExpectedReturnsSurviveAResume) {
@@ -158,7 +158,7 @@ TEST(Run, ExpectedReturnsSurviveAResume) {
   resume_run(fake::catalogue(), folder / "resumed", 4, {});
   spec.trials = 4;
   start_run(fake::catalogue(), spec, folder / "whole", {});
-  EXPECT_EQ(read_file(folder / "resumed/trials.csv"), read_file(folder / "whole/trials.csv"));
+  EXPECT_EQ(files::read_file(folder / "resumed/trials.csv"), files::read_file(folder / "whole/trials.csv"));
 }
 
 /// A learner that keeps what it is told.
@@ -223,7 +223,7 @@ TEST(Run, LearnersAreToldByNoiseFreeOrByMeasuredStates) {
     EXPECT_NE(by_measured[i].rewards, by_truth[i].rewards);
   }
   for (const char* file : {"trials.csv", "trajectories/trial-003.csv"})
-    EXPECT_EQ(read_file(folder / "measured" / file), read_file(folder / "truth" / file)) << file;
+    EXPECT_EQ(files::read_file(folder / "measured" / file), files::read_file(folder / "truth" / file)) << file;
 }
 
 /// The line whose every plant but the first of a run, the robot, fails in its first step; the robot's episodes count.
@@ -274,13 +274,13 @@ TEST(Run, FewerTrialsAreAPrefixOfMore) {
   const fs::path folder = fake::test_folder();
   start_run(fake::catalogue(), line_spec(5), folder / "five", {});
   start_run(fake::catalogue(), line_spec(10), folder / "ten", {});
-  EXPECT_TRUE(read_file(folder / "ten/trials.csv").starts_with(read_file(folder / "five/trials.csv")));
+  EXPECT_TRUE(files::read_file(folder / "ten/trials.csv").starts_with(files::read_file(folder / "five/trials.csv")));
 }
 
 TEST(Run, SpecOfAFolderGivesTheSameRun) {
   const fs::path folder = fake::test_folder();
   start_run(fake::catalogue(), line_spec(4), folder / "first", {});
-  start_run(fake::catalogue(), from_toml(read_file(folder / "first/spec.toml"), ""), folder / "second", {});
+  start_run(fake::catalogue(), from_toml(files::read_file(folder / "first/spec.toml"), ""), folder / "second", {});
   EXPECT_EQ(results_of(folder / "first"), results_of(folder / "second"));
 }
 
@@ -294,7 +294,7 @@ TEST(Run, AnExistingFolderIsNeverOverwritten) {
         fake::message_of<InvalidInput>([&] { start_run(fake::catalogue(), line_spec(1), folder / name, {}); });
     EXPECT_NE(message.find("already exists"), std::string::npos) << name;
   }
-  EXPECT_EQ(read_file(folder / "file"), "mine");
+  EXPECT_EQ(files::read_file(folder / "file"), "mine");
 }
 
 TEST(Run, WrongInputLeavesNoFolder) {
@@ -351,7 +351,7 @@ TEST(Run, AnEpisodeThatFailsIsSaidInTheNotes) {
     EXPECT_EQ(std::count(notes.begin(), notes.end(),
                          trial + ",the episode ended at the reward floor: the reward at step 1 is not finite"),
               1);
-  EXPECT_EQ(read_file(folder / "run/trials.csv").find("nan"), std::string::npos);
+  EXPECT_EQ(files::read_file(folder / "run/trials.csv").find("nan"), std::string::npos);
 }
 
 /// Runs in a process of its own that kills itself; true if it did.
@@ -391,7 +391,7 @@ TEST(Run, UntilSolvedEndsWithTheFirstTrialThatSolves) {
   ASSERT_LT(*solved_at, 6);
   spec.until_solved = true;
   EXPECT_EQ(start_run(fake::catalogue(), spec, folder / "short", {}).trials, *solved_at);
-  EXPECT_EQ(read_file(folder / "short/done"), std::to_string(*solved_at) + " trials\n");
+  EXPECT_EQ(files::read_file(folder / "short/done"), std::to_string(*solved_at) + " trials\n");
   EXPECT_EQ(resume_run(fake::catalogue(), folder / "short", {}, {}).trials, *solved_at);
   EXPECT_EQ(resume_run(fake::catalogue(), folder / "short", Until(6, true), {}).trials, *solved_at);
   EXPECT_EQ(resume_run(fake::catalogue(), folder / "short", 6, {}).trials, 6);
@@ -420,22 +420,23 @@ TEST(Resume, RefusesWhatIsNoRunFolder) {
   EXPECT_TRUE(fs::is_empty(folder / "empty"));
 
   start_run(fake::catalogue(), line_spec(2), folder / "run", {});
-  const std::string spec = read_file(folder / "run/spec.toml"), checkpoint = read_file(folder / "run/checkpoint");
-  write_file(folder / "run/checkpoint", checkpoint.substr(0, checkpoint.size() / 2));
+  const std::string spec = files::read_file(folder / "run/spec.toml"),
+                    checkpoint = files::read_file(folder / "run/checkpoint");
+  files::write_file(folder / "run/checkpoint", checkpoint.substr(0, checkpoint.size() / 2));
   EXPECT_NE(complaint("run").find("the checkpoint is truncated or damaged"), std::string::npos);
-  write_file(folder / "run/checkpoint", checkpoint);
-  write_file(folder / "run/spec.toml", spec.substr(0, spec.size() / 2) + "= =");
+  files::write_file(folder / "run/checkpoint", checkpoint);
+  files::write_file(folder / "run/spec.toml", spec.substr(0, spec.size() / 2) + "= =");
   EXPECT_NE(complaint("run").find("spec.toml: line "), std::string::npos);
-  write_file(folder / "run/spec.toml", spec + "# harmless\n");
+  files::write_file(folder / "run/spec.toml", spec + "# harmless\n");
   EXPECT_EQ(complaint("run"), "");
-  write_file(folder / "run/spec.toml", std::string(spec).replace(spec.find("seed = 3"), 8, "seed = 4"));
+  files::write_file(folder / "run/spec.toml", std::string(spec).replace(spec.find("seed = 3"), 8, "seed = 4"));
   EXPECT_NE(complaint("run").find("belongs to another spec.toml"), std::string::npos);
 }
 
 TEST(Resume, OneProcessAtATime) {
   const fs::path folder = fake::test_folder() / "run";
   start_run(fake::catalogue(), line_spec(1), folder, {});
-  const FolderLock lock(folder);
+  const files::FolderLock lock(folder);
   EXPECT_NE(fake::message_of<InvalidInput>([&] { resume_run(fake::catalogue(), folder, 2, {}); }).find("in use"),
             std::string::npos);
 }

@@ -9,7 +9,7 @@
 
 #include "fake.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/files.hpp"
+#include "rehearse/files/write.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -61,7 +61,7 @@ TEST(Unborn, WhatMayBeSomebodysStays) {
   fs::create_directory(empty);
   fs::create_directories(target / "trajectories");
   fs::create_directory_symlink(target, link);
-  const FolderLock lock(locked);
+  const files::FolderLock lock(locked);
   make_unborn(folder / "run");
   for (const fs::path& kept : {alive, theirs, trials, locked, empty, target / "trajectories", link})
     EXPECT_TRUE(fs::exists(kept)) << kept;

@@ -5,8 +5,6 @@
 #include "naive.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/gp/evidence.hpp"
-#include "rehearse/gp/fitc.hpp"
-#include "rehearse/gp/moment_matching.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -58,32 +56,6 @@ TEST_F(Sizes, OfEvidence) {
   EXPECT_TRUE(contains(complaint([&] { whitening(Y.topRows(9)); }), "= 9, must be 12"));
   EXPECT_TRUE(contains(complaint([&] { (void)whitening.log_evidence(y.head(9)); }), "= 9, must be 12"));
   EXPECT_TRUE(contains(complaint([&] { Whitening(inputs, naive::hyperparameters(2, 1, 1, 0.1)); }), "= 4, must be 5"));
-}
-
-TEST_F(Sizes, OfInducingInputs) {
-  const Vector y = Y.col(0);
-  EXPECT_TRUE(contains(complaint([&] { fitc_evidence(X, y.head(9), X, theta); }), "9 targets for 12 inputs"));
-  EXPECT_TRUE(contains(complaint([&] { fitc_evidence(X, y, X.leftCols(2), theta); }), "must be m × 3"));
-}
-
-TEST_F(Sizes, OfMoments) {
-  const MomentMatching matching(exact_terms(posterior), 2);
-  MomentTape tape;
-  Transformed result, adjoint;
-  Gaussian x{Vector::Zero(3), 0.1 * Matrix::Identity(3, 3)}, input = Gaussian::zero(3);
-  const auto forward = [&](const Gaussian& at) { return complaint([&] { matching.forward(at, tape, result); }); };
-  EXPECT_TRUE(contains(forward({Vector::Zero(2), Matrix::Zero(3, 3)}), "= 2, must be 3"));
-  EXPECT_TRUE(contains(forward({Vector::Zero(3), Matrix::Zero(3, 2)}), "3 × 2, must be 3 × 3"));
-  EXPECT_EQ(forward(x), "none");
-  adjoint = result;
-  const auto backward = [&] { return complaint([&] { matching.adjoint(x, tape, result, adjoint, input); }); };
-  EXPECT_EQ(backward(), "none");
-  adjoint.gain.resize(2, 3);
-  EXPECT_TRUE(contains(backward(), "2 × 3, must be 3 × 2"));
-  adjoint = result, input = Gaussian::zero(2);
-  EXPECT_TRUE(contains(backward(), "= 2, must be 3"));
-  EXPECT_TRUE(contains(complaint([&] { evaluate_means(exact_terms(posterior), 2, X.leftCols(2)); }), "= 2, must be 3"));
-  EXPECT_TRUE(contains(complaint([&] { evaluate_means(exact_terms(posterior), 1, X); }), "must be below 1"));
 }
 
 }  // namespace

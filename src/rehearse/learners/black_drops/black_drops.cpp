@@ -79,7 +79,7 @@ class BlackDrops final : public Learner {
     }
     const bool has_moments = without_moments(options_, setting_.task, *setting_.policy).empty();
     // What an interruption must not leave behind is assigned last.
-    dynamics::WarmStart state = state_;
+    identification::WarmStart state = state_;
     std::vector<Vector> carried = carried_;
     Task task = setting_.task;
     proposal.model_s = seconds([&] {
@@ -115,13 +115,13 @@ class BlackDrops final : public Learner {
                                 options_.first_trial.hold_s, stream(Stage::episode));
   }
 
-  void learn_model(Proposal& proposal, dynamics::WarmStart& state) {
+  void learn_model(Proposal& proposal, identification::WarmStart& state) {
     if (setting_.progress) setting_.progress({.phase = "model"});
     if (returns_.empty()) return trust_prior(proposal, options_.prior_variance);
     try {
-      dynamics::Learned learned =
-          dynamics::learn(data_, setting_.task.model_features(), setting_.task.kinematics(),
-                          setting_.prior ? &*setting_.prior : nullptr, options_.model, state, *setting_.evaluator);
+      identification::Learned learned = identification::learn(
+          data_, setting_.task.model_features(), setting_.task.kinematics(),
+          setting_.prior ? &*setting_.prior : nullptr, options_.model, state, *setting_.evaluator);
       proposal.model = learned.model;
       proposal.phi = learned.state.phi;
       proposal.posterior = std::move(learned.posterior);
@@ -143,7 +143,7 @@ class BlackDrops final : public Learner {
       task.reward = task.initial_reward;
       return;
     }
-    dynamics::LearnedReward learned = dynamics::learn_reward(data_, features_, options_.reward);
+    identification::LearnedReward learned = identification::learn_reward(data_, features_, options_.reward);
     task.reward = std::move(learned.reward);
     task.saturating_reward.reset();
     if (proposal.log_evidence) *proposal.log_evidence += learned.log_evidence;
@@ -352,11 +352,11 @@ class BlackDrops final : public Learner {
   Dataset data_;
   std::vector<double> returns_;
   std::vector<Vector> policies_, carried_;
-  dynamics::WarmStart state_;
+  identification::WarmStart state_;
   std::optional<Proposal> proposal_;
 };
 
-bool needs_prior(const Options& options) { return !std::holds_alternative<dynamics::ZeroMean>(options.model); }
+bool needs_prior(const Options& options) { return !std::holds_alternative<identification::ZeroMean>(options.model); }
 
 std::vector<std::string> violations_with(const Options& options, const Task& task, const policy::Policy& policy) {
   if (options.search.evaluation == Evaluation::moments)
@@ -369,7 +369,7 @@ std::vector<std::string> violations_with(const Options& options, const Task& tas
 
 class Builder final : public LearnerBuilder {
  public:
-  Builder(std::string name, std::string summary, dynamics::Kind model)
+  Builder(std::string name, std::string summary, identification::Kind model)
       : name_(std::move(name)), summary_(std::move(summary)) {
     options_.model = std::move(model);
     if (!needs_prior(options_)) options_.search.imagine.noise_clip = 0;
@@ -378,8 +378,8 @@ class Builder final : public LearnerBuilder {
   std::string summary() const override { return summary_; }
   PriorUse prior_use() const override { return needs_prior(options_) ? PriorUse::required : PriorUse::none; }
   bool chooses_priors() const override {
-    return std::holds_alternative<dynamics::GpMi>(options_.model) ||
-           std::holds_alternative<dynamics::Mi>(options_.model);
+    return std::holds_alternative<identification::GpMi>(options_.model) ||
+           std::holds_alternative<identification::Mi>(options_.model);
   }
   void fields(FieldVisitor& v) override { options_.fields(v); }
   std::vector<std::string> violations(const Task& task, const policy::Policy& policy) const override {
@@ -457,13 +457,13 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
 
 std::vector<std::unique_ptr<LearnerBuilder>> builders() {
   std::vector<std::unique_ptr<LearnerBuilder>> all;
-  const auto add = [&](const char* name, const char* summary, dynamics::Kind kind) {
+  const auto add = [&](const char* name, const char* summary, identification::Kind kind) {
     all.push_back(std::make_unique<Builder>(name, summary, std::move(kind)));
   };
-  add("black-drops", "GPs from data alone; the first trial is random actions", dynamics::ZeroMean{});
-  add("black-drops-prior", "GPs around the prior as it is given", dynamics::FixedPrior{});
-  add("gp-mi", "GPs around the prior, its parameters identified together with the GPs", dynamics::GpMi{});
-  add("mi", "the prior's parameters identified from data, no GP", dynamics::Mi{});
+  add("black-drops", "GPs from data alone; the first trial is random actions", identification::ZeroMean{});
+  add("black-drops-prior", "GPs around the prior as it is given", identification::FixedPrior{});
+  add("gp-mi", "GPs around the prior, its parameters identified together with the GPs", identification::GpMi{});
+  add("mi", "the prior's parameters identified from data, no GP", identification::Mi{});
   return all;
 }
 

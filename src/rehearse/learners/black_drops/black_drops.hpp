@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "rehearse/dynamics/learn.hpp"
-#include "rehearse/dynamics/learned_reward.hpp"
+#include "rehearse/identification/learn.hpp"
+#include "rehearse/identification/learned_reward.hpp"
 #include "rehearse/learners/black_drops/policy_search.hpp"
 #include "rehearse/learners/learner.hpp"
 
@@ -52,8 +52,8 @@ struct Exploration {
 };
 
 struct Options {
-  dynamics::Kind model = dynamics::GpMi{};
-  dynamics::RewardOptions reward;
+  identification::Kind model = identification::GpMi{};
+  identification::RewardOptions reward;
   SearchOptions search;
   FirstTrial first_trial;
   bool start_from_best = true;      // one descent starts from the best policy observed; the authors' code

@@ -27,7 +27,7 @@ void check_model(const dynamics::GpOptions& gp, const Task& task, Violations& vi
 }
 
 bool joint_angles(const Options& options) {
-  const auto* zero_mean = std::get_if<dynamics::ZeroMean>(&options.model);
+  const auto* zero_mean = std::get_if<identification::ZeroMean>(&options.model);
   return zero_mean && zero_mean->gp.joint_angles;
 }
 
@@ -35,7 +35,7 @@ bool joint_angles(const Options& options) {
 
 std::vector<std::string> without_moments(const Options& options, const Task& task, const policy::Policy& policy) {
   Violations violations;
-  if (const auto* zero_mean = std::get_if<dynamics::ZeroMean>(&options.model))
+  if (const auto* zero_mean = std::get_if<identification::ZeroMean>(&options.model))
     check_model(zero_mean->gp, task, violations);
   else
     violations.add(fmt::format(
@@ -55,12 +55,12 @@ std::vector<std::string> without_moments(const Options& options, const Task& tas
   return violations.list();
 }
 
-std::shared_ptr<const gp::MomentMatching> moments_of(const Options& options, const Task& task, const Dataset& data,
-                                                     const std::vector<gp::Hyperparameters>& kernels) {
+std::shared_ptr<const moments::MomentMatching> moments_of(const Options& options, const Task& task, const Dataset& data,
+                                                          const std::vector<gp::Hyperparameters>& kernels) {
   const FeatureMap features = moments::model_features(task, joint_angles(options));
   const gp::Inputs inputs(dynamics::gp_inputs(features, data.states, data.actions));
-  return std::make_shared<gp::MomentMatching>(gp::exact_terms(gp::Posterior(inputs, data.changes, kernels)),
-                                              task.state_size());
+  return std::make_shared<moments::MomentMatching>(moments::exact_terms(gp::Posterior(inputs, data.changes, kernels)),
+                                                   task.state_size());
 }
 
 }  // namespace rehearse::learners::black_drops

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "rehearse/core/episode.hpp"
-#include "rehearse/dynamics/learn.hpp"
-#include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/identification/learn.hpp"
 #include "rehearse/learners/black_drops/black_drops.hpp"
+#include "rehearse/moments/moment_matching.hpp"
 
 namespace rehearse::learners::black_drops {
 
@@ -16,7 +16,7 @@ namespace rehearse::learners::black_drops {
 std::vector<std::string> without_moments(const Options& options, const Task& task, const policy::Policy& policy);
 
 /// The GPs of all rows with these kernels, of a learner with these options, whose parts all have moments.
-std::shared_ptr<const gp::MomentMatching> moments_of(const Options& options, const Task& task, const Dataset& data,
-                                                     const std::vector<gp::Hyperparameters>& kernels);
+std::shared_ptr<const moments::MomentMatching> moments_of(const Options& options, const Task& task, const Dataset& data,
+                                                          const std::vector<gp::Hyperparameters>& kernels);
 
 }  // namespace rehearse::learners::black_drops

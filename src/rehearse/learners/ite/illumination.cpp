@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/core/files.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/files/regular_file.hpp"
 #include "rehearse/rollout/imagine.hpp"
 
 namespace rehearse::learners::ite {
@@ -178,7 +178,7 @@ class Illumination {
 /// An archive that somebody made. It is taken at its word: another version of the simulator may have made it. Throws
 /// InvalidInput.
 qd::Search read_archive(const std::string& file, const Task& task, const policy::Policy& policy) {
-  const RegularFile bytes(file, O_RDONLY, Links::follow);
+  const files::RegularFile bytes(file, O_RDONLY, files::Links::follow);
   if (!bytes.open()) throw InvalidInput(fmt::format("archive.file = {}: {}", file, bytes.problem()));
   qd::Search search = qd::from_bytes(bytes.read(), "archive.file = " + file);
   const Index parameters = search.archive.parameters(), dimensions = search.archive.niches().dimensions();

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/files/checksum.hpp"
 
 namespace rehearse::learners::ite {
 namespace {
@@ -45,7 +45,9 @@ class Ite final : public Learner {
   /// There is an adaptation after `tell`.
   std::vector<Table> tables() const override { return {elites(), tried()}; }
 
-  json save() const override { return {{"tried", tried_}, {"archive", bytes_ ? checksum(*bytes_) : learned_in_}}; }
+  json save() const override {
+    return {{"tried", tried_}, {"archive", bytes_ ? files::checksum(*bytes_) : learned_in_}};
+  }
 
   void load(const std::vector<Episode>& episodes, const json& state) override {
     state.at("tried").get_to(tried_);
@@ -101,7 +103,7 @@ class Ite final : public Learner {
 
   /// What was learned of elites by number says nothing about those of another archive.
   void check_archive() {
-    if (learned_in_ == kUnknown || learned_in_ == checksum(*bytes_)) return;
+    if (learned_in_ == kUnknown || learned_in_ == files::checksum(*bytes_)) return;
     search_.reset();
     throw InvalidInput(options_.archive.file.empty()
                            ? "the archive that can be made now is not the one that the run began with"

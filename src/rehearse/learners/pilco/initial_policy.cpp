@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rehearse/core/feature_moments.hpp"
+#include "rehearse/moments/feature_moments.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
 
@@ -39,8 +39,8 @@ Vector units(const policy::LinearOptions& linear) {
   return (of_action / linear.squash.gain).replicate(size_of(linear.squash.bounds), 1);
 }
 
-Vector initial(const policy::RbfOptions& rbf, const Gaussian& start, Rng& rng) {
-  const Transformed features = FeatureMoments(rbf.features)(start);
+Vector initial(const policy::RbfOptions& rbf, const moments::Gaussian& start, Rng& rng) {
+  const moments::Transformed features = moments::FeatureMoments(rbf.features)(start);
   const Vector lengths = initial_lengths(rbf.features).cwiseQuotient(rbf.scale);
   const Index D = rbf.scale.size(), A = size_of(rbf.bounds);
   Vector theta(A * D + rbf.centres * (D + A));
@@ -54,7 +54,7 @@ Vector initial(const policy::RbfOptions& rbf, const Gaussian& start, Rng& rng) {
   return theta;
 }
 
-Vector initial(const policy::LinearOptions& linear, const Gaussian&, Rng& rng) {
+Vector initial(const policy::LinearOptions& linear, const moments::Gaussian&, Rng& rng) {
   Vector theta = units(linear);
   const Index each = linear.scale.size() + 1;
   for (Index i = 0; i < theta.size(); ++i) theta(i) *= i % each == each - 1 ? 0 : kWeightStd * rng.normal();
@@ -63,7 +63,7 @@ Vector initial(const policy::LinearOptions& linear, const Gaussian&, Rng& rng) {
 
 }  // namespace
 
-Vector initial_policy(const policy::Policy& policy, const Gaussian& start, StreamKey key) {
+Vector initial_policy(const policy::Policy& policy, const moments::Gaussian& start, StreamKey key) {
   key.purpose = Purpose::random_policy;
   Rng rng(key);
   return std::visit([&](const auto* options) { return initial(*options, start, rng); }, policy.analytic().value());

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "rehearse/core/gaussian.hpp"
 #include "rehearse/core/random.hpp"
+#include "rehearse/moments/gaussian.hpp"
 #include "rehearse/policy/policy.hpp"
 
 namespace rehearse::learners::pilco {
@@ -11,7 +11,7 @@ namespace rehearse::learners::pilco {
 ///
 /// rbf: centres drawn from the features of the start, targets from N(0, 0.1²), length scales of 1, of cosines and sines
 /// 0.7. linear: weights from N(0, 0.01²), no offset.
-Vector initial_policy(const policy::Policy& policy, const Gaussian& start, StreamKey key);
+Vector initial_policy(const policy::Policy& policy, const moments::Gaussian& start, StreamKey key);
 
 /// What θ of an analytic policy counts in, one a parameter: the unit of a centre or a weight is that of the feature
 /// itself. PILCO's policies have features that are not scaled, and its steps depend on it.

@@ -6,11 +6,11 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
-#include "rehearse/gp/fitc.hpp"
 #include "rehearse/gp/posterior.hpp"
+#include "rehearse/moments/fitc.hpp"
+#include "rehearse/moments/network_prior.hpp"
 #include "rehearse/moments/requirements.hpp"
 #include "rehearse/optim/cautious_bfgs.hpp"
-#include "rehearse/prior/network.hpp"
 
 namespace rehearse::learners::pilco {
 namespace {
@@ -32,7 +32,7 @@ Matrix inducing_inputs(const gp::Inputs& inputs, const Matrix& X, const Matrix& 
     Vector values(Y.cols());
     evaluator.for_each(Y.cols(), [&](Index e) {
       const auto output = static_cast<std::size_t>(e);
-      values(e) = gp::fitc_evidence(X, Y.col(e), at, kernels[output], &gradients[output]);
+      values(e) = moments::fitc_evidence(X, Y.col(e), at, kernels[output], &gradients[output]);
     });
     Matrix sum = Matrix::Zero(m, D);
     for (const Matrix& each : gradients) sum += each;
@@ -45,35 +45,35 @@ Matrix inducing_inputs(const gp::Inputs& inputs, const Matrix& X, const Matrix& 
   return found.x.reshaped(m, D) * spread;
 }
 
-std::vector<gp::MomentTerm> terms(const Matrix& X, const Matrix& Y, const ModelOptions& options,
-                                  const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
-                                  std::vector<std::string>& notes, const ProgressSink& progress) {
+std::vector<moments::MomentTerm> terms(const Matrix& X, const Matrix& Y, const ModelOptions& options,
+                                       const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
+                                       std::vector<std::string>& notes, const ProgressSink& progress) {
   const gp::Inputs inputs(X);
   if (X.rows() > options.inducing) {
     try {
-      return gp::fitc_terms(X, Y, inducing_inputs(inputs, X, Y, options, kernels, evaluator, progress), kernels);
+      return moments::fitc_terms(X, Y, inducing_inputs(inputs, X, Y, options, kernels, evaluator, progress), kernels);
     } catch (const InvalidInput& error) {
       notes.push_back(fmt::format("all rows are used instead of inducing inputs: {}", error.what()));
     }
   }
-  return gp::exact_terms(gp::Posterior(inputs, Y, kernels));
+  return moments::exact_terms(gp::Posterior(inputs, Y, kernels));
 }
 
-std::shared_ptr<const gp::MomentMatching> around(const std::vector<gp::MomentTerm>& mean,
-                                                 std::vector<gp::MomentTerm> terms, Index outputs) {
+std::shared_ptr<const moments::MomentMatching> around(const std::vector<moments::MomentTerm>& mean,
+                                                      std::vector<moments::MomentTerm> terms, Index outputs) {
   terms.insert(terms.end(), mean.begin(), mean.end());
-  return std::make_shared<gp::MomentMatching>(std::move(terms), outputs);
+  return std::make_shared<moments::MomentMatching>(std::move(terms), outputs);
 }
 
-dynamics::Kind kind(const ModelOptions& options, bool around_a_mean) {
+identification::Kind kind(const ModelOptions& options, bool around_a_mean) {
   const auto adapt = [&](auto kind) {  // each state has a GP of its own, whose moments are known
     static_cast<dynamics::GpOptions&>(kind.gp) = {};
     kind.gp.fit = options.fit;
     kind.gp.smooth = options.smooth;
     if constexpr (requires { kind.gp.midpoint; }) kind.gp.midpoint = false;
-    return dynamics::Kind(kind);
+    return identification::Kind(kind);
   };
-  return around_a_mean ? adapt(dynamics::FixedPrior{}) : adapt(dynamics::ZeroMean{});
+  return around_a_mean ? adapt(identification::FixedPrior{}) : adapt(identification::ZeroMean{});
 }
 
 }  // namespace
@@ -91,24 +91,24 @@ void ModelOptions::fields(FieldVisitor& v) {
 
 Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
             const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator,
-            const std::vector<gp::MomentTerm>& mean, const ProgressSink& progress) {
+            const std::vector<moments::MomentTerm>& mean, const ProgressSink& progress) {
   Model model{.kernels = start, .log_evidence = std::numeric_limits<double>::quiet_NaN()};
   const FeatureMap features = moments::model_features(task, options.joint_angles);
   std::optional<prior::Prior> prior;
-  if (!mean.empty()) prior = prior::network("network", features, mean);
+  if (!mean.empty()) prior = moments::network_prior("network", features, mean);
   try {
     const Kinematics none{.dt_s = task.dt_s};  // neither integrals of rates nor servos, which have no moments
-    dynamics::Learned learned = dynamics::learn(data, features, none, prior ? &*prior : nullptr,
-                                                kind(options, !mean.empty()), {start, {}}, evaluator);
+    identification::Learned learned = identification::learn(data, features, none, prior ? &*prior : nullptr,
+                                                            kind(options, !mean.empty()), {start, {}}, evaluator);
     model.notes = std::move(learned.notes);
     const Dataset& rows = learned.smoothed ? learned.smoothed->data : data;
     const auto& kernels = learned.smoothed ? learned.smoothed->kernels : learned.state.kernels;
     const Matrix X = dynamics::gp_inputs(features, rows.states, rows.actions);
     Matrix Y = rows.changes;
-    if (!mean.empty()) Y -= gp::evaluate_means(mean, Y.cols(), X);
+    if (!mean.empty()) Y -= moments::evaluate_means(mean, Y.cols(), X);
     model.moments = around(mean, terms(X, Y, options, kernels, evaluator, model.notes, progress), task.state_size());
     model.moments_of_all_rows = [X, Y, mean, kernels] {
-      return around(mean, gp::exact_terms(gp::Posterior(gp::Inputs(X), Y, kernels)), Y.cols());
+      return around(mean, moments::exact_terms(gp::Posterior(gp::Inputs(X), Y, kernels)), Y.cols());
     };
     model.model = std::move(learned.model);
     model.kernels = std::move(learned.state.kernels);
@@ -119,9 +119,9 @@ Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
   return model;
 }
 
-std::vector<gp::MomentTerm> terms_of(const Task& task, const Dataset& data, const ModelOptions& options,
-                                     const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
-                                     std::vector<std::string>& notes, const ProgressSink& progress) {
+std::vector<moments::MomentTerm> terms_of(const Task& task, const Dataset& data, const ModelOptions& options,
+                                          const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
+                                          std::vector<std::string>& notes, const ProgressSink& progress) {
   const FeatureMap features = moments::model_features(task, options.joint_angles);
   const Matrix X = dynamics::gp_inputs(features, data.states, data.actions);
   return terms(X, data.changes, options, kernels, evaluator, notes, progress);

@@ -9,10 +9,10 @@
 #include "rehearse/core/events.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/task.hpp"
-#include "rehearse/dynamics/learn.hpp"
 #include "rehearse/gp/fit.hpp"
-#include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/identification/learn.hpp"
 #include "rehearse/moments/expected_return.hpp"
+#include "rehearse/moments/moment_matching.hpp"
 
 namespace rehearse::learners::pilco {
 
@@ -20,7 +20,7 @@ struct ModelOptions {
   gp::FitOptions fit;
   bool joint_angles = true;            // inputs have those that the task names too; PILCO: angles as they are
   bool smooth = false;                 // noisy states are smoothed where that makes what was measured likelier
-                                       // (dynamics/smoothing.hpp); PILCO: never
+                                       // (identification/smoothing/smoothing.hpp); PILCO: never
   Index inducing = 1500;               // more rows than so many are summed up by so many inducing inputs: FITC, which
                                        // may lose a swing that all rows know (PILCO: 300)
   Index inducing_line_searches = 100;  // that place them, from rows spread evenly over the trials (PILCO: 500, from
@@ -34,12 +34,12 @@ struct ModelOptions {
 
 /// GPs for the change of each state, around zero or around those learned elsewhere.
 struct Model {
-  std::shared_ptr<const gp::MomentMatching> moments;     // what policies are searched on; null: it could not be made
-  std::shared_ptr<const dynamics::DynamicsModel> model;  // the same GPs of all rows, for forecasts
-  moments::MakeMoments moments_of_all_rows;              // of these GPs, made when it is called; empty: there are none
-  std::vector<gp::Hyperparameters> kernels;              // the warm start of the next
-  double log_evidence = 0;                               // of all outputs together, nats; NaN where a fit failed
-  std::vector<std::string> notes;                        // numerical failures survived
+  std::shared_ptr<const moments::MomentMatching> moments;  // what policies are searched on; null: it could not be made
+  std::shared_ptr<const dynamics::DynamicsModel> model;    // the same GPs of all rows, for forecasts
+  moments::MakeMoments moments_of_all_rows;  // of these GPs, made when it is called; empty: there are none
+  std::vector<gp::Hyperparameters> kernels;  // the warm start of the next
+  double log_evidence = 0;                   // of all outputs together, nats; NaN where a fit failed
+  std::vector<std::string> notes;            // numerical failures survived
 };
 
 /// `start`: the kernels of the model before; may be empty. `mean`: the mean functions of the GPs, terms without
@@ -47,11 +47,11 @@ struct Model {
 /// throws, passes.
 Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
             const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator,
-            const std::vector<gp::MomentTerm>& mean = {}, const ProgressSink& progress = {});
+            const std::vector<moments::MomentTerm>& mean = {}, const ProgressSink& progress = {});
 
 /// GPs with these kernels and zero mean: all rows, or, beyond `options.inducing` of them, inducing inputs.
-std::vector<gp::MomentTerm> terms_of(const Task& task, const Dataset& data, const ModelOptions& options,
-                                     const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
-                                     std::vector<std::string>& notes, const ProgressSink& progress = {});
+std::vector<moments::MomentTerm> terms_of(const Task& task, const Dataset& data, const ModelOptions& options,
+                                          const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
+                                          std::vector<std::string>& notes, const ProgressSink& progress = {});
 
 }  // namespace rehearse::learners::pilco

@@ -78,7 +78,7 @@ void SearchOptions::fields(FieldVisitor& v) {
   v.integer("restarts", restarts, between(0, 1000), published(0, "PILCO"));
 }
 
-Gaussian start_state(const Task& task, const SearchOptions& options) {
+moments::Gaussian start_state(const Task& task, const SearchOptions& options) {
   return {task.start_mean, Matrix(task.start_std.cwiseMax(options.start_std).cwiseAbs2().asDiagonal())};
 }
 
@@ -90,7 +90,7 @@ SearchResult search_policy(const SearchProblem& problem, const Vector& start, co
 SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
                                   StreamKey key, std::optional<double> earned) {
   Objective objective(problem, options, 1 + options.restarts);
-  const Gaussian begin = start_state(problem.task, options);
+  const moments::Gaussian begin = start_state(problem.task, options);
   SearchResult best = search(objective, start, options);
   if (earned && best.predicted_return)  // fmax: where the start has no value nothing is known of the model
     *best.predicted_return -= std::fmax(0, objective.at(start) - *earned);

@@ -5,11 +5,11 @@
 
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
-#include "rehearse/core/gaussian.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
-#include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/moments/gaussian.hpp"
+#include "rehearse/moments/moment_matching.hpp"
 #include "rehearse/optim/cautious_bfgs.hpp"
 #include "rehearse/policy/policy.hpp"
 
@@ -35,7 +35,7 @@ struct SearchResult {
 
 /// References must outlive the search.
 struct SearchProblem {
-  std::shared_ptr<const gp::MomentMatching> dynamics;
+  std::shared_ptr<const moments::MomentMatching> dynamics;
   const policy::Policy& policy;  // analytic
   const Task& task;              // with a saturating reward
   const Evaluator& evaluator;
@@ -43,7 +43,7 @@ struct SearchProblem {
 };
 
 /// N(the task's start, the larger of its deviations and the option's).
-Gaussian start_state(const Task& task, const SearchOptions& options);
+moments::Gaussian start_state(const Task& task, const SearchOptions& options);
 
 /// Maximises the expected return from `start`. What the progress sink throws, passes.
 SearchResult search_policy(const SearchProblem& problem, const Vector& start, const SearchOptions& options);

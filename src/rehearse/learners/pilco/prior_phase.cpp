@@ -62,7 +62,7 @@ class PriorPhase {
     while (!knows_enough()) one_episode();
     const Proposal& last = asked();
     PriorKnowledge& knowledge = state_.knowledge;
-    knowledge.network = gp::mean_terms(trials_.terms(options_.inducing, knowledge.notes));
+    knowledge.network = moments::mean_terms(trials_.terms(options_.inducing, knowledge.notes));
     knowledge.theta = last.theta;
     knowledge.predicted_return = last.predicted_return;
     state_.over = true;
@@ -168,7 +168,7 @@ class PriorPhase {
 /// The terms of a model have the same centres.
 json to_json(const PriorKnowledge& knowledge) {
   json terms = json::array();
-  for (const gp::MomentTerm& term : knowledge.network)
+  for (const moments::MomentTerm& term : knowledge.network)
     terms.push_back({{"output", term.output},
                      {"log_lengths", learners::to_json(term.log_lengths)},
                      {"weights", learners::to_json(term.weights)}});

@@ -7,20 +7,20 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "rehearse/gp/moment_term.hpp"
 #include "rehearse/learners/learner.hpp"
 #include "rehearse/learners/pilco/pilco.hpp"
+#include "rehearse/moments/moment_term.hpp"
 
 namespace rehearse::learners::pilco {
 
 /// What the trials on the robot begin with.
 struct PriorKnowledge {
-  std::vector<gp::MomentTerm> network;     // the means of the GPs of the prior system; empty: none could be learned
-  Vector theta;                            // the policy found on these GPs
-  std::optional<double> predicted_return;  // its expected return on them
-  Index evaluations = 0;                   // expected returns computed on the way, in all
-  Index failed = 0;                        // of these, without a value
-  std::vector<std::string> notes;          // numerical failures survived
+  std::vector<moments::MomentTerm> network;  // the means of the GPs of the prior system; empty: none could be learned
+  Vector theta;                              // the policy found on these GPs
+  std::optional<double> predicted_return;    // its expected return on them
+  Index evaluations = 0;                     // expected returns computed on the way, in all
+  Index failed = 0;                          // of these, without a value
+  std::vector<std::string> notes;            // numerical failures survived
 };
 
 nlohmann::json to_json(const PriorKnowledge& knowledge);

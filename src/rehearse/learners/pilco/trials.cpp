@@ -10,9 +10,9 @@
 #include "rehearse/learners/json.hpp"
 #include "rehearse/learners/pilco/initial_policy.hpp"
 #include "rehearse/moments/expected_return.hpp"
+#include "rehearse/moments/network_prior.hpp"
 #include "rehearse/moments/requirements.hpp"
 #include "rehearse/policy/schedule.hpp"
-#include "rehearse/prior/network.hpp"
 
 namespace rehearse::learners::pilco {
 namespace {
@@ -25,7 +25,7 @@ Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting, co
   const prior::Prior& given = *setting.prior;
   const FeatureMap features = moments::model_features(setting.task, options.joint_angles);
   const prior::Prior model =
-      knowledge.network.empty() ? given : prior::network(given.name, features, knowledge.network);
+      knowledge.network.empty() ? given : moments::network_prior(given.name, features, knowledge.network);
   Proposal proposal{.policy = setting.policy,
                     .theta = knowledge.theta,
                     .predicted_return = knowledge.predicted_return,
@@ -34,7 +34,7 @@ Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting, co
                     .model = std::make_shared<dynamics::SimulatorModel>(model, model.space.values()),
                     .notes = knowledge.notes};
   const auto moments = [network = knowledge.network, outputs = setting.task.state_size()] {
-    return std::make_shared<gp::MomentMatching>(network, outputs);
+    return std::make_shared<moments::MomentMatching>(network, outputs);
   };
   if (!knowledge.network.empty())
     proposal.moments = moments::expected_episode(setting.task, setting.policy, moments, proposal.theta);
@@ -69,7 +69,7 @@ void Trials::add(const Episode& episode) {
   solved_ = setting_.task.solved && setting_.task.solved(episode);
 }
 
-std::vector<gp::MomentTerm> Trials::terms(Index inducing, std::vector<std::string>& notes) const {
+std::vector<moments::MomentTerm> Trials::terms(Index inducing, std::vector<std::string>& notes) const {
   if (!proposal_ || !proposal_->model) return {};
   ModelOptions options = options_.model;
   options.inducing = inducing;
@@ -137,7 +137,7 @@ Proposal Trials::next_proposal() {
 
 Model Trials::learn_model() const {
   if (setting_.progress) setting_.progress({.phase = "model"});
-  const auto mean = prior_ ? prior_->network : std::vector<gp::MomentTerm>();
+  const auto mean = prior_ ? prior_->network : std::vector<moments::MomentTerm>();
   return learn(setting_.task, data_, options_.model, kernels_, *setting_.evaluator, mean, setting_.progress);
 }
 

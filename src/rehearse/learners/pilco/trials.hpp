@@ -22,7 +22,7 @@ class Trials final : public Learner {
   void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override;
 
   /// What the GPs behind the proposal of `ask` know, by at most so many points; empty: there are none. Without a prior.
-  std::vector<gp::MomentTerm> terms(Index inducing, std::vector<std::string>& notes) const;
+  std::vector<moments::MomentTerm> terms(Index inducing, std::vector<std::string>& notes) const;
 
  private:
   std::uint64_t trial() const { return trials_ + 1; }

@@ -5,8 +5,8 @@
 #include "fixture.hpp"
 #include "naive.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/gp/fitc.hpp"
-#include "rehearse/reward/saturating_moments.hpp"
+#include "rehearse/moments/fitc.hpp"
+#include "rehearse/moments/saturating_moments.hpp"
 #include "rehearse/robots/cartpole/cartpole.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
@@ -15,10 +15,10 @@ namespace {
 
 struct Problem {
   Problem(const scenario::Scenario& made, Index rows, Index centres,
-          std::shared_ptr<const gp::MomentMatching> dynamics = {})
+          std::shared_ptr<const MomentMatching> dynamics = {})
       : Problem(made, rows, fixture::rbf(made.task, centres), std::move(dynamics)) {}
   Problem(scenario::Scenario made, Index rows, std::shared_ptr<const policy::Policy> of_policy,
-          std::shared_ptr<const gp::MomentMatching> dynamics = {})
+          std::shared_ptr<const MomentMatching> dynamics = {})
       : scenario(std::move(made)),
         policy(std::move(of_policy)),
         expected(scenario.task, *policy, dynamics ? dynamics : fixture::random_dynamics(scenario, rows),
@@ -80,8 +80,7 @@ void expect_plain_formulas(const scenario::Scenario& scenario, const std::shared
     ASSERT_LT(largest_difference(ours.mean, state.mean), 1e-8) << t;
     ASSERT_LT(largest_difference(ours.covariance, state.covariance), 1e-8) << t;
     const Transformed f = FeatureMoments(task.feature_map())(state);
-    EXPECT_NEAR(result.rewards(t), reward::saturating_moments(*task.saturating_reward, {f.mean, f.covariance}).mean,
-                1e-8);
+    EXPECT_NEAR(result.rewards(t), saturating_moments(*task.saturating_reward, {f.mean, f.covariance}).mean, 1e-8);
   }
 }
 
@@ -118,8 +117,8 @@ TEST(ExpectedReturn, ItsEpisodeHasTheDeviationsOfEveryStep) {
 
 // The first step throws the state out of all numbers.
 TEST(ExpectedReturn, ItsEpisodeEndsWhereTheMomentsAreLost) {
-  gp::MomentTerm wild{.centres = Matrix::Zero(1, 6), .log_lengths = Vector::Constant(6, 9), .weights = Vector{{1e300}}};
-  Problem problem(robots::cartpole::make({}), 0, 3, std::make_shared<gp::MomentMatching>(std::vector{wild}, 4));
+  MomentTerm wild{.centres = Matrix::Zero(1, 6), .log_lengths = Vector::Constant(6, 9), .weights = Vector{{1e300}}};
+  Problem problem(robots::cartpole::make({}), 0, 3, std::make_shared<MomentMatching>(std::vector{wild}, 4));
   const ExpectedEpisode episode = problem.expected.episode(fixture::random_theta(*problem.policy));
   EXPECT_EQ(episode.states.row(0), problem.scenario.task.start_mean.transpose());
   EXPECT_TRUE(episode.state_deviations.row(0).isApproxToConstant(0.1));
@@ -169,10 +168,10 @@ TEST(ExpectedReturn, GradientWithFitcAndAPriorMeanAgreesWithDifferences) {
   const scenario::Scenario scenario = robots::cartpole::make({});
   const fixture::Data data = fixture::random_data(scenario, 60);
   const auto hyperparameters = fixture::plain_hyperparameters(data);
-  auto terms = gp::fitc_terms(data.inputs, data.changes, data.inputs.topRows(20), hyperparameters);
+  auto terms = fitc_terms(data.inputs, data.changes, data.inputs.topRows(20), hyperparameters);
   const gp::Posterior prior(gp::Inputs(data.inputs.bottomRows(15)), 0.1 * data.changes.bottomRows(15), hyperparameters);
-  for (gp::MomentTerm& term : gp::mean_terms(prior)) terms.push_back(std::move(term));
-  Problem cartpole(scenario, 0, 5, std::make_shared<gp::MomentMatching>(std::move(terms), 4));
+  for (MomentTerm& term : mean_terms(prior)) terms.push_back(std::move(term));
+  Problem cartpole(scenario, 0, 5, std::make_shared<MomentMatching>(std::move(terms), 4));
   const Vector theta = fixture::random_theta(*cartpole.policy);
   cartpole.expect_gradient(theta, random_directions(theta.size(), 5));
 }
@@ -183,13 +182,13 @@ TEST(ExpectedReturn, GradientAroundTheGpsOfAPriorAgreesWithDifferences) {
     const fixture::Data data = fixture::random_data(scenario, 70);
     const auto hyperparameters = fixture::plain_hyperparameters(data);
     const Matrix prior_inputs = data.inputs.topRows(45), inputs = data.inputs.bottomRows(25);
-    const auto network = gp::mean_terms(
-        gp::fitc_terms(prior_inputs, 0.7 * data.changes.topRows(45), prior_inputs.topRows(20), hyperparameters));
-    const Matrix left = data.changes.bottomRows(25) - gp::evaluate_means(network, 4, inputs);
+    const auto network =
+        mean_terms(fitc_terms(prior_inputs, 0.7 * data.changes.topRows(45), prior_inputs.topRows(20), hyperparameters));
+    const Matrix left = data.changes.bottomRows(25) - evaluate_means(network, 4, inputs);
     ASSERT_GT(left.norm(), 0.1 * data.changes.bottomRows(25).norm());
-    auto terms = gp::exact_terms(gp::Posterior(gp::Inputs(inputs), left, hyperparameters));
+    auto terms = exact_terms(gp::Posterior(gp::Inputs(inputs), left, hyperparameters));
     terms.insert(terms.end(), network.begin(), network.end());
-    Problem problem(scenario, 0, 12, std::make_shared<gp::MomentMatching>(std::move(terms), 4));
+    Problem problem(scenario, 0, 12, std::make_shared<MomentMatching>(std::move(terms), 4));
     const Vector theta = fixture::random_theta(*problem.policy);
     problem.expect_gradient(theta, random_directions(theta.size(), 4));
     problem.expect_gradient(theta, coordinates(theta.size(), theta.size() / 5));
@@ -267,7 +266,7 @@ TEST(ExpectedReturn, RefusesWhatHasNoAnalyticMoments) {
 TEST(ExpectedReturn, RefusesSizesThatDoNotAgree) {
   const scenario::Scenario cartpole = robots::cartpole::make({}), pendubot = robots::pendubot::make({});
   const auto refusal = [](const Task& task, const policy::Policy& policy,
-                          const std::shared_ptr<const gp::MomentMatching>& dynamics) -> std::string {
+                          const std::shared_ptr<const MomentMatching>& dynamics) -> std::string {
     try {
       ExpectedReturn(task, policy, dynamics);
     } catch (const InvalidInput& error) {

@@ -3,11 +3,11 @@
 
 #include <memory>
 
-#include "rehearse/core/test/gaussian_tools.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/gp/fit.hpp"
-#include "rehearse/gp/moment_matching.hpp"
+#include "rehearse/moments/moment_matching.hpp"
 #include "rehearse/moments/requirements.hpp"
+#include "rehearse/moments/test/gaussian_tools.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
 #include "rehearse/scenario/scenario.hpp"
@@ -44,10 +44,10 @@ inline gp::Posterior random_posterior(const scenario::Scenario& scenario, Index 
   return {gp::Inputs(data.inputs), data.changes, plain_hyperparameters(data)};
 }
 
-inline std::shared_ptr<const gp::MomentMatching> random_dynamics(const scenario::Scenario& scenario, Index rows,
-                                                                 bool joint_angles = false) {
-  return std::make_shared<gp::MomentMatching>(gp::exact_terms(random_posterior(scenario, rows, joint_angles)),
-                                              scenario.task.state_size());
+inline std::shared_ptr<const MomentMatching> random_dynamics(const scenario::Scenario& scenario, Index rows,
+                                                             bool joint_angles = false) {
+  return std::make_shared<MomentMatching>(exact_terms(random_posterior(scenario, rows, joint_angles)),
+                                          scenario.task.state_size());
 }
 
 inline std::shared_ptr<const policy::Policy> rbf(const Task& task, Index centres) {

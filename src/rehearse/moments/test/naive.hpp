@@ -6,11 +6,11 @@
 
 #include <Eigen/LU>
 
-#include "rehearse/core/feature_moments.hpp"
 #include "rehearse/gp/hyperparameters.hpp"
+#include "rehearse/moments/feature_moments.hpp"
+#include "rehearse/moments/squash_moments.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
-#include "rehearse/policy/squash_moments.hpp"
 
 namespace rehearse::moments::naive {
 
@@ -123,7 +123,7 @@ inline Gaussian propagate(const FeatureMap& features, const Gp& dynamics, const 
   joint.append(0, FeatureMoments(features)(state));
   Joint with_preaction = joint;  // the action before the squash is no input of the dynamics
   with_preaction.append(dx, policy.moments(joint.part(dx, policy.features)));
-  const Transformed squash = policy::SquashMoments(policy.bounds)(with_preaction.part(dx + F, 1));
+  const Transformed squash = SquashMoments(policy.bounds)(with_preaction.part(dx + F, 1));
   with_preaction.append(dx + F, squash);
   const auto kept = [&] {
     std::vector<Index> indices;

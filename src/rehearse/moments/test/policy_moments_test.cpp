@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/core/test/gaussian_tools.hpp"
 #include "rehearse/moments/linear_policy.hpp"
 #include "rehearse/moments/rbf_policy.hpp"
+#include "rehearse/moments/test/gaussian_tools.hpp"
 
 namespace rehearse::moments {
 namespace {

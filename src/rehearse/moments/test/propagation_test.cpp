@@ -17,7 +17,7 @@ class PropagationTest : public ::testing::Test {
     Transformed features;
     StepTape tape;
   };
-  Step step(const Gaussian& state, const gp::MomentMatching& dynamics, const FeatureMoments& features) const {
+  Step step(const Gaussian& state, const MomentMatching& dynamics, const FeatureMoments& features) const {
     Step result;
     result.features = features(state);
     const Propagation propagation(dynamics, policy_, serial_evaluator());
@@ -25,10 +25,8 @@ class PropagationTest : public ::testing::Test {
     return result;
   }
 
-  Step step(const Gaussian& state, const gp::MomentMatching& dynamics) const {
-    return step(state, dynamics, features_);
-  }
-  void expect_adjoint(const gp::MomentMatching& dynamics, const FeatureMoments& moments) const;
+  Step step(const Gaussian& state, const MomentMatching& dynamics) const { return step(state, dynamics, features_); }
+  void expect_adjoint(const MomentMatching& dynamics, const FeatureMoments& moments) const;
 
   scenario::Scenario scenario_ = robots::pendubot::make({});
   gp::Posterior posterior_ = fixture::random_posterior(scenario_, 40);
@@ -40,7 +38,7 @@ class PropagationTest : public ::testing::Test {
 
 /// Of a model that is sure: this needs every covariance between state, features, action and change.
 TEST_F(PropagationTest, OfANearlyKnownStateIsTheLinearisedStep) {
-  const gp::MomentMatching dynamics(gp::mean_terms(posterior_), 4);
+  const MomentMatching dynamics(mean_terms(posterior_), 4);
   Matrix slopes(4, 4);
   for (Index d = 0; d < 4; ++d) {
     const auto moved = [&](double h) {
@@ -55,7 +53,7 @@ TEST_F(PropagationTest, OfANearlyKnownStateIsTheLinearisedStep) {
   EXPECT_EQ(next, next.transpose());
 }
 
-void PropagationTest::expect_adjoint(const gp::MomentMatching& dynamics, const FeatureMoments& moments) const {
+void PropagationTest::expect_adjoint(const MomentMatching& dynamics, const FeatureMoments& moments) const {
   const Gaussian state{mean_, tools::random_gaussian(4, 0.2, 2).covariance};
   const Gaussian by{tools::normals(4, 1, 3), tools::normals(4, 4, 4)};
   const Step taken = step(state, dynamics, moments);
@@ -73,7 +71,7 @@ void PropagationTest::expect_adjoint(const gp::MomentMatching& dynamics, const F
 }
 
 TEST_F(PropagationTest, AdjointAgreesWithDifferences) {
-  expect_adjoint(gp::MomentMatching(gp::exact_terms(posterior_), 4), features_);
+  expect_adjoint(MomentMatching(exact_terms(posterior_), 4), features_);
 }
 
 TEST_F(PropagationTest, AdjointWithJointAnglesThatThePolicyDoesNotSeeAgreesWithDifferences) {
@@ -81,7 +79,7 @@ TEST_F(PropagationTest, AdjointWithJointAnglesThatThePolicyDoesNotSeeAgreesWithD
 }
 
 TEST_F(PropagationTest, RefusesSizesThatDoNotAgree) {
-  const gp::MomentMatching dynamics(gp::exact_terms(posterior_), 4);
+  const MomentMatching dynamics(exact_terms(posterior_), 4);
   const Propagation propagation(dynamics, policy_, serial_evaluator());
   const Gaussian state{mean_, Matrix::Zero(4, 4)};
   Gaussian next;
@@ -90,8 +88,8 @@ TEST_F(PropagationTest, RefusesSizesThatDoNotAgree) {
   EXPECT_THROW(propagation.forward(state, Transformed::zero(4, 5), tape, next), InvalidInput);
   EXPECT_THROW(propagation.forward(state, Transformed::zero(3, 6), tape, next), InvalidInput);
   EXPECT_THROW(propagation.forward({mean_, Matrix::Zero(3, 4)}, features_(state), tape, next), InvalidInput);
-  const gp::MomentMatching few(
-      {{.centres = Matrix::Zero(1, 6), .log_lengths = Vector::Zero(6), .weights = Vector{{1}}}}, 4);
+  const MomentMatching few({{.centres = Matrix::Zero(1, 6), .log_lengths = Vector::Zero(6), .weights = Vector{{1}}}},
+                           4);
   EXPECT_THROW(Propagation(few, policy_, serial_evaluator()), InvalidInput);
 }
 

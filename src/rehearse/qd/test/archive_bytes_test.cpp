@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
+#include "rehearse/files/checksum.hpp"
 
 namespace rehearse::qd {
 namespace {
@@ -64,7 +64,7 @@ std::string refusal(std::string_view bytes) {
 template <class T>
 std::string forged(std::string bytes, std::size_t at, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof(T));
-  const std::uint64_t sum = checksum(std::string_view(bytes).substr(24));
+  const std::uint64_t sum = files::checksum(std::string_view(bytes).substr(24));
   std::memcpy(bytes.data() + 16, &sum, 8);
   return bytes;
 }
@@ -88,7 +88,7 @@ TEST(ArchiveBytes, EveryTruncationIsRefused) {
     const bool cut = line.find("truncated") != std::string::npos;
     ASSERT_EQ(cut, size >= 8) << size << ": " << line;
   }
-  EXPECT_EQ(refusal(bytes + "x"), "archive.bin: damaged: the checksum does not fit");
+  EXPECT_EQ(refusal(bytes + "x"), "archive.bin: damaged: the files::checksum does not fit");
 }
 
 TEST(ArchiveBytes, EveryChangedByteIsRefused) {

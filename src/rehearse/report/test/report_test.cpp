@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "rehearse/core/checksum.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/files/checksum.hpp"
 #include "rehearse/qd/archive_bytes.hpp"
 
 namespace rehearse::report {
@@ -29,7 +29,7 @@ std::string read_bytes(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-std::string checksum_of(std::string_view bytes) { return fmt::format("{:016x}", checksum(bytes)); }
+std::string checksum_of(std::string_view bytes) { return fmt::format("{:016x}", files::checksum(bytes)); }
 
 class ReportTest : public ::testing::Test {
  protected:
@@ -186,7 +186,7 @@ TEST_F(ReportTest, ADamagedArchiveIsNamedAndTheTablesAreShown) {
   std::string bytes = read_bytes(folder_ / "archive.bin");
   bytes[bytes.size() - 3] ^= 1;
   write(folder_ / "archive.bin", bytes);
-  const std::string damage = "archive.bin: it is no usable archive: damaged: the checksum does not fit";
+  const std::string damage = "archive.bin: it is no usable archive: damaged: the files::checksum does not fit";
   Report report = read_folder(folder_, archive_space);
   EXPECT_EQ(problems_of(report), Lines{damage});
   const json archive = json::parse(report.json)["run"]["archive"];

@@ -4,7 +4,7 @@
 
 #include "cart.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
-#include "rehearse/dynamics/learned_reward.hpp"
+#include "rehearse/identification/learned_reward.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 #include "rehearse/rollout/imagine.hpp"
 
@@ -41,12 +41,12 @@ TEST(Allocations, NoneWhereRolloutsMayEndEarly) {
 
 TEST(Allocations, NoneWithALearnedReward) {
   Dataset data{.states = Matrix::Random(30, 2), .actions = Matrix::Random(30, 1), .changes = Matrix::Random(30, 2)};
-  dynamics::RewardOptions options;
-  options.scale = dynamics::RewardScale::logarithmic;
+  identification::RewardOptions options;
+  options.scale = identification::RewardScale::logarithmic;
   for (const double least : {-1.0, 0.1}) {  // learned linearly, and by the logarithm
     data.rewards = Vector::LinSpaced(30, least, 1);
     Task task = cart::task();
-    task.reward = dynamics::learn_reward(data, task.feature_map(), options).reward;
+    task.reward = identification::learn_reward(data, task.feature_map(), options).reward;
     expect_none_in_time_loop(cart::Model(0.01), *cart::policy(), task);
   }
 }

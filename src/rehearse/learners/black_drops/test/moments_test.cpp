@@ -61,7 +61,7 @@ TEST(Moments, OfJointAnglesAreOfTheKernelsInputs) {
   Setting with = setting();
   with.task.states = {{"x", "m"}, {"a", "rad", StateKind::angle}, {"b", "rad", StateKind::angle, "", "a"}};
   Options options;
-  dynamics::ZeroMean model;
+  identification::ZeroMean model;
   Dataset data{Matrix::Random(6, 3), Matrix::Random(6, 1), Matrix::Random(6, 3), Vector::Zero(6)};
   for (const bool joint_angles : {true, false}) {
     model.gp.joint_angles = joint_angles;
@@ -85,7 +85,7 @@ TEST(Moments, RefusesWhatHasNoneAndSaysWhatToUse) {
   task.actions.front().target_of = "v";
   task.saturating_reward.reset();
   Options options;
-  dynamics::ZeroMean model;
+  identification::ZeroMean model;
   model.gp.fit.trend = model.gp.smooth = true;
   model.gp.variance = dynamics::PredictedVariance::noisy;
   options.model = model;
@@ -95,7 +95,7 @@ TEST(Moments, RefusesWhatHasNoneAndSaysWhatToUse) {
                            "model.gp.variance = latent", "reward.learned = false", "the target of a state",
                            "policy = rbf", "saturating_reward", "search.evaluation = samples"})
     EXPECT_NE(all.find(part), std::string::npos) << part << " in\n" << all;
-  options.model = dynamics::GpMi{};
+  options.model = identification::GpMi{};
   EXPECT_NE(refusal(options, task, *slider::policy()).find("a model around a simulator"), std::string::npos);
 
   const Setting good = setting();

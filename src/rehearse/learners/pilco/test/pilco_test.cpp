@@ -278,11 +278,11 @@ TEST(Model, HasJointAnglesAsInputsWhereTheTaskNamesThem) {
   EXPECT_EQ(without.moments->inputs(), 6);
   EXPECT_GT(with.log_evidence, without.log_evidence + 10);
 
-  const Gaussian known{Vector{{0.1, 0.4, -0.9}}, Matrix::Zero(3, 3)};
-  Gaussian inputs = Gaussian::zero(8);
-  inputs.mean << FeatureMoments(moments::model_features(two_link_task(), true))(known).mean, 0.2;
-  gp::MomentTape tape;
-  Transformed change = Transformed::zero(8, 3);
+  const moments::Gaussian known{Vector{{0.1, 0.4, -0.9}}, Matrix::Zero(3, 3)};
+  moments::Gaussian inputs = moments::Gaussian::zero(8);
+  inputs.mean << moments::FeatureMoments(moments::model_features(two_link_task(), true))(known).mean, 0.2;
+  moments::MomentTape tape;
+  moments::Transformed change = moments::Transformed::zero(8, 3);
   ASSERT_TRUE(with.moments->forward(inputs, tape, change));
   Matrix mean(1, 3), variance(1, 3);
   with.model->predict(known.mean.transpose(), Matrix::Constant(1, 1, 0.2), mean, variance);
@@ -294,18 +294,18 @@ TEST(Model, SearchesAndForecastsLearnFromTheSameStatesSmoothedOrNot) {
   const Dataset data = two_links(0.05);
   const FeatureMap features = moments::model_features(two_link_task(), true);
   const Matrix inputs = dynamics::gp_inputs(features, data.states, data.actions);
-  const auto learned = [&](const ModelOptions& options, const std::vector<gp::MomentTerm>& around) {
+  const auto learned = [&](const ModelOptions& options, const std::vector<moments::MomentTerm>& around) {
     Model model = pilco::learn(two_link_task(), data, options, {}, serial_evaluator(), around);
     Matrix of_forecast(data.size(), 3);
     model.model->predict_mean(data.states, data.actions, of_forecast);
-    const Matrix of_search = gp::evaluate_means(model.moments->terms(), 3, inputs);
+    const Matrix of_search = moments::evaluate_means(model.moments->terms(), 3, inputs);
     EXPECT_LT((of_search - of_forecast).cwiseAbs().maxCoeff(), 2e-3);  // forecasts may be off by 0.01 σ_n
     return model;
   };
   ModelOptions options;
   const Model plain = learned(options, {});
-  std::vector<gp::MomentTerm> half = gp::mean_terms(plain.moments->terms());
-  for (gp::MomentTerm& term : half) term.weights *= 0.5;
+  std::vector<moments::MomentTerm> half = moments::mean_terms(plain.moments->terms());
+  for (moments::MomentTerm& term : half) term.weights *= 0.5;
   learned(options, half);
   options.smooth = true;
   EXPECT_GT(learned(options, {}).log_evidence, plain.log_evidence + 0.15 * 3 * 40) << "it was smoothed";
@@ -359,7 +359,7 @@ TEST(PolicySearch, BeginsWithALinearPolicyOfTheSameActionsWhateverTheScaleAndThe
     const auto policy = policy::make_linear({.features = FeatureMap({StateKind::plain, StateKind::plain}),
                                              .scale = scale,
                                              .squash = {{{-1, 1}, {0, 2}}, gain, policy::Squash::Shape::sine}});
-    const Vector theta = initial_policy(*policy, Gaussian::zero(2), {.seed = 1, .trial = 2});
+    const Vector theta = initial_policy(*policy, moments::Gaussian::zero(2), {.seed = 1, .trial = 2});
     Vector counted = theta.cwiseQuotient(units_of(*policy));
     EXPECT_TRUE(
         (gain * theta).isApprox((Matrix(3, 2) << scale, scale, 1, 1).finished().reshaped().cwiseProduct(counted)));
@@ -375,8 +375,8 @@ TEST(PolicySearch, BeginsWithALinearPolicyOfTheSameActionsWhateverTheScaleAndThe
 
 // No policy has a value on a model that throws the state out of all numbers.
 TEST(PolicySearch, KeepsTheStartWhereNothingHasAValue) {
-  gp::MomentTerm wild{.centres = Matrix{{1, 0}}, .log_lengths = Vector{{9, 9}}, .weights = Vector{{1e300}}};
-  const auto dynamics = std::make_shared<gp::MomentMatching>(std::vector{wild}, 1);
+  moments::MomentTerm wild{.centres = Matrix{{1, 0}}, .log_lengths = Vector{{9, 9}}, .weights = Vector{{1e300}}};
+  const auto dynamics = std::make_shared<moments::MomentMatching>(std::vector{wild}, 1);
   const auto policy = rbf();
   const Task task = slider::task();
   const Vector start = initial_policy(*policy, start_state(task, {}), {.seed = 1, .trial = 2});

@@ -63,7 +63,7 @@ TEST(PriorPhase, TheFirstTrialIsThePolicyOfThePrior) {
   // By moments it is that of the network alone.
   ASSERT_TRUE(first.moments);
   const moments::ExpectedReturn expected(task(), *slider::rbf(),
-                                         std::make_shared<gp::MomentMatching>(knowledge.network, 1));
+                                         std::make_shared<moments::MomentMatching>(knowledge.network, 1));
   EXPECT_EQ(first.moments().states, expected.episode(first.theta).states);
 
   // On the prior it does as well as was predicted.
@@ -230,8 +230,8 @@ TEST(PriorPhase, ModelsAreAroundTheNetwork) {
   const Matrix X{{0.3}}, U{{0.4}};
   Matrix mean(1, 1), variance(1, 1);
   model.model->predict(X, U, mean, variance);
-  gp::MomentTape tape;
-  Transformed moments;
+  moments::MomentTape tape;
+  moments::Transformed moments;
   ASSERT_TRUE(model.moments->forward({Vector{{0.3, 0.4}}, Matrix::Zero(2, 2)}, tape, moments));
   EXPECT_NEAR(moments.mean(0), mean(0, 0), 1e-4) << "forecasts leave out points that do not matter";
   EXPECT_NEAR(moments.mean(0), 0.2 * (1.5 * 0.4 - 0.2 * 0.3), 0.01);

@@ -1,0 +1,217 @@
+#include "rehearse/campaign/folder.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "rehearse/campaign/summary.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/spec_file.hpp"
+#include "rehearse/experiment/unborn.hpp"
+#include "rehearse/files/seal.hpp"
+
+namespace rehearse::campaign {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kFile = "campaign.toml", *kRuns = "runs";
+constexpr std::chrono::seconds kUntilVisible{30};  // network file systems may show an old state for a while
+
+/// Whether nothing of anybody's is in a folder: what is left of a start that was killed counts as nothing.
+bool is_blank(const fs::path& folder) {
+  return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), [](const fs::directory_entry& entry) {
+    return entry.path().filename() == "lock" || entry.path().extension() == ".tmp";
+  });
+}
+
+void make_folder(const fs::path& path) {
+  try {
+    if (!fs::exists(path)) fs::create_directories(path);
+    if (!fs::is_directory(path)) throw InvalidInput(fmt::format("{} is not a folder", path.string()));
+    if (!is_blank(path) && !fs::exists(path / kFile))  // in this order: another share may begin it meanwhile
+      throw InvalidInput(
+          fmt::format("{} already exists and is not the folder of a campaign; name another", path.string()));
+  } catch (const fs::filesystem_error& error) {
+    throw InvalidInput(fmt::format("cannot create {}: {}", path.string(), error.code().message()));
+  }
+}
+
+/// The plan with which a folder was begun.
+CampaignPlan begun_plan(const experiment::Catalogue& catalogue, const fs::path& file, const std::string& text) {
+  try {
+    return plan_campaign(catalogue, text, file.string());
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(
+        fmt::format("{}\nthe campaign in this folder cannot be read; name another folder", error.what()));
+  }
+}
+
+/// Throws InvalidInput unless every run that was begun is one of the plan, with as many trials or more.
+void check_only_adds(const CampaignPlan& begun, const CampaignPlan& plan, const fs::path& path) {
+  std::map<std::string, std::uint64_t> wanted;
+  for (const PlannedRun& run : plan.runs) wanted[run.name] = experiment::fingerprint(run.spec);
+  std::vector<std::string> lacking, changed;
+  for (const PlannedRun& run : begun.runs) {
+    const auto found = wanted.find(run.name);
+    if (found == wanted.end())
+      lacking.push_back(run.name);
+    else if (found->second != experiment::fingerprint(run.spec))
+      changed.push_back(run.name);
+  }
+  Violations violations;
+  const auto others = [](const std::vector<std::string>& names) {
+    if (names.size() == 1) return names.front();
+    return fmt::format("{} and {} other run{}", names.front(), names.size() - 1, names.size() == 2 ? "" : "s");
+  };
+  if (!lacking.empty())
+    violations.add(fmt::format("{} was begun with {}, which the campaign file no longer has; name another folder",
+                               path.string(), others(lacking)));
+  if (!changed.empty())
+    violations.add(
+        fmt::format("{} was begun with other options of {}; name another folder", path.string(), others(changed)));
+  violations.require(plan.trials >= begun.trials,
+                     fmt::format("{} was begun with {} trials, the campaign file has {}; name another folder",
+                                 path.string(), begun.trials, plan.trials));
+  violations.throw_if_any();
+}
+
+/// What a run of the plan that was killed while its folder was made leaves behind.
+bool is_unborn(const std::string& entry, const CampaignPlan& plan) {
+  const auto name = experiment::name_of_unborn(entry);
+  return name &&
+         std::any_of(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) { return run.name == *name; });
+}
+
+std::string complaint_about_spec(const fs::path& file, const PlannedRun& run) {
+  try {
+    if (experiment::fingerprint(experiment::from_toml(files::read_file(file), file.string())) ==
+        experiment::fingerprint(run.spec))
+      return {};
+    return fmt::format("{} has other options: it is of another campaign or version", file.string());
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+}
+
+/// What `plan` needs to be there, in a folder that is locked.
+void begin(const experiment::Catalogue& catalogue, const fs::path& path, std::string_view text,
+           const CampaignPlan& plan, files::FolderLock::Kind kind) {
+  const fs::path file = path / kFile;
+  const std::string begun = fs::exists(file) ? files::read_file(file) : "";
+  if (!begun.empty() && begun != text) check_only_adds(begun_plan(catalogue, file, begun), plan, path);
+  try {
+    if (kind == files::FolderLock::Kind::exclusive) files::remove_temporaries(file);
+    if (begun != text) files::write_shared_file(file, text);
+    fs::create_directories(path / kRuns);
+  } catch (const fs::filesystem_error& error) {
+    throw InvalidInput(fmt::format("cannot write in {}: {}", path.string(), error.code().message()));
+  }
+}
+
+/// Nothing if the file is not there or damaged: the run is resumed, and writes it again from its checkpoint.
+RunOutcome rows_of(const fs::path& file, Index trials) {
+  try {
+    if (fs::exists(file)) return outcome_of(statistics::read_csv(files::read_file(file)), trials);
+  } catch (const InvalidInput&) {
+  }
+  return {};
+}
+
+}  // namespace
+
+void CampaignFolder::remove_unborn(const CampaignPlan& plan) const {
+  std::vector<fs::path> unborn;
+  for (const auto& entry : fs::directory_iterator(path_ / kRuns))
+    if (is_unborn(entry.path().filename().string(), plan)) unborn.push_back(entry.path());
+  for (const fs::path& path : unborn) fs::remove_all(path);
+}
+
+CampaignFolder CampaignFolder::open(const experiment::Catalogue& catalogue, const fs::path& given,
+                                    std::string_view text, const CampaignPlan& plan, files::FolderLock::Kind kind) {
+  const fs::path path = files::without_slash(given);
+  make_folder(path);
+  files::FolderLock lock(path, kind);
+  begin(catalogue, path, text, plan, kind);
+  return {path, std::move(lock)};
+}
+
+CampaignFolder CampaignFolder::join(const fs::path& given, std::string_view text) {
+  const fs::path path = files::without_slash(given), file = path / kFile;
+  const auto until = std::chrono::steady_clock::now() + kUntilVisible;
+  while (!files::holds(file, text)) {
+    if (std::chrono::steady_clock::now() > until)
+      throw InvalidInput(
+          fmt::format("this process does not see what rank 0 wrote to {}; the folder must be on a file system that all "
+                      "machines share",
+                      file.string()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return {path, std::nullopt};
+}
+
+namespace {
+
+std::string damage_of_checkpoint(const fs::path& file) {
+  try {
+    files::unseal("checkpoint", files::read_file(file));
+    return {};
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+}
+
+RunOutcome contents_of(const fs::path& folder, const PlannedRun& run) {
+  if (!fs::exists(fs::symlink_status(folder))) return {};
+  RunOutcome outcome;
+  const std::string complaint = complaint_about_spec(folder / "spec.toml", run);
+  if (!complaint.empty()) {
+    outcome.fail(complaint);
+    return outcome;
+  }
+  outcome = rows_of(folder / "trials.csv", run.spec.trials);
+  const bool solved = !outcome.solved.empty() && outcome.solved.back().value_or(false);
+  if (!run.spec.ends_with(outcome.done(), solved) || !fs::exists(folder / "done")) return outcome;
+  const std::string damage = damage_of_checkpoint(folder / "checkpoint");
+  if (!damage.empty()) {
+    RunOutcome damaged;
+    damaged.fail(damage);
+    return damaged;
+  }
+  outcome.state = RunState::done;
+  return outcome;
+}
+
+}  // namespace
+
+RunOutcome CampaignFolder::read(const PlannedRun& run) const {
+  try {
+    return contents_of(path_of(run), run);
+  } catch (const fs::filesystem_error& error) {
+    RunOutcome unreadable;
+    unreadable.fail(fmt::format("cannot read {}: {}", error.path1().string(), error.code().message()));
+    return unreadable;
+  }
+}
+
+std::vector<Skipped> CampaignFolder::strangers(const CampaignPlan& plan) const {
+  std::vector<Skipped> found;
+  for (const auto& entry : fs::directory_iterator(path_ / kRuns)) {
+    const std::string name = entry.path().filename().string();
+    const bool planned =
+        std::any_of(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) { return run.name == name; });
+    if (!planned) found.push_back({fmt::format("{}/{}", kRuns, name), "not a run of this campaign"});
+  }
+  std::sort(found.begin(), found.end(), [](const Skipped& a, const Skipped& b) { return a.path < b.path; });
+  return found;
+}
+
+void CampaignFolder::write(const Campaign& campaign) const {
+  files::write_file(path_ / "campaign.csv", campaign_csv(campaign));
+  files::write_file(path_ / "summary.json", summary_json(campaign));
+}
+
+}  // namespace rehearse::campaign

@@ -1,0 +1,46 @@
+#include "rehearse/campaign/results.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace rehearse::campaign {
+
+void RunOutcome::fail(std::string why) {
+  for (std::size_t end = why.find('\n'); end != std::string::npos; end = why.find('\n', end)) why.replace(end, 1, "; ");
+  state = RunState::failed;
+  reason = std::move(why);
+}
+
+std::optional<std::size_t> RunOutcome::row_of(Index trial) const {
+  if (done() < trial && state != RunState::done) return std::nullopt;
+  return static_cast<std::size_t>(std::min(trial, done()) - 1);
+}
+
+std::optional<Index> RunOutcome::first_success(Index until) const {
+  for (Index trial = 1; trial <= std::min(until, done()); ++trial)
+    if (solved[static_cast<std::size_t>(trial - 1)].value_or(false)) return trial;
+  return std::nullopt;
+}
+
+double RunOutcome::best_return(Index until) const {
+  return *std::max_element(returns.begin(), returns.begin() + std::min(until, done()));
+}
+
+Index Campaign::count(RunState state) const {
+  return std::count_if(runs.begin(), runs.end(), [&](const RunOutcome& run) { return run.state == state; });
+}
+
+RunOutcome outcome_of(statistics::Table trials, Index planned_trials) {
+  RunOutcome outcome{.trials = std::move(trials)};
+  const std::size_t rows = std::min(outcome.trials.rows.size(), static_cast<std::size_t>(planned_trials));
+  outcome.trials.rows.resize(rows);
+  for (const auto& number : outcome.trials.numbers("interaction_s"))
+    outcome.interaction_s.push_back(number.value_or(0));
+  for (const auto& number : outcome.trials.numbers("return"))
+    outcome.returns.push_back(number.value_or(-std::numeric_limits<double>::infinity()));
+  for (const auto& number : outcome.trials.numbers("solved"))
+    outcome.solved.push_back(number ? std::optional(*number != 0) : std::nullopt);
+  return outcome;
+}
+
+}  // namespace rehearse::campaign

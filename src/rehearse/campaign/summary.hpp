@@ -1,0 +1,35 @@
+#pragma once
+// What a campaign amounts to, as numbers and as the text of its two tables (docs/campaigns.md).
+
+#include <optional>
+#include <string>
+
+#include "rehearse/campaign/results.hpp"
+#include "rehearse/statistics/quantiles.hpp"
+
+namespace rehearse::campaign {
+
+struct SuccessRate {
+  Index runs = 0;  // those that have the trial, and those that failed before it and count as not solved
+  Index count = 0;
+  Interval interval;
+};
+
+/// Of one trial, over the runs of a group.
+struct TrialStatistics {
+  Index trial = 0;
+  Index runs = 0;            // that have this trial
+  double interaction_s = 0;  // median
+  statistics::FiveNumbers total_reward, best_return;
+  std::optional<SuccessRate> solved, solved_by;  // in this trial; in this or one before
+};
+
+/// Of every trial that a run of the group has reached.
+std::vector<TrialStatistics> trial_statistics(const Campaign& campaign, std::size_t group);
+
+/// One row a trial of every run, in the order of the plan.
+std::string campaign_csv(const Campaign& campaign);
+
+std::string summary_json(const Campaign& campaign);
+
+}  // namespace rehearse::campaign

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/gp/fit.hpp"
+
+namespace rehearse::dynamics {
+
+/// GPs of more inputs have one length for all of them and no trend: a few trials tell too little of more.
+inline constexpr Index kFewInputs = 16;
+
+/// The options of a fit for GPs of so many inputs.
+gp::FitOptions fit_options(gp::FitOptions options, Index inputs);
+
+/// How the GPs of a dynamics model are learned.
+struct GpOptions {
+  gp::FitOptions fit;
+  PredictedVariance variance = PredictedVariance::latent;
+  bool joint_angles = true;      // inputs have those that the task names too
+  bool integrate_rates = false;  // positions follow from their rates, GPs learn what is left (integration.hpp)
+  bool smooth = false;      // noisy states are smoothed where that makes what was measured likelier (smoothing.hpp); φ
+                            // moves with them where the score is the product and the search alternating
+  double tolerance = 0.01;  // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
+  void fields(FieldVisitor& v) {
+    v.group("fit", fit);
+    v.boolean("trend", fit.trend, published(false));
+    v.boolean("joint_angles", joint_angles, published(false));
+    v.boolean("integrate_rates", integrate_rates, published(false));
+    v.boolean("smooth", smooth, published(false));
+    v.number("tolerance", tolerance, between(0, 1), published(0));
+    v.choice("variance", variance, {"latent", "noisy"});
+  }
+};
+
+}  // namespace rehearse::dynamics

@@ -1,0 +1,31 @@
+#include "rehearse/experiment/location.hpp"
+
+#include <algorithm>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::experiment {
+
+Spec with_options(Spec spec, const std::vector<FileOption>& options) {
+  for (const FileOption& option : options) spec.options.emplace_back(option.key, option.text);
+  return spec;
+}
+
+bool has_violation(const Catalogue& catalogue, const Spec& spec, const std::string& violation) {
+  try {
+    resolve(catalogue, spec);
+    return false;
+  } catch (const InvalidInput& error) {
+    const std::vector<std::string> found = error.violations();
+    return std::find(found.begin(), found.end(), violation) != found.end();
+  }
+}
+
+const FileOption* cause(const Catalogue& catalogue, const Spec& bare, const std::vector<FileOption>& options,
+                        const std::string& violation) {
+  for (const FileOption& option : options)
+    if (has_violation(catalogue, with_options(bare, {option}), violation)) return &option;
+  return nullptr;
+}
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <set>
+#include <string>
+
+#include "rehearse/core/ranks.hpp"
+#include "rehearse/experiment/run.hpp"
+#include "rehearse/testing/rank_threads.hpp"
+
+namespace rehearse::experiment::fake {
+
+/// How a piece of work ends on each of three ranks.
+class Ends {
+ public:
+  explicit Ends(const std::function<void(Ranks&, const RunOptions&)>& work,
+                const std::function<bool(int rank)>& stop = {}) {
+    testing::on_rank_threads(
+        3, [&](Ranks& ranks) { add(end_of([&] { work(ranks, options(ranks)); })), ranks.leave(0, ""); }, stop);
+  }
+  /// What all ranks say, or how they differ.
+  std::string all() const {
+    std::string text;
+    for (const std::string& word : words_) text += (text.empty() ? "" : " | ") + word;
+    return text;
+  }
+
+ private:
+  static RunOptions options(Ranks& ranks) {
+    return {.evaluator = make_rank_evaluator(ranks, 1), .stop = [&] { return ranks.stopped(); }};
+  }
+  static std::string end_of(const std::function<void()>& work) {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      return error.what();
+    } catch (const Interrupted&) {
+      return "interrupted";
+    }
+    return "done";
+  }
+  void add(const std::string& word) {
+    const std::lock_guard lock(mutex_);
+    words_.insert(word);
+  }
+
+  std::mutex mutex_;
+  std::set<std::string> words_;
+};
+
+}  // namespace rehearse::experiment::fake

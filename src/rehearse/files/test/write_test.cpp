@@ -1,0 +1,57 @@
+#include "rehearse/files/write.hpp"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/test/test_tools.hpp"
+
+namespace rehearse::files {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(ExperimentFiles, AreReplacedAndTheirTemporariesAreNeverWrittenThrough) {
+  const fs::path folder = test_folder(), file = folder / "table.csv", victim = folder / "victim";
+  write_file(victim, "whole");
+  fs::create_symlink(victim, folder / "table.csv.tmp");
+  write_file(file, "one");
+  EXPECT_EQ(read_file(file), "one");
+  fs::create_symlink(folder / "nowhere", folder / "table.csv.tmp");
+  write_file(file, "two");
+  fs::create_hard_link(victim, folder / "table.csv.tmp");
+  write_file(file, "three");
+  ASSERT_EQ(::mkfifo((folder / "table.csv.tmp").c_str(), 0600), 0);
+  write_file(file, "four");
+  EXPECT_EQ(read_file(file), "four");
+  EXPECT_EQ(read_file(victim), "whole");
+  EXPECT_FALSE(fs::exists(folder / "nowhere"));
+  EXPECT_FALSE(fs::exists(folder / "table.csv.tmp"));
+}
+
+TEST(ExperimentFiles, ALinkInThePlaceOfAFileIsReplaced) {
+  const fs::path folder = test_folder(), file = folder / "table.csv", victim = folder / "victim";
+  write_file(victim, "whole");
+  fs::create_symlink(victim, file);
+  EXPECT_FALSE(holds(file, "whole"));
+  write_file(file, "new");
+  EXPECT_TRUE(holds(file, "new"));
+  EXPECT_FALSE(holds(file, "old"));
+  EXPECT_EQ(read_file(victim), "whole");
+}
+
+TEST(ExperimentFiles, ALockIsNoLink) {
+  const fs::path folder = test_folder(), target = folder / "target";
+  fs::create_symlink(target, folder / "lock");
+  const auto refused = [&] { return message_of<InvalidInput>([&] { const FolderLock lock(folder); }); };
+  EXPECT_EQ(refused(), "cannot write " + (folder / "lock").string() + ": it is a link");
+  EXPECT_FALSE(fs::exists(target));
+  fs::remove(folder / "lock");
+  ASSERT_EQ(::mkfifo((folder / "lock").c_str(), 0600), 0);
+  EXPECT_EQ(refused(), "cannot write " + (folder / "lock").string() + ": it is no regular file");
+}
+
+}  // namespace
+}  // namespace rehearse::files

@@ -1,0 +1,125 @@
+#include "rehearse/files/toml_reader.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace rehearse::files {
+
+std::string in_file(const std::string& source, Index line, const std::string& message) {
+  return line > 0 ? fmt::format("{}: line {}: {}", source, line, message) : fmt::format("{}: {}", source, message);
+}
+
+void FileViolations::throw_if_any() const {
+  Violations lines;
+  for (const auto& [line, message] : list_) lines.add(in_file(source_, line, message));
+  lines.throw_if_any();
+}
+
+toml::table parse_toml(std::string_view text, const std::string& source) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw InvalidInput(fmt::format("{}: line {}: {}", source, error.source().begin.line, error.description()));
+  }
+}
+
+Index line_of(const toml::node& node) { return static_cast<Index>(node.source().begin.line); }
+
+std::string text_of(const toml::node& node) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto* integer = node.as_integer()) return fmt::to_string(integer->get());
+  if (const auto* number = node.as_floating_point()) return to_text(number->get());
+  throw InvalidInput("a value must be a number, true, false or text");
+}
+
+std::vector<std::pair<std::string, const toml::node*>> leaves(const toml::table& table, const std::string& prefix) {
+  std::vector<std::pair<std::string, const toml::node*>> all;
+  for (const auto& [key, node] : table) {
+    const std::string name = prefix.empty() ? std::string(key.str()) : fmt::format("{}.{}", prefix, key.str());
+    if (const auto* nested = node.as_table()) {
+      const auto inner = leaves(*nested, name);
+      all.insert(all.end(), inner.begin(), inner.end());
+    } else {
+      all.emplace_back(name, &node);
+    }
+  }
+  const auto position = [](const auto& leaf) {
+    const toml::source_position& begin = leaf.second->source().begin;
+    return std::tie(begin.line, begin.column);
+  };
+  std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return position(a) < position(b); });
+  return all;
+}
+
+const toml::node* TomlReader::take(const std::string& key) {
+  known_.push_back(key);
+  return table_.get(key);
+}
+
+void TomlReader::wrong(const std::string& key, const std::string& message) {
+  const toml::node* node = table_.get(key);
+  violations_.add(line_of(node ? *node : table_), message);
+}
+
+void TomlReader::take_fields(const Fields& fields) {
+  for (const auto& [key, text] : list_fields(fields)) {
+    const toml::node* node = take(key);
+    if (!node) continue;
+    try {
+      set_field(fields, key, text_of(*node));
+    } catch (const InvalidInput& error) {
+      wrong(key, error.what());
+    }
+  }
+}
+
+bool TomlReader::take(const std::string& key, std::string& value) {
+  const toml::node* node = take(key);
+  if (!node) return false;
+  if (const auto* text = node->as_string())
+    value = text->get();
+  else
+    wrong(key, fmt::format("{} must be text in quotes", key));
+  return true;
+}
+
+bool TomlReader::take(const std::string& key, std::vector<std::string>& values) {
+  const toml::node* node = take(key);
+  if (!node) return false;
+  std::vector<std::string> read;
+  if (const auto* text = node->as_string()) read.push_back(text->get());
+  if (const auto* list = node->as_array())
+    for (const toml::node& element : *list)
+      if (const auto* text = element.as_string()) read.push_back(text->get());
+  const bool all_read = node->is_string() || (node->is_array() && node->as_array()->size() == read.size());
+  for (const std::string& name : read)
+    if (std::count(read.begin(), read.end(), name) > 1) wrong(key, fmt::format("{} names '{}' twice", key, name));
+  if (!all_read || read.empty())
+    wrong(key, fmt::format("{} must be a list of names in quotes", key));
+  else
+    values = std::move(read);
+  return true;
+}
+
+const toml::table* TomlReader::take_table(const std::string& key) {
+  const toml::node* node = take(key);
+  if (node && !node->is_table()) wrong(key, fmt::format("{} must be a table", key));
+  return node ? node->as_table() : nullptr;
+}
+
+void TomlReader::finish() {
+  for (const auto& [key, node] : table_) {
+    const std::string name(key.str());
+    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+    const std::string place = where_.empty() ? "" : " in " + where_;
+    violations_.add(static_cast<Index>(key.source().begin.line),
+                    fmt::format("unknown key '{}'{}, did you mean '{}'? (known: {})", name, place,
+                                closest(name, known_), fmt::join(known_, ", ")));
+  }
+}
+
+}  // namespace rehearse::files

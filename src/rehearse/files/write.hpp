@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "rehearse/files/regular_file.hpp"
+
+namespace rehearse::files {
+
+/// A folder's path without a "/" at its end.
+std::filesystem::path without_slash(const std::filesystem::path& path);
+
+/// Whether a file can be read and has these bytes.
+bool holds(const std::filesystem::path& path, std::string_view bytes);
+
+enum class Durability {
+  process,  // survives the process: whenever it is killed, the file holds its old bytes or the new ones
+  power,    // and a power failure, at the price of waiting for the disk
+};
+
+/// Replaces a file, or a link of that name, in one step. Throws std::runtime_error (a full disk).
+void write_file(const std::filesystem::path& path, std::string_view bytes, Durability durability = Durability::process);
+
+/// The same for a file that several processes may replace at once, durably. Who is killed leaves a file of its own,
+/// which `remove_temporaries` removes where nobody else is at work.
+void write_shared_file(const std::filesystem::path& path, std::string_view bytes);
+void remove_temporaries(const std::filesystem::path& path);
+
+/// Renames a folder unless something of that name exists; then returns false.
+bool rename_new(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Held by the one process that may write a folder, or by several that share it; given back when it dies, however it
+/// dies. Nothing on a file system that has no locks. Movable.
+class FolderLock {
+ public:
+  enum class Kind { exclusive, shared };
+  explicit FolderLock(const std::filesystem::path& folder, Kind kind = Kind::exclusive);  // InvalidInput: it is in use
+  ~FolderLock();
+  FolderLock(FolderLock&& other) noexcept;
+  FolderLock& operator=(FolderLock&&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+}  // namespace rehearse::files

@@ -1,0 +1,16 @@
+#pragma once
+// Names for what is known of parameters that cannot be told apart.
+
+#include <string>
+#include <vector>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::identification {
+
+/// Sums and products that are the same at all these points (parameters × points), as "m1 + m2 = 1.24", "m2·r2 = 0.105"
+/// or "I1 + 0.09·m2 = 0.111": as many as the points allow, at least parameters − `unknown` of them; none if there are
+/// no such simple ones.
+std::vector<std::string> known_combinations(const std::vector<std::string>& names, const Matrix& points, Index unknown);
+
+}  // namespace rehearse::identification

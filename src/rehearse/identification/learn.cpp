@@ -1,0 +1,180 @@
+#include "rehearse/identification/learn.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/dynamics/residuals.hpp"
+#include "rehearse/dynamics/servos.hpp"
+#include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/identification/alternating.hpp"
+#include "rehearse/identification/fit_problem.hpp"
+#include "rehearse/identification/nested.hpp"
+#include "rehearse/identification/smoothing/measurement_noise.hpp"
+#include "rehearse/identification/smoothing/smoothing.hpp"
+
+namespace rehearse::identification {
+namespace {
+
+/// What all kinds learn from.
+struct Given {
+  const Dataset& data;
+  const FeatureMap& features;
+  const Kinematics& kinematics;
+  const prior::Prior* prior;
+  const WarmStart& start;
+  const Evaluator& evaluator;
+
+  dynamics::Residuals residuals(const GpOptions& gp, bool integrates_rates, bool midpoint) const {
+    Kinematics known = kinematics;
+    if (!integrates_rates) known.pairs.clear();
+    return dynamics::Residuals(data, gp.joint_angles ? features : FeatureMap(features.kinds(), {}, features.targets()),
+                               std::move(known), midpoint);
+  }
+};
+
+gp::FitOptions fit_options(const GpOptions& options, const dynamics::Residuals& residuals) {
+  return dynamics::fit_options(options.fit, residuals.features().features() + residuals.data().actions.cols());
+}
+
+/// `smoothed`: null where noise of measurements is to be told from what the kernels take for noise.
+Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, const Smoothed* smoothed) {
+  const dynamics::Residuals& residuals = problem.residuals;
+  const dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
+  if (!rows.inputs) throw InvalidInput("no row of the data set has a finite prior mean: nothing to learn from");
+  std::optional<dynamics::Mean> mean;
+  if (problem.prior) mean = dynamics::Mean{*problem.prior, fit.phi, residuals.midpoint()};
+  Learned learned;
+  learned.state.kernels = hyperparameters(fit);
+  const auto model = std::make_shared<dynamics::GpModel>(
+      residuals.features(), residuals.kinematics(), mean,
+      gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance), options.variance);
+  model->set_measurement_std(smoothed
+                                 ? smoothed->measurement_std
+                                 : measurement_std(*model, residuals.data(), model->posterior().noise_variances()));
+  learned.model = model;
+  if (problem.prior) learned.state.phi = fit.phi;
+  learned.log_evidence = fit.log_evidences.sum();
+  learned.left_out_rows = rows.left_out;
+  learned.evaluations = fit.evaluations;
+  for (Index e = 0; e < fit.log_evidences.size(); ++e)
+    if (!std::isfinite(fit.log_evidences(e)))
+      learned.notes.push_back(fmt::format("the kernel of output {} could not be fitted", e));
+  return learned;
+}
+
+/// The model of a fit, or of what smoothing makes of it where that is likelier. finish(problem, fit,
+/// smoothed) makes the model; the last is null where nothing was smoothed.
+template <class Finish>
+Learned smoothed_if_likelier(const Given& given, const GpOptions& options, const FitProblem& measured, const Fit& fit,
+                             bool moves_phi, Finish finish) {
+  const bool behind_servos = !given.kinematics.servos.empty();  // whose actions are noisy measurements themselves
+  if (!options.smooth || behind_servos) return finish(measured, fit, nullptr);
+  const auto on = [&](const dynamics::Residuals& residuals) {
+    return FitProblem{residuals, measured.prior, measured.score, measured.options, measured.evaluator};
+  };
+  const dynamics::Residuals residuals = given.residuals(options, true, measured.residuals.midpoint());
+  const std::optional<Smoothed> smoothed = smooth(on(residuals), fit, moves_phi);
+  if (!smoothed) return finish(measured, fit, nullptr);
+  const dynamics::Residuals of_smoothed = residuals.of(smoothed->data);
+  Learned learned = finish(on(of_smoothed), smoothed->fit, &*smoothed);
+  learned.log_evidence = smoothed->fit.score;
+  if (!moves_phi && learned.score) learned.score = fit.score;
+  learned.smoothed = SmoothedRows{smoothed->data, hyperparameters(smoothed->fit)};
+  learned.state.kernels = hyperparameters(fit);  // of measured rows, which the next trial starts with
+  return learned;
+}
+
+/// GPs around the prior as it is; null: around zero.
+Learned learn_gps(const Given& given, const GpOptions& options, const prior::Prior* prior, bool midpoint) {
+  const dynamics::Residuals residuals = given.residuals(options, options.integrate_rates, midpoint);
+  const FitProblem problem{residuals, prior, Score::product, fit_options(options, residuals), given.evaluator};
+  Fit fit = unfitted(prior ? prior->space.values() : Vector(), residuals.scale().size(), given.start.kernels);
+  problem.refit(fit);
+  const auto finish = [&](const FitProblem& of, const Fit& made, const Smoothed* smoothed) {
+    return model_of(of, made, options, smoothed);
+  };
+  return smoothed_if_likelier(given, options, problem, fit, false, finish);
+}
+
+Learned learn_kind(const ZeroMean& kind, const Given& given) { return learn_gps(given, kind.gp, nullptr, false); }
+
+Learned learn_kind(const FixedPrior& kind, const Given& given) {
+  return learn_gps(given, kind.gp, given.prior, kind.gp.midpoint);
+}
+
+/// Fails where the prior tunes something and a number is not finite.
+void add_posterior(Learned& learned, const prior::Prior& prior, std::optional<PhiPosterior> posterior) {
+  learned.posterior = std::move(posterior);
+  if (!learned.posterior && !prior.space.of_kind(Parameter::Kind::continuous).empty())
+    learned.notes.emplace_back("how sure the parameters are could not be computed");
+}
+
+Learned learn_kind(const GpMi& kind, const Given& given) {
+  const prior::Prior& prior = *given.prior;
+  const dynamics::Residuals residuals = given.residuals(kind.gp, kind.gp.integrate_rates, kind.gp.midpoint);
+  const FitProblem problem{residuals, &prior, kind.score, fit_options(kind.gp, residuals), given.evaluator};
+  Fit found = kind.search == PhiSearch::nested ? search_nested(kind, problem, given.start)
+                                               : search_by_turns(kind, problem, given.start);
+  if (!std::isfinite(found.score)) problem.refit(found);
+  const auto finish = [&](const FitProblem& of, const Fit& fit, const Smoothed* smoothed) {
+    Learned learned = model_of(of, fit, kind.gp, smoothed);
+    learned.score = fit.score;
+    add_posterior(
+        learned, prior,
+        smoothed ? phi_posterior(of, fit, smoothed->steps, kind.posterior) : phi_posterior(of, fit, kind.posterior));
+    return learned;
+  };
+  // Smoothing climbs the product of likelihoods by turns; what another score or search chose stays.
+  const bool moves_phi = kind.score == Score::product && kind.search == PhiSearch::alternating;
+  return smoothed_if_likelier(given, kind.gp, problem, found, moves_phi, finish);
+}
+
+Learned learn_kind(const Mi& kind, const Given& given) {
+  const prior::Prior& prior = *given.prior;
+  const dynamics::Residuals residuals(given.data, given.features);
+  const Identified identified = least_squares(residuals, prior, given.start.phi, kind);
+  Learned learned;
+  learned.model = std::make_shared<dynamics::SimulatorModel>(prior, identified.phi);
+  learned.state.phi = identified.phi;
+  learned.evaluations = identified.evaluations;
+  learned.left_out_rows = residuals.at(&prior, identified.phi).left_out;
+  add_posterior(learned, prior, phi_posterior(residuals, prior, identified.phi, kind.posterior, given.evaluator));
+  return learned;
+}
+
+/// Null: the kind has none, or knows the actions as they are.
+const ResidualGpOptions* servo_options(const Kind& kind) {
+  const auto with_servos = [](const auto& k) -> const ResidualGpOptions* {
+    if constexpr (requires { k.gp.servos; }) return k.gp.servos ? &k.gp : nullptr;
+    return nullptr;
+  };
+  return std::visit(with_servos, kind);
+}
+
+}  // namespace
+
+Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics, const prior::Prior* prior,
+              const Kind& kind, const WarmStart& start, const Evaluator& evaluator) {
+  if (!prior && !std::holds_alternative<ZeroMean>(kind)) throw InvalidInput("this dynamics model needs a prior");
+  if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
+  const auto learn_from = [&](const Dataset& rows, const Kinematics& known, const prior::Prior* around) {
+    const Given given{rows, features, known, around, start, evaluator};
+    return std::visit([&](const auto& k) { return learn_kind(k, given); }, kind);
+  };
+  const ResidualGpOptions* options = servo_options(kind);
+  if (!options || kinematics.servos.empty()) {
+    Kinematics without = kinematics;
+    without.servos.clear();
+    return learn_from(data, without, prior);
+  }
+  const auto servos = std::make_shared<dynamics::Servos>(data, features, kinematics.servos, *options, evaluator);
+  const prior::Prior driven = prior->behind_servos();
+  Learned learned = learn_from(dynamics::reached(data, kinematics.servos), kinematics, &driven);
+  learned.model = std::make_shared<dynamics::ServoModel>(servos, learned.model);
+  *learned.log_evidence += servos->log_evidence();
+  return learned;
+}
+
+}  // namespace rehearse::identification

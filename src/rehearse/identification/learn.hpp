@@ -1,0 +1,41 @@
+#pragma once
+// The front door: from a data set (and a prior) to a dynamics model.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/core/evaluator.hpp"
+#include "rehearse/core/feature_map.hpp"
+#include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/identification/fit_problem.hpp"
+#include "rehearse/identification/kinds.hpp"
+#include "rehearse/prior/prior.hpp"
+
+namespace rehearse::identification {
+
+/// What GPs learned from instead of the data set.
+struct SmoothedRows {
+  Dataset data;
+  std::vector<gp::Hyperparameters> kernels;  // one an output
+};
+
+struct Learned {
+  std::shared_ptr<const dynamics::DynamicsModel> model;
+  WarmStart state;                        // kernels and φ found
+  std::optional<double> log_evidence;     // of all outputs together, nats; none without GPs
+  std::optional<double> score;            // GP-MI's, nats
+  std::optional<PhiPosterior> posterior;  // of GP-MI and MI
+  std::optional<SmoothedRows> smoothed;   // where states were smoothed
+  Index left_out_rows = 0;                // rows whose prior mean was not finite
+  Index evaluations = 0;                  // of φ
+  std::vector<std::string> notes;         // numerical failures survived
+};
+
+/// Throws InvalidInput if the kind needs a prior and none is given, or the data set has no usable row.
+Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics, const prior::Prior* prior,
+              const Kind& kind, const WarmStart& start, const Evaluator& evaluator);
+
+}  // namespace rehearse::identification

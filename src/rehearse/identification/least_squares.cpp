@@ -1,0 +1,136 @@
+#include "rehearse/identification/least_squares.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "rehearse/identification/coordinates.hpp"
+#include "rehearse/optim/least_squares.hpp"
+
+namespace rehearse::identification {
+namespace {
+
+constexpr double kExact = 1e-24;  // mean squared error, as a fraction of the changes' variance
+
+/// One-step errors as a function of φ; a row that fails has errors as large as the changes' standard deviations.
+class OneStepErrors {
+ public:
+  OneStepErrors(const dynamics::Residuals& residuals, const prior::Prior& prior)
+      : residuals_(residuals), prior_(prior) {}
+
+  Matrix at(const Vector& phi) const { return charged(raw(phi)); }
+
+  /// Their derivatives (rows × outputs, one below the other): 0 for a row that fails at one end of a difference.
+  Matrix slopes(const Coordinates& coordinates, const Vector& z) const {
+    const Matrix here = raw(coordinates.phi(z)), charged_here = charged(here);
+    const auto there = [&](const Vector& other) {
+      Matrix errors = raw(coordinates.phi(other));
+      for (Index i = 0; i < errors.rows(); ++i)
+        if (!errors.row(i).allFinite() || !here.row(i).allFinite()) errors.row(i) = charged_here.row(i);
+      return errors;
+    };
+    const std::vector<Matrix> all = identification::slopes(there, z, charged_here);
+    Matrix J(here.size(), z.size());
+    for (Index i = 0; i < z.size(); ++i) J.col(i) = all[static_cast<std::size_t>(i)].reshaped();
+    return J;
+  }
+
+  /// Minus the mean of a sum of squares over the rows.
+  double score(double squares) const { return -squares / static_cast<double>(residuals_.size()); }
+  double negligible() const {
+    return kExact * static_cast<double>(residuals_.size()) * residuals_.scale().squaredNorm();
+  }
+  Index evaluations() const { return evaluations_; }
+
+ private:
+  Matrix raw(const Vector& phi) const {
+    ++evaluations_;
+    return residuals_.targets(&prior_, phi);
+  }
+  Matrix charged(Matrix errors) const {
+    for (Index i = 0; i < errors.rows(); ++i)
+      if (!errors.row(i).allFinite()) errors.row(i) = residuals_.scale().transpose();
+    return errors;
+  }
+
+  const dynamics::Residuals& residuals_;
+  const prior::Prior& prior_;
+  mutable Index evaluations_ = 0;
+};
+
+/// Start i, the first at z: others are spread evenly over the box (Roberts 2018, the additive recurrence with the
+/// generalised golden ratio).
+Vector start(const Vector& z, Index i) {
+  if (i == 0) return z;
+  double ratio = 2;  // the root of ratio^(q + 1) = ratio + 1
+  for (int k = 0; k < 60; ++k) ratio = std::pow(1 + ratio, 1 / static_cast<double>(z.size() + 1));
+  Vector spread(z.size());
+  for (Index d = 0; d < z.size(); ++d) {
+    const double t = 0.5 + static_cast<double>(i) * std::pow(ratio, -static_cast<double>(d + 1));
+    spread(d) = t - std::floor(t);
+  }
+  return spread;
+}
+
+/// For one combination of the discrete parameters, by descents from several starts.
+class Descents {
+ public:
+  Descents(const OneStepErrors& errors, Coordinates coordinates, const LeastSquares& options)
+      : errors_(errors), coordinates_(std::move(coordinates)), options_(options) {
+    const Index q = coordinates_.size();
+    problem_ = {[this](const Vector& z) -> Vector { return errors_.at(coordinates_.phi(z)).reshaped(); },
+                [this](const Vector& z, const Vector&) { return errors_.slopes(coordinates_, z); }, Vector::Zero(q),
+                Vector::Ones(q), errors_.negligible()};
+  }
+
+  /// φ and its score.
+  Identified run() {
+    const Vector first = coordinates_.start();
+    best_ = optim::minimise_squares(problem_, first);
+    for (Index i = 1; i < options_.starts && best_.value > problem_.negligible; ++i)
+      consider(optim::minimise_squares(problem_, start(first, i)));
+    if (!best_.converged && std::isfinite(best_.value)) search();
+    return {coordinates_.phi(best_.x), errors_.score(best_.value), errors_.evaluations()};
+  }
+
+ private:
+  void consider(const optim::SquaresResult& found) {
+    if (found.value < best_.value) best_ = found;
+  }
+
+  /// By Subplex, where derivatives mislead.
+  void search() {
+    const std::vector<Interval> box(static_cast<std::size_t>(best_.x.size()), {0, 1});
+    const auto score = [&](const Vector& z) { return -problem_.errors(z).squaredNorm(); };
+    const auto found = optim::maximise_subplex(score, best_.x, box, options_.subplex);
+    consider(optim::minimise_squares(problem_, found.x));
+  }
+
+  const OneStepErrors& errors_;
+  const Coordinates coordinates_;
+  const LeastSquares& options_;
+  optim::SquaresProblem problem_;
+  optim::SquaresResult best_;
+};
+
+}  // namespace
+
+Identified least_squares(const dynamics::Residuals& residuals, const prior::Prior& prior,
+                         const std::optional<Vector>& start, const LeastSquares& options) {
+  const OneStepErrors errors(residuals, prior);
+  const auto score = [&](const Vector& phi) { return errors.score(errors.at(phi).squaredNorm()); };
+  const bool continuous = !prior.space.of_kind(Parameter::Kind::continuous).empty();
+  if (options.method == LeastSquares::Method::subplex || !continuous)
+    return identify(prior.space, start, score, options.subplex);
+  const std::vector<Index> discrete = prior.space.of_kind(Parameter::Kind::discrete);
+  Vector phi = start.value_or(prior.space.values());
+  Identified best{.phi = phi, .score = -std::numeric_limits<double>::infinity()};
+  for (const Vector& choice : choices_of(prior.space, discrete)) {
+    phi(discrete) = choice;
+    const Identified found = Descents(errors, Coordinates(prior.space, phi), options).run();
+    if (found.score > best.score) best.score = found.score, best.phi = found.phi;
+  }
+  best.evaluations = errors.evaluations();
+  return best;
+}
+
+}  // namespace rehearse::identification

@@ -1,0 +1,71 @@
+#pragma once
+// How sure the data leave us of φ.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/parameters.hpp"
+#include "rehearse/identification/fit_problem.hpp"
+#include "rehearse/identification/smoothing/errors_in_variables.hpp"
+
+namespace rehearse::identification {
+
+/// Standard deviations of a normal distribution that hold 95 % on both sides.
+inline constexpr double kNormal = 1.959963984540054;
+
+/// What the data say of the prior's continuous parameters: a normal distribution around the φ learned.
+struct PhiPosterior {
+  std::vector<Parameter> parameters;  // q: the continuous ones, with their boxes
+  Vector mean;                        // q, the φ learned
+  Matrix covariance;                  // q × q, positive definite
+
+  // Where the data leave a direction to the boxes, the valley there is followed: how far each parameter gets in it
+  // (empty: not at all), φ on the way (q × points), and how many such directions there are.
+  std::vector<std::optional<Interval>> reach = {};
+  Matrix alternatives = {};
+  Index unknown_directions = 0;
+
+  /// 95 %, of each parameter whatever the others are, inside its box.
+  std::vector<Interval> intervals() const;
+
+  /// What the data cannot tell, a sentence each: parameters that only together fit or do not, those that could be
+  /// nearly anything, and those at the end of their box; with the former what is known of them, if that is simple.
+  std::vector<std::string> doubts() const;
+};
+
+struct PhiPosteriorOptions {
+  // What the prior cannot explain counts as so many observations a degree of freedom of what explains it, however many
+  // rows there are: tuned on other data than docs/results.md's. Large: as many as there are, which is overconfident
+  // where a parameter that is not tuned is wrong.
+  double misfit_observations = 2;
+  void fields(FieldVisitor& v) { v.number("misfit_observations", misfit_observations, above(0)); }
+};
+
+/// Laplace's approximation around the fit with its kernels K_e held: with J_e the derivatives of the prior mean of
+/// output e, the precision is the sum over the outputs of J_eᵀ K_e⁻¹ J_e (Gauss and Newton's; Rasmussen 2006, section
+/// 2.7), plus that of a uniform distribution in the box. What φ cannot explain looks like the prior's own doing, so
+/// that GPs alone take it for far less than it is (Brynjarsdóttir and O'Hagan 2014): K_e has the misfit's mean
+/// square × rows / (misfit_observations × the GP's degrees of freedom) added in each direction of J_e, as if each of
+/// these had an equal share of it. The misfit is the part of the residuals that the GP predicts from other rows; its
+/// degrees of freedom are the trace of the matrix that smooths the rows (Rasmussen 2006, section 2.6). Along directions
+/// of which the data alone tell less than a tenth of the boxes, or no more than derivatives by differences can resolve,
+/// the normal distribution is not trusted: there the sum of squares itself says how far φ may go (reach.hpp). Empty if
+/// the prior has no continuous parameter or the fit no finite score, or if a number is not finite.
+std::optional<PhiPosterior> phi_posterior(const FitProblem& problem, const Fit& fit,
+                                          const PhiPosteriorOptions& options);
+
+/// The same where errors of measurements make steps depend on one another (smoothing.hpp): `steps` has the residuals of
+/// all outputs and their covariance C, which takes the place of the K_e. `fit` is of the rows that GPs learn from,
+/// and tells the misfits; C has it added in directions of all outputs together, each output in units of its misfit.
+std::optional<PhiPosterior> phi_posterior(const FitProblem& problem, const Fit& fit, const ErrorsInVariables& steps,
+                                          const PhiPosteriorOptions& options);
+
+/// The same around a φ of least squares, without GPs: the residuals' variance takes the place of K_e, and the misfit is
+/// what rows of nearly the same input have in common, of one degree of freedom.
+std::optional<PhiPosterior> phi_posterior(const dynamics::Residuals& residuals, const prior::Prior& prior,
+                                          const Vector& phi, const PhiPosteriorOptions& options,
+                                          const Evaluator& evaluator);
+
+}  // namespace rehearse::identification
