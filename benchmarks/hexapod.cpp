@@ -19,7 +19,7 @@
 #include "rehearse/policy/gait.hpp"
 #include "rehearse/robots/hexapod/state.hpp"
 #include "rehearse/rollout/execute.hpp"
-#include "rehearse/rollout/imagine.hpp"
+#include "rehearse/rollout/simulate.hpp"
 
 namespace {
 
@@ -86,8 +86,8 @@ struct Walks {
 };
 
 void add_walk(const dynamics::DynamicsModel& model, const scenario::Scenario& robot, const Trial& trial, Walks& walks) {
-  const rollout::Recorded walk = rollout::imagine_recorded(model, *robot.policy, robot.task, trial.theta, 1, {},
-                                                           {.sample = false, .measurement_noise = 0});
+  const rollout::Recorded walk = rollout::simulate_recorded(
+      {model, *robot.policy, robot.task, {}, {.sample = false, .measurement_noise = 0}}, trial.theta, 1);
   const bool falls =
       !walk.states.back().allFinite() || hexapod::uprightness(walk.states.back().row(0).transpose()) < 0.5;
   const bool fell = trial.episode.ended;

@@ -14,7 +14,7 @@
 #include "rehearse/qd/map_elites.hpp"
 #include "rehearse/robots/hexapod/hexapod.hpp"
 #include "rehearse/rollout/execute.hpp"
-#include "rehearse/rollout/imagine.hpp"
+#include "rehearse/rollout/simulate.hpp"
 
 namespace {
 
@@ -25,7 +25,7 @@ void evaluate(const scenario::Scenario& robot, const dynamics::DynamicsModel& mo
               VectorView performances, MatrixView descriptors) {
   thread_local rollout::Episodes episodes;
   thread_local Episode episode;
-  rollout::imagine_episodes(model, *robot.policy, robot.task, X, 0, {}, {.sample = false}, episodes);
+  rollout::simulate_episodes({model, *robot.policy, robot.task, {}, {.sample = false}}, X, 0, episodes);
   for (Index i = 0; i < X.rows(); ++i) {
     performances(i) = std::numeric_limits<double>::quiet_NaN();
     if (episodes.failed[static_cast<std::size_t>(i)]) continue;

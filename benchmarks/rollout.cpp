@@ -1,4 +1,4 @@
-// What an imagined rollout of the pendubot costs against its own triangular products, and by parts. Everything is
+// What a simulated rollout of the pendubot costs against its own triangular products, and by parts. Everything is
 // measured in turn, in one process, and the least of all repetitions counts: ratios survive a machine that is busy.
 // Run with OPENBLAS_CORETYPE unset.
 
@@ -20,7 +20,7 @@
 #include "rehearse/gp/prediction_kernel.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 #include "rehearse/rollout/execute.hpp"
-#include "rehearse/rollout/imagine.hpp"
+#include "rehearse/rollout/simulate.hpp"
 
 extern "C" {
 void openblas_set_num_threads(int threads);
@@ -36,8 +36,8 @@ using benchmarks::cpu_s, benchmarks::random_episodes, benchmarks::random_theta;
 
 constexpr Index kCandidates = 32 * 17;       // descents × population
 constexpr Index kStates = kCandidates * 50;  // of all their steps
-constexpr Index kRows = 64;                  // of a chunk of rollouts, see rollout/imagine.cpp
-constexpr StreamKey kKey{.purpose = Purpose::imagined_noise};
+constexpr Index kRows = 64;                  // of a chunk of rollouts, see rollout/simulate.cpp
+constexpr StreamKey kKey{.purpose = Purpose::simulated_noise};
 
 gp::Posterior condition(const Matrix& inputs, const Matrix& targets) {
   std::vector<gp::Hyperparameters> hyperparameters;
@@ -82,9 +82,9 @@ struct Setup {
   Matrix X{kRows, 4}, U{kRows, 1}, inputs{kRows, 7};
 };
 
-void imagine(const Setup& s, const Evaluator& evaluator) {
+void simulate(const Setup& s, const Evaluator& evaluator) {
   benchmark::DoNotOptimize(
-      rollout::imagine(*s.model, *s.pendubot.policy, s.pendubot.task, s.Theta, 0, 1, kKey, {}, evaluator));
+      rollout::simulate({*s.model, *s.pendubot.policy, s.pendubot.task, kKey}, s.Theta, {0, 1}, evaluator));
 }
 
 /// The triangular products of all outputs by gp's kernel, `rows` ≤ gp::kChunk states at a time.
@@ -191,7 +191,7 @@ std::vector<Part> parts_of(const Setup& s, Outputs& out) {
   const Vector phi = prior.space.values();
   const std::vector<std::uint64_t> names(kRows, 7);
   return {
-      {"rollout", [&] { imagine(s, serial_evaluator()); }},
+      {"rollout", [&] { simulate(s, serial_evaluator()); }},
       {"products", Products(gp, kRows)},
       {"wide_products", Products(gp, gp::kChunk)},
       {"dtrmm", Dtrmm(gp)},
@@ -247,7 +247,7 @@ void threads(benchmark::State& state) {
     for (int k = 0; k < 2; ++k) {
       const auto start = std::chrono::steady_clock::now();
       const double cpu_start = cpu_s();
-      imagine(setup, *evaluators[k]);
+      simulate(setup, *evaluators[k]);
       const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       wall_s[k] = std::min(wall_s[k], wall), spent_s[k] = std::min(spent_s[k], cpu_s() - cpu_start);
       if (k == 1) state.SetIterationTime(wall);

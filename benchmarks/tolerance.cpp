@@ -1,6 +1,6 @@
 // How far predictions within a tolerance (gp::Posterior) are from exact ones, and how much faster, on models that the
 // learners of every built-in scenario made of real episodes: `tolerance [--quick] [--out FILE.json] [--commit HASH]`.
-// The states compared are those of imagined rollouts of the policies that were tried, of perturbed ones and of random
+// The states compared are those of simulated rollouts of the policies that were tried, of perturbed ones and of random
 // ones.
 
 #include <algorithm>
@@ -71,7 +71,7 @@ Vector some_policy(const std::vector<Vector>& tried, Index which, Rng& rng) {
   return theta;
 }
 
-/// GP inputs of imagined rollouts.
+/// GP inputs of simulated rollouts.
 Matrix inputs_of_rollouts(const dynamics::GpModel& model, const scenario::Scenario& scenario,
                           const std::vector<Vector>& tried, Index count) {
   const FeatureMap features = scenario.task.model_features();
@@ -82,7 +82,7 @@ Matrix inputs_of_rollouts(const dynamics::GpModel& model, const scenario::Scenar
   for (Index which = 0; filled < count; ++which) {
     const Vector theta = some_policy(tried, which, rng);
     const StreamKey key{.seed = 2, .trial = static_cast<std::uint64_t>(which), .stage = Stage::prediction};
-    const auto recorded = rollout::imagine_recorded(model, *scenario.policy, scenario.task, theta, particles, key, {});
+    const auto recorded = rollout::simulate_recorded({model, *scenario.policy, scenario.task, key}, theta, particles);
     const Matrix Theta = theta.transpose().replicate(particles, 1);
     Matrix U(particles, scenario.task.action_size()), inputs(particles, F.cols());
     for (std::size_t t = 0; t + 1 < recorded.states.size() && filled < count; ++t) {

@@ -42,8 +42,8 @@ campaign::Share share_of(const std::optional<std::string>& text, Violations& vio
 }
 
 /// What is said where runs do not stop by themselves; with ranks, mpirun ends those that do not.
-std::function<std::string()> last_words(const Company& company) {
-  if (company.ranks) return nullptr;
+std::function<std::string()> last_words(const ProcessGroup& processes) {
+  if (processes.ranks) return nullptr;
   return [] { return "interrupted; to continue, give the same command again"; };
 }
 
@@ -54,7 +54,8 @@ void say_unfinished(const Campaign& campaign) {
 
 }  // namespace
 
-int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const Company& company) {
+int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments,
+             const ProcessGroup& processes) {
   Violations violations;
   const Index threads = threads_of(arguments.threads, violations);
   const campaign::Share share = share_of(arguments.share, violations);
@@ -64,24 +65,24 @@ int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& ar
   const std::string text = files::read_file(arguments.file, files::Links::follow);
   if (arguments.dry_run) {
     const campaign::CampaignPlan plan = campaign::plan_campaign(catalogue, text, arguments.file);
-    if (company.leads()) print_plan(plan);
+    if (processes.leads()) print_plan(plan);
     return kSuccess;
   }
   const std::string folder = arguments.out.value_or("runs/" + std::filesystem::path(arguments.file).stem().string());
 
   CampaignConsole console(folder, share);
   const auto run = [&] {
-    const SignalWatch watch(last_words(company));
+    const SignalWatch watch(last_words(processes));
     return campaign::run_campaign(catalogue, text, arguments.file, folder,
-                                  {.threads = company.threads(threads),
-                                   .listener = company.leads() ? &console : nullptr,
+                                  {.threads = processes.threads(threads),
+                                   .listener = processes.leads() ? &console : nullptr,
                                    .stop = [] { return caught_signal() != 0; },
                                    .share = share,
                                    .cache = cache_folder,
-                                   .ranks = company.ranks.get()});
+                                   .ranks = processes.ranks.get()});
   };
   const Campaign done = run();
-  if (!company.leads()) return kSuccess;
+  if (!processes.leads()) return kSuccess;
   if (done.count(RunState::unfinished) > 0) {
     console.clear_line();
     say_unfinished(done);

@@ -46,12 +46,12 @@ struct ReplayArguments {
   std::optional<std::string> trial, out;
 };
 
-// With company, every process calls the same command; only the first prints.
+// With processes, every process calls the same command; only the first prints.
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);
-int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments, const Company& company);
-int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments, const Company& company);
-int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const Company& company);
+int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments, const ProcessGroup& processes);
+int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments, const ProcessGroup& processes);
+int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const ProcessGroup& processes);
 int report(const ReportArguments& arguments);
 int replay(const ReplayArguments& arguments);
 

@@ -64,7 +64,7 @@ void Console::trial_done(const experiment::TrialRecord& record) {
 }
 
 void Console::finished(const experiment::RunResult& result) {
-  for (const std::string& doubt : result.doubts) line_.print(doubt);
+  for (const std::string& warning : result.warnings) line_.print(warning);
   const std::string solved = result.solved_at ? fmt::format("solved at trial {}", *result.solved_at)
                                               : fmt::format("not solved in {} trials", result.trials);
   line_.print(fmt::format("{}, best return {:.3f}, in {}", solved, result.best_return, result.folder.string()));

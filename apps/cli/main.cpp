@@ -167,7 +167,7 @@ std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
   return error.what();
 }
 
-int run(int argc, char** argv, const Company& company) {
+int run(int argc, char** argv, const ProcessGroup& processes) {
   CLI::App app(kAbout, "rehearse");
   app.footer(kExample);
   app.set_version_flag("--version", "rehearse " REHEARSE_VERSION, "Show the version");
@@ -188,13 +188,13 @@ int run(int argc, char** argv, const Company& company) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return company.leads() ? app.exit(error) : kSuccess;  // --help, --version
+    if (error.get_exit_code() == 0) return processes.leads() ? app.exit(error) : kSuccess;  // --help, --version
     throw InvalidInput(why_not_parsed(app, error));
   }
-  if (learn_command->parsed()) return learn(catalogue(), learn_arguments, company);
-  if (resume_command->parsed()) return resume(catalogue(), resume_arguments, company);
-  if (campaign_command->parsed()) return campaign(catalogue(), campaign_arguments, company);
-  if (!company.leads()) return kSuccess;
+  if (learn_command->parsed()) return learn(catalogue(), learn_arguments, processes);
+  if (resume_command->parsed()) return resume(catalogue(), resume_arguments, processes);
+  if (campaign_command->parsed()) return campaign(catalogue(), campaign_arguments, processes);
+  if (!processes.leads()) return kSuccess;
   if (list_command->parsed()) return list(catalogue(), list_arguments);
   if (report_command->parsed()) return report(report_arguments);
   return replay(replay_arguments);
@@ -250,14 +250,14 @@ int main(int argc, char** argv) {
   using namespace rehearse::apps;
   keep_standard_descriptors();
   const Launch started = launch(argc, argv);
-  Company company;
+  ProcessGroup processes;
   End end = end_of([&] {
     rehearse::require_processor();
-    join(company, started, argc, argv);
-    return run(argc, argv, company);
+    join(processes, started, argc, argv);
+    return run(argc, argv, processes);
   });
   end = after_output(std::move(end));
-  if (company.ranks) end = end_with(*company.ranks, end);
+  if (processes.ranks) end = end_with(*processes.ranks, end);
   if (started.rank == 0) complain(end.message);
   return end.code;
 }

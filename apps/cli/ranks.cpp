@@ -54,17 +54,17 @@ Launch launch() {
 
 Launch launch(int argc, char** argv) { return does_a_share(argc, argv) ? Launch{} : launch(); }
 
-int Company::threads(Index asked) const {
+int ProcessGroup::threads(Index asked) const {
   if (asked > 0) return static_cast<int>(asked);
   return std::max(1, make_thread_evaluator(0)->concurrency() / sharing);
 }
 
 #ifdef REHEARSE_MPI
 
-void join(Company& company, const Launch& launch, int argc, char** argv) {
+void join(ProcessGroup& processes, const Launch& launch, int argc, char** argv) {
   if (launch.size <= 1) return;
-  company.ranks = mpi::join([] { return caught_signal() != 0; });
-  Ranks& ranks = *company.ranks;
+  processes.ranks = mpi::join([] { return caught_signal() != 0; });
+  Ranks& ranks = *processes.ranks;
   if (ranks.size() != launch.size)
     throw InvalidInput(
         fmt::format("{} started this {} times, but Open MPI joins {} of them; start it with Open MPI's "
@@ -73,12 +73,12 @@ void join(Company& company, const Launch& launch, int argc, char** argv) {
   check_arguments(ranks, argc, argv);
   const std::string own = mpi::cores();
   const std::vector<std::string> cores = ranks.exchange("cores", own);
-  company.sharing = static_cast<int>(std::count(cores.begin(), cores.end(), own));
+  processes.sharing = static_cast<int>(std::count(cores.begin(), cores.end(), own));
 }
 
 #else
 
-void join(Company&, const Launch& launch, int, char**) {
+void join(ProcessGroup&, const Launch& launch, int, char**) {
   if (launch.size <= 1) return;
   throw InvalidInput(
       fmt::format("{} started this {} times, but it was built without MPI (Open MPI was not found) and "

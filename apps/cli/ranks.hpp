@@ -21,7 +21,7 @@ Launch launch();
 Launch launch(int argc, char** argv);
 
 /// Those that this process works with.
-struct Company {
+struct ProcessGroup {
   std::unique_ptr<Ranks> ranks;  // null: it is alone, and MPI was not initialised
   int sharing = 1;               // how many processes, this one included, may use the same cores
 
@@ -31,8 +31,8 @@ struct Company {
   int threads(Index asked) const;
 };
 
-/// Throws InvalidInput if the processes that were started together cannot work together; the company is there all the
+/// Throws InvalidInput if the processes that were started together cannot work together; the processes is there all the
 /// same, so that they end together: mpirun stops the others, and what they had to say, as soon as one ends badly.
-void join(Company& company, const Launch& launch, int argc, char** argv);
+void join(ProcessGroup& processes, const Launch& launch, int argc, char** argv);
 
 }  // namespace rehearse::apps

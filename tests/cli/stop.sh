@@ -28,7 +28,7 @@ stopped() {
   [ -s "$name/spec.toml" ] || fail "$name cannot be resumed"
 }
 
-# In a plant's episode, in imagined ones that are long or many, and in a search that factorises a large matrix at once.
+# In a plant's episode, in simulated ones that are long or many, and in a search that factorises a large matrix at once.
 stopped INT 130 plant 0.3 cartpole --learner black-drops --trials 2 --set horizon=1000000
 stopped TERM 143 friction 2 pendulum --learner mi --trials 2 --set plant.b=1e6
 stopped INT 130 horizon 0.3 cartpole --learner mi --trials 1 --set horizon=1000000

@@ -39,7 +39,7 @@ for instant in 1 2 3 4 5 6 7 8 9 10; do
   [ -e $run/done ] || finished="after $(($(wc -l <$run/trials.csv 2>/dev/null || echo 1) - 1)) trials"
   echo "killed at instant $instant, $finished"
   "$program" resume $run >/dev/null || fail "resuming $run"
-  same whole $run spec.toml trials.csv errors.csv doubts.csv notes.csv policy.json done \
+  same whole $run spec.toml trials.csv errors.csv identifiability.csv notes.csv policy.json done \
     trajectories/trial-00{1,2,3}.csv "${files[@]}"
 done
 

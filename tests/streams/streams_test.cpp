@@ -72,7 +72,7 @@ std::map<Use, int> uses_of(const Case& c) {
   return uses;
 }
 
-/// These compare policies in the same imagined episodes, on purpose.
+/// These compare policies in the same simulated episodes, on purpose.
 bool is_shared(Stage stage) {
   return stage == Stage::judging || stage == Stage::solving || stage == Stage::mean_solving;
 }

@@ -28,7 +28,7 @@ export interface Run {
   errors?: Columns
   notes?: { trial: number[]; note: string[] }
   /** Not there in the folders of older versions. */
-  doubts?: { trial: number[]; doubt: string[] }
+  identifiability?: { trial: number[]; warning: string[] }
   truth?: Record<string, number>
   /** Of a learner that has one. */
   archive?: Archive

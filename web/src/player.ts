@@ -207,7 +207,7 @@ function legendOf({ trajectory, prediction }: Episode): LegendEntry[] {
   if (prediction)
     entries.push(
       MEAN,
-      { label: '5–95 % and 25–75 % of 100 imagined episodes', colour: PREDICTED, band: 0.3, line: false },
+      { label: '5–95 % and 25–75 % of 100 simulated episodes', colour: PREDICTED, band: 0.3, line: false },
     )
   return entries
 }

@@ -85,7 +85,7 @@ function keyFigures({ trials, timings }: Run): Tile[] {
     },
     timings && { label: 'Time to compute', value: duration(seconds) },
     {
-      label: 'Imagined episodes',
+      label: 'Simulated episodes',
       value: number(sum(trials['rollouts'])),
       note: `${number(sum(trials['failed_rollouts']))} failed`,
     },
@@ -152,7 +152,7 @@ function replay(run: Run): Child {
   })
 }
 
-function parameters({ trials, truth = {}, doubts }: Run): Child {
+function parameters({ trials, truth = {}, identifiability }: Run): Child {
   const columns = Object.keys(trials ?? {}).filter((name) => name.startsWith('phi.'))
   const isEnd = (name: string) => /\.(low|high)$/.test(name) && columns.includes(name.replace(/\.[a-z]+$/, ''))
   const names = columns.filter((name) => !isEnd(name))
@@ -184,7 +184,7 @@ function parameters({ trials, truth = {}, doubts }: Run): Child {
       {},
       'With these values the model chose each trial’s policy; in trial 1 they are those of the prior as given. ' +
         'Dashed: the robot’s own, where the scenario says them.',
-      doubtList(doubts, trials['trial']?.at(-1)),
+      warningList(identifiability, trials['trial']?.at(-1)),
     ),
     ...(columns.length > names.length ? { legend: INTERVAL_LEGEND } : {}),
     panels: () => names.map(panel),
@@ -210,9 +210,9 @@ function withIntervals(points: Point[], trials: Columns, column: string): Point[
 }
 
 /** What the data of the last model could not tell. */
-function doubtList(doubts: Run['doubts'], trial: Cell | undefined): Child {
-  const last = (doubts?.doubt ?? []).filter((_, i) => doubts?.trial[i] === trial)
-  return last.length > 0 && h('ul', { class: 'doubts' }, ...last.map((doubt) => h('li', {}, `${doubt}.`)))
+function warningList(warnings: Run['identifiability'], trial: Cell | undefined): Child {
+  const last = (warnings?.warning ?? []).filter((_, i) => warnings?.trial[i] === trial)
+  return last.length > 0 && h('ul', { class: 'warnings' }, ...last.map((warning) => h('li', {}, `${warning}.`)))
 }
 
 /** One panel a state, one line a trial. */
@@ -306,12 +306,12 @@ function times({ timings }: Run): Child {
 function rollouts({ trials }: Run): Child {
   if (!trials?.['rollouts']?.length) return null
   const series: Series[] = [
-    { label: 'imagined', colour: 'var(--green)', symbol: 'circle', points: pointsOf(trials, 'rollouts') },
+    { label: 'simulated', colour: 'var(--green)', symbol: 'circle', points: pointsOf(trials, 'rollouts') },
     { label: 'failed', colour: REAL, symbol: 'cross', points: pointsOf(trials, 'failed_rollouts') },
   ]
   return figure({
     name: 'rollouts',
-    title: 'Imagined episodes',
+    title: 'Simulated episodes',
     about: 'How many the search needed, and how many ended because a simulation failed.',
     legend: series,
     panels: () => [

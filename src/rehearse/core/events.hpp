@@ -12,7 +12,7 @@ struct Progress {
   std::string phase;   // "model", "search"
   double done = 0;     // fraction of the phase, 0..1
   double best = 0;     // best predicted return so far
-  Index rollouts = 0;  // imagined so far in this phase
+  Index rollouts = 0;  // simulated so far in this phase
   double rollouts_per_s = 0;
 };
 

@@ -20,7 +20,7 @@ FeatureMap::FeatureMap(std::vector<StateKind> kinds, std::vector<JointAngle> joi
     const Index cosine = first[static_cast<std::size_t>(state)];
     return Trigonometry{cosine, cosine + 1};
   };
-  for (const JointAngle& joint : joints_) joint_features_.push_back({of_state(joint.angle), of_state(joint.carrier)});
+  for (const JointAngle& joint : joints_) joint_features_.push_back({of_state(joint.angle), of_state(joint.parent)});
   features_ += 2 * static_cast<Index>(joints_.size());
 }
 
@@ -41,7 +41,7 @@ std::vector<std::string> FeatureMap::names(const std::vector<std::string>& state
   }
   for (const JointAngle& joint : joints_) {
     const std::string angle = state_names[static_cast<std::size_t>(joint.angle)] + " - " +
-                              state_names[static_cast<std::size_t>(joint.carrier)];
+                              state_names[static_cast<std::size_t>(joint.parent)];
     names.push_back("cos(" + angle + ")");
     names.push_back("sin(" + angle + ")");
   }
@@ -58,9 +58,9 @@ void FeatureMap::apply(const ConstMatrixView& X, MatrixView F) const {
       column += 2;
     }
   }
-  for (const auto& [angle, carrier] : joint_features_) {
+  for (const auto& [angle, parent] : joint_features_) {
     const auto ca = F.col(angle.cosine).array(), sa = F.col(angle.sine).array();
-    const auto cb = F.col(carrier.cosine).array(), sb = F.col(carrier.sine).array();
+    const auto cb = F.col(parent.cosine).array(), sb = F.col(parent.sine).array();
     F.col(column) = ca * cb + sa * sb;
     F.col(column + 1) = sa * cb - ca * sb;
     column += 2;

@@ -14,9 +14,9 @@ enum class StateKind {
   omitted,  // not at all (a translation that the dynamics does not depend on)
 };
 
-/// The angle between a link and the one that carries it: angle − carrier. Both are states of kind angle.
+/// The angle between a link and the one that carries it: angle − parent. Both are states of kind angle.
 struct JointAngle {
-  Index angle = 0, carrier = 0;
+  Index angle = 0, parent = 0;
 };
 
 /// States → inputs of GPs and policies, state by state in order; then cosine and sine of each joint's angle. A value;
@@ -46,7 +46,7 @@ class FeatureMap {
     Index cosine, sine;  // features
   };
   struct Joint {
-    Trigonometry angle, carrier;
+    Trigonometry angle, parent;
   };
 
   std::vector<StateKind> kinds_;

@@ -14,7 +14,7 @@ struct Kinematics {
   struct Servo {
     Index action = 0, position = 0;  // the action is the target of the position
     Index rate = -1;                 // of the position, −1: no state is
-    Index make = 0;                  // servos of the same make are alike
+    Index type = 0;                  // servos of the same type are alike
   };
   double dt_s = 0;  // control step
   std::vector<Pair> pairs;

@@ -13,10 +13,10 @@ namespace rehearse {
 
 /// What the numbers of a stream decide. Values are part of the results: append, never renumber.
 enum class Purpose : std::uint8_t {
-  start_state = 1,           // and all noise of an episode on a plant
-  imagined_start = 2,        // of a rollout in a model
-  imagined_noise = 3,        // the model's uncertainty, at every step
-  imagined_measurement = 4,  // noise of what the policy sees in a rollout
+  start_state = 1,            // and all noise of an episode on a plant
+  simulated_start = 2,        // of a rollout in a model
+  simulated_noise = 3,        // the model's uncertainty, at every step
+  simulated_measurement = 4,  // noise of what the policy sees in a rollout
   random_policy = 5,
   search = 6,  // the candidates of CMA-ES
   selection = 7,
@@ -38,8 +38,8 @@ enum class Stage : std::uint8_t {
   episode = 0,       // on the plant
   search = 1,        // of a policy, in the model's uncertainty
   mean_search = 2,   // of a policy, in the mean predictions
-  judging = 3,       // comparison of policies of several searches, all in the same imagined episodes
-  solving = 4,       // how often policies solve the task, all in the same imagined episodes
+  judging = 3,       // comparison of policies of several searches, all in the same simulated episodes
+  solving = 4,       // how often policies solve the task, all in the same simulated episodes
   mean_solving = 5,  // the same in the mean predictions
   prediction = 6,    // what the model expects of the policy that is tried
   evaluation = 7,    // extra episodes on the plant

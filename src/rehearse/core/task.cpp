@@ -17,11 +17,11 @@ Index index_of(const std::vector<StateVariable>& states, const std::string& name
   return -1;
 }
 
-/// The first action of its make.
+/// The first action of its type.
 Index make_of(const std::vector<ActionVariable>& actions, Index action) {
-  const std::string& make = actions[static_cast<std::size_t>(action)].make;
-  if (make.empty()) return action;
-  return std::ranges::find(actions, make, &ActionVariable::make) - actions.begin();
+  const std::string& type = actions[static_cast<std::size_t>(action)].servo_type;
+  if (type.empty()) return action;
+  return std::ranges::find(actions, type, &ActionVariable::servo_type) - actions.begin();
 }
 
 /// Names that two columns of a trajectory would have.
@@ -49,8 +49,8 @@ FeatureMap Task::feature_map() const {
 FeatureMap Task::model_features() const {
   std::vector<JointAngle> joints;
   for (Index angle = 0; angle < state_size(); ++angle) {
-    const Index carrier = index_of(states, states[static_cast<std::size_t>(angle)].carrier);
-    if (carrier >= 0) joints.push_back({angle, carrier});
+    const Index parent = index_of(states, states[static_cast<std::size_t>(angle)].parent);
+    if (parent >= 0) joints.push_back({angle, parent});
   }
   std::vector<Index> targets;
   for (const ActionVariable& action : actions) targets.push_back(index_of(states, action.target_of));
@@ -102,11 +102,11 @@ std::vector<std::string> Task::violations() const {
     found.require(state.rate.empty() || (index_of(states, state.rate) >= 0 && state.rate != state.name),
                   fmt::format("state {}: its rate {} is not another state", state.name, state.rate));
   for (const StateVariable& state : states) {
-    const Index carrier = index_of(states, state.carrier);
-    const bool angles = carrier >= 0 && state.kind == StateKind::angle &&
-                        states[static_cast<std::size_t>(carrier)].kind == StateKind::angle;
-    found.require(state.carrier.empty() || (angles && state.carrier != state.name),
-                  fmt::format("state {}: {} cannot carry it, both must be angles", state.name, state.carrier));
+    const Index parent = index_of(states, state.parent);
+    const bool angles = parent >= 0 && state.kind == StateKind::angle &&
+                        states[static_cast<std::size_t>(parent)].kind == StateKind::angle;
+    found.require(state.parent.empty() || (angles && state.parent != state.name),
+                  fmt::format("state {}: {} cannot carry it, both must be angles", state.name, state.parent));
   }
   for (const ActionVariable& action : actions)
     found.require(

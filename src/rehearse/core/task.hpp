@@ -16,18 +16,18 @@ struct StateVariable {
   std::string name;
   std::string unit;
   StateKind kind = StateKind::plain;
-  std::string rate;     // name of the state that is its derivative by time; empty: none is
-  std::string carrier;  // of an angle: name of the angle of the link that carries this one, both measured from one
-                        // direction; empty: none does
+  std::string rate;    // name of the state that is its derivative by time; empty: none is
+  std::string parent;  // of an angle: name of the angle of the link that carries this one, both measured from one
+                       // direction; empty: none does
 };
 
 struct ActionVariable {
   std::string name;  // of no state
   std::string unit;
   Interval bounds;
-  std::string target_of;  // name of the state that it commands (a servo's angle): models are told how far that is from
-                          // it; empty: none
-  std::string make;       // of the servo whose target it is: those of the same make are alike; empty: like no other
+  std::string target_of;   // name of the state that it commands (a servo's angle): models are told how far that is from
+                           // it; empty: none
+  std::string servo_type;  // of the servo whose target it is: those of the same type are alike; empty: like no other
 };
 
 /// Immediate rewards of a batch of steps: states X and actions U (rows × dx, rows × du), the states reached, one

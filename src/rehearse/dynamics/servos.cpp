@@ -12,7 +12,7 @@ namespace {
 using Servo = Kinematics::Servo;
 
 constexpr double kDead = 0.01;    // of the squared ways to its targets: a servo that moves less is dead
-constexpr Index kMostRows = 600;  // of a make
+constexpr Index kMostRows = 600;  // of a type
 constexpr Index kInputs = 3, kOutputs = 2;
 
 /// Rows × (way to the target, speed, position).
@@ -40,7 +40,7 @@ Rows rows_of(const std::vector<Servo>& servos, const Dataset& data) {
   const Index n = data.size(), all = n * static_cast<Index>(servos.size());
   Rows rows{Matrix(all, kInputs), Matrix::Zero(all, kOutputs)};
   for (std::size_t i = 0; i < servos.size(); ++i) {
-    const auto [action, position, rate, make] = servos[i];
+    const auto [action, position, rate, type] = servos[i];
     const Index first = n * static_cast<Index>(i);
     inputs_of(servos[i], data.states, data.actions, rows.inputs.middleRows(first, n));
     rows.targets.col(0).segment(first, n) =
@@ -85,35 +85,35 @@ Servos::Servos(const Dataset& data, FeatureMap features, const std::vector<Servo
                const Evaluator& evaluator)
     : features_(std::move(features)), servos_(servos), variance_(options.variance) {
   if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
-  std::map<Index, Make> moving;
-  Make dead;
-  for (const Servo& servo : servos) (moves(servo, data) ? moving[servo.make] : dead).servos.push_back(servo);
-  for (auto& [make, of] : moving) makes_.push_back(std::move(of));
-  learn_makes(data, options, evaluator);
+  std::map<Index, Type> moving;
+  Type dead;
+  for (const Servo& servo : servos) (moves(servo, data) ? moving[servo.type] : dead).servos.push_back(servo);
+  for (auto& [type, of] : moving) types_.push_back(std::move(of));
+  learn_types(data, options, evaluator);
   learn_rest(data, options, evaluator);
-  makes_.push_back(std::move(dead));
+  types_.push_back(std::move(dead));
 }
 
-void Servos::learn_makes(const Dataset& data, const GpOptions& options, const Evaluator& evaluator) {
+void Servos::learn_types(const Dataset& data, const GpOptions& options, const Evaluator& evaluator) {
   std::vector<gp::Inputs> inputs;
   std::vector<Matrix> targets;
-  for (const Make& make : makes_) {
-    Rows rows = rows_of(make.servos, data);
+  for (const Type& type : types_) {
+    Rows rows = rows_of(type.servos, data);
     inputs.emplace_back(rows.inputs);
     targets.push_back(std::move(rows.targets));
   }
-  std::vector<std::vector<gp::Hyperparameters>> kernels(makes_.size(), std::vector<gp::Hyperparameters>(kOutputs));
-  evaluator.for_each(kOutputs * static_cast<Index>(makes_.size()), [&](Index i) {
+  std::vector<std::vector<gp::Hyperparameters>> kernels(types_.size(), std::vector<gp::Hyperparameters>(kOutputs));
+  evaluator.for_each(kOutputs * static_cast<Index>(types_.size()), [&](Index i) {
     const auto m = static_cast<std::size_t>(i / kOutputs), e = static_cast<std::size_t>(i % kOutputs);
     kernels[m][e] = fitted(inputs[m], targets[m].col(i % kOutputs), options.fit).hyperparameters;
   });
-  for (std::size_t m = 0; m < makes_.size(); ++m)
-    makes_[m].posterior = std::make_shared<gp::Posterior>(inputs[m], targets[m], kernels[m], options.tolerance);
+  for (std::size_t m = 0; m < types_.size(); ++m)
+    types_[m].posterior = std::make_shared<gp::Posterior>(inputs[m], targets[m], kernels[m], options.tolerance);
 }
 
 /// What is learned here is small and local: where nothing is known of it, it is 0.
 void Servos::learn_rest(const Dataset& data, const GpOptions& options, const Evaluator& evaluator) {
-  if (makes_.empty()) return;
+  if (types_.empty()) return;
   End end;
   means(data.states, data.actions, end);
   const Matrix next = data.states + data.changes;
@@ -144,9 +144,9 @@ void Servos::learn_rest(const Dataset& data, const GpOptions& options, const Eva
 
 template <class Visit>
 void Servos::for_each_moving(Visit visit) const {
-  for (const Make& make : makes_) {
-    if (!make.posterior) continue;
-    for (const Servo& servo : make.servos) visit(servo);
+  for (const Type& type : types_) {
+    if (!type.posterior) continue;
+    for (const Servo& servo : type.servos) visit(servo);
   }
 }
 
@@ -169,7 +169,7 @@ void Servos::forward(const ConstMatrixView& X, const ConstMatrixView& U, bool va
     end.position_variances.col(servo.action) += part(variance).col(0);
     end.speed_variances.col(servo.action) += part(variance).col(1);
   };
-  for (const auto& [servos, posterior] : makes_) {
+  for (const auto& [servos, posterior] : types_) {
     if (!posterior) {
       for (const Servo& servo : servos) end.positions.col(servo.action) = X.col(servo.position);
       continue;
@@ -200,7 +200,7 @@ namespace {
 /// The changes of servos' states.
 void write_changes(const std::vector<Servo>& servos, const ConstMatrixView& X, const Servos::End& end,
                    MatrixView change) {
-  for (const auto& [action, position, rate, make] : servos) {
+  for (const auto& [action, position, rate, type] : servos) {
     change.col(position) = end.positions.col(action) - X.col(position);
     if (rate >= 0) change.col(rate) = end.speeds.col(action) - X.col(rate);
   }
@@ -227,7 +227,7 @@ void ServoModel::predict(const ConstMatrixView& X, const ConstMatrixView& U, Mat
   const Servos::End& end = go(
       *servos_, X, U, mean, [&](Servos::End& end) { servos_->predict(X, U, end); },
       [&](const Matrix& reached) { body_->predict(X, reached, mean, variance); });
-  for (const auto& [action, position, rate, make] : servos_->servos()) {
+  for (const auto& [action, position, rate, type] : servos_->servos()) {
     variance.col(position) = end.position_variances.col(action);
     if (rate >= 0) variance.col(rate) = end.speed_variances.col(action);
   }
@@ -243,7 +243,7 @@ void ServoModel::sample(const ConstMatrixView& X, const ConstMatrixView& U, cons
                         MatrixView change) const {
   const auto draw = [&](Servos::End& end) {
     servos_->predict(X, U, end);
-    for (const auto& [action, position, rate, make] : servos_->servos()) {
+    for (const auto& [action, position, rate, type] : servos_->servos()) {
       end.positions.col(action).array() +=
           normals.col(position).array() * end.position_variances.col(action).array().sqrt();
       if (rate >= 0)

@@ -19,7 +19,7 @@ namespace rehearse::dynamics {
 Dataset reached(Dataset data, const std::vector<Kinematics::Servo>& servos);
 
 /// Where servos get to in a step and how fast they then are. GPs of the way beyond the target and of the speed, shared
-/// by the servos of a make, see the way to the target, the speed and the position of the one servo. What they leave,
+/// by the servos of a type, see the way to the target, the speed and the position of the one servo. What they leave,
 /// the load above all, GPs of each servo learn from the whole state, near what was tried. A servo that hardly moved in
 /// the data stays where it is. Immutable; any thread.
 class Servos {
@@ -43,11 +43,11 @@ class Servos {
   double log_evidence() const { return log_evidence_; }  // nats
 
  private:
-  struct Make {
+  struct Type {
     std::vector<Kinematics::Servo> servos;
     std::shared_ptr<const gp::Posterior> posterior;  // null: they stay where they are
   };
-  void learn_makes(const Dataset& data, const GpOptions& options, const Evaluator& evaluator);
+  void learn_types(const Dataset& data, const GpOptions& options, const Evaluator& evaluator);
   void learn_rest(const Dataset& data, const GpOptions& options, const Evaluator& evaluator);
   template <class Visit>
   void for_each_moving(Visit visit) const;
@@ -56,7 +56,7 @@ class Servos {
   FeatureMap features_;
   std::vector<Kinematics::Servo> servos_;
   PredictedVariance variance_;
-  std::vector<Make> makes_;
+  std::vector<Type> types_;
   std::shared_ptr<const gp::Posterior> rest_;  // of each servo that moves, in order; null if none does
   double log_evidence_ = 0;
 };

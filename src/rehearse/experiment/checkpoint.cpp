@@ -60,7 +60,7 @@ json from_record(const TrialRecord& r) {
           {"log_evidence", from_optional(r.log_evidence)},
           {"phi", r.phi},
           {"phi_intervals", from_intervals(r.phi_intervals)},
-          {"doubts", r.doubts},
+          {"warnings", r.warnings},
           {"policy", r.policy},
           {"theta", to_json(r.theta)},
           {"forecast", forecast},
@@ -83,7 +83,7 @@ TrialRecord to_record(const json& j) {
   to_optional(j.at("log_evidence"), r.log_evidence);
   j.at("phi").get_to(r.phi);
   r.phi_intervals = to_intervals(j.value("phi_intervals", json::array()));
-  r.doubts = j.value("doubts", std::vector<std::string>());
+  r.warnings = j.value("warnings", std::vector<std::string>());
   r.policy = j.value("policy", "");
   r.theta = to_vector(j.at("theta"));
   for (const json& f : j.at("forecast")) r.forecast.push_back(to_forecast(f));

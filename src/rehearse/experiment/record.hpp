@@ -33,7 +33,7 @@ struct TrialRecord {
   std::optional<double> log_evidence;
   std::vector<double> phi;                             // of the tunable parameters
   std::vector<std::optional<Interval>> phi_intervals;  // 95 %, as phi; none: of a discrete or a given value
-  std::vector<std::string> doubts;                     // what the trials before cannot tell of φ, a sentence each
+  std::vector<std::string> warnings;                   // what the trials before cannot tell of φ, a sentence each
   std::string policy;                                  // the name of the one that theta are the parameters of
   Vector theta;
   std::vector<ForecastError> forecast;

@@ -14,7 +14,7 @@
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/experiment/tables.hpp"
 #include "rehearse/rollout/execute.hpp"
-#include "rehearse/rollout/imagine.hpp"
+#include "rehearse/rollout/simulate.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -225,9 +225,9 @@ class Run {
 
   void predict(Index trial, const learners::Proposal& proposal) const {
     const StreamKey key{.seed = seed(), .trial = number(trial), .stage = Stage::prediction};
-    const rollout::ImagineOptions unclipped{.noise_clip = 0};
-    const auto recorded = rollout::imagine_recorded(*proposal.model, *proposal.policy, with_.task(), proposal.theta,
-                                                    kPredictionParticles, key, unclipped);
+    const rollout::SimulateOptions unclipped{.noise_clip = 0};
+    const auto recorded = rollout::simulate_recorded({*proposal.model, *proposal.policy, with_.task(), key, unclipped},
+                                                     proposal.theta, kPredictionParticles);
     std::optional<ExpectedEpisode> moments;
     if (proposal.moments) moments = proposal.moments();
     folder_->write_prediction(trial, prediction_csv(with_.task(), recorded, moments ? &*moments : nullptr));
@@ -285,7 +285,7 @@ class Run {
       for (std::size_t i = 0; i < intervals.size(); ++i)
         if (proposal.posterior->parameters[i].name == name) record.phi_intervals.back() = intervals[i];
     }
-    record.doubts = proposal.posterior->doubts();
+    record.warnings = proposal.posterior->warnings();
   }
 
   /// The episode is on the disk before anything that may take long or fail: a robot does not repeat it.
@@ -326,7 +326,7 @@ class Run {
   RunResult result() const {
     RunResult result{.folder = path(), .trials = history_.done()};
     result.best_return = best_trial(history_.trials).total_reward;
-    result.doubts = history_.trials.back().doubts;
+    result.warnings = history_.trials.back().warnings;
     for (const TrialRecord& trial : history_.trials)
       if (!result.solved_at && trial.solved.value_or(false)) result.solved_at = trial.trial;
     return result;

@@ -30,7 +30,7 @@ class RunListener {
 struct RunOptions {
   std::shared_ptr<const Evaluator> evaluator;  // null: serial
   RunListener* listener = nullptr;             // null: nobody listens
-  std::function<bool()> stop;  // polled by any thread, before every step of an episode, imagined ones too;
+  std::function<bool()> stop;  // polled by any thread, before every step of an episode, simulated ones too;
                                // once true, the run ends with Interrupted and can be resumed
   CacheFolder cache;           // of what learners keep for other runs; null: none
 };
@@ -40,7 +40,7 @@ struct RunResult {
   Index trials = 0;
   std::optional<Index> solved_at;  // the first trial that solved the task
   double best_return = 0;
-  std::vector<std::string> doubts;  // what the trials could not tell of φ, as of the last trial's model
+  std::vector<std::string> warnings;  // what the trials could not tell of φ, as of the last trial's model
 };
 
 /// The plant or the learner failed in a trial, or memory or the disk did not suffice. What was done before is kept.

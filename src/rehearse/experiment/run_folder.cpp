@@ -80,7 +80,7 @@ void RunFolder::write_tables(const History& history, const Resolved& resolved) c
                     trials_csv(history.trials, tunable_names(resolved.prior), resolved.scenario.evaluations > 0));
   files::write_file(path_ / "timings.csv", timings_csv(history.trials));
   files::write_file(path_ / "errors.csv", errors_csv(history.trials, resolved.scenario.task));
-  files::write_file(path_ / "doubts.csv", doubts_csv(history.trials));
+  files::write_file(path_ / "identifiability.csv", identifiability_csv(history.trials));
   files::write_file(path_ / "notes.csv", notes_csv(history.trials));
   files::write_file(path_ / "policy.json", policies_json(history.trials, resolved));
 }

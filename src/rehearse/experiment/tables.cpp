@@ -129,10 +129,10 @@ std::string notes_csv(const std::vector<TrialRecord>& trials) {
   return csv.text();
 }
 
-std::string doubts_csv(const std::vector<TrialRecord>& trials) {
-  files::Csv csv({"trial", "doubt"});
+std::string identifiability_csv(const std::vector<TrialRecord>& trials) {
+  files::Csv csv({"trial", "warning"});
   for (const TrialRecord& t : trials)
-    for (const std::string& doubt : t.doubts) csv.row({files::Csv::cell(t.trial), doubt});
+    for (const std::string& warning : t.warnings) csv.row({files::Csv::cell(t.trial), warning});
   return csv.text();
 }
 

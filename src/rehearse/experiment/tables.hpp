@@ -10,7 +10,7 @@
 #include "rehearse/experiment/record.hpp"
 #include "rehearse/experiment/spec.hpp"
 #include "rehearse/learners/learner.hpp"
-#include "rehearse/rollout/imagine.hpp"
+#include "rehearse/rollout/simulate.hpp"
 
 namespace rehearse::experiment {
 
@@ -26,8 +26,8 @@ std::string timings_csv(const std::vector<TrialRecord>& trials);
 /// Forecast errors: one row per trial and horizon.
 std::string errors_csv(const std::vector<TrialRecord>& trials, const Task& task);
 
-/// What the trials before could not tell of the prior's parameters: one row per doubt.
-std::string doubts_csv(const std::vector<TrialRecord>& trials);
+/// What the trials before could not tell of the prior's parameters: one row per warning.
+std::string identifiability_csv(const std::vector<TrialRecord>& trials);
 
 /// What went wrong and was survived: one row per note.
 std::string notes_csv(const std::vector<TrialRecord>& trials);

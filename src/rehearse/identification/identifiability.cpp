@@ -59,9 +59,9 @@ std::vector<std::vector<Index>> groups_of(std::vector<Index> parameters, const M
   return groups;
 }
 
-class Doubts {
+class Warnings {
  public:
-  explicit Doubts(const PhiPosterior& posterior) : posterior_(posterior), intervals_(posterior.intervals()) {}
+  explicit Warnings(const PhiPosterior& posterior) : posterior_(posterior), intervals_(posterior.intervals()) {}
 
   std::vector<std::string> sentences() const {
     std::vector<Index> unsure;
@@ -110,6 +110,8 @@ class Doubts {
 
 }  // namespace
 
-std::vector<std::string> doubts_of(const PhiPosterior& posterior) { return Doubts(posterior).sentences(); }
+std::vector<std::string> identifiability_warnings(const PhiPosterior& posterior) {
+  return Warnings(posterior).sentences();
+}
 
 }  // namespace rehearse::identification

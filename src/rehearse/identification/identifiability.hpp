@@ -4,7 +4,7 @@
 
 namespace rehearse::identification {
 
-/// PhiPosterior::doubts.
-std::vector<std::string> doubts_of(const PhiPosterior& posterior);
+/// PhiPosterior::warnings.
+std::vector<std::string> identifiability_warnings(const PhiPosterior& posterior);
 
 }  // namespace rehearse::identification

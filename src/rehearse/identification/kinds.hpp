@@ -30,7 +30,8 @@ struct ResidualGpOptions : GpOptions {
   bool servos = true;    // where servos get to is learned before the prior is asked what follows (servos.hpp)
   ResidualGpOptions() {
     fit.trend = smooth = true;
-    fit.penalties.length_deviation = 1;  // or white noise is taken for a function, of which there would be doubts
+    fit.penalties.length_deviation =
+        1;  // or white noise is taken for a function, of which the model would be uncertain
   }
   void fields(FieldVisitor& v) {
     GpOptions::fields(v);

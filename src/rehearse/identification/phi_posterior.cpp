@@ -287,7 +287,7 @@ std::vector<Interval> PhiPosterior::intervals() const {
   return all;
 }
 
-std::vector<std::string> PhiPosterior::doubts() const { return doubts_of(*this); }
+std::vector<std::string> PhiPosterior::warnings() const { return identifiability_warnings(*this); }
 
 std::optional<PhiPosterior> phi_posterior(const FitProblem& problem, const Fit& fit,
                                           const PhiPosteriorOptions& options) {

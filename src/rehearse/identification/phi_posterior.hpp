@@ -32,7 +32,7 @@ struct PhiPosterior {
 
   /// What the data cannot tell, a sentence each: parameters that only together fit or do not, those that could be
   /// nearly anything, and those at the end of their box; with the former what is known of them, if that is simple.
-  std::vector<std::string> doubts() const;
+  std::vector<std::string> warnings() const;
 };
 
 struct PhiPosteriorOptions {

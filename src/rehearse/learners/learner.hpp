@@ -28,7 +28,7 @@ struct Proposal {
   std::shared_ptr<const policy::Policy> policy;  // whose parameters theta are: mostly the setting's
   Vector theta;
   std::optional<double> predicted_return;
-  Index rollouts = 0;                                     // imagined to choose this policy
+  Index rollouts = 0;                                     // simulated to choose this policy
   Index failed_rollouts = 0;                              // of these, ended by a failed simulation
   std::optional<double> log_evidence;                     // of the data under the model
   std::optional<Vector> phi;                              // of the prior, in the order of its space

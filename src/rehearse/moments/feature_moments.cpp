@@ -22,9 +22,9 @@ FeatureMoments::FeatureMoments(const FeatureMap& features) : outputs_(features.f
   }
   angles_ = Matrix::Identity(dx + joints, dx);
   for (Index j = 0; j < joints; ++j) {
-    const auto [angle, carrier] = features.joints()[static_cast<std::size_t>(j)];
+    const auto [angle, parent] = features.joints()[static_cast<std::size_t>(j)];
     angles_(dx + j, angle) = 1;
-    angles_(dx + j, carrier) = -1;
+    angles_(dx + j, parent) = -1;
     add_angle(dx + j);
   }
 }

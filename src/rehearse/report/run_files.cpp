@@ -227,7 +227,8 @@ Json read_run(const fs::path& folder, std::optional<Index> only, const ArchiveRe
     run["truth"] = truths(spec, *table);
   }
   std::vector<std::string> tables{"timings", "errors", "notes"};
-  if (fs::exists(folder / "doubts.csv")) tables.emplace_back("doubts");  // not in the folders of older versions
+  if (fs::exists(folder / "identifiability.csv"))
+    tables.emplace_back("identifiability");  // not in the folders of older versions
   for (const std::string& name : tables) {
     const fs::path path = name + ".csv";
     if (const auto table = problems.value_or_problem(path, [&] { return read_table(folder / path); }))

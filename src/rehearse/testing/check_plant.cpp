@@ -60,7 +60,7 @@ std::vector<std::string> check_plant(const std::function<std::unique_ptr<system:
     const Record first = episode(*plant, task, seed);
     episode(*plant, task, seed + 1);
     found.require(same_record(first, episode(*plant, task, seed)), "an episode depends on the ones before it");
-    found.require(same_record(first, episode(*other, task, seed)), "another plant of the same make behaves otherwise");
+    found.require(same_record(first, episode(*other, task, seed)), "another plant of the same type behaves otherwise");
   } catch (const std::exception& error) {
     found.add(error.what());
   }

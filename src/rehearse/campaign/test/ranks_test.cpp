@@ -85,16 +85,18 @@ TEST(CampaignOnRanks, StoppedAndContinued) {
   });
   EXPECT_EQ(first.all(), "done");
   EXPECT_GT(left, 0);
-  EXPECT_EQ(
-      experiment::fake::Ends([&](Ranks& ranks, const experiment::RunOptions&) { campaign(folder / "ranks", {.threads = 1, .ranks = &ranks}); }).all(),
-      "done");
+  EXPECT_EQ(experiment::fake::Ends([&](Ranks& ranks, const experiment::RunOptions&) {
+              campaign(folder / "ranks", {.threads = 1, .ranks = &ranks});
+            }).all(),
+            "done");
   EXPECT_EQ(campaign_results(folder / "ranks"), campaign_results(folder / "alone"));
 }
 
 TEST(CampaignOnRanks, WrongInputOnAll) {
   const fs::path folder = experiment::fake::test_folder();
   files::write_file(folder / "thesis.txt", "x");
-  const experiment::fake::Ends ends([&](Ranks& ranks, const experiment::RunOptions&) { campaign(folder, {.threads = 1, .ranks = &ranks}); });
+  const experiment::fake::Ends ends(
+      [&](Ranks& ranks, const experiment::RunOptions&) { campaign(folder, {.threads = 1, .ranks = &ranks}); });
   EXPECT_EQ(ends.all(), folder.string() + " already exists and is not the folder of a campaign; name another");
 }
 

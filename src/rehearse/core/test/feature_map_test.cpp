@@ -31,7 +31,7 @@ TEST(FeatureMap, AnglesBecomeCosineAndSine) {
 }
 
 TEST(FeatureMap, JointAnglesComeLast) {
-  const FeatureMap map({StateKind::angle, StateKind::plain, StateKind::angle}, {{.angle = 2, .carrier = 0}});
+  const FeatureMap map({StateKind::angle, StateKind::plain, StateKind::angle}, {{.angle = 2, .parent = 0}});
   EXPECT_EQ(map.features(), 7);
   EXPECT_EQ(map.names({"a", "v", "b"}),
             (std::vector<std::string>{"cos a", "sin a", "v", "cos b", "sin b", "cos(b - a)", "sin(b - a)"}));

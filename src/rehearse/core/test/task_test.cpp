@@ -58,9 +58,9 @@ TEST(Task, EachViolationIsNamed) {
   EXPECT_EQ(after([](Task& t) { t.states[0].name = "reward"; }),
             Lines{"reward: must be one of time, reward, states, \"true\" states and actions alone"});
   const std::string first = task().states[0].name, second = task().states[1].name;
-  EXPECT_EQ(after([&](Task& t) { t.states[0].carrier = second; }),
+  EXPECT_EQ(after([&](Task& t) { t.states[0].parent = second; }),
             Lines{"state " + first + ": " + second + " cannot carry it, both must be angles"});
-  EXPECT_EQ(after([&](Task& t) { t.states[0].carrier = "nobody"; }),
+  EXPECT_EQ(after([&](Task& t) { t.states[0].parent = "nobody"; }),
             Lines{"state " + first + ": nobody cannot carry it, both must be angles"});
   EXPECT_EQ(after([](Task& t) { t.start_mean = Vector{{1}}; }),
             Lines{"start_mean has 1 entries, must have 2 finite ones"});
@@ -92,24 +92,24 @@ TEST(Task, KnowsWhichActionsAreTargetsOfServos) {
                  {"target 3", "rad", {-1, 1}, "q2", "small"}};
   const auto servos = arm.kinematics().servos;
   ASSERT_EQ(servos.size(), 3u);
-  const auto is = [&](std::size_t i, Index action, Index position, Index rate, Index make) {
+  const auto is = [&](std::size_t i, Index action, Index position, Index rate, Index type) {
     return servos[i].action == action && servos[i].position == position && servos[i].rate == rate &&
-           servos[i].make == make;
+           servos[i].type == type;
   };
   EXPECT_TRUE(is(0, 1, 0, 1, 1));
   EXPECT_TRUE(is(1, 2, 2, -1, 2)) << "like no other";
-  EXPECT_TRUE(is(2, 3, 2, -1, 1)) << "of the make of the first";
+  EXPECT_TRUE(is(2, 3, 2, -1, 1)) << "of the type of the first";
 }
 
 TEST(Task, ModelsSeeTheAnglesOfJoints) {
   Task chain = task();
   EXPECT_TRUE(chain.model_features().joints().empty());
   chain.states = {{"a", "rad", StateKind::angle}, {"b", "rad", StateKind::angle}};
-  chain.states[1].carrier = "a";
+  chain.states[1].parent = "a";
   const FeatureMap features = chain.model_features();
   ASSERT_EQ(features.joints().size(), 1u);
   EXPECT_EQ(features.joints()[0].angle, 1);
-  EXPECT_EQ(features.joints()[0].carrier, 0);
+  EXPECT_EQ(features.joints()[0].parent, 0);
   EXPECT_EQ(chain.feature_map().features(), 4) << "policies do not";
 }
 

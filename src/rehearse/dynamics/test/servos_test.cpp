@@ -17,18 +17,18 @@ namespace {
 using swing::rms;
 
 // Two servos push a cart with their joints: states q1, q2, their speeds, and the cart's x, which moves by gain · (Δq1 +
-// 2 Δq2). The simulator's servos reach their targets at once, the real ones are slow and heavy, of one make or of two.
+// 2 Δq2). The simulator's servos reach their targets at once, the real ones are slow and heavy, of one type or of two.
 constexpr double kStep = 0.1, kGain = 0.5, kPush[] = {1, 2};
 
 double slow(double way, double speed) { return 0.25 * std::tanh(way / 0.3) + 0.03 * speed; }
 
 double pushed(const Vector& moved) { return kGain * (kPush[0] * moved(0) + kPush[1] * moved(1)); }
 
-Kinematics kinematics(Index second_make = 0) {
+Kinematics kinematics(Index second_type = 0) {
   return {.dt_s = kStep,
           .pairs = {{.position = 0, .rate = 2}, {.position = 1, .rate = 3}},
-          .servos = {{.action = 0, .position = 0, .rate = 2, .make = 0},
-                     {.action = 1, .position = 1, .rate = 3, .make = second_make}}};
+          .servos = {{.action = 0, .position = 0, .rate = 2, .type = 0},
+                     {.action = 1, .position = 1, .rate = 3, .type = second_type}}};
 }
 
 FeatureMap features() {
@@ -71,8 +71,8 @@ Dataset steps(Index n, std::uint64_t seed, Ways ways = {}, bool dead = false) {
   return data;
 }
 
-Servos servos_of(const Dataset& data, Index second_make = 0) {
-  return {data, features(), kinematics(second_make).servos, ResidualGpOptions(), serial_evaluator()};
+Servos servos_of(const Dataset& data, Index second_type = 0) {
+  return {data, features(), kinematics(second_type).servos, ResidualGpOptions(), serial_evaluator()};
 }
 
 /// Of where joint j gets to and how fast it is then, as a part of how far it moves.
@@ -93,7 +93,7 @@ TEST(Servos, LearnWhereTheyGetToAndHowFastTheyAreThen) {
 TEST(Servos, ThoseOfAMakeLearnFromEachOther) {
   const Dataset hardly = steps(30, 1, {.first = 1, .second = 0.1}), held_out = steps(200, 2);
   EXPECT_LT(error_of(servos_of(hardly), held_out, 1), 0.05);
-  EXPECT_GT(error_of(servos_of(hardly, 1), held_out, 1), 0.2) << "of another make";
+  EXPECT_GT(error_of(servos_of(hardly, 1), held_out, 1), 0.2) << "of another type";
 }
 
 TEST(Servos, ADeadOneStaysWhereItIsAndMisleadsNoOther) {

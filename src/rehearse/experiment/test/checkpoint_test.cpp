@@ -21,7 +21,7 @@ History history_of_one() {
                             .log_evidence = -std::numeric_limits<double>::infinity(),
                             .phi = {1.0 / 3, std::nan("")},
                             .phi_intervals = {Interval{0.1, 1.0 / 3}, std::nullopt},
-                            .doubts = {"b is not determined"},
+                            .warnings = {"b is not determined"},
                             .policy = "line",
                             .theta = Vector::Constant(3, 5e-324),
                             .forecast = {{.horizon = 2, .compared = 3, .failed = 1, .rms = Vector::Constant(1, 0.1)}},
@@ -57,7 +57,7 @@ TEST(Checkpoint, KeepsEveryBit) {
   EXPECT_EQ(b.phi_intervals[0]->low, 0.1);
   EXPECT_EQ(b.phi_intervals[0]->high, 1.0 / 3);
   EXPECT_FALSE(b.phi_intervals[1].has_value());
-  EXPECT_EQ(b.doubts, a.doubts);
+  EXPECT_EQ(b.warnings, a.warnings);
   EXPECT_EQ(b.policy, a.policy);
   EXPECT_EQ(b.theta, a.theta);
   EXPECT_EQ(b.forecast[0].rms, a.forecast[0].rms);

@@ -35,8 +35,8 @@ std::vector<std::string> lines_of(const fs::path& path) {
 /// Bytes of everything in a run folder that must not depend on how the run came about.
 std::string results_of(const fs::path& folder) {
   std::string bytes;
-  for (const std::string name :
-       {"spec.toml", "trials.csv", "errors.csv", "doubts.csv", "notes.csv", "memories.csv", "policy.json", "done"})
+  for (const std::string name : {"spec.toml", "trials.csv", "errors.csv", "identifiability.csv", "notes.csv",
+                                 "memories.csv", "policy.json", "done"})
     bytes += name + "\n" + files::read_file(folder / name);
   for (const std::string name : {"trajectories/trial-001.csv", "predictions/trial-003.csv"})
     bytes += name + "\n" + files::read_file(folder / name);
@@ -74,10 +74,10 @@ TEST(Run, FolderHoldsWhatTheContractSays) {
   EXPECT_EQ(lines_of(folder / "errors.csv")[0], "trial,horizon,compared,failed,rms x [m]");
   EXPECT_EQ(lines_of(folder / "errors.csv").size(), 1u + 3 * 4);
   EXPECT_EQ(lines_of(folder / "notes.csv")[1], "1,\"a note, with a comma\"");
-  EXPECT_EQ(lines_of(folder / "doubts.csv"),
-            (std::vector<std::string>{"trial,doubt", "2,gain is not determined by these trials: 0.1 to 4",
+  EXPECT_EQ(lines_of(folder / "identifiability.csv"),
+            (std::vector<std::string>{"trial,warning", "2,gain is not determined by these trials: 0.1 to 4",
                                       "3,gain is not determined by these trials: 0.1 to 4"}));
-  EXPECT_EQ(result.doubts, std::vector<std::string>{"gain is not determined by these trials: 0.1 to 4"});
+  EXPECT_EQ(result.warnings, std::vector<std::string>{"gain is not determined by these trials: 0.1 to 4"});
 
   const auto memories = lines_of(folder / "memories.csv");  // the learner's own
   ASSERT_EQ(memories.size(), 3u);

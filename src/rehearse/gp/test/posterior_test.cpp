@@ -105,7 +105,7 @@ TEST(Posterior, WithinTheToleranceFewPointsStandForAll) {
 
 // Far from the data of a trend s̃ exceeds σ_f by far: the errors grow with it, as the header says, and do exceed
 // tolerance · σ_n there.
-TEST(Posterior, TheToleranceHoldsInUnitsOfTheDoubtsOfATrend) {
+TEST(Posterior, TheToleranceHoldsInUnitsOfTheUncertaintyOfATrend) {
   const Index n = 220;
   const double tolerance = 0.01;
   const Matrix X = naive::normals(n, 2, 17);
@@ -120,11 +120,11 @@ TEST(Posterior, TheToleranceHoldsInUnitsOfTheDoubtsOfATrend) {
       const Posterior few(Inputs(X), y, {theta}, tolerance);
       const Prediction b = predict(few, F);
       EXPECT_LT(few.variance_points(0), noise > 0.1 ? n / 2 : n + 1) << trend << " " << noise;
-      const Eigen::ArrayXd doubt = b.variance.col(0).cwiseSqrt(), scale = doubt.max(1.0);
+      const Eigen::ArrayXd uncertainty = b.variance.col(0).cwiseSqrt(), scale = uncertainty.max(1.0);
       const Eigen::ArrayXd mean_error = (a.mean - b.mean).col(0).cwiseAbs();
-      const Eigen::ArrayXd deviation_error = (a.variance.col(0).array().sqrt() - doubt).abs();
+      const Eigen::ArrayXd deviation_error = (a.variance.col(0).array().sqrt() - uncertainty).abs();
       EXPECT_LE((mean_error / scale).maxCoeff(), tolerance * noise) << trend << " " << noise;
-      EXPECT_LE((deviation_error / doubt).maxCoeff(), tolerance) << trend << " " << noise;
+      EXPECT_LE((deviation_error / uncertainty).maxCoeff(), tolerance) << trend << " " << noise;
       if (noise < 0.1) continue;
       EXPECT_LE((deviation_error / scale).maxCoeff(), tolerance * noise) << trend << " " << noise;
       beyond = std::max(beyond, deviation_error.maxCoeff() / (tolerance * noise));

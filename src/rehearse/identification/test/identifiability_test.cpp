@@ -15,25 +15,26 @@ PhiPosterior three(const Vector& deviations, const Matrix& correlations) {
           .covariance = scale * correlations * scale};
 }
 
-TEST(Doubts, NameWhatIsUnsureAlone) {
-  EXPECT_EQ(three(Vector{{0.01, 0.01, 0.01}}, Matrix::Identity(3, 3)).doubts(), Sentences{});
-  EXPECT_EQ(three(Vector{{0.01, 0.1, 0.01}}, Matrix::Identity(3, 3)).doubts(),
+TEST(IdentifiabilityWarnings, NameWhatIsUnsureAlone) {
+  EXPECT_EQ(three(Vector{{0.01, 0.01, 0.01}}, Matrix::Identity(3, 3)).warnings(), Sentences{});
+  EXPECT_EQ(three(Vector{{0.01, 0.1, 0.01}}, Matrix::Identity(3, 3)).warnings(),
             Sentences{"b is not determined by these trials: 0.304 to 0.696"});
 }
 
-TEST(Doubts, NamePairsAndLargerGroups) {
+TEST(IdentifiabilityWarnings, NamePairsAndLargerGroups) {
   Matrix pair = Matrix::Identity(3, 3);
   pair(0, 2) = pair(2, 0) = -0.98;
-  EXPECT_EQ(three(Vector{{0.1, 0.1, 0.2}}, pair).doubts(),
+  EXPECT_EQ(three(Vector{{0.1, 0.1, 0.2}}, pair).warnings(),
             (Sentences{"a and c cannot be told apart by these trials",
                        "b is not determined by these trials: 0.304 to 0.696"}));
-  EXPECT_EQ(three(Vector{{0.01, 0.01, 0.02}}, pair).doubts(), Sentences{}) << "sure of both all the same";
+  EXPECT_EQ(three(Vector{{0.01, 0.01, 0.02}}, pair).warnings(), Sentences{}) << "sure of both all the same";
   Matrix sum = Matrix::Constant(3, 3, -0.499);  // only a + b + c is known
   sum.diagonal().setOnes();
-  EXPECT_EQ(three(Vector{{0.2, 0.2, 0.2}}, sum).doubts(), Sentences{"a, b and c cannot be told apart by these trials"});
+  EXPECT_EQ(three(Vector{{0.2, 0.2, 0.2}}, sum).warnings(),
+            Sentences{"a, b and c cannot be told apart by these trials"});
 }
 
-TEST(Doubts, IntervalsEndWithTheBoxAndDoubtsSayWhereThatIs) {
+TEST(IdentifiabilityWarnings, IntervalsEndWithTheBoxAndWarningsSayWhereThatIs) {
   PhiPosterior posterior = three(Vector{{0.01, 0.02, 0.01}}, Matrix::Identity(3, 3));
   posterior.mean = Vector{{0.5, 1, 0.002}};
   const auto intervals = posterior.intervals();
@@ -41,7 +42,7 @@ TEST(Doubts, IntervalsEndWithTheBoxAndDoubtsSayWhereThatIs) {
   EXPECT_NEAR(intervals[0].high, 0.5196, 1e-4);
   EXPECT_EQ(intervals[1].high, 1);
   EXPECT_EQ(intervals[2].low, 0);
-  EXPECT_EQ(posterior.doubts(), Sentences{"b is at the end of its box, 1: a better value may lie beyond"});
+  EXPECT_EQ(posterior.warnings(), Sentences{"b is at the end of its box, 1: a better value may lie beyond"});
 }
 
 }  // namespace

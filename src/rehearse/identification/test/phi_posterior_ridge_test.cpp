@@ -56,7 +56,7 @@ TEST(PhiPosterior, OnAnExactRidgeIntervalsHoldTheTruthAndTheKnownIsNamed) {
       expect_to_hold_the_double_pendulum(*learned.posterior, label);
       const Interval m2 = learned.posterior->intervals()[1];
       EXPECT_TRUE(m2.low < 0.22 && m2.high > 1.11) << label << ": " << m2.low << " to " << m2.high;
-      EXPECT_EQ(learned.posterior->doubts(),
+      EXPECT_EQ(learned.posterior->warnings(),
                 Sentences{"m1, m2, r2 and I1 cannot be told apart by these trials; known are m1 + m2 = 1.24, r2·m2 = "
                           "0.105 and I1 + 0.09·m2 = 0.111"})
           << label;

@@ -1,29 +1,26 @@
 #include "rehearse/learners/black_drops/policy_search.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "rehearse/core/stopwatch.hpp"
 
 namespace rehearse::learners::black_drops {
 namespace {
 
-/// Imagined returns as an objective, and how many rollouts failed.
-class ImaginedReturn {
+/// Simulated returns as an objective, and how many rollouts failed.
+class SimulatedReturn {
  public:
-  ImaginedReturn(const SearchProblem& problem, const SearchOptions& options, StreamKey key)
+  SimulatedReturn(const SearchProblem& problem, const SearchOptions& options, StreamKey key)
       : problem_(problem), options_(options), key_(key) {}
 
   void operator()(const ConstMatrixView& Theta, std::uint64_t first, Index samples, VectorView values) {
-    if (problem_.expected) return expect(Theta, values);
-    const rollout::Imagined imagined =
-        rollout::imagine(problem_.model, problem_.policy, problem_.task, Theta, first, samples * options_.particles,
-                         key_, options_.imagine, problem_.evaluator);
-    values = imagined.returns.colwise().mean().transpose();
-    rollouts_ += imagined.returns.size();
+    const rollout::Simulated simulated =
+        rollout::simulate({problem_.model, problem_.policy, problem_.task, key_, options_.simulate}, Theta,
+                          {first, samples * options_.particles}, problem_.evaluator);
+    values = simulated.returns.colwise().mean().transpose();
+    rollouts_ += simulated.returns.size();
     next_ = std::max(next_, first + static_cast<std::uint64_t>(Theta.cols()));
-    failed_ += imagined.failed;
+    failed_ += simulated.failed;
   }
 
   std::uint64_t next() const { return next_; }  // the first candidate that no call has had
@@ -31,24 +28,6 @@ class ImaginedReturn {
   Index failed() const { return failed_; }
 
  private:
-  /// A policy without a value is charged the reward floor for every step, like a rollout that fails at once.
-  void expect(const ConstMatrixView& Theta, VectorView values) {
-    Matrix results(1, Theta.cols());
-    problem_.evaluator.evaluate(
-        [&](Index j, VectorView result) {
-          thread_local moments::ReturnWorkspace workspace;
-          result(0) = (*problem_.expected)(Theta.col(j), nullptr, workspace).value;
-        },
-        results);
-    const double floor = static_cast<double>(problem_.task.horizon) * problem_.task.reward_floor;
-    for (Index j = 0; j < Theta.cols(); ++j) {
-      const bool ok = std::isfinite(results(0, j));
-      values(j) = ok ? results(0, j) : floor;
-      failed_ += !ok;
-    }
-    rollouts_ += Theta.cols();
-  }
-
   const SearchProblem& problem_;
   const SearchOptions& options_;
   StreamKey key_;
@@ -78,9 +57,7 @@ std::vector<Vector> find(const optim::BatchObjective& objective, const std::vect
                          const optim::SearchListener& listener) {
   std::vector<Vector> found;
   if (options.method == Method::race) {
-    optim::RaceOptions race = options.race;
-    if (problem.expected) race.judgements = 1;  // the others would be the same
-    auto result = optim::race(objective, starts, box, race, key, problem.evaluator, listener);
+    auto result = optim::race(objective, starts, box, options.race, key, problem.evaluator, listener);
     for (optim::Contender& contender : result.contenders) found.push_back(std::move(contender.x));
   } else {
     const Vector start = starts.empty() ? random_policy(problem.policy, options, key) : starts.front();
@@ -91,7 +68,7 @@ std::vector<Vector> find(const optim::BatchObjective& objective, const std::vect
 }
 
 /// Compares the finalists and the starts by some rollouts of each; the best is the result, other finds its runners-up.
-void select(std::vector<Vector> found, const std::vector<Vector>& starts, ImaginedReturn& objective,
+void select(std::vector<Vector> found, const std::vector<Vector>& starts, SimulatedReturn& objective,
             Index most_finalists, Index rollouts, SearchResult& result) {
   const auto finalists = std::min(most_finalists, static_cast<Index>(found.size()));
   Matrix Theta(found.front().size(), finalists + static_cast<Index>(starts.size()));
@@ -110,10 +87,9 @@ void select(std::vector<Vector> found, const std::vector<Vector>& starts, Imagin
 
 void SearchOptions::fields(FieldVisitor& v) {
   v.choice("method", method, {"race", "restarts"}, published("restarts"));
-  v.choice("evaluation", evaluation, {"samples", "moments"});
   v.number("box", box, between(1e-6, 1e6));
   v.integer("particles", particles, between(1, 1e6));
-  v.group("imagine", imagine);
+  v.group("simulate", simulate);
   v.group("race", race);
   v.group("restarts", restarts);
   v.integer("finalists", finalists, between(1, 1e6), published(1));
@@ -121,14 +97,14 @@ void SearchOptions::fields(FieldVisitor& v) {
 }
 
 Index comparisons(const SearchProblem& problem, const SearchOptions& options) {
-  const bool sure = !options.imagine.sample || problem.model.certain();
-  const bool exact = options.imagine.measurement_noise == 0 || problem.model.measurement_std().isZero(0);
+  const bool sure = !options.simulate.sample || problem.model.certain();
+  const bool exact = options.simulate.measurement_noise == 0 || problem.model.measurement_std().isZero(0);
   return sure && exact && problem.task.start_std.isZero(0) ? 1 : options.selection;
 }
 
 SearchResult search_policy(const SearchProblem& problem, const std::vector<Vector>& starts,
                            const SearchOptions& options, const StreamKey& key) {
-  ImaginedReturn objective(problem, options, key);
+  SimulatedReturn objective(problem, options, key);
   const Stopwatch watch;
   const Index budget = options.method == Method::race ? options.race.max_evaluations : options.restarts.max_evaluations;
   const auto report = [&](Index evaluations, double best) {
@@ -153,7 +129,7 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
 
 SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options,
                    const StreamKey& key) {
-  ImaginedReturn objective(problem, options, key);
+  SimulatedReturn objective(problem, options, key);
   Vector value(1);
   objective(theta, 0, comparisons(problem, options), value);
   return {.theta = theta,
@@ -171,8 +147,8 @@ Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& po
       [&](Index j, VectorView rate) {
         const Matrix Theta = policies[static_cast<std::size_t>(j)].transpose().replicate(rollouts, 1);
         rollout::Episodes episodes;
-        rollout::imagine_episodes(problem.model, problem.policy, problem.task, Theta, 0, key, options.imagine,
-                                  episodes);
+        rollout::simulate_episodes({problem.model, problem.policy, problem.task, key, options.simulate}, Theta, 0,
+                                   episodes);
         Episode episode;
         Index solved = 0;
         for (Index i = 0; i < episodes.rows(); ++i) {

@@ -9,11 +9,10 @@
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
-#include "rehearse/moments/expected_return.hpp"
 #include "rehearse/optim/race.hpp"
 #include "rehearse/optim/restarts.hpp"
 #include "rehearse/policy/policy.hpp"
-#include "rehearse/rollout/imagine.hpp"
+#include "rehearse/rollout/simulate.hpp"
 
 namespace rehearse::learners::black_drops {
 
@@ -22,19 +21,12 @@ enum class Method {
   restarts,  // one after the other, the paper's: BIPOP, with uncertainty handling and elitism if asked for
 };
 
-/// How a policy is judged in the model.
-enum class Evaluation {
-  samples,  // by rollouts, each one noisy measurement of its expected return
-  moments,  // by moment matching, without noise (docs/pilco.md)
-};
-
 /// Each rollout is one noisy measurement of the expected return, which CMA-ES maximises (Chatzilygeroudis 2017).
 struct SearchOptions {
   Method method = Method::race;
-  Evaluation evaluation = Evaluation::samples;
   double box = 5;       // θ in [−box, box] unless the policy has a box of its own; the authors' code
   Index particles = 1;  // rollouts of one evaluation; the paper: 1
-  rollout::ImagineOptions imagine;
+  rollout::SimulateOptions simulate;
   optim::RaceOptions race;
   optim::SearchOptions restarts{.max_evaluations = 200000};
   Index finalists = 4;    // best policies found that are compared once more, together with those it started from
@@ -47,7 +39,7 @@ struct SearchResult {
   double predicted_return = 0;
   double solving = 0;              // how surely it solves the task, where that was asked
   std::vector<Vector> runners_up;  // other good policies, best first
-  Index rollouts = 0;              // or expected returns by moment matching
+  Index rollouts = 0;
   Index failed_rollouts = 0;
 };
 
@@ -58,7 +50,6 @@ struct SearchProblem {
   const Task& task;
   const Evaluator& evaluator;
   const ProgressSink& progress;
-  const moments::ExpectedReturn* expected = nullptr;  // by which policies are judged, unless by rollouts
 };
 
 /// Rollouts by which a policy is compared with others: `selection`, or 1 where model, start and measurements are
@@ -74,7 +65,7 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
 SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options,
                    const StreamKey& key);
 
-/// How often each policy solves the task in imagined episodes, all policies in the same; 0 if the task does
+/// How often each policy solves the task in simulated episodes, all policies in the same; 0 if the task does
 /// not say.
 Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,
                      const StreamKey& key);

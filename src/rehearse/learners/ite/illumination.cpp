@@ -11,7 +11,7 @@
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/files/regular_file.hpp"
-#include "rehearse/rollout/imagine.hpp"
+#include "rehearse/rollout/simulate.hpp"
 
 namespace rehearse::learners::ite {
 namespace {
@@ -33,7 +33,7 @@ class Rollouts {
   void operator()(const ConstMatrixView& X, VectorView performances, MatrixView descriptors) const {
     thread_local rollout::Episodes episodes;
     thread_local Episode episode;
-    rollout::imagine_episodes(model_, policy_, task_, X, 0, {}, {.sample = false}, episodes);
+    rollout::simulate_episodes({model_, policy_, task_, {}, {.sample = false}}, X, 0, episodes);
     for (Index i = 0; i < X.rows(); ++i) {
       performances(i) = std::numeric_limits<double>::quiet_NaN();
       if (episodes.failed[static_cast<std::size_t>(i)]) continue;

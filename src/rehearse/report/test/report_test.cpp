@@ -54,7 +54,7 @@ class ReportTest : public ::testing::Test {
     write(run / "timings.csv", fmt::format("trial,model_s,search_s,rollouts_per_s\n1,0.5,2,10\n2,1,{},10\n", 2 + seed));
     write(run / "errors.csv", "trial,horizon,compared,failed,rms x [m]\n2,1,50,0,0.01\n");
     write(run / "notes.csv", "trial,note\n2,\"a fit, failed\"\n");
-    write(run / "doubts.csv", "trial,doubt\n2,m is not determined by these trials\n");
+    write(run / "identifiability.csv", "trial,warning\n2,m is not determined by these trials\n");
     for (int trial : {1, 2})
       write(run / fmt::format("trajectories/trial-00{}.csv", trial),
             "time [s],x [m],true x [m],u [N],reward\n0,0,0,1,\n0.1,0.5,0.4,,1\n");
@@ -148,7 +148,7 @@ TEST_F(ReportTest, ARunHasItsTablesAsColumns) {
   EXPECT_EQ(run["truth"], json::parse(R"({"m": 1.5})"));  // k is not the plant's
   EXPECT_EQ(run["notes"]["note"], json::parse(R"(["a fit, failed"])"));
   EXPECT_EQ(run["trials"]["phi.m.high"], json::parse("[null, 1.6]"));
-  EXPECT_EQ(run["doubts"]["doubt"], json::parse(R"(["m is not determined by these trials"])"));
+  EXPECT_EQ(run["identifiability"]["warning"], json::parse(R"(["m is not determined by these trials"])"));
   ASSERT_EQ(run["episodes"].size(), 2u);
   EXPECT_EQ(run["episodes"][0]["trajectory"]["true x [m]"], json::parse("[0, 0.4]"));
   EXPECT_TRUE(run["episodes"][0]["prediction"].is_null());
@@ -158,12 +158,12 @@ TEST_F(ReportTest, ARunHasItsTablesAsColumns) {
   EXPECT_EQ(run["episodes"][1]["motion"]["predicted"], json::parse("[[null]]"));
 }
 
-TEST_F(ReportTest, ARunOfAnOlderVersionHasNoDoubts) {
+TEST_F(ReportTest, ARunOfAnOlderVersionHasNoIdentifiabilityWarnings) {
   write_run(folder_);
-  fs::remove(folder_ / "doubts.csv");
+  fs::remove(folder_ / "identifiability.csv");
   const Report report = read_folder(folder_);
   EXPECT_EQ(problems_of(report), Lines{});
-  EXPECT_FALSE(json::parse(report.json)["run"].contains("doubts"));
+  EXPECT_FALSE(json::parse(report.json)["run"].contains("identifiability"));
 }
 
 TEST_F(ReportTest, AnArchiveHasWhatItPromisesAndWhatIsExpectedOfIt) {

@@ -20,7 +20,7 @@ constexpr double kControlStep = 0.1;  // s
 constexpr double kFallen = 0.5;       // cosine of the tilt: 60°
 constexpr double kSolvedSpeed = 0.2;  // m/s
 constexpr double kLongestStep = 0.1;  // m that a step of 0.1 s earns at most, up or down: no gait is so fast, but
-                                      // imagined episodes that a model lets fly off are
+                                      // simulated episodes that a model lets fly off are
 
 /// The way forward in a step, or x·dt; where the robot has drifted, at most 0.
 Reward reward(double drift_m, bool integral) {

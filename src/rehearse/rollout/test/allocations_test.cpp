@@ -6,7 +6,7 @@
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/identification/learned_reward.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
-#include "rehearse/rollout/imagine.hpp"
+#include "rehearse/rollout/simulate.hpp"
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
@@ -19,7 +19,7 @@ namespace {
 long allocations_of(const dynamics::DynamicsModel& model, const policy::Policy& policy, Task task, Index horizon) {
   task.horizon = horizon;
   const Matrix Theta = Matrix::Constant(policy.parameters(), 60, 0.3);
-  const auto call = [&] { return imagine(model, policy, task, Theta, 0, 2, {}, {}, serial_evaluator()); };
+  const auto call = [&] { return simulate({model, policy, task}, Theta, {0, 2}, serial_evaluator()); };
   call();
   const long before = allocations;
   call();

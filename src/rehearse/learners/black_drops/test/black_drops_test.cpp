@@ -132,7 +132,7 @@ TEST(BlackDrops, StartsFromThePolicysExamplesUnlessToldNotTo) {
                                                                         {"search.race.descents", "1"},
                                                                         {"search.race.start_sigma", "1e-6"},
                                                                         {"search.race.sigma", "1e-6"},
-                                                                        {"insist.searches", "0"}})
+                                                                        {"retry.searches", "0"}})
       EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
     Setting own = setting();
     own.policy = std::make_shared<PolicyWithExample>();
@@ -192,53 +192,34 @@ TEST(BlackDrops, RandomActionsFillTheirBoundsAtEveryStep) {
   EXPECT_GT(actions.maxCoeff(), 0.3);
 }
 
-// With 100 rollouts and seed 7 a search from random points does not find what the policy of the first trial earns.
-TEST(BlackDrops, StartsFromTheLastPolicyTried) {
-  const auto second = [](const char* from_last, Vector& first) {
-    const auto with = builder("mi", "100");
-    for (const auto& [name, value] : std::map<std::string, std::string>{
-             {"start_from_last", from_last}, {"start_from_best", "false"}, {"carried", "0"}})
-      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
-    const auto hasty = with->build(setting(slider::prior(), 7));
-    first = hasty->ask().theta;
-    hasty->tell(run_trial(hasty->ask(), 1));
-    return hasty->ask();
-  };
-  Vector first;
-  const Proposal without = second("false", first), with = second("true", first);
-  const auto again = rollout::imagine_recorded(*with.model, *with.policy, slider::task(), first, 100,
-                                               {.seed = 7, .stage = Stage::prediction}, {});
-  EXPECT_GT(*with.predicted_return, again.returns.mean() - 0.1);
-  EXPECT_LT(*without.predicted_return, *with.predicted_return - 0.1);
-}
-
-// With a gain that no search can promise, each is followed by one in the mean predictions.
+// With a gain that no search can reach, each is followed by one in the mean predictions.
 TEST(BlackDrops, ExploresWhereASearchLeadsNoFurther) {
-  const auto second = [](const char* gain, const char* promise) {
+  const auto second = [](const char* gain, const char* required) {
     const auto with = builder("black-drops-prior", "100");
     for (const auto& [name, value] : std::map<std::string, std::string>{
-             {"scout.policies", "0"}, {"explore.gain", gain}, {"explore.promise", promise}})
+             {"mean_search.policies", "0"}, {"explore.gain", gain}, {"explore.required", required}})
       EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
     const auto learner = with->build(setting(slider::prior(-1)));
     learner->tell(run_trial(learner->ask(), 1));
     return learner->ask();
   };
-  const Proposal never = second("0", "0"), always = second("1e12", "0"), promising = second("1e12", "1e12");
+  const Proposal never = second("0", "0"), always = second("1e12", "0"), in_vain = second("1e12", "1e12");
   EXPECT_GT(always.rollouts, never.rollouts + 100);
   EXPECT_NE(always.theta, never.theta);
-  const auto mean = rollout::imagine_recorded(*always.model, *always.policy, slider::task(), always.theta, 100,
-                                              {.seed = 7, .stage = Stage::prediction}, {.sample = false});
+  const auto mean = rollout::simulate_recorded(
+      {*always.model, *always.policy, slider::task(), {.seed = 7, .stage = Stage::prediction}, {.sample = false}},
+      always.theta, 100);
   EXPECT_NEAR(*always.predicted_return, mean.returns.mean(), 0.05);
-  EXPECT_EQ(promising.rollouts, always.rollouts) << "searched";
-  EXPECT_EQ(promising.theta, never.theta) << "but not promising enough";
+  EXPECT_EQ(in_vain.rollouts, always.rollouts) << "searched";
+  EXPECT_EQ(in_vain.theta, never.theta) << "but it gains too little";
 }
 
-// With seed 1 the doubts cost the scouted policy a little of its promise.
-TEST(BlackDrops, ScoutsInTheMeanPredictionsFirst) {
+// With seed 1 uncertainty costs the policy of the search in the means a little of its return.
+TEST(BlackDrops, SearchesInTheMeanPredictionsFirst) {
   const auto second = [](const char* policies, const char* tolerance) {
     const auto with = builder("black-drops");
     for (const auto& [name, value] : std::map<std::string, std::string>{
-             {"scout.policies", policies}, {"scout.tolerance", tolerance}, {"search.selection", "1000"}})
+             {"mean_search.policies", policies}, {"mean_search.tolerance", tolerance}, {"search.selection", "1000"}})
       EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
     const auto learner = with->build(setting({}, 1));
     learner->tell(run_trial(learner->ask(), 1));
@@ -246,21 +227,21 @@ TEST(BlackDrops, ScoutsInTheMeanPredictionsFirst) {
   };
   const auto expected = [](const Proposal& proposal) {
     const StreamKey key{.seed = 7, .stage = Stage::prediction};
-    return rollout::imagine_recorded(*proposal.model, *proposal.policy, slider::task(), proposal.theta, 1000, key,
-                                     {.noise_clip = 0})
+    return rollout::simulate_recorded({*proposal.model, *proposal.policy, slider::task(), key, {.noise_clip = 0}},
+                                      proposal.theta, 1000)
         .returns.mean();
   };
   const Proposal none = second("0", "0"), both = second("3", "0"), alone = second("3", "1e12");
   EXPECT_NE(both.theta, none.theta);
-  EXPECT_GT(both.rollouts, alone.rollouts + 100) << "a policy that keeps its promise saves the other search";
-  EXPECT_GE(expected(both), expected(alone) - 0.05) << "what was scouted is not lost";
-  EXPECT_NEAR(*alone.predicted_return, expected(alone), 0.2) << "predicted is what the doubts leave";
+  EXPECT_GT(both.rollouts, alone.rollouts + 100) << "a policy whose return stays saves the other search";
+  EXPECT_GE(expected(both), expected(alone) - 0.05) << "what was found in the means is not lost";
+  EXPECT_NEAR(*alone.predicted_return, expected(alone), 0.2) << "predicted is what uncertainty leaves";
 }
 
-/// Trials 1 and 2 of a learner whose model has no doubts, on a task that asks for a last position in an interval.
+/// Trials 1 and 2 of a learner whose model is sure, on a task that asks for a last position in an interval.
 std::vector<Proposal> surely(Interval last, const char* searches) {
   const auto with = builder("mi", "100");
-  EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "insist.searches", searches));
+  EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "retry.searches", searches));
   Setting task = setting();
   task.task.solved = [last](const Episode& e) {
     const double position = e.true_states(e.steps(), 0);
@@ -274,31 +255,31 @@ std::vector<Proposal> surely(Interval last, const char* searches) {
 }
 
 double last_position(const Proposal& proposal) {
-  return rollout::imagine_recorded(*proposal.model, *proposal.policy, slider::task(), proposal.theta, 1, {},
-                                   {.sample = false})
+  return rollout::simulate_recorded({*proposal.model, *proposal.policy, slider::task(), {}, {.sample = false}},
+                                    proposal.theta, 1)
       .states.back()(0, 0);
 }
 
 // The highest return is that of a slider at 0; descents that were given up end elsewhere.
 TEST(BlackDrops, PrefersPoliciesThatAreExpectedToSolveTheTask) {
   const Interval beside = {0.1, 2}, nowhere = {9, 10};
-  const auto careless = surely(beside, "0"), insisting = surely(beside, "3");
+  const auto careless = surely(beside, "0"), retrying = surely(beside, "3");
   const auto in_vain = surely(nowhere, "3"), content = surely({-1, 1}, "3");
   for (std::size_t trial : {0, 1}) {
     EXPECT_LT(last_position(careless[trial]), beside.low);
-    EXPECT_GT(last_position(insisting[trial]), beside.low);
-    EXPECT_LT(last_position(insisting[trial]), beside.high);
+    EXPECT_GT(last_position(retrying[trial]), beside.low);
+    EXPECT_LT(last_position(retrying[trial]), beside.high);
     EXPECT_GT(in_vain[trial].rollouts, 3 * careless[trial].rollouts) << "four searches";
     EXPECT_GE(*in_vain[trial].predicted_return, *careless[trial].predicted_return);
     EXPECT_LT(content[trial].rollouts, 1.5 * careless[trial].rollouts) << "one";
   }
 }
 
-TEST(BlackDrops, PrefersThemWithinAToleranceWhereTheModelHasDoubts) {
+TEST(BlackDrops, PrefersThemWithinAToleranceWhereTheModelIsUncertain) {
   const auto second = [](const char* tolerance) {
     const auto with = builder("black-drops-prior", "100");
     for (const auto& [name, value] : std::map<std::string, std::string>{
-             {"scout.policies", "0"}, {"explore.gain", "0"}, {"insist.doubtful_tolerance", tolerance}})
+             {"mean_search.policies", "0"}, {"explore.gain", "0"}, {"retry.uncertain_tolerance", tolerance}})
       EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
     Setting task = setting(slider::prior(1.5));
     task.task.solved = [](const Episode& e) { return e.true_states(e.steps(), 0) > 0.1; };

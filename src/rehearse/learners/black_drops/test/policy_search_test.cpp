@@ -98,8 +98,9 @@ TEST(SearchPolicy, ReportsHowFarItIs) {
   EXPECT_LE(last, 1);
 }
 
-TEST(SolvingRates, CountImaginedEpisodesThatSolve) {
-  const dynamics::SimulatorModel doubtful(slider::prior(), slider::kTruth, 0.01), sure(slider::prior(), slider::kTruth);
+TEST(SolvingRates, CountSimulatedEpisodesThatSolve) {
+  const dynamics::SimulatorModel uncertain(slider::prior(), slider::kTruth, 0.01),
+      sure(slider::prior(), slider::kTruth);
   const auto policy = slider::policy();
   Task task = slider::task();
   task.start_std.setZero();
@@ -112,12 +113,12 @@ TEST(SolvingRates, CountImaginedEpisodesThatSolve) {
   };
   const auto middle = [&](Index which) {
     const Vector theta = which == 0 ? Vector{{-1, 0}} : Vector{{-5, 0}};
-    return rollout::imagine_recorded(sure, *policy, task, theta, 1, {}, {.sample = false}).states.back()(0, 0);
+    return rollout::simulate_recorded({sure, *policy, task, {}, {.sample = false}}, theta, 1).states.back()(0, 0);
   };
   const double beyond = middle(0);
-  const Vector counted = rates(doubtful, serial_evaluator(), beyond);
+  const Vector counted = rates(uncertain, serial_evaluator(), beyond);
   EXPECT_NEAR(counted(0), 0.5, 0.1) << "six deviations of 1000 fair coins";
-  EXPECT_EQ(counted, rates(doubtful, *make_thread_evaluator(2), beyond));
+  EXPECT_EQ(counted, rates(uncertain, *make_thread_evaluator(2), beyond));
   EXPECT_EQ(rates(sure, serial_evaluator(), beyond - 1e-6)(0), 1);
   EXPECT_EQ(rates(sure, serial_evaluator(), beyond + 1e-6)(0), 0);
   task.solved = nullptr;

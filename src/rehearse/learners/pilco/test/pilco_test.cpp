@@ -13,7 +13,7 @@
 #include "rehearse/moments/expected_return.hpp"
 #include "rehearse/moments/requirements.hpp"
 #include "rehearse/policy/network.hpp"
-#include "rehearse/rollout/imagine.hpp"
+#include "rehearse/rollout/simulate.hpp"
 #include "rehearse/testing/check_learner.hpp"
 #include "slider.hpp"
 
@@ -211,9 +211,12 @@ TEST(Pilco, ItsEpisodeByMomentsIsThatOfTheGpsOfAllRows) {
 TEST(Pilco, OneStepByMomentsIsThatOfTheSamples) {
   const Proposal proposal = asked_after(2, {{"search.line_searches", "20"}}).proposal;
   constexpr Index kSamples = 100000;
-  const auto recorded =
-      rollout::imagine_recorded(*proposal.model, *proposal.policy, task(), proposal.theta, kSamples,
-                                {.seed = 3, .trial = 1, .stage = Stage::prediction}, {.noise_clip = 0});
+  const auto recorded = rollout::simulate_recorded({*proposal.model,
+                                                    *proposal.policy,
+                                                    task(),
+                                                    {.seed = 3, .trial = 1, .stage = Stage::prediction},
+                                                    {.noise_clip = 0}},
+                                                   proposal.theta, kSamples);
   const ExpectedEpisode episode = proposal.moments();
   const auto expect_moments = [](const Vector& samples, double mean, double deviation) {
     const double error = deviation / std::sqrt(kSamples), found = samples.mean();

@@ -1,4 +1,4 @@
-#include "rehearse/rollout/imagine.hpp"
+#include "rehearse/rollout/simulate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,13 @@
 namespace rehearse::rollout {
 namespace {
 
-constexpr StreamKey kKey{.seed = 3, .trial = 2, .purpose = Purpose::imagined_noise};
-constexpr ImagineOptions kUnclipped{.noise_clip = 0};
+constexpr StreamKey kKey{.seed = 3, .trial = 2, .purpose = Purpose::simulated_noise};
+constexpr SimulateOptions kUnclipped{.noise_clip = 0};
 
-Imagined imagine_cart(const Task& task, const Matrix& Theta, Index particles, const ImagineOptions& options = {},
-                      const dynamics::DynamicsModel& model = cart::Model(), std::uint64_t first = 0,
-                      const Evaluator& evaluator = serial_evaluator()) {
-  return imagine(model, *cart::policy(), task, Theta, first, particles, kKey, options, evaluator);
+Simulated simulate_cart(const Task& task, const Matrix& Theta, Index particles, const SimulateOptions& options = {},
+                        const dynamics::DynamicsModel& model = cart::Model(), std::uint64_t first = 0,
+                        const Evaluator& evaluator = serial_evaluator()) {
+  return simulate({model, *cart::policy(), task, kKey, options}, Theta, {first, particles}, evaluator);
 }
 
 /// The numbers that rollout (candidate, particle) meets, from their definition.
@@ -29,7 +29,7 @@ struct Noise {
 Noise noise_of(const Task& task, std::uint64_t candidate, std::uint64_t particle) {
   Noise noise{Matrix(1, 2), Matrix(task.horizon, 2)};
   StreamKey start = kKey;
-  start.purpose = Purpose::imagined_start;
+  start.purpose = Purpose::simulated_start;
   fill_normals(start, &candidate, &particle, 0, noise.start);
   Matrix row(1, 2);
   for (Index t = 0; t < task.horizon; ++t) {
@@ -43,56 +43,57 @@ Vector start_of(const Task& task, const Noise& noise) {
   return task.start_mean + (task.start_std.array() * noise.start.row(0).transpose().array()).matrix();
 }
 
-TEST(Imagine, EqualsALoopOverSingleRollouts) {
+TEST(Simulate, EqualsALoopOverSingleRollouts) {
   const Task task = cart::task();
   const Matrix Theta = cart::candidates(7);
   for (const double variance : {0.0, 0.01}) {
-    const Imagined imagined = imagine_cart(task, Theta, 3, kUnclipped, cart::Model(variance), 10);
-    ASSERT_EQ(imagined.returns.rows(), 3);
-    ASSERT_EQ(imagined.returns.cols(), 7);
-    EXPECT_EQ(imagined.failed, 0);
+    const Simulated simulated = simulate_cart(task, Theta, 3, kUnclipped, cart::Model(variance), 10);
+    ASSERT_EQ(simulated.returns.rows(), 3);
+    ASSERT_EQ(simulated.returns.cols(), 7);
+    EXPECT_EQ(simulated.failed, 0);
     for (Index j = 0; j < 7; ++j) {
       for (Index p = 0; p < 3; ++p) {
         const Noise noise = noise_of(task, 10 + static_cast<std::uint64_t>(j), static_cast<std::uint64_t>(p));
         const double expected =
             cart::by_hand(task, Theta.col(j), start_of(task, noise), noise.steps, std::sqrt(variance)).value;
-        EXPECT_NEAR(imagined.returns(p, j), expected, 1e-12) << j << " " << p;
+        EXPECT_NEAR(simulated.returns(p, j), expected, 1e-12) << j << " " << p;
       }
     }
   }
 }
 
-TEST(Imagine, NoiseIsClippedAtSoManyDeviations) {
+TEST(Simulate, NoiseIsClippedAtSoManyDeviations) {
   const Task task = cart::task();
   const Matrix Theta = cart::candidates(1);
   for (const double clip : {0.5, 1.0}) {
-    const Imagined imagined = imagine_cart(task, Theta, 2, {.noise_clip = clip}, cart::Model(0.04));
+    const Simulated simulated = simulate_cart(task, Theta, 2, {.noise_clip = clip}, cart::Model(0.04));
     for (Index p = 0; p < 2; ++p) {
       const Noise noise = noise_of(task, 0, static_cast<std::uint64_t>(p));
       const Matrix clipped = noise.steps.cwiseMin(clip).cwiseMax(-clip);
-      EXPECT_NEAR(imagined.returns(p, 0), cart::by_hand(task, Theta, start_of(task, noise), clipped, 0.2).value, 1e-12);
+      EXPECT_NEAR(simulated.returns(p, 0), cart::by_hand(task, Theta, start_of(task, noise), clipped, 0.2).value,
+                  1e-12);
     }
   }
 }
 
-TEST(Imagine, WithoutSamplingFollowsTheMean) {
+TEST(Simulate, WithoutSamplingFollowsTheMean) {
   const Task task = cart::task(0);
   const Matrix Theta = cart::candidates(3);
-  const Imagined mean = imagine_cart(task, Theta, 2, {.sample = false}, cart::Model(1));
-  EXPECT_EQ(mean.returns, imagine_cart(task, Theta, 2).returns);
+  const Simulated mean = simulate_cart(task, Theta, 2, {.sample = false}, cart::Model(1));
+  EXPECT_EQ(mean.returns, simulate_cart(task, Theta, 2).returns);
   EXPECT_EQ(mean.returns.row(0), mean.returns.row(1)) << "the start is certain too";
 }
 
-TEST(Imagine, ThePolicySeesWhatMeasurementsAdd) {
+TEST(Simulate, ThePolicySeesWhatMeasurementsAdd) {
   const Task task = cart::task();
   const Matrix Theta = cart::candidates(3);
   const Vector std{{0.3, 0.1}};
   const cart::Model noisy(0.01, {}, std), clear(0.01);
-  const auto with = [&](double times) { return ImagineOptions{.noise_clip = 0, .measurement_noise = times}; };
-  const Imagined once = imagine_cart(task, Theta, 2, with(1), noisy),
-                 twice = imagine_cart(task, Theta, 2, with(2), noisy);
+  const auto with = [&](double times) { return SimulateOptions{.noise_clip = 0, .measurement_noise = times}; };
+  const Simulated once = simulate_cart(task, Theta, 2, with(1), noisy),
+                  twice = simulate_cart(task, Theta, 2, with(2), noisy);
   StreamKey key = kKey;
-  key.purpose = Purpose::imagined_measurement;
+  key.purpose = Purpose::simulated_measurement;
   for (std::uint64_t j = 0; j < 3; ++j)
     for (std::uint64_t p = 0; p < 2; ++p) {
       const Noise noise = noise_of(task, j, p);
@@ -108,48 +109,44 @@ TEST(Imagine, ThePolicySeesWhatMeasurementsAdd) {
       EXPECT_NEAR(once.returns(static_cast<Index>(p), static_cast<Index>(j)), expected(1), 1e-12);
       EXPECT_NEAR(twice.returns(static_cast<Index>(p), static_cast<Index>(j)), expected(2), 1e-12);
     }
-  EXPECT_EQ(imagine_cart(task, Theta, 2, with(0), noisy).returns, imagine_cart(task, Theta, 2, with(1), clear).returns);
-  const ImagineOptions means{.sample = false};
-  EXPECT_EQ(imagine_cart(task, Theta, 2, means, noisy).returns,
-            imagine_cart(task, Theta, 2, {}, cart::Model(0, {}, std)).returns)
-      << "doubts are another matter";
+  EXPECT_EQ(simulate_cart(task, Theta, 2, with(0), noisy).returns,
+            simulate_cart(task, Theta, 2, with(1), clear).returns);
+  const SimulateOptions means{.sample = false};
+  EXPECT_EQ(simulate_cart(task, Theta, 2, means, noisy).returns,
+            simulate_cart(task, Theta, 2, {}, cart::Model(0, {}, std)).returns)
+      << "uncertainty is another matter";
 }
 
-TEST(Imagine, SameBytesForAnyNumberOfThreads) {
+TEST(Simulate, SameBytesForAnyNumberOfThreads) {
   const Task task = cart::task();
   const Matrix Theta = cart::candidates(150);
-  const Imagined one = imagine_cart(task, Theta, 5, {}, cart::Model(0.01));
+  const Simulated one = simulate_cart(task, Theta, 5, {}, cart::Model(0.01));
   for (const int threads : {2, 3}) {
     const auto evaluator = make_thread_evaluator(threads);
-    EXPECT_EQ(one.returns, imagine_cart(task, Theta, 5, {}, cart::Model(0.01), 0, *evaluator).returns);
+    EXPECT_EQ(one.returns, simulate_cart(task, Theta, 5, {}, cart::Model(0.01), 0, *evaluator).returns);
   }
 }
 
-TEST(Imagine, ARolloutDoesNotDependOnItsBatch) {
+TEST(Simulate, ARolloutDoesNotDependOnItsBatch) {
   const Task task = cart::task();
   const Matrix Theta = cart::candidates(150);
   for (const Index particles : {3, 4}) {  // 450 and 600 rollouts: small and large chunks
-    const Imagined all = imagine_cart(task, Theta, particles, {}, cart::Model(0.01));
+    const Simulated all = simulate_cart(task, Theta, particles, {}, cart::Model(0.01));
     for (const Index j : {0, 42, 43, 85, 149}) {
       const Matrix theta = Theta.col(j);
       const auto name = static_cast<std::uint64_t>(j);
-      EXPECT_EQ(imagine_cart(task, theta, particles, {}, cart::Model(0.01), name).returns, all.returns.col(j)) << j;
-      EXPECT_EQ(imagine_cart(task, theta, 1, {}, cart::Model(0.01), name).returns(0, 0), all.returns(0, j))
+      EXPECT_EQ(simulate_cart(task, theta, particles, {}, cart::Model(0.01), name).returns, all.returns.col(j)) << j;
+      EXPECT_EQ(simulate_cart(task, theta, 1, {}, cart::Model(0.01), name).returns(0, 0), all.returns(0, j))
           << "fewer particles are the first ones";
     }
   }
 }
 
-TEST(Imagine, CommonRandomNumbersGiveEveryCandidateTheSameNoise) {
-  const Task task = cart::task();
-  const Matrix theta = cart::candidates(1), Theta = theta.replicate(1, 4);
-  const Imagined common = imagine_cart(task, Theta, 2, {.common_random_numbers = true}, cart::Model(0.01));
-  const Imagined own = imagine_cart(task, Theta, 2, {}, cart::Model(0.01));
-  for (Index j = 1; j < 4; ++j) {
-    EXPECT_EQ(common.returns.col(j), common.returns.col(0));
-    EXPECT_NE(own.returns.col(j), own.returns.col(0));
-  }
-  EXPECT_NE(common.returns(0, 0), common.returns(1, 0)) << "particles still differ";
+TEST(Simulate, EachCandidateMeetsItsOwnNoise) {
+  const Matrix Theta = cart::candidates(1).replicate(1, 4);
+  const Simulated own = simulate_cart(cart::task(), Theta, 2, {}, cart::Model(0.01));
+  for (Index j = 1; j < 4; ++j) EXPECT_NE(own.returns.col(j), own.returns.col(0));
+  EXPECT_NE(own.returns(0, 0), own.returns(1, 0)) << "particles differ, too";
 }
 
 /// The first step (counted from 0) whose resulting state satisfies `when`, by hand; −1: none.
@@ -165,12 +162,12 @@ double reward_before(const Matrix& states, Index steps) {
   return sum;
 }
 
-TEST(Imagine, AFallIsChargedTheFloorForTheRemainingSteps) {
+TEST(Simulate, AFallIsChargedTheFloorForTheRemainingSteps) {
   Task task = cart::task();
   const auto fallen = [](double, double position) { return position > 1.15; };
   task.ended = [&](const ConstVectorView& x) { return fallen(x(0), x(1)); };
   const Matrix Theta = cart::candidates(40);
-  const Imagined imagined = imagine_cart(task, Theta, 1);
+  const Simulated simulated = simulate_cart(task, Theta, 1);
   Index falls = 0;
   for (Index j = 0; j < 40; ++j) {
     const Noise noise = noise_of(task, static_cast<std::uint64_t>(j), 0);
@@ -180,18 +177,18 @@ TEST(Imagine, AFallIsChargedTheFloorForTheRemainingSteps) {
     const double expected =
         t < 0 ? reward_before(states, 20)
               : reward_before(states, t + 1) + static_cast<double>(task.horizon - t - 1) * task.reward_floor;
-    EXPECT_NEAR(imagined.returns(0, j), expected, 1e-12) << j;
+    EXPECT_NEAR(simulated.returns(0, j), expected, 1e-12) << j;
   }
   EXPECT_GT(falls, 5);
   EXPECT_LT(falls, 35);
-  EXPECT_EQ(imagined.failed, 0) << "a fall is no failure";
+  EXPECT_EQ(simulated.failed, 0) << "a fall is no failure";
 }
 
-TEST(Imagine, AFailureIsChargedTheFloorAndCounted) {
+TEST(Simulate, AFailureIsChargedTheFloorAndCounted) {
   const Task task = cart::task();
   const auto bad = [](double, double position) { return position > 1.15; };  // cannot be simulated from here
   const Matrix Theta = cart::candidates(40);
-  const Imagined imagined = imagine_cart(task, Theta, 1, {}, cart::Model(0, bad));
+  const Simulated simulated = simulate_cart(task, Theta, 1, {}, cart::Model(0, bad));
   Index failures = 0;
   for (Index j = 0; j < 40; ++j) {
     const Noise noise = noise_of(task, static_cast<std::uint64_t>(j), 0);
@@ -203,24 +200,24 @@ TEST(Imagine, AFailureIsChargedTheFloorAndCounted) {
     const double expected =
         fails ? reward_before(states, reached + 1) + static_cast<double>(task.horizon - reached - 1) * task.reward_floor
               : reward_before(states, 20);
-    EXPECT_NEAR(imagined.returns(0, j), expected, 1e-12) << j;
+    EXPECT_NEAR(simulated.returns(0, j), expected, 1e-12) << j;
   }
   EXPECT_GT(failures, 5);
   EXPECT_LT(failures, 35);
-  EXPECT_EQ(imagined.failed, failures);
+  EXPECT_EQ(simulated.failed, failures);
 }
 
-TEST(Imagine, ARewardThatIsNotFiniteIsAFailureToo) {
+TEST(Simulate, ARewardThatIsNotFiniteIsAFailureToo) {
   Task task = cart::task(0);
   task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView rewards) {
     rewards.setConstant(std::numeric_limits<double>::infinity());
   };
-  const Imagined imagined = imagine_cart(task, cart::candidates(3), 2);
-  EXPECT_EQ(imagined.failed, 6);
-  EXPECT_EQ(imagined.returns, Matrix::Constant(2, 3, 20 * task.reward_floor));
+  const Simulated simulated = simulate_cart(task, cart::candidates(3), 2);
+  EXPECT_EQ(simulated.failed, 6);
+  EXPECT_EQ(simulated.returns, Matrix::Constant(2, 3, 20 * task.reward_floor));
 }
 
-TEST(Imagine, HugePredictionsDisturbNoOtherRollout) {
+TEST(Simulate, HugePredictionsDisturbNoOtherRollout) {
   /// Rows beyond a position come back as 1e300 or as infinities of either sign.
   class Huge final : public dynamics::DynamicsModel {
    public:
@@ -236,7 +233,8 @@ TEST(Imagine, HugePredictionsDisturbNoOtherRollout) {
   };
   const Task task = cart::task();
   const Matrix Theta = cart::candidates(200);
-  const Matrix clean = imagine_cart(task, Theta, 1).returns, spoilt = imagine_cart(task, Theta, 1, {}, Huge()).returns;
+  const Matrix clean = simulate_cart(task, Theta, 1).returns,
+               spoilt = simulate_cart(task, Theta, 1, {}, Huge()).returns;
   EXPECT_TRUE(spoilt.allFinite());
   Index same = 0;
   for (Index j = 0; j < 200; ++j) same += clean(0, j) == spoilt(0, j);
@@ -244,12 +242,12 @@ TEST(Imagine, HugePredictionsDisturbNoOtherRollout) {
   EXPECT_LT(same, 190);
 }
 
-TEST(ImagineRecorded, HasTheReturnsAndTheStatesOfImagine) {
+TEST(SimulateRecorded, HasTheReturnsAndTheStatesOfSimulate) {
   const Task task = cart::task();
   const Matrix theta = cart::candidates(1);
-  const Recorded recorded = imagine_recorded(cart::Model(0.01), *cart::policy(), task, theta, 4, kKey, kUnclipped);
+  const Recorded recorded = simulate_recorded({cart::Model(0.01), *cart::policy(), task, kKey, kUnclipped}, theta, 4);
   ASSERT_EQ(recorded.states.size(), 21u);
-  EXPECT_EQ(Matrix(recorded.returns), imagine_cart(task, theta, 4, kUnclipped, cart::Model(0.01)).returns);
+  EXPECT_EQ(Matrix(recorded.returns), simulate_cart(task, theta, 4, kUnclipped, cart::Model(0.01)).returns);
   for (Index p = 0; p < 4; ++p) {
     const Noise noise = noise_of(task, 0, static_cast<std::uint64_t>(p));
     const Matrix states = cart::by_hand(task, theta, start_of(task, noise), noise.steps, 0.1).states;
@@ -259,12 +257,12 @@ TEST(ImagineRecorded, HasTheReturnsAndTheStatesOfImagine) {
   EXPECT_LT((recorded.rewards.rowwise().sum() - recorded.returns).norm(), 1e-12);
 }
 
-TEST(ImagineRecorded, AfterAnEarlyEndARowIsNan) {
+TEST(SimulateRecorded, AfterAnEarlyEndARowIsNan) {
   Task task = cart::task(0);
   task.ended = [](const ConstVectorView& x) { return x(1) < 0.9; };
   Vector left = Vector::Zero(13);
   left(12) = -5;  // the bias of the output: full force to the left
-  const Recorded recorded = imagine_recorded(cart::Model(), *cart::policy(), task, left, 2, kKey, {});
+  const Recorded recorded = simulate_recorded({cart::Model(), *cart::policy(), task, kKey}, left, 2);
   bool ended = false;
   for (const Matrix& states : recorded.states) {
     EXPECT_TRUE(ended ? states.array().isNaN().all() : (states.array().isFinite().all() || (ended = true)));
@@ -275,21 +273,21 @@ TEST(ImagineRecorded, AfterAnEarlyEndARowIsNan) {
 }
 
 /// Rows that fail at v > 0.5, and that fall at p < 0.8.
-TEST(ImagineEpisodes, RecordsWhatTheReturnsAreMadeOf) {
+TEST(SimulateEpisodes, RecordsWhatTheReturnsAreMadeOf) {
   Task task = cart::task();
   const cart::Model model(0.01, [](double v, double) { return v > 0.5; });
   const Matrix Theta = cart::candidates(40);
   for (const bool falls : {false, true}) {
     if (falls) task.ended = [](const ConstVectorView& x) { return x(1) < 0.8; };
-    const Imagined imagined = imagine_cart(task, Theta, 1, {}, model, 5);
+    const Simulated simulated = simulate_cart(task, Theta, 1, {}, model, 5);
     Episodes episodes;
-    imagine_episodes(model, *cart::policy(), task, Theta.transpose(), 5, kKey, {}, episodes);
-    EXPECT_EQ(episodes.returns, imagined.returns.row(0).transpose());
+    simulate_episodes({model, *cart::policy(), task, kKey}, Theta.transpose(), 5, episodes);
+    EXPECT_EQ(episodes.returns, simulated.returns.row(0).transpose());
     Index failed = 0, ended = 0, whole = 0;
     for (Index row = 0; row < 40; ++row) {
       Episode episode;
       episodes.copy(row, episode);
-      EXPECT_NEAR(episode.total_reward(), imagined.returns(0, row), 1e-12);
+      EXPECT_NEAR(episode.total_reward(), simulated.returns(0, row), 1e-12);
       const Index T = episode.steps();
       ASSERT_EQ(episode.states.rows(), T + 1);
       EXPECT_TRUE(episode.states.allFinite() && episode.rewards.allFinite());
@@ -301,32 +299,32 @@ TEST(ImagineEpisodes, RecordsWhatTheReturnsAreMadeOf) {
       ended += episode.ended;
       whole += T == 20;
     }
-    EXPECT_EQ(failed, imagined.failed);
+    EXPECT_EQ(failed, simulated.failed);
     EXPECT_GT(failed, 0);
     EXPECT_GT(whole, 0);
     EXPECT_EQ(ended > 0, falls);
   }
 }
 
-TEST(Imagine, IsStoppedBetweenTheStepsOfALongHorizon) {
+TEST(Simulate, IsStoppedBetweenTheStepsOfALongHorizon) {
   Task task = cart::task();
   task.horizon = 1'000'000'000;
   int asked = 0;
   const auto evaluator = make_stoppable(make_thread_evaluator(1), [&] { return ++asked == 100; });
-  EXPECT_THROW(imagine(cart::Model(), *cart::policy(), task, cart::candidates(1), 0, 1, kKey, {}, *evaluator),
+  EXPECT_THROW(simulate({cart::Model(), *cart::policy(), task, kKey}, cart::candidates(1), {0, 1}, *evaluator),
                Interrupted);
   EXPECT_EQ(asked, 100);
 }
 
-TEST(Imagine, WrongSizesAreRefused) {
+TEST(Simulate, WrongSizesAreRefused) {
   const Task task = cart::task();
   const auto policy = cart::policy();
   const Matrix wrong = Matrix::Zero(policy->parameters() + 1, 2), right = cart::candidates(2);
-  EXPECT_THROW(imagine(cart::Model(), *policy, task, wrong, 0, 1, kKey, {}, serial_evaluator()), InvalidInput);
-  EXPECT_THROW(imagine(cart::Model(), *policy, task, right, 0, 0, kKey, {}, serial_evaluator()), InvalidInput);
-  EXPECT_THROW(imagine_recorded(cart::Model(), *policy, task, wrong.col(0), 1, kKey, {}), InvalidInput);
+  EXPECT_THROW(simulate({cart::Model(), *policy, task, kKey}, wrong, {0, 1}, serial_evaluator()), InvalidInput);
+  EXPECT_THROW(simulate({cart::Model(), *policy, task, kKey}, right, {0, 0}, serial_evaluator()), InvalidInput);
+  EXPECT_THROW(simulate_recorded({cart::Model(), *policy, task, kKey}, wrong.col(0), 1), InvalidInput);
   Episodes episodes;
-  EXPECT_THROW(imagine_episodes(cart::Model(), *policy, task, right, 0, kKey, {}, episodes), InvalidInput);
+  EXPECT_THROW(simulate_episodes({cart::Model(), *policy, task, kKey}, right, 0, episodes), InvalidInput);
 }
 
 }  // namespace

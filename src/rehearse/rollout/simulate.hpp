@@ -12,33 +12,45 @@
 
 namespace rehearse::rollout {
 
-struct ImagineOptions {
+struct SimulateOptions {
   double noise_clip = 1;         // samples are clipped to ± so many standard deviations; 0: not clipped
   bool sample = true;            // false: the mean prediction alone is followed
   double measurement_noise = 1;  // times what the model takes for noise of measurements, which the policy meets, with
                                  // samples or without; 0: it sees the true state (the paper)
-  bool common_random_numbers = false;  // every candidate meets the same noise
   void fields(FieldVisitor& v) {
     v.number("noise_clip", noise_clip, at_least(0), published(1, kAuthors));
     v.boolean("sample", sample);
     v.number("measurement_noise", measurement_noise, at_least(0), published(0));
-    v.boolean("common_random_numbers", common_random_numbers);
   }
 };
 
-/// Returns of imagined episodes, one column a candidate.
-struct Imagined {
+/// What rollouts are made of. References must outlive it.
+struct Simulation {
+  const dynamics::DynamicsModel& model;
+  const policy::Policy& policy;
+  const Task& task;
+  StreamKey key = {};  // the streams of its random numbers: candidate, particle and step are added
+  SimulateOptions options = {};
+};
+
+/// Which rollouts of a stream a batch is: its candidates are numbered from the first on, each with so many particles.
+struct Candidates {
+  std::uint64_t first = 0;
+  Index particles = 1;
+};
+
+/// Returns of simulated episodes, one column a candidate.
+struct Simulated {
   Matrix returns;    // particles × candidates
   Index failed = 0;  // rollouts that ended because a prediction was not finite
 };
 
-/// Imagines `particles` episodes of each policy (Theta: parameters × candidates), all rollouts in lockstep within
-/// chunks of a fixed size that the evaluator spreads over threads. Rollout (candidate j, particle p) draws from the
-/// stream (key, first_candidate + j, p): its value does not depend on the batch it is evaluated in, nor on threads.
-/// A rollout that falls or fails is charged the reward floor for every remaining step.
-Imagined imagine(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
-                 const ConstMatrixView& Theta, std::uint64_t first_candidate, Index particles, const StreamKey& key,
-                 const ImagineOptions& options, const Evaluator& evaluator);
+/// Simulates episodes of each policy (Theta: parameters × candidates), all rollouts in lockstep within chunks of a
+/// fixed size that the evaluator spreads over threads. Rollout (candidate j, particle p) draws from the stream (key,
+/// candidates.first + j, p): its value does not depend on the batch it is evaluated in, nor on threads. A rollout that
+/// falls or fails is charged the reward floor for every remaining step. Throws InvalidInput where sizes are wrong.
+Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, const Candidates& candidates,
+                   const Evaluator& evaluator);
 
 /// The same for one policy, with every state: element t holds the states (particles × dx) at step t, t = 0..T;
 /// after an early end a row is NaN.
@@ -47,10 +59,9 @@ struct Recorded {
   Matrix rewards;  // particles × T: what a step adds to the return, an early end all that is charged for the rest
   Vector returns;  // particles
 };
-Recorded imagine_recorded(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
-                          const Vector& theta, Index particles, const StreamKey& key, const ImagineOptions& options);
+Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, Index particles);
 
-/// Imagined episodes, one a row of a batch.
+/// Simulated episodes, one a row of a batch.
 struct Episodes {
   std::vector<Matrix> states;   // T+1 of rows × dx
   std::vector<Matrix> actions;  // T of rows × du
@@ -68,8 +79,7 @@ struct Episodes {
 
 /// One episode of each policy (Theta: rows × parameters, one a row) on the calling thread, all rows in lockstep. Row i
 /// is candidate `first_candidate` + i of the stream. No allocation if `episodes` had the same size before.
-void imagine_episodes(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
-                      const ConstMatrixView& Theta, std::uint64_t first_candidate, const StreamKey& key,
-                      const ImagineOptions& options, Episodes& episodes);
+void simulate_episodes(const Simulation& simulation, const ConstMatrixView& Theta, std::uint64_t first_candidate,
+                       Episodes& episodes);
 
 }  // namespace rehearse::rollout

@@ -1,4 +1,4 @@
-#include "rehearse/rollout/imagine.hpp"
+#include "rehearse/rollout/simulate.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -31,12 +31,11 @@ Buffers& buffers_of_this_thread() {
 /// Some rows of a batch in lockstep, each a particle of a candidate.
 class Chunk {
  public:
-  Chunk(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task, const StreamKey& key,
-        const ImagineOptions& options, Index rows, Buffers& buffers)
-      : model_(model), policy_(policy), task_(task), key_(key), options_(options), b_(buffers) {
-    b_.Theta.resize(rows, policy.parameters());
-    for (Matrix* states : {&b_.X, &b_.seen, &b_.next, &b_.noise}) states->resize(rows, task.state_size());
-    b_.U.resize(rows, task.action_size());
+  Chunk(const Simulation& of, Index rows, Buffers& buffers)
+      : model_(of.model), policy_(of.policy), task_(of.task), key_(of.key), options_(of.options), b_(buffers) {
+    b_.Theta.resize(rows, policy_.parameters());
+    for (Matrix* states : {&b_.X, &b_.seen, &b_.next, &b_.noise}) states->resize(rows, task_.state_size());
+    b_.U.resize(rows, task_.action_size());
     b_.reward.resize(rows);
     b_.returns.setZero(rows);
     b_.candidates.resize(static_cast<std::size_t>(rows));
@@ -46,21 +45,21 @@ class Chunk {
 
   void set_row(Index row, const ConstVectorView& theta, std::uint64_t candidate, std::uint64_t particle) {
     b_.Theta.row(row) = theta.transpose();
-    b_.candidates[static_cast<std::size_t>(row)] = options_.common_random_numbers ? 0 : candidate;
+    b_.candidates[static_cast<std::size_t>(row)] = candidate;
     b_.particles[static_cast<std::size_t>(row)] = particle;
   }
 
   void set_rows(const ConstMatrixView& Theta, std::uint64_t first_candidate) {
     b_.Theta = Theta;
     for (std::size_t row = 0; row < b_.candidates.size(); ++row) {
-      b_.candidates[row] = options_.common_random_numbers ? 0 : first_candidate + row;
+      b_.candidates[row] = first_candidate + row;
       b_.particles[row] = 0;
     }
   }
 
   void start() {
     const bool random = (task_.start_std.array() > 0).any();
-    if (random) draw(Purpose::imagined_start, 0);
+    if (random) draw(Purpose::simulated_start, 0);
     for (Index s = 0; s < b_.X.cols(); ++s) {
       b_.X.col(s).setConstant(task_.start_mean(s));
       if (random) b_.X.col(s) += task_.start_std(s) * b_.noise.col(s);
@@ -91,7 +90,7 @@ class Chunk {
   const Matrix& measured(Index t) {
     const Vector& std = model_.measurement_std();
     if (std.size() == 0 || options_.measurement_noise == 0) return b_.X;
-    draw(Purpose::imagined_measurement, t);
+    draw(Purpose::simulated_measurement, t);
     b_.seen = b_.X + b_.noise * (options_.measurement_noise * std).asDiagonal();
     return b_.seen;
   }
@@ -103,7 +102,7 @@ class Chunk {
   }
 
   void sample(Index t) {
-    draw(Purpose::imagined_noise, t);
+    draw(Purpose::simulated_noise, t);
     if (options_.noise_clip > 0) b_.noise = b_.noise.cwiseMin(options_.noise_clip).cwiseMax(-options_.noise_clip);
     model_.sample(b_.X, b_.U, b_.noise, b_.next);
   }
@@ -150,13 +149,15 @@ class Chunk {
   const policy::Policy& policy_;
   const Task& task_;
   StreamKey key_;
-  ImagineOptions options_;
+  SimulateOptions options_;
   Buffers& b_;
   Index failed_ = 0;
 };
 
 /// parameters: of one θ.
-void check(const policy::Policy& policy, const Task& task, Index parameters, Index particles) {
+void check(const Simulation& simulation, Index parameters, Index particles) {
+  const policy::Policy& policy = simulation.policy;
+  const Task& task = simulation.task;
   if (parameters == policy.parameters() && policy.actions() == task.action_size() && particles >= 1) return;
   throw InvalidInput(
       fmt::format("theta has {} numbers for the {} of the policy '{}', which has {} actions for the {} of the task; "
@@ -166,23 +167,24 @@ void check(const policy::Policy& policy, const Task& task, Index parameters, Ind
 
 }  // namespace
 
-Imagined imagine(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
-                 const ConstMatrixView& Theta, std::uint64_t first_candidate, Index particles, const StreamKey& key,
-                 const ImagineOptions& options, const Evaluator& evaluator) {
-  check(policy, task, Theta.rows(), particles);
+Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, const Candidates& candidates,
+                   const Evaluator& evaluator) {
+  const auto& [first_candidate, particles] = candidates;
+  const Index horizon = simulation.task.horizon;
+  check(simulation, Theta.rows(), particles);
   const Index total = Theta.cols() * particles, most = rows_of_chunk(total);
   const Index chunks = (total + most - 1) / most;
   Matrix results(most + 1, chunks);  // returns, and how many failed
   const auto task_of_chunk = [&](Index c, VectorView result) {
     const Index first = c * most, rows = std::min(most, total - first);
-    Chunk chunk(model, policy, task, key, options, rows, buffers_of_this_thread());
+    Chunk chunk(simulation, rows, buffers_of_this_thread());
     for (Index row = 0; row < rows; ++row) {
       const Index candidate = (first + row) / particles, particle = (first + row) % particles;
       chunk.set_row(row, Theta.col(candidate), first_candidate + static_cast<std::uint64_t>(candidate),
                     static_cast<std::uint64_t>(particle));
     }
     chunk.start();
-    for (Index t = 0; t < task.horizon; ++t) {
+    for (Index t = 0; t < horizon; ++t) {
       evaluator.stop_if_asked();
       chunk.step(t);
     }
@@ -191,25 +193,25 @@ Imagined imagine(const dynamics::DynamicsModel& model, const policy::Policy& pol
   };
   evaluator.evaluate(task_of_chunk, results);
 
-  Imagined imagined{.returns = Matrix(particles, Theta.cols())};
+  Simulated simulated{.returns = Matrix(particles, Theta.cols())};
   for (Index c = 0; c < chunks; ++c) {
     const Index rows = std::min(most, total - c * most);
-    Vector::Map(imagined.returns.data() + c * most, rows) = results.col(c).head(rows);
-    imagined.failed += static_cast<Index>(results(most, c));
+    Vector::Map(simulated.returns.data() + c * most, rows) = results.col(c).head(rows);
+    simulated.failed += static_cast<Index>(results(most, c));
   }
-  return imagined;
+  return simulated;
 }
 
-Recorded imagine_recorded(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
-                          const Vector& theta, Index particles, const StreamKey& key, const ImagineOptions& options) {
-  check(policy, task, theta.size(), particles);
+Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, Index particles) {
+  check(simulation, theta.size(), particles);
+  const Index horizon = simulation.task.horizon;
   Buffers buffers;
-  Chunk chunk(model, policy, task, key, options, particles, buffers);
+  Chunk chunk(simulation, particles, buffers);
   for (Index p = 0; p < particles; ++p) chunk.set_row(p, theta, 0, static_cast<std::uint64_t>(p));
   chunk.start();
-  Recorded recorded{.rewards = Matrix(particles, task.horizon)};
+  Recorded recorded{.rewards = Matrix(particles, horizon)};
   recorded.states.push_back(chunk.states());
-  for (Index t = 0; t < task.horizon; ++t) {
+  for (Index t = 0; t < horizon; ++t) {
     const Vector before = chunk.returns();
     chunk.step(t);
     recorded.rewards.col(t) = chunk.returns() - before;
@@ -221,19 +223,18 @@ Recorded imagine_recorded(const dynamics::DynamicsModel& model, const policy::Po
   return recorded;
 }
 
-void imagine_episodes(const dynamics::DynamicsModel& model, const policy::Policy& policy, const Task& task,
-                      const ConstMatrixView& Theta, std::uint64_t first_candidate, const StreamKey& key,
-                      const ImagineOptions& options, Episodes& episodes) {
-  check(policy, task, Theta.cols(), 1);
-  const Index rows = Theta.rows(), T = task.horizon;
+void simulate_episodes(const Simulation& simulation, const ConstMatrixView& Theta, std::uint64_t first_candidate,
+                       Episodes& episodes) {
+  check(simulation, Theta.cols(), 1);
+  const Index rows = Theta.rows(), T = simulation.task.horizon;
   episodes.states.resize(static_cast<std::size_t>(T + 1));
   episodes.actions.resize(static_cast<std::size_t>(T));
   episodes.rewards.resize(rows, T);
-  episodes.reward_floor = task.reward_floor;
+  episodes.reward_floor = simulation.task.reward_floor;
   episodes.steps.assign(static_cast<std::size_t>(rows), 0);
   episodes.ended.assign(static_cast<std::size_t>(rows), false);
   episodes.failed.assign(static_cast<std::size_t>(rows), false);
-  Chunk chunk(model, policy, task, key, options, rows, buffers_of_this_thread());
+  Chunk chunk(simulation, rows, buffers_of_this_thread());
   chunk.set_rows(Theta, first_candidate);
   chunk.start();
   episodes.states.front() = chunk.states();

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+
+#include "rehearse/learners/black_drops/options.hpp"
+#include "rehearse/learners/black_drops/trial_searches.hpp"
+
+namespace rehearse::learners::black_drops {
+
+/// The policy of a trial.
+struct Choice {
+  Vector theta;
+  double predicted_return = 0;
+
+  void take(const SearchResult& found) { theta = found.theta, predicted_return = found.predicted_return; }
+};
+
+/// The i-th search more, i = 1, 2, …
+using SearchAgain = std::function<SearchResult(Index i)>;
+
+/// Where the model is sure: searches are repeated until one finds a policy that is expected to solve the task for about
+/// the highest return, `retry.searches` times at most. A policy that solves it becomes the choice, whatever it costs.
+/// `found`: what the search that made the choice has found. Nothing happens where the task cannot say what solves it.
+void prefer_solving_where_sure(TrialSearches& searches, const SearchResult& found, const SearchAgain& again,
+                               const Retry& retry, Choice& choice);
+
+/// Where the model is uncertain: the policy that most often solves the task becomes the choice for a little of the
+/// return (`retry.uncertain_tolerance`); where none does so in half of the episodes, searches go on in the means.
+void prefer_solving_where_uncertain(TrialSearches& searches, const SearchResult& found, const Retry& retry,
+                                    Choice& choice);
+
+}  // namespace rehearse::learners::black_drops

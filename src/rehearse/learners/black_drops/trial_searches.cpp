@@ -1,0 +1,68 @@
+#include "rehearse/learners/black_drops/trial_searches.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace rehearse::learners::black_drops {
+namespace {
+
+constexpr double kMeans = 0.1;  // what it counts to solve the task in the means, beside the rate of simulated episodes
+
+SearchOptions in_means(SearchOptions options) {
+  options.simulate.sample = false;
+  return options;
+}
+
+}  // namespace
+
+TrialSearches::TrialSearches(const SearchProblem& problem, const SearchOptions& options, const StreamKey& trial)
+    : problem_(problem), options_(options), trial_(trial) {}
+
+SearchResult TrialSearches::search(const std::vector<Vector>& starts, Index i) {
+  return counted(search_policy(problem_, starts, options_, key(Stage::search, i)));
+}
+
+SearchResult TrialSearches::search_means(const std::vector<Vector>& starts, Index i) {
+  return counted(search_policy(problem_, starts, in_means(options_), key(Stage::mean_search, i)));
+}
+
+SearchResult TrialSearches::judge(const Vector& theta) {
+  return counted(black_drops::judge(problem_, theta, options_, key(Stage::judging)));
+}
+
+std::optional<SearchResult> TrialSearches::best_that_solves(const SearchResult& found) {
+  if (!can_tell_solved()) return std::nullopt;
+  std::vector<Vector> policies = found.runners_up;
+  policies.insert(policies.begin(), found.theta);
+  SearchOptions means = in_means(options_);
+  means.simulate.measurement_noise = 0;
+  means.selection = 1;
+  const Vector rates = solving_rates(problem_, policies, options_, key(Stage::solving)) +
+                       kMeans * solving_rates(problem_, policies, means, key(Stage::mean_solving));
+  rollouts_ += rates.size() * (comparisons(problem_, options_) + comparisons(problem_, means));
+  Index best = 0;
+  const double solving = rates.maxCoeff(&best);
+  if (solving == 0) return std::nullopt;
+  SearchResult judged = judge(policies[static_cast<std::size_t>(best)]);
+  judged.solving = solving;
+  return judged;
+}
+
+StreamKey TrialSearches::key(Stage stage, Index search) const {
+  StreamKey key = trial_;
+  key.stage = stage;
+  key.search = static_cast<std::uint64_t>(search);
+  return key;
+}
+
+SearchResult TrialSearches::counted(SearchResult found) {
+  rollouts_ += found.rollouts;
+  failed_rollouts_ += found.failed_rollouts;
+  return found;
+}
+
+bool within(double tolerance, double expected, double predicted) {
+  return predicted >= expected - tolerance * std::abs(expected);
+}
+
+}  // namespace rehearse::learners::black_drops

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "rehearse/learners/black_drops/policy_search.hpp"
+
+namespace rehearse::learners::black_drops {
+
+/// The searches and comparisons of one trial, each with random numbers of its own. It counts their rollouts.
+/// References must outlive it.
+class TrialSearches {
+ public:
+  /// trial: seed, trial and phase of all random numbers.
+  TrialSearches(const SearchProblem& problem, const SearchOptions& options, const StreamKey& trial);
+
+  /// The i-th search that meets the model's uncertainty. Its first descents begin at `starts`.
+  SearchResult search(const std::vector<Vector>& starts, Index i);
+
+  /// The i-th search that follows the mean predictions.
+  SearchResult search_means(const std::vector<Vector>& starts, Index i);
+
+  /// A policy's predicted return where the model's uncertainty counts.
+  SearchResult judge(const Vector& theta);
+
+  /// Of the policies of a search, the one that solves the task most often in simulated episodes; among those that never
+  /// do where uncertainty counts, one that does in the means. Empty if none does, or if the task cannot say.
+  std::optional<SearchResult> best_that_solves(const SearchResult& found);
+
+  bool can_tell_solved() const { return static_cast<bool>(problem_.task.solved); }
+  Index rollouts() const { return rollouts_; }
+  Index failed_rollouts() const { return failed_rollouts_; }
+
+ private:
+  StreamKey key(Stage stage, Index search = 0) const;
+  SearchResult counted(SearchResult found);
+
+  const SearchProblem problem_;
+  const SearchOptions& options_;
+  const StreamKey trial_;
+  Index rollouts_ = 0, failed_rollouts_ = 0;
+};
+
+/// Whether a policy's predicted return falls short of `expected` by no more than a fraction of it.
+bool within(double tolerance, double expected, double predicted);
+
+}  // namespace rehearse::learners::black_drops
