@@ -4,14 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/names.hpp"
 #include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::campaign {
 namespace {
-
-bool is_among(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 /// Finds what a claim names.
 class ClaimPlanner {
@@ -48,8 +45,8 @@ class ClaimPlanner {
       if (group.learner != claim_.learner) continue;
       priors.push_back(group.prior);
       variants.push_back(group.variant);
-      const bool prior = claim_.priors.empty() || is_among(claim_.priors, group.prior);
-      if (prior && (claim_.variants.empty() || is_among(claim_.variants, group.variant))) found.push_back(i);
+      const bool prior = claim_.priors.empty() || is_among(group.prior, claim_.priors);
+      if (prior && (claim_.variants.empty() || is_among(group.variant, claim_.variants))) found.push_back(i);
     }
     check_names("prior", claim_.priors, priors);
     check_names("variant", claim_.variants, variants);
@@ -58,7 +55,7 @@ class ClaimPlanner {
 
   void check_names(const char* what, const std::vector<std::string>& named, const std::vector<std::string>& known) {
     for (const std::string& name : named)
-      if (!is_among(known, name)) wrong(fmt::format("learner {} has no {} '{}'", claim_.learner, what, name));
+      if (!is_among(name, known)) wrong(fmt::format("learner {} has no {} '{}'", claim_.learner, what, name));
   }
 
   void find_opponents() {

@@ -7,8 +7,10 @@
 #include <fmt/ranges.h>
 
 #include "rehearse/campaign/claim_plan.hpp"
+#include "rehearse/campaign/folder_name.hpp"
 #include "rehearse/campaign/overlaps.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/experiment/location.hpp"
 #include "rehearse/experiment/preset.hpp"
@@ -42,22 +44,6 @@ experiment::FileOption drawn(const Draw& draw, Index seed) {
            .purpose = Purpose::drawn_option,
            .candidate = files::checksum(draw.key)});
   return {draw.key, fmt::to_string(rng.uniform(draw.low, draw.high)), draw.line};
-}
-
-/// A name that is one folder on every file system.
-std::string folder_name(const experiment::Spec& spec, const std::string& variant) {
-  std::string name = fmt::format("{}-{}-{}-", spec.scenario, spec.learner, spec.prior.empty() ? "none" : spec.prior);
-  if (!variant.empty()) name += variant + "-";
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._,=+-").find(c) == std::string::npos)
-      c = '_';
-  return name + fmt::to_string(spec.seed);
-}
-
-constexpr std::size_t kLongestName = 240;  // bytes; file systems take 255
-
-bool is_among(const std::string& name, const std::vector<std::string>& names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 class Planner {
@@ -250,11 +236,11 @@ class Planner {
   /// The first bad one is named, and none where something else may be why.
   bool check_name(const std::string& name) {
     if (!violations_.empty()) return false;
-    if (name.size() > kLongestName)
+    if (name.size() > kLongestFolderName)
       violations_.add(0,
                       fmt::format("the name of a run's folder is longer than {} bytes: {}; [[variant]] gives options "
                                   "that go together a short name",
-                                  kLongestName, name));
+                                  kLongestFolderName, name));
     else if (!names_.insert(name).second)
       violations_.add(0, fmt::format("two runs would have the folder {}: they are the same but for what no name of a "
                                      "folder can tell",

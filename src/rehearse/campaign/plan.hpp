@@ -50,7 +50,6 @@ struct CampaignPlan {
   std::vector<MissingLearner> missing;
   std::vector<PlannedClaim> claims;
 
-  std::size_t runs_per_group() const { return seeds.size(); }
   const PlannedRun& run(std::size_t group, std::size_t seed) const { return runs[group * seeds.size() + seed]; }
 };
 

@@ -126,13 +126,6 @@ std::vector<std::string> Task::violations() const {
   found.require(dt_s > 0 && std::isfinite(dt_s), fmt::format("dt_s = {}, must be > 0", dt_s));
   found.require(horizon >= 1, fmt::format("horizon = {}, must be ≥ 1", horizon));
   found.require(static_cast<bool>(reward), "task has no reward");
-  if (saturating_reward) {
-    const Index features = feature_map().features();
-    const auto& [goal, distances] = *saturating_reward;
-    found.require(goal.size() == features && distances.cols() == features && goal.allFinite() && distances.allFinite(),
-                  fmt::format("saturating_reward is of {} and {} features, must be of {} and finite", goal.size(),
-                              distances.cols(), features));
-  }
   for (std::size_t d = 0; d < descriptor_bounds.size(); ++d)
     found.require(std::isfinite(descriptor_bounds[d].high - descriptor_bounds[d].low) &&
                       descriptor_bounds[d].low < descriptor_bounds[d].high,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,13 +34,6 @@ struct ActionVariable {
 using Reward = std::function<void(const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& X_next,
                                   VectorView rewards)>;
 
-/// The reward exp(−½ ‖distances (f − goal)‖²) of the state reached, f its features (Task::feature_map): one that has
-/// analytic moments.
-struct SaturatingReward {
-  Vector goal;       // one a feature
-  Matrix distances;  // any × features: what has to vanish at the goal, in widths
-};
-
 /// What every room may know of a problem. A plain value.
 struct Task {
   std::vector<StateVariable> states;
@@ -51,7 +43,6 @@ struct Task {
   double dt_s = 0;    // control step
   Index horizon = 0;  // steps of an episode, T
   Reward reward;
-  std::optional<SaturatingReward> saturating_reward;  // the same as `reward`; empty: it has no analytic moments
   Reward initial_reward;    // a guess that stands in while the reward is still to be learned; empty: none
   double reward_floor = 0;  // charged for every step that an early end or a failed simulation leaves out
 

@@ -15,16 +15,16 @@ Vector standard_deviations(const Matrix& Y) {
   return deviations;
 }
 
+double zero_if_finite(double value) { return std::isfinite(value) ? 0 : value; }
+
+}  // namespace
+
 std::vector<Index> finite_rows(const Matrix& Y) {
   std::vector<Index> rows;
   for (Index i = 0; i < Y.rows(); ++i)
     if (Y.row(i).allFinite()) rows.push_back(i);
   return rows;
 }
-
-double zero_if_finite(double value) { return std::isfinite(value) ? 0 : value; }
-
-}  // namespace
 
 Residuals::Residuals(const Dataset& data, FeatureMap features, Kinematics kinematics, bool midpoint)
     : data_(data),

@@ -54,4 +54,7 @@ class Residuals {
   Vector scale_;
 };
 
+/// The rows without a number that is not finite.
+std::vector<Index> finite_rows(const Matrix& Y);
+
 }  // namespace rehearse::dynamics

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "rehearse/rollout/forecast.hpp"
+#include "rehearse/statistics/quantiles.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -67,14 +68,6 @@ double deviation(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-double quantile(const std::vector<double>& sorted, double fraction) {
-  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double position = fraction * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(position);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return std::lerp(sorted[below], sorted[above], position - static_cast<double>(below));
-}
-
 }  // namespace
 
 std::vector<ForecastError> forecast_errors(const dynamics::DynamicsModel& model, const Task& task,
@@ -100,7 +93,7 @@ Vector deviations_of_finite(const Matrix& states) {
 
 Vector quantiles(const Matrix& states, double fraction) {
   Vector found(states.cols());
-  for (Index s = 0; s < states.cols(); ++s) found(s) = quantile(sorted_finite(states, s), fraction);
+  for (Index s = 0; s < states.cols(); ++s) found(s) = statistics::quantile(sorted_finite(states, s), fraction);
   return found;
 }
 

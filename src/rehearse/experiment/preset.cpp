@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/files/toml_reader.hpp"
 
@@ -12,10 +13,6 @@ namespace rehearse::experiment {
 namespace {
 
 constexpr std::int64_t kFormat = 1;
-
-bool is_among(const std::string& name, const std::vector<std::string>& names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 std::vector<FileOption> options_in(const toml::table* table, files::FileViolations& violations) {
   std::vector<FileOption> options;

@@ -1,18 +1,18 @@
 #include "rehearse/experiment/run.hpp"
 
-#include <new>
-
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/checkpoint.hpp"
 #include "rehearse/experiment/evaluation.hpp"
+#include "rehearse/experiment/failures.hpp"
 #include "rehearse/experiment/forecast.hpp"
-#include "rehearse/experiment/memory.hpp"
 #include "rehearse/experiment/motion.hpp"
+#include "rehearse/experiment/participants.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/experiment/tables.hpp"
+#include "rehearse/experiment/trial_record.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/rollout/simulate.hpp"
 
@@ -20,101 +20,6 @@ namespace rehearse::experiment {
 namespace {
 
 constexpr Index kPredictionParticles = 100;
-
-std::shared_ptr<const Evaluator> evaluator_of(const RunOptions& options) {
-  auto evaluator = options.evaluator ? options.evaluator
-                                     : std::shared_ptr<const Evaluator>(&serial_evaluator(), [](const Evaluator*) {});
-  return options.stop ? make_stoppable(std::move(evaluator), options.stop) : evaluator;
-}
-
-/// Everything of a run but its folder: makes the learner and the plant, so that wrong input is found first.
-class Participants {
- public:
-  Participants(Resolved resolved, const RunOptions& options)
-      : options_(options),
-        evaluator_(evaluator_of(options)),
-        resolved_(std::move(resolved)),
-        store_(std::make_shared<RunStore>(evaluator_, resolved_.spec, options.cache)),
-        learner_(resolved_.learner->build(setting())) {}
-  Participants(const Participants&) = delete;  // the learner's progress points here
-  Participants& operator=(const Participants&) = delete;
-
-  const RunOptions& options() const { return options_; }
-  const Evaluator& evaluator() const { return *evaluator_; }
-  const Resolved& resolved() const { return resolved_; }
-  const Task& task() const { return resolved_.scenario.task; }
-  learners::Learner& learner() const { return *learner_; }
-
-  /// Work with the plant or the folder: on rank 0 alone; its failure is that of every rank.
-  template <class Work>
-  void lead(std::string_view step, Work work) const {
-    evaluator_->once(step, [&] { return work(), std::string(); });
-  }
-
-  /// Connected when it is first needed; rank 0's.
-  system::Plant& plant() {
-    if (!plant_) plant_ = resolved_.scenario.make_plant();
-    return *plant_;
-  }
-
-  /// Where the learner's store is, on rank 0.
-  void open_store(const std::filesystem::path& folder) { store_->open(folder); }
-
-  /// Which trial progress is about.
-  void begin_trial(Index trial) { trial_ = trial; }
-
- private:
-  learners::Setting setting() {
-    return {.task = task(),
-            .policy = resolved_.scenario.policy,
-            .prior = resolved_.prior,
-            .seed = static_cast<std::uint64_t>(resolved_.spec.seed),
-            .evaluator = evaluator_,
-            .progress = [this](const Progress& progress) { report(progress); },
-            .store = store_};
-  }
-
-  void report(const Progress& progress) const {
-    evaluator_->stop_if_asked();
-    if (options_.listener) options_.listener->progress(trial_, progress);
-  }
-
-  RunOptions options_;
-  std::shared_ptr<const Evaluator> evaluator_;
-  Resolved resolved_;
-  std::shared_ptr<RunStore> store_;
-  std::unique_ptr<learners::Learner> learner_;
-  std::unique_ptr<system::Plant> plant_;
-  Index trial_ = 1;
-};
-
-/// The value of `step`; any failure but the user's stop says in which trial and who.
-template <class Step>
-auto named_failure(Index trial, const char* who, Step step) -> decltype(step()) {
-  try {
-    return step();
-  } catch (const std::bad_alloc&) {
-    throw;  // with the options that ask for so much
-  } catch (const std::exception& error) {
-    throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()));
-  }
-}
-
-/// The value of `run`, whose failures say what can be done about them.
-template <class Run>
-auto with_causes(const Catalogue& catalogue, const Spec& complete, Run run) -> decltype(run()) {
-  try {
-    return run();
-  } catch (const std::bad_alloc&) {
-    throw RunFailed(not_enough_memory(catalogue, complete), true);
-  } catch (const RunFailed&) {
-    throw;
-  } catch (const InvalidInput&) {
-    throw;
-  } catch (const std::runtime_error& error) {  // a file could not be written
-    throw RunFailed(error.what(), true);
-  }
-}
 
 /// By step (T+1 × dx), of the particles that are still finite.
 Matrix mean_states(const rollout::Recorded& recorded) {
@@ -240,52 +145,11 @@ class Run {
   }
 
   TrialRecord record(Index trial, const learners::Proposal& proposal, const Episode& episode) const {
-    const Task& task = with_.task();
-    TrialRecord record{.trial = trial,
-                       .interaction_s = interaction_s(episode),
-                       .total_reward = episode.total_reward(),
-                       .predicted_return = proposal.predicted_return,
-                       .rollouts = proposal.rollouts,
-                       .failed_rollouts = proposal.failed_rollouts,
-                       .log_evidence = proposal.log_evidence,
-                       .phi = tunable_values(proposal),
-                       .policy = proposal.policy->name(),
-                       .theta = proposal.theta,
-                       .left_out_rows = proposal.left_out_rows,
-                       .notes = proposal.notes,
-                       .model_s = proposal.model_s,
-                       .search_s = proposal.search_s};
-    if (!episode.failure.empty()) record.notes.push_back("the episode ended at the reward floor: " + episode.failure);
-    add_posterior(record, proposal);
-    if (task.solved) record.solved = task.solved(episode);
-    if (proposal.model) record.forecast = forecast_errors(*proposal.model, task, episode);
+    TrialRecord record = record_of(trial, proposal, episode, with_.resolved());
+    Index steps = episode.steps();
+    for (const Episode& before : history_.episodes) steps += before.steps();
+    record.interaction_s = seconds(steps, with_.task().dt_s);
     return record;
-  }
-
-  double interaction_s(const Episode& latest) const {
-    Index steps = latest.steps();
-    for (const Episode& episode : history_.episodes) steps += episode.steps();
-    return seconds(steps, with_.task().dt_s);
-  }
-
-  std::vector<double> tunable_values(const learners::Proposal& proposal) const {
-    std::vector<double> values;
-    if (!proposal.phi || !with_.resolved().prior) return values;
-    const ParameterSpace& space = with_.resolved().prior->space;
-    for (Index i = 0; i < space.size() && i < proposal.phi->size(); ++i)
-      if (space[i].tunable()) values.push_back((*proposal.phi)(i));
-    return values;
-  }
-
-  void add_posterior(TrialRecord& record, const learners::Proposal& proposal) const {
-    if (!proposal.posterior || record.phi.empty()) return;
-    const auto intervals = proposal.posterior->intervals();
-    for (const std::string& name : tunable_names(with_.resolved().prior)) {
-      record.phi_intervals.emplace_back();
-      for (std::size_t i = 0; i < intervals.size(); ++i)
-        if (proposal.posterior->parameters[i].name == name) record.phi_intervals.back() = intervals[i];
-    }
-    record.warnings = proposal.posterior->warnings();
   }
 
   /// The episode is on the disk before anything that may take long or fail: a robot does not repeat it.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -10,8 +9,7 @@
 #include "rehearse/core/tiles.hpp"
 #include "rehearse/gp/compression.hpp"
 #include "rehearse/gp/evidence.hpp"
-#include "rehearse/gp/kernel.hpp"
-#include "rehearse/gp/prediction_kernel.hpp"
+#include "rehearse/gp/posterior_scratch.hpp"
 #include "rehearse/gp/sizes.hpp"
 
 namespace rehearse::gp {
@@ -19,7 +17,6 @@ namespace {
 
 /// Errors are measured at few inputs; elsewhere they may be several times larger.
 constexpr double kMargin = 0.2;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 void check(const Inputs& inputs, const ConstMatrixView& Y, const std::vector<Hyperparameters>& hyperparameters) {
   Violations wrong;
@@ -92,88 +89,6 @@ Matrix probes(const Inputs& inputs) {
 }
 
 }  // namespace
-
-/// Buffers of one thread for one chunk of queries.
-struct Posterior::Scratch {
-  std::vector<double> unit, scaled, z, columns;  // D × kChunk, D × kChunk, (1 + D) × kChunk, n × kChunk
-  Index width = 0;                               // rows of the chunk, and padding, which is finite
-  bool missing[kChunk];                          // the row has a NaN
-  double means[kChunk], rest[kChunk], norms[kChunk], priors[kChunk];
-
-  void resize(Index n, Index D) {
-    const auto enlarge = [](std::vector<double>& v, Index size) {
-      v.resize(std::max(v.size(), static_cast<std::size_t>(size)));
-    };
-    enlarge(unit, D * kChunk), enlarge(scaled, D * kChunk), enlarge(columns, n * kChunk);
-    enlarge(z, (D + 1) * kChunk);
-  }
-
-  /// Rows of F, as the training inputs are kept; a NaN marks its row and, like the padding, becomes 0.
-  void load(const Inputs& inputs, const ConstMatrixView& F, Index first, Index rows) {
-    width = (rows + kGroup - 1) / kGroup * kGroup;
-    std::fill(missing, missing + rows, false);
-    for (Index d = 0; d < inputs.dimensions(); ++d) {
-      const double center = inputs.center()(d), factor = 1 / inputs.half_range()(d);
-      double* row = unit.data() + d * kChunk;
-      for (Index q = 0; q < rows; ++q) {
-        const double value = (F(first + q, d) - center) * factor;
-        const bool nan = std::isnan(value);
-        row[q] = nan ? 0 : value;
-        missing[q] |= nan;
-      }
-      std::fill(row + rows, row + width, 0.0);
-    }
-  }
-
-  void scale(const ConstVectorView& factors) {
-    for (Index d = 0; d < factors.size(); ++d) {
-      const double factor = factors(d), *from = unit.data() + d * kChunk;
-      double* to = scaled.data() + d * kChunk;
-      for (Index q = 0; q < width; ++q) to[q] = from[q] * factor;
-    }
-  }
-
-  /// z, and the variance over σ_f² before any data.
-  void expand(const Inputs& inputs, const ConstVectorView& factors) {
-    std::fill(priors, priors + width, 1.0);
-    if (factors.size() == 0) return;
-    double norm[kChunk];
-    std::fill(z.data(), z.data() + width, factors(0));
-    std::fill(norm, norm + width, factors(0) * factors(0));
-    for (Index d = 0; d < inputs.dimensions(); ++d) {
-      const double slope = inputs.half_range()(d) * factors(d + 1), offset = inputs.center()(d) * factors(d + 1);
-      const double* from = unit.data() + d * kChunk;
-      double* to = z.data() + (d + 1) * kChunk;
-      for (Index q = 0; q < width; ++q) {
-        to[q] = from[q] * slope + offset;
-        norm[q] += to[q] * to[q];
-      }
-    }
-    for (Index q = 0; q < width; ++q) priors[q] += norm[q] * norm[q];
-  }
-
-  /// `means`, and unless only these are asked for `norms`, of the first rows.
-  void predict(const Output& output, Index rows, bool only_mean) {
-    const Index D = output.points.rows(), support = output.support, others = output.weights.size() - support;
-    const bool trend = output.trend_points.size() > 0;
-    const KernelPoints queries{scaled.data(), trend ? z.data() : nullptr};
-    const auto from = [&](Index i) {
-      return KernelPoints{output.points.data() + i * D, trend ? output.trend_points.data() + i * (D + 1) : nullptr};
-    };
-    correlate(from(0), support, D, output.weights.data(), queries, rows, only_mean ? nullptr : columns.data(), means);
-    if (others > 0) {
-      correlate(from(support), others, D, output.weights.data() + support, queries, rows, nullptr, rest);
-      for (Index q = 0; q < rows; ++q) means[q] += rest[q];
-    }
-    if (output.trend_form.size() > 0) add_quadratic_form(output.trend_form.data(), D, unit.data(), rows, means);
-    if (!only_mean) triangular_norms(output.inverse_factor.data(), support, columns.data(), rows, norms);
-  }
-
-  double mean(Index q) const { return missing[q] ? kNaN : means[q]; }
-  double variance(Index q, const Output& output) const {
-    return missing[q] ? kNaN : output.signal_variance * std::max(0.0, priors[q] - norms[q]);
-  }
-};
 
 /// The scratch of the calling thread.
 Posterior::Scratch& Posterior::scratch(Index n, Index D) {

@@ -10,17 +10,11 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/dynamics/residuals.hpp"
 #include "rehearse/gp/posterior.hpp"
 
 namespace rehearse::identification {
 namespace {
-
-std::vector<Index> finite_rows(const Vector& rewards) {
-  std::vector<Index> rows;
-  for (Index i = 0; i < rewards.size(); ++i)
-    if (std::isfinite(rewards(i))) rows.push_back(i);
-  return rows;
-}
 
 /// What a GP with zero mean is fitted to, and the way back: r = y, or r = exp(min(y + offset, highest)) − floor.
 struct Targets {
@@ -100,7 +94,7 @@ class Believed {
 }  // namespace
 
 LearnedReward learn_reward(const Dataset& data, const FeatureMap& features, const RewardOptions& options) {
-  const std::vector<Index> rows = finite_rows(data.rewards);
+  const std::vector<Index> rows = dynamics::finite_rows(data.rewards);
   if (rows.empty()) throw InvalidInput("the data set has no row with a finite reward to learn it from");
   const gp::Inputs inputs(
       Matrix(dynamics::gp_inputs(features, data.states + data.changes, data.actions)(rows, Eigen::all)));

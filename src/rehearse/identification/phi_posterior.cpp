@@ -9,79 +9,19 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
-#include "rehearse/gp/evidence.hpp"
 #include "rehearse/identification/coordinates.hpp"
 #include "rehearse/identification/identifiability.hpp"
+#include "rehearse/identification/misfit.hpp"
 #include "rehearse/identification/reach.hpp"
 
 namespace rehearse::identification {
 namespace {
 
 constexpr double kBoxPrecision = 12;        // of a uniform distribution, in units of the box
-constexpr double kLeastDeviation = 1e-6;    // of white residuals, as a fraction of the changes: gp::Bounds' floor
 constexpr double kErrors = 2;               // times those of derivatives by differences: less is not resolved
 constexpr double kWeak = 0.1;               // deviation, as a fraction of the boxes, of a direction that is followed
 constexpr double kTakesPart = 0.05;         // of a unit direction: the least component of a parameter that is
 constexpr double kFar = 3.841458820694124;  // of a sum of squares, above its minimum: 95 % of one direction
-
-/// An output's residuals y: their covariance K = L Lᵀ and their misfit.
-struct Spread {
-  std::function<Matrix(const Matrix&)> whiten;  // L⁻¹
-  double misfit;                                // mean square, of a GP a degree of freedom
-};
-
-/// Mean square of y less that of its errors of leave-one-out predictions (Rasmussen 2006, eq. 5.12), a degree of
-/// freedom of the GP, which has the trace of (K − σ_n² I) K⁻¹.
-double predictable(const gp::Whitening& whiten, const ConstVectorView& y, double noise_variance) {
-  const Matrix inverse_factor = whiten(Matrix::Identity(y.size(), y.size()));
-  const Vector weights = inverse_factor.transpose() * whiten(y).col(0);
-  const Vector precisions = inverse_factor.colwise().squaredNorm();
-  const double errors = weights.cwiseQuotient(precisions).squaredNorm();
-  const auto n = static_cast<double>(y.size());
-  const double freedom = std::max(1.0, n - noise_variance * precisions.sum());
-  return std::max(0.0, y.squaredNorm() - errors) / (n * freedom);
-}
-
-Spread spread_of_gp(const gp::Inputs& inputs, const gp::Hyperparameters& kernel, const ConstVectorView& y) {
-  gp::Whitening whiten(inputs, kernel);
-  const double misfit = predictable(whiten, y, kernel.noise_variance());
-  return {std::move(whiten), misfit};
-}
-
-/// Mean squares a degree of freedom, one an output, positive.
-Vector misfits(const FitProblem& problem, const Fit& fit) {
-  const dynamics::Residuals::Rows rows = problem.residuals.at(problem.prior, fit.phi);
-  Vector all(rows.targets.cols());
-  problem.evaluator.for_each(all.size(), [&](Index e) {
-    const double floor = std::pow(kLeastDeviation * gp::usable_scale(problem.residuals.scale()(e)), 2);
-    const gp::FitStart& kernel = fit.kernels[static_cast<std::size_t>(e)];
-    all(e) = std::max(floor, spread_of_gp(*rows.inputs, kernel.hyperparameters, rows.targets.col(e)).misfit);
-  });
-  return all;
-}
-
-/// The row nearest to each in the space of the inputs, of equals the first; of a single row itself.
-std::vector<Index> nearest_rows(const gp::Inputs& inputs) {
-  const Matrix X = (inputs.unit() * inputs.half_range().cwiseQuotient(inputs.spread()).asDiagonal()).transpose();
-  std::vector<Index> nearest(static_cast<std::size_t>(X.cols()));
-  for (Index i = 0; i < X.cols(); ++i) {
-    Vector distances = (X.colwise() - X.col(i)).colwise().squaredNorm();
-    distances(i) = std::numeric_limits<double>::infinity();
-    distances.minCoeff(&nearest[static_cast<std::size_t>(i)]);
-  }
-  return nearest;
-}
-
-/// Of y that is white around a smooth function of the inputs: half the mean squared difference of nearest rows is the
-/// variance of what is white (the delta test; Pi and Peterson 1994).
-Spread spread_of_white(const ConstVectorView& y, double scale, Index parameters, const std::vector<Index>& nearest) {
-  const double n = static_cast<double>(y.size());
-  const double floor = kLeastDeviation * gp::usable_scale(scale);
-  const double variance = y.squaredNorm() / std::max(n - static_cast<double>(parameters), 1.0);
-  const double deviation = std::sqrt(std::max(variance, floor * floor));
-  const double white = 0.5 * (y - y(nearest)).squaredNorm();
-  return {[deviation](const Matrix& Y) { return Matrix(Y / deviation); }, std::max(0.0, y.squaredNorm() - white) / n};
-}
 
 /// An output's information about z near a point.
 struct Told {

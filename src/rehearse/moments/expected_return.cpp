@@ -34,19 +34,21 @@ Gaussian seen(const Transformed& features, Index count) {
 
 void check(const Task& task, const policy::Policy& policy, const MomentMatching& dynamics, const Gaussian& start) {
   Violations violations;
-  violations.require(policy.analytic().has_value(),
+  violations.require(analytic_options(policy).has_value(),
                      fmt::format("policy = {}: its actions have no analytic moments, must be rbf, or linear with a "
                                  "sine as squash",
                                  policy.name()));
-  violations.require(task.saturating_reward.has_value(),
+  const reward::ClosedForm* reward = reward::closed_form(task.reward);
+  violations.require(reward != nullptr,
                      "the task's reward has no analytic moments: it must be a saturating one of distances that are "
-                     "linear in the features (Task::saturating_reward)");
+                     "linear in the features (reward::ClosedForm)");
   const Index features = task.feature_map().features(), states = task.state_size();
-  if (const auto& reward = task.saturating_reward)
-    violations.require(reward->goal.size() == features && reward->distances.cols() == features,
-                       fmt::format("saturating_reward: of {} and {} features, must be of {}", reward->goal.size(),
-                                   reward->distances.cols(), features));
-  if (const auto analytic = policy.analytic()) {
+  if (reward)
+    violations.require(reward->goal.size() == features && reward->distances.cols() == features &&
+                           reward->goal.allFinite() && reward->distances.allFinite(),
+                       fmt::format("closed form of the reward: of {} and {} features, must be of {} and finite",
+                                   reward->goal.size(), reward->distances.cols(), features));
+  if (const auto analytic = analytic_options(policy)) {
     const Index seen = std::visit([](const auto* options) { return options->scale.size(); }, *analytic);
     violations.require(seen == features && policy.actions() == task.action_size(),
                        fmt::format("policy = {}: {} features and {} actions, the task has {} and {}", policy.name(),
@@ -83,7 +85,7 @@ ExpectedReturn::ExpectedReturn(const Task& task, const policy::Policy& policy,
       horizon_(task.horizon) {
   check(task, policy, *dynamics_, start_);
   policy_ = policy_moments(policy);
-  reward_ = *task.saturating_reward;
+  reward_ = *reward::closed_form(task.reward);
 }
 
 bool ExpectedReturn::roll_out(const PolicyMoments& policy, ReturnWorkspace& workspace, Return& result,

@@ -9,6 +9,7 @@
 #include "rehearse/core/expected_episode.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/moments/propagation.hpp"
+#include "rehearse/reward/saturating.hpp"
 
 namespace rehearse::moments {
 
@@ -51,7 +52,7 @@ class ExpectedReturn {
   std::shared_ptr<const MomentMatching> dynamics_;
   FeatureMoments features_;  // inputs of the dynamics
   PolicyMomentsAt policy_;
-  SaturatingReward reward_;
+  reward::ClosedForm reward_;
   Gaussian start_;
   Index horizon_;
 };

@@ -3,115 +3,23 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/gp/sizes.hpp"
+#include "rehearse/moments/moment_geometry.hpp"
 #include "rehearse/moments/moment_narrow.hpp"
 
 namespace rehearse::moments {
 namespace {
 
-/// On the stack.
-using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostMomentInputs, kMostMomentInputs>;
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostMomentInputs, 1>;
-
 constexpr double kWorthSpreading = 30000;  // kernel values
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-/// Kept away from 0 and infinity, beyond which an input is as good as irrelevant or all points are far.
-SmallVector inverse_squares(const Vector& log_lengths) {
-  return (-2 * log_lengths).array().exp().max(1e-200).min(1e200);
-}
-
-/// (I + D^½ s D^½)⁻¹ for a diagonal D, with 1/√det of what is inverted. Not ok if that is not positive definite.
-struct Shrinkage {
-  Shrinkage(const Matrix& s, const SmallVector& diagonal) : root(diagonal.cwiseSqrt()) {
-    const Index D = s.rows();
-    scaled = root.asDiagonal() * s * root.asDiagonal();
-    const Eigen::LLT<Small> llt(Small::Identity(D, D) + scaled);
-    inverse = llt.solve(Small::Identity(D, D));
-    scale = 1 / llt.matrixLLT().diagonal().prod();
-    ok = llt.info() == Eigen::Success && inverse.allFinite() && std::isfinite(scale);
-  }
-  SmallVector root;
-  Small scaled, inverse;
-  double scale;
-  bool ok;
-};
-
-/// The mean of a term: B⁻¹ = (s + Λ)⁻¹, Λ = diag(ℓ²).
-struct MeanGeometry {
-  MeanGeometry(const Gaussian& input, const MomentTerm& term)
-      : shrinkage(input.covariance, inverse_squares(term.log_lengths)),
-        inverse(shrinkage.root.asDiagonal() * shrinkage.inverse * shrinkage.root.asDiagonal()) {}
-  Shrinkage shrinkage;
-  Small inverse;
-};
-
-void check_terms(const std::vector<MomentTerm>& terms, Index outputs, bool parameters) {
-  Violations violations;
-  violations.require(!terms.empty(), "moments: no terms");
-  const Index D = terms.empty() ? 0 : terms.front().inputs();
-  violations.require(D >= 1 && D <= kMostMomentInputs,
-                     fmt::format("moments: {} inputs, must be in 1..{}", D, kMostMomentInputs));
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    const MomentTerm& t = terms[k];
-    const Index n = t.size();
-    const bool sizes = n >= 1 && t.inputs() == D && t.log_lengths.size() == D && t.weights.size() == n &&
-                       (t.reduction.size() == 0 || (t.reduction.rows() == n && t.reduction.cols() == n));
-    violations.require(t.factor.size() == 0 || (t.factor.rows() == n && t.factor.cols() == n),
-                       fmt::format("moments: the factor of term {} is {} × {}, must be {} × {}", k, t.factor.rows(),
-                                   t.factor.cols(), n, n));
-    violations.require(sizes, fmt::format("moments: sizes of term {} do not agree", k));
-    violations.require(t.output >= 0 && t.output < outputs,
-                       fmt::format("moments: output {} of term {}, must be below {}", t.output, k, outputs));
-    violations.require(t.centres.allFinite() && t.log_lengths.allFinite() && t.weights.allFinite() &&
-                           t.reduction.allFinite() && std::isfinite(t.variance),
-                       fmt::format("moments: term {} is not finite", k));
-    violations.require(!parameters || t.reduction.size() == 0,
-                       fmt::format("moments: term {} has an uncertainty, and so no adjoint of its own", k));
-  }
-  violations.throw_if_any();
-}
 
 }  // namespace
 
-/// Of the pair of terms a and b: with A and B the diagonal inverse squared lengths and S = A + B,
-/// L_ij = exp(−½ z_iᵀ A z_i − ½ z_jᵀ B z_j + v_ijᵀ Q v_ij), v_ij = A z_i + B z_j, and E[c_i c_j] = scale · L_ij
-/// (Deisenroth 2010, section 2.3).
-struct MomentMatching::Geometry {
-  Geometry(const Gaussian& input, const MomentTerm& a, const MomentTerm& b)
-      : A(inverse_squares(a.log_lengths)), B(inverse_squares(b.log_lengths)), shrinkage(input.covariance, A + B) {
-    const auto& root = shrinkage.root;
-    const auto inverse_root = root.cwiseInverse();
-    Small Q2 = shrinkage.inverse * shrinkage.scaled;  // symmetric but for rounding
-    Q2 = (Q2 + Q2.transpose()).eval() / 2;
-    Q = inverse_root.asDiagonal() * Q2 * inverse_root.asDiagonal() / 2;
-    back = root.asDiagonal() * shrinkage.inverse * inverse_root.asDiagonal();
-    K = root.asDiagonal() * shrinkage.inverse * root.asDiagonal();
-    ok = shrinkage.ok && Q.allFinite() && back.allFinite();
-  }
-
-  /// Σ_ij G_ij v_ij v_ijᵀ from Σ G z_i z_iᵀ, Σ G z_j z_jᵀ and Σ G z_i z_jᵀ.
-  Small spread(const Small& aa, const Small& bb, const Small& ab) const {
-    const Small mixed = A.asDiagonal() * ab * B.asDiagonal();
-    return A.asDiagonal() * aa * A.asDiagonal() + B.asDiagonal() * bb * B.asDiagonal() + mixed + mixed.transpose();
-  }
-
-  SmallVector A, B;
-  Shrinkage shrinkage;
-  Small Q;     // ½ (s⁻¹ + S)⁻¹
-  Small back;  // (I + S s)⁻¹
-  Small K;     // (s + S⁻¹)⁻¹
-  bool ok;
-};
-
 MomentMatching::MomentMatching(std::vector<MomentTerm> terms, Index outputs, bool parameters)
     : terms_(std::move(terms)), outputs_(outputs), parameters_(parameters) {
-  check_terms(terms_, outputs, parameters);
+  require_terms(terms_, outputs, parameters);
   inputs_ = terms_.front().inputs();
   pair_weights_.resize(terms_.size());
   for (Index a = 0; a < static_cast<Index>(terms_.size()); ++a) {
@@ -303,98 +211,6 @@ bool MomentMatching::forward(const Gaussian& input, MomentTape& tape, Transforme
   for (const char ok : tape.ok)
     if (!ok) return false;
   return combine(tape, result);
-}
-
-void MomentMatching::mean_adjoint(const Gaussian& input, const MomentTape& tape, Index a, double by_mean,
-                                  const ConstVectorView& by_gain, Gaussian& input_adjoint, TermAdjoint* adjoint) const {
-  thread_local Vector by_kernel, g;  // by w_i q_i; that times w_i q_i
-  const MeanGeometry geometry(input, term(a));
-  const Matrix& points = tape.points[at(centres_of_[at(a)])];
-  const Index D = inputs_;
-  const SmallVector by_first = geometry.inverse * by_gain;
-  by_kernel.noalias() = points * by_first;
-  by_kernel.array() += by_mean;
-  g = by_kernel.array() * tape.kernels[at(a)].array() * weights_[at(a)].array();
-  SmallVector first(D);
-  Small second(D, D);
-  PointSums sums{0, first.data(), second.data()};
-  point_sums(weighted(a, tape, g.data()), D, sums);
-  const Small gain_part = by_first * tape.gains.col(a).transpose();
-  const Small by_B = (geometry.inverse * second * geometry.inverse - sums.total * geometry.inverse -
-                      (gain_part + gain_part.transpose())) /
-                     2;
-  input_adjoint.mean += geometry.inverse * first - tape.means(a) * by_first;
-  input_adjoint.covariance += by_B;
-  if (!adjoint) return;
-  const Index n = term(a).size();
-  const auto q = (tape.kernels[at(a)].array() * weights_[at(a)].array()).head(n).matrix();
-  adjoint->centres += q * by_first.transpose() - g.head(n).asDiagonal() * points.topRows(n) * geometry.inverse;
-  adjoint->weights += by_kernel.head(n).cwiseProduct(tape.kernels[at(a)].head(n));
-  adjoint->log_lengths.array() +=
-      sums.total + 2 * by_B.diagonal().array() / inverse_squares(term(a).log_lengths).array();
-}
-
-void MomentMatching::pair_adjoint(const Gaussian& input, const MomentTape& tape, Index p, double by,
-                                  std::vector<TermAdjoint>& adjoints) const {
-  const auto [a, b] = pairs_[at(p)];
-  const Index D = inputs_;
-  const Geometry g(input, term(a), term(b));
-  const double* kept = tape.sums.col(p).data();
-  const Small aa = Eigen::Map<const Matrix>(kept, D, D), bb = Eigen::Map<const Matrix>(kept + D * D, D, D),
-              ab = Eigen::Map<const Matrix>(kept + 2 * D * D, D, D);
-  const Small QNQ = g.Q * g.spread(aa, bb, ab) * g.Q;
-  const SmallVector by_both = -2 * QNQ.diagonal() - tape.pairs(0, p) * g.Q.diagonal();
-  const auto side = [&](Index k, Index own, const SmallVector& A, const SmallVector& B, const Small& second,
-                        const Small& cross, double factor) {
-    const Index n = term(own).size();
-    const auto& rows = tape.rows[at(2 * p + k)];
-    const double scale = factor * g.shrinkage.scale;
-    const Matrix weighted_rows = scale * term(own).weights.asDiagonal() * rows.topRows(n);
-    const Matrix spread =
-        weighted_rows.col(0).asDiagonal() * tape.points[at(centres_of_[at(own)])].topRows(n) * A.asDiagonal();
-    TermAdjoint& adjoint = adjoints[at(own)];
-    adjoint.centres += 2 * (spread + weighted_rows.rightCols(D) * B.asDiagonal()) * (g.Q * A.asDiagonal()) - spread;
-    adjoint.weights += scale * rows.col(0).head(n);
-    const Small along = g.Q * (A.asDiagonal() * second + B.asDiagonal() * cross.transpose());
-    const SmallVector by_A = by_both - second.diagonal() / 2 + 2 * along.diagonal();
-    adjoint.log_lengths -= 2 * factor * by_A.cwiseProduct(A);
-  };
-  side(0, a, g.A, g.B, aa, ab, a == b ? 2 * by : by);
-  if (a != b) side(1, b, g.B, g.A, bb, ab.transpose(), by);
-}
-
-void MomentMatching::adjoint(const Gaussian& input, const MomentTape& tape, const Transformed& result,
-                             const Transformed& adjoint, Gaussian& input_adjoint,
-                             std::vector<TermAdjoint>* terms) const {
-  const Index D = inputs_;
-  check(input), check(input_adjoint);
-  for (const Transformed* one : {&result, &adjoint}) {
-    gp::require_size("outputs of moments", one->mean.size(), outputs_);
-    gp::require_shape("covariance of moments", one->covariance.rows(), one->covariance.cols(), outputs_, outputs_);
-    gp::require_shape("gain of moments", one->gain.rows(), one->gain.cols(), D, outputs_);
-  }
-  if (terms) gp::require_size("terms of moments", static_cast<Index>(terms->size()), static_cast<Index>(terms_.size()));
-  const Matrix symmetric = adjoint.covariance + adjoint.covariance.transpose();
-  const Vector by_mean = adjoint.mean - symmetric * result.mean;
-  for (Index a = 0; a < static_cast<Index>(terms_.size()); ++a) {
-    const Index o = term(a).output;
-    mean_adjoint(input, tape, a, by_mean(o), adjoint.gain.col(o), input_adjoint, terms ? &(*terms)[at(a)] : nullptr);
-  }
-  for (Index p = 0; p < static_cast<Index>(pairs_.size()); ++p) {
-    const auto [a, b] = pairs_[at(p)];
-    const double by = symmetric(term(a).output, term(b).output) * (a == b ? 0.5 : 1.0);
-    const auto column = tape.pairs.col(p);
-    input_adjoint.mean += by * column.segment(1, D);
-    input_adjoint.covariance += by * Eigen::Map<const Matrix>(column.data() + 1 + D, D, D);
-    if (terms) pair_adjoint(input, tape, p, by, *terms);
-  }
-}
-
-std::vector<TermAdjoint> MomentMatching::zero_adjoints() const {
-  std::vector<TermAdjoint> zeros;
-  for (const MomentTerm& t : terms_)
-    zeros.push_back({Matrix::Zero(t.size(), inputs_), Vector::Zero(inputs_), Vector::Zero(t.size())});
-  return zeros;
 }
 
 }  // namespace rehearse::moments

@@ -7,6 +7,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/gp/correlations.hpp"
 #include "rehearse/gp/sizes.hpp"
+#include "rehearse/moments/moment_kernel.hpp"
 
 namespace rehearse::moments {
 namespace {
@@ -65,6 +66,32 @@ Matrix evaluate_means(const std::vector<MomentTerm>& terms, Index outputs, const
     for (Index i = 0; i < term.size(); ++i) means.col(term.output) += term.weights(i) * C.col(i);
   }
   return means;
+}
+
+void require_terms(const std::vector<MomentTerm>& terms, Index outputs, bool parameters) {
+  Violations violations;
+  violations.require(!terms.empty(), "moments: no terms");
+  const Index D = terms.empty() ? 0 : terms.front().inputs();
+  violations.require(D >= 1 && D <= kMostMomentInputs,
+                     fmt::format("moments: {} inputs, must be in 1..{}", D, kMostMomentInputs));
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const MomentTerm& t = terms[k];
+    const Index n = t.size();
+    const bool sizes = n >= 1 && t.inputs() == D && t.log_lengths.size() == D && t.weights.size() == n &&
+                       (t.reduction.size() == 0 || (t.reduction.rows() == n && t.reduction.cols() == n));
+    violations.require(t.factor.size() == 0 || (t.factor.rows() == n && t.factor.cols() == n),
+                       fmt::format("moments: the factor of term {} is {} × {}, must be {} × {}", k, t.factor.rows(),
+                                   t.factor.cols(), n, n));
+    violations.require(sizes, fmt::format("moments: sizes of term {} do not agree", k));
+    violations.require(t.output >= 0 && t.output < outputs,
+                       fmt::format("moments: output {} of term {}, must be below {}", t.output, k, outputs));
+    violations.require(t.centres.allFinite() && t.log_lengths.allFinite() && t.weights.allFinite() &&
+                           t.reduction.allFinite() && std::isfinite(t.variance),
+                       fmt::format("moments: term {} is not finite", k));
+    violations.require(!parameters || t.reduction.size() == 0,
+                       fmt::format("moments: term {} has an uncertainty, and so no adjoint of its own", k));
+  }
+  violations.throw_if_any();
 }
 
 }  // namespace rehearse::moments

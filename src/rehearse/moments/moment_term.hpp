@@ -36,4 +36,8 @@ std::vector<MomentTerm> mean_terms(std::vector<MomentTerm> terms, double jitter 
 /// The means f(x) (n × outputs) at inputs X (n × D); a row depends on that row alone. Any thread.
 Matrix evaluate_means(const std::vector<MomentTerm>& terms, Index outputs, const ConstMatrixView& X);
 
+/// Throws InvalidInput unless the terms fit each other and so many outputs. parameters: those that have adjoints of
+/// their own are wanted.
+void require_terms(const std::vector<MomentTerm>& terms, Index outputs, bool parameters);
+
 }  // namespace rehearse::moments

@@ -41,8 +41,15 @@ void PolicyMoments::adjoint(const Gaussian& features, const PolicyTape& tape, co
                  features_adjoint, policy);
 }
 
+std::optional<AnalyticOptions> analytic_options(const policy::Policy& policy) {
+  if (const auto* rbf = dynamic_cast<const policy::Rbf*>(&policy)) return &rbf->options();
+  const auto* linear = dynamic_cast<const policy::Linear*>(&policy);
+  if (linear && linear->options().squash.shape == policy::Squash::Shape::sine) return &linear->options();
+  return {};
+}
+
 PolicyMomentsAt policy_moments(const policy::Policy& policy) {
-  const auto options = policy.analytic();
+  const auto options = analytic_options(policy);
   if (!options) return {};
   return std::visit([](const auto* of_policy) { return moments_of(*of_policy); }, *options);
 }

@@ -4,6 +4,8 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/moments/moment_kernel.hpp"
+#include "rehearse/moments/policy_moments.hpp"
+#include "rehearse/reward/saturating.hpp"
 
 namespace rehearse::moments {
 
@@ -14,13 +16,13 @@ FeatureMap model_features(const Task& task, bool joint_angles) {
 std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, const Need& need) {
   const auto& [who, otherwise, joint_angles] = need;
   Violations violations;
-  violations.require(policy.analytic().has_value(),
+  violations.require(analytic_options(policy).has_value(),
                      fmt::format("policy = {} has no analytic moments, which {} needs: choose policy = rbf "
                                  "(--set policy=rbf), policy = linear with policy_squash = sine, or {}",
                                  policy.name(), who, otherwise));
-  violations.require(task.saturating_reward.has_value(),
-                     fmt::format("the scenario's reward has no analytic moments, which {} needs: give the task a "
-                                 "saturating_reward, or choose {}",
+  violations.require(reward::closed_form(task.reward) != nullptr,
+                     fmt::format("the scenario's reward has no analytic moments, which {} needs: give it a closed "
+                                 "form (reward::saturating), or choose {}",
                                  who, otherwise));
   const Index inputs = model_features(task, joint_angles).features() + task.action_size();
   violations.require(inputs <= kMostMomentInputs, fmt::format("{} features and actions, {} takes at most {}: choose {}",

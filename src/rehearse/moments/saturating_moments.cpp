@@ -25,7 +25,7 @@ struct Expectation {
 
 }  // namespace
 
-RewardMoments saturating_moments(const SaturatingReward& reward, const Gaussian& features) {
+RewardMoments saturating_moments(const reward::ClosedForm& reward, const Gaussian& features) {
   const Matrix& U = reward.distances;
   const Vector m = U * (features.mean - reward.goal);
   const Matrix s = U * features.covariance * U.transpose();

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "rehearse/core/task.hpp"
 #include "rehearse/moments/gaussian.hpp"
+#include "rehearse/reward/saturating.hpp"
 
 namespace rehearse::moments {
 
@@ -14,6 +14,6 @@ struct RewardMoments {
 
 /// Deisenroth 2010, section 3.7 (PILCO's lossSat is 1 − reward). Not finite where the covariance is far from
 /// positive semi-definite.
-RewardMoments saturating_moments(const SaturatingReward& reward, const Gaussian& features);
+RewardMoments saturating_moments(const reward::ClosedForm& reward, const Gaussian& features);
 
 }  // namespace rehearse::moments

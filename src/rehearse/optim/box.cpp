@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/options.hpp"
+#include "rehearse/optim/median.hpp"
 
 namespace rehearse::optim {
 namespace {
@@ -20,11 +21,6 @@ double interquartile_range(const ConstVectorView& values) {
   if (sorted.empty()) return 0;
   std::sort(sorted.begin(), sorted.end());
   return sorted[3 * sorted.size() / 4] - sorted[sorted.size() / 4];
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace
@@ -59,7 +55,7 @@ void Box::estimate(const ConstVectorView& values, double variance) {
   const double range = interquartile_range(values);
   if (!(range > 0)) return;
   curvatures_.push_back(range / variance);
-  weights_.setConstant(10 * median(curvatures_));
+  weights_.setConstant(10 * upper_median(curvatures_));
 }
 
 /// A mean far outside shows that its weight is too small, for instance since values grew after a plateau.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/optim/median.hpp"
 
 namespace rehearse::optim {
 namespace {
@@ -35,17 +36,11 @@ Index default_generations(Index n, Index population) {  // Hansen 2009 (BIPOP)
   return static_cast<Index>(100 + 50 * m * m / std::sqrt(static_cast<double>(population)));
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Is the median of the last 30 % of the `count` latest values no better than that of the first 30 %?
 bool not_improving(const std::vector<double>& history, std::size_t count) {
   const auto part = static_cast<std::ptrdiff_t>(3 * count / 10);
   const auto first = history.end() - static_cast<std::ptrdiff_t>(count);
-  return median({history.end() - part, history.end()}) <= median({first, first + part});
+  return upper_median({history.end() - part, history.end()}) <= upper_median({first, first + part});
 }
 
 }  // namespace
@@ -61,28 +56,6 @@ void CmaesOptions::fields(FieldVisitor& v) {
   v.boolean("stagnation", stagnation);
   v.integer("max_generations", max_generations, at_least(0));
   v.integer("eigen_up_to", eigen_up_to, at_least(0));
-}
-
-std::string to_string(Stop stop) {
-  switch (stop) {
-    case Stop::none:
-      return "not stopped";
-    case Stop::value_tolerance:
-      return "recent values differ by less than value_tolerance";
-    case Stop::step_tolerance:
-      return "steps are smaller than step_tolerance";
-    case Stop::condition:
-      return "covariance is worse conditioned than max_condition";
-    case Stop::growth:
-      return "steps have grown by more than max_growth";
-    case Stop::stagnation:
-      return "neither best nor median value improves";
-    case Stop::no_effect:
-      return "steps are too small to change the mean";
-    case Stop::max_generations:
-      return "max_generations reached";
-  }
-  return "unknown";
 }
 
 Cmaes::Cmaes(const Vector& mean, double sigma, const std::vector<Interval>& box, const CmaesOptions& options,

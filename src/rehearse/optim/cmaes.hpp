@@ -9,6 +9,7 @@
 #include "rehearse/core/types.hpp"
 #include "rehearse/optim/box.hpp"
 #include "rehearse/optim/covariance.hpp"
+#include "rehearse/optim/stop.hpp"
 #include "rehearse/optim/strategy_constants.hpp"
 
 namespace rehearse::optim {
@@ -30,10 +31,6 @@ struct CmaesOptions {
                                    // evaluations (measured), and the eigendecomposition would take most of the time
   void fields(FieldVisitor& v);
 };
-
-/// Why a descent ended.
-enum class Stop { none, value_tolerance, step_tolerance, condition, growth, stagnation, no_effect, max_generations };
-std::string to_string(Stop stop);  // in words
 
 /// (μ/μ_w, λ)-CMA-ES with active covariance update (Hansen 2016), maximising. A value; not shared between threads.
 class Cmaes {

@@ -19,7 +19,8 @@ void check(const FeatureMap& features, const Vector& scale, const Squash& squash
 }
 
 /// `hidden` = 0: no hidden layer.
-class Network : public Policy {
+template <class Base>
+class Network : public Base {
  public:
   Network(std::string name, FeatureMap features, const Vector& scale, Index hidden, Squash squash)
       : name_(std::move(name)),
@@ -62,15 +63,12 @@ class Network : public Policy {
   Squash squash_;
 };
 
-class Linear final : public Network {
+class LinearNetwork final : public Network<Linear> {
  public:
-  explicit Linear(const LinearOptions& options)
+  explicit LinearNetwork(const LinearOptions& options)
       : Network("linear", options.features, options.scale, 0, options.squash), options_(options) {}
 
-  std::optional<AnalyticOptions> analytic() const override {
-    if (options_.squash.shape != Squash::Shape::sine) return {};
-    return &options_;
-  }
+  const LinearOptions& options() const override { return options_; }
 
  private:
   LinearOptions options_;
@@ -81,13 +79,13 @@ class Linear final : public Network {
 std::shared_ptr<const Policy> make_mlp(MlpOptions options) {
   check(options.features, options.scale, options.squash, options.hidden);
   if (options.hidden < 1) throw InvalidInput(fmt::format("mlp.hidden = {}, must be ≥ 1", options.hidden));
-  return std::make_shared<Network>("mlp", std::move(options.features), options.scale, options.hidden,
-                                   std::move(options.squash));
+  return std::make_shared<Network<Policy>>("mlp", std::move(options.features), options.scale, options.hidden,
+                                           std::move(options.squash));
 }
 
 std::shared_ptr<const Policy> make_linear(const LinearOptions& options) {
   check(options.features, options.scale, options.squash, 0);
-  return std::make_shared<Linear>(options);
+  return std::make_shared<LinearNetwork>(options);
 }
 
 }  // namespace rehearse::policy

@@ -25,6 +25,13 @@ struct LinearOptions {
   Vector scale;
   Squash squash;
 };
+
+/// What `make_linear` makes, for those who need to know what it consists of (moments/policy_moments.hpp).
+class Linear : public Policy {
+ public:
+  virtual const LinearOptions& options() const = 0;
+};
+
 std::shared_ptr<const Policy> make_linear(const LinearOptions& options);
 
 }  // namespace rehearse::policy

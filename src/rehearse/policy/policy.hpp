@@ -2,17 +2,10 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 
 #include "rehearse/core/types.hpp"
 
 namespace rehearse::policy {
-
-struct RbfOptions;
-struct LinearOptions;
-
-/// What those policies are made of whose actions have analytic moments (moments/policy_moments.hpp).
-using AnalyticOptions = std::variant<const RbfOptions*, const LinearOptions*>;
 
 /// Deterministic u = π(x; θ), u inside its bounds for every θ and x. Immutable; any thread.
 ///
@@ -30,9 +23,6 @@ class Policy {
 
   /// Each row a θ that is known to do something sensible, where there are any: 0 × parameters() or more.
   virtual Matrix examples() const { return Matrix(0, parameters()); }
-
-  /// Empty: its actions have no analytic moments. What it points to lives as long as the policy.
-  virtual std::optional<AnalyticOptions> analytic() const { return {}; }
 
   /// Theta: n × parameters(), one policy a row; X: n × dx; t_s: time since the episode's start; U: n × du, written.
   /// A row with a NaN state gets a NaN action. Throws InvalidInput where sizes are wrong.

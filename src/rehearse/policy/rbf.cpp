@@ -20,10 +20,10 @@ void check(const RbfOptions& options) {
   violations.throw_if_any();
 }
 
-class Rbf final : public Policy {
+class RbfNetwork final : public Rbf {
  public:
-  explicit Rbf(RbfOptions options)
-      : options_(std::move(options)),
+  explicit RbfNetwork(RbfOptions options)
+      : Rbf(std::move(options)),
         inverse_scale_(options_.scale.cwiseInverse()),
         shape_{options_.features.features(), options_.centres, static_cast<Index>(options_.bounds.size()),
                options_.noise},
@@ -32,7 +32,6 @@ class Rbf final : public Policy {
   std::string name() const override { return "rbf"; }
   Index actions() const override { return shape_.actions; }
   Index parameters() const override { return shape_.parameters(); }
-  std::optional<AnalyticOptions> analytic() const override { return &options_; }
 
   void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double, MatrixView U) const override {
     check_sizes(*this, options_.features.states(), Theta, X, U);
@@ -46,7 +45,6 @@ class Rbf final : public Policy {
   }
 
  private:
-  RbfOptions options_;
   Vector inverse_scale_;
   RbfShape shape_;
   Squash squash_;
@@ -56,7 +54,7 @@ class Rbf final : public Policy {
 
 std::shared_ptr<const Policy> make_rbf(RbfOptions options) {
   check(options);
-  return std::make_shared<Rbf>(std::move(options));
+  return std::make_shared<RbfNetwork>(std::move(options));
 }
 
 }  // namespace rehearse::policy

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "rehearse/core/feature_map.hpp"
@@ -22,6 +23,17 @@ struct RbfOptions {
   double noise = 0.01;           // σ_n; PILCO and the authors
   std::vector<Interval> bounds;  // one an action
 };
+
+/// What `make_rbf` makes, for those who need to know what it consists of (moments/policy_moments.hpp).
+class Rbf : public Policy {
+ public:
+  const RbfOptions& options() const { return options_; }
+
+ protected:
+  explicit Rbf(RbfOptions options) : options_(std::move(options)) {}
+  const RbfOptions options_;
+};
+
 std::shared_ptr<const Policy> make_rbf(RbfOptions options);
 
 }  // namespace rehearse::policy

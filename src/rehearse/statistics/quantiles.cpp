@@ -14,7 +14,7 @@ double of_sorted(const std::vector<double>& sorted, double fraction) {
   const auto below = static_cast<std::size_t>(position);
   const double rest = position - static_cast<double>(below);
   if (rest == 0) return sorted[below];  // beside an infinite value, too
-  return sorted[below] + rest * (sorted[below + 1] - sorted[below]);
+  return std::lerp(sorted[below], sorted[below + 1], rest);
 }
 
 }  // namespace

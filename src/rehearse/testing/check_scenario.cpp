@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/reward/saturating.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/testing/check_plant.hpp"
 #include "rehearse/testing/check_policy.hpp"
@@ -39,14 +40,16 @@ std::vector<std::string> check_drawing(const scenario::SolidDrawing& drawing, co
   return {};
 }
 
-/// The analytic form of the reward gives what the reward gives.
-std::vector<std::string> check_saturating_reward(const Task& task, const Dataset& data) {
+/// The closed form of the reward gives what the reward gives.
+std::vector<std::string> check_closed_form(const reward::ClosedForm& form, const Task& task, const Dataset& data) {
   Vector rewards(data.size());
   task.reward(data.states, data.actions, data.states, rewards);
   const FeatureMap features = task.feature_map();
   Matrix F(data.size(), features.features());
   features.apply(data.states, F);
-  const auto& [goal, distances] = *task.saturating_reward;
+  const auto& [goal, distances] = form;
+  if (goal.size() != F.cols() || distances.cols() != F.cols())
+    return {fmt::format("is of {} and {} features, must be of {}", goal.size(), distances.cols(), F.cols())};
   for (Index t = 0; t < data.size(); ++t) {
     const double value = std::exp(-(distances * (F.row(t).transpose() - goal)).squaredNorm() / 2);
     if (!(std::abs(value - rewards(t)) <= 1e-12))
@@ -99,7 +102,8 @@ std::vector<std::string> check_scenario(const scenario::Scenario& scenario) {
             check_simulator(*simulator, data.states, data.actions, prior.parameters.values()));
   if (scenario.oracle)
     add("oracle", check_simulator(*scenario.oracle, data.states, data.actions, scenario.oracle->parameters().values()));
-  if (scenario.task.saturating_reward) add("saturating_reward", check_saturating_reward(scenario.task, data));
+  if (const auto* form = reward::closed_form(scenario.task.reward))
+    add("closed form of the reward", check_closed_form(*form, scenario.task, data));
   if (scenario.task.descriptor) add("descriptor", check_descriptor(scenario.task, data));
   if (scenario.drawing)
     add("drawing", std::visit([&](const auto& kind) { return check_drawing(kind, data.states); }, *scenario.drawing));

@@ -64,10 +64,6 @@ TEST(Task, EachViolationIsNamed) {
             Lines{"state " + first + ": nobody cannot carry it, both must be angles"});
   EXPECT_EQ(after([](Task& t) { t.start_mean = Vector{{1}}; }),
             Lines{"start_mean has 1 entries, must have 2 finite ones"});
-  EXPECT_EQ(after([](Task& t) {
-              t.saturating_reward = {Vector::Zero(3), Matrix::Ones(2, 4)};
-            }),
-            Lines{"saturating_reward is of 3 and 4 features, must be of 3 and finite"});
   EXPECT_EQ(after([](Task& t) { t.start_std(0) = -1; }), Lines{"start_std has 2 entries, must have 2 of them, ≥ 0"});
 }
 

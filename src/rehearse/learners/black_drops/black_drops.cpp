@@ -158,7 +158,6 @@ class BlackDrops final : public Learner {
     }
     identification::LearnedReward learned = identification::learn_reward(data_, features_, options_.reward);
     task.reward = std::move(learned.reward);
-    task.saturating_reward.reset();
     if (proposal.log_evidence) *proposal.log_evidence += learned.log_evidence;
     for (std::string& note : learned.notes) proposal.notes.push_back(std::move(note));
   }
@@ -216,7 +215,6 @@ class Builder final : public LearnerBuilder {
 /// A learner that learns the reward knows neither it nor when the task is solved.
 void forget_reward(Task& task) {
   task.reward = nullptr;
-  task.saturating_reward.reset();
   task.solved = nullptr;
 }
 

@@ -42,7 +42,7 @@ struct Retry {
 /// mean predictions alone, and its policy is tried if its predicted return is much higher: uncertainty may be
 /// unfounded, and if not, the trial resolves it. Fractions of the best return seen.
 struct Exploration {
-  double gain = 0.1;      // a smaller gain is no progress; 0: never explore (the paper)
+  double gain = 0.1;       // a smaller gain is no progress; 0: never explore (the paper)
   double required = 0.15;  // gain that is worth a trial
   void fields(FieldVisitor& v);
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rehearse/moments/feature_moments.hpp"
+#include "rehearse/moments/policy_moments.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
 
@@ -66,11 +67,12 @@ Vector initial(const policy::LinearOptions& linear, const moments::Gaussian&, Rn
 Vector initial_policy(const policy::Policy& policy, const moments::Gaussian& start, StreamKey key) {
   key.purpose = Purpose::random_policy;
   Rng rng(key);
-  return std::visit([&](const auto* options) { return initial(*options, start, rng); }, policy.analytic().value());
+  return std::visit([&](const auto* options) { return initial(*options, start, rng); },
+                    moments::analytic_options(policy).value());
 }
 
 Vector units_of(const policy::Policy& policy) {
-  return std::visit([](const auto* options) { return units(*options); }, policy.analytic().value());
+  return std::visit([](const auto* options) { return units(*options); }, moments::analytic_options(policy).value());
 }
 
 }  // namespace rehearse::learners::pilco

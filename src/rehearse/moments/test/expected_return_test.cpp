@@ -80,7 +80,8 @@ void expect_plain_formulas(const scenario::Scenario& scenario, const std::shared
     ASSERT_LT(largest_difference(ours.mean, state.mean), 1e-8) << t;
     ASSERT_LT(largest_difference(ours.covariance, state.covariance), 1e-8) << t;
     const Transformed f = FeatureMoments(task.feature_map())(state);
-    EXPECT_NEAR(result.rewards(t), saturating_moments(*task.saturating_reward, {f.mean, f.covariance}).mean, 1e-8);
+    EXPECT_NEAR(result.rewards(t), saturating_moments(*reward::closed_form(task.reward), {f.mean, f.covariance}).mean,
+                1e-8);
   }
 }
 
@@ -257,7 +258,9 @@ TEST(ExpectedReturn, RefusesWhatHasNoAnalyticMoments) {
   EXPECT_EQ(refusal(scenario.task, *scenario.policy),
             "policy = mlp: its actions have no analytic moments, must be rbf, or linear with a sine as squash");
   Task other = scenario.task;
-  other.saturating_reward.reset();
+  other.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView r) {
+    r.setZero();
+  };
   EXPECT_NE(refusal(other, *fixture::rbf(other, 3)).find("the task's reward has no analytic moments"),
             std::string::npos);
   EXPECT_EQ(refusal(scenario.task, *fixture::rbf(scenario.task, 3), true), "dynamics: there are none");
@@ -281,8 +284,10 @@ TEST(ExpectedReturn, RefusesSizesThatDoNotAgree) {
   EXPECT_EQ(refusal(pendubot.task, *fixture::rbf(cartpole.task, 3), dynamics),
             "policy = rbf: 5 features and 1 actions, the task has 6 and 1");
   Task other = pendubot.task;
-  other.saturating_reward->goal = Vector::Zero(8);
-  EXPECT_EQ(refusal(other, *policy, dynamics), "saturating_reward: of 8 and 6 features, must be of 6");
+  other.reward = reward::saturating([](const ConstMatrixView&, VectorView d2) { d2.setZero(); }, 1,
+                                    reward::ClosedForm{Vector::Zero(8), Matrix::Zero(2, 6)});
+  EXPECT_EQ(refusal(other, *policy, dynamics),
+            "closed form of the reward: of 8 and 6 features, must be of 6 and finite");
 }
 
 }  // namespace

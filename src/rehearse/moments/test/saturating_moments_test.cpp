@@ -20,8 +20,8 @@ Matrix symmetric(const Matrix& A) { return A + A.transpose(); }
 
 TEST(SaturatingMoments, AgreeWithPilcoIncludingDerivatives) {
   for (const auto& test : reference::load("d_losses.json")["lossSat"]) {
-    const SaturatingReward reward{.goal = reference::vector(test["z"]),
-                                  .distances = root(reference::matrix(test["W"]))};
+    const reward::ClosedForm reward{.goal = reference::vector(test["z"]),
+                                    .distances = root(reference::matrix(test["W"]))};
     const RewardMoments moments =
         saturating_moments(reward, {reference::vector(test["m"]), reference::matrix(test["s"])});
     EXPECT_NEAR(1 - moments.mean, test["L"].get<double>(), 1e-8);
@@ -34,7 +34,7 @@ TEST(SaturatingMoments, AgreeWithPilcoIncludingDerivatives) {
 }
 
 /// Features and then the reward, with the tasks' feature maps: of the cart-pole and the pendubot.
-void expect_agreement(const FeatureMap& map, const SaturatingReward& reward, const nlohmann::json& tests) {
+void expect_agreement(const FeatureMap& map, const reward::ClosedForm& reward, const nlohmann::json& tests) {
   const FeatureMoments features(map);
   for (const auto& test : tests["cases"]) {
     const Gaussian state{reference::vector(test["m"]), reference::matrix(test["s"])};
@@ -66,7 +66,7 @@ TEST(SaturatingMoments, AgreeWithPilcosTipDistances) {
 }
 
 TEST(SaturatingMoments, AgreeWithSamplesAndTheirDerivativesWithDifferences) {
-  const SaturatingReward reward{.goal = tools::normals(3, 1, 1), .distances = tools::normals(2, 3, 2)};
+  const reward::ClosedForm reward{.goal = tools::normals(3, 1, 1), .distances = tools::normals(2, 3, 2)};
   const Gaussian f{reward.goal + 0.5 * tools::normals(3, 1, 3), tools::random_gaussian(3, 0.4, 4).covariance};
   const RewardMoments moments = saturating_moments(reward, f);
   const auto value = [&](const Vector& at, const Vector&) {
@@ -78,7 +78,7 @@ TEST(SaturatingMoments, AgreeWithSamplesAndTheirDerivativesWithDifferences) {
 }
 
 TEST(SaturatingMoments, OfWhatIsNoGaussianAreNotFinite) {
-  const SaturatingReward reward{.goal = Vector::Zero(1), .distances = Matrix::Identity(1, 1)};
+  const reward::ClosedForm reward{.goal = Vector::Zero(1), .distances = Matrix::Identity(1, 1)};
   EXPECT_TRUE(std::isnan(saturating_moments(reward, {Vector::Zero(1), Matrix::Constant(1, 1, -2)}).mean));
   EXPECT_TRUE(std::isnan(saturating_moments(reward, {Vector::Constant(1, HUGE_VAL), Matrix::Zero(1, 1)}).mean));
 }

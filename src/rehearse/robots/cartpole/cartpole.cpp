@@ -59,7 +59,7 @@ Reward shaped(Reward reward, double share) {
 }
 
 /// The same as squared_tip_distance: the tip is at (x + l sin θ, −l cos θ), the goal at (0, l).
-SaturatingReward saturating_reward() {
+reward::ClosedForm closed_form() {
   const double l = kRewardLength;
   return {.goal = Vector{{0, 0, 0, -1, 0}}, .distances = Matrix{{1, 0, 0, 0, l}, {0, 0, 0, l, 0}} / kRewardWidth};
 }
@@ -75,11 +75,8 @@ Task make_task(const Options& options) {
   task.start_std = Vector::Constant(4, options.ode.start_noise);
   task.dt_s = options.dt_s;
   task.horizon = options.horizon;
-  task.reward = reward::saturating(squared_tip_distance, kRewardWidth);
-  if (options.shaping > 0)
-    task.reward = shaped(std::move(task.reward), options.shaping);
-  else
-    task.saturating_reward = saturating_reward();
+  task.reward = reward::saturating(squared_tip_distance, kRewardWidth, closed_form());
+  if (options.shaping > 0) task.reward = shaped(std::move(task.reward), options.shaping);
   task.initial_reward = scenario::initial_reward(squared_tip_distance, options.ode);
   task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
     return std::abs(state(0)) <= kSolvedDistance && -std::cos(state(3)) >= std::cos(kSolvedAngle);

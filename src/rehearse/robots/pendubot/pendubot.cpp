@@ -48,7 +48,7 @@ void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
   d2 = x.square() + y.square();
 }
 
-SaturatingReward saturating_reward() {
+reward::ClosedForm closed_form() {
   const double l = kRewardLength;
   return {.goal = Vector{{0, 0, 1, 0, 1, 0}},
           .distances = Matrix{{0, 0, l, 0, l, 0}, {0, 0, 0, l, 0, l}} / kRewardWidth};
@@ -90,8 +90,7 @@ Task make_task(const Options& options) {
   task.start_std = Vector::Constant(4, options.ode.start_noise);
   task.dt_s = kDt;
   task.horizon = kHorizon;
-  task.reward = reward::saturating(squared_tip_distance, kRewardWidth);
-  task.saturating_reward = saturating_reward();
+  task.reward = reward::saturating(squared_tip_distance, kRewardWidth, closed_form());
   task.initial_reward = scenario::initial_reward(squared_tip_distance, options.ode);
   task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
     return (tip(state) - Eigen::Vector2d{0, 1}).norm() <= kSolvedDistance;

@@ -33,7 +33,7 @@ void squared_distance(const ConstMatrixView& X, VectorView d2) {
   d2 = 2 + 2 * d2.array();
 }
 
-SaturatingReward saturating_reward() {
+reward::ClosedForm closed_form() {
   return {.goal = Vector{{0, -1, 0}}, .distances = Matrix{{0, 1, 0}, {0, 0, 1}} / kRewardWidth};
 }
 
@@ -45,8 +45,7 @@ Task make_task(const Options& options) {
   task.start_std = Vector::Constant(2, options.ode.start_noise);
   task.dt_s = kDt;
   task.horizon = kHorizon;
-  task.reward = reward::saturating(squared_distance, kRewardWidth);
-  task.saturating_reward = saturating_reward();
+  task.reward = reward::saturating(squared_distance, kRewardWidth, closed_form());
   task.initial_reward = scenario::initial_reward(squared_distance, options.ode);
   task.solved = scenario::holds_at_the_end(
       task, kSolvedTime, [](const ConstVectorView& state) { return -std::cos(state(1)) >= std::cos(kSolvedAngle); });

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/reward/saturating.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
 namespace rehearse::testing {
@@ -32,9 +33,16 @@ TEST(CheckScenario, NamesThePartThatBreaksALaw) {
   EXPECT_EQ(check_scenario(scenario), Lines{"descriptor: 6 numbers, but 5 descriptor_bounds"});
 
   scenario = robots::pendubot::make({});
-  scenario.task.saturating_reward->distances *= 1.001;
+  reward::ClosedForm wrong = *reward::closed_form(scenario.task.reward);
+  wrong.distances *= 1.001;
+  scenario.task.reward = reward::saturating(
+      [reward = scenario.task.reward](const ConstMatrixView& X, VectorView d2) {
+        reward(X, Matrix::Zero(X.rows(), 1), X, d2);
+        d2 = -2 * d2.array().log();
+      },
+      1, wrong);
   ASSERT_EQ(check_scenario(scenario).size(), 1u);
-  EXPECT_TRUE(check_scenario(scenario).front().starts_with("saturating_reward: "));
+  EXPECT_TRUE(check_scenario(scenario).front().starts_with("closed form of the reward: "));
 
   scenario.task.actions.front().bounds = {-1, 1};  // the policy's are wider
   ASSERT_FALSE(check_scenario(scenario).empty());

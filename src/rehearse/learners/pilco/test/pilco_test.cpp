@@ -155,10 +155,10 @@ TEST(Pilco, RefusesWhatHasNoMoments) {
   Setting plain = setting();
   plain.policy =
       policy::make_linear({.features = task().feature_map(), .scale = Vector::Ones(1), .squash = {{{-1, 1}}, 1}});
-  plain.task.saturating_reward.reset();
+  plain.task.reward = learners::slider::reward;
   const std::string message = refusal(plain);
   for (const char* part :
-       {"policy = linear", "--set policy=rbf", "policy_squash = sine", "reward", "saturating_reward", "black-drops"})
+       {"policy = linear", "--set policy=rbf", "policy_squash = sine", "reward", "closed form", "black-drops"})
     EXPECT_NE(message.find(part), std::string::npos) << part << ": " << message;
   EXPECT_EQ(builder()->violations(plain.task, *plain.policy).size(), 2U);
   EXPECT_TRUE(builder()->violations(task(), *rbf()).empty());

@@ -5,6 +5,7 @@
 #include "rehearse/learners/test/slider.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
+#include "rehearse/reward/saturating.hpp"
 
 namespace rehearse::learners::pilco::slider {
 
@@ -12,7 +13,9 @@ using learners::slider::learn, learners::slider::run_trial;
 
 inline Task task() {
   Task task = learners::slider::task();
-  task.saturating_reward = SaturatingReward{Vector::Zero(1), Matrix::Constant(1, 1, 1 / 0.2)};
+  const auto squared_distance = [](const ConstMatrixView& X, VectorView d2) { d2 = X.col(0).cwiseAbs2(); };
+  task.reward =
+      reward::saturating(squared_distance, 0.2, reward::ClosedForm{Vector::Zero(1), Matrix::Constant(1, 1, 1 / 0.2)});
   return task;
 }
 

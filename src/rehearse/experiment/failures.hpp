@@ -1,0 +1,42 @@
+#pragma once
+// What becomes of the exceptions of a run. For the sources of this room.
+
+#include <new>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/memory.hpp"
+#include "rehearse/experiment/run.hpp"
+
+namespace rehearse::experiment {
+
+/// The value of `step`; any failure but the user's stop says in which trial and who.
+template <class Step>
+auto named_failure(Index trial, const char* who, Step step) -> decltype(step()) {
+  try {
+    return step();
+  } catch (const std::bad_alloc&) {
+    throw;  // with the options that ask for so much
+  } catch (const std::exception& error) {
+    throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()));
+  }
+}
+
+/// The value of `run`, whose failures say what can be done about them.
+template <class Run>
+auto with_causes(const Catalogue& catalogue, const Spec& complete, Run run) -> decltype(run()) {
+  try {
+    return run();
+  } catch (const std::bad_alloc&) {
+    throw RunFailed(not_enough_memory(catalogue, complete), true);
+  } catch (const RunFailed&) {
+    throw;
+  } catch (const InvalidInput&) {
+    throw;
+  } catch (const std::runtime_error& error) {  // a file could not be written
+    throw RunFailed(error.what(), true);
+  }
+}
+
+}  // namespace rehearse::experiment

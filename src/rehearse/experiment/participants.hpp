@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "rehearse/experiment/run.hpp"
+#include "rehearse/experiment/run_store.hpp"
+#include "rehearse/learners/learner.hpp"
+
+namespace rehearse::experiment {
+
+/// The options' evaluator, or a serial one; stoppable if the options can stop.
+std::shared_ptr<const Evaluator> evaluator_of(const RunOptions& options);
+
+/// Everything of a run but its folder: makes the learner and the plant, so that wrong input is found first.
+class Participants {
+ public:
+  Participants(Resolved resolved, const RunOptions& options);
+  Participants(const Participants&) = delete;  // the learner's progress points here
+  Participants& operator=(const Participants&) = delete;
+
+  const RunOptions& options() const { return options_; }
+  const Evaluator& evaluator() const { return *evaluator_; }
+  const Resolved& resolved() const { return resolved_; }
+  const Task& task() const { return resolved_.scenario.task; }
+  learners::Learner& learner() const { return *learner_; }
+
+  /// Work with the plant or the folder: on rank 0 alone; its failure is that of every rank.
+  template <class Work>
+  void lead(std::string_view step, Work work) const {
+    evaluator_->once(step, [&] { return work(), std::string(); });
+  }
+
+  /// Connected when it is first needed; rank 0's.
+  system::Plant& plant();
+
+  /// Where the learner's store is, on rank 0.
+  void open_store(const std::filesystem::path& folder) { store_->open(folder); }
+
+  /// Which trial progress is about.
+  void begin_trial(Index trial) { trial_ = trial; }
+
+ private:
+  learners::Setting setting();
+  void report(const Progress& progress) const;
+
+  RunOptions options_;
+  std::shared_ptr<const Evaluator> evaluator_;
+  Resolved resolved_;
+  std::shared_ptr<RunStore> store_;
+  std::unique_ptr<learners::Learner> learner_;
+  std::unique_ptr<system::Plant> plant_;
+  Index trial_ = 1;
+};
+
+}  // namespace rehearse::experiment

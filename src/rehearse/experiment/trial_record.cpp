@@ -1,0 +1,55 @@
+#include "rehearse/experiment/trial_record.hpp"
+
+#include "rehearse/experiment/forecast.hpp"
+#include "rehearse/experiment/tables.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+std::vector<double> tunable_values(const learners::Proposal& proposal, const std::optional<prior::Prior>& prior) {
+  std::vector<double> values;
+  if (!proposal.phi || !prior) return values;
+  const ParameterSpace& space = prior->space;
+  for (Index i = 0; i < space.size() && i < proposal.phi->size(); ++i)
+    if (space[i].tunable()) values.push_back((*proposal.phi)(i));
+  return values;
+}
+
+void add_posterior(TrialRecord& record, const identification::PhiPosterior& posterior,
+                   const std::vector<std::string>& names) {
+  const auto intervals = posterior.intervals();
+  for (const std::string& name : names) {
+    record.phi_intervals.emplace_back();
+    for (std::size_t i = 0; i < intervals.size(); ++i)
+      if (posterior.parameters[i].name == name) record.phi_intervals.back() = intervals[i];
+  }
+  record.warnings = posterior.warnings();
+}
+
+}  // namespace
+
+TrialRecord record_of(Index trial, const learners::Proposal& proposal, const Episode& episode,
+                      const Resolved& resolved) {
+  const Task& task = resolved.scenario.task;
+  TrialRecord record{.trial = trial,
+                     .total_reward = episode.total_reward(),
+                     .predicted_return = proposal.predicted_return,
+                     .rollouts = proposal.rollouts,
+                     .failed_rollouts = proposal.failed_rollouts,
+                     .log_evidence = proposal.log_evidence,
+                     .phi = tunable_values(proposal, resolved.prior),
+                     .policy = proposal.policy->name(),
+                     .theta = proposal.theta,
+                     .left_out_rows = proposal.left_out_rows,
+                     .notes = proposal.notes,
+                     .model_s = proposal.model_s,
+                     .search_s = proposal.search_s};
+  if (!episode.failure.empty()) record.notes.push_back("the episode ended at the reward floor: " + episode.failure);
+  if (proposal.posterior && !record.phi.empty())
+    add_posterior(record, *proposal.posterior, tunable_names(resolved.prior));
+  if (task.solved) record.solved = task.solved(episode);
+  if (proposal.model) record.forecast = forecast_errors(*proposal.model, task, episode);
+  return record;
+}
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""house.py ROOT: the house plan of CONTRIBUTING.md, as far as a program can tell.
+
+- No source is longer than 300 lines, but for kernels and what is generated.
+- No source depends on one that depends on it: NAME.hpp and NAME.cpp count as one.
+- Nine of ten .cpp files of the library have a test of their name.
+"""
+import collections
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(sys.argv[1])
+SOURCES = ROOT / "src" / "rehearse"
+LONGEST = 300
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
+
+
+def in_test(path):
+    return "test" in path.parts
+
+
+def too_long():
+    folders = ["src", "apps", "web/src", "benchmarks", "examples"]
+    for path in (p for folder in folders for p in (ROOT / folder).rglob("*")):
+        if path.suffix in (".cpp", ".hpp", ".h", ".ts") and not path.stem.endswith("kernel") and not in_test(path):
+            lines = path.read_text().count("\n")
+            if lines > LONGEST:
+                yield f"{path.relative_to(ROOT)} has {lines} lines, must have at most {LONGEST}"
+
+
+def dependencies(root, prefix):
+    """NAME → the NAMEs it includes; a name is a path without its ending."""
+    graph = collections.defaultdict(set)
+    for path in root.rglob("*"):
+        if path.suffix not in (".cpp", ".hpp", ".h") or in_test(path):
+            continue
+        name = str(path.relative_to(root).with_suffix(""))
+        for included in INCLUDE.findall(path.read_text()):
+            if included.startswith(prefix):
+                other = str(pathlib.Path(included[len(prefix):]).with_suffix(""))
+                if other != name:
+                    graph[name].add(other)
+    return graph
+
+
+def cycles(graph):
+    """Every group of names that depend on each other (Tarjan 1972)."""
+    index, low, stack, found = {}, {}, [], []
+
+    def visit(name):
+        index[name] = low[name] = len(index)
+        stack.append(name)
+        for other in sorted(graph.get(name, ())):
+            if other not in index:
+                visit(other)
+                low[name] = min(low[name], low[other])
+            elif other in stack:
+                low[name] = min(low[name], index[other])
+        if low[name] == index[name]:
+            group = stack[stack.index(name):]
+            del stack[stack.index(name):]
+            if len(group) > 1:
+                found.append(sorted(group))
+
+    sys.setrecursionlimit(10000)
+    for name in sorted(graph):
+        if name not in index:
+            visit(name)
+    return [f"{', '.join(group)} depend on each other" for group in found]
+
+
+def without_test():
+    sources = [p for p in SOURCES.rglob("*.cpp") if not in_test(p)]
+    tests = {p.stem[: -len("_test")] for p in SOURCES.rglob("test/*_test.cpp")}
+    missing = [p for p in sources if p.stem not in tests]
+    if 10 * len(missing) > len(sources):
+        names = ", ".join(str(p.relative_to(SOURCES)) for p in sorted(missing))
+        yield f"{len(missing)} of {len(sources)} sources have no test of their name, at most a tenth may: {names}"
+
+
+wrong = list(too_long()) + cycles(dependencies(SOURCES, "rehearse/")) + cycles(dependencies(ROOT / "apps", "apps/"))
+wrong += list(without_test())
+print("\n".join(wrong) if wrong else "the house is in order")
+sys.exit(1 if wrong else 0)
