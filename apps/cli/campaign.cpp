@@ -11,6 +11,7 @@
 #include "apps/cli/complain.hpp"
 #include "apps/cli/signals.hpp"
 #include "rehearse/campaign/claims.hpp"
+#include "rehearse/campaign/planner.hpp"
 #include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::apps {

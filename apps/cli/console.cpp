@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/tables.hpp"
 
 namespace rehearse::apps {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/cli/status_line.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run.hpp"
 
 namespace rehearse::apps {

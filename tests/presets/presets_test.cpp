@@ -8,7 +8,8 @@
 
 #include "apps/catalogue.hpp"
 #include "published.hpp"
-#include "rehearse/experiment/preset.hpp"
+#include "rehearse/experiment/preset_check.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::presets {

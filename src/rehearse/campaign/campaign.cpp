@@ -7,8 +7,10 @@
 
 #include "rehearse/campaign/folder.hpp"
 #include "rehearse/campaign/ledger.hpp"
+#include "rehearse/campaign/planner.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/evaluator.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run.hpp"
 
 namespace rehearse::campaign {

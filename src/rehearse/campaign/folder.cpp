@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/campaign/planner.hpp"
 #include "rehearse/campaign/summary.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/spec_file.hpp"

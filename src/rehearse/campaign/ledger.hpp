@@ -5,8 +5,8 @@
 #include <mutex>
 #include <optional>
 
-#include "rehearse/campaign/campaign.hpp"
 #include "rehearse/campaign/folder.hpp"
+#include "rehearse/campaign/options.hpp"
 #include "rehearse/core/ranks.hpp"
 
 namespace rehearse::campaign {

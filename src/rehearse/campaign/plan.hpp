@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -52,8 +51,5 @@ struct CampaignPlan {
 
   const PlannedRun& run(std::size_t group, std::size_t seed) const { return runs[group * seeds.size() + seed]; }
 };
-
-/// Throws InvalidInput with a line for everything that is wrong. source: the file's name, for messages.
-CampaignPlan plan_campaign(const experiment::Catalogue& catalogue, std::string_view text, const std::string& source);
 
 }  // namespace rehearse::campaign

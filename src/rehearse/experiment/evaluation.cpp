@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/policy/schedule.hpp"
 #include "rehearse/rollout/execute.hpp"
 

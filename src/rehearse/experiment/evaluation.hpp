@@ -4,7 +4,7 @@
 
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/experiment/record.hpp"
-#include "rehearse/experiment/spec.hpp"
+#include "rehearse/experiment/resolve.hpp"
 
 namespace rehearse::experiment {
 

@@ -7,7 +7,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/memory.hpp"
-#include "rehearse/experiment/run.hpp"
+#include "rehearse/experiment/run_options.hpp"
 
 namespace rehearse::experiment {
 

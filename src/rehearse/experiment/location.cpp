@@ -3,13 +3,9 @@
 #include <algorithm>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/resolve.hpp"
 
 namespace rehearse::experiment {
-
-Spec with_options(Spec spec, const std::vector<FileOption>& options) {
-  for (const FileOption& option : options) spec.options.emplace_back(option.key, option.text);
-  return spec;
-}
 
 bool has_violation(const Catalogue& catalogue, const Spec& spec, const std::string& violation) {
   try {

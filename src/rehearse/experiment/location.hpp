@@ -4,17 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "rehearse/experiment/spec.hpp"
+#include "rehearse/experiment/resolve.hpp"
 
 namespace rehearse::experiment {
-
-/// An option as a file has it.
-struct FileOption {
-  std::string key, text;
-  Index line = 0;
-};
-
-Spec with_options(Spec spec, const std::vector<FileOption>& options);
 
 /// Whether `resolve` finds this violation.
 bool has_violation(const Catalogue& catalogue, const Spec& spec, const std::string& violation);

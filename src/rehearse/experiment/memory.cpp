@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/experiment/resolve.hpp"
+
 namespace rehearse::experiment {
 namespace {
 

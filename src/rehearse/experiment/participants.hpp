@@ -5,7 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "rehearse/experiment/run.hpp"
+#include "rehearse/experiment/resolve.hpp"
+#include "rehearse/experiment/run_options.hpp"
 #include "rehearse/experiment/run_store.hpp"
 #include "rehearse/learners/learner.hpp"
 

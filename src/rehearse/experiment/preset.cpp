@@ -28,15 +28,6 @@ std::vector<FileOption> options_in(const toml::table* table, files::FileViolatio
 }
 
 /// What is wrong with a spec, whatever the learner says of the task.
-std::vector<std::string> said_of(const Catalogue& catalogue, const Spec& spec) {
-  try {
-    completed(catalogue, spec);
-    return {};
-  } catch (const InvalidInput& error) {
-    return error.violations();
-  }
-}
-
 bool is_known(const Catalogue& catalogue, const std::string& name, bool there) {
   return there || std::any_of(catalogue.not_built.begin(), catalogue.not_built.end(),
                               [&](const NotBuilt& missing) { return missing.name == name; });
@@ -90,25 +81,6 @@ std::vector<std::string> Preset::unknown_names(const Catalogue& catalogue) const
   return lines;
 }
 
-std::vector<std::string> Preset::violations(const Catalogue& catalogue, const Spec& spec) const {
-  std::vector<std::string> lines = unknown_names(catalogue);
-  const std::vector<FileOption> own = options(spec.scenario, spec.learner);
-  if (own.empty() && lines.empty())
-    lines.push_back(files::in_file(
-        source_, 0, fmt::format("nothing is set for learner {} on scenario {}", spec.learner, spec.scenario)));
-  const std::vector<std::string> before = said_of(catalogue, spec);
-  for (const std::string& violation : said_of(catalogue, with_options(spec, own))) {
-    if (is_among(violation, before)) continue;
-    const auto causes = [&](const FileOption& option) {
-      return is_among(violation, said_of(catalogue, with_options(spec, {option})));
-    };
-    const auto option = std::find_if(own.begin(), own.end(), causes);
-    lines.push_back(files::in_file(source_, option == own.end() ? 0 : option->line,
-                                   fmt::format("{} (learner {} on {})", violation, spec.learner, spec.scenario)));
-  }
-  return lines;
-}
-
 Preset find_preset(const Catalogue& catalogue, const std::string& name_or_file) {
   if (name_or_file.ends_with(".toml")) return {files::read_file(name_or_file, files::Links::follow), name_or_file};
   std::vector<std::string> known;
@@ -117,14 +89,6 @@ Preset find_preset(const Catalogue& catalogue, const std::string& name_or_file) 
     known.push_back(preset.name);
   }
   throw InvalidInput(unknown_name("preset", name_or_file, known) + "; a file is named with its .toml");
-}
-
-Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string& name_or_file) {
-  const Preset preset = find_preset(catalogue, name_or_file);
-  Violations violations;
-  for (const std::string& line : preset.violations(catalogue, spec)) violations.add(line);
-  violations.throw_if_any();
-  return with_options(spec, preset.options(spec.scenario, spec.learner));
 }
 
 std::optional<Preset> default_preset(const Catalogue& catalogue, const std::string& scenario) {

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "rehearse/experiment/location.hpp"
+#include "rehearse/experiment/catalogue.hpp"
+#include "rehearse/experiment/spec.hpp"
 
 namespace rehearse::experiment {
 
@@ -21,9 +22,8 @@ class Preset {
   /// Those for the runs of a learner on a scenario, in the order of the file: of two with one key the later counts.
   std::vector<FileOption> options(const std::string& scenario, const std::string& learner) const;
 
-  /// "SOURCE: line N: …" for every option that the run `spec` cannot have and every name that the catalogue has not;
-  /// a preset without a word on such runs is wrong, too.
-  std::vector<std::string> violations(const Catalogue& catalogue, const Spec& spec) const;
+  /// "SOURCE: line N: …" for every name that the catalogue has not.
+  std::vector<std::string> unknown_names(const Catalogue& catalogue) const;
 
  private:
   /// Options for some runs.
@@ -32,7 +32,6 @@ class Preset {
     std::vector<FileOption> options;
     Index line = 0;
   };
-  std::vector<std::string> unknown_names(const Catalogue& catalogue) const;
 
   std::string source_, title_;
   std::vector<Part> parts_;
@@ -40,9 +39,6 @@ class Preset {
 
 /// NAME is one of the catalogue's, FILE.toml is read. Throws InvalidInput.
 Preset find_preset(const Catalogue& catalogue, const std::string& name_or_file);
-
-/// The spec with those options of such a preset that are for its runs, after its own. Throws InvalidInput.
-Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string& name_or_file);
 
 /// The one that applies to a scenario unasked, if any.
 std::optional<Preset> default_preset(const Catalogue& catalogue, const std::string& scenario);

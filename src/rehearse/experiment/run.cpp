@@ -9,6 +9,7 @@
 #include "rehearse/experiment/forecast.hpp"
 #include "rehearse/experiment/motion.hpp"
 #include "rehearse/experiment/participants.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/experiment/tables.hpp"

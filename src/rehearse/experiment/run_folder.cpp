@@ -4,6 +4,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/checkpoint.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/experiment/tables.hpp"
 #include "rehearse/experiment/unborn.hpp"

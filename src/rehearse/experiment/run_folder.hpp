@@ -4,7 +4,7 @@
 #include <string>
 
 #include "rehearse/experiment/record.hpp"
-#include "rehearse/experiment/spec.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/files/write.hpp"
 #include "rehearse/learners/learner.hpp"
 

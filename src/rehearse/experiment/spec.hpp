@@ -1,14 +1,10 @@
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "rehearse/core/options.hpp"
-#include "rehearse/experiment/catalogue.hpp"
-#include "rehearse/prior/prior.hpp"
 
 namespace rehearse::experiment {
 
@@ -52,21 +48,15 @@ struct Spec {
   void settable_fields(FieldVisitor& v) { v.choice("told_by", told_by, {"truth", "measured"}); }
 };
 
-/// A spec with everything it names.
-struct Resolved {
-  Spec spec;  // complete: the prior named and every option listed with its value
-  scenario::Scenario scenario;
-  std::optional<prior::Prior> prior;
-  std::shared_ptr<const learners::LearnerBuilder> learner;
-};
-
-/// Throws InvalidInput with a line for everything that is wrong.
-Resolved resolve(const Catalogue& catalogue, const Spec& spec);
-
-/// The complete spec alone, even where the learner cannot do with the task or the policy that it describes so far.
-Spec completed(const Catalogue& catalogue, const Spec& spec);
-
 /// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec; PRIOR is "none" for a learner that takes none.
 std::string run_name(const Spec& spec);
+
+/// An option as a file has it.
+struct FileOption {
+  std::string key, text;
+  Index line = 0;
+};
+
+Spec with_options(Spec spec, const std::vector<FileOption>& options);
 
 }  // namespace rehearse::experiment

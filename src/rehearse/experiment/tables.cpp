@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/experiment/forecast.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/files/csv.hpp"
 
 namespace rehearse::experiment {

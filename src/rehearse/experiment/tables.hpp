@@ -8,7 +8,7 @@
 #include "rehearse/core/expected_episode.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/experiment/record.hpp"
-#include "rehearse/experiment/spec.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/learners/learner.hpp"
 #include "rehearse/rollout/simulate.hpp"
 

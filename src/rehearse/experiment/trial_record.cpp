@@ -1,7 +1,9 @@
 #include "rehearse/experiment/trial_record.hpp"
 
 #include "rehearse/experiment/forecast.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/tables.hpp"
+#include "rehearse/identification/identifiability.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -23,7 +25,7 @@ void add_posterior(TrialRecord& record, const identification::PhiPosterior& post
     for (std::size_t i = 0; i < intervals.size(); ++i)
       if (posterior.parameters[i].name == name) record.phi_intervals.back() = intervals[i];
   }
-  record.warnings = posterior.warnings();
+  record.warnings = identification::identifiability_warnings(posterior);
 }
 
 }  // namespace

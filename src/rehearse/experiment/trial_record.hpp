@@ -2,7 +2,7 @@
 
 #include "rehearse/core/episode.hpp"
 #include "rehearse/experiment/record.hpp"
-#include "rehearse/experiment/spec.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/learners/learner.hpp"
 
 namespace rehearse::experiment {

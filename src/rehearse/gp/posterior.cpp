@@ -9,7 +9,7 @@
 #include "rehearse/core/tiles.hpp"
 #include "rehearse/gp/compression.hpp"
 #include "rehearse/gp/evidence.hpp"
-#include "rehearse/gp/posterior_scratch.hpp"
+#include "rehearse/gp/prediction_chunk.hpp"
 #include "rehearse/gp/sizes.hpp"
 
 namespace rehearse::gp {
@@ -90,17 +90,11 @@ Matrix probes(const Inputs& inputs) {
 
 }  // namespace
 
-/// The scratch of the calling thread.
-Posterior::Scratch& Posterior::scratch(Index n, Index D) {
-  thread_local Scratch mine;
-  mine.resize(n, D);
-  return mine;
-}
-
-/// Calls visit(first row, rows, scratch) for each chunk of F's rows.
+/// Calls visit(first row, rows, chunk) for each chunk of F's rows.
 template <class Visit>
 void Posterior::for_each_chunk(const ConstMatrixView& F, Visit visit) const {
-  Scratch& s = scratch(size(), dimensions());
+  thread_local PredictionChunk s;
+  s.resize(size(), dimensions());
   for (Index first = 0; first < F.rows(); first += kChunk) {
     const Index rows = std::min<Index>(kChunk, F.rows() - first);
     s.load(inputs_, F, first, rows);
@@ -226,7 +220,7 @@ void Posterior::use_all_for_mean(const Output& exact, std::vector<Index> order, 
 /// The largest difference between the two standard deviations that was met.
 double Posterior::deviation_error(Index e, const Output& exact, const Output& other) const {
   double error = 0;
-  for_each_chunk(probes(inputs_), [&](Index, Index rows, Scratch& s) {
+  for_each_chunk(probes(inputs_), [&](Index, Index rows, PredictionChunk& s) {
     s.scale(factors_.col(e));
     s.expand(inputs_, trend_factors_.col(e));
     s.predict(exact, rows, false);
@@ -238,10 +232,10 @@ double Posterior::deviation_error(Index e, const Output& exact, const Output& ot
   return error;
 }
 
-/// Calls write(row, its place in the scratch, output, scratch) for each row of F and each output.
+/// Calls write(row, its place in the chunk, output, chunk) for each row of F and each output.
 template <class Write>
 void Posterior::predict(const ConstMatrixView& F, bool only_mean, Write write) const {
-  for_each_chunk(F, [&](Index first, Index rows, Scratch& s) {
+  for_each_chunk(F, [&](Index first, Index rows, PredictionChunk& s) {
     for (Index e = 0; e < outputs(); ++e) {
       s.scale(factors_.col(e));
       if (!only_mean) s.expand(inputs_, trend_factors_.col(e));
@@ -255,7 +249,7 @@ void Posterior::predict(const ConstMatrixView& F, MatrixView mean, MatrixView va
   require_shape("inputs", F.rows(), F.cols(), F.rows(), dimensions());
   require_shape("mean", mean.rows(), mean.cols(), F.rows(), outputs());
   require_shape("variance", variance.rows(), variance.cols(), F.rows(), outputs());
-  predict(F, false, [&](Index row, Index q, Index e, const Scratch& s) {
+  predict(F, false, [&](Index row, Index q, Index e, const PredictionChunk& s) {
     mean(row, e) = s.mean(q);
     variance(row, e) = s.variance(q, output(e));
   });
@@ -264,7 +258,7 @@ void Posterior::predict(const ConstMatrixView& F, MatrixView mean, MatrixView va
 void Posterior::predict_mean(const ConstMatrixView& F, MatrixView mean) const {
   require_shape("inputs", F.rows(), F.cols(), F.rows(), dimensions());
   require_shape("mean", mean.rows(), mean.cols(), F.rows(), outputs());
-  predict(F, true, [&](Index row, Index q, Index e, const Scratch& s) { mean(row, e) = s.mean(q); });
+  predict(F, true, [&](Index row, Index q, Index e, const PredictionChunk& s) { mean(row, e) = s.mean(q); });
 }
 
 Matrix Posterior::inverse_factor(Index e) const {

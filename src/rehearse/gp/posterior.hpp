@@ -5,10 +5,12 @@
 
 #include "rehearse/gp/hyperparameters.hpp"
 #include "rehearse/gp/inputs.hpp"
+#include "rehearse/gp/posterior_output.hpp"
 
 namespace rehearse::gp {
 
 struct Summary;
+class PredictionChunk;
 class Workspace;
 
 /// E independent GPs conditioned on the same inputs (Rasmussen 2006, eqs 2.25 and 2.26), made for batches. Immutable;
@@ -54,16 +56,7 @@ class Posterior {
   Matrix inverse_factor(Index e) const;                               // n × n, L⁻¹, lower; a copy
 
  private:
-  struct Output {
-    Matrix points;          // D × m: inputs / ℓ, one a column; the variance needs the first `support`
-    Matrix trend_points;    // 1 + D × m: z of the trend (kernel.hpp); empty without one
-    Vector weights;         // m
-    Vector trend_form;      // the trend's part of the mean, as add_quadratic_form reads it with unit inputs; or empty
-    Index support = 0;      // s
-    Vector inverse_factor;  // packed_size(s): L⁻¹, see prediction_kernel.hpp
-    double signal_variance = 0;
-  };
-  struct Scratch;
+  using Output = PosteriorOutput;
 
   const Output& output(Index e) const { return outputs_[static_cast<std::size_t>(e)]; }
   Output condition(Index e, const ConstVectorView& y, Workspace& workspace);
@@ -79,7 +72,6 @@ class Posterior {
   void for_each_chunk(const ConstMatrixView& F, Visit visit) const;
   template <class Write>
   void predict(const ConstMatrixView& F, bool only_mean, Write write) const;
-  static Scratch& scratch(Index n, Index D);
 
   Inputs inputs_;
   std::vector<Hyperparameters> hyperparameters_;

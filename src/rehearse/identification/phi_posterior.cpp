@@ -10,7 +10,6 @@
 #include <Eigen/SVD>
 
 #include "rehearse/identification/coordinates.hpp"
-#include "rehearse/identification/identifiability.hpp"
 #include "rehearse/identification/misfit.hpp"
 #include "rehearse/identification/reach.hpp"
 
@@ -226,8 +225,6 @@ std::vector<Interval> PhiPosterior::intervals() const {
   }
   return all;
 }
-
-std::vector<std::string> PhiPosterior::warnings() const { return identifiability_warnings(*this); }
 
 std::optional<PhiPosterior> phi_posterior(const FitProblem& problem, const Fit& fit,
                                           const PhiPosteriorOptions& options) {

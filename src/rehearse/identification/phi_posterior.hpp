@@ -29,10 +29,6 @@ struct PhiPosterior {
 
   /// 95 %, of each parameter whatever the others are, inside its box.
   std::vector<Interval> intervals() const;
-
-  /// What the data cannot tell, a sentence each: parameters that only together fit or do not, those that could be
-  /// nearly anything, and those at the end of their box; with the former what is known of them, if that is simple.
-  std::vector<std::string> warnings() const;
 };
 
 struct PhiPosteriorOptions {

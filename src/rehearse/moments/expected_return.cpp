@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/moments/analytic_policy.hpp"
 #include "rehearse/moments/requirements.hpp"
 #include "rehearse/moments/saturating_moments.hpp"
 #include "rehearse/policy/network.hpp"

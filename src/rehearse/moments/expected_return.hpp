@@ -8,6 +8,7 @@
 
 #include "rehearse/core/expected_episode.hpp"
 #include "rehearse/core/task.hpp"
+#include "rehearse/moments/analytic_policy.hpp"
 #include "rehearse/moments/propagation.hpp"
 #include "rehearse/reward/saturating.hpp"
 

@@ -39,7 +39,7 @@ void MomentMatching::pair_adjoint(const Gaussian& input, const MomentTape& tape,
                                   std::vector<TermAdjoint>& adjoints) const {
   const auto [a, b] = pairs_[at(p)];
   const Index D = inputs_;
-  const Geometry g(input, term(a), term(b));
+  const PairGeometry g(input, term(a), term(b));
   const double* kept = tape.sums.col(p).data();
   const Small aa = Eigen::Map<const Matrix>(kept, D, D), bb = Eigen::Map<const Matrix>(kept + D * D, D, D),
               ab = Eigen::Map<const Matrix>(kept + 2 * D * D, D, D);

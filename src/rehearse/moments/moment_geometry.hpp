@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "rehearse/moments/moment_kernel.hpp"
-#include "rehearse/moments/moment_matching.hpp"
+#include "rehearse/moments/moment_term.hpp"
 
 namespace rehearse::moments {
 
@@ -50,8 +50,8 @@ struct MeanGeometry {
 /// Of the pair of terms a and b: with A and B the diagonal inverse squared lengths and S = A + B,
 /// L_ij = exp(−½ z_iᵀ A z_i − ½ z_jᵀ B z_j + v_ijᵀ Q v_ij), v_ij = A z_i + B z_j, and E[c_i c_j] = scale · L_ij
 /// (Deisenroth 2010, section 2.3).
-struct MomentMatching::Geometry {
-  Geometry(const Gaussian& input, const MomentTerm& a, const MomentTerm& b)
+struct PairGeometry {
+  PairGeometry(const Gaussian& input, const MomentTerm& a, const MomentTerm& b)
       : A(inverse_squares(a.log_lengths)), B(inverse_squares(b.log_lengths)), shrinkage(input.covariance, A + B) {
     const auto& root = shrinkage.root;
     const auto inverse_root = root.cwiseInverse();

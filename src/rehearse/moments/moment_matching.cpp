@@ -84,7 +84,7 @@ bool MomentMatching::pair(const Gaussian& input, Index p, MomentTape& tape) cons
   thread_local Vector scratch;
   const auto [a, b] = pairs_[at(p)];
   const Index D = inputs_;
-  const Geometry g(input, term(a), term(b));
+  const PairGeometry g(input, term(a), term(b));
   if (!g.ok) return false;
   if (!parameters_ && narrow_pair(input, p, g, tape)) return true;
   const Small AQ = g.A.asDiagonal() * g.Q, BQ = g.B.asDiagonal() * g.Q;
@@ -130,7 +130,7 @@ bool MomentMatching::pair(const Gaussian& input, Index p, MomentTape& tape) cons
 }
 
 /// E[f g] and its derivatives, from sums that include the scale.
-void MomentMatching::keep(Index p, const Geometry& g, double total, const PairSums& sums, MomentTape& tape) const {
+void MomentMatching::keep(Index p, const PairGeometry& g, double total, const PairSums& sums, MomentTape& tape) const {
   const Index D = inputs_;
   const auto vector = [&](const double* data) { return SmallVector(Eigen::Map<const Vector>(data, D)); };
   const auto matrix = [&](const double* data) { return Small(Eigen::Map<const Matrix>(data, D, D)); };
@@ -142,7 +142,7 @@ void MomentMatching::keep(Index p, const Geometry& g, double total, const PairSu
 }
 
 /// False, and nothing done, if the input is too wide for it.
-bool MomentMatching::narrow_pair(const Gaussian& input, Index p, const Geometry& g, MomentTape& tape) const {
+bool MomentMatching::narrow_pair(const Gaussian& input, Index p, const PairGeometry& g, MomentTape& tape) const {
   const auto [a, b] = pairs_[at(p)];
   const bool own = a == b && term(a).reduction.size() > 0;
   if (own && term(a).factor.size() == 0) return false;

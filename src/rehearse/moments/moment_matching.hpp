@@ -30,6 +30,8 @@ struct TermAdjoint {
   Vector weights;      // n
 };
 
+struct PairGeometry;  // moment_geometry.hpp
+
 /// Outputs that are sums of terms. Terms with reduction are independent functions. Immutable; any thread.
 class MomentMatching {
  public:
@@ -64,7 +66,6 @@ class MomentMatching {
   struct Pair {
     Index a, b;
   };
-  struct Geometry;
 
   const MomentTerm& term(Index a) const { return terms_[static_cast<std::size_t>(a)]; }
   WeightedPoints weighted(Index a, const MomentTape& tape, const double* weights) const;
@@ -73,8 +74,8 @@ class MomentMatching {
   void prepare(const Gaussian& input, MomentTape& tape) const;
   bool mean(const Gaussian& input, Index a, MomentTape& tape) const;
   bool pair(const Gaussian& input, Index p, MomentTape& tape) const;
-  bool narrow_pair(const Gaussian& input, Index p, const Geometry& g, MomentTape& tape) const;
-  void keep(Index p, const Geometry& g, double total, const PairSums& sums, MomentTape& tape) const;
+  bool narrow_pair(const Gaussian& input, Index p, const PairGeometry& g, MomentTape& tape) const;
+  void keep(Index p, const PairGeometry& g, double total, const PairSums& sums, MomentTape& tape) const;
   bool combine(const MomentTape& tape, Transformed& result) const;
   void mean_adjoint(const Gaussian& input, const MomentTape& tape, Index a, double by_mean,
                     const ConstVectorView& by_gain, Gaussian& input_adjoint, TermAdjoint* term) const;

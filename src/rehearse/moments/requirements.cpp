@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/moments/analytic_policy.hpp"
 #include "rehearse/moments/moment_kernel.hpp"
-#include "rehearse/moments/policy_moments.hpp"
 #include "rehearse/reward/saturating.hpp"
 
 namespace rehearse::moments {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "rehearse/report/files.hpp"
-#include "rehearse/report/report.hpp"
+#include "rehearse/report/page_data.hpp"
 
 namespace rehearse::report {
 

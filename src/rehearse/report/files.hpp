@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/report/report.hpp"
+#include "rehearse/report/page_data.hpp"
 #include "rehearse/statistics/table.hpp"
 
 namespace rehearse::report {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "rehearse/report/files.hpp"
-#include "rehearse/report/report.hpp"
+#include "rehearse/report/page_data.hpp"
 
 namespace rehearse::report {
 

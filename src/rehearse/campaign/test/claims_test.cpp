@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/campaign/planner.hpp"
 #include "rehearse/experiment/test/fake.hpp"
 #include "rehearse/statistics/intervals.hpp"
 

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "rehearse/campaign/plan.hpp"
+#include "rehearse/campaign/planner.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/test/fake.hpp"
 
 namespace rehearse::campaign {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fake.hpp"
+#include "rehearse/experiment/resolve.hpp"
 
 namespace rehearse::experiment {
 namespace {

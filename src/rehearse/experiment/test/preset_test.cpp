@@ -1,11 +1,11 @@
-#include "rehearse/experiment/preset.hpp"
-
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "fake.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/preset_check.hpp"
+#include "rehearse/experiment/resolve.hpp"
 
 namespace rehearse::experiment {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "fake.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/files/write.hpp"

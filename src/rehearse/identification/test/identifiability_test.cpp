@@ -16,21 +16,22 @@ PhiPosterior three(const Vector& deviations, const Matrix& correlations) {
 }
 
 TEST(IdentifiabilityWarnings, NameWhatIsUnsureAlone) {
-  EXPECT_EQ(three(Vector{{0.01, 0.01, 0.01}}, Matrix::Identity(3, 3)).warnings(), Sentences{});
-  EXPECT_EQ(three(Vector{{0.01, 0.1, 0.01}}, Matrix::Identity(3, 3)).warnings(),
+  EXPECT_EQ(identifiability_warnings(three(Vector{{0.01, 0.01, 0.01}}, Matrix::Identity(3, 3))), Sentences{});
+  EXPECT_EQ(identifiability_warnings(three(Vector{{0.01, 0.1, 0.01}}, Matrix::Identity(3, 3))),
             Sentences{"b is not determined by these trials: 0.304 to 0.696"});
 }
 
 TEST(IdentifiabilityWarnings, NamePairsAndLargerGroups) {
   Matrix pair = Matrix::Identity(3, 3);
   pair(0, 2) = pair(2, 0) = -0.98;
-  EXPECT_EQ(three(Vector{{0.1, 0.1, 0.2}}, pair).warnings(),
+  EXPECT_EQ(identifiability_warnings(three(Vector{{0.1, 0.1, 0.2}}, pair)),
             (Sentences{"a and c cannot be told apart by these trials",
                        "b is not determined by these trials: 0.304 to 0.696"}));
-  EXPECT_EQ(three(Vector{{0.01, 0.01, 0.02}}, pair).warnings(), Sentences{}) << "sure of both all the same";
+  EXPECT_EQ(identifiability_warnings(three(Vector{{0.01, 0.01, 0.02}}, pair)), Sentences{})
+      << "sure of both all the same";
   Matrix sum = Matrix::Constant(3, 3, -0.499);  // only a + b + c is known
   sum.diagonal().setOnes();
-  EXPECT_EQ(three(Vector{{0.2, 0.2, 0.2}}, sum).warnings(),
+  EXPECT_EQ(identifiability_warnings(three(Vector{{0.2, 0.2, 0.2}}, sum)),
             Sentences{"a, b and c cannot be told apart by these trials"});
 }
 
@@ -42,7 +43,8 @@ TEST(IdentifiabilityWarnings, IntervalsEndWithTheBoxAndWarningsSayWhereThatIs) {
   EXPECT_NEAR(intervals[0].high, 0.5196, 1e-4);
   EXPECT_EQ(intervals[1].high, 1);
   EXPECT_EQ(intervals[2].low, 0);
-  EXPECT_EQ(posterior.warnings(), Sentences{"b is at the end of its box, 1: a better value may lie beyond"});
+  EXPECT_EQ(identifiability_warnings(posterior),
+            Sentences{"b is at the end of its box, 1: a better value may lie beyond"});
 }
 
 }  // namespace

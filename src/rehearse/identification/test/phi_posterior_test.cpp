@@ -7,6 +7,7 @@
 
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/identification/held_kernels.hpp"
+#include "rehearse/identification/identifiability.hpp"
 #include "rehearse/identification/learn.hpp"
 #include "swing.hpp"
 
@@ -249,7 +250,7 @@ TEST(PhiPosterior, AParameterThatMovesNothingCouldBeAnything) {
     const Interval interval = posterior->intervals()[2];
     EXPECT_LT(interval.high - interval.low, 4 + 1e-9);
     EXPECT_GT(interval.high - interval.low, 2.2) << "half the box and more, wherever its mean is";
-    const Sentences warnings = posterior->warnings();
+    const Sentences warnings = identifiability_warnings(*posterior);
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_TRUE(warnings[0].starts_with("colour is not determined by these trials: ")) << warnings[0];
   }
@@ -265,7 +266,8 @@ TEST(PhiPosterior, AtTheEndOfTheBoxWhatLiesBeyondWidensNothing) {
   EXPECT_NEAR(posterior->mean(0), 0.7, 1e-6);
   EXPECT_EQ(posterior->intervals()[0].high, 0.7);
   EXPECT_GT(posterior->intervals()[0].low, 0.65);
-  EXPECT_EQ(posterior->warnings().back(), "length is at the end of its box, 0.7: a better value may lie beyond");
+  EXPECT_EQ(identifiability_warnings(*posterior).back(),
+            "length is at the end of its box, 0.7: a better value may lie beyond");
 }
 
 TEST(PhiPosterior, WhereNumbersOverflowThereIsNone) {
@@ -289,10 +291,10 @@ TEST(PhiPosterior, ParametersThatOnlyActTogetherCannotBeToldApart) {
                    });
   const auto learned = learn(data, swing::features(), {}, &prior, GpMi{}, {}, serial_evaluator());
   EXPECT_NEAR((*learned.state.phi)(2) * (*learned.state.phi)(3), 1, 0.1);
-  ASSERT_EQ(learned.posterior->warnings().size(), 1u);
-  EXPECT_TRUE(learned.posterior->warnings()[0].starts_with(
+  ASSERT_EQ(identifiability_warnings(*learned.posterior).size(), 1u);
+  EXPECT_TRUE(identifiability_warnings(*learned.posterior)[0].starts_with(
       "gear and motor cannot be told apart by these trials; known is motor·gear = "))
-      << learned.posterior->warnings()[0];
+      << identifiability_warnings(*learned.posterior)[0];
 }
 
 TEST(PhiPosterior, IsThereWhereContinuousParametersAreLearned) {

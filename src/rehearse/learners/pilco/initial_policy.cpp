@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rehearse/moments/analytic_policy.hpp"
 #include "rehearse/moments/feature_moments.hpp"
-#include "rehearse/moments/policy_moments.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
 

@@ -1,6 +1,7 @@
 #include "rehearse/learners/pilco/pilco.hpp"
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/learners/pilco/prior_phase.hpp"
 #include "rehearse/learners/pilco/trials.hpp"
 #include "rehearse/moments/requirements.hpp"
 
@@ -37,20 +38,6 @@ class Builder final : public LearnerBuilder {
 
 }  // namespace
 
-void Options::fields(FieldVisitor& v) {
-  v.group("model", model);
-  v.group("search", search);
-  v.boolean("success_test", success_test, published(false));
-  v.number("first_trial.hold_s", first_trial_hold_s, at_least(0));
-  if (prior) prior->fields(v);
-}
-
-void PriorPhaseOptions::fields(FieldVisitor& v) {
-  v.integer("pilco.prior_episodes", episodes, at_least(1));
-  v.integer("pilco.prior_settled", settled, at_least(0), published(0));
-  v.integer("pilco.prior_inducing", inducing, between(1, 1e5));
-}
-
 std::unique_ptr<Learner> make(Setting setting, Options options) {
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { options.fields(v); })) violations.add(line);
@@ -63,7 +50,7 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   if (!options.prior) setting.prior.reset();
   if (!options.success_test) setting.task.solved = nullptr;
   if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
-  return std::make_unique<Trials>(std::move(setting), options);
+  return std::make_unique<Trials>(std::move(setting), options, learn_on_prior);
 }
 
 std::vector<std::unique_ptr<LearnerBuilder>> builders() {

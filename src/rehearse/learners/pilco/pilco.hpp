@@ -3,34 +3,12 @@
 // search the policy by the gradient of its expected return, try it. docs/pilco.md.
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "rehearse/learners/learner.hpp"
-#include "rehearse/learners/pilco/model.hpp"
-#include "rehearse/learners/pilco/policy_search.hpp"
+#include "rehearse/learners/pilco/options.hpp"
 
 namespace rehearse::learners::pilco {
-
-/// What PILCO learns on the prior (Cutler 2015).
-struct PriorPhaseOptions {
-  Index episodes = 40;  // at most; Chatzilygeroudis 2018, on the pendubot
-  // So many in a row that taught nothing end the phase: they returned what was promised or more, and no more than one
-  // before, within 2 %. 0: none do (Chatzilygeroudis)
-  Index settled = 3;
-  Index inducing = 300;  // at most so many points of what was learned are the means of the GPs on the robot (PILCO)
-  void fields(FieldVisitor& v);
-};
-
-struct Options {
-  ModelOptions model;
-  SearchOptions search;
-  bool success_test = true;  // searches begin anew until the task's test of success, where it gives one, is passed;
-                             // false: in every trial
-  double first_trial_hold_s = 0;           // a random action of the first trial is held so long; PILCO: one step
-  std::optional<PriorPhaseOptions> prior;  // PILCO learns on the prior first, and begins with that; empty: without one
-  void fields(FieldVisitor& v);
-};
 
 /// Throws InvalidInput if an option is out of bounds, the policy or the task's reward has no analytic moments, or a
 /// prior is needed and missing.

@@ -166,37 +166,6 @@ class PriorPhase {
 }  // namespace
 
 /// The terms of a model have the same centres.
-json to_json(const PriorKnowledge& knowledge) {
-  json terms = json::array();
-  for (const moments::MomentTerm& term : knowledge.network)
-    terms.push_back({{"output", term.output},
-                     {"log_lengths", learners::to_json(term.log_lengths)},
-                     {"weights", learners::to_json(term.weights)}});
-  const Matrix centres = knowledge.network.empty() ? Matrix() : knowledge.network.front().centres;
-  return {{"centres", learners::to_json(centres)},
-          {"terms", terms},
-          {"theta", learners::to_json(knowledge.theta)},
-          {"predicted_return", knowledge.predicted_return ? json(*knowledge.predicted_return) : json()},
-          {"evaluations", knowledge.evaluations},
-          {"failed", knowledge.failed},
-          {"notes", knowledge.notes}};
-}
-
-PriorKnowledge to_knowledge(const json& j) {
-  PriorKnowledge knowledge{.theta = to_vector(j.at("theta")),
-                           .evaluations = j.at("evaluations").get<Index>(),
-                           .failed = j.at("failed").get<Index>()};
-  j.at("notes").get_to(knowledge.notes);
-  if (!j.at("predicted_return").is_null()) knowledge.predicted_return = j.at("predicted_return").get<double>();
-  const Matrix centres = to_matrix(j.at("centres"));
-  for (const json& term : j.at("terms"))
-    knowledge.network.push_back({.output = term.at("output").get<Index>(),
-                                 .centres = centres,
-                                 .log_lengths = to_vector(term.at("log_lengths")),
-                                 .weights = to_vector(term.at("weights"))});
-  return knowledge;
-}
-
 PriorKnowledge learn_on_prior(const Setting& setting, const Options& options) {
   return PriorPhase(setting, options).run();
 }

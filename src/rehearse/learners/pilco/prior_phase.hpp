@@ -1,31 +1,9 @@
 #pragma once
 // PILCO with priors (Cutler 2015): what PILCO learns on the prior system, before the first trial on the robot.
 
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <nlohmann/json_fwd.hpp>
-
-#include "rehearse/learners/learner.hpp"
-#include "rehearse/learners/pilco/pilco.hpp"
-#include "rehearse/moments/moment_term.hpp"
+#include "rehearse/learners/pilco/prior_knowledge.hpp"
 
 namespace rehearse::learners::pilco {
-
-/// What the trials on the robot begin with.
-struct PriorKnowledge {
-  std::vector<moments::MomentTerm> network;  // the means of the GPs of the prior system; empty: none could be learned
-  Vector theta;                              // the policy found on these GPs
-  std::optional<double> predicted_return;    // its expected return on them
-  Index evaluations = 0;                     // expected returns computed on the way, in all
-  Index failed = 0;                          // of these, without a value
-  std::vector<std::string> notes;            // numerical failures survived
-};
-
-nlohmann::json to_json(const PriorKnowledge& knowledge);
-/// Throws nlohmann::json::exception or InvalidInput where something else was saved.
-PriorKnowledge to_knowledge(const nlohmann::json& j);
 
 /// PILCO on the setting's prior at its own parameters for as long as `options.prior`, which must be there, says; then
 /// once more a model and a policy. Kept in the setting's store after each episode.

@@ -111,7 +111,7 @@ Proposal Trials::propose() {
 Proposal Trials::first_proposal() {
   if (!options_.prior) return random_actions(setting_, options_.first_trial_hold_s, stream(Stage::episode));
   const Stopwatch watch;
-  if (!prior_) prior_ = learn_on_prior(setting_, options_);
+  if (!prior_) prior_ = learn_on_prior_(setting_, options_);
   Proposal proposal = proposal_of(*prior_, setting_, options_.model);
   proposal.search_s = watch.seconds();
   return proposal;

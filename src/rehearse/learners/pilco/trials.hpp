@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "rehearse/learners/pilco/prior_phase.hpp"
+#include "rehearse/learners/pilco/prior_knowledge.hpp"
 
 namespace rehearse::learners::pilco {
 
@@ -14,7 +14,9 @@ inline constexpr double kSameReturn = 0.02;
 /// what those on the prior taught, else with random actions.
 class Trials final : public Learner {
  public:
-  Trials(Setting setting, const Options& options) : setting_(std::move(setting)), options_(options) {}
+  /// learn_on_prior: asked once where `Options::prior` is there.
+  Trials(Setting setting, const Options& options, LearnOnPrior learn_on_prior = {})
+      : setting_(std::move(setting)), options_(options), learn_on_prior_(std::move(learn_on_prior)) {}
 
   const Proposal& ask() override;
   void tell(const Episode& episode) override;
@@ -38,6 +40,7 @@ class Trials final : public Learner {
 
   Setting setting_;
   Options options_;
+  LearnOnPrior learn_on_prior_;
   std::optional<PriorKnowledge> prior_;  // once it is learned
   Dataset data_;
   bool solved_ = false;           // by the last trial, as far as known: by its true states, which are noise-free where

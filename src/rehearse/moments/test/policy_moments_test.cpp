@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/moments/analytic_policy.hpp"
 #include "rehearse/moments/linear_policy.hpp"
 #include "rehearse/moments/rbf_policy.hpp"
 #include "rehearse/moments/test/gaussian_tools.hpp"

@@ -1,4 +1,4 @@
-#include "rehearse/experiment/spec.hpp"
+#include "rehearse/experiment/resolve.hpp"
 
 #include <gtest/gtest.h>
 

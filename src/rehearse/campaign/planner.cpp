@@ -1,4 +1,4 @@
-#include "rehearse/campaign/plan.hpp"
+#include "rehearse/campaign/planner.hpp"
 
 #include <algorithm>
 #include <set>
@@ -7,15 +7,15 @@
 #include <fmt/ranges.h>
 
 #include "rehearse/campaign/claim_plan.hpp"
+#include "rehearse/campaign/draws.hpp"
 #include "rehearse/campaign/folder_name.hpp"
 #include "rehearse/campaign/overlaps.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
-#include "rehearse/core/random.hpp"
 #include "rehearse/experiment/location.hpp"
-#include "rehearse/experiment/preset.hpp"
+#include "rehearse/experiment/preset_check.hpp"
 #include "rehearse/experiment/priors.hpp"
-#include "rehearse/files/checksum.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::campaign {
@@ -37,14 +37,6 @@ struct Varied {
     options.push_back(option);
   }
 };
-
-/// Depends on the seed and the option's name alone.
-experiment::FileOption drawn(const Draw& draw, Index seed) {
-  Rng rng({.seed = static_cast<std::uint64_t>(seed),
-           .purpose = Purpose::drawn_option,
-           .candidate = files::checksum(draw.key)});
-  return {draw.key, fmt::to_string(rng.uniform(draw.low, draw.high)), draw.line};
-}
 
 class Planner {
  public:

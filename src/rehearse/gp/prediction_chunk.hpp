@@ -1,24 +1,21 @@
 #pragma once
-// For posterior.cpp alone.
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "rehearse/gp/inputs.hpp"
 #include "rehearse/gp/kernel.hpp"
-#include "rehearse/gp/posterior.hpp"
+#include "rehearse/gp/posterior_output.hpp"
 #include "rehearse/gp/prediction_kernel.hpp"
 
 namespace rehearse::gp {
 
-/// Buffers of one thread for one chunk of queries.
-struct Posterior::Scratch {
-  std::vector<double> unit, scaled, z, columns;  // D × kChunk, D × kChunk, (1 + D) × kChunk, n × kChunk
-  Index width = 0;                               // rows of the chunk, and padding, which is finite
-  bool missing[kChunk];                          // the row has a NaN
-  double means[kChunk], rest[kChunk], norms[kChunk], priors[kChunk];
-
+/// Predictions for one chunk of queries, at most kChunk rows, in buffers that a thread reuses. Not shared between
+/// threads.
+class PredictionChunk {
+ public:
   void resize(Index n, Index D) {
     const auto enlarge = [](std::vector<double>& v, Index size) {
       v.resize(std::max(v.size(), static_cast<std::size_t>(size)));
@@ -72,7 +69,7 @@ struct Posterior::Scratch {
   }
 
   /// `means`, and unless only these are asked for `norms`, of the first rows.
-  void predict(const Output& output, Index rows, bool only_mean) {
+  void predict(const PosteriorOutput& output, Index rows, bool only_mean) {
     const Index D = output.points.rows(), support = output.support, others = output.weights.size() - support;
     const bool trend = output.trend_points.size() > 0;
     const KernelPoints queries{scaled.data(), trend ? z.data() : nullptr};
@@ -89,10 +86,16 @@ struct Posterior::Scratch {
   }
 
   double mean(Index q) const { return missing[q] ? std::numeric_limits<double>::quiet_NaN() : means[q]; }
-  double variance(Index q, const Output& output) const {
+  double variance(Index q, const PosteriorOutput& output) const {
     return missing[q] ? std::numeric_limits<double>::quiet_NaN()
                       : output.signal_variance * std::max(0.0, priors[q] - norms[q]);
   }
+
+ private:
+  std::vector<double> unit, scaled, z, columns;  // D × kChunk, D × kChunk, (1 + D) × kChunk, n × kChunk
+  Index width = 0;                               // rows of the chunk, and padding, which is finite
+  bool missing[kChunk];                          // the row has a NaN
+  double means[kChunk], rest[kChunk], norms[kChunk], priors[kChunk];
 };
 
 }  // namespace rehearse::gp

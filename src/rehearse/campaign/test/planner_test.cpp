@@ -1,4 +1,4 @@
-#include "rehearse/campaign/plan.hpp"
+#include "rehearse/campaign/planner.hpp"
 
 #include <gtest/gtest.h>
 

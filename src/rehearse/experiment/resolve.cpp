@@ -1,0 +1,168 @@
+#include "rehearse/experiment/resolve.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/preset.hpp"
+#include "rehearse/experiment/priors.hpp"
+#include "rehearse/files/toml_reader.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+constexpr std::string_view kScenario = "scenario.", kLearner = "learner.", kPrior = "prior.";
+
+template <class Builder>
+Fields fields_of(Builder& builder) {
+  return [&builder](FieldVisitor& v) { builder.fields(v); };
+}
+
+/// Resolves one spec, collecting what is wrong with it as far as it can be known.
+class Resolver {
+ public:
+  Resolver(const Catalogue& catalogue, const Spec& spec)
+      : spec_(spec),
+        scenario_builder_(catalogue.scenario(spec.scenario)),
+        learner_builder_(catalogue.learner(spec.learner)),
+        default_preset_(default_preset(catalogue, spec.scenario)) {
+    for (const auto& line : field_violations([this](FieldVisitor& v) { spec_.fields(v); })) violations_.add(line);
+    if (!scenario_builder_) violations_.add(catalogue.why_missing("scenario", spec.scenario));
+    if (!learner_builder_) violations_.add(catalogue.why_missing("learner", spec.learner));
+    if (!scenario_builder_ || !learner_builder_) violations_.throw_if_any();
+  }
+
+  Resolved resolve(bool ask_learner) {
+    if (default_preset_) set_defaults(*default_preset_);
+    for (const auto& [key, text] : spec_.options) set_option(key, text);
+    const std::vector<std::string> names = prior_names();
+    const auto scenario = contained([&] { return scenario_builder_->build(); });
+    if (!scenario) violations_.throw_if_any();
+    for (const std::string& line : scenario->task.violations()) violations_.add(line);
+    violations_.require(!spec_.until_solved || scenario->task.solved,
+                        fmt::format("until_solved: {} cannot say what is solved", spec_.scenario));
+    if (ask_learner && scenario->policy)  // without a policy the learner complains when it is built
+      for (const std::string& line : learner_builder_->violations(scenario->task, *scenario->policy))
+        violations_.add(line);
+
+    ChosenPriors priors(*scenario, names, violations_);
+    set_prior_values(priors);
+    auto prior = contained([&] { return priors.prior(); });
+    violations_.throw_if_any();
+    complete(names, priors);
+    return {spec_, *scenario, std::move(*prior), std::move(learner_builder_)};
+  }
+
+ private:
+  /// What `make` returns, or nothing when it finds its input invalid.
+  template <class Make>
+  auto contained(Make make) -> std::optional<decltype(make())> {
+    try {
+      return make();
+    } catch (const InvalidInput& error) {
+      violations_.add(error.what());
+      return std::nullopt;
+    }
+  }
+
+  /// Returns false if there is no such option. Throws InvalidInput.
+  bool set_named(std::string_view key, const std::string& text) {
+    const Fields scenario = fields_of(*scenario_builder_), learner = fields_of(*learner_builder_);
+    return set_field(scenario, key, text) || set_field(learner, key, text) ||
+           (key.starts_with(kScenario) && set_field(scenario, key.substr(kScenario.size()), text)) ||
+           (key.starts_with(kLearner) && set_field(learner, key.substr(kLearner.size()), text));
+  }
+
+  void set_option(const std::string& key, const std::string& text) {
+    const Fields of_run = [this](FieldVisitor& v) { spec_.settable_fields(v); };
+    const bool known = contained([&] { return set_named(key, text) || set_field(of_run, key, text); }).value_or(true);
+    if (!known && !key.starts_with(kPrior))  // these wait until the scenario is built
+      violations_.add(unknown_option(key, options_like(key)));
+  }
+
+  void set_defaults(const Preset& preset) {
+    for (const FileOption& option : preset.options(spec_.scenario, spec_.learner)) {
+      try {
+        if (!set_named(option.key, option.text))
+          throw InvalidInput(unknown_option(option.key, options_like(option.key)));
+      } catch (const InvalidInput& error) {
+        violations_.add(files::in_file(preset.source(), option.line, error.what()));
+      }
+    }
+  }
+
+  /// Those that the key may mean, written as it is: with the prefix if it has one, then of that section alone.
+  std::vector<std::string> options_like(std::string_view key) const {
+    std::vector<std::string> known;
+    const auto add = [&](std::string_view section, const auto& fields) {
+      for (const auto& [name, text] : fields) known.push_back(std::string(section) + name);
+    };
+    const bool of_learner = key.starts_with(kLearner), of_scenario = key.starts_with(kScenario);
+    if (!of_learner) add(of_scenario ? kScenario : "", list_fields(fields_of(*scenario_builder_)));
+    if (!of_scenario) add(of_learner ? kLearner : "", list_fields(fields_of(*learner_builder_)));
+    Spec of_run = spec_;
+    if (!of_learner && !of_scenario) add("", list_fields([&](FieldVisitor& v) { of_run.settable_fields(v); }));
+    return known;
+  }
+
+  std::vector<std::string> prior_names() {
+    const std::vector<std::string> named = split_names(spec_.prior);
+    const std::string learner = learner_builder_->name();
+    if (learner_builder_->prior_use() == learners::PriorUse::none) {
+      violations_.require(named.empty(),
+                          fmt::format("learner {} takes no prior, but '{}' is given", learner, spec_.prior));
+      return {};
+    }
+    violations_.require(
+        named.size() < 2 || learner_builder_->chooses_priors(),
+        fmt::format("learner {} takes one prior, but '{}' names {}", learner, spec_.prior, named.size()));
+    if (!named.empty()) return named;
+    const std::vector<std::string> known = scenario_builder_->prior_names();
+    violations_.require(!known.empty(), fmt::format("learner {} needs a prior, but scenario {} has none", learner,
+                                                    scenario_builder_->name()));
+    return known.empty() ? known : std::vector{known.front()};
+  }
+
+  void set_prior_values(ChosenPriors& priors) {
+    for (const auto& [key, text] : spec_.options) {
+      if (!key.starts_with(kPrior) || is_field(key)) continue;
+      if (learner_builder_->prior_use() == learners::PriorUse::none)
+        violations_.add(fmt::format("{} = {}, but learner {} takes no prior", key, text, learner_builder_->name()));
+      else
+        priors.set(key.substr(kPrior.size()), text, violations_);
+    }
+  }
+
+  bool is_field(const std::string& key) const {
+    const std::vector<std::string> fields = options_like(key);
+    return std::find(fields.begin(), fields.end(), key) != fields.end();
+  }
+
+  void complete(const std::vector<std::string>& names, const ChosenPriors& priors) {
+    spec_.prior.clear();
+    for (const std::string& name : names) spec_.prior += (spec_.prior.empty() ? "" : ",") + name;
+    spec_.options.clear();
+    add_options(kScenario, list_fields(fields_of(*scenario_builder_)));
+    add_options(kLearner, list_fields(fields_of(*learner_builder_)));
+    add_options("", priors.values());
+  }
+
+  void add_options(std::string_view prefix, const std::vector<std::pair<std::string, std::string>>& fields) {
+    for (const auto& [name, text] : fields) spec_.options.emplace_back(std::string(prefix) + name, text);
+  }
+
+  Spec spec_;
+  Violations violations_;
+  std::unique_ptr<scenario::ScenarioBuilder> scenario_builder_;
+  std::unique_ptr<learners::LearnerBuilder> learner_builder_;
+  std::optional<Preset> default_preset_;
+};
+
+}  // namespace
+
+Resolved resolve(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec).resolve(true); }
+
+Spec completed(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec).resolve(false).spec; }
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "rehearse/experiment/catalogue.hpp"
+#include "rehearse/experiment/spec.hpp"
+#include "rehearse/prior/prior.hpp"
+
+namespace rehearse::experiment {
+
+/// A spec with everything it names.
+struct Resolved {
+  Spec spec;  // complete: the prior named and every option listed with its value
+  scenario::Scenario scenario;
+  std::optional<prior::Prior> prior;
+  std::shared_ptr<const learners::LearnerBuilder> learner;
+};
+
+/// Throws InvalidInput with a line for everything that is wrong.
+Resolved resolve(const Catalogue& catalogue, const Spec& spec);
+
+/// The complete spec alone, even where the learner cannot do with the task or the policy that it describes so far.
+Spec completed(const Catalogue& catalogue, const Spec& spec);
+
+}  // namespace rehearse::experiment

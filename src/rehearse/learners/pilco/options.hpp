@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/learners/pilco/model.hpp"
+#include "rehearse/learners/pilco/policy_search.hpp"
+
+namespace rehearse::learners::pilco {
+
+/// What PILCO learns on the prior (Cutler 2015).
+struct PriorPhaseOptions {
+  Index episodes = 40;  // at most; Chatzilygeroudis 2018, on the pendubot
+  // So many in a row that taught nothing end the phase: they returned what was promised or more, and no more than one
+  // before, within 2 %. 0: none do (Chatzilygeroudis)
+  Index settled = 3;
+  Index inducing = 300;  // at most so many points of what was learned are the means of the GPs on the robot (PILCO)
+  void fields(FieldVisitor& v);
+};
+
+struct Options {
+  ModelOptions model;
+  SearchOptions search;
+  bool success_test = true;  // searches begin anew until the task's test of success, where it gives one, is passed;
+                             // false: in every trial
+  double first_trial_hold_s = 0;           // a random action of the first trial is held so long; PILCO: one step
+  std::optional<PriorPhaseOptions> prior;  // PILCO learns on the prior first, and begins with that; empty: without one
+  void fields(FieldVisitor& v);
+};
+
+}  // namespace rehearse::learners::pilco

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "rehearse/learners/learner.hpp"
+#include "rehearse/learners/pilco/options.hpp"
+#include "rehearse/moments/moment_term.hpp"
+
+namespace rehearse::learners::pilco {
+
+/// What the trials on the robot begin with.
+struct PriorKnowledge {
+  std::vector<moments::MomentTerm> network;  // the means of the GPs of the prior system; empty: none could be learned
+  Vector theta;                              // the policy found on these GPs
+  std::optional<double> predicted_return;    // its expected return on them
+  Index evaluations = 0;                     // expected returns computed on the way, in all
+  Index failed = 0;                          // of these, without a value
+  std::vector<std::string> notes;            // numerical failures survived
+};
+
+nlohmann::json to_json(const PriorKnowledge& knowledge);
+/// Throws nlohmann::json::exception or InvalidInput where something else was saved.
+PriorKnowledge to_knowledge(const nlohmann::json& j);
+
+/// How it is learned: `learn_on_prior`.
+using LearnOnPrior = std::function<PriorKnowledge(const Setting& setting, const Options& options)>;
+
+}  // namespace rehearse::learners::pilco

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::report {
+
+/// Something in a folder that could not be used, or did not go well.
+struct Problem {
+  std::string where;  // relative to the folder
+  std::string what;
+};
+
+/// What the page shows.
+struct Report {
+  std::string json;  // numbers to 6 digits
+  std::vector<Problem> problems;
+};
+
+/// Where the elites of a learner's archive are.
+struct ArchiveSpace {
+  Index elites = 0, niches = 0;
+  std::vector<Interval> bounds;  // of each descriptor
+  std::vector<Index> bins;       // of each, of a grid; else empty
+};
+
+/// From the bytes of archive.bin. Throws InvalidInput if they are no archive.
+using ArchiveReader = std::function<ArchiveSpace(std::string_view bytes)>;
+
+}  // namespace rehearse::report
