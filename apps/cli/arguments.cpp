@@ -16,7 +16,8 @@ void set_text(const Fields& fields, const std::string& name, const std::optional
 
 Index threads_of(const std::optional<std::string>& text, Violations& violations) {
   Index threads = 0;
-  set_text([&](FieldVisitor& v) { v.integer("threads", threads, between(1, 1024)); }, "threads", text, violations);
+  set_text([&](FieldVisitor& v) { v.integer("threads", threads, "threads to compute with", between(1, 1024)); },
+           "threads", text, violations);
   return threads;
 }
 

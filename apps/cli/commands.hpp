@@ -13,8 +13,10 @@ namespace rehearse::apps {
 enum ExitCode { kSuccess = 0, kFailed = 1, kWrongInput = 2 };  // and 128 + signal when interrupted
 
 struct ListArguments {
+  std::optional<std::string> name;  // of a scenario or a learner
   bool json = false;
   bool options = false;
+  bool expert = false;
 };
 
 struct LearnArguments {

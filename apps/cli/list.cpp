@@ -1,10 +1,12 @@
-#include <map>
+#include <algorithm>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/commands.hpp"
+#include "apps/cli/options_table.hpp"
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/spec.hpp"
@@ -15,28 +17,41 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <class Builder>
-std::vector<std::pair<std::string, std::string>> options_of(Builder& builder) {
-  return list_fields([&](FieldVisitor& v) { builder.fields(v); });
+std::vector<Field> options_of(Builder& builder) {
+  return describe_fields([&](FieldVisitor& v) { builder.fields(v); });
 }
 
-/// By name, where it is another than the default.
-template <class Builder>
-std::map<std::string, Published> published_otherwise(Builder& builder) {
-  std::map<std::string, Published> all;
-  for (const auto& [name, published] : list_published([&](FieldVisitor& v) { builder.fields(v); }))
-    all.emplace(name, published);
-  for (const auto& [name, text] : options_of(builder))
-    if (const auto found = all.find(name); found != all.end() && found->second.text == text) all.erase(found);
-  return all;
+Json described(const Field& field) {
+  return {{"name", field.name},    {"value", field.value},     {"help", field.help},
+          {"bounds", field.bound}, {"choices", field.choices}, {"expert", field.expert}};
 }
 
 template <class Builder>
 Json described(Builder& builder) {
-  Json options = Json::object(), published = Json::object();
-  for (const auto& [name, text] : options_of(builder)) options[name] = text;
-  for (const auto& [name, known] : published_otherwise(builder))
-    published[name] = {{"value", known.text}, {"source", known.source}};
-  return {{"name", builder.name()}, {"summary", builder.summary()}, {"options", options}, {"published", published}};
+  Json options = Json::object(), published = Json::object(), fields = Json::array();
+  for (const Field& field : options_of(builder)) {
+    options[field.name] = field.value;
+    if (field.deviates()) published[field.name] = {{"value", field.published.text}, {"source", field.published.source}};
+    fields.push_back(described(field));
+  }
+  return {{"name", builder.name()},
+          {"summary", builder.summary()},
+          {"options", options},
+          {"published", published},
+          {"fields", fields}};
+}
+
+Json as_json(scenario::ScenarioBuilder& builder) {
+  Json entry = described(builder);
+  entry["priors"] = builder.prior_names();
+  return entry;
+}
+
+Json as_json(learners::LearnerBuilder& builder) {
+  Json entry = described(builder);
+  entry["takes_prior"] = builder.prior_use() != learners::PriorUse::none;
+  entry["chooses_priors"] = builder.chooses_priors();
+  return entry;
 }
 
 Json as_json(const experiment::Catalogue& catalogue) {
@@ -44,15 +59,8 @@ Json as_json(const experiment::Catalogue& catalogue) {
               {"learners", Json::array()},
               {"presets", Json::array()},
               {"not_built", Json::array()}};
-  for (const auto& builder : catalogue.scenario_builders()) {
-    all["scenarios"].push_back(described(*builder));
-    all["scenarios"].back()["priors"] = builder->prior_names();
-  }
-  for (const auto& builder : catalogue.learner_builders()) {
-    all["learners"].push_back(described(*builder));
-    all["learners"].back()["takes_prior"] = builder->prior_use() != learners::PriorUse::none;
-    all["learners"].back()["chooses_priors"] = builder->chooses_priors();
-  }
+  for (const auto& builder : catalogue.scenario_builders()) all["scenarios"].push_back(as_json(*builder));
+  for (const auto& builder : catalogue.learner_builders()) all["learners"].push_back(as_json(*builder));
   for (const auto& preset : catalogue.presets)
     all["presets"].push_back({{"name", preset.name}, {"title", experiment::Preset(preset.text, preset.name).title()}});
   for (const auto& missing : catalogue.not_built)
@@ -65,12 +73,10 @@ void print_entry(Builder& builder, const std::string& remark, bool with_options)
   fmt::print("  {:<18} {}\n", builder.name(), builder.summary());
   fmt::print("  {:<18} {}\n", "", remark);
   if (!with_options) return;
-  const auto otherwise = published_otherwise(builder);
-  for (const auto& [name, text] : options_of(builder)) {
-    const auto found = otherwise.find(name);
-    const std::string remark =
-        found == otherwise.end() ? "" : fmt::format("  ({}: {})", found->second.source, found->second.text);
-    fmt::print("  {:<18}   {} = {}{}\n", "", name, text, remark);
+  for (const Field& field : options_of(builder)) {
+    const std::string otherwise =
+        field.deviates() ? fmt::format("  ({}: {})", field.published.source, field.published.text) : "";
+    fmt::print("  {:<18}   {} = {}{}\n", "", field.name, field.value, otherwise);
   }
 }
 
@@ -103,13 +109,56 @@ void print(const experiment::Catalogue& catalogue, bool with_options) {
   if (with_options) print_run_options();
   if (!catalogue.not_built.empty()) fmt::print("\nNot built\n");
   for (const auto& missing : catalogue.not_built) fmt::print("  {:<18} {}\n", missing.name, missing.reason);
-  if (!with_options) fmt::print("\nOptions for --set, with their defaults: rehearse list --options\n");
+  if (!with_options) fmt::print("\nOptions for --set, with what they do: rehearse list NAME\n");
+}
+
+/// Those that everyone needs, and unless it is asked for them only the number of the others.
+template <class Builder>
+void print_one(Builder& builder, const std::string& kind, bool with_expert) {
+  fmt::print("{} {}: {}\n{:{}} {}\n", kind, builder.name(), builder.summary(), "",
+             kind.size() + builder.name().size() + 2, prior_remark(builder));
+  std::vector<Field> shown = options_of(builder);
+  const auto middle = std::stable_partition(shown.begin(), shown.end(), [](const Field& f) { return !f.expert; });
+  const std::vector<Field> hidden(middle, shown.end());
+  shown.erase(middle, shown.end());
+  if (!shown.empty()) fmt::print("\n{}", options_table(shown, terminal_width()));
+  if (hidden.empty()) return;
+  if (with_expert)
+    fmt::print("\nFor experts\n{}", options_table(hidden, terminal_width()));
+  else
+    fmt::print("\n{} more for experts: rehearse list {} --expert\n", hidden.size(), builder.name());
+}
+
+template <class Builder>
+void list_one(Builder& builder, const std::string& kind, const ListArguments& arguments) {
+  if (arguments.json)
+    fmt::print("{}\n", as_json(builder).dump(2));
+  else
+    print_one(builder, kind, arguments.expert || arguments.options);
+}
+
+[[noreturn]] void refuse(const experiment::Catalogue& catalogue, const std::string& name) {
+  for (const auto& missing : catalogue.not_built)
+    if (missing.name == name) throw InvalidInput(catalogue.why_missing("scenario", name));
+  std::vector<std::string> known;
+  for (const auto& builder : catalogue.scenario_builders()) known.push_back(builder->name());
+  for (const auto& builder : catalogue.learner_builders()) known.push_back(builder->name());
+  throw InvalidInput(experiment::unknown_name("scenario or learner", name, known));
 }
 
 }  // namespace
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments) {
-  if (arguments.json)
+  if (arguments.name) {
+    if (const auto scenario = catalogue.scenario(*arguments.name))
+      list_one(*scenario, "scenario", arguments);
+    else if (const auto learner = catalogue.learner(*arguments.name))
+      list_one(*learner, "learner", arguments);
+    else
+      refuse(catalogue, *arguments.name);
+  } else if (arguments.expert) {
+    throw InvalidInput("--expert is for one scenario or learner: rehearse list NAME --expert");
+  } else if (arguments.json)
     fmt::print("{}\n", as_json(catalogue).dump(2));
   else
     print(catalogue, arguments.options);

@@ -59,8 +59,11 @@ CLI::Option* add(Command* command, const std::string& name, T& value, const std:
 }
 
 CLI::App* add_list(CLI::App& app, ListArguments& arguments) {
-  CLI::App* command = app.add_subcommand("list", "Show the scenarios, their priors, and the learners");
+  CLI::App* command =
+      app.add_subcommand("list", "Show the scenarios, their priors, and the learners, or the options of one");
+  add(command, "NAME", arguments.name, "A scenario or a learner, to be shown with its options", "");
   command->add_flag("--json", arguments.json, "As JSON, with all options");
+  command->add_flag("--expert", arguments.expert, "With the options of NAME that only experts need, too");
   command->add_flag("--options", arguments.options,
                     "With all options that --set can change, their defaults, and what is published of them");
   return command;
@@ -86,7 +89,8 @@ CLI::App* add_learn(CLI::App& app, LearnArguments& arguments) {
       "Threads to compute with, with mpirun of each process; results do not depend on it. Default: all cores", "K");
   add(command, "--out", arguments.out,
       "The run folder, which must not exist. Default: runs/SCENARIO-LEARNER-PRIOR-SEED", "DIR");
-  add(command, "--set", arguments.set, "Set an option of `rehearse list --options`; may be repeated", "KEY=VALUE")
+  add(command, "--set", arguments.set,
+      "Set an option of `rehearse list SCENARIO` or `rehearse list LEARNER`; may be repeated", "KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->footer(kLearnExample);

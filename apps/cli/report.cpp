@@ -68,7 +68,8 @@ report::ArchiveSpace archive_space(std::string_view bytes) {
 Index trial_of(const ReplayArguments& arguments) {
   Index trial = 0;
   Violations violations;
-  set_text([&](FieldVisitor& v) { v.integer("trial", trial, at_least(1)); }, "trial", arguments.trial, violations);
+  set_text([&](FieldVisitor& v) { v.integer("trial", trial, "which trial, from 1", at_least(1)); }, "trial",
+           arguments.trial, violations);
   violations.throw_if_any();
   return trial;
 }

@@ -1,5 +1,6 @@
-// Holds presets/ and the table of deviations against what the options say of themselves. With REHEARSE_UPDATE=1 in the
-// environment (scripts/published) both are made anew; then the table lacks why new rows deviate.
+// Holds presets/, the table of deviations and docs/options.md against what the options say of themselves. With
+// REHEARSE_UPDATE=1 in the environment (scripts/published) they are made anew; then the table lacks why new rows
+// deviate.
 
 #include <cstdlib>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/catalogue.hpp"
+#include "options_page.hpp"
 #include "published.hpp"
 #include "rehearse/experiment/preset_check.hpp"
 #include "rehearse/experiment/resolve.hpp"
@@ -19,6 +21,7 @@ using experiment::Catalogue, experiment::FileOption, experiment::Preset, experim
 
 const std::string kPreset = PROJECT_FOLDER "/presets/as-published.toml";
 const std::string kPage = PROJECT_FOLDER "/docs/architecture.md";
+const std::string kOptionsPage = PROJECT_FOLDER "/docs/options.md";
 const std::string kMadePart = "\n# Made by scripts/published from what the options say of themselves (fields()).\n";
 const std::string kHandPart = "\n# By hand: options that depend on the scenario and the learner together.\n";
 
@@ -70,10 +73,13 @@ TEST(AsPublished, GivesEachRunWhatIsPublished) {
     for (const auto& [key, value] : completed(catalogue, with_preset(catalogue, spec, kPreset)).options)
       got[key] = value;
     auto wanted = by_key(by_hand.options(spec.scenario, spec.learner));
-    for (const auto& [key, published] : list_published([&](FieldVisitor& v) { learner.fields(v); }))
-      wanted.emplace("learner." + key, wanted.contains(key) ? wanted[key] : published.text);
-    for (const auto& [key, published] : list_published([&](FieldVisitor& v) { scenario.fields(v); }))
-      wanted.emplace("scenario." + key, wanted.contains(key) ? wanted[key] : published.text);
+    const auto want = [&](const std::string& section, const std::vector<Field>& fields) {
+      for (const auto& field : fields)
+        if (!field.published.text.empty())
+          wanted.emplace(section + field.name, wanted.contains(field.name) ? wanted[field.name] : field.published.text);
+    };
+    want("learner.", describe_fields([&](FieldVisitor& v) { learner.fields(v); }));
+    want("scenario.", describe_fields([&](FieldVisitor& v) { scenario.fields(v); }));
     for (const auto& [key, value] : wanted) {
       if (!key.starts_with("learner.") && !key.starts_with("scenario.")) continue;
       EXPECT_EQ(got[key], value) << key << " of " << spec.learner << " on " << spec.scenario;
@@ -111,6 +117,32 @@ TEST(Deviations, TableIsMadeFromWhatTheOptionsSay) {
   const std::string page = files::read_file(kPage);
   EXPECT_EQ(page, with_table(page, rows)) << "scripts/published makes it anew";
   for (const Deviation& row : rows) EXPECT_FALSE(row.why.empty()) << "docs/architecture.md: why " << row.option << "?";
+}
+
+/// The shown ones; every option of `builder` says in a line what it does.
+template <class Builder>
+Index check_help(Builder& builder) {
+  Index shown = 0;
+  for (const Field& field : describe_fields([&](FieldVisitor& v) { builder.fields(v); })) {
+    EXPECT_FALSE(field.help.empty()) << field.name << " of " << builder.name();
+    EXPECT_EQ(field.help.find('\n'), std::string::npos) << field.name;
+    EXPECT_LE(field.help.size(), 100u) << field.name << ": " << field.help;
+    shown += !field.expert;
+  }
+  return shown;
+}
+
+TEST(Options, SayWhatTheyDoAndFewOfThemMatterToEveryone) {
+  const Catalogue catalogue = apps::catalogue();
+  for (const auto& scenario : catalogue.scenario_builders()) EXPECT_LE(check_help(*scenario), 20) << scenario->name();
+  for (const auto& learner : catalogue.learner_builders()) EXPECT_LE(check_help(*learner), 45) << learner->name();
+}
+
+TEST(Options, PageIsMadeFromWhatTheySay) {
+  const Catalogue catalogue = apps::catalogue();
+  if (!catalogue.not_built.empty()) GTEST_SKIP() << "the page has options of what is not built here";
+  if (updates()) write(kOptionsPage, options_page(catalogue));
+  EXPECT_EQ(files::read_file(kOptionsPage), options_page(catalogue)) << "scripts/published makes it anew";
 }
 
 }  // namespace

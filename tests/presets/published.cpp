@@ -15,11 +15,9 @@ constexpr const char* kHead = "| option | of | default | published | why |\n|---
 template <class Builder>
 void add(Builder& builder, bool of_scenarios, std::vector<PublishedOption>& all) {
   const Fields fields = [&](FieldVisitor& v) { builder.fields(v); };
-  const auto texts = list_fields(fields);
-  for (const auto& [key, published] : list_published(fields)) {
-    const std::string& name = key;
-    const auto value = std::find_if(texts.begin(), texts.end(), [&](const auto& field) { return field.first == name; });
-    const PublishedOption option{key, value->second, published, of_scenarios, {}};
+  for (const Field& field : describe_fields(fields)) {
+    if (field.published.text.empty()) continue;
+    const PublishedOption option{field.name, field.value, field.published, of_scenarios, {}};
     const auto same = std::find_if(all.begin(), all.end(), [&](const PublishedOption& other) {
       return other.key == option.key && other.by_default == option.by_default &&
              other.published.text == option.published.text && other.of_scenarios == of_scenarios;

@@ -49,8 +49,8 @@ class CampaignReader {
     if (!reader_.take("learners", file_.learners)) violations_.add(0, "learners is missing");
     reader_.take("priors", file_.priors);
     reader_.take_fields([&](FieldVisitor& v) {
-      v.integer("trials", file_.trials, between(1, 1e6));
-      v.boolean("until_solved", file_.until_solved);
+      v.integer("trials", file_.trials, "how often a run may use the plant", between(1, 1e6));
+      v.boolean("until_solved", file_.until_solved, "end before, with a trial that solves the task");
     });
     read_seeds();
   }
@@ -168,8 +168,8 @@ class CampaignReader {
     reader.take("priors", claim.priors);
     reader.take("variants", claim.variants);
     reader.take_fields([&](FieldVisitor& v) {
-      v.boolean("pooled", claim.pooled);
-      v.boolean("observed", claim.observed);
+      v.boolean("pooled", claim.pooled, "of all priors together");
+      v.boolean("observed", claim.observed, "judged by the estimate alone, not by its interval");
     });
     read_kind(reader, claim);
     reader.finish();
@@ -194,22 +194,23 @@ class CampaignReader {
   std::optional<double> number(files::TomlReader& reader, const std::string& key, Bound bound = {}) {
     double value = 0;
     const bool there = reader.has(key);
-    reader.take_fields([&](FieldVisitor& v) { v.number(key, value, bound); });
+    reader.take_fields([&](FieldVisitor& v) { v.number(key, value, "number of a claim", bound); });
     return there ? std::optional(value) : std::nullopt;
   }
 
   std::optional<Index> count(files::TomlReader& reader, const std::string& key) {
     Index value = 0;
     const bool there = reader.has(key);
-    reader.take_fields([&](FieldVisitor& v) { v.integer(key, value, at_least(0)); });
+    reader.take_fields([&](FieldVisitor& v) { v.integer(key, value, "number of runs", at_least(0)); });
     return there ? std::optional(value) : std::nullopt;
   }
 
   SuccessClaim read_success(files::TomlReader& reader) {
     SuccessClaim success;
     const bool reached = reader.has("reached_by");
-    reader.take_fields(
-        [&](FieldVisitor& v) { v.integer(reached ? "reached_by" : "solved_by", success.measure.trial, trials()); });
+    reader.take_fields([&](FieldVisitor& v) {
+      v.integer(reached ? "reached_by" : "solved_by", success.measure.trial, "trial, from 1", trials());
+    });
     if (reached) success.measure.success_return = number(reader, "return_at_least");
     if (reached && !success.measure.success_return) violations_.add(reader.line(), "reached_by needs return_at_least");
     success.at_least_rate = number(reader, "at_least_rate", between(0, 1));
@@ -226,8 +227,8 @@ class CampaignReader {
     if (!reader.has("metric"))
       violations_.add(reader.line(), "metric is missing: \"return\", \"best_return\" or \"first_success\"");
     reader.take_fields([&](FieldVisitor& v) {
-      v.choice("metric", measure.metric, {"return", "best_return", "first_success"});
-      v.integer("trial", measure.trial, trials());
+      v.choice("metric", measure.metric, "what is compared", {"return", "best_return", "first_success"});
+      v.integer("trial", measure.trial, "after which trial, from 1", trials());
     });
     return measure;
   }

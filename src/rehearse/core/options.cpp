@@ -34,36 +34,39 @@ double as_double(Index value) {
   return less ? std::nextafter(nearest, kTooLarge) : nearest;
 }
 
-class Lister final : public FieldVisitor {
+std::string bound_text(const Bound& bound) {
+  const bool low = std::isfinite(bound.low), high = std::isfinite(bound.high);
+  if (low && high) return fmt::format("{} to {}", to_text(bound.low), to_text(bound.high));
+  if (high) return fmt::format("≤ {}", to_text(bound.high));
+  return low ? fmt::format("{} {}", bound.low_open ? ">" : "≥", to_text(bound.low)) : "";
+}
+
+class Describer final : public FieldVisitor {
  public:
-  std::vector<std::pair<std::string, std::string>> fields;
+  std::vector<Field> fields;
 
  protected:
-  void visit(const std::string& name, double& value, Bound) override { fields.emplace_back(name, to_text(value)); }
-  void visit(const std::string& name, Index& value, Bound) override {
-    fields.emplace_back(name, fmt::to_string(value));
+  void visit(const std::string& name, double& value, Bound bound) override {
+    add(name, to_text(value)).bound = bound_text(bound);
   }
-  void visit(const std::string& name, bool& value) override { fields.emplace_back(name, value ? "true" : "false"); }
-  void visit(const std::string& name, std::string& value) override { fields.emplace_back(name, value); }
+  void visit(const std::string& name, Index& value, Bound bound) override {
+    add(name, fmt::to_string(value)).bound = bound_text(bound);
+  }
+  void visit(const std::string& name, bool& value) override {
+    add(name, value ? "true" : "false").choices = {"true", "false"};
+  }
+  void visit(const std::string& name, std::string& value) override { add(name, value); }
   void visit(const std::string& name, int& value, const std::vector<std::string>& names) override {
-    fields.emplace_back(name, names.at(static_cast<std::size_t>(value)));
+    add(name, names.at(static_cast<std::size_t>(value))).choices = names;
   }
-};
-
-class PublishedLister final : public FieldVisitor {
- public:
-  std::vector<std::pair<std::string, Published>> fields;
-
- protected:
-  void visit(const std::string& name, double&, Bound) override { add(name); }
-  void visit(const std::string& name, Index&, Bound) override { add(name); }
-  void visit(const std::string& name, bool&) override { add(name); }
-  void visit(const std::string& name, std::string&) override { add(name); }
-  void visit(const std::string& name, int&, const std::vector<std::string>&) override { add(name); }
 
  private:
-  void add(const std::string& name) {
-    if (!published().text.empty()) fields.emplace_back(name, published());
+  Field& add(const std::string& name, std::string value) {
+    return fields.emplace_back(Field{.name = name,
+                                     .value = std::move(value),
+                                     .help = std::string(help().text),
+                                     .expert = help().audience == kExpert,
+                                     .published = published()});
   }
 };
 
@@ -149,23 +152,25 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string FieldVisitor::enter(std::string_view name, Published published) {
+std::string FieldVisitor::enter(std::string_view name, Help help, Published published) {
   std::string whole = full(name);
   const auto known = known_.find(whole);
   published_ = known == known_.end() ? std::move(published) : known->second;
+  help_ = help;
+  if (audience_ == kExpert) help_.audience = kExpert;
   return whole;
 }
 
-std::vector<std::pair<std::string, Published>> list_published(const Fields& fields) {
-  PublishedLister lister;
-  fields(lister);
-  return std::move(lister.fields);
+std::vector<Field> describe_fields(const Fields& fields) {
+  Describer describer;
+  fields(describer);
+  return std::move(describer.fields);
 }
 
 std::vector<std::pair<std::string, std::string>> list_fields(const Fields& fields) {
-  Lister lister;
-  fields(lister);
-  return std::move(lister.fields);
+  std::vector<std::pair<std::string, std::string>> list;
+  for (Field& field : describe_fields(fields)) list.emplace_back(std::move(field.name), std::move(field.value));
+  return list;
 }
 
 bool set_field(const Fields& fields, std::string_view name, std::string_view text) {

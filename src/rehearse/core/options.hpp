@@ -1,11 +1,13 @@
 #pragma once
 // Options are plain structs that name their own fields, once, for everything that needs names: --set, spec.toml,
-// validation and help.
+// validation, `rehearse list` and docs/options.md.
 //
 //   struct SubplexOptions {
 //     Index max_evaluations = 1000;
+//     double first_step_m = 0.1;
 //     void fields(FieldVisitor& v) {
-//       v.integer("max_evaluations", max_evaluations, at_least(1), published(500, kAuthors));
+//       v.integer("max_evaluations", max_evaluations, "evaluations at most", at_least(1), published(500, kAuthors));
+//       v.number("first_step_m", first_step_m, expert("length of the first step [m]"), above(0));
 //     }
 //   };
 
@@ -56,40 +58,58 @@ inline Published published(int value, std::string source = kPaper) {
 }
 inline Published published(const char* name, std::string source = kPaper) { return {name, std::move(source)}; }
 
+/// Who is shown an option without asking for more: experts have tolerances of solvers and the like.
+enum class Audience { everyone, experts };
+inline constexpr Audience kExpert = Audience::experts;
+
+/// What an option does, in a line; what has a unit has it in brackets at the end: "length of the pole [m]".
+struct Help {
+  constexpr Help(const char* line, Audience whom = Audience::everyone)  // NOLINT(google-explicit-constructor)
+      : text(line), audience(whom) {}
+
+  std::string_view text;
+  Audience audience;
+};
+constexpr Help expert(const char* line) { return {line, kExpert}; }
+
 /// Is shown the fields of an options struct, one after the other. Names are joined with dots by `group`.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
 
-  void number(std::string_view name, double& value, Bound bound = {}, Published published = {}) {
-    visit(enter(name, std::move(published)), value, bound);
+  void number(std::string_view name, double& value, Help help, Bound bound = {}, Published published = {}) {
+    visit(enter(name, help, std::move(published)), value, bound);
   }
-  void integer(std::string_view name, Index& value, Bound bound = {}, Published published = {}) {
-    visit(enter(name, std::move(published)), value, bound);
+  void integer(std::string_view name, Index& value, Help help, Bound bound = {}, Published published = {}) {
+    visit(enter(name, help, std::move(published)), value, bound);
   }
-  void boolean(std::string_view name, bool& value, Published published = {}) {
-    visit(enter(name, std::move(published)), value);
+  void boolean(std::string_view name, bool& value, Help help, Published published = {}) {
+    visit(enter(name, help, std::move(published)), value);
   }
-  void text(std::string_view name, std::string& value) { visit(enter(name, {}), value); }
+  void text(std::string_view name, std::string& value, Help help) { visit(enter(name, help, {}), value); }
 
   /// An enumeration whose values 0, 1, … are called `names`.
   template <class Enum>
-  void choice(std::string_view name, Enum& value, const std::vector<std::string>& names, Published published = {}) {
+  void choice(std::string_view name, Enum& value, Help help, const std::vector<std::string>& names,
+              Published published = {}) {
     int index = static_cast<int>(value);
-    visit(enter(name, std::move(published)), index, names);
+    visit(enter(name, help, std::move(published)), index, names);
     value = static_cast<Enum>(index);
   }
 
   /// Says what is published of a field that comes later, whatever is said there: for structs that several others have.
   void publish(std::string_view name, Published published) { known_.emplace(full(name), std::move(published)); }
 
-  /// The fields of a nested options struct, as "name.field".
+  /// The fields of a nested options struct, as "name.field"; all of them are for experts where the group is.
   template <class Options>
-  void group(std::string_view name, Options& options) {
+  void group(std::string_view name, Options& options, Audience audience = Audience::everyone) {
     const std::string outer = prefix_;
+    const Audience outer_audience = audience_;
     prefix_ += std::string(name) + ".";
+    if (audience == kExpert) audience_ = kExpert;
     options.fields(*this);
     prefix_ = outer;
+    audience_ = outer_audience;
   }
 
  protected:
@@ -99,26 +119,42 @@ class FieldVisitor {
   virtual void visit(const std::string& name, std::string& value) = 0;
   virtual void visit(const std::string& name, int& value, const std::vector<std::string>& names) = 0;
 
-  /// That of the field which is visited.
+  // Of the field which is visited.
   const Published& published() const { return published_; }
+  const Help& help() const { return help_; }  // its audience is that of its groups, too
 
  private:
   std::string full(std::string_view name) const { return prefix_ + std::string(name); }
-  std::string enter(std::string_view name, Published published);
+  std::string enter(std::string_view name, Help help, Published published);
 
   std::string prefix_;
+  Audience audience_ = Audience::everyone;
   std::map<std::string, Published> known_;
   Published published_;
+  Help help_{""};
 };
 
 /// Anything with fields: `[&](FieldVisitor& v) { v.group("search", search); }`.
 using Fields = std::function<void(FieldVisitor&)>;
 
-/// Every field with its value as text that `set_field` reads back exactly, in order of declaration.
-std::vector<std::pair<std::string, std::string>> list_fields(const Fields& fields);
+/// What an option says of itself.
+struct Field {
+  std::string name;
+  std::string value;  // as `set_field` reads it back exactly
+  std::string help;
+  std::string bound;                 // "≥ 0", "0 to 1"; empty: any
+  std::vector<std::string> choices;  // empty: no choice
+  bool expert = false;
+  Published published;
 
-/// Every field whose published value is known, in order of declaration.
-std::vector<std::pair<std::string, Published>> list_published(const Fields& fields);
+  bool deviates() const { return !published.text.empty() && published.text != value; }
+};
+
+/// Every field, in order of declaration.
+std::vector<Field> describe_fields(const Fields& fields);
+
+/// Their names and values alone.
+std::vector<std::pair<std::string, std::string>> list_fields(const Fields& fields);
 
 /// Sets one field from text. Returns false if there is no field of that name.
 /// Throws InvalidInput if the text is no such value or violates the bound ("cmaes.population = 0, must be ≥ 4").

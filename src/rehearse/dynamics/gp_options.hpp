@@ -22,13 +22,19 @@ struct GpOptions {
                             // moves with them where the score is the product and the search alternating
   double tolerance = 0.01;  // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
   void fields(FieldVisitor& v) {
-    v.group("fit", fit);
-    v.boolean("trend", fit.trend, published(false));
-    v.boolean("joint_angles", joint_angles, published(false));
-    v.boolean("integrate_rates", integrate_rates, published(false));
-    v.boolean("smooth", smooth, published(false));
-    v.number("tolerance", tolerance, between(0, 1), published(0));
-    v.choice("variance", variance, {"latent", "noisy"});
+    v.group("fit", fit, kExpert);
+    v.boolean("trend", fit.trend, "GPs have a quadratic trend beside what is local", published(false));
+    v.boolean("joint_angles", joint_angles, "GPs see the angles between links, too, where the task names them",
+              published(false));
+    v.boolean("integrate_rates", integrate_rates,
+              "positions follow from their rates by integration; GPs learn what is left", published(false));
+    v.boolean("smooth", smooth, "noisy states are smoothed where that makes what was measured likelier",
+              published(false));
+    v.number("tolerance", tolerance,
+             "error allowed to predictions to make them fast, as a fraction of the noise; 0: none", between(0, 1),
+             published(0));
+    v.choice("variance", variance, "variance of predictions: without the noise of observations, or with it",
+             {"latent", "noisy"});
   }
 };
 

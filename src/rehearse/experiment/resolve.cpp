@@ -51,7 +51,7 @@ class Resolver {
     auto prior = contained([&] { return priors.prior(); });
     violations_.throw_if_any();
     complete(names, priors);
-    return {spec_, *scenario, std::move(*prior), std::move(learner_builder_)};
+    return {spec_, *scenario, std::move(*prior), std::move(learner_builder_), std::move(comments_)};
   }
 
  private:
@@ -143,16 +143,26 @@ class Resolver {
     spec_.prior.clear();
     for (const std::string& name : names) spec_.prior += (spec_.prior.empty() ? "" : ",") + name;
     spec_.options.clear();
-    add_options(kScenario, list_fields(fields_of(*scenario_builder_)));
-    add_options(kLearner, list_fields(fields_of(*learner_builder_)));
-    add_options("", priors.values());
+    add_options(kScenario, describe_fields(fields_of(*scenario_builder_)));
+    add_options(kLearner, describe_fields(fields_of(*learner_builder_)));
+    for (const auto& [name, text] : priors.values()) {
+      spec_.options.emplace_back(name, text);
+      comments_[name] = "the prior's, before anything is learned";
+    }
+    for (const Field& field : describe_fields([this](FieldVisitor& v) { spec_.fields(v); }))
+      comments_[field.name] = field.help;
   }
 
-  void add_options(std::string_view prefix, const std::vector<std::pair<std::string, std::string>>& fields) {
-    for (const auto& [name, text] : fields) spec_.options.emplace_back(std::string(prefix) + name, text);
+  void add_options(std::string_view section, const std::vector<Field>& fields) {
+    for (const Field& field : fields) {
+      const std::string key = std::string(section) + field.name;
+      spec_.options.emplace_back(key, field.value);
+      comments_[key] = field.help;
+    }
   }
 
   Spec spec_;
+  Comments comments_;
   Violations violations_;
   std::unique_ptr<scenario::ScenarioBuilder> scenario_builder_;
   std::unique_ptr<learners::LearnerBuilder> learner_builder_;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/experiment/spec.hpp"
@@ -9,12 +11,16 @@
 
 namespace rehearse::experiment {
 
+/// What options do, in a line each, by the names that a complete spec has for them.
+using Comments = std::map<std::string, std::string>;
+
 /// A spec with everything it names.
 struct Resolved {
   Spec spec;  // complete: the prior named and every option listed with its value
   scenario::Scenario scenario;
   std::optional<prior::Prior> prior;
   std::shared_ptr<const learners::LearnerBuilder> learner;
+  Comments comments;
 };
 
 /// Throws InvalidInput with a line for everything that is wrong.

@@ -224,8 +224,9 @@ RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::fil
                     const RunOptions& options) {
   Participants participants(resolve(catalogue, spec), options);
   std::optional<RunFolder> folder;
-  participants.lead("create", [&] { folder.emplace(RunFolder::create(path, participants.resolved().spec)); });
-  return with_causes(catalogue, participants.resolved().spec, [&] { return Run(participants, folder, {}).finish(); });
+  const Resolved& resolved = participants.resolved();
+  participants.lead("create", [&] { folder.emplace(RunFolder::create(path, resolved.spec, resolved.comments)); });
+  return with_causes(catalogue, resolved.spec, [&] { return Run(participants, folder, {}).finish(); });
 }
 
 RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& path, std::optional<Until> until,
@@ -241,7 +242,7 @@ RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& pa
   const Spec extended = extended_spec(spec, path, until, history.done());
   Participants participants(resolve(catalogue, extended), options);
   participants.lead(fmt::format("continue to {}", extended.trials), [&] {
-    folder->change_end({extended.trials, extended.until_solved});
+    folder->change_end({extended.trials, extended.until_solved}, participants.resolved().comments);
   });
   return with_causes(catalogue, participants.resolved().spec,
                      [&] { return Run(participants, folder, std::move(history)).finish(); });

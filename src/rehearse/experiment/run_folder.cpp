@@ -28,13 +28,13 @@ std::string already_exists(const fs::path& path) {
 RunFolder::RunFolder(fs::path path, Spec spec, files::FolderLock lock)
     : path_(std::move(path)), spec_(std::move(spec)), lock_(std::move(lock)) {}
 
-RunFolder RunFolder::create(const fs::path& given, const Spec& spec) {
+RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comments& comments) {
   const fs::path path = files::without_slash(given);
   if (fs::exists(fs::symlink_status(path))) throw InvalidInput(already_exists(path));
   const fs::path unborn = make_unborn(path);
   try {
     files::FolderLock lock(unborn);
-    files::write_file(unborn / kSpec, to_toml(spec), files::Durability::power);
+    files::write_file(unborn / kSpec, to_toml(spec, comments), files::Durability::power);
     files::write_file(unborn / kCheckpoint, to_checkpoint({}, fingerprint(spec)), files::Durability::power);
     if (!files::rename_new(unborn, path)) throw InvalidInput(already_exists(path));
     return {path, spec, std::move(lock)};
@@ -56,12 +56,12 @@ RunFolder RunFolder::open(const fs::path& given) {
   return {path, from_toml(files::read_file(spec), spec.string()), std::move(lock)};
 }
 
-void RunFolder::change_end(Until until) {
+void RunFolder::change_end(Until until, const Comments& comments) {
   if (until.trials == spec_.trials && until.solved == spec_.until_solved) return;
   spec_.trials = until.trials;
   spec_.until_solved = until.solved;
   mark_unfinished();
-  files::write_file(path_ / kSpec, to_toml(spec_), files::Durability::power);
+  files::write_file(path_ / kSpec, to_toml(spec_, comments), files::Durability::power);
 }
 
 History RunFolder::load() const {

@@ -16,14 +16,14 @@ class RunFolder {
  public:
   /// A new folder with a complete spec and no trial. It appears in one step, or not at all.
   /// Throws InvalidInput if there is anything of that name.
-  static RunFolder create(const std::filesystem::path& path, const Spec& spec);
+  static RunFolder create(const std::filesystem::path& path, const Spec& spec, const Comments& comments = {});
 
   /// Throws InvalidInput if it is no run folder, cannot be read, or is in use.
   static RunFolder open(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
   const Spec& spec() const { return spec_; }
-  void change_end(Until until);
+  void change_end(Until until, const Comments& comments = {});
 
   /// Throws InvalidInput if the checkpoint is truncated, damaged, or does not belong to spec.toml.
   History load() const;

@@ -39,13 +39,16 @@ struct Spec {
   bool ends_with(Index trial, bool solved) const { return trial >= trials || (until_solved && solved); }
 
   void fields(FieldVisitor& v) {
-    v.integer("trials", trials, between(1, 1e6));
-    v.boolean("until_solved", until_solved);
-    v.integer("seed", seed, between(0, 9007199254740992.0));  // 2^53: survives every file format
+    v.integer("trials", trials, "how often the plant may be used", between(1, 1e6));
+    v.boolean("until_solved", until_solved, "end before, with a trial that solves the task");
+    v.integer("seed", seed, "seed of all random numbers: the same one gives the same run",
+              between(0, 9007199254740992.0));  // 2^53: survives every file format
     settable_fields(v);
   }
   /// Those that --set changes, too.
-  void settable_fields(FieldVisitor& v) { v.choice("told_by", told_by, {"truth", "measured"}); }
+  void settable_fields(FieldVisitor& v) {
+    v.choice("told_by", told_by, "states by which the learner is told what an episode earned", {"truth", "measured"});
+  }
 };
 
 /// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec; PRIOR is "none" for a learner that takes none.

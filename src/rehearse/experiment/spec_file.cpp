@@ -50,11 +50,22 @@ std::string dotted_key(const std::string& name) {
   return key;
 }
 
-std::string section(const Spec& spec, std::string_view name) {
+/// "KEY = VALUE  # COMMENT", comments below one another.
+std::string option_line(const std::string& option, const std::string& name, const Comments& comments) {
+  constexpr int kColumn = 46;
+  const auto found = comments.find(name);
+  if (found == comments.end()) return option + '\n';
+  std::string comment = found->second;
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  std::replace_if(comment.begin(), comment.end(), is_control, ' ');
+  return fmt::format("{:<{}}  # {}\n", option, kColumn, comment);
+}
+
+std::string section(const Spec& spec, std::string_view name, const Comments& comments) {
   std::string lines;
   for (const auto& [key, text] : spec.options)
     if (key.starts_with(fmt::format("{}.", name)))
-      lines += fmt::format("{} = {}\n", dotted_key(key.substr(name.size() + 1)), value(text));
+      lines += option_line(dotted_key(key.substr(name.size() + 1)) + " = " + value(text), key, comments);
   return lines.empty() ? lines : fmt::format("\n[{}]\n{}", name, lines);
 }
 
@@ -94,15 +105,17 @@ std::vector<FileOption> read_options(const toml::table& file, files::TomlReader&
 
 }  // namespace
 
-std::string to_toml(const Spec& spec) {
+std::string to_toml(const Spec& spec, const Comments& comments) {
   std::string text = fmt::format(
       "# A run of Rehearse, complete: `rehearse learn` of this file gives the same trials.csv.\n"
       "format = {}\n\n[run]\nscenario = {}\nlearner = {}\n",
       kFormat, in_quotes(spec.scenario), in_quotes(spec.learner));
   if (!spec.prior.empty()) text += fmt::format("prior = {}\n", in_quotes(spec.prior));
-  text += fmt::format("trials = {}\nuntil_solved = {}\nseed = {}\n", spec.trials, spec.until_solved, spec.seed);
-  if (spec.told_by == ToldBy::measured) text += "told_by = \"measured\"\n";
-  for (std::string_view name : kSections) text += section(spec, name);
+  text += option_line(fmt::format("trials = {}", spec.trials), "trials", comments);
+  text += option_line(fmt::format("until_solved = {}", spec.until_solved), "until_solved", comments);
+  text += option_line(fmt::format("seed = {}", spec.seed), "seed", comments);
+  if (spec.told_by == ToldBy::measured) text += option_line("told_by = \"measured\"", "told_by", comments);
+  for (std::string_view name : kSections) text += section(spec, name, comments);
   return text;
 }
 

@@ -12,7 +12,8 @@
 
 namespace rehearse::experiment {
 
-std::string to_toml(const Spec& spec);
+/// With a comment behind each option that has one.
+std::string to_toml(const Spec& spec, const Comments& comments = {});
 
 /// A spec as a file has it, which still knows its lines.
 class SpecFile {

@@ -28,11 +28,13 @@ struct FitOptions {
   Penalties penalties;
   Bounds bounds;
   void fields(FieldVisitor& v) {
-    v.choice("method", method, {"rprop", "bfgs"}, published("rprop"));
+    v.choice("method", method, "how the log evidence is maximised", {"rprop", "bfgs"}, published("rprop"));
     v.group("rprop", rprop);
     v.group("bfgs", bfgs);
-    v.integer("starts", starts, between(1, 1000), published(1, kAuthors));
-    v.integer("part_rows", part_rows, between(0, 1e6), published(0, kAuthors));
+    v.integer("starts", starts, "starts: the given one, a noisier one, and points all over", between(1, 1000),
+              published(1, kAuthors));
+    v.integer("part_rows", part_rows, "rows on which all starts are tried, where there are twice as many; 0: all",
+              between(0, 1e6), published(0, kAuthors));
     v.group("penalties", penalties);
     v.group("bounds", bounds);
   }

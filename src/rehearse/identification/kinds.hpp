@@ -35,8 +35,10 @@ struct ResidualGpOptions : GpOptions {
   }
   void fields(FieldVisitor& v) {
     GpOptions::fields(v);
-    v.boolean("midpoint", midpoint, published(false));
-    v.boolean("servos", servos, published(false));
+    v.boolean("midpoint", midpoint, "inputs of the GPs are those halfway along the step that the prior predicts",
+              published(false));
+    v.boolean("servos", servos, "where servos get to is learned before the prior is asked what follows",
+              published(false));
   }
 };
 
@@ -75,11 +77,14 @@ struct GpMi {
   GpMi() { gp.fit.starts = 1, gp.fit.part_rows = 0; }  // the alternating search tries other kernels itself
   void fields(FieldVisitor& v) {
     v.group("gp", gp);
-    v.choice("score", score, {"sum", "product", "harmonic"}, published("sum"));
-    v.choice("search", search, {"alternating", "nested"}, published("nested"));
+    v.choice("score", score, "how the evidences of the outputs become one score", {"sum", "product", "harmonic"},
+             published("sum"));
+    v.choice("search", search, "kernels and parameters by turns, or kernels fitted anew for each parameter tried",
+             {"alternating", "nested"}, published("nested"));
     v.group("subplex", subplex);
-    v.boolean("least_squares_start", least_squares_start, published(false));
-    v.group("least_squares", least_squares);
+    v.boolean("least_squares_start", least_squares_start,
+              "the search starts from the parameters of least squared error, too", published(false));
+    v.group("least_squares", least_squares, kExpert);
     v.group("posterior", posterior);
   }
 };

@@ -19,9 +19,10 @@ struct LeastSquares {
   optim::SubplexOptions subplex{
       .max_evaluations = 2000, .x_tolerance = 1e-6, .value_tolerance = 1e-6};  // the authors' code
   void fields(FieldVisitor& v) {
-    v.choice("method", method, {"gauss-newton", "subplex"}, published("subplex"));
-    v.integer("starts", starts, between(1, 1000));
-    v.group("subplex", subplex);
+    v.choice("method", method, "how the least squared error is found", {"gauss-newton", "subplex"},
+             published("subplex"));
+    v.integer("starts", starts, "starts of Gauss–Newton, while no fit is exact", between(1, 1000));
+    v.group("subplex", subplex, kExpert);
   }
 };
 

@@ -36,7 +36,10 @@ struct PhiPosteriorOptions {
   // rows there are: tuned on other data than docs/results.md's. Large: as many as there are, which is overconfident
   // where a parameter that is not tuned is wrong.
   double misfit_observations = 2;
-  void fields(FieldVisitor& v) { v.number("misfit_observations", misfit_observations, above(0)); }
+  void fields(FieldVisitor& v) {
+    v.number("misfit_observations", misfit_observations,
+             expert("observations that a degree of freedom of the prior's misfit counts as"), above(0));
+  }
 };
 
 /// Laplace's approximation around the fit with its kernels K_e held: with J_e the derivatives of the prior mean of

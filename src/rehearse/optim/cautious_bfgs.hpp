@@ -16,12 +16,16 @@ struct CautiousBfgsOptions {
   Index patience = 0;           // line searches that have to gain `patience_gain` of the value together; 0: none
   double patience_gain = 0.01;
   void fields(FieldVisitor& v) {
-    v.integer("line_searches", line_searches, at_least(1));
-    v.integer("line_evaluations", line_evaluations, at_least(1));
-    v.number("longest_step", longest_step, above(0));
-    v.number("slope", slope, between(1e-3, 0.99));
-    v.integer("patience", patience, at_least(0));
-    v.number("patience_gain", patience_gain, between(0, 1));
+    v.integer("line_searches", line_searches, "line searches at most", at_least(1));
+    v.integer("line_evaluations", line_evaluations, expert("evaluations at most, of a line search"), at_least(1));
+    v.number("longest_step", longest_step, expert("length of the step that a line search begins with at most"),
+             above(0));
+    v.number("slope", slope, expert("how steep a line search may end, as a fraction of the slope before (Wolfe)"),
+             between(1e-3, 0.99));
+    v.integer("patience", patience, "line searches that have to gain patience_gain together; 0: never stops",
+              at_least(0));
+    v.number("patience_gain", patience_gain, "gain of so many line searches, as a fraction of the value",
+             between(0, 1));
   }
 };
 

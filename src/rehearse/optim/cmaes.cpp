@@ -46,16 +46,17 @@ bool not_improving(const std::vector<double>& history, std::size_t count) {
 }  // namespace
 
 void CmaesOptions::fields(FieldVisitor& v) {
-  v.integer("population", population, between(0, 1e6));
-  v.boolean("active", active);
-  v.boolean("elitism", elitism);
-  v.number("value_tolerance", value_tolerance, at_least(0));
-  v.number("step_tolerance", step_tolerance, at_least(0));
-  v.number("max_condition", max_condition, above(1));
-  v.number("max_growth", max_growth, above(1));
-  v.boolean("stagnation", stagnation);
-  v.integer("max_generations", max_generations, at_least(0));
-  v.integer("eigen_up_to", eigen_up_to, at_least(0));
+  v.integer("population", population, "candidates of a generation; 0: 4 + ⌊3 ln n⌋ of n parameters", between(0, 1e6));
+  v.boolean("active", active, "the worse half has negative weights");
+  v.boolean("elitism", elitism, "the best point so far is evaluated again in every generation");
+  v.number("value_tolerance", value_tolerance, "stop when recent best values differ by less", at_least(0));
+  v.number("step_tolerance", step_tolerance, "stop when all steps are below this fraction of the first", at_least(0));
+  v.number("max_condition", max_condition, "stop when the covariance is conditioned worse", above(1));
+  v.number("max_growth", max_growth, "stop when the largest step has grown by more", above(1));
+  v.boolean("stagnation", stagnation, "stop when neither best nor median improve any more");
+  v.integer("max_generations", max_generations, "stop after so many generations; 0: 100 + 50 (n + 3)² / √population",
+            at_least(0));
+  v.integer("eigen_up_to", eigen_up_to, "parameters up to which the covariance has an eigendecomposition", at_least(0));
 }
 
 Cmaes::Cmaes(const Vector& mean, double sigma, const std::vector<Interval>& box, const CmaesOptions& options,

@@ -27,11 +27,11 @@ struct RpropOptions {
   double smallest_step = 1e-6;
   double largest_step = 50;
   void fields(FieldVisitor& v) {
-    v.integer("max_evaluations", max_evaluations, at_least(1));
-    v.number("gradient_tolerance", gradient_tolerance, at_least(0));
-    v.number("first_step", first_step, above(0));
-    v.number("smallest_step", smallest_step, above(0));
-    v.number("largest_step", largest_step, above(0));
+    v.integer("max_evaluations", max_evaluations, "evaluations at most", at_least(1));
+    v.number("gradient_tolerance", gradient_tolerance, "stop when the gradient is smaller", at_least(0));
+    v.number("first_step", first_step, "step that the search begins with", above(0));
+    v.number("smallest_step", smallest_step, "step at least", above(0));
+    v.number("largest_step", largest_step, "step at most", above(0));
   }
 };
 GradientResult maximise_rprop(const Differentiable& objective, const Vector& start, const RpropOptions& options);
@@ -41,8 +41,9 @@ struct BfgsOptions {
   Index max_evaluations = 200;
   double relative_tolerance = 1e-8;  // of the value: what the next step promises to gain
   void fields(FieldVisitor& v) {
-    v.integer("max_evaluations", max_evaluations, at_least(1));
-    v.number("relative_tolerance", relative_tolerance, at_least(0));
+    v.integer("max_evaluations", max_evaluations, "evaluations at most", at_least(1));
+    v.number("relative_tolerance", relative_tolerance, "stop when the next step promises to gain less, as a fraction",
+             at_least(0));
   }
 };
 

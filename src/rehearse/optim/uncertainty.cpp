@@ -76,15 +76,22 @@ std::vector<Index> order_of(const JointRanks& ranks, std::size_t count, const Co
 }  // namespace
 
 void UncertaintyOptions::fields(FieldVisitor& v) {
-  v.boolean("enabled", enabled, published(true));
-  v.number("reevaluated", reevaluated, between(0.01, 1), published(0.1, "libcmaes"));
-  v.integer("reevaluated_least", reevaluated_least, between(1, 1e6), published(2, "libcmaes"));
-  v.number("tolerance", tolerance, between(0, 1), published(0.2, "libcmaes"));
-  v.number("smoothing", smoothing, between(0.01, 1), published(1, "libcmaes"));
-  v.integer("max_samples", max_samples, between(1, 1e6), published(1, "libcmaes"));
-  v.number("samples_growth", samples_growth, at_least(0));
-  v.number("samples_decay", samples_decay, between(0, 1));
-  v.number("sigma_growth", sigma_growth, at_least(0));
+  v.boolean("enabled", enabled, "noise is measured by evaluating again, and treated", published(true));
+  v.number("reevaluated", reevaluated, "fraction of the candidates that is evaluated twice", between(0.01, 1),
+           published(0.1, "libcmaes"));
+  v.integer("reevaluated_least", reevaluated_least, "candidates evaluated twice, at least", between(1, 1e6),
+            published(2, "libcmaes"));
+  v.number("tolerance", tolerance, "changes of rank that are acceptable, as a fraction of those of pure noise",
+           between(0, 1), published(0.2, "libcmaes"));
+  v.number("smoothing", smoothing, "weight of the newest measurement of the noise", between(0.01, 1),
+           published(1, "libcmaes"));
+  v.integer("max_samples", max_samples, "evaluations of a candidate at most; beyond, steps grow", between(1, 1e6),
+            published(1, "libcmaes"));
+  v.number("samples_growth", samples_growth, "growth of evaluations while there is too much noise; 0: 1 + 2 / (n + 10)",
+           at_least(0));
+  v.number("samples_decay", samples_decay, "power of that growth by which evaluations shrink again", between(0, 1));
+  v.number("sigma_growth", sigma_growth, "growth of steps where evaluations are at their most; 0: 1 + 2 / (n + 10)",
+           at_least(0));
 }
 
 UncertaintyHandler::UncertaintyHandler(const UncertaintyOptions& options, Index dimension, Index population)

@@ -41,10 +41,11 @@ void check(const Archive& archive, const SearchSpace& space, const MapElitesOpti
 }  // namespace
 
 void MapElitesOptions::fields(FieldVisitor& v) {
-  v.integer("batch", batch, between(1, 1e6));
-  v.integer("initial", initial, between(1, 1e7));
-  v.number("examples", examples, between(0, 1));
-  v.number("example_sigma", example_sigma, at_least(0));
+  v.integer("batch", batch, "policies of a generation, made from the same archive", between(1, 1e6));
+  v.integer("initial", initial, "policies drawn at random first", between(1, 1e7));
+  v.number("examples", examples, "share of the first policies that is near an example, where there is one",
+           between(0, 1));
+  v.number("example_sigma", example_sigma, "deviation of these from the example, in widths of the box", at_least(0));
   v.group("variation", variation);
 }
 

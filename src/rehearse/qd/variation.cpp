@@ -6,11 +6,13 @@
 namespace rehearse::qd {
 
 void Variation::fields(FieldVisitor& v) {
-  v.choice("kind", kind, {"iso_line", "gaussian", "reset"});
-  v.number("iso_sigma", iso_sigma, at_least(0));
-  v.number("line_sigma", line_sigma, at_least(0));
-  v.number("reset_rate", reset_rate, between(0, 1));
-  v.number("lattice", lattice, between(0, 1));
+  v.choice("kind", kind, "a step towards another elite, a step anywhere, or parameters drawn anew",
+           {"iso_line", "gaussian", "reset"});
+  v.number("iso_sigma", iso_sigma, "step anywhere, in widths of the box", at_least(0));
+  v.number("line_sigma", line_sigma, "step towards another elite, in distances to it", at_least(0));
+  v.number("reset_rate", reset_rate, "probability of a parameter to be drawn anew", between(0, 1));
+  v.number("lattice", lattice, "step of the lattice on which these are drawn, in widths of the box; 0: none",
+           between(0, 1));
 }
 
 Varier::Varier(Variation variation, std::vector<Interval> box, Index parameters, StreamKey key)

@@ -6,13 +6,15 @@
 namespace rehearse::scenario {
 
 void OdeOptions::fields(FieldVisitor& v) {
-  v.number("start_noise", start_noise, at_least(0));
-  v.number("measurement_noise", measurement_noise, at_least(0));
-  v.number("box_low", box_low, at_least(0));
-  v.number("box_high", box_high, above(0));
-  v.integer("substeps", substeps, between(1, 1e4));
-  v.number("initial_reward_width", initial_reward_width, at_least(0));
-  v.integer("evaluations", evaluations, between(0, 1e6));
+  v.number("start_noise", start_noise, "deviation of every state at the start [its unit]", at_least(0));
+  v.number("measurement_noise", measurement_noise, "deviation of every measured state [its unit]", at_least(0));
+  v.number("box_low", box_low, "least value of the prior's parameters that are learned [their unit]", at_least(0));
+  v.number("box_high", box_high, "largest value of the prior's parameters that are learned [their unit]", above(0));
+  v.integer("substeps", substeps, expert("steps of integration of priors and oracle in a control step"),
+            between(1, 1e4));
+  v.number("initial_reward_width", initial_reward_width,
+           "width of the guess that stands in for a reward still to be learned; 0: none", at_least(0));
+  v.integer("evaluations", evaluations, "extra episodes for each trial's expected_return; 0: none", between(0, 1e6));
   policy.fields(v);
 }
 

@@ -221,7 +221,7 @@ class Hesitant final : public experiment::fake::EchoBuilder {
   std::string name() const override { return "hesitant"; }
   void fields(FieldVisitor& v) override {
     EchoBuilder::fields(v);
-    v.boolean("ready", ready_);
+    v.boolean("ready", ready_, "whether it can be built");
   }
   std::vector<std::string> violations(const Task&, const policy::Policy& policy) const override {
     if (ready_) return {};

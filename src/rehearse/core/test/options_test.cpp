@@ -14,7 +14,7 @@ enum class Colour { red, green };
 
 struct Inner {
   Index population = 17;
-  void fields(FieldVisitor& v) { v.integer("population", population, at_least(4)); }
+  void fields(FieldVisitor& v) { v.integer("population", population, "candidates", at_least(4)); }
 };
 struct Outer {
   double width = 0.5;
@@ -23,11 +23,11 @@ struct Outer {
   Colour colour = Colour::green;
   Inner cmaes;
   void fields(FieldVisitor& v) {
-    v.number("width", width, above(0));
-    v.number("share", share, between(0, 1));
-    v.boolean("active", active);
-    v.choice("colour", colour, {"red", "green"});
-    v.group("cmaes", cmaes);
+    v.number("width", width, "of the box [m]", above(0));
+    v.number("share", share, expert("of the box"), between(0, 1));
+    v.boolean("active", active, "or not");
+    v.choice("colour", colour, "of the box", {"red", "green"});
+    v.group("cmaes", cmaes, kExpert);
   }
 };
 
@@ -48,11 +48,11 @@ TEST(Options, AreFiniteUnlessTheirBoundAllowsOther) {
   Outer options;
   EXPECT_EQ(refusal(options, "width", "inf"), "width = inf, must be finite");
   double target = 0;
-  const Fields fields = [&](FieldVisitor& v) { v.number("target", target, any_value()); };
+  const Fields fields = [&](FieldVisitor& v) { v.number("target", target, "to stop at", any_value()); };
   EXPECT_TRUE(set_field(fields, "target", "inf"));
   EXPECT_EQ(field_violations(fields).size(), 0u);
   Index seed = 0;
-  const Fields exact = [&](FieldVisitor& v) { v.integer("seed", seed, between(0, 9007199254740992.0)); };
+  const Fields exact = [&](FieldVisitor& v) { v.integer("seed", seed, "of the run", between(0, 9007199254740992.0)); };
   EXPECT_TRUE(set_field(exact, "seed", "9007199254740992"));
   EXPECT_THROW(set_field(exact, "seed", "9007199254740993"), InvalidInput);
   EXPECT_THROW(set_field(exact, "seed", "9223372036854775807"), InvalidInput);
@@ -72,10 +72,10 @@ struct Kept {
   Colour colour = Colour::green;
   Inner inner, other;
   void fields(FieldVisitor& v) {
-    v.number("width", width, above(0), published(0.1));
-    v.integer("count", count, at_least(1), published(40000000, kAuthors));
-    v.boolean("active", active, published(false));
-    v.choice("colour", colour, {"red", "green"}, published("red", "a book"));
+    v.number("width", width, "of the box [m]", above(0), published(0.1));
+    v.integer("count", count, "of boxes", at_least(1), published(40000000, kAuthors));
+    v.boolean("active", active, "or not", published(false));
+    v.choice("colour", colour, "of the box", {"red", "green"}, published("red", "a book"));
     v.publish("inner.population", published(10));
     v.group("inner", inner);
     v.group("other", other);
@@ -84,9 +84,10 @@ struct Kept {
 
 TEST(Options, KnowWhatIsPublishedOfThem) {
   Kept options;
-  const auto list = list_published([&](FieldVisitor& v) { v.group("kept", options); });
   std::string text;
-  for (const auto& [name, published] : list) text += name + " = " + published.text + " (" + published.source + ")\n";
+  for (const Field& field : describe_fields([&](FieldVisitor& v) { v.group("kept", options); }))
+    if (const auto& [value, source] = field.published; !value.empty())
+      text += field.name + " = " + value + " (" + source + ")\n";
   EXPECT_EQ(text,
             "kept.width = 0.1 (the paper)\n"
             "kept.count = 40000000 (the authors' code)\n"
@@ -104,10 +105,57 @@ TEST(Options, AnOwnersWordOnWhatIsPublishedCountsMoreThanTheStructs) {
       v.group("kept", kept);
     }
   } options;
-  const auto list = list_published([&](FieldVisitor& v) { options.fields(v); });
-  ASSERT_EQ(list.size(), 4u);
-  EXPECT_EQ(list[0].first, "kept.count");
-  EXPECT_EQ(list[3].second.text, "12");
+  const std::vector<Field> list = describe_fields([&](FieldVisitor& v) { options.fields(v); });
+  ASSERT_EQ(list.size(), 6u);
+  EXPECT_EQ(list[0].published.text, "");
+  EXPECT_EQ(list[1].published.text, "40000000");
+  EXPECT_EQ(list[4].published.text, "12");
+}
+
+std::string description(const Field& field) {
+  std::string choices;
+  for (const std::string& choice : field.choices) choices += " " + choice;
+  return field.name + " | " + field.value + " | " + field.bound + choices + " | " + field.help +
+         (field.expert ? " | expert" : "");
+}
+
+TEST(Options, SayWhatTheyDoAndWhoNeedsThem) {
+  struct Outermost {
+    Outer shown, hidden;
+    double last = 1e-9;
+    std::string name;
+    void fields(FieldVisitor& v) {
+      v.group("shown", shown);
+      v.group("hidden", hidden, kExpert);
+      v.number("last", last, "of all [s]", any_value());
+      v.text("name", name, "of the box");
+    }
+  } options;
+  std::vector<std::string> got;
+  for (const Field& field : describe_fields([&](FieldVisitor& v) { options.fields(v); }))
+    got.push_back(description(field));
+  const std::vector<std::string> expected = {"shown.width | 0.5 | > 0 | of the box [m]",
+                                             "shown.share | 0.25 | 0 to 1 | of the box | expert",
+                                             "shown.active | true |  true false | or not",
+                                             "shown.colour | green |  red green | of the box",
+                                             "shown.cmaes.population | 17 | ≥ 4 | candidates | expert",
+                                             "hidden.width | 0.5 | > 0 | of the box [m] | expert",
+                                             "hidden.share | 0.25 | 0 to 1 | of the box | expert",
+                                             "hidden.active | true |  true false | or not | expert",
+                                             "hidden.colour | green |  red green | of the box | expert",
+                                             "hidden.cmaes.population | 17 | ≥ 4 | candidates | expert",
+                                             "last | 1e-09 |  | of all [s]",
+                                             "name |  |  | of the box"};
+  EXPECT_EQ(got, expected);
+}
+
+TEST(Options, DeviateWhereAnotherValueIsPublished) {
+  Kept options;
+  const std::vector<Field> list = describe_fields([&](FieldVisitor& v) { options.fields(v); });
+  EXPECT_TRUE(list[0].deviates());
+  EXPECT_FALSE(list[5].deviates()) << "nothing is published";
+  options.width = 0.1;
+  EXPECT_FALSE(describe_fields([&](FieldVisitor& v) { options.fields(v); })[0].deviates());
 }
 
 TEST(Options, AreSetFromText) {

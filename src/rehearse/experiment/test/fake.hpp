@@ -95,10 +95,10 @@ class LineBuilder : public scenario::ScenarioBuilder {
   std::string summary() const override { return "a cart on a line goes to zero"; }
   std::vector<std::string> prior_names() const override { return {"near", "far"}; }
   void fields(FieldVisitor& v) override {
-    v.number("plant.gain", gain_, above(0));
-    v.number("noise", noise_, at_least(0));
-    v.boolean("breaks", breaks_);
-    v.integer("evaluations", evaluations_, at_least(0));
+    v.number("plant.gain", gain_, "of the cart [1/s]", above(0));
+    v.number("noise", noise_, "deviation of what is measured [m]", at_least(0));
+    v.boolean("breaks", breaks_, "the cart breaks");
+    v.integer("evaluations", evaluations_, "extra episodes of a trial", at_least(0));
   }
   scenario::Scenario build() const override {
     const auto simulator = std::make_shared<LineSimulator>();
@@ -219,7 +219,9 @@ class EchoBuilder : public learners::LearnerBuilder {
     return takes_prior_ ? learners::PriorUse::required : learners::PriorUse::none;
   }
   bool chooses_priors() const override { return takes_prior_; }
-  void fields(FieldVisitor& v) override { v.number("search.step", step_, above(0)); }
+  void fields(FieldVisitor& v) override {
+    v.number("search.step", step_, expert("of the search # of policies"), above(0));
+  }
   std::unique_ptr<learners::Learner> build(learners::Setting setting) const override {
     return std::make_unique<EchoLearner>(std::move(setting), step_, killer_);
   }

@@ -1,5 +1,7 @@
 #include "rehearse/experiment/resolve.hpp"
 
+#include <sstream>
+
 #include <gtest/gtest.h>
 
 #include "fake.hpp"
@@ -124,6 +126,24 @@ TEST(SpecFile, ComesBackAsItWas) {
     EXPECT_EQ(fingerprint(back), fingerprint(spec));
     EXPECT_EQ(to_toml(resolve(fake::catalogue(), back).spec), to_toml(spec));
   }
+}
+
+TEST(SpecFile, SaysBehindEachOptionWhatItDoes) {
+  const Resolved resolved = resolve(fake::catalogue(), spec_of("echo", "near", {{"told_by", "measured"}}));
+  const std::string text = to_toml(resolved.spec, resolved.comments);
+  for (const char* line : {"\nseed = 1                                        # seed of all random numbers: the same "
+                           "one gives the same run\n",
+                           "\nnoise = 0.1                                     # deviation of what is measured [m]\n",
+                           "\ntold_by = \"measured\"                            # states by which the learner is told"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << " in " << text;
+  std::istringstream lines(text.substr(text.find("[scenario]")));
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_EQ(line.find(" = ") == std::string::npos, line.find("  # ") == std::string::npos) << line;
+  const Spec back = from_toml(text, "spec.toml");
+  EXPECT_EQ(back.options, resolved.spec.options);
+  EXPECT_EQ(fingerprint(back), fingerprint(resolved.spec));
+  const Spec odd{.scenario = "line", .learner = "echo", .options = {{"learner.a", "x # y"}}};
+  EXPECT_EQ(from_toml(to_toml(odd, {{"learner.a", "two\nlines = 1"}}), "").options, odd.options);
 }
 
 TEST(SpecFile, SaysByWhatLearnersAreToldWhereThatIsNotTheTruth) {

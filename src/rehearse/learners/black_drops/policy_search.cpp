@@ -86,14 +86,16 @@ void select(std::vector<Vector> found, const std::vector<Vector>& starts, Simula
 }  // namespace
 
 void SearchOptions::fields(FieldVisitor& v) {
-  v.choice("method", method, {"race", "restarts"}, published("restarts"));
-  v.number("box", box, between(1e-6, 1e6));
-  v.integer("particles", particles, between(1, 1e6));
+  v.choice("method", method, "descents that compete, or one after the other", {"race", "restarts"},
+           published("restarts"));
+  v.number("box", box, "parameters of policies are in [−box, box], unless the policy has a box", between(1e-6, 1e6));
+  v.integer("particles", particles, "rollouts of one evaluation", between(1, 1e6));
   v.group("simulate", simulate);
   v.group("race", race);
-  v.group("restarts", restarts);
-  v.integer("finalists", finalists, between(1, 1e6), published(1));
-  v.integer("selection", selection, between(1, 1e6), published(1));
+  v.group("restarts", restarts, kExpert);
+  v.integer("finalists", finalists, "best policies found that are compared once more", between(1, 1e6), published(1));
+  v.integer("selection", selection, "rollouts of each of these; their mean is the predicted return", between(1, 1e6),
+            published(1));
 }
 
 Index comparisons(const SearchProblem& problem, const SearchOptions& options) {

@@ -82,11 +82,15 @@ void ModelOptions::fields(FieldVisitor& v) {
   v.publish("fit.method", {});  // PILCO's, too, goes along conjugate gradients or BFGS
   v.publish("fit.starts", published(1, "PILCO"));
   v.publish("fit.part_rows", published(0, "PILCO"));
-  v.group("fit", fit);
-  v.boolean("joint_angles", joint_angles, published(false, "PILCO"));
-  v.boolean("smooth", smooth, published(false, "PILCO"));
-  v.integer("inducing", inducing, between(1, 1e5), published(300, "PILCO"));
-  v.integer("inducing_line_searches", inducing_line_searches, at_least(0), published(500, "PILCO"));
+  v.group("fit", fit, kExpert);
+  v.boolean("joint_angles", joint_angles, "GPs see the angles between links, too, where the task names them",
+            published(false, "PILCO"));
+  v.boolean("smooth", smooth, "noisy states are smoothed where that makes what was measured likelier",
+            published(false, "PILCO"));
+  v.integer("inducing", inducing, "more rows than so many are summed up by so many inducing inputs", between(1, 1e5),
+            published(300, "PILCO"));
+  v.integer("inducing_line_searches", inducing_line_searches, "line searches that place the inducing inputs",
+            at_least(0), published(500, "PILCO"));
 }
 
 Model learn(const Task& task, const Dataset& data, const ModelOptions& options,

@@ -5,15 +5,19 @@ namespace rehearse::learners::pilco {
 void Options::fields(FieldVisitor& v) {
   v.group("model", model);
   v.group("search", search);
-  v.boolean("success_test", success_test, published(false));
-  v.number("first_trial.hold_s", first_trial_hold_s, at_least(0));
+  v.boolean("success_test", success_test, "searches begin anew until a trial passes the test of success; false: always",
+            published(false));
+  v.number("first_trial.hold_s", first_trial_hold_s, "how long a random action is held [s]; 0: a step", at_least(0));
   if (prior) prior->fields(v);
 }
 
 void PriorPhaseOptions::fields(FieldVisitor& v) {
-  v.integer("pilco.prior_episodes", episodes, at_least(1));
-  v.integer("pilco.prior_settled", settled, at_least(0), published(0));
-  v.integer("pilco.prior_inducing", inducing, between(1, 1e5));
+  v.integer("pilco.prior_episodes", episodes, "episodes at most that are learned from on the prior", at_least(1));
+  v.integer("pilco.prior_settled", settled,
+            "episodes in a row that teach nothing and end the phase on the prior; 0: none do", at_least(0),
+            published(0));
+  v.integer("pilco.prior_inducing", inducing, "points at most that sum up what was learned on the prior",
+            between(1, 1e5));
 }
 
 }  // namespace rehearse::learners::pilco

@@ -74,8 +74,10 @@ SearchResult search(Objective& objective, const Vector& start, const SearchOptio
 void SearchOptions::fields(FieldVisitor& v) {
   v.publish("patience", published(0, "PILCO"));
   bfgs.fields(v);
-  v.number("start_std", start_std, between(0, 1e6), published(0.1, "PILCO"));
-  v.integer("restarts", restarts, between(0, 1000), published(0, "PILCO"));
+  v.number("start_std", start_std, "deviation of the start that policies are made for, at least [each state's unit]",
+           between(0, 1e6), published(0.1, "PILCO"));
+  v.integer("restarts", restarts, "other first policies that a search starts from, until a trial solves the task",
+            between(0, 1000), published(0, "PILCO"));
 }
 
 moments::Gaussian start_state(const Task& task, const SearchOptions& options) {

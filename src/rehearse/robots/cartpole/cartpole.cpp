@@ -106,17 +106,18 @@ std::vector<scenario::Guess> guesses(Interval box) {
 }  // namespace
 
 void Physics::fields(FieldVisitor& v) {
-  v.number("m_pole", m_pole, above(0));
-  v.number("m_cart", m_cart, above(0));
-  v.number("l", l, above(0));
-  v.number("b", b, at_least(0));
+  v.number("m_pole", m_pole, "mass of the pole [kg]", above(0));
+  v.number("m_cart", m_cart, "mass of the cart [kg]", above(0));
+  v.number("l", l, "length of the pole [m]", above(0));
+  v.number("b", b, "friction between cart and ground [N s/m]", at_least(0));
 }
 
 void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
-  v.number("dt_s", dt_s, above(0));
-  v.integer("horizon", horizon, between(1, 1e6));
-  v.number("shaping", shaping, between(0, 1));
+  v.number("dt_s", dt_s, "control step [s]", above(0));
+  v.integer("horizon", horizon, "steps of an episode", between(1, 1e6));
+  v.number("shaping", shaping, "share of MC-PILCO's wide reward in the reward; learners by moments need 0",
+           between(0, 1));
   ode.fields(v);
 }
 

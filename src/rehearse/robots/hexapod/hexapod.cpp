@@ -96,17 +96,19 @@ void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
   std::vector<std::string> legs{"none"};
   legs.insert(legs.end(), kLegNames.begin(), kLegNames.end());
-  v.choice("damage", damage, legs);
-  v.choice("second_damage", second_damage, legs);
-  v.choice("damage_kind", kind, {"removed", "blocked", "weak"});
-  v.choice("damage_joint", joint, {"all", "coxa", "femur", "tibia"});
-  v.number("start_noise", start_noise, between(0, 0.5));
-  v.number("servo_lag_s", servo_lag_s, between(0, 10));
-  v.integer("horizon", horizon, between(1, 1e6));
-  v.number("drift_m", drift_m, above(0));
-  v.number("fall_reward", fall_reward, between(-1e6, 0));
-  v.boolean("integral", integral);
-  v.boolean("isolated", isolated);
+  v.choice("damage", damage, "leg that is damaged", legs);
+  v.choice("second_damage", second_damage, "another leg that is damaged", legs);
+  v.choice("damage_kind", kind, "the leg is gone, its joints are stiff, or its servos have a quarter of their torque",
+           {"removed", "blocked", "weak"});
+  v.choice("damage_joint", joint, "which of the leg's joints is blocked or weak", {"all", "coxa", "femur", "tibia"});
+  v.number("start_noise", start_noise, "deviation of joints and heading at the start of a trial [rad]",
+           between(0, 0.5));
+  v.number("servo_lag_s", servo_lag_s, "added to the time constant of the prior's servos, π/100 [s]", between(0, 10));
+  v.integer("horizon", horizon, "steps of an episode, 0.1 s each", between(1, 1e6));
+  v.number("drift_m", drift_m, "way to the side beyond which nothing is earned [m]", above(0));
+  v.number("fall_reward", fall_reward, "reward for each step that a fall leaves out [m]", between(-1e6, 0));
+  v.boolean("integral", integral, "earn the way so far in every step, not the way made in it");
+  v.boolean("isolated", isolated, expert("DART runs in processes of its own, which it may end"));
 }
 
 scenario::Scenario make(const Options& options) {

@@ -173,14 +173,14 @@ class MujocoPlant final : public system::Plant {
 }  // namespace
 
 void Hardware::fields(FieldVisitor& v) {
-  v.number("stall_torque", stall_torque, above(0));
-  v.number("free_speed", free_speed, above(0));
-  v.number("stiffness", stiffness, above(0));
-  v.number("damping", damping, at_least(0));
-  v.number("latency_s", latency_s, between(0, 0.1));
-  v.number("friction", friction, above(0));
-  v.number("angle_noise", angle_noise, at_least(0));
-  v.number("speed_noise", speed_noise, at_least(0));
+  v.number("stall_torque", stall_torque, "largest torque of a servo [N m]", above(0));
+  v.number("free_speed", free_speed, "speed at which a servo has no torque left [rad/s]", above(0));
+  v.number("stiffness", stiffness, "stiffness of the servos' own control [N m/rad]", above(0));
+  v.number("damping", damping, "damping of the servos' own control [N m s/rad]", at_least(0));
+  v.number("latency_s", latency_s, "time until a target reaches the servos [s]", between(0, 0.1));
+  v.number("friction", friction, "friction of feet on the floor", above(0));
+  v.number("angle_noise", angle_noise, "deviation of what is measured of angles and position [rad, m]", at_least(0));
+  v.number("speed_noise", speed_noise, "deviation of what is measured of speeds [rad/s, m/s]", at_least(0));
 }
 
 bool DamagedLegs::suffer(Index joint, Damage what) const {

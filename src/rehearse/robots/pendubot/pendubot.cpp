@@ -122,12 +122,12 @@ std::vector<scenario::Guess> guesses(Interval box) {
 }  // namespace
 
 void Physics::fields(FieldVisitor& v) {
-  v.number("m1", m1, above(0));
-  v.number("m2", m2, above(0));
-  v.number("l1", l1, above(0));
-  v.number("l2", l2, above(0));
-  v.number("b1", b1, at_least(0));
-  v.number("b2", b2, at_least(0));
+  v.number("m1", m1, "mass of the first link [kg]", above(0));
+  v.number("m2", m2, "mass of the second link [kg]", above(0));
+  v.number("l1", l1, "length of the first link [m]", above(0));
+  v.number("l2", l2, "length of the second link [m]", above(0));
+  v.number("b1", b1, "friction of the first joint [N m s/rad]", at_least(0));
+  v.number("b2", b2, "friction of the second joint [N m s/rad]", at_least(0));
 }
 
 void Options::fields(FieldVisitor& v) {

@@ -72,9 +72,9 @@ std::vector<scenario::Guess> guesses(Interval box) {
 }  // namespace
 
 void Physics::fields(FieldVisitor& v) {
-  v.number("m", m, above(0));
-  v.number("l", l, above(0));
-  v.number("b", b, at_least(0));
+  v.number("m", m, "mass of the pendulum [kg]", above(0));
+  v.number("l", l, "length of the pendulum [m]", above(0));
+  v.number("b", b, "friction of the axis [N m s/rad]", at_least(0));
 }
 
 void Options::fields(FieldVisitor& v) {

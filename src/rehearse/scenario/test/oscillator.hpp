@@ -11,8 +11,8 @@ struct Options {
   Index horizon = 5;
   OdeOptions ode{.box_low = 1, .box_high = 5};
   void fields(FieldVisitor& v) {
-    v.number("omega", omega, above(0));
-    v.integer("horizon", horizon, at_least(1));
+    v.number("omega", omega, "frequency [rad/s]", above(0));
+    v.integer("horizon", horizon, "steps of an episode", at_least(1));
     ode.fields(v);
   }
 };
