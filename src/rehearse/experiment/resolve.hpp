@@ -1,18 +1,13 @@
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/experiment/spec.hpp"
 #include "rehearse/prior/prior.hpp"
 
 namespace rehearse::experiment {
-
-/// What options do, in a line each, by the names that a complete spec has for them.
-using Comments = std::map<std::string, std::string>;
 
 /// A spec with everything it names.
 struct Resolved {

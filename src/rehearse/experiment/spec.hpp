@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,6 +51,9 @@ struct Spec {
     v.choice("told_by", told_by, "states by which the learner is told what an episode earned", {"truth", "measured"});
   }
 };
+
+/// What options do, in a line each, by the names that a complete spec has for them.
+using Comments = std::map<std::string, std::string>;
 
 /// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec; PRIOR is "none" for a learner that takes none.
 std::string run_name(const Spec& spec);
