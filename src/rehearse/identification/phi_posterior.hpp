@@ -33,8 +33,8 @@ struct PhiPosterior {
 
 struct PhiPosteriorOptions {
   // What the prior cannot explain counts as so many observations a degree of freedom of what explains it, however many
-  // rows there are: tuned on other data than docs/results.md's. Large: as many as there are, which is overconfident
-  // where a parameter that is not tuned is wrong.
+  // rows there are: tuned on other data than that of docs/results/phi-intervals.md. Large: as many as there are, which
+  // is overconfident where a parameter that is not tuned is wrong.
   double misfit_observations = 2;
   void fields(FieldVisitor& v) {
     v.number("misfit_observations", misfit_observations,
