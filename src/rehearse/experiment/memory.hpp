@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/experiment/spec.hpp"
 
 namespace rehearse::experiment {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "rehearse/moments/gaussian.hpp"
 #include "rehearse/moments/moment_kernel.hpp"
 #include "rehearse/moments/moment_term.hpp"
 
