@@ -20,6 +20,7 @@ void OdeOptions::fields(FieldVisitor& v) {
 
 Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options) {
   const Task& task = parts.task;
+  parts.kernel.require_sizes(task.state_size(), task.action_size(), parts.plant.size());
   const auto simulator = [&](const ParameterSpace& parameters) {
     return system::make_ode_simulator(parts.kernel, parameters.fixed_at(parameters.values()), task.dt_s,
                                       options.substeps);

@@ -111,15 +111,23 @@ std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace para
 
 Ode OdeKernel::ode() const {
   return [derivative = derivative](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
-    derivative(x.data(), u(0), phi.data(), dxdt.data());
+    derivative(x.data(), u.data(), phi.data(), dxdt.data());
   };
+}
+
+void OdeKernel::require_sizes(Index dx, Index du, Index phi) const {
+  if (dx == states && du == actions && phi == parameters) return;
+  throw InvalidInput(
+      fmt::format("{} states, {} actions and {} parameters for an equation of {} states, {} actions and {} parameters",
+                  dx, du, phi, states, actions, parameters));
 }
 
 std::shared_ptr<const Simulator> make_ode_simulator(OdeKernel kernel, ParameterSpace parameters, double dt_s,
                                                     Index substeps) {
+  kernel.require_sizes(kernel.states, kernel.actions, parameters.size());
   const auto change = [=](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
-    kernel.change(X.data(), X.outerStride(), U.data(), phi.data(), dt_s, substeps, dX.data(), dX.outerStride(),
-                  X.rows());
+    kernel.require_sizes(X.cols(), U.cols(), kernel.parameters);
+    kernel.change(X, U, phi.data(), dt_s, substeps, dX);
   };
   return make_simulator(std::move(parameters), change);
 }

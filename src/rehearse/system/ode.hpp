@@ -26,18 +26,23 @@ Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, cons
 /// than a lambda.
 std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps);
 
-/// An equation of one action, vectorised over rows: what ode_kernel-inl.hpp makes of a robot's.
+/// An equation, vectorised over rows: what equation_kernel.hpp makes of a robot's.
 struct OdeKernel {
-  /// dxdt (dx) at state x (dx).
-  void (*derivative)(const double* x, double u, const double* phi, double* dxdt);
+  Index states = 0, actions = 0, parameters = 0;  // dx, du, size of φ
 
-  /// Changes of n states (X, dX: n × dx, columns a stride apart) under n actions over duration_s, by so many steps of
-  /// Dormand–Prince 5. A row that leaves the range of the equation comes back as NaN.
-  void (*change)(const double* X, Index x_stride, const double* U, const double* phi, double duration_s, Index steps,
-                 double* dX, Index dx_stride, Index rows);
+  /// dxdt (dx) at state x (dx) under the action u (du).
+  void (*derivative)(const double* x, const double* u, const double* phi, double* dxdt);
+
+  /// Changes dX of states X (n × dx) under actions U (n × du) over duration_s, by so many steps of Dormand–Prince 5. A
+  /// row that leaves the range of the equation comes back as NaN.
+  void (*change)(const ConstMatrixView& X, const ConstMatrixView& U, const double* phi, double duration_s, Index steps,
+                 MatrixView dX);
 
   Ode ode() const;
+
+  void require_sizes(Index dx, Index du, Index phi) const;  // throws InvalidInput unless these are the kernel's
 };
+
 std::shared_ptr<const Simulator> make_ode_simulator(OdeKernel kernel, ParameterSpace parameters, double dt_s,
                                                     Index substeps);
 

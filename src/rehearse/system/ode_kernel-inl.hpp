@@ -1,5 +1,5 @@
-// Fixed-step integration of many initial states at once, one vector lane each. Included once for each instruction set
-// inside HWY_NAMESPACE of a kernel file: see robots/cartpole/kernel.cpp for an example.
+// Fixed-step integration of many initial states at once, one vector lane each. Included once for each instruction set;
+// equation_kernel.hpp makes an OdeKernel of it.
 
 #if defined(REHEARSE_SYSTEM_ODE_KERNEL_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef REHEARSE_SYSTEM_ODE_KERNEL_INL_HPP
@@ -10,203 +10,197 @@
 
 #include <initializer_list>
 
-#include <hwy/highway.h>
-// Highway's order matters: the functions come after the target.
-#include <hwy/contrib/math/math-inl.h>
-
-#include "rehearse/core/sine-inl.hpp"
 #include "rehearse/core/types.hpp"
+#include "rehearse/system/batch.hpp"
+#include "rehearse/system/pack-inl.hpp"
+#include "rehearse/system/state-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace rehearse::system {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
-template <class D>
-using Vec = hn::Vec<D>;
+constexpr double kLargestTurn = 30000;  // rad in a control step; what turns further is a simulation that lost its way
 
-/// out = x + h Σ_j a_j k_j over the first `Stages` slopes, for the first `Count` of N states.
-template <int Stages, int Count, int N, class D>
-HWY_INLINE void combine(D d, const Vec<D>* x, const Vec<D> k[][N], const double (&a)[Stages], double h, Vec<D>* out) {
-  Vec<D> weights[Stages];
-  for (int j = 0; j < Stages; ++j) weights[j] = hn::Set(d, h * a[j]);
-  for (int i = 0; i < Count; ++i) {
+/// out = x + h Σ_j a_j k_j over the first `Stages` slopes.
+template <int Stages, int N, class Number>
+HWY_INLINE void combine(const Number* x, const Number k[][N], const double (&a)[Stages], double h, Number* out) {
+  Number weights[Stages];
+  for (int j = 0; j < Stages; ++j) weights[j] = h * a[j];
+  for (int i = 0; i < N; ++i) {
     out[i] = x[i];
     for (int j = 0; j < Stages; ++j)
-      if (a[j] != 0) out[i] = hn::MulAdd(weights[j], k[j][i], out[i]);
+      if (a[j] != 0) out[i] = mul_add(weights[j], k[j][i], out[i]);
   }
 }
 
-/// One step of Dormand and Prince 1980, fifth order. rhs(d, x, dx) writes the N derivatives at x; if they depend on the
-/// first kInner states alone, the stages leave out the others.
-template <int N, int kInner = N, class D, class Rhs>
-HWY_INLINE void dopri5_step(D d, const Rhs& rhs, Vec<D>* x, double h) {
+/// One step of Dormand and Prince 1980, fifth order. slopes(x, dxdt) writes the N derivatives at x.
+template <int N, class Number, class Slopes>
+HWY_INLINE void dopri5_step(const Slopes& slopes, Number* x, double h) {
   static constexpr double kA2[] = {1.0 / 5}, kA3[] = {3.0 / 40, 9.0 / 40}, kA4[] = {44.0 / 45, -56.0 / 15, 32.0 / 9},
                           kA5[] = {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
                           kA6[] = {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
                           kB[] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84};
-  Vec<D> k[6][N], y[N];
-  rhs(d, x, k[0]);
-  combine<1, kInner, N>(d, x, k, kA2, h, y);
-  rhs(d, y, k[1]);
-  combine<2, kInner, N>(d, x, k, kA3, h, y);
-  rhs(d, y, k[2]);
-  combine<3, kInner, N>(d, x, k, kA4, h, y);
-  rhs(d, y, k[3]);
-  combine<4, kInner, N>(d, x, k, kA5, h, y);
-  rhs(d, y, k[4]);
-  combine<5, kInner, N>(d, x, k, kA6, h, y);
-  rhs(d, y, k[5]);
-  combine<6, N, N>(d, x, k, kB, h, x);
+  Number k[6][N], y[N];
+  slopes(x, k[0]);
+  combine<1, N>(x, k, kA2, h, y);
+  slopes(y, k[1]);
+  combine<2, N>(x, k, kA3, h, y);
+  slopes(y, k[2]);
+  combine<3, N>(x, k, kA4, h, y);
+  slopes(y, k[3]);
+  combine<4, N>(x, k, kA5, h, y);
+  slopes(y, k[4]);
+  combine<5, N>(x, k, kA6, h, y);
+  slopes(y, k[5]);
+  combine<6, N>(x, k, kB, h, x);
 }
 
-/// `steps` of them.
-template <int N, int kInner = N, class D, class Rhs>
-HWY_INLINE void dopri5(D d, const Rhs& rhs, Vec<D>* x, double duration, Index steps) {
-  for (Index step = 0; step < steps; ++step) dopri5_step<N, kInner>(d, rhs, x, duration / static_cast<double>(steps));
-}
+/// An equation whose state is longer by the sines and cosines of its angles, which obey (sin θ)' = cos θ θ̇: cheaper
+/// than to turn them, and as exact as the steps. An equation without angles is itself.
+template <class Equation, class Number>
+class ExtendedEquation {
+ public:
+  static constexpr int kStates = Equation::kStates, kSize = kStates + 2 * kAngleCount<Equation>;
 
-/// For each block of lanes of the rows of X (n × N) and U (n × M), column-major with strides: loads them, calls
-/// step(d, x, u), and stores the change of x in dX. The last block is padded with its first row.
-template <int N, int M, class Step>
-HWY_INLINE void for_each_block(const double* X, Index x_stride, const double* U, Index u_stride, double* dX,
-                               Index dx_stride, Index rows, const Step& step) {
-  const hn::ScalableTag<double> d;
-  using D = decltype(d);
-  const auto lanes = static_cast<Index>(hn::Lanes(d));
-  HWY_ALIGN double buffer[HWY_MAX_BYTES / sizeof(double)];
-  const auto load = [&](const double* from, Index count) HWY_ATTR {
-    if (count == lanes) return hn::LoadU(d, from);
-    for (Index i = 0; i < lanes; ++i) buffer[i] = from[i < count ? i : 0];
-    return hn::Load(d, buffer);
-  };
-  for (Index row = 0; row < rows; row += lanes) {
-    const Index count = rows - row < lanes ? rows - row : lanes;
-    Vec<D> x[N], before[N], u[M];
-    for (int i = 0; i < N; ++i) x[i] = before[i] = load(X + i * x_stride + row, count);
-    for (int i = 0; i < M; ++i) u[i] = load(U + i * u_stride + row, count);
-    step(d, x, u);
-    for (int i = 0; i < N; ++i) {
-      hn::Store(hn::Sub(x[i], before[i]), d, buffer);
-      for (Index k = 0; k < count; ++k) dX[i * dx_stride + row + k] = buffer[k];
+  HWY_INLINE ExtendedEquation(const Equation& equation, const Number* x, const Number* u) : equation_(equation), u_(u) {
+    for (int i = 0; i < kStates; ++i) y_[i] = x[i];
+    sines_and_cosines<Equation>(x, y_ + kStates);
+  }
+
+  HWY_INLINE void operator()(const Number* y, Number* slope) const {
+    equation_(State<Equation, Number>(y, y + kStates), u_, slope);
+    for (int a = 0; a < kAngleCount<Equation>; ++a) {
+      const int sine = kStates + 2 * a, cosine = sine + 1;
+      const Number rate = slope[kAnglesOf<Equation>[a]];
+      slope[sine] = y[cosine] * rate;
+      slope[cosine] = -(y[sine] * rate);
     }
   }
-}
 
-// Robots whose state holds angles and whose action is one number: a class `Equations` with
-//
-//   static constexpr int kStates;
-//   static constexpr int kAngles[];                            // which states are angles
-//   Equations(D d, const double* phi);
-//   void operator()(const V* x, const V* trig, V u, V* dxdt);  // trig: sine and cosine of each angle
+  HWY_INLINE void step(double h) { dopri5_step<kSize>(*this, y_, h); }
+  HWY_INLINE const Number* state() const { return y_; }
 
-constexpr double kLargestTurn = 30000;  // rad in a control step; what turns further is a simulation that lost its way
+ private:
+  const Equation& equation_;
+  const Number* u_;
+  Number y_[kSize];
+};
 
-template <class Equations>
-constexpr int angles_of = sizeof(Equations::kAngles) / sizeof(int);
-
-template <class Equations, class D>
-HWY_INLINE void sines_and_cosines(D d, const Vec<D>* x, Vec<D>* trig) {
-  for (int a = 0; a < angles_of<Equations>; ++a) {
-    trig[2 * a] = rehearse::HWY_NAMESPACE::sine(d, x[Equations::kAngles[a]]);
-    trig[2 * a + 1] = rehearse::HWY_NAMESPACE::cosine(d, x[Equations::kAngles[a]]);
-  }
-}
-
-template <class D>
-HWY_INLINE Vec<D> polynomial(D d, Vec<D> x, std::initializer_list<double> coefficients) {
-  Vec<D> sum = hn::Zero(d);
-  for (const double a : coefficients) sum = hn::MulAdd(sum, x, hn::Set(d, a));
+template <class Number>
+HWY_INLINE Number polynomial(Number x, std::initializer_list<double> coefficients) {
+  Number sum = 0.0;
+  for (const double a : coefficients) sum = mul_add(sum, x, a);
   return sum;
 }
 
-/// The equations with sines and cosines that are turned along with the angles: then a step costs no trigonometric
+/// An equation with sines and cosines that are turned along with the angles: then a step costs no trigonometric
 /// function. Taylor's polynomials of the turn within a step: their error is below 1e-15 for 0.5 rad and 1e-10 for 1.
-template <class Equations, class D>
-class TurningEquations {
+template <class Equation, class Number>
+class TurningEquation {
  public:
-  static constexpr int kCount = angles_of<Equations>;
+  static constexpr int kStates = Equation::kStates, kCount = kAngleCount<Equation>;
 
-  HWY_INLINE TurningEquations(D d, const Equations& equations, const Vec<D>* x, Vec<D> u)
-      : equations_(equations), u_(u) {
-    sines_and_cosines<Equations>(d, x, trig_);
-    for (int a = 0; a < kCount; ++a) angle_[a] = x[Equations::kAngles[a]];
+  HWY_INLINE TurningEquation(const Equation& equation, const Number* x, const Number* u) : equation_(equation), u_(u) {
+    for (int i = 0; i < kStates; ++i) x_[i] = x[i];
+    sines_and_cosines<Equation>(x, trig_);
+    remember_angles();
   }
 
-  HWY_INLINE void operator()(D d, const Vec<D>* x, Vec<D>* slope) const {
-    Vec<D> trig[2 * kCount];
-    turned(d, x, trig);
-    equations_(x, trig, u_, slope);
+  HWY_INLINE void operator()(const Number* x, Number* slope) const {
+    Number trig[2 * kCount];
+    turn(x, trig);
+    equation_(State<Equation, Number>(x, trig), u_, slope);
   }
 
-  /// The step's end is where the next begins.
-  HWY_INLINE void advance(D d, const Vec<D>* x) {
-    turned(d, x, trig_);
-    for (int a = 0; a < kCount; ++a) angle_[a] = x[Equations::kAngles[a]];
+  HWY_INLINE void step(double h) {
+    dopri5_step<kStates>(*this, x_, h);
+    turn(x_, trig_);  // the step's end is where the next begins
+    remember_angles();
   }
+  HWY_INLINE const Number* state() const { return x_; }
 
  private:
-  HWY_INLINE void turned(D d, const Vec<D>* x, Vec<D>* trig) const {
+  HWY_INLINE void remember_angles() {
+    for (int a = 0; a < kCount; ++a) angle_[a] = x_[kAnglesOf<Equation>[a]];
+  }
+
+  HWY_INLINE void turn(const Number* x, Number* trig) const {
     for (int a = 0; a < kCount; ++a) {
-      const Vec<D> turn = hn::Sub(x[Equations::kAngles[a]], angle_[a]), square = hn::Mul(turn, turn);
-      const Vec<D> sine =
-          hn::Mul(turn, polynomial(d, square, {-1. / 39916800, 1. / 362880, -1. / 5040, 1. / 120, -1. / 6, 1}));
-      const Vec<D> cosine =
-          polynomial(d, square, {1. / 479001600, -1. / 3628800, 1. / 40320, -1. / 720, 1. / 24, -1. / 2, 1});
-      const Vec<D> s = trig_[2 * a], c = trig_[2 * a + 1];
-      trig[2 * a] = hn::MulAdd(s, cosine, hn::Mul(c, sine));
-      trig[2 * a + 1] = hn::NegMulAdd(s, sine, hn::Mul(c, cosine));
+      const Number turn = x[kAnglesOf<Equation>[a]] - angle_[a], square = turn * turn;
+      const Number sine = turn * polynomial(square, {-1. / 39916800, 1. / 362880, -1. / 5040, 1. / 120, -1. / 6, 1});
+      const Number cosine =
+          polynomial(square, {1. / 479001600, -1. / 3628800, 1. / 40320, -1. / 720, 1. / 24, -1. / 2, 1});
+      const Number s = trig_[2 * a], c = trig_[2 * a + 1];
+      trig[2 * a] = mul_add(s, cosine, c * sine);
+      trig[2 * a + 1] = neg_mul_add(s, sine, c * cosine);
     }
   }
 
-  const Equations& equations_;
-  Vec<D> u_, angle_[kCount], trig_[2 * kCount];
+  const Equation& equation_;
+  const Number* u_;
+  Number x_[kStates], angle_[kCount], trig_[2 * kCount];
 };
 
-/// Leaves NaN in all of x where one of `angles`, which were `before`, has turned by more than kLargestTurn or is NaN.
-template <int N, class D, std::size_t Angles>
-HWY_INLINE void blank_lost(D d, const int (&angles)[Angles], const Vec<D>* before, Vec<D>* x) {
-  auto valid = hn::Eq(before[0], before[0]);
-  for (std::size_t a = 0; a < Angles; ++a)
-    valid = hn::And(valid, hn::Lt(hn::Abs(hn::Sub(x[angles[a]], before[a])), hn::Set(d, kLargestTurn)));
-  for (int i = 0; i < N; ++i) x[i] = hn::IfThenElse(valid, x[i], hn::NaN(d));
+template <class Equation, class Number>
+using Integrand = std::conditional_t<kAngleCount<Equation> == 0 || kIntegratesSines<Equation>,
+                                     ExtendedEquation<Equation, Number>, TurningEquation<Equation, Number>>;
+
+/// x after `duration`; NaN where an angle turns by more than kLargestTurn, or is NaN.
+template <class Equation, class Number>
+HWY_INLINE void integrate(const Equation& equation, Number* x, const Number* u, double duration, Index steps) {
+  Integrand<Equation, Number> integrand(equation, x, u);
+  for (Index step = 0; step < steps; ++step) integrand.step(duration / static_cast<double>(steps));
+  auto valid = hn::Eq(x[0].lanes(), x[0].lanes());
+  for (const int angle : kAnglesOf<Equation>)
+    valid = hn::And(valid, hn::Lt(abs(integrand.state()[angle] - x[angle]).lanes(), Number(kLargestTurn).lanes()));
+  for (int i = 0; i < Equation::kStates; ++i)
+    x[i] = hn::IfThenElse(valid, integrand.state()[i].lanes(), hn::NaN(typename Number::Tag()));
 }
 
-/// x after `duration`; NaN where an angle turns by more than kLargestTurn.
-template <class Equations, class D>
-HWY_INLINE void integrate_angles(D d, const Equations& equations, Vec<D>* x, Vec<D> u, double duration, Index steps) {
-  Vec<D> before[angles_of<Equations>];
-  for (int a = 0; a < angles_of<Equations>; ++a) before[a] = x[Equations::kAngles[a]];
-  TurningEquations<Equations, D> rhs(d, equations, x, u);
-  for (Index step = 0; step < steps; ++step) {
-    dopri5_step<Equations::kStates>(d, rhs, x, duration / static_cast<double>(steps));
-    rhs.advance(d, x);
+/// `count` numbers, where there are fewer than lanes padded with the first.
+template <class D>
+HWY_INLINE Pack<D> load(D d, const double* from, Index count) {
+  if (count == static_cast<Index>(hn::Lanes(d))) return hn::LoadU(d, from);
+  HWY_ALIGN double buffer[HWY_MAX_BYTES / sizeof(double)];
+  for (std::size_t i = 0; i < hn::Lanes(d); ++i) buffer[i] = from[static_cast<Index>(i) < count ? i : 0];
+  return hn::Load(d, buffer);
+}
+
+/// Changes of all rows over `duration`, a block of lanes at a time.
+template <class Equation>
+HWY_INLINE void change_rows(const Batch& batch, const double* phi, double duration, Index steps) {
+  const hn::ScalableTag<double> d;
+  using Number = Pack<hn::ScalableTag<double>>;
+  constexpr int N = Equation::kStates, M = Equation::kActions;
+  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  HWY_ALIGN double buffer[HWY_MAX_BYTES / sizeof(double)];
+  const Equation equation(phi);
+  for (Index row = 0; row < batch.rows; row += lanes) {
+    const Index count = batch.rows - row < lanes ? batch.rows - row : lanes;
+    Number x[N], before[N], u[M];
+    for (int i = 0; i < N; ++i) x[i] = before[i] = load(d, batch.X + i * batch.x_stride + row, count);
+    for (int i = 0; i < M; ++i) u[i] = load(d, batch.U + i * batch.u_stride + row, count);
+    integrate(equation, x, u, duration, steps);
+    for (int i = 0; i < N; ++i) {
+      hn::Store((x[i] - before[i]).lanes(), d, buffer);
+      for (Index k = 0; k < count; ++k) batch.dX[i * batch.dx_stride + row + k] = buffer[k];
+    }
   }
-  blank_lost<Equations::kStates>(d, Equations::kAngles, before, x);
-}
-
-/// Changes of n states (X, dX: n × kStates) under n actions over `duration`.
-template <template <class> class Equations>
-HWY_INLINE void change_rows(const double* X, Index x_stride, const double* U, const double* phi, double duration,
-                            Index steps, double* dX, Index dx_stride, Index rows) {
-  using D = hn::ScalableTag<double>;
-  const Equations<D> equations(D(), phi);
-  const auto step = [&](D d, Vec<D>* x, const Vec<D>* u)
-                        HWY_ATTR { integrate_angles(d, equations, x, u[0], duration, steps); };
-  for_each_block<Equations<D>::kStates, 1>(X, x_stride, U, 0, dX, dx_stride, rows, step);
 }
 
 /// dxdt (kStates) at one state.
-template <template <class> class Equations>
-HWY_INLINE void slope_of_row(const double* x, double u, const double* phi, double* dxdt) {
+template <class Equation>
+HWY_INLINE void slope_of_row(const double* x, const double* u, const double* phi, double* dxdt) {
   using D = hn::CappedTag<double, 1>;
-  constexpr int N = Equations<D>::kStates;
-  const D d;
-  Vec<D> state[N], trig[2 * angles_of<Equations<D>>], slope[N];
-  for (int i = 0; i < N; ++i) state[i] = hn::LoadU(d, x + i);
-  sines_and_cosines<Equations<D>>(d, state, trig);
-  Equations<D>(d, phi)(state, trig, hn::Set(d, u), slope);
-  for (int i = 0; i < N; ++i) hn::StoreU(slope[i], d, dxdt + i);
+  using Number = Pack<D>;
+  constexpr int N = Equation::kStates, M = Equation::kActions;
+  Number y[N + 2 * kAngleCount<Equation>], action[M], slope[N];
+  for (int i = 0; i < N; ++i) y[i] = x[i];
+  for (int i = 0; i < M; ++i) action[i] = u[i];
+  sines_and_cosines<Equation>(y, y + N);
+  const Equation equation(phi);
+  equation(State<Equation, Number>(y, y + N), action, slope);
+  for (int i = 0; i < N; ++i) hn::StoreU(slope[i].lanes(), D(), dxdt + i);
 }
 
 }  // namespace HWY_NAMESPACE

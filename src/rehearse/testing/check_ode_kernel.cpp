@@ -4,7 +4,7 @@
 
 namespace rehearse::testing {
 
-std::vector<std::string> check_ode_kernel(system::OdeKernel (*kernel)(), const Vector& x, const Vector& phi) {
+std::vector<std::string> check_ode_kernel(system::OdeKernel (*kernel)()) {
   std::vector<std::string> faults;
   auto& chosen = hwy::GetChosenTarget();
   const auto check = [&](const char* name, const auto& call) {
@@ -16,10 +16,11 @@ std::vector<std::string> check_ode_kernel(system::OdeKernel (*kernel)(), const V
   };
   chosen.DeInit();  // as at the start of a program, where a scenario is made
   const system::OdeKernel made = kernel();
-  Vector out(x.size());
-  const double u = 0;
-  check("derivative", [&] { made.derivative(x.data(), u, phi.data(), out.data()); });
-  check("change", [&] { made.change(x.data(), 1, &u, phi.data(), 0.01, 1, out.data(), 1, 1); });
+  const Vector x = Vector::Ones(made.states), u = Vector::Zero(made.actions), phi = Vector::Ones(made.parameters);
+  Vector slope(made.states);
+  Matrix dX(1, made.states);
+  check("derivative", [&] { made.derivative(x.data(), u.data(), phi.data(), slope.data()); });
+  check("change", [&] { made.change(x.transpose(), u.transpose(), phi.data(), 0.01, 1, dX); });
   chosen.Update(hwy::SupportedTargets());
   return faults;
 }

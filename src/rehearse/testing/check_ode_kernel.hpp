@@ -7,8 +7,8 @@
 
 namespace rehearse::testing {
 
-/// What is wrong with a kernel, called at one state and φ: one that keeps the address of Highway's chooser asks the
-/// processor for its instruction sets at every call, which takes far longer than the equations. One thread.
-std::vector<std::string> check_ode_kernel(system::OdeKernel (*kernel)(), const Vector& x, const Vector& phi);
+/// What is wrong with a kernel, called at a state and φ of ones: one that keeps the address of Highway's chooser asks
+/// the processor for its instruction sets at every call, which takes far longer than the equations. One thread.
+std::vector<std::string> check_ode_kernel(system::OdeKernel (*kernel)());
 
 }  // namespace rehearse::testing

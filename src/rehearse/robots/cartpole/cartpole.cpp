@@ -5,8 +5,10 @@
 
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/reward/saturating.hpp"
-#include "rehearse/robots/cartpole/kernel.hpp"
 #include "rehearse/scenario/builder.hpp"
+
+#define REHEARSE_EQUATION "rehearse/robots/cartpole/equation.hpp"
+#include "rehearse/system/equation_kernel.hpp"
 
 namespace rehearse::robots::cartpole {
 namespace {
@@ -120,6 +122,8 @@ void Options::fields(FieldVisitor& v) {
            between(0, 1));
   ode.fields(v);
 }
+
+system::OdeKernel kernel() { return system::equation_kernel(); }
 
 scenario::Scenario make(const Options& options) {
   return scenario::make_ode_scenario({.name = "cartpole",

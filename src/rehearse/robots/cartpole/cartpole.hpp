@@ -29,4 +29,6 @@ struct Options {
 scenario::Scenario make(const Options& options);
 std::unique_ptr<scenario::ScenarioBuilder> builder();
 
+system::OdeKernel kernel();  // of equation.hpp
+
 }  // namespace rehearse::robots::cartpole

@@ -7,8 +7,10 @@
 
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/reward/saturating.hpp"
-#include "rehearse/robots/pendubot/kernel.hpp"
 #include "rehearse/scenario/builder.hpp"
+
+#define REHEARSE_EQUATION "rehearse/robots/pendubot/equation.hpp"
+#include "rehearse/system/equation_kernel.hpp"
 
 namespace rehearse::robots::pendubot {
 namespace {
@@ -21,14 +23,6 @@ constexpr double kRewardWidth = 0.5;   // m
 constexpr double kSolvedDistance = 0.2;
 constexpr double kSolvedTime = 0.5;  // s, at the end
 const Vector kPolicyScale{{10, 10, 1, 1, 1, 1}};
-
-Constants to_constants(const double* phi) { return {phi[0], phi[1], phi[2], phi[3], phi[4], phi[5]}; }
-
-const system::OdeKernel kKernel{
-    [](const double* x, double u, const double* phi, double* dxdt) { derivative(x, u, to_constants(phi), dxdt); },
-    [](const double* X, Index x_stride, const double* U, const double* phi, double duration_s, Index steps, double* dX,
-       Index dx_stride,
-       Index rows) { change(X, x_stride, U, to_constants(phi), duration_s, steps, dX, dx_stride, rows); }};
 
 /// In the order of φ.
 ParameterSpace parameters(const Physics& p) {
@@ -138,14 +132,16 @@ void Options::fields(FieldVisitor& v) {
   ode.fields(v);
 }
 
+system::OdeKernel kernel() { return system::equation_kernel(); }
+
 std::shared_ptr<const system::Simulator> make_simulator(const Physics& physics, double dt_s, Index substeps) {
-  return system::make_ode_simulator(kKernel, parameters(physics), dt_s, substeps);
+  return system::make_ode_simulator(kernel(), parameters(physics), dt_s, substeps);
 }
 
 scenario::Scenario make(const Options& options) {
   return scenario::make_ode_scenario({.name = "pendubot",
                                       .task = make_task(options),
-                                      .kernel = kKernel,
+                                      .kernel = kernel(),
                                       .plant = parameters(options.plant),
                                       .guesses = guesses(options.ode.box()),
                                       .policy_scale = kPolicyScale,

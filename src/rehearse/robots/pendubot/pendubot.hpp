@@ -27,6 +27,8 @@ struct Options {
 scenario::Scenario make(const Options& options);
 std::unique_ptr<scenario::ScenarioBuilder> builder();
 
+system::OdeKernel kernel();  // of equation.hpp
+
 /// Vectorised simulator with parameters m1, m2, l1, l2, b1, b2, all fixed at `physics`.
 std::shared_ptr<const system::Simulator> make_simulator(const Physics& physics, double dt_s, Index substeps);
 

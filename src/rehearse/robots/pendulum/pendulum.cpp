@@ -5,8 +5,10 @@
 
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/reward/saturating.hpp"
-#include "rehearse/robots/pendulum/kernel.hpp"
 #include "rehearse/scenario/builder.hpp"
+
+#define REHEARSE_EQUATION "rehearse/robots/pendulum/equation.hpp"
+#include "rehearse/system/equation_kernel.hpp"
 
 namespace rehearse::robots::pendulum {
 namespace {
@@ -81,6 +83,8 @@ void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
   ode.fields(v);
 }
+
+system::OdeKernel kernel() { return system::equation_kernel(); }
 
 scenario::Scenario make(const Options& options) {
   return scenario::make_ode_scenario({.name = "pendulum",

@@ -25,4 +25,6 @@ struct Options {
 scenario::Scenario make(const Options& options);
 std::unique_ptr<scenario::ScenarioBuilder> builder();
 
+system::OdeKernel kernel();  // of equation.hpp
+
 }  // namespace rehearse::robots::pendulum

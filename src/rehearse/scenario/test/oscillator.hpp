@@ -17,19 +17,19 @@ struct Options {
   }
 };
 
-inline void derivative(const double* x, double u, const double* phi, double* dxdt) {
+inline void derivative(const double* x, const double* u, const double* phi, double* dxdt) {
   dxdt[0] = x[1];
-  dxdt[1] = -phi[0] * phi[0] * x[0] + u;
+  dxdt[1] = -phi[0] * phi[0] * x[0] + u[0];
 }
 
 /// One step of Euler's: known by its error.
-inline void change(const double* X, Index x_stride, const double* U, const double* phi, double duration_s, Index,
-                   double* dX, Index dx_stride, Index rows) {
-  for (Index i = 0; i < rows; ++i) {
-    const double x[] = {X[i], X[i + x_stride]};
-    double slope[2];
-    derivative(x, U[i], phi, slope);
-    for (int c = 0; c < 2; ++c) dX[i + c * dx_stride] = duration_s * slope[c];
+inline void change(const ConstMatrixView& X, const ConstMatrixView& U, const double* phi, double duration_s, Index,
+                   MatrixView dX) {
+  for (Index i = 0; i < X.rows(); ++i) {
+    const Vector x = X.row(i).transpose(), u = U.row(i).transpose();
+    Vector slope(2);
+    derivative(x.data(), u.data(), phi, slope.data());
+    dX.row(i) = duration_s * slope.transpose();
   }
 }
 
@@ -51,7 +51,7 @@ inline Scenario make(const Options& options) {
   return make_ode_scenario(
       {.name = "oscillator",
        .task = task(options),
-       .kernel = {derivative, change},
+       .kernel = {.states = 2, .actions = 1, .parameters = 1, .derivative = derivative, .change = change},
        .plant = parameters(options.omega),
        .guesses = {{"slow", parameters(2).tunable_in(options.ode.box(), {"omega"})}, {"fast", parameters(4)}},
        .policy_scale = Vector{{1, 2}}},

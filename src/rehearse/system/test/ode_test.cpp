@@ -116,17 +116,20 @@ TEST(OdeSimulator, RowsAndParametersAreTheirOwn) {
 }
 
 TEST(OdeSimulator, CallsItsKernelWithItsRows) {
-  const OdeKernel kernel{[](const double* x, double u, const double* phi, double* dxdt) {
-                           dxdt[0] = x[1];
-                           dxdt[1] = -phi[0] * phi[0] * x[0] + u;
-                         },
-                         [](const double* X, Index x_stride, const double* U, const double* phi, double duration_s,
-                            Index steps, double* dX, Index dx_stride, Index rows) {
-                           for (Index i = 0; i < rows; ++i) {
-                             dX[i] = X[i] + U[i] + phi[0];
-                             dX[i + dx_stride] = X[i + x_stride] + duration_s + static_cast<double>(steps);
-                           }
-                         }};
+  const OdeKernel kernel{.states = 2,
+                         .actions = 1,
+                         .parameters = 1,
+                         .derivative =
+                             [](const double* x, const double* u, const double* phi, double* dxdt) {
+                               dxdt[0] = x[1];
+                               dxdt[1] = -phi[0] * phi[0] * x[0] + u[0];
+                             },
+                         .change =
+                             [](const ConstMatrixView& states, const ConstMatrixView& actions, const double* phi,
+                                double duration_s, Index steps, MatrixView changes) {
+                               changes.col(0) = (states.col(0) + actions.col(0)).array() + phi[0];
+                               changes.col(1) = states.col(1).array() + duration_s + static_cast<double>(steps);
+                             }};
   const Matrix X = Matrix::Random(7, 2), U = Matrix::Random(7, 1);
   Matrix dX(7, 2);
   make_ode_simulator(kernel, omega(3), 0.25, 8)->change(X.middleRows(2, 4), U.middleRows(2, 4), kPhi, dX.topRows(4));

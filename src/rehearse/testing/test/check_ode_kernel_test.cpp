@@ -6,22 +6,25 @@
 namespace rehearse::testing {
 namespace {
 
-void choose() { hwy::GetChosenTarget().Update(hwy::SupportedTargets()); }
-
-system::OdeKernel good() {
-  return {[](auto...) {}, [](auto...) {}};
-}
+void nothing() {}
 
 /// What Highway's chooser does.
-system::OdeKernel choosing() {
-  return {[](auto...) { choose(); }, [](auto...) { choose(); }};
+void choose() { hwy::GetChosenTarget().Update(hwy::SupportedTargets()); }
+
+template <void (*call)()>
+system::OdeKernel kernel() {
+  return {.states = 2,
+          .actions = 1,
+          .parameters = 1,
+          .derivative = [](const double*, const double*, const double*, double*) { call(); },
+          .change = [](const ConstMatrixView&, const ConstMatrixView&, const double*, double, Index,
+                       MatrixView) { call(); }};
 }
 
 TEST(CheckOdeKernel, FindsOneThatChoosesItsInstructionSetAtEveryCall) {
   if (hwy::SupportedTargets() == HWY_STATIC_TARGET) GTEST_SKIP() << "there is nothing to choose";
-  const Vector x = Vector::Zero(2), phi = Vector::Ones(1);
-  EXPECT_EQ(check_ode_kernel(good, x, phi), std::vector<std::string>{});
-  EXPECT_EQ(check_ode_kernel(choosing, x, phi),
+  EXPECT_EQ(check_ode_kernel(kernel<nothing>), std::vector<std::string>{});
+  EXPECT_EQ(check_ode_kernel(kernel<choose>),
             (std::vector<std::string>{"derivative chooses the instruction set anew at every call",
                                       "change chooses the instruction set anew at every call"}));
 }
