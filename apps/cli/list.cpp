@@ -51,6 +51,8 @@ Json as_json(learners::LearnerBuilder& builder) {
   Json entry = described(builder);
   entry["takes_prior"] = builder.prior_use() != learners::PriorUse::none;
   entry["chooses_priors"] = builder.chooses_priors();
+  entry["scenario_defaults"] = Json::object();
+  for (const auto& [name, text] : builder.scenario_defaults()) entry["scenario_defaults"][name] = text;
   return entry;
 }
 
@@ -80,12 +82,15 @@ void print_entry(Builder& builder, const std::string& remark, bool with_options)
   }
 }
 
-std::string prior_remark(const learners::LearnerBuilder& builder) {
-  if (builder.prior_use() == learners::PriorUse::none) return "takes no prior";
-  return builder.chooses_priors() ? "takes a prior, or several to choose among: --prior a,b,c" : "takes a prior";
+std::string remark_of(const learners::LearnerBuilder& builder) {
+  std::string remark = builder.prior_use() == learners::PriorUse::none ? "takes no prior" : "takes a prior";
+  if (builder.chooses_priors()) remark += ", or several to choose among: --prior a,b,c";
+  for (const auto& [name, text] : builder.scenario_defaults())
+    remark += fmt::format("; {} = {}, unless another is set", name, text);
+  return remark;
 }
 
-std::string prior_remark(const scenario::ScenarioBuilder& builder) {
+std::string remark_of(const scenario::ScenarioBuilder& builder) {
   const char* oracle = builder.build().oracle ? "; or oracle, the plant's own dynamics" : "";
   return fmt::format("priors: {}{}", fmt::join(builder.prior_names(), ", "), oracle);
 }
@@ -100,9 +105,9 @@ void print_run_options() {
 
 void print(const experiment::Catalogue& catalogue, bool with_options) {
   fmt::print("Scenarios\n");
-  for (const auto& builder : catalogue.scenario_builders()) print_entry(*builder, prior_remark(*builder), with_options);
+  for (const auto& builder : catalogue.scenario_builders()) print_entry(*builder, remark_of(*builder), with_options);
   fmt::print("\nLearners\n");
-  for (const auto& builder : catalogue.learner_builders()) print_entry(*builder, prior_remark(*builder), with_options);
+  for (const auto& builder : catalogue.learner_builders()) print_entry(*builder, remark_of(*builder), with_options);
   if (!catalogue.presets.empty()) fmt::print("\nPresets\n");
   for (const auto& preset : catalogue.presets)
     fmt::print("  {:<18} {}\n", preset.name, experiment::Preset(preset.text, preset.name).title());

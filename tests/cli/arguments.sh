@@ -25,6 +25,7 @@ expect 0 "misleading" - list
 expect 0 '"takes_prior": true' - list --json
 expect 0 "search.race.max_evaluations = " - list --options
 expect 0 "search.method = race  (the paper: restarts)" - list --options
+expect 0 "takes no prior; policy = rbf, unless another is set" - list
 expect 0 "as-published       the paper's settings" - list
 expect 0 "more for experts: rehearse list gp-mi --expert" - list gp-mi
 [ "$(grep -cE '^[a-z_]+(\.[a-z_]+)* ' stdout)" -le 46 ] || fail "'list gp-mi' shows $(wc -l <stdout) lines"
@@ -71,6 +72,8 @@ expect 2 "plant.m1 = -1, must be > 0" 1 learn pendubot --learner gp-mi --set pla
 expect 2 "l2 = 99, must be between" 1 learn pendubot --learner gp-mi --set prior.l2=99
 expect 2 "--seed = x" 4 learn pendubot --learner gp-mi --seed x --trials -1 --set colour=red --prior usful
 expect 2 "the scenario gives no initial_reward" 1 learn pendubot --learner gp-mi --set reward.learned=true
+expect 2 "policy = mlp has no analytic moments, which pilco needs: choose policy = rbf (--set policy=rbf)" 1 \
+  learn cartpole --learner pilco --set policy=mlp
 expect 2 "unknown preset 'as-publisht', did you mean 'as-published'? (known: as-published)" 1 \
   learn pendubot --learner gp-mi --preset as-publisht
 expect 2 "cannot read mine.toml" 1 learn pendubot --learner gp-mi --preset mine.toml
@@ -126,6 +129,16 @@ for line in 'search.method = "restarts"' 'policy_gain = 1' 'model.gp.smooth = fa
 done
 expect 0 "best return" 3 learn published/spec.toml --out published-again
 cmp published/trials.csv published-again/trials.csv || fail "the spec of a preset gives another trials.csv"
+
+# A learner brings the policy that it needs, in campaigns too; a preset or the user may say another.
+expect 0 "best return" 3 learn cartpole --learner pilco --trials 1 --out alone
+grep -qFx 'policy = "rbf"' alone/spec.toml || fail "pilco alone has $(grep ^policy alone/spec.toml)"
+expect 0 "best return" 3 learn pendulum --learner pilco --trials 1 --set policy=linear --set policy_squash=sine --out lines
+grep -qFx 'policy = "linear"' lines/spec.toml || fail "a policy that was asked for is $(grep ^policy lines/spec.toml)"
+printf 'format = 1\nscenario = "pendubot"\nlearners = ["pilco", "mi"]\nseeds = 1\n' >pilco.toml
+expect 0 "2 runs" - campaign pilco.toml --dry-run
+printf '[set]\npolicy = "mlp"\n' >>pilco.toml
+expect 2 "pilco.toml: line 6: policy = mlp has no analytic moments" 1 campaign pilco.toml --dry-run
 
 expect 0 "best return" - resume $run
 expect 2 "nothing is not a folder" 1 resume nothing

@@ -34,6 +34,7 @@ class Resolver {
   }
 
   Resolved resolve(bool ask_learner) {
+    set_preferences();
     if (default_preset_) set_defaults(*default_preset_);
     for (const auto& [key, text] : spec_.options) set_option(key, text);
     const std::vector<std::string> names = prior_names();
@@ -79,6 +80,16 @@ class Resolver {
     const bool known = contained([&] { return set_named(key, text) || set_field(of_run, key, text); }).value_or(true);
     if (!known && !key.starts_with(kPrior))  // these wait until the scenario is built
       violations_.add(unknown_option(key, options_like(key)));
+  }
+
+  /// Those of the learner, as far as the scenario has them.
+  void set_preferences() {
+    for (const auto& [key, text] : learner_builder_->scenario_defaults()) {
+      try {
+        set_field(fields_of(*scenario_builder_), key, text);
+      } catch (const InvalidInput&) {  // no such value: as if nothing were preferred
+      }
+    }
   }
 
   void set_defaults(const Preset& preset) {

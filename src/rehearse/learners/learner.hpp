@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -83,6 +84,9 @@ class Learner {
 
 enum class PriorUse { none, required };
 
+/// Options by name, each with its value as text.
+using OptionTexts = std::vector<std::pair<std::string, std::string>>;
+
 /// A learner whose options can still be set: what a family's folder gives to the catalogue.
 class LearnerBuilder {
  public:
@@ -92,6 +96,9 @@ class LearnerBuilder {
   virtual PriorUse prior_use() const = 0;
   virtual bool chooses_priors() const = 0;  // `--prior a,b,c` is allowed
   virtual void fields(FieldVisitor& v) = 0;
+  /// Options of the scenario that suit this learner, where neither a preset nor the user sets them: the policy that it
+  /// needs. Those that a scenario does not have, or not with that value, are left as they are.
+  virtual OptionTexts scenario_defaults() const { return {}; }
   /// What these options cannot do with a task or a policy, a line each: wrong input that is known before anything is
   /// built.
   virtual std::vector<std::string> violations(const Task& /*task*/, const policy::Policy& /*policy*/) const {

@@ -57,6 +57,34 @@ TEST(Spec, DefaultsOfAScenarioComeBeforeTheUsersOptions) {
             "presets/defaults/line.toml: line 7: unknown option 'of.others', did you mean 'noise'?");
 }
 
+/// A learner that prefers two options of the scenario, of which this one has one, and a value that it cannot have.
+class Choosy final : public fake::EchoBuilder {
+ public:
+  Choosy() : EchoBuilder(true, {}) {}
+  learners::OptionTexts scenario_defaults() const override {
+    return {{"noise", "0.3"}, {"policy", "rbf"}, {"evaluations", "-1"}, {"search.step", "9"}};
+  }
+};
+
+TEST(Spec, WhatALearnerPrefersOfAScenarioComesBeforeAllElse) {
+  Catalogue catalogue = fake::catalogue();
+  catalogue.learner_families = {[] {
+    std::vector<std::unique_ptr<learners::LearnerBuilder>> family;
+    family.push_back(std::make_unique<Choosy>());
+    return family;
+  }};
+  const auto noise = [&](const Options& options) {
+    return resolve(catalogue, spec_of("echo", "near", options)).spec.options[1].second;
+  };
+  EXPECT_EQ(noise({}), "0.3");
+  EXPECT_EQ(noise({{"noise", "0.5"}}), "0.5");
+  const Options complete = resolve(catalogue, spec_of("echo", "near")).spec.options;
+  EXPECT_EQ(complete[3].second, "0");    // evaluations
+  EXPECT_EQ(complete[4].second, "0.4");  // search.step, which is the learner's own
+  catalogue.default_presets = {{"line", "format = 1\nset.noise = 0.4\n"}};
+  EXPECT_EQ(noise({}), "0.4");
+}
+
 TEST(Spec, OracleIsFixedAndCannotBeChanged) {
   const Resolved resolved = resolve(fake::catalogue(), spec_of("echo", "oracle"));
   EXPECT_FALSE(resolved.prior->space.has_tunable());

@@ -10,7 +10,9 @@
 #include "rehearse/identification/learn.hpp"
 #include "rehearse/learners/black_drops/known_policies.hpp"
 #include "rehearse/learners/black_drops/trial_search.hpp"
+#include "rehearse/learners/builder.hpp"
 #include "rehearse/learners/json.hpp"
+#include "rehearse/learners/trial_learner.hpp"
 #include "rehearse/policy/schedule.hpp"
 
 namespace rehearse::learners::black_drops {
@@ -18,23 +20,11 @@ namespace {
 
 using nlohmann::json;
 
-class BlackDrops final : public Learner {
+class BlackDrops final : public TrialLearner {
  public:
   BlackDrops(Setting setting, Options options)
       : setting_(std::move(setting)), options_(std::move(options)), features_(setting_.task.feature_map()) {
     history_.random_first = !setting_.prior && options_.first_trial.kind != FirstTrial::Kind::policy;
-  }
-
-  const Proposal& ask() override {
-    if (!proposal_) proposal_ = propose();
-    return *proposal_;
-  }
-
-  void tell(const Episode& episode) override {
-    const Proposal& asked = ask();
-    history_.policies.push_back(asked.theta);
-    add(episode);
-    proposal_.reset();
   }
 
   json save() const override {
@@ -49,10 +39,15 @@ class BlackDrops final : public Learner {
             {"carried", carried}};
   }
 
-  void load(const std::vector<Episode>& episodes, const json& state) override {
+ private:
+  void learn(const Proposal& tried, const Episode& episode) override {
+    history_.policies.push_back(tried.theta);
+    add(episode);
+  }
+
+  void restore(const std::vector<Episode>& episodes, const json& state) override {
     data_ = {};
     history_.returns.clear();
-    proposal_.reset();
     for (const Episode& episode : episodes) add(episode);
     history_.policies = to_vectors(state.at("policies"));
     history_.carried = to_vectors(state.at("carried"));
@@ -64,7 +59,6 @@ class BlackDrops final : public Learner {
       throw InvalidInput("the learner's state does not fit the episodes");
   }
 
- private:
   void add(const Episode& episode) {
     data_.append(episode);
     history_.returns.push_back(episode.total_reward());
@@ -72,7 +66,7 @@ class BlackDrops final : public Learner {
 
   bool first() const { return history_.returns.empty(); }
 
-  Proposal propose() {
+  Proposal propose() override {
     Proposal proposal{.policy = setting_.policy};
     if (first() && !setting_.prior) {
       propose_at_random(proposal);
@@ -173,42 +167,35 @@ class BlackDrops final : public Learner {
   Dataset data_;
   History history_;
   identification::WarmStart state_;
-  std::optional<Proposal> proposal_;
 };
 
-bool needs_prior(const Options& options) { return !std::holds_alternative<identification::ZeroMean>(options.model); }
+template <class Kind>
+bool is(const Options& options) {
+  return std::holds_alternative<Kind>(options.model);
+}
 
-std::vector<std::string> violations_with(const Options& options, const Task& task) {
-  if (!options.reward.learned || !needs_prior(options) || task.initial_reward) return {};
+PriorUse prior_use(const Options& options) {
+  return is<identification::ZeroMean>(options) ? PriorUse::none : PriorUse::required;
+}
+
+std::vector<std::string> violations_with(const Options& options, const Task& task, const policy::Policy&) {
+  if (!options.reward.learned || prior_use(options) == PriorUse::none || task.initial_reward) return {};
   return {
       "reward.learned = true, but the scenario gives no initial_reward for the first search, on the prior: give it one "
       "(of those built in: initial_reward_width), or choose a learner without a prior"};
 }
 
-class Builder final : public LearnerBuilder {
- public:
-  Builder(std::string name, std::string summary, identification::Kind model)
-      : name_(std::move(name)), summary_(std::move(summary)) {
-    options_.model = std::move(model);
-    if (!needs_prior(options_)) options_.search.simulate.noise_clip = 0;
-  }
-  std::string name() const override { return name_; }
-  std::string summary() const override { return summary_; }
-  PriorUse prior_use() const override { return needs_prior(options_) ? PriorUse::required : PriorUse::none; }
-  bool chooses_priors() const override {
-    return std::holds_alternative<identification::GpMi>(options_.model) ||
-           std::holds_alternative<identification::Mi>(options_.model);
-  }
-  void fields(FieldVisitor& v) override { options_.fields(v); }
-  std::vector<std::string> violations(const Task& task, const policy::Policy&) const override {
-    return violations_with(options_, task);
-  }
-  std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }
-
- private:
-  std::string name_, summary_;
-  Options options_;
-};
+Entry<Options> entry(const char* name, const char* summary, identification::Kind model) {
+  Options options{.model = std::move(model)};
+  if (prior_use(options) == PriorUse::none) options.search.simulate.noise_clip = 0;
+  return {.name = name,
+          .summary = summary,
+          .prior_use = prior_use(options),
+          .chooses_priors = is<identification::GpMi>(options) || is<identification::Mi>(options),
+          .make = make,
+          .options = options,
+          .violations = violations_with};
+}
 
 }  // namespace
 
@@ -219,30 +206,18 @@ void forget_reward(Task& task) {
 }
 
 std::unique_ptr<Learner> make(Setting setting, Options options) {
-  Violations violations;
-  for (const auto& line : field_violations([&](FieldVisitor& v) { options.fields(v); })) violations.add(line);
-  for (const auto& line : setting.task.violations()) violations.add(line);
-  violations.require(!needs_prior(options) || setting.prior, "this learner needs a prior");
-  violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
-  for (const auto& line : violations_with(options, setting.task)) violations.add(line);
-  violations.throw_if_any();
-  if (!needs_prior(options)) setting.prior.reset();
+  setting = checked(std::move(setting), options, prior_use(options), violations_with);
   if (options.reward.learned) forget_reward(setting.task);
   if (!options.success_test) setting.task.solved = nullptr;
-  if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
   return std::make_unique<BlackDrops>(std::move(setting), std::move(options));
 }
 
 std::vector<std::unique_ptr<LearnerBuilder>> builders() {
-  std::vector<std::unique_ptr<LearnerBuilder>> all;
-  const auto add = [&](const char* name, const char* summary, identification::Kind kind) {
-    all.push_back(std::make_unique<Builder>(name, summary, std::move(kind)));
-  };
-  add("black-drops", "GPs from data alone; the first trial is random actions", identification::ZeroMean{});
-  add("black-drops-prior", "GPs around the prior as it is given", identification::FixedPrior{});
-  add("gp-mi", "GPs around the prior, its parameters identified together with the GPs", identification::GpMi{});
-  add("mi", "the prior's parameters identified from data, no GP", identification::Mi{});
-  return all;
+  return builders_of(
+      entry("black-drops", "GPs from data alone; the first trial is random actions", identification::ZeroMean{}),
+      entry("black-drops-prior", "GPs around the prior as it is given", identification::FixedPrior{}),
+      entry("gp-mi", "GPs around the prior, its parameters identified together with the GPs", identification::GpMi{}),
+      entry("mi", "the prior's parameters identified from data, no GP", identification::Mi{}));
 }
 
 }  // namespace rehearse::learners::black_drops

@@ -9,6 +9,8 @@
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/files/checksum.hpp"
+#include "rehearse/learners/builder.hpp"
+#include "rehearse/learners/trial_learner.hpp"
 
 namespace rehearse::learners::ite {
 namespace {
@@ -25,22 +27,9 @@ struct Trial {
   bool fell = false;
 };
 
-class Ite final : public Learner {
+class Ite final : public TrialLearner {
  public:
   Ite(Setting setting, Options options) : setting_(std::move(setting)), options_(std::move(options)) {}
-
-  const Proposal& ask() override {
-    if (!proposal_) proposal_ = propose();
-    return *proposal_;
-  }
-
-  void tell(const Episode& episode) override {
-    ask();
-    tried_.push_back(elite_);
-    trials_.push_back({episode.total_reward(), episode.ended});
-    learn(trials_.size() - 1);
-    proposal_.reset();
-  }
 
   /// There is an adaptation after `tell`.
   std::vector<Table> tables() const override { return {elites(), tried()}; }
@@ -49,18 +38,23 @@ class Ite final : public Learner {
     return {{"tried", tried_}, {"archive", bytes_ ? files::checksum(*bytes_) : learned_in_}};
   }
 
-  void load(const std::vector<Episode>& episodes, const json& state) override {
+ private:
+  void learn(const Proposal&, const Episode& episode) override {
+    tried_.push_back(elite_);
+    trials_.push_back({episode.total_reward(), episode.ended});
+    adapt(trials_.size() - 1);
+  }
+
+  void restore(const std::vector<Episode>& episodes, const json& state) override {
     state.at("tried").get_to(tried_);
     learned_in_ = state.value("archive", kUnknown);
     if (tried_.size() != episodes.size()) throw InvalidInput("the learner's state does not fit the episodes");
     trials_.clear();
     for (const Episode& episode : episodes) trials_.push_back({episode.total_reward(), episode.ended});
     adaptation_.reset();
-    proposal_.reset();
   }
 
- private:
-  Proposal propose() {
+  Proposal propose() override {
     Proposal proposal{.policy = setting_.policy};
     proposal.search_s = seconds([&] { prepare(); });
     elite_ = adaptation_->stopped().empty() ? adaptation_->next() : best_tried();
@@ -98,7 +92,7 @@ class Ite final : public Learner {
       promised(e) = archive.performance(e) / unit_;
     }
     adaptation_.emplace(std::move(descriptors), std::move(promised), options_.adaptation);
-    for (std::size_t trial = 0; trial < trials_.size(); ++trial) learn(trial);
+    for (std::size_t trial = 0; trial < trials_.size(); ++trial) adapt(trial);
   }
 
   /// What was learned of elites by number says nothing about those of another archive.
@@ -149,7 +143,7 @@ class Ite final : public Learner {
     return tried_[static_cast<std::size_t>(std::max_element(trials_.begin(), learned, less) - trials_.begin())];
   }
 
-  void learn(std::size_t trial) {
+  void adapt(std::size_t trial) {
     if (tried_[trial] < 0 || tried_[trial] >= search_->archive.size())
       throw InvalidInput(fmt::format("trial {}: the archive has no elite {}", trial + 1, tried_[trial]));
     adaptation_->observe(tried_[trial], performance(trials_[trial]) / unit_);
@@ -166,26 +160,11 @@ class Ite final : public Learner {
   std::vector<Index> tried_;             // elites
   std::vector<Trial> trials_;
   Index elite_ = 0;  // of the proposal
-  std::optional<Proposal> proposal_;
 };
 
-class Builder final : public LearnerBuilder {
- public:
-  std::string name() const override { return "ite"; }
-  std::string summary() const override {
-    return "an archive of different policies made on the prior, and Bayesian optimisation among them";
-  }
-  PriorUse prior_use() const override { return PriorUse::required; }
-  bool chooses_priors() const override { return false; }
-  void fields(FieldVisitor& v) override { options_.fields(v); }
-  std::vector<std::string> violations(const Task& task, const policy::Policy& policy) const override {
-    return ite::violations(options_.archive, task, policy);
-  }
-  std::unique_ptr<Learner> build(Setting setting) const override { return make(std::move(setting), options_); }
-
- private:
-  Options options_;
-};
+std::vector<std::string> violations_with(const Options& options, const Task& task, const policy::Policy& policy) {
+  return violations(options.archive, task, policy);
+}
 
 }  // namespace
 
@@ -196,22 +175,16 @@ void Options::fields(FieldVisitor& v) {
 
 std::unique_ptr<Learner> make(Setting setting, Options options) {
   options.archive = for_seed(std::move(options.archive), setting.seed);
-  Violations violations;
-  for (const auto& line : field_violations([&](FieldVisitor& v) { options.fields(v); })) violations.add(line);
-  for (const auto& line : setting.task.violations()) violations.add(line);
-  violations.require(setting.prior.has_value(), "this learner needs a prior");
-  violations.require(static_cast<bool>(setting.policy), "this learner needs a policy");
-  if (setting.policy)
-    for (const auto& line : ite::violations(options.archive, setting.task, *setting.policy)) violations.add(line);
-  violations.throw_if_any();
-  if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
+  setting = checked(std::move(setting), options, PriorUse::required, violations_with);
   return std::make_unique<Ite>(std::move(setting), std::move(options));
 }
 
 std::vector<std::unique_ptr<LearnerBuilder>> builders() {
-  std::vector<std::unique_ptr<LearnerBuilder>> all;
-  all.push_back(std::make_unique<Builder>());
-  return all;
+  return builders_of(Entry<Options>{
+      .name = "ite",
+      .summary = "an archive of different policies made on the prior, and Bayesian optimisation among them",
+      .make = make,
+      .violations = violations_with});
 }
 
 }  // namespace rehearse::learners::ite

@@ -49,16 +49,10 @@ Proposal random_actions(const Setting& setting, double hold_s, const StreamKey& 
 
 }  // namespace
 
-const Proposal& Trials::ask() {
-  if (!proposal_) proposal_ = propose();
-  return *proposal_;
-}
-
-void Trials::tell(const Episode& episode) {
-  if (const Proposal& asked = ask(); asked.policy == setting_.policy) theta_ = asked.theta;
+void Trials::learn(const Proposal& tried, const Episode& episode) {
+  if (tried.policy == setting_.policy) theta_ = tried.theta;
   add(episode);
   ++trials_;
-  proposal_.reset();
 }
 
 void Trials::add(const Episode& episode) {
@@ -70,7 +64,7 @@ void Trials::add(const Episode& episode) {
 }
 
 std::vector<moments::MomentTerm> Trials::terms(Index inducing, std::vector<std::string>& notes) const {
-  if (!proposal_ || !proposal_->model) return {};
+  if (!asked() || !asked()->model) return {};
   ModelOptions options = options_.model;
   options.inducing = inducing;
   return terms_of(setting_.task, data_, options, kernels_, *setting_.evaluator, notes, setting_.progress);
@@ -84,14 +78,13 @@ json Trials::save() const {
   return state;
 }
 
-void Trials::load(const std::vector<Episode>& episodes, const json& state) {
+void Trials::restore(const std::vector<Episode>& episodes, const json& state) {
   data_ = {};
   solved_ = false;
   earned_.reset();
   repeated_ = false;
   kernels_.clear();
   prior_.reset();
-  proposal_.reset();
   for (const Episode& episode : episodes) add(episode);
   for (const Vector& flat : to_vectors(state.at("kernels")))
     kernels_.push_back(gp::Hyperparameters::from_flat(flat, flat.size() - 2));
@@ -138,7 +131,7 @@ Proposal Trials::next_proposal() {
 Model Trials::learn_model() const {
   if (setting_.progress) setting_.progress({.phase = "model"});
   const auto mean = prior_ ? prior_->network : std::vector<moments::MomentTerm>();
-  return learn(setting_.task, data_, options_.model, kernels_, *setting_.evaluator, mean, setting_.progress);
+  return pilco::learn(setting_.task, data_, options_.model, kernels_, *setting_.evaluator, mean, setting_.progress);
 }
 
 /// From the proposal's θ. A policy that has solved the task is good enough to stay with. One that was tried twice is

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rehearse/learners/pilco/prior_knowledge.hpp"
+#include "rehearse/learners/trial_learner.hpp"
 
 namespace rehearse::learners::pilco {
 
@@ -12,27 +13,26 @@ inline constexpr double kSameReturn = 0.02;
 
 /// The trials of PILCO on one system, the robot or, before, the prior. With `Options::prior` they begin with
 /// what those on the prior taught, else with random actions.
-class Trials final : public Learner {
+class Trials final : public TrialLearner {
  public:
   /// learn_on_prior: asked once where `Options::prior` is there.
   Trials(Setting setting, const Options& options, LearnOnPrior learn_on_prior = {})
       : setting_(std::move(setting)), options_(options), learn_on_prior_(std::move(learn_on_prior)) {}
 
-  const Proposal& ask() override;
-  void tell(const Episode& episode) override;
   nlohmann::json save() const override;
-  void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override;
 
   /// What the GPs behind the proposal of `ask` know, by at most so many points; empty: there are none. Without a prior.
   std::vector<moments::MomentTerm> terms(Index inducing, std::vector<std::string>& notes) const;
 
  private:
+  Proposal propose() override;
+  void learn(const Proposal& tried, const Episode& episode) override;
+  void restore(const std::vector<Episode>& episodes, const nlohmann::json& state) override;
   std::uint64_t trial() const { return trials_ + 1; }
   StreamKey stream(Stage stage) const {
     return {.seed = setting_.seed, .trial = trial(), .phase = setting_.phase, .stage = stage};
   }
   void add(const Episode& episode);
-  Proposal propose();
   Proposal first_proposal();
   Proposal next_proposal();
   Model learn_model() const;
@@ -49,7 +49,6 @@ class Trials final : public Learner {
   std::uint64_t trials_ = 0;
   Vector theta_;  // of the last trial; empty before there was one of the setting's policy
   std::vector<gp::Hyperparameters> kernels_;
-  std::optional<Proposal> proposal_;
 };
 
 }  // namespace rehearse::learners::pilco

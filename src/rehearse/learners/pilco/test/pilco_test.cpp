@@ -52,6 +52,7 @@ TEST(Pilco, IsALearnerWithoutAPriorAndOneWith) {
     const auto options = list_fields([&](FieldVisitor& v) { each->fields(v); });
     const std::pair<std::string, std::string> episodes{"pilco.prior_episodes", "40"};
     EXPECT_EQ(std::count(options.begin(), options.end(), episodes), each->name() == "pilco-prior");
+    EXPECT_EQ(each->scenario_defaults(), (learners::OptionTexts{{"policy", "rbf"}}));
   }
 }
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "rehearse/learners/learner.hpp"
+
+namespace rehearse::learners {
+
+/// A learner that computes one proposal a trial, when it is first asked for it, and keeps it until it is told.
+class TrialLearner : public Learner {
+ public:
+  const Proposal& ask() final {
+    if (!proposal_) proposal_ = propose();
+    return *proposal_;
+  }
+  void tell(const Episode& episode) final {
+    learn(ask(), episode);
+    proposal_.reset();
+  }
+  void load(const std::vector<Episode>& episodes, const nlohmann::json& state) final {
+    proposal_.reset();
+    restore(episodes, state);
+  }
+
+ protected:
+  /// An interruption, which throws, must leave everything as it was.
+  virtual Proposal propose() = 0;
+  virtual void learn(const Proposal& tried, const Episode& episode) = 0;
+  /// Replaces all that was learned by these episodes and what `save` returned after the last of them.
+  virtual void restore(const std::vector<Episode>& episodes, const nlohmann::json& state) = 0;
+
+  /// The proposal that is kept; null: none was asked for since the last episode.
+  const Proposal* asked() const { return proposal_ ? &*proposal_ : nullptr; }
+
+ private:
+  std::optional<Proposal> proposal_;
+};
+
+}  // namespace rehearse::learners
