@@ -67,9 +67,11 @@ OdeKernel equation_kernel() {
   return {.states = Equation::kStates,
           .actions = Equation::kActions,
           .parameters = Equation::kParameters,
-          .derivative = [](const double* x, const double* u, const double* phi,
-                           double* dxdt) { HWY_DYNAMIC_DISPATCH(DerivativeKernel)
-                                           (x, u, phi, dxdt); },
+          .derivative =
+              [](const double* x, const double* u, const double* phi, double* dxdt) {
+                HWY_DYNAMIC_DISPATCH(DerivativeKernel)
+                (x, u, phi, dxdt);
+              },
           .change =
               [](const ConstMatrixView& X, const ConstMatrixView& U, const double* phi, double duration_s, Index steps,
                  MatrixView dX) {
