@@ -2,22 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/test/fake.hpp"
+#include "plans.hpp"
 
 namespace rehearse::campaign {
 namespace {
 
-const std::string kHead = "format = 1\nscenario = \"line\"\nseeds = [4, 2]\ntrials = 3\n";
-
-CampaignPlan plan_of(const std::string& rest) {
-  return plan_campaign(experiment::fake::catalogue(), kHead + rest, "c.toml");
-}
-
-std::string complaint(const std::string& text) {
-  return experiment::fake::message_of<InvalidInput>(
-      [&] { plan_campaign(experiment::fake::catalogue(), text, "c.toml"); });
-}
+using plans::complaint, plans::kHead, plans::plan_of;
 
 std::string option(const PlannedRun& run, const std::string& key) {
   for (const auto& [name, text] : run.spec.options)
@@ -168,37 +158,6 @@ TEST(CampaignPlan, DrawsOptionsForEachSeed) {
       << "whichever the learner";
 }
 
-TEST(CampaignPlan, SaysWhatIsWrongWithVariantsAndDraws) {
-  EXPECT_EQ(complaint(R"(format = 1
-scenario = "line"
-learners = ["echo"]
-seeds = [4]
-[draw]
-noise = [1]
-prior.gain = [2, 1]
-search.stop = [0, 1]
-[[variant]]
-name = "a b"
-[[variant]]
-set.search.stop = 1
-[[variant]]
-name = "c"
-ste.search.step = 1
-[[variant]]
-name = "c"
-)"),
-            "c.toml: line 6: noise must be [LOW, HIGH] in [draw], LOW below HIGH\n"
-            "c.toml: line 7: prior.gain must be [LOW, HIGH] in [draw], LOW below HIGH\n"
-            "c.toml: line 8: unknown option 'search.stop', did you mean 'search.step'?\n"
-            "c.toml: line 9: the variant's name 'a b' must be of letters, digits and . _ + - alone\n"
-            "c.toml: line 11: the variant has no name\n"
-            "c.toml: line 12: unknown option 'search.stop', did you mean 'search.step'?\n"
-            "c.toml: line 15: unknown key 'ste' in [[variant]], did you mean 'set'? (known: name, preset, set)\n"
-            "c.toml: line 16: there are two variants 'c'");
-  EXPECT_EQ(complaint(kHead + "learners = [\"echo\"]\n[draw]\nnoise = [-2, -1]\n"),
-            "c.toml: line 7: noise = -1.0530104217580396, must be ≥ 0");
-}
-
 TEST(CampaignPlan, SeveralPriorsOfOneRunAndTheOracle) {
   const CampaignPlan plan = plan_of(R"(
     learners = ["echo"]
@@ -256,119 +215,6 @@ TEST(CampaignPlan, ALearnerThatIsNotBuiltIsMissing) {
   EXPECT_EQ(plan.runs.size(), 2u);
 }
 
-TEST(CampaignPlan, FindsWhatClaimsAreAbout) {
-  const CampaignPlan plan = plan_of(R"(
-    learners = ["echo", "echo-alone", "pilco"]
-    priors = ["near", "far"]
-    [vary]
-    prior.drift = [0, 1]
-    [[claim]]
-    text = "each"
-    learner = "echo"
-    variants = ["prior.drift=1"]
-    solved_by = 2
-    at_least_runs = 1
-    [[claim]]
-    text = "pooled"
-    learner = "echo"
-    priors = ["far"]
-    pooled = true
-    better_than = { learner = "echo-alone" }
-    metric = "best_return"
-    [[claim]]
-    text = "by prior"
-    learner = "echo"
-    priors = ["far"]
-    not_worse_than = { prior = "near" }
-    metric = "first_success"
-    trial = 2
-    [[claim]]
-    text = "missing"
-    learner = "echo-alone"
-    better_than = { learner = "pilco" }
-    metric = "return"
-  )");
-  ASSERT_EQ(plan.claims.size(), 4u);
-  const PlannedClaim &each = plan.claims[0], &pooled = plan.claims[1], &by_prior = plan.claims[2];
-  ASSERT_EQ(each.parts.size(), 2u);
-  EXPECT_EQ(each.parts[1].groups, (std::vector<std::size_t>{3}));
-  ASSERT_EQ(pooled.parts.size(), 1u);
-  EXPECT_EQ(pooled.parts[0].groups, (std::vector<std::size_t>{2, 3}));
-  EXPECT_EQ(pooled.parts[0].against, (std::vector<std::size_t>{4, 4}));
-  ASSERT_EQ(by_prior.parts.size(), 2u);
-  EXPECT_EQ(by_prior.parts[1].against, (std::vector<std::size_t>{1}));
-  EXPECT_EQ(by_prior.claim.comparison->measure.trial, 2);
-  EXPECT_EQ(pooled.claim.comparison->measure.trial, 3);
-  EXPECT_EQ(plan.claims[3].missing, "learner 'pilco' is not built: not written yet");
-}
-
-TEST(CampaignPlan, ComparesRunsOfTheSameVariant) {
-  const CampaignPlan plan = plan_of(R"(
-    learners = ["echo", "echo-alone"]
-    [[variant]]
-    name = "default"
-    [[variant]]
-    name = "noisy"
-    set.noise = 1
-    [[variant]]
-    name = "bold"
-    set.prior.gain = 1.5
-    [[claim]]
-    text = "each"
-    learner = "echo"
-    better_than = { learner = "echo-alone" }
-    metric = "return"
-  )");
-  ASSERT_EQ(plan.groups.size(), 5u);  // echo-alone has no prior to be bold about: its defaults stand for that
-  std::vector<std::size_t> against;
-  for (const ClaimPart& part : plan.claims[0].parts)
-    against.insert(against.end(), part.against.begin(), part.against.end());
-  EXPECT_EQ(against, (std::vector<std::size_t>{3, 4, 3}));
-}
-
-TEST(CampaignPlan, SaysAllThatIsWrongWithItsLine) {
-  EXPECT_EQ(complaint("format = 2\n"),
-            "c.toml: learners is missing\nc.toml: scenario is missing\n"
-            "c.toml: seeds is missing; write for instance seeds = \"1-30\"\n"
-            "c.toml: line 1: this version of Rehearse reads format = 1");
-  EXPECT_TRUE(complaint("format = 1\nseeds = [\n").starts_with("c.toml: line "));
-  EXPECT_EQ(
-      complaint(R"(format = 1
-scenario = "line"
-learners = ["echo", "eco"]
-priors = ["near", "nowhere", "near"]
-seeds = "3-1"
-trials = 0
-[set]
-search.stop = 1
-noise = -1
-prior.gain = "much"
-[learner.echo-alone]
-search.step = 1
-[vary]
-breaks = [true, true]
-search.step = 0.5
-)"),
-      "c.toml: line 3: unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)\n"
-      "c.toml: line 4: priors names 'near' twice\n"
-      "c.toml: line 4: unknown prior 'nowhere' of scenario line, did you mean 'near'? (known: near, far, oracle)\n"
-      "c.toml: line 5: seeds = \"3-1\", the first must not be above the last\n"
-      "c.toml: line 6: trials = 0, must be between 1 and 1000000\n"
-      "c.toml: line 8: unknown option 'search.stop', did you mean 'search.step'?\n"
-      "c.toml: line 9: noise = -1, must be ≥ 0\n"
-      "c.toml: line 10: prior.gain = much, must be a number\n"
-      "c.toml: line 11: [learner.echo-alone] is none of the learners (echo, eco)\n"
-      "c.toml: line 14: breaks has the value true twice\n"
-      "c.toml: line 15: search.step must be a list of values in [vary]");
-}
-
-TEST(CampaignPlan, AScenarioThatIsNoTextIsSaidOnce) {
-  const std::string rest = "learners = \"echo\"\nseeds = 1\n";
-  EXPECT_EQ(complaint("format = 1\nscenario = 3\n" + rest), "c.toml: line 2: scenario must be text in quotes");
-  EXPECT_EQ(complaint("format = 1\nscenario = \"\"\n" + rest), "c.toml: scenario is missing");
-  EXPECT_EQ(complaint("format = 1\n" + rest), "c.toml: scenario is missing");
-}
-
 TEST(CampaignPlan, TooManyRunsAreRefusedBeforeTheyArePlanned) {
   std::string axes = "learners = [\"echo\"]\n[vary]\n";
   for (const std::string key : {"noise", "plant.gain", "search.step", "prior.gain", "prior.drift"}) {
@@ -393,34 +239,6 @@ TEST(CampaignPlan, EachRunHasAFolderOfItsOwnWithANameThatFits) {
             std::string::npos);
   EXPECT_EQ(complaint("format = 1\nscenario = \"\"\nlearners = [\"echo\"]\nseeds = [1]\n"),
             "c.toml: scenario is missing");
-}
-
-TEST(CampaignPlan, SaysWhatIsWrongWithClaims) {
-  const auto about = [](const std::string& claim) {
-    return complaint(kHead + "learners = [\"echo\"]\n[[claim]]\ntext = \"x\"\n" + claim);
-  };
-  const std::string success = "learner = \"echo\"\nsolved_by = 2\n";
-  EXPECT_EQ(about(success), "c.toml: line 6: how many? at_least_runs, at_most_runs, at_least_rate or at_most_rate");
-  EXPECT_EQ(about(success + "at_least_runs = 3\n"), "c.toml: line 6: at_least_runs = 3, but the claim is about 2 runs");
-  EXPECT_EQ(about("learner = \"echo\"\nreached_by = 2\nat_most_runs = 2\n"),
-            "c.toml: line 6: reached_by needs return_at_least");
-  EXPECT_EQ(about(success + "at_least_rate = 95\n"), "c.toml: line 10: at_least_rate = 95, must be between 0 and 1");
-  EXPECT_EQ(about("learner = \"echo\"\nsolved_by = 4\nat_least_runs = 1\n"),
-            "c.toml: line 9: solved_by = 4, must be between 1 and 3");
-  EXPECT_EQ(about("learner = \"eco\"\nsolved_by = 1\nat_least_runs = 1\n"),
-            "c.toml: line 6: the claim's learner 'eco' is none of the learners (echo)");
-  EXPECT_EQ(about(success + "at_least_runs = 1\npriors = [\"far\"]\n"),
-            "c.toml: line 6: learner echo has no prior 'far'");
-  EXPECT_EQ(about("learner = \"echo\"\nbetter_than = { learner = \"echo\" }\nmetric = \"return\"\n"),
-            "c.toml: line 6: the claim compares runs with themselves");
-  EXPECT_EQ(about("learner = \"echo\"\nbetter_than = { prior = \"far\" }\nmetric = \"return\"\n"),
-            "c.toml: line 6: there is nothing to compare with: no runs of learner echo, prior 'far', variant ''");
-  EXPECT_EQ(about("learner = \"echo\"\nmedian_at_least = 1\n"),
-            "c.toml: line 6: metric is missing: \"return\", \"best_return\" or \"first_success\"");
-  EXPECT_EQ(
-      about("learner = \"echo\"\n"),
-      "c.toml: line 6: a claim has one of solved_by, reached_by, better_than, not_worse_than, and median_at_least or "
-      "median_at_most");
 }
 
 }  // namespace
