@@ -75,16 +75,5 @@ TEST(RunStore, DoesNotDependOnItsCache) {
   store({}, spec(), file / "below").write("prior", "nowhere");
 }
 
-TEST(Seal, TellsWhatIsWhole) {
-  const std::string sealed = files::seal("kept", "body");
-  EXPECT_EQ(files::unseal("kept", sealed), "body");
-  const auto refusal = [](std::string_view kind, std::string_view bytes) {
-    return fake::message_of<InvalidInput>([&] { files::unseal(kind, bytes); });
-  };
-  EXPECT_EQ(refusal("kept", sealed.substr(0, sealed.size() - 1)), "the kept is truncated or damaged");
-  EXPECT_EQ(refusal("checkpoint", sealed), "the checkpoint is truncated or not one of Rehearse");
-  EXPECT_NE(refusal("kept", "rehearse-kept 7 1 0\nx").find("has format 7"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace rehearse::experiment

@@ -1,0 +1,37 @@
+#include "rehearse/experiment/catalogue.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fake.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+TEST(Catalogue, FindsBuildersByName) {
+  const Catalogue catalogue = fake::catalogue();
+  EXPECT_EQ(catalogue.learner("echo-alone")->name(), "echo-alone");
+  EXPECT_EQ(catalogue.scenario("line")->name(), "line");
+  EXPECT_FALSE(catalogue.learner("line") || catalogue.scenario("echo") || catalogue.learner("pilco"));
+  EXPECT_EQ(catalogue.learner_builders().size(), 2u);
+}
+
+TEST(Catalogue, MakesNewBuildersForEveryCall) {
+  const auto options = [](scenario::ScenarioBuilder& builder) {
+    return list_fields([&](FieldVisitor& v) { builder.fields(v); });
+  };
+  const Catalogue catalogue = fake::catalogue();
+  const auto one = catalogue.scenario("line"), other = catalogue.scenario("line");
+  EXPECT_EQ(options(*one), options(*other));
+  EXPECT_TRUE(set_field([&](FieldVisitor& v) { one->fields(v); }, "noise", "3"));
+  EXPECT_NE(options(*one), options(*other));
+}
+
+TEST(Catalogue, SaysWhyThereIsNone) {
+  EXPECT_EQ(fake::catalogue().why_missing("learner", "pilco"), "learner 'pilco' is not built: not written yet");
+  EXPECT_EQ(Catalogue{}.why_missing("learner", "echo"), "unknown learner 'echo': there are none");
+  EXPECT_EQ(unknown_name("robot", "lien", {"arm", "line"}),
+            "unknown robot 'lien', did you mean 'line'? (known: arm, line)");
+}
+
+}  // namespace
+}  // namespace rehearse::experiment

@@ -1,0 +1,63 @@
+#include "rehearse/experiment/run_folder.hpp"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "line_run.hpp"
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+using fake::line_spec;
+
+TEST(RunFolder, AnExistingFolderIsNeverOverwritten) {
+  const fs::path folder = fake::test_folder();
+  start_run(fake::catalogue(), line_spec(1), folder / "run", {});
+  fs::create_directory(folder / "empty");
+  std::ofstream(folder / "file") << "mine";
+  for (const std::string name : {"run", "run/", "empty", "file"}) {
+    const auto message =
+        fake::message_of<InvalidInput>([&] { start_run(fake::catalogue(), line_spec(1), folder / name, {}); });
+    EXPECT_NE(message.find("already exists"), std::string::npos) << name;
+  }
+  EXPECT_EQ(files::read_file(folder / "file"), "mine");
+}
+
+TEST(RunFolder, IsRefusedWhereItIsNone) {
+  const fs::path folder = fake::test_folder();
+  const auto complaint = [&](const std::string& name) {
+    return fake::message_of<InvalidInput>([&] { resume_run(fake::catalogue(), folder / name, {}, {}); });
+  };
+  EXPECT_NE(complaint("nothing").find("nothing is not a folder"), std::string::npos);
+  fs::create_directory(folder / "empty");
+  EXPECT_NE(complaint("empty").find("is not a run folder: it has no spec.toml"), std::string::npos);
+  EXPECT_TRUE(fs::is_empty(folder / "empty"));
+
+  start_run(fake::catalogue(), line_spec(2), folder / "run", {});
+  const std::string spec = files::read_file(folder / "run/spec.toml"),
+                    checkpoint = files::read_file(folder / "run/checkpoint");
+  files::write_file(folder / "run/checkpoint", checkpoint.substr(0, checkpoint.size() / 2));
+  EXPECT_NE(complaint("run").find("the checkpoint is truncated or damaged"), std::string::npos);
+  files::write_file(folder / "run/checkpoint", checkpoint);
+  files::write_file(folder / "run/spec.toml", spec.substr(0, spec.size() / 2) + "= =");
+  EXPECT_NE(complaint("run").find("spec.toml: line "), std::string::npos);
+  files::write_file(folder / "run/spec.toml", spec + "# harmless\n");
+  EXPECT_EQ(complaint("run"), "");
+  files::write_file(folder / "run/spec.toml", std::string(spec).replace(spec.find("seed = 3"), 8, "seed = 4"));
+  EXPECT_NE(complaint("run").find("belongs to another spec.toml"), std::string::npos);
+}
+
+TEST(RunFolder, OneProcessAtATime) {
+  const fs::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(1), folder, {});
+  const files::FolderLock lock(folder);
+  EXPECT_NE(fake::message_of<InvalidInput>([&] { resume_run(fake::catalogue(), folder, 2, {}); }).find("in use"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace rehearse::experiment
