@@ -1,0 +1,65 @@
+#include "rehearse/report/campaign_files.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "report_folder.hpp"
+
+namespace rehearse::report {
+namespace {
+
+class CampaignFiles : public ReportFolder {};
+
+TEST_F(CampaignFiles, ACampaignWaitsForNoFifo) {
+  write_campaign();
+  const fs::path file = folder_ / "runs/run-1/trajectories/trial-001.csv";
+  fs::remove(file);
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  const Lines problems = problems_of(read_folder(folder_));
+  EXPECT_NE(std::find(problems.begin(), problems.end(), "runs/run-1/trajectories/trial-001.csv: it is no regular file"),
+            problems.end());
+}
+
+TEST_F(CampaignFiles, ACampaignHasParametersAndTimes) {
+  write_campaign();
+  const json all = json::parse(read_folder(folder_).json), &campaign = all["campaign"];
+  EXPECT_EQ(campaign["summary"]["title"], "t");
+  ASSERT_EQ(campaign["parameters"].size(), 1u);
+  EXPECT_EQ(campaign["parameters"][0],
+            json::parse(R"({"learner":"gp-mi","prior":"light","variant":"","parameter":"m","truth":1.5,
+    "trials":[{"trial":2,"runs":3,"quartile_1":1.15,"median":1.2,"quartile_3":1.25}]})"));
+  ASSERT_EQ(campaign["times"].size(), 2u);
+  EXPECT_EQ(campaign["times"][1]["part"], "search_s");
+  EXPECT_EQ(campaign["times"][1]["trials"][1],
+            json::parse(R"({"trial":2,"runs":3,"quartile_1":3.5,"median":4,"quartile_3":4.5})"));
+}
+
+TEST_F(CampaignFiles, ACampaignNamesWhatIsWrongInItsFolder) {
+  write_campaign();
+  EXPECT_EQ(problems_of(read_folder(folder_)), Lines{"runs/run-4: failed: the plant failed"});
+
+  write(folder_ / "runs/run-1/trials.csv", "trial,return\n1,2\n");
+  write(folder_ / "runs/run-1/predictions/trial-002.csv", "time [s],part");
+  write(folder_ / "runs/run-2/spec.toml", "format = 2\n[run]\n");
+  write(folder_ / "runs/run-2/checkpoint", "rehearse-checkpoint 7 3 0\nabc");
+  fs::remove_all(folder_ / "runs/run-3");
+  write(folder_ / "runs/notes.txt", "mine");
+  write(folder_ / "runs/.being-made/spec.toml", "");
+  EXPECT_EQ(
+      problems_of(read_folder(folder_)),
+      (Lines{"runs/run-1/trials.csv: it has 1 of 2 trials", "runs/run-1/predictions/trial-002.csv: it is cut short",
+             "runs/run-2/spec.toml: format 2 is that of another version of Rehearse, this one reads 1",
+             "runs/run-2/checkpoint: format 7 is that of another version of Rehearse",
+             "runs/run-3: it is not there, or no folder", "runs/run-4: failed: the plant failed",
+             "runs/notes.txt: it is no run of this campaign"}));
+
+  write(folder_ / "campaign.csv", "run,learner");
+  const Report report = read_folder(folder_);
+  EXPECT_EQ(report.problems.back().where, "campaign.csv");
+  EXPECT_EQ(json::parse(report.json)["campaign"]["parameters"], json::array());
+}
+
+}  // namespace
+}  // namespace rehearse::report
