@@ -1,15 +1,12 @@
 #include "rehearse/learners/black_drops/black_drops.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/testing/check_learner.hpp"
-#include "rehearse/testing/hostile.hpp"
 #include "slider.hpp"
 
 namespace rehearse::learners::black_drops {
@@ -109,39 +106,6 @@ TEST_P(EachLearner, IsNotToldTheSuccessTestWhereItIsKeptFromIt) {
   learn(*untold->build(blind), 2);
 }
 
-/// The slider's policy, with an example that earns much.
-class PolicyWithExample final : public policy::Policy {
- public:
-  std::string name() const override { return policy_->name(); }
-  Index parameters() const override { return policy_->parameters(); }
-  Index actions() const override { return policy_->actions(); }
-  Matrix examples() const override { return Matrix{{-5, 0}}; }
-  void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double t_s, MatrixView U) const override {
-    policy_->act(Theta, X, t_s, U);
-  }
-
- private:
-  std::shared_ptr<const policy::Policy> policy_ = slider::policy();
-};
-
-// The first descent begins at the example, or at a random point, and is cut off before it gets anywhere else.
-TEST(BlackDrops, StartsFromThePolicysExamplesUnlessToldNotTo) {
-  const auto first = [](const char* from_examples) {
-    const auto with = builder("mi", "64");
-    for (const auto& [name, value] : std::map<std::string, std::string>{{"start_from_examples", from_examples},
-                                                                        {"search.race.descents", "1"},
-                                                                        {"search.race.start_sigma", "1e-6"},
-                                                                        {"search.race.sigma", "1e-6"},
-                                                                        {"retry.searches", "0"}})
-      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
-    Setting own = setting();
-    own.policy = std::make_shared<PolicyWithExample>();
-    return with->build(own)->ask().theta;
-  };
-  EXPECT_LT((first("true") - Vector{{-5, 0}}).norm(), 1e-3);
-  EXPECT_GT((first("false") - Vector{{-5, 0}}).norm(), 1e-2);
-}
-
 TEST(BlackDrops, ALearnedRewardNeedsAnInitialOneWithAPriorOnly) {
   for (const char* name : slider::kWithPrior) {
     const auto message = [&]() -> std::string {
@@ -192,110 +156,6 @@ TEST(BlackDrops, RandomActionsFillTheirBoundsAtEveryStep) {
   EXPECT_GT(actions.maxCoeff(), 0.3);
 }
 
-// With a gain that no search can reach, each is followed by one in the mean predictions.
-TEST(BlackDrops, ExploresWhereASearchLeadsNoFurther) {
-  const auto second = [](const char* gain, const char* required) {
-    const auto with = builder("black-drops-prior", "100");
-    for (const auto& [name, value] : std::map<std::string, std::string>{
-             {"mean_search.policies", "0"}, {"explore.gain", gain}, {"explore.required", required}})
-      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
-    const auto learner = with->build(setting(slider::prior(-1)));
-    learner->tell(run_trial(learner->ask(), 1));
-    return learner->ask();
-  };
-  const Proposal never = second("0", "0"), always = second("1e12", "0"), in_vain = second("1e12", "1e12");
-  EXPECT_GT(always.rollouts, never.rollouts + 100);
-  EXPECT_NE(always.theta, never.theta);
-  const auto mean = rollout::simulate_recorded(
-      {*always.model, *always.policy, slider::task(), {.seed = 7, .stage = Stage::prediction}, {.sample = false}},
-      always.theta, 100);
-  EXPECT_NEAR(*always.predicted_return, mean.returns.mean(), 0.05);
-  EXPECT_EQ(in_vain.rollouts, always.rollouts) << "searched";
-  EXPECT_EQ(in_vain.theta, never.theta) << "but it gains too little";
-}
-
-// With seed 1 uncertainty costs the policy of the search in the means a little of its return.
-TEST(BlackDrops, SearchesInTheMeanPredictionsFirst) {
-  const auto second = [](const char* policies, const char* tolerance) {
-    const auto with = builder("black-drops");
-    for (const auto& [name, value] : std::map<std::string, std::string>{
-             {"mean_search.policies", policies}, {"mean_search.tolerance", tolerance}, {"search.selection", "1000"}})
-      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
-    const auto learner = with->build(setting({}, 1));
-    learner->tell(run_trial(learner->ask(), 1));
-    return learner->ask();
-  };
-  const auto expected = [](const Proposal& proposal) {
-    const StreamKey key{.seed = 7, .stage = Stage::prediction};
-    return rollout::simulate_recorded({*proposal.model, *proposal.policy, slider::task(), key, {.noise_clip = 0}},
-                                      proposal.theta, 1000)
-        .returns.mean();
-  };
-  const Proposal none = second("0", "0"), both = second("3", "0"), alone = second("3", "1e12");
-  EXPECT_NE(both.theta, none.theta);
-  EXPECT_GT(both.rollouts, alone.rollouts + 100) << "a policy whose return stays saves the other search";
-  EXPECT_GE(expected(both), expected(alone) - 0.05) << "what was found in the means is not lost";
-  EXPECT_NEAR(*alone.predicted_return, expected(alone), 0.2) << "predicted is what uncertainty leaves";
-}
-
-/// Trials 1 and 2 of a learner whose model is sure, on a task that asks for a last position in an interval.
-std::vector<Proposal> surely(Interval last, const char* searches) {
-  const auto with = builder("mi", "100");
-  EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "retry.searches", searches));
-  Setting task = setting();
-  task.task.solved = [last](const Episode& e) {
-    const double position = e.true_states(e.steps(), 0);
-    return position > last.low && position < last.high;
-  };
-  const auto learner = with->build(task);
-  std::vector<Proposal> proposals = {learner->ask()};
-  learner->tell(run_trial(proposals.front(), 1));
-  proposals.push_back(learner->ask());
-  return proposals;
-}
-
-double last_position(const Proposal& proposal) {
-  return rollout::simulate_recorded({*proposal.model, *proposal.policy, slider::task(), {}, {.sample = false}},
-                                    proposal.theta, 1)
-      .states.back()(0, 0);
-}
-
-// The highest return is that of a slider at 0; descents that were given up end elsewhere.
-TEST(BlackDrops, PrefersPoliciesThatAreExpectedToSolveTheTask) {
-  const Interval beside = {0.1, 2}, nowhere = {9, 10};
-  const auto careless = surely(beside, "0"), retrying = surely(beside, "3");
-  const auto in_vain = surely(nowhere, "3"), content = surely({-1, 1}, "3");
-  for (std::size_t trial : {0, 1}) {
-    EXPECT_LT(last_position(careless[trial]), beside.low);
-    EXPECT_GT(last_position(retrying[trial]), beside.low);
-    EXPECT_LT(last_position(retrying[trial]), beside.high);
-    EXPECT_GT(in_vain[trial].rollouts, 3 * careless[trial].rollouts) << "four searches";
-    EXPECT_GE(*in_vain[trial].predicted_return, *careless[trial].predicted_return);
-    EXPECT_LT(content[trial].rollouts, 1.5 * careless[trial].rollouts) << "one";
-  }
-}
-
-TEST(BlackDrops, PrefersThemWithinAToleranceWhereTheModelIsUncertain) {
-  const auto second = [](const char* tolerance) {
-    const auto with = builder("black-drops-prior", "100");
-    for (const auto& [name, value] : std::map<std::string, std::string>{
-             {"mean_search.policies", "0"}, {"explore.gain", "0"}, {"retry.uncertain_tolerance", tolerance}})
-      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
-    Setting task = setting(slider::prior(1.5));
-    task.task.solved = [](const Episode& e) { return e.true_states(e.steps(), 0) > 0.1; };
-    const auto learner = with->build(task);
-    learner->tell(run_trial(learner->ask(), 1));
-    return learner->ask();
-  };
-  const Proposal careless = second("0"), strict = second("1e-9"), lenient = second("1e12");
-  EXPECT_LT(last_position(careless), 0.1);
-  EXPECT_LT(last_position(strict), 0.1);
-  EXPECT_GE(*strict.predicted_return, *careless.predicted_return);
-  EXPECT_GT(strict.rollouts, careless.rollouts + 100) << "it went on";
-  EXPECT_GT(last_position(lenient), 0.1);
-  EXPECT_LT(*lenient.predicted_return, *careless.predicted_return);
-}
-
 TEST(BlackDrops, WithoutAPriorIgnoresTheOneItIsGiven) {
   const auto with = builder("black-drops")->build(setting()), without = builder("black-drops")->build(setting({}));
   EXPECT_EQ(with->ask().theta, without->ask().theta);
@@ -322,53 +182,6 @@ TEST(BlackDrops, IdentifiesThePriorsParametersAfterOneTrial) {
     const Proposal& second = learner->ask();
     EXPECT_LT((*second.phi - slider::kTruth).cwiseAbs().maxCoeff(), 0.02) << name;
     EXPECT_EQ(second.log_evidence.has_value(), std::string(name) == "gp-mi");
-  }
-}
-
-// Failures are drawn by a hash of the row: nothing is left to chance but the seed. 1000 rollouts of 12 rows each, of
-// which 0.1 % are spoilt: 12 failures are expected, none has probability 6e-6.
-TEST(BlackDrops, AHostileSimulatorEndsNoRun) {
-  for (const char* name : slider::kWithPrior) {
-    for (const auto harm : {testing::Harm::nan, testing::Harm::huge, testing::Harm::exception}) {
-      prior::Prior prior = slider::prior();
-      prior.simulator = testing::make_hostile(prior.simulator, harm, 0.001);
-      const auto learner = builder(name, "1000")->build(setting(prior));
-      const History history = learn(*learner, 3);
-      EXPECT_GT(history.proposals[0].failed_rollouts, 0) << name;
-      EXPECT_LT(history.proposals[0].failed_rollouts, 60) << name;
-      for (const Proposal& proposal : history.proposals) EXPECT_TRUE(std::isfinite(*proposal.predicted_return));
-      EXPECT_GT(history.returns.back(), 7) << name;
-    }
-  }
-}
-
-TEST(BlackDrops, TrainingRowsThatFailAreCounted) {
-  prior::Prior prior = slider::prior();
-  prior.simulator = testing::make_hostile(prior.simulator, testing::Harm::nan, 0.2);
-  for (const char* name : slider::kWithPrior) {
-    const auto learner = builder(name)->build(setting(prior));
-    const History history = learn(*learner, 3);
-    EXPECT_EQ(history.proposals[0].left_out_rows, 0);
-    EXPECT_GT(history.proposals[2].left_out_rows, 0) << name;
-    EXPECT_LT(history.proposals[2].left_out_rows, 24) << name;
-  }
-}
-
-TEST(BlackDrops, ASimulatorThatFailsInHalfItsRowsEndsNoRun) {
-  prior::Prior prior = slider::prior();
-  prior.simulator = testing::make_hostile(prior.simulator, testing::Harm::exception, 0.5);
-  for (const char* name : slider::kWithPrior) {
-    const auto learner = builder(name)->build(setting(prior));
-    EXPECT_EQ(learn(*learner, 3).returns.size(), 3u) << name;
-  }
-}
-
-TEST(BlackDrops, ASimulatorThatAlwaysFailsEndsNoRun) {
-  prior::Prior prior = slider::prior();
-  prior.simulator = testing::make_hostile(prior.simulator, testing::Harm::nan, 1);
-  for (const char* name : slider::kWithPrior) {
-    const auto learner = builder(name)->build(setting(prior));
-    EXPECT_EQ(learn(*learner, 3).returns.size(), 3u) << name;
   }
 }
 

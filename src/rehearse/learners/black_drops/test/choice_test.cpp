@@ -1,0 +1,74 @@
+#include "rehearse/learners/black_drops/choice.hpp"
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/rollout/simulate.hpp"
+#include "slider.hpp"
+
+namespace rehearse::learners::black_drops {
+namespace {
+
+using slider::builder, slider::run_trial, slider::setting;
+
+/// Trials 1 and 2 of a learner whose model is sure, on a task that asks for a last position in an interval.
+std::vector<Proposal> surely(Interval last, const char* searches) {
+  const auto with = builder("mi", "100");
+  EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "retry.searches", searches));
+  Setting task = setting();
+  task.task.solved = [last](const Episode& e) {
+    const double position = e.true_states(e.steps(), 0);
+    return position > last.low && position < last.high;
+  };
+  const auto learner = with->build(task);
+  std::vector<Proposal> proposals = {learner->ask()};
+  learner->tell(run_trial(proposals.front(), 1));
+  proposals.push_back(learner->ask());
+  return proposals;
+}
+
+double last_position(const Proposal& proposal) {
+  return rollout::simulate_recorded({*proposal.model, *proposal.policy, slider::task(), {}, {.sample = false}},
+                                    proposal.theta, 1)
+      .states.back()(0, 0);
+}
+
+// The highest return is that of a slider at 0; descents that were given up end elsewhere.
+TEST(Choice, PrefersPoliciesThatAreExpectedToSolveTheTask) {
+  const Interval beside = {0.1, 2}, nowhere = {9, 10};
+  const auto careless = surely(beside, "0"), retrying = surely(beside, "3");
+  const auto in_vain = surely(nowhere, "3"), content = surely({-1, 1}, "3");
+  for (std::size_t trial : {0, 1}) {
+    EXPECT_LT(last_position(careless[trial]), beside.low);
+    EXPECT_GT(last_position(retrying[trial]), beside.low);
+    EXPECT_LT(last_position(retrying[trial]), beside.high);
+    EXPECT_GT(in_vain[trial].rollouts, 3 * careless[trial].rollouts) << "four searches";
+    EXPECT_GE(*in_vain[trial].predicted_return, *careless[trial].predicted_return);
+    EXPECT_LT(content[trial].rollouts, 1.5 * careless[trial].rollouts) << "one";
+  }
+}
+
+TEST(Choice, PrefersThemWithinAToleranceWhereTheModelIsUncertain) {
+  const auto second = [](const char* tolerance) {
+    const auto with = builder("black-drops-prior", "100");
+    for (const auto& [name, value] : std::map<std::string, std::string>{
+             {"mean_search.policies", "0"}, {"explore.gain", "0"}, {"retry.uncertain_tolerance", tolerance}})
+      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
+    Setting task = setting(slider::prior(1.5));
+    task.task.solved = [](const Episode& e) { return e.true_states(e.steps(), 0) > 0.1; };
+    const auto learner = with->build(task);
+    learner->tell(run_trial(learner->ask(), 1));
+    return learner->ask();
+  };
+  const Proposal careless = second("0"), strict = second("1e-9"), lenient = second("1e12");
+  EXPECT_LT(last_position(careless), 0.1);
+  EXPECT_LT(last_position(strict), 0.1);
+  EXPECT_GE(*strict.predicted_return, *careless.predicted_return);
+  EXPECT_GT(strict.rollouts, careless.rollouts + 100) << "it went on";
+  EXPECT_GT(last_position(lenient), 0.1);
+  EXPECT_LT(*lenient.predicted_return, *careless.predicted_return);
+}
+
+}  // namespace
+}  // namespace rehearse::learners::black_drops

@@ -1,0 +1,71 @@
+#include "rehearse/learners/black_drops/trial_searches.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rehearse/dynamics/simulator_model.hpp"
+#include "slider.hpp"
+
+namespace rehearse::learners::black_drops {
+namespace {
+
+/// The searches of a trial on the slider itself, with a little uncertainty.
+struct TrialSearchesTest : ::testing::Test {
+  TrialSearchesTest() {
+    options.race.max_evaluations = 60;
+    options.race.descents = 2;
+    options.race.cmaes.population = 6;
+    options.finalists = 2;
+    options.selection = 5;
+  }
+  TrialSearches searches() const { return {problem, options, {.seed = 1, .trial = 2}}; }
+  const dynamics::SimulatorModel model{slider::prior(), slider::kTruth, 0.0004};
+  const std::shared_ptr<const policy::Policy> policy = slider::policy();
+  Task task = slider::task();
+  const ProgressSink nobody;
+  const SearchProblem problem{model, *policy, task, serial_evaluator(), nobody};
+  SearchOptions options;
+};
+
+TEST_F(TrialSearchesTest, EachHasItsOwnNumbersWhateverCameBefore) {
+  TrialSearches one = searches(), other = searches();
+  const SearchResult first = one.search({}, 0), second = one.search({}, 1);
+  EXPECT_NE(first.theta, second.theta);
+  EXPECT_EQ(other.search({}, 1).theta, second.theta);
+  EXPECT_EQ(one.judge(first.theta).predicted_return, other.judge(first.theta).predicted_return);
+  EXPECT_EQ(one.search_means({}, 0).theta, other.search_means({}, 0).theta);
+}
+
+TEST_F(TrialSearchesTest, AllRolloutsAreCounted) {
+  TrialSearches trial = searches();
+  Index rollouts = trial.search({}, 0).rollouts;
+  EXPECT_EQ(trial.rollouts(), rollouts);
+  rollouts += trial.search_means({}, 0).rollouts;
+  rollouts += trial.judge(Vector{{-5, 0}}).rollouts;
+  EXPECT_EQ(trial.rollouts(), rollouts);
+  EXPECT_EQ(trial.failed_rollouts(), 0);
+}
+
+TEST_F(TrialSearchesTest, OfThePoliciesFoundTheOneThatSolvesMostOftenIsTaken) {
+  const Vector still = Vector::Zero(2), pull{{-5, 0}};
+  const SearchResult found{.theta = still, .runners_up = {pull}};
+  EXPECT_FALSE(searches().best_that_solves(found)) << "the task cannot say";
+  task.solved = [](const Episode& e) { return std::abs(e.true_states(e.steps(), 0)) < 0.2; };
+  TrialSearches trial = searches();
+  const auto best = trial.best_that_solves(found);
+  ASSERT_TRUE(best);
+  EXPECT_EQ(best->theta, pull);
+  EXPECT_GT(best->solving, 0.5);
+  EXPECT_GT(trial.rollouts(), 2 * options.selection);
+  task.solved = [](const Episode&) { return false; };
+  EXPECT_FALSE(searches().best_that_solves(found));
+}
+
+TEST(Within, IsAFractionOfWhatWasExpectedWhateverItsSign) {
+  EXPECT_TRUE(within(0.1, 10, 9));
+  EXPECT_FALSE(within(0.1, 10, 8.9));
+  EXPECT_TRUE(within(0.1, -10, -11));
+  EXPECT_FALSE(within(0.1, -10, -11.1));
+}
+
+}  // namespace
+}  // namespace rehearse::learners::black_drops
