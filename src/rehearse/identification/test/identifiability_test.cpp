@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "noisy_swing.hpp"
+#include "rehearse/identification/learn.hpp"
+
 namespace rehearse::identification {
 namespace {
+
+using swing::data_with_noise;
 
 using Sentences = std::vector<std::string>;
 
@@ -45,6 +50,51 @@ TEST(IdentifiabilityWarnings, IntervalsEndWithTheBoxAndWarningsSayWhereThatIs) {
   EXPECT_EQ(intervals[2].low, 0);
   EXPECT_EQ(identifiability_warnings(posterior),
             Sentences{"b is at the end of its box, 1: a better value may lie beyond"});
+}
+
+TEST(IdentifiabilityWarnings, AParameterThatMovesNothingCouldBeAnything) {
+  const Dataset data = data_with_noise(40, 2, 0.005);
+  const prior::Prior prior =
+      swing::prior({swing::length(), swing::friction(), Parameter::continuous("colour", 3, {1, 5})});
+  for (const Kind& kind : {Kind(GpMi{}), Kind(Mi{})}) {
+    const auto posterior = learn(data, swing::features(), {}, &prior, kind, {}, serial_evaluator()).posterior;
+    const Interval interval = posterior->intervals()[2];
+    EXPECT_LT(interval.high - interval.low, 4 + 1e-9);
+    EXPECT_GT(interval.high - interval.low, 2.2) << "half the box and more, wherever its mean is";
+    const Sentences warnings = identifiability_warnings(*posterior);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_TRUE(warnings[0].starts_with("colour is not determined by these trials: ")) << warnings[0];
+  }
+}
+
+TEST(IdentifiabilityWarnings, AtTheEndOfTheBoxWhatLiesBeyondWidensNothing) {
+  const Dataset data = data_with_noise(60, 2, 0.005);
+  const prior::Prior prior =
+      swing::prior({Parameter::continuous("length", 0.5, {0.3, 0.7}), swing::friction()});  // the truth is 0.8
+  Mi kind;
+  kind.posterior.misfit_observations = 1e12;
+  const auto posterior = learn(data, swing::features(), {}, &prior, kind, {}, serial_evaluator()).posterior;
+  EXPECT_NEAR(posterior->mean(0), 0.7, 1e-6);
+  EXPECT_EQ(posterior->intervals()[0].high, 0.7);
+  EXPECT_GT(posterior->intervals()[0].low, 0.65);
+  EXPECT_EQ(identifiability_warnings(*posterior).back(),
+            "length is at the end of its box, 0.7: a better value may lie beyond");
+}
+
+TEST(IdentifiabilityWarnings, ParametersThatOnlyActTogetherCannotBeToldApart) {
+  const Dataset data = data_with_noise(60, 2, 0.005);
+  const prior::Prior prior =
+      swing::prior({swing::length(), swing::friction(), Parameter::continuous("gear", 1.5, {0.1, 5}),
+                    Parameter::continuous("motor", 1.2, {0.1, 5})},
+                   [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
+                     swing::ode(x, Vector{{u(0) * phi(2) * phi(3)}}, phi, dxdt);
+                   });
+  const auto learned = learn(data, swing::features(), {}, &prior, GpMi{}, {}, serial_evaluator());
+  EXPECT_NEAR((*learned.state.phi)(2) * (*learned.state.phi)(3), 1, 0.1);
+  ASSERT_EQ(identifiability_warnings(*learned.posterior).size(), 1u);
+  EXPECT_TRUE(identifiability_warnings(*learned.posterior)[0].starts_with(
+      "gear and motor cannot be told apart by these trials; known is motor·gear = "))
+      << identifiability_warnings(*learned.posterior)[0];
 }
 
 }  // namespace

@@ -1,23 +1,18 @@
 #include "rehearse/identification/learn.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
+#include "learn_swing.hpp"
+#include "pendubot_episode.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
-#include "rehearse/robots/pendubot/pendubot.hpp"
-#include "rehearse/rollout/execute.hpp"
-#include "swing.hpp"
 
 namespace rehearse::identification {
 namespace {
 
-Learned learn_swing(const Dataset& data, const Kind& kind, const prior::Prior* prior = nullptr,
-                    const WarmStart& start = {}, const Evaluator& evaluator = serial_evaluator()) {
-  return learn(data, swing::features(), {}, prior, kind, start, evaluator);
-}
+using swing::failing_above, swing::learn_swing;
 
 struct Prediction {
   Matrix mean, variance;
@@ -121,16 +116,6 @@ TEST(Learn, ChoosesTheRightPriorAmongSeveral) {
   }
 }
 
-/// The measured steps of one episode of a random policy on the pendubot.
-Dataset one_episode(const scenario::Scenario& s, std::uint64_t seed) {
-  Rng rng({.seed = seed, .purpose = Purpose::random_policy});
-  Vector theta(s.policy->parameters());
-  for (double& value : theta) value = rng.uniform(-5, 5);
-  Dataset data;
-  data.append(rollout::execute(*s.make_plant(), *s.policy, theta, s.task, rng));
-  return data;
-}
-
 // Seeds 1 to 3; the plant is free of noise, so that only the policies are drawn.
 TEST(Learn, GpMiIdentifiesThePendubotFromOneEpisode) {
   const scenario::Scenario s = robots::pendubot::make({});
@@ -144,62 +129,6 @@ TEST(Learn, GpMiIdentifiesThePendubotFromOneEpisode) {
         learn(data, s.task.feature_map(), s.task.kinematics(), &prior, GpMi{}, {}, serial_evaluator());
     for (Index i = 0; i < 4; ++i) EXPECT_NEAR((*learned.state.phi)(i), 0.5, 0.01) << "seed " << seed << " φ " << i;
   }
-}
-
-// The alternating search has many chances to stop lower than the plain one; seed 1, with and without noise.
-TEST(Learn, GpMiFindsNoLowerScoreThanTheNestedSearch) {
-  for (const double noise : {0.0, 0.01}) {
-    robots::pendubot::Options options;
-    options.ode.measurement_noise = noise;
-    const scenario::Scenario s = robots::pendubot::make(options);
-    const Dataset data = one_episode(s, 1);
-    for (const auto& guess : s.priors) {
-      if (guess.name != "misleading" && guess.name != "partial") continue;
-      const prior::Prior prior{guess.name, guess.simulator, guess.parameters};
-      GpMi by_turns, nested;
-      nested.search = PhiSearch::nested;
-      by_turns.gp.smooth = nested.gp.smooth = false;
-      const auto score = [&](const GpMi& kind) {
-        return *learn(data, s.task.feature_map(), s.task.kinematics(), &prior, kind, {}, serial_evaluator()).score;
-      };
-      EXPECT_GT(score(by_turns), score(nested) - 0.01) << guess.name << " noise " << noise;
-    }
-  }
-}
-
-/// The swing with a wind that the prior does not know of, so that kernels and φ have something to settle.
-Dataset windy(Index n) {
-  Dataset data = swing::data(n, 1);
-  data.changes.col(0).array() += 0.2 * (data.states.col(1).array() * 2).sin() * data.states.col(0).array().tanh();
-  return data;
-}
-
-// 200 rows are searched on a part of 67 of them first, 500 on two parts, and these go on with one fit alone.
-TEST(Learn, GpMiOnManyRowsIsNoWorseThanNestedAndTheSameForAnyNumberOfThreads) {
-  const prior::Prior prior = swing::prior({swing::length(), swing::friction()});
-  const auto threads = make_thread_evaluator(2);
-  for (const Index rows : {200, 500}) {
-    const Dataset data = windy(rows);
-    GpMi nested;
-    nested.search = PhiSearch::nested;
-    const Learned learned = learn_swing(data, GpMi{}, &prior);
-    if (rows == 200) {  // else it takes long
-      EXPECT_GT(*learned.score, *learn_swing(data, nested, &prior).score - 0.01);
-    }
-    const Learned same = learn_swing(data, GpMi{}, &prior, {}, *threads);
-    EXPECT_EQ(same.state.phi, learned.state.phi);
-    EXPECT_EQ(same.score, learned.score);
-  }
-}
-
-// Hurried, what the parts lead to is worse than what it is given.
-TEST(Learn, GpMiIsNeverWorseThanWhereItStarts) {
-  const Dataset data = windy(200);
-  const prior::Prior prior = swing::prior({swing::length(), swing::friction()});
-  const Learned first = learn_swing(data, GpMi{}, &prior);
-  GpMi hurried;
-  hurried.gp.fit.bfgs.max_evaluations = 2;
-  EXPECT_GE(*learn_swing(data, hurried, &prior, first.state).score, *first.score - 1e-6);
 }
 
 TEST(Learn, AnyScoreIdentifiesTheSwing) {
@@ -243,58 +172,6 @@ TEST(Learn, MiIsThePriorAtItsWord) {
   EXPECT_EQ(predict(*learned.model, held_out).mean, expected);
   EXPECT_EQ(predict(*learned.model, held_out).variance, Matrix::Zero(held_out.size(), 2));
   EXPECT_FALSE(learned.log_evidence.has_value());
-}
-
-/// The swing whose simulator fails where the angle is above `limit`.
-prior::Prior failing_above(double limit, std::vector<Parameter> parameters) {
-  return swing::prior(std::move(parameters),
-                      [limit](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
-                        swing::ode(x, u, phi, dxdt);
-                        if (x(1) > limit) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
-                      });
-}
-
-TEST(Learn, LeavesOutAndCountsRowsThatFail) {
-  const Dataset data = swing::data(60, 1);
-  const prior::Prior prior = failing_above(2, {swing::length(), swing::friction()});
-  Matrix mean(60, 2);
-  const Index failing = prior.mean(data.states, data.actions, swing::kTruth, mean);
-  ASSERT_GT(failing, 3);
-  for (const Kind& kind : {Kind(FixedPrior{}), Kind(GpMi{}), Kind(Mi{})}) {
-    const Learned learned = learn_swing(data, kind, &prior);
-    EXPECT_NEAR(learned.left_out_rows, failing, 3);  // near the limit it depends on φ
-    if (std::holds_alternative<FixedPrior>(kind)) continue;
-    EXPECT_NEAR((*learned.state.phi)(0), 0.8, 0.016);
-  }
-}
-
-// A clock, say: its changes do not vary, and a row that fails must not earn what its density would be.
-TEST(Learn, AStateThatChangesEvenlyDoesNotRewardFailures) {
-  Dataset data = swing::data(60, 1);
-  data.changes.col(1).setConstant(0.1);
-  const auto clock = [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
-    swing::ode(x, u, phi, dxdt);
-    dxdt(1) = 1;
-    if (phi(0) < 1 && x(0) > 0) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
-  };
-  const prior::Prior prior = swing::prior({Parameter::discrete("length", 0.5, {0.5, 1.2}), swing::friction()}, clock);
-  const Learned learned = learn_swing(data, GpMi{}, &prior);
-  EXPECT_EQ((*learned.state.phi)(0), 1.2);
-  EXPECT_EQ(learned.left_out_rows, 0);
-}
-
-// The shorter swing is the worse one, but can be simulated only where gravity hardly pulls: there it predicts well.
-TEST(Learn, AParameterDoesNotWinByFailingWhereItIsWrong) {
-  const auto fragile = [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
-    swing::ode(x, u, phi, dxdt);
-    if (phi(0) < 1 && std::abs(std::sin(x(1))) > 0.4) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
-  };
-  const prior::Prior prior = swing::prior({Parameter::discrete("length", 0.5, {0.5, 1.2}), swing::friction()}, fragile);
-  for (const Kind& kind : {Kind(GpMi{}), Kind(Mi{})}) {
-    const Learned learned = learn_swing(swing::data(60, 1), kind, &prior);
-    EXPECT_EQ((*learned.state.phi)(0), 1.2) << kind.index();
-    EXPECT_EQ(learned.left_out_rows, 0);
-  }
 }
 
 TEST(Learn, SaysWhatIsMissing) {

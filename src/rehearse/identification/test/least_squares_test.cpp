@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/dynamics/test/swing.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 #include "rehearse/rollout/execute.hpp"
-#include "swing.hpp"
 
 namespace rehearse::identification {
 namespace {

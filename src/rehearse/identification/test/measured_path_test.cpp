@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "swing.hpp"
+#include "rehearse/dynamics/test/swing.hpp"
 
 namespace rehearse::identification {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/dynamics/test/swing.hpp"
 #include "rehearse/identification/learn.hpp"
-#include "swing.hpp"
 
 namespace rehearse::identification {
 namespace {

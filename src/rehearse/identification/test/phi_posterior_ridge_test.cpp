@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "double_pendulum.hpp"
+#include "rehearse/dynamics/test/double_pendulum.hpp"
+#include "rehearse/dynamics/test/swing.hpp"
 #include "rehearse/identification/identifiability.hpp"
 #include "rehearse/identification/learn.hpp"
 #include "rehearse/identification/phi_posterior.hpp"
-#include "swing.hpp"
 
 namespace rehearse::identification {
 namespace {

@@ -5,16 +5,15 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "noisy_swing.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/identification/held_kernels.hpp"
-#include "rehearse/identification/identifiability.hpp"
 #include "rehearse/identification/learn.hpp"
-#include "swing.hpp"
 
 namespace rehearse::identification {
 namespace {
 
-using Sentences = std::vector<std::string>;
+using swing::data_with_noise;
 
 constexpr PhiPosteriorOptions kClassical{.misfit_observations = 1e12};
 
@@ -44,14 +43,6 @@ Dataset data_with_errors(Index rows, std::uint64_t seed) {
   const Matrix L = covariance_of_rows(data, kernel()).llt().matrixL();
   Rng rng({.seed = seed, .trial = 1});
   for (Index e = 0; e < 2; ++e) data.changes.col(e) += L * Vector::NullaryExpr(rows, [&] { return rng.normal(); });
-  return data;
-}
-
-/// Its steps with white noise alone.
-Dataset data_with_noise(Index rows, std::uint64_t seed, double deviation) {
-  Dataset data = swing::data(rows, seed);
-  Rng rng({.seed = seed, .trial = 1});
-  for (double& change : data.changes.reshaped()) change += deviation * rng.normal();
   return data;
 }
 
@@ -241,35 +232,6 @@ TEST(PhiPosterior, OfLeastSquaresSeesTheMisfitInRowsThatAreAlike) {
   EXPECT_GT(wider, 10) << "and nearly all of it is seen";
 }
 
-TEST(PhiPosterior, AParameterThatMovesNothingCouldBeAnything) {
-  const Dataset data = data_with_noise(40, 2, 0.005);
-  const prior::Prior prior =
-      swing::prior({swing::length(), swing::friction(), Parameter::continuous("colour", 3, {1, 5})});
-  for (const Kind& kind : {Kind(GpMi{}), Kind(Mi{})}) {
-    const auto posterior = learn(data, swing::features(), {}, &prior, kind, {}, serial_evaluator()).posterior;
-    const Interval interval = posterior->intervals()[2];
-    EXPECT_LT(interval.high - interval.low, 4 + 1e-9);
-    EXPECT_GT(interval.high - interval.low, 2.2) << "half the box and more, wherever its mean is";
-    const Sentences warnings = identifiability_warnings(*posterior);
-    ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_TRUE(warnings[0].starts_with("colour is not determined by these trials: ")) << warnings[0];
-  }
-}
-
-TEST(PhiPosterior, AtTheEndOfTheBoxWhatLiesBeyondWidensNothing) {
-  const Dataset data = data_with_noise(60, 2, 0.005);
-  const prior::Prior prior =
-      swing::prior({Parameter::continuous("length", 0.5, {0.3, 0.7}), swing::friction()});  // the truth is 0.8
-  Mi kind;
-  kind.posterior = kClassical;
-  const auto posterior = learn(data, swing::features(), {}, &prior, kind, {}, serial_evaluator()).posterior;
-  EXPECT_NEAR(posterior->mean(0), 0.7, 1e-6);
-  EXPECT_EQ(posterior->intervals()[0].high, 0.7);
-  EXPECT_GT(posterior->intervals()[0].low, 0.65);
-  EXPECT_EQ(identifiability_warnings(*posterior).back(),
-            "length is at the end of its box, 0.7: a better value may lie beyond");
-}
-
 TEST(PhiPosterior, WhereNumbersOverflowThereIsNone) {
   const Dataset data = data_with_noise(20, 2, 0.005);
   const prior::Prior prior = swing::prior({swing::length(), swing::friction()},
@@ -279,22 +241,6 @@ TEST(PhiPosterior, WhereNumbersOverflowThereIsNone) {
                                           });
   const dynamics::Residuals residuals(data, swing::features());
   EXPECT_FALSE(phi_posterior(residuals, prior, Vector{{0.5, 0.9}}, {}, serial_evaluator()));
-}
-
-TEST(PhiPosterior, ParametersThatOnlyActTogetherCannotBeToldApart) {
-  const Dataset data = data_with_noise(60, 2, 0.005);
-  const prior::Prior prior =
-      swing::prior({swing::length(), swing::friction(), Parameter::continuous("gear", 1.5, {0.1, 5}),
-                    Parameter::continuous("motor", 1.2, {0.1, 5})},
-                   [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
-                     swing::ode(x, Vector{{u(0) * phi(2) * phi(3)}}, phi, dxdt);
-                   });
-  const auto learned = learn(data, swing::features(), {}, &prior, GpMi{}, {}, serial_evaluator());
-  EXPECT_NEAR((*learned.state.phi)(2) * (*learned.state.phi)(3), 1, 0.1);
-  ASSERT_EQ(identifiability_warnings(*learned.posterior).size(), 1u);
-  EXPECT_TRUE(identifiability_warnings(*learned.posterior)[0].starts_with(
-      "gear and motor cannot be told apart by these trials; known is motor·gear = "))
-      << identifiability_warnings(*learned.posterior)[0];
 }
 
 TEST(PhiPosterior, IsThereWhereContinuousParametersAreLearned) {

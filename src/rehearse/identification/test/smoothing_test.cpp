@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/dynamics/test/swing.hpp"
 #include "rehearse/identification/learn.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 #include "rehearse/rollout/execute.hpp"
-#include "swing.hpp"
 
 namespace rehearse::identification {
 namespace {

@@ -1,47 +1,18 @@
 #include "rehearse/rollout/simulate.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "cart.hpp"
+#include "cart_rollouts.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/events.hpp"
 
 namespace rehearse::rollout {
 namespace {
 
-constexpr StreamKey kKey{.seed = 3, .trial = 2, .purpose = Purpose::simulated_noise};
-constexpr SimulateOptions kUnclipped{.noise_clip = 0};
-
-Simulated simulate_cart(const Task& task, const Matrix& Theta, Index particles, const SimulateOptions& options = {},
-                        const dynamics::DynamicsModel& model = cart::Model(), std::uint64_t first = 0,
-                        const Evaluator& evaluator = serial_evaluator()) {
-  return simulate({model, *cart::policy(), task, kKey, options}, Theta, {first, particles}, evaluator);
-}
-
-/// The numbers that rollout (candidate, particle) meets, from their definition.
-struct Noise {
-  Matrix start, steps;  // 1 × 2, T × 2
-};
-Noise noise_of(const Task& task, std::uint64_t candidate, std::uint64_t particle) {
-  Noise noise{Matrix(1, 2), Matrix(task.horizon, 2)};
-  StreamKey start = kKey;
-  start.purpose = Purpose::simulated_start;
-  fill_normals(start, &candidate, &particle, 0, noise.start);
-  Matrix row(1, 2);
-  for (Index t = 0; t < task.horizon; ++t) {
-    fill_normals(kKey, &candidate, &particle, static_cast<std::uint64_t>(t), row);
-    noise.steps.row(t) = row;
-  }
-  return noise;
-}
-
-Vector start_of(const Task& task, const Noise& noise) {
-  return task.start_mean + (task.start_std.array() * noise.start.row(0).transpose().array()).matrix();
-}
+using cart::kKey, cart::kUnclipped, cart::Noise, cart::noise_of, cart::simulate_cart, cart::start_of;
 
 TEST(Simulate, EqualsALoopOverSingleRollouts) {
   const Task task = cart::task();
@@ -240,70 +211,6 @@ TEST(Simulate, HugePredictionsDisturbNoOtherRollout) {
   for (Index j = 0; j < 200; ++j) same += clean(0, j) == spoilt(0, j);
   EXPECT_GT(same, 20);
   EXPECT_LT(same, 190);
-}
-
-TEST(SimulateRecorded, HasTheReturnsAndTheStatesOfSimulate) {
-  const Task task = cart::task();
-  const Matrix theta = cart::candidates(1);
-  const Recorded recorded = simulate_recorded({cart::Model(0.01), *cart::policy(), task, kKey, kUnclipped}, theta, 4);
-  ASSERT_EQ(recorded.states.size(), 21u);
-  EXPECT_EQ(Matrix(recorded.returns), simulate_cart(task, theta, 4, kUnclipped, cart::Model(0.01)).returns);
-  for (Index p = 0; p < 4; ++p) {
-    const Noise noise = noise_of(task, 0, static_cast<std::uint64_t>(p));
-    const Matrix states = cart::by_hand(task, theta, start_of(task, noise), noise.steps, 0.1).states;
-    for (std::size_t t = 0; t <= 20; ++t)
-      EXPECT_LT((recorded.states[t].row(p) - states.row(static_cast<Index>(t))).norm(), 1e-12);
-  }
-  EXPECT_LT((recorded.rewards.rowwise().sum() - recorded.returns).norm(), 1e-12);
-}
-
-TEST(SimulateRecorded, AfterAnEarlyEndARowIsNan) {
-  Task task = cart::task(0);
-  task.ended = [](const ConstVectorView& x) { return x(1) < 0.9; };
-  Vector left = Vector::Zero(13);
-  left(12) = -5;  // the bias of the output: full force to the left
-  const Recorded recorded = simulate_recorded({cart::Model(), *cart::policy(), task, kKey}, left, 2);
-  bool ended = false;
-  for (const Matrix& states : recorded.states) {
-    EXPECT_TRUE(ended ? states.array().isNaN().all() : (states.array().isFinite().all() || (ended = true)));
-  }
-  EXPECT_TRUE(ended);
-  EXPECT_LT((recorded.rewards.rowwise().sum() - recorded.returns).norm(), 1e-12);
-  EXPECT_TRUE((recorded.rewards.rightCols(1).array() == 0).all()) << "charged when it ended";
-}
-
-/// Rows that fail at v > 0.5, and that fall at p < 0.8.
-TEST(SimulateEpisodes, RecordsWhatTheReturnsAreMadeOf) {
-  Task task = cart::task();
-  const cart::Model model(0.01, [](double v, double) { return v > 0.5; });
-  const Matrix Theta = cart::candidates(40);
-  for (const bool falls : {false, true}) {
-    if (falls) task.ended = [](const ConstVectorView& x) { return x(1) < 0.8; };
-    const Simulated simulated = simulate_cart(task, Theta, 1, {}, model, 5);
-    Episodes episodes;
-    simulate_episodes({model, *cart::policy(), task, kKey}, Theta.transpose(), 5, episodes);
-    EXPECT_EQ(episodes.returns, simulated.returns.row(0).transpose());
-    Index failed = 0, ended = 0, whole = 0;
-    for (Index row = 0; row < 40; ++row) {
-      Episode episode;
-      episodes.copy(row, episode);
-      EXPECT_NEAR(episode.total_reward(), simulated.returns(0, row), 1e-12);
-      const Index T = episode.steps();
-      ASSERT_EQ(episode.states.rows(), T + 1);
-      EXPECT_TRUE(episode.states.allFinite() && episode.rewards.allFinite());
-      for (Index t = 0; t < T; ++t) EXPECT_EQ(episode.rewards(t), std::exp(-std::pow(episode.states(t + 1, 1), 2)));
-      EXPECT_EQ(episode.ended, T > 0 && task.ended && episode.states(T, 1) < 0.8);
-      EXPECT_EQ(episodes.failed[static_cast<std::size_t>(row)], T < 20 && !episode.ended);
-      EXPECT_EQ(episode.charged, (20 - T) * -0.5);
-      failed += episodes.failed[static_cast<std::size_t>(row)];
-      ended += episode.ended;
-      whole += T == 20;
-    }
-    EXPECT_EQ(failed, simulated.failed);
-    EXPECT_GT(failed, 0);
-    EXPECT_GT(whole, 0);
-    EXPECT_EQ(ended > 0, falls);
-  }
 }
 
 TEST(Simulate, IsStoppedBetweenTheStepsOfALongHorizon) {

@@ -1,0 +1,27 @@
+#pragma once
+// Models of the swing, learned as `learn` does.
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "rehearse/dynamics/test/swing.hpp"
+#include "rehearse/identification/learn.hpp"
+
+namespace rehearse::identification::swing {
+
+inline Learned learn_swing(const Dataset& data, const Kind& kind, const prior::Prior* prior = nullptr,
+                           const WarmStart& start = {}, const Evaluator& evaluator = serial_evaluator()) {
+  return learn(data, features(), {}, prior, kind, start, evaluator);
+}
+
+/// The swing whose simulator fails where the angle is above `limit`.
+inline prior::Prior failing_above(double limit, std::vector<Parameter> parameters) {
+  return swing::prior(std::move(parameters),
+                      [limit](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
+                        swing::ode(x, u, phi, dxdt);
+                        if (x(1) > limit) dxdt(0) = std::numeric_limits<double>::quiet_NaN();
+                      });
+}
+
+}  // namespace rehearse::identification::swing
