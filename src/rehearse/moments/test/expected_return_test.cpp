@@ -5,6 +5,7 @@
 #include "fixture.hpp"
 #include "naive.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/moments/analytic_policy.hpp"
 #include "rehearse/moments/fitc.hpp"
 #include "rehearse/moments/saturating_moments.hpp"
 #include "rehearse/robots/cartpole/cartpole.hpp"
@@ -69,7 +70,7 @@ void expect_plain_formulas(const scenario::Scenario& scenario, const std::shared
   Problem problem(scenario, 0, policy, fixture::random_dynamics(scenario, 30, joint_angles));
   const Vector theta = fixture::random_theta(*policy);
   const naive::Preaction preaction =
-      std::visit([&](const auto* options) { return naive::preaction(*options, theta); }, *policy->analytic());
+      std::visit([&](const auto* options) { return naive::preaction(*options, theta); }, *analytic_options(*policy));
   const Return result = problem.expected(theta, nullptr, problem.workspace);
   const fixture::Data data = fixture::random_data(scenario, 30, joint_angles);
   const naive::Gp dynamics{data.inputs, data.changes, fixture::plain_hyperparameters(data)};

@@ -1,38 +1,18 @@
 #include "rehearse/moments/moment_matching.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "rehearse/core/errors.hpp"
-#include "rehearse/core/test/reference.hpp"
-#include "rehearse/gp/test/naive.hpp"
+#include "matching_cases.hpp"
 #include "rehearse/moments/fitc.hpp"
-#include "rehearse/moments/test/gaussian_tools.hpp"
 
 namespace rehearse::moments {
 namespace {
 
-struct Reference {
-  nlohmann::json data = reference::load("b_gp_moment_matching.json");
-  Matrix X = reference::matrix(data["inputs"]["X"]), Y = reference::matrix(data["inputs"]["Y"]),
-         Z = reference::matrix(data["inputs"]["Z_inducing"]);
-
-  std::vector<gp::Hyperparameters> hyperparameters(const std::string& name) const {
-    const Matrix flat = reference::matrix(data["inputs"]["loghyp_" + name]);
-    std::vector<gp::Hyperparameters> list;
-    for (Index e = 0; e < flat.cols(); ++e)
-      list.push_back(gp::Hyperparameters::from_flat(flat.col(e), flat.rows() - 2));
-    return list;
-  }
-  gp::Posterior posterior(const std::string& name) const { return {gp::Inputs(X), Y, hyperparameters(name)}; }
-};
-
-Transformed moments(const MomentMatching& matching, const Gaussian& x) {
-  MomentTape tape;
-  Transformed result;
-  EXPECT_TRUE(matching.forward(x, tape, result));
-  return result;
-}
+using matching::mixture, matching::moments, matching::Reference;
 
 void expect_agreement(const MomentMatching& matching, const nlohmann::json& test, const nlohmann::json& expected,
                       double tolerance) {
@@ -56,23 +36,6 @@ TEST(MomentMatching, AgreesWithPilco) {
     expect_agreement({fitc_terms(reference.X, reference.Y, reference.Z, reference.hyperparameters(name)), 4}, test,
                      test["gp1_fitc15"], 1e-6);
   }
-}
-
-/// Terms of all kinds for two outputs: GPs with a prior mean, and one that shares the centres of another.
-std::vector<MomentTerm> mixture(Index D, Index n = 12) {
-  const Matrix X = gp::naive::normals(n, D, 1);
-  const std::vector<gp::Hyperparameters> theta{gp::naive::hyperparameters(D, 1.5, 1.2, 0.3),
-                                               gp::naive::hyperparameters(D, 2.5, 0.8, 0.2)};
-  Matrix Y(n, 2);
-  for (Index e = 0; e < 2; ++e)
-    Y.col(e) = gp::naive::draw(X, theta[static_cast<std::size_t>(e)], 2 + static_cast<std::uint64_t>(e));
-  std::vector<MomentTerm> terms = exact_terms({gp::Inputs(X), Y, theta});
-  for (Index e = 0; e < 2; ++e)
-    terms.push_back({.output = e,
-                     .centres = gp::naive::normals(n - 3 + e, D, 5 + static_cast<std::uint64_t>(e)),
-                     .log_lengths = Vector::Constant(D, 0.3),
-                     .weights = gp::naive::normals(n - 3 + e, 1, 7 + static_cast<std::uint64_t>(e))});
-  return terms;
 }
 
 /// By the formulas of moment_term.hpp.
@@ -138,79 +101,6 @@ TEST(MomentMatching, OfGpsAroundANetworkIsTheSumOfBothAndWhatTheyShare) {
   EXPECT_LT((sum.covariance - gp.covariance - prior.covariance - C - C.transpose()).norm(), 1e-10);
 }
 
-TEST(MomentMatching, MeanTermsKeepTheMeansOfTermsAlone) {
-  const Reference reference;
-  const auto fitc = fitc_terms(reference.X, reference.Y, reference.Z, reference.hyperparameters("perturbed"));
-  const auto means = mean_terms(fitc, 1e-6);
-  const Matrix at = reference.X.topRows(3), values = evaluate_means(means, 4, at);
-  for (Index i = 0; i < 3; ++i) {
-    const Gaussian x{at.row(i).transpose(), Matrix::Zero(6, 6)};
-    const Transformed full = moments({fitc, 4}, x), mean = moments({means, 4}, x);
-    EXPECT_EQ(full.mean, mean.mean);
-    EXPECT_LT((mean.covariance.diagonal().array() - 1e-6).abs().maxCoeff(), 1e-12);
-    EXPECT_LT((mean.mean - values.row(i).transpose()).norm(), 1e-12);
-  }
-}
-
-TEST(MomentMatching, AdjointAgreesWithDifferencesForAnyNumberOfInputs) {
-  for (const Index D : {1, 2, 3, 4, 5, 6, 7, 9}) {
-    for (const bool few : {false, true}) {
-      const MomentMatching matching(mixture(D, few ? 4 : 21), 2);
-      const Gaussian x = tools::random_gaussian(D, 0.4, 21);
-      const Transformed by = tools::random_adjoint(D, 2, 22);
-      MomentTape tape;
-      Transformed result;
-      ASSERT_TRUE(matching.forward(x, tape, result));
-      Gaussian adjoint = Gaussian::zero(D);
-      matching.adjoint(x, tape, result, by, adjoint);
-      tools::expect_slopes([&](const Gaussian& at) { return tools::inner(by, moments(matching, at)); }, x, adjoint);
-    }
-  }
-}
-
-/// Networks without uncertainty for two outputs.
-std::vector<MomentTerm> networks(Index D) {
-  std::vector<MomentTerm> terms;
-  for (Index k = 0; k < 3; ++k) {
-    const auto seed = static_cast<std::uint64_t>(k);
-    terms.push_back({.output = k % 2,
-                     .centres = gp::naive::normals(9 + (k == 2 ? 4 : 0), D, 31 + (k == 2 ? 1u : 0u)),
-                     .log_lengths = 0.3 * gp::naive::normals(D, 1, 33 + seed),
-                     .weights = gp::naive::normals(9 + (k == 2 ? 4 : 0), 1, 36 + seed)});
-  }
-  return terms;
-}
-
-TEST(MomentMatching, AdjointOfTheTermsAgreesWithDifferences) {
-  const std::vector<MomentTerm> terms = networks(5);
-  const MomentMatching matching(terms, 2, true);
-  const Gaussian x = tools::random_gaussian(5, 0.5, 41);
-  const Transformed by = tools::random_adjoint(5, 2, 42);
-  MomentTape tape;
-  Transformed result;
-  ASSERT_TRUE(matching.forward(x, tape, result));
-  Gaussian adjoint = Gaussian::zero(5);
-  std::vector<TermAdjoint> adjoints = matching.zero_adjoints();
-  matching.adjoint(x, tape, result, by, adjoint, &adjoints);
-  tools::expect_slopes([&](const Gaussian& at) { return tools::inner(by, moments(matching, at)); }, x, adjoint);
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    const auto expect = [&](const Vector& start, const Vector& value, auto set) {
-      const Vector expected = tools::slopes(
-          [&](const Vector& at) {
-            std::vector<MomentTerm> moved = terms;
-            set(moved[k], at);
-            return tools::inner(by, moments({moved, 2}, x));
-          },
-          start, 1e-3);
-      EXPECT_LT((value - expected).norm(), 1e-8 * expected.norm()) << k;
-    };
-    expect(terms[k].weights, adjoints[k].weights, [](MomentTerm& t, const Vector& v) { t.weights = v; });
-    expect(terms[k].log_lengths, adjoints[k].log_lengths, [](MomentTerm& t, const Vector& v) { t.log_lengths = v; });
-    expect(terms[k].centres.reshaped(), adjoints[k].centres.reshaped(),
-           [](MomentTerm& t, const Vector& v) { t.centres = v.reshaped(t.size(), 5); });
-  }
-}
-
 TEST(MomentMatching, OfACertainInputIsThePrediction) {
   const Reference reference;
   const gp::Posterior posterior = reference.posterior("perturbed");
@@ -269,15 +159,6 @@ TEST(MomentMatching, LengthScalesOutOfAllProportionStayFinite) {
   EXPECT_LT((result.covariance - nearly.covariance).norm(), 1e-12);
   for (MomentTerm& term : terms) term.log_lengths(2) = -400;  // no two points are alike
   EXPECT_LT(moments({terms, 2}, x).mean.norm(), 1e-90);
-}
-
-TEST(MomentMatching, RefusesWhatDoesNotFit) {
-  std::vector<MomentTerm> terms = mixture(3);
-  EXPECT_THROW(MomentMatching(terms, 1), InvalidInput);
-  EXPECT_THROW(MomentMatching(terms, 2, true), InvalidInput) << "no adjoint of GPs";
-  terms[0].weights(0) = std::nan("");
-  EXPECT_THROW(MomentMatching(terms, 2), InvalidInput);
-  EXPECT_THROW(MomentMatching({}, 2), InvalidInput);
 }
 
 }  // namespace

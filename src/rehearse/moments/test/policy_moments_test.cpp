@@ -1,47 +1,16 @@
 #include "rehearse/moments/policy_moments.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "policies.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/moments/analytic_policy.hpp"
-#include "rehearse/moments/linear_policy.hpp"
-#include "rehearse/moments/rbf_policy.hpp"
-#include "rehearse/moments/test/gaussian_tools.hpp"
 
 namespace rehearse::moments {
 namespace {
 
-const FeatureMap kFeatures({StateKind::plain, StateKind::plain, StateKind::plain});
-const Vector kScale{{1, 2, 0.5}};
-const std::vector<Interval> kBounds{{-2, 2}, {0, 3}};
-const policy::RbfOptions kRbf{.features = kFeatures, .scale = kScale, .centres = 8, .bounds = kBounds};
-const policy::LinearOptions kLinear{
-    .features = kFeatures, .scale = kScale, .squash = {kBounds, 1.5, policy::Squash::Shape::sine}};
-
-/// A policy and its moments at a θ, without what PILCO adds to them.
-struct Case {
-  std::shared_ptr<const policy::Policy> policy;
-  PolicyMomentsAt at;
-};
-const Case kRbfCase{policy::make_rbf(kRbf),
-                    [](const ConstVectorView& theta) { return std::make_unique<RbfPolicy>(kRbf, theta, 0); }};
-const Case kLinearCase{policy::make_linear(kLinear), policy_moments(*policy::make_linear(kLinear))};
-
-Vector theta(const Case& c) { return tools::normals(c.policy->parameters(), 1, 1); }
-
-Transformed moments(const Case& c, const Vector& theta, const Gaussian& x) {
-  const auto policy = c.at(theta);
-  PolicyTape tape;
-  Transformed action;
-  EXPECT_TRUE(policy->ok() && policy->forward(x, tape, action, serial_evaluator()));
-  return action;
-}
-
-Vector act(const Case& c, const Vector& x) {
-  Matrix U(1, 2);
-  c.policy->act(theta(c).transpose(), x.transpose(), 0, U);
-  return U.row(0).transpose();
-}
+using policies::act, policies::Case, policies::kLinearCase, policies::kRbfCase, policies::moments, policies::theta;
 
 class PolicyMomentsTest : public ::testing::TestWithParam<Case> {};
 
@@ -100,21 +69,6 @@ TEST_P(PolicyMomentsTest, SayWhatCannotBeComputed) {
     EXPECT_FALSE(c.at(at)->ok());
   }
   EXPECT_TRUE(c.at(Vector::Zero(c.policy->parameters()))->ok()) << "all centres in one place";
-}
-
-// What the squash sees is Gaussian, so that its moments are exact.
-TEST(LinearPolicy, HasTheMomentsOfSamples) {
-  const Case& c = kLinearCase;
-  const Gaussian x = tools::random_gaussian(3, 0.5, 4);
-  tools::expect_samples([&](const Vector& at, const Vector&) { return act(c, at); }, x, moments(c, theta(c), x), 6);
-}
-
-TEST(PolicyMoments, AreThereForAnalyticPoliciesOnly) {
-  EXPECT_TRUE(policy_moments(*policy::make_rbf(kRbf)));
-  policy::LinearOptions with_tanh = kLinear;
-  with_tanh.squash.shape = policy::Squash::Shape::tanh;
-  EXPECT_FALSE(policy_moments(*policy::make_linear(with_tanh)));
-  EXPECT_THROW(LinearPolicy(with_tanh, Vector::Zero(8)), InvalidInput);
 }
 
 }  // namespace

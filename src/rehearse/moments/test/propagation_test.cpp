@@ -4,6 +4,7 @@
 
 #include "fixture.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/moments/analytic_policy.hpp"
 #include "rehearse/moments/rbf_policy.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
@@ -31,7 +32,7 @@ class PropagationTest : public ::testing::Test {
   scenario::Scenario scenario_ = robots::pendubot::make({});
   gp::Posterior posterior_ = fixture::random_posterior(scenario_, 40);
   std::shared_ptr<const policy::Policy> rbf_ = fixture::rbf(scenario_.task, 10);
-  RbfPolicy policy_{*std::get<const policy::RbfOptions*>(*rbf_->analytic()), fixture::random_theta(*rbf_), 0};
+  RbfPolicy policy_{*std::get<const policy::RbfOptions*>(*analytic_options(*rbf_)), fixture::random_theta(*rbf_), 0};
   FeatureMoments features_{scenario_.task.feature_map()};
   Vector mean_{{0.4, -0.3, 2.9, 3.3}};
 };

@@ -72,12 +72,11 @@ TEST(Linear, IsItsFormula) {
   }
 }
 
-TEST(Linear, IsAnalyticWithASine) {
-  EXPECT_FALSE(linear()->analytic().has_value());
-  const auto policy = linear(3, Squash::Shape::sine);
-  const auto options = policy->analytic();
-  ASSERT_TRUE(options && std::holds_alternative<const LinearOptions*>(*options));
-  EXPECT_EQ(std::get<const LinearOptions*>(*options)->squash.gain, 3);
+TEST(Linear, SaysWhatItIsMadeOf) {
+  const auto policy = std::dynamic_pointer_cast<const Linear>(linear(3, Squash::Shape::sine));
+  ASSERT_TRUE(policy);
+  EXPECT_EQ(policy->options().squash.gain, 3);
+  EXPECT_EQ(policy->options().squash.shape, Squash::Shape::sine);
 }
 
 TEST(Network, KeepsTheLawsOfPolicies) {

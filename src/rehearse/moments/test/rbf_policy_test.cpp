@@ -1,0 +1,42 @@
+#include "rehearse/moments/rbf_policy.hpp"
+
+#include <gtest/gtest.h>
+
+#include "policies.hpp"
+
+namespace rehearse::moments {
+namespace {
+
+using policies::kRbf, policies::kRbfCase, policies::moments, policies::theta;
+
+// Actions are in the middle of their bounds, where the squash has slope 3/2.
+TEST(RbfPolicy, PilcosJitterIsAddedBeforeTheSquash) {
+  Vector at = theta(kRbfCase);
+  at.tail(2 * 8).setZero();  // the targets
+  const Gaussian x{Vector{{0.3, -0.2, 0.1}}, Matrix::Zero(3, 3)};
+  const auto variance = [&](double jitter) -> Vector {
+    const RbfPolicy policy(kRbf, at, jitter);
+    PolicyTape tape;
+    Transformed action;
+    EXPECT_TRUE(policy.forward(x, tape, action, serial_evaluator()));
+    return action.covariance.diagonal();
+  };
+  EXPECT_LT(variance(0).maxCoeff(), 1e-14);
+  const Vector slopes{{1.5 * 2, 1.5 * 1.5}};  // times half the widths of the bounds
+  EXPECT_TRUE(variance(1e-6).isApprox(1e-6 * slopes.cwiseAbs2(), 1e-4));
+}
+
+TEST(RbfPolicy, LengthScalesOutOfAllProportionStayFinite) {
+  const Gaussian x = tools::random_gaussian(3, 0.5, 4);
+  for (const double log_length : {-400.0, 400.0}) {
+    Vector at = theta(kRbfCase);
+    at.head(2 * 3).setConstant(log_length);
+    const Transformed action = moments(kRbfCase, at, x);
+    EXPECT_TRUE(action.mean.allFinite() && action.covariance.allFinite() && action.gain.allFinite()) << log_length;
+    at.head(2 * 3).setConstant(log_length > 0 ? 20 : -20);
+    EXPECT_EQ(moments(kRbfCase, at, x).mean, action.mean) << "clamped as the policy itself has it";
+  }
+}
+
+}  // namespace
+}  // namespace rehearse::moments
