@@ -1,0 +1,51 @@
+#include "rehearse/dynamics/integration.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/random.hpp"
+
+namespace rehearse::dynamics {
+namespace {
+
+const Kinematics kKinematics{.dt_s = 0.1, .pairs = {{.position = 2, .rate = 0}}};
+
+Matrix normals(std::uint64_t seed) {
+  Rng rng({.seed = seed});
+  return Matrix::NullaryExpr(6, 3, [&] { return rng.normal(); });
+}
+
+TEST(Integration, TheTrapezoidRuleLeavesNothingOfConstantAccelerations) {
+  const Matrix X = normals(1);
+  Matrix changes = normals(2);
+  changes.col(2) = 0.1 * X.col(0) + 0.05 * changes.col(0);  // the position, of which the rate grows evenly
+  const Matrix before = changes;
+  subtract_integrals(kKinematics, X, false, changes);
+  EXPECT_LT(changes.col(2).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_EQ(changes.leftCols(2), before.leftCols(2));
+}
+
+TEST(Integration, WhatIsSubtractedIsAddedAgain) {
+  const Matrix X = normals(1), changes = normals(2);
+  for (const bool has_prior : {false, true}) {
+    Matrix targets = changes;
+    subtract_integrals(kKinematics, X, has_prior, targets);
+    EXPECT_GT((targets - changes).col(2).cwiseAbs().maxCoeff(), 0.01);
+    add_integrals(kKinematics, X, has_prior, targets);
+    EXPECT_LT((targets - changes).cwiseAbs().maxCoeff(), 1e-15) << has_prior;
+  }
+}
+
+TEST(Integration, AroundAPriorRatesCountByTheirResidualsAlone) {
+  Matrix means = Matrix::Zero(6, 3);
+  add_integrals(kKinematics, normals(1), true, means);
+  EXPECT_EQ(means, Matrix::Zero(6, 3));
+}
+
+TEST(Integration, VariancesOfPositionsHaveAQuarterOfThatOfTheRates) {
+  Matrix variance{{4, 1, 0.5}};
+  add_variances_of_integrals(kKinematics, variance);
+  EXPECT_TRUE(variance.isApprox(Matrix{{4, 1, 0.5 + 0.01}}));
+}
+
+}  // namespace
+}  // namespace rehearse::dynamics

@@ -1,0 +1,73 @@
+#include "rehearse/files/toml_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/test/test_tools.hpp"
+
+namespace rehearse::files {
+namespace {
+
+std::string complaint(const FileViolations& violations) {
+  return message_of<InvalidInput>([&] { violations.throw_if_any(); });
+}
+
+TEST(FileViolations, AreInTheOrderOfTheLinesAndSaidOnce) {
+  FileViolations violations("x.toml");
+  EXPECT_EQ(complaint(violations), "");
+  violations.add(12, "late");
+  violations.add(3, "early");
+  violations.add(12, "late");
+  violations.add(0, "of no line");
+  EXPECT_EQ(complaint(violations), "x.toml: of no line\nx.toml: line 3: early\nx.toml: line 12: late");
+}
+
+TEST(TomlReader, TakesWhatIsRightAndSaysEverythingElse) {
+  const toml::table table = parse_toml(R"(name = "a"
+text = 3
+names = ["b", "c", "b"]
+steps = 2.5
+count = -1
+table = 1
+nmae = "d"
+)",
+                                       "x.toml");
+  FileViolations violations("x.toml");
+  TomlReader reader(table, "[run]", violations);
+  std::string name = "before", text = "before", missing = "before";
+  std::vector<std::string> names;
+  double steps = 0;
+  Index count = 7;
+  EXPECT_TRUE(reader.take("name", name));
+  EXPECT_TRUE(reader.take("text", text));
+  EXPECT_FALSE(reader.take("missing", missing));
+  EXPECT_TRUE(reader.take("names", names));
+  reader.take_fields([&](FieldVisitor& v) {
+    v.number("steps", steps, "a number");
+    v.integer("count", count, "a count", at_least(0));
+  });
+  EXPECT_FALSE(reader.take_table("table"));
+  reader.finish();
+  EXPECT_EQ(name + " " + text + " " + missing, "a before before");
+  EXPECT_EQ(steps, 2.5);
+  EXPECT_EQ(complaint(violations),
+            "x.toml: line 2: text must be text in quotes\n"
+            "x.toml: line 3: names names 'b' twice\n"
+            "x.toml: line 5: count = -1, must be ≥ 0\n"
+            "x.toml: line 6: table must be a table\n"
+            "x.toml: line 7: unknown key 'nmae' in [run], did you mean 'name'? (known: name, text, missing, names, "
+            "steps, count, table)");
+}
+
+TEST(Toml, LeavesKeepTheOrderOfTheFile) {
+  const toml::table table = parse_toml("z = 1\na.c = true\n[b]\ny = \"t\"\nx = [1]\n", "x.toml");
+  std::string all;
+  for (const auto& [key, node] : leaves(table, "p")) all += key + (node->is_array() ? "" : "=" + text_of(*node)) + " ";
+  EXPECT_EQ(all, "p.z=1 p.a.c=true p.b.y=t p.b.x ");
+  EXPECT_EQ(line_of(*leaves(table).back().second), 5);
+  EXPECT_THROW(text_of(*leaves(table).back().second), InvalidInput);
+  EXPECT_TRUE(
+      message_of<InvalidInput>([] { parse_toml("a = 1\nb = = 2\n", "x.toml"); }).starts_with("x.toml: line 2: "));
+}
+
+}  // namespace
+}  // namespace rehearse::files
