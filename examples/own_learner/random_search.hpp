@@ -19,8 +19,8 @@ struct Options {
   Index policies = 1000;  // drawn before each trial
   double box = 5;         // θ in [−box, box] unless the policy has a box of its own
   void fields(FieldVisitor& v) {
-    v.integer("search.policies", policies, between(1, 1e6));
-    v.number("search.box", box, between(1e-6, 1e6));
+    v.integer("search.policies", policies, "random policies that are simulated before a trial", between(1, 1e6));
+    v.number("search.box", box, "θ is drawn from [-box, box]", between(1e-6, 1e6));
   }
 };
 
