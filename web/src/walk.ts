@@ -110,8 +110,7 @@ function gait(motion: SolidMotion, step: number, width: number): SVGSVGElement {
 }
 
 function way(motion: SolidMotion, width: number): SVGSVGElement {
-  const points = (frames: Frames) =>
-    (frames ?? []).flatMap(([x, y]) => (present(x) && present(y) ? [{ x, y }] : []))
+  const points = (frames: Frames) => (frames ?? []).flatMap(([x, y]) => (present(x) && present(y) ? [{ x, y }] : []))
   const [real, predicted] = [points(motion.frames), points(motion.predicted)]
   const all = [...real, ...predicted]
   const middle = (key: 'x' | 'y') => (Math.min(...all.map((p) => p[key])) + Math.max(...all.map((p) => p[key]))) / 2

@@ -1,0 +1,143 @@
+// The model of a run: its parameters, its error and its evidence.
+import { chart, fit, heights, type Point, type Series } from './chart'
+import { PREDICTED, REAL } from './colours'
+import { parseHeader, present, withUnit, type Cell, type Columns, type Run } from './data'
+import { h, type Child } from './dom'
+import type { Row } from './export'
+import { figure, type Panel } from './figure'
+import { number } from './format'
+import type { LegendEntry } from './legend'
+import { pointsOf, rowsOf, TRIAL } from './trials'
+
+export function parameters({ trials, truth = {}, identifiability }: Run): Child {
+  const columns = Object.keys(trials ?? {}).filter((name) => name.startsWith('phi.'))
+  const isEnd = (name: string) => /\.(low|high)$/.test(name) && columns.includes(name.replace(/\.[a-z]+$/, ''))
+  const names = columns.filter((name) => !isEnd(name))
+  if (!trials || names.length === 0 || !trials['trial']?.length) return null
+  const panel = (column: string): Panel => {
+    const name = column.slice(4)
+    const known = truth[name]
+    const points = withIntervals(pointsOf(trials, column), trials, column)
+    const series = [{ label: name, colour: PREDICTED, points, symbol: 'circle' as const }]
+    const values = [...heights({ points }), ...(present(known) ? [known] : [])]
+    return {
+      title: name,
+      draw: (width) =>
+        chart({
+          width,
+          height: 190,
+          x: TRIAL,
+          y: { label: '', ...fit(values, { span: 0.2 }) },
+          series,
+          rule: present(known) ? { y: known, label: 'robot' } : null,
+        }),
+    }
+  }
+  return figure({
+    name: 'parameters-by-trial',
+    title: 'Parameters of the prior',
+    about: h(
+      'div',
+      {},
+      'With these values the model chose each trial’s policy; in trial 1 they are those of the prior as given. ' +
+        'Dashed: the robot’s own, where the scenario says them.',
+      warningList(identifiability, trials['trial']?.at(-1)),
+    ),
+    ...(columns.length > names.length ? { legend: INTERVAL_LEGEND } : {}),
+    panels: () => names.map(panel),
+    table: () => rowsOf(trials, ['trial', ...columns]).map((row) => ({ ...row, ...prefixed('truth.', truth) })),
+    minWidth: 220,
+    columns: 2,
+  }).element
+}
+
+const INTERVAL_LEGEND: LegendEntry[] = [
+  { label: 'learned', colour: PREDICTED, symbol: 'circle' },
+  { label: '95 % interval', colour: PREDICTED, interval: true, line: false },
+]
+
+function withIntervals(points: Point[], trials: Columns, column: string): Point[] {
+  return points.map((point) => {
+    const row = trials['trial']?.indexOf(point.x) ?? -1
+    const [low, high] = ['low', 'high'].map((end) => trials[`${column}.${end}`]?.[row])
+    if (!present(low) || !present(high)) return point
+    const tip = `trial ${point.x}\n${number(point.y)}\n${number(low)} to ${number(high)}`
+    return { ...point, interval: [low, high], tip }
+  })
+}
+
+/** What the data of the last model could not tell. */
+function warningList(warnings: Run['identifiability'], trial: Cell | undefined): Child {
+  const last = (warnings?.warning ?? []).filter((_, i) => warnings?.trial[i] === trial)
+  return last.length > 0 && h('ul', { class: 'warnings' }, ...last.map((warning) => h('li', {}, `${warning}.`)))
+}
+
+/** One panel a state, one line a trial. */
+export function errors({ errors, prior }: Run): Child {
+  const trials = [...new Set((errors?.['trial'] ?? []).filter(present))]
+  if (!errors || !present(trials[0])) return null
+  const panel = (header: string): Panel => ({
+    title: withUnit(parseHeader(header.slice(4))),
+    draw: (width) =>
+      chart({
+        width,
+        x: { label: 'horizon (steps)', log: true },
+        y: { label: 'root mean square error', log: true },
+        series: trials.map((trial, i) => errorSeries(errors, header, trial, i / trials.length)),
+      }),
+  })
+  const first = trials[0] === 1 && prior ? 'trial 1: the prior as given' : `trial ${trials[0]}: the first model`
+  const others = { label: `trials ${trials[1]} to ${trials.at(-1)}, faint to strong`, colour: PREDICTED }
+  return figure({
+    name: 'prediction-error',
+    title: 'How wrong is the model?',
+    about:
+      'Error of its mean prediction of each trial over 1, 2, 5, … steps, before it was told of the trial: ' +
+      'left one step, right the longest forecast.',
+    legend: [{ label: first, colour: REAL }, ...(trials.length > 1 ? [others] : [])],
+    panels: () =>
+      Object.keys(errors)
+        .filter((header) => header.startsWith('rms '))
+        .map(panel),
+    table: () => rowsOf(errors, Object.keys(errors)),
+    minWidth: 260,
+  }).element
+}
+
+/** age: 0 is the first trial, which stands out. */
+function errorSeries(errors: Columns, header: string, trial: number, age: number): Series {
+  const points = (errors['horizon'] ?? []).flatMap((x, i): Point[] => {
+    const y = errors[header]?.[i]
+    return errors['trial']?.[i] === trial && present(x) && present(y) && y > 0 ? [{ x, y }] : []
+  })
+  const look = age === 0 ? { colour: REAL } : { colour: PREDICTED, opacity: 0.25 + 0.75 * age }
+  return { label: `trial ${trial}`, symbol: 'circle', points, ...look }
+}
+
+export function evidence({ trials }: Run): Child {
+  const points = trials ? pointsOf(trials, 'log_evidence') : []
+  if (!trials || points.length === 0) return null
+  return figure({
+    name: 'evidence',
+    title: 'Log evidence of the model',
+    about: 'Of all data so far, all outputs together; it grows with the data.',
+    panels: () => [
+      {
+        title: '',
+        draw: (width) =>
+          chart({
+            width,
+            height: 320,
+            x: TRIAL,
+            y: { label: 'nats', ...fit(heights({ points })) },
+            series: [{ label: 'log evidence', colour: PREDICTED, points, symbol: 'circle' }],
+          }),
+      },
+    ],
+    table: () => rowsOf(trials, ['trial', 'log_evidence']),
+  }).element
+}
+
+function prefixed(prefix: string, values: Record<string, number>): Row {
+  return Object.fromEntries(Object.entries(values).map(([name, value]) => [prefix + name, value]))
+}

@@ -1,0 +1,54 @@
+// Returns of a run, trial by trial: predicted by the model, and earned on the robot.
+import { chart, fit, heights, type Series } from './chart'
+import { EXPECTED, PREDICTED, REAL } from './colours'
+import type { Run } from './data'
+import type { Child } from './dom'
+import { figure } from './figure'
+import type { LegendEntry } from './legend'
+import { pointsOf, rowsOf, TRIAL } from './trials'
+
+export function returns({ trials }: Run): Child {
+  if (!trials?.['return']?.length) return null
+  const solved = trials['solved'] ?? []
+  const real = pointsOf(trials, 'return').map((p, i) => ({ ...p, hollow: solved[i] !== 1 }))
+  const predicted = pointsOf(trials, 'predicted_return')
+  const expected = pointsOf(trials, 'expected_return')
+  const series: Series[] = [
+    { label: 'predicted', colour: PREDICTED, points: predicted, dash: '6 3', symbol: 'square' },
+    { label: 'expected', colour: EXPECTED, points: expected, dash: '2 3', symbol: 'triangle' },
+    { label: 'robot', colour: REAL, points: real, symbol: 'circle' },
+  ]
+  const evaluated = expected.length > 0
+  const legend: LegendEntry[] = [
+    { label: 'on the robot, solved', colour: REAL, symbol: 'circle' },
+    { label: 'on the robot, not solved', colour: REAL, symbol: 'circle', hollow: true },
+    { label: 'predicted before the trial', colour: PREDICTED, symbol: 'square', dash: '6 3' },
+  ]
+  if (evaluated) legend.push({ label: 'mean of more episodes', colour: EXPECTED, symbol: 'triangle', dash: '2 3' })
+  return figure({
+    name: 'returns-by-trial',
+    title: 'Return, predicted and real',
+    about:
+      'Before each trial the model says what return it expects of the policy. ' +
+      'The closer the two, the better it knows the robot.',
+    legend,
+    panels: () => [
+      {
+        title: '',
+        draw: (width) =>
+          chart({
+            width,
+            height: 300,
+            x: TRIAL,
+            y: { label: 'return', ...fit(series.flatMap(heights), { zero: true }) },
+            series,
+          }),
+      },
+    ],
+    table: () => {
+      const names = ['trial', 'interaction_s', 'return', 'solved', 'predicted_return']
+      return rowsOf(trials, evaluated ? [...names, 'expected_return'] : names)
+    },
+    maxWidth: 1200,
+  }).element
+}

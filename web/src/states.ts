@@ -1,0 +1,119 @@
+// States, action and reward of a trial, each with its prediction.
+import { chart, fit, heights, type Domain, type Point, type Series } from './chart'
+import { PREDICTED, REAL } from './colours'
+import { column, present, variables, withUnit, type Cell, type Columns, type Episode, type Variable } from './data'
+import type { Row } from './export'
+import type { Panel } from './figure'
+import type { LegendEntry } from './legend'
+import { momentSeries } from './moments'
+
+export const ROBOT: LegendEntry = { label: 'the robot', colour: REAL }
+export const MEAN: LegendEntry = { label: 'the model’s mean before the trial', colour: PREDICTED, dash: '6 3' }
+
+const MEASURED = { symbol: 'circle', radius: 1.5, opacity: 0.5, line: false } as const
+
+export function stateLegend({ trajectory, prediction }: Episode): LegendEntry[] {
+  const entries: LegendEntry[] = [ROBOT]
+  if (trajectory && isNoisy(trajectory))
+    entries.push({ label: 'as measured', colour: REAL, symbol: 'circle', line: false })
+  if (prediction)
+    entries.push(MEAN, {
+      label: '5–95 % and 25–75 % of 100 simulated episodes',
+      colour: PREDICTED,
+      band: 0.3,
+      line: false,
+    })
+  return entries
+}
+
+/** Whether what was measured is not what was true. */
+function isNoisy(trajectory: Columns): boolean {
+  return variables(trajectory).states.some(({ name }) => {
+    const truth = column(trajectory, `true ${name}`)
+    return column(trajectory, name)?.some((value, i) => value !== truth?.[i])
+  })
+}
+
+export function statePanels({ trajectory, prediction }: Episode, moments: boolean): Panel[] {
+  if (!trajectory) return []
+  const times = column(trajectory, 'time') ?? []
+  const { states, actions } = variables(trajectory)
+  const panel = (variable: Variable, series: Series[]): Panel => ({
+    title: withUnit(variable),
+    draw: (width) =>
+      chart({
+        width,
+        height: 190,
+        x: { label: 'time (s)', domain: [0, times.filter(present).at(-1) ?? 1] },
+        y: { label: '', ...domainOf(series) },
+        series,
+        cursor: true,
+      }),
+  })
+  const recorded = (name: string) => line('robot', REAL, times, column(trajectory, name))
+  const expected = (name: string) => (prediction ? expectedSeries(name, prediction, moments) : [])
+  return [
+    ...states.map((state) => panel(state, [...expected(state.name), ...stateSeries(state, times, trajectory)])),
+    ...actions.map((action) => panel(action, [{ ...recorded(action.name), held: true }])),
+    panel({ name: 'reward', unit: '' }, [...expected('reward'), recorded('reward')]),
+  ]
+}
+
+/** Of what is drawn; but a prediction that runs away is cut, so that what happened stays readable. */
+function domainOf(series: Series[]): Domain {
+  const real = fit(series.filter(({ colour }) => colour === REAL).flatMap(heights)).domain
+  const all = fit(series.flatMap(heights)).domain
+  if (!real || !all) return {}
+  const room = 2 * (real[1] - real[0])
+  return { domain: [Math.max(all[0], real[0] - room), Math.min(all[1], real[1] + room)] }
+}
+
+function stateSeries({ name }: Variable, times: Cell[], trajectory: Columns): Series[] {
+  const truth = column(trajectory, `true ${name}`) ?? []
+  const measured = column(trajectory, name) ?? []
+  const all: Series[] = []
+  if (isNoisy(trajectory)) all.push({ ...line('measured', REAL, times, measured), ...MEASURED })
+  all.push(line('robot', REAL, times, truth.some(present) ? truth : measured))
+  return all
+}
+
+function expectedSeries(name: string, prediction: Columns, moments: boolean): Series[] {
+  return [predictedSeries(name, prediction), ...(moments ? [momentSeries(name, prediction)] : [])].filter(
+    ({ points }) => points.length > 0,
+  )
+}
+
+function predictedSeries(name: string, prediction: Columns): Series {
+  const at = (part: string) => column(prediction, `${name} ${part}`) ?? []
+  const [mean, low, lower, upper, high] = ['mean', '5%', '25%', '75%', '95%'].map(at)
+  const pair = (a: Cell | undefined, b: Cell | undefined): [number, number] | undefined =>
+    present(a) && present(b) ? [a, b] : undefined
+  const points = (column(prediction, 'time') ?? []).flatMap((x, i): Point[] => {
+    const y = mean?.[i]
+    if (!present(x) || !present(y)) return []
+    const band = pair(low?.[i], high?.[i])
+    const core = pair(lower?.[i], upper?.[i])
+    return [{ x, y, ...(band ? { band } : {}), ...(core ? { core } : {}) }]
+  })
+  return { label: 'model, mean', colour: PREDICTED, points, dash: '6 3', width: 1.5 }
+}
+
+function line(label: string, colour: string, times: Cell[], values: Cell[] | undefined): Series {
+  const points = times.flatMap((x, i): Point[] => {
+    const y = values?.[i]
+    return present(x) && present(y) ? [{ x, y }] : []
+  })
+  return { label, colour, points }
+}
+
+/** The trajectory, and the prediction beside it. */
+export function stateTable({ trajectory, prediction }: Episode): Row[] {
+  const times = column(trajectory, 'time') ?? []
+  const columns = [
+    ...Object.entries(trajectory ?? {}),
+    ...Object.entries(prediction ?? {}).flatMap(([name, cells]): [string, Cell[]][] =>
+      name.startsWith('time') ? [] : [[`predicted ${name}`, cells]],
+    ),
+  ]
+  return times.map((_, i) => Object.fromEntries(columns.map(([name, cells]) => [name, cells[i] ?? null])))
+}
