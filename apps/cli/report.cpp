@@ -27,7 +27,8 @@ std::string page_template() {
   }
   const std::string build = fs::exists(program / "CMakeCache.txt") ? program.string() : "BUILD_FOLDER";
   throw InvalidInput(fmt::format(
-      "the page of reports is not built; with nodejs and npm installed: cmake --build {} --target page", build));
+      "the page of reports is not built; with nodejs and npm installed: cmake {0} && cmake --build {0} --target page",
+      build));
 }
 
 /// Whatever is there under this name and is no page of ours may be the work of hours.

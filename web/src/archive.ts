@@ -1,4 +1,4 @@
-// A learner's archive of policies: what it promised, what is expected of it after the trials, and which were tried.
+// A learner's archive of policies: the returns that it predicts before and after the trials, and which were tried.
 import { cellChart, cellsOf, type Axis, type Cell, type Spot } from './cells'
 import { scaleOf, type Scale } from './colours'
 import { parseHeader, present, withUnit, type Archive, type Run } from './data'
@@ -13,7 +13,9 @@ import type { LegendEntry } from './legend'
 interface Trial {
   trial: number
   elite: number
+  /** By the prior. */
   promised: number
+  /** Just before the trial. */
   expected: number | null
   observed: number | null
   learned: boolean
@@ -79,21 +81,20 @@ const PAIRS: [string, string][] = [
 /** Before and after. */
 interface Half {
   title: string
-  verb: string
   values: number[]
 }
 
 function halves({ promised, expected, tried }: Archive, trials: Trial[]): Half[] {
   const learned = tried ? count(trials.filter((trial) => trial.learned).length, 'trial') : 'the trials'
   return [
-    { title: 'promised by the archive', verb: 'promised', values: promised },
-    { title: `expected after ${learned}`, verb: 'expected', values: expected },
+    { title: 'predicted by the prior', values: promised },
+    { title: `predicted after ${learned}`, values: expected },
   ]
 }
 
 function panelOf(
   { descriptors }: Archive,
-  { title, verb, values }: Half,
+  { title, values }: Half,
   [a, b]: Pair,
   axes: Axis[],
   trials: Trial[],
@@ -101,7 +102,7 @@ function panelOf(
 ): Panel {
   const [x, y] = [axes[a] as Axis, b === null ? null : (axes[b] as Axis)]
   const [xs, ys] = [a, b].map((d) => descriptors[d ?? -1]?.values ?? []) as [number[], number[]]
-  const tip = ({ best, count: n }: Cell) => `${verb} ${number(best)}\n${n === 1 ? '1 elite' : `the best of ${n}`}`
+  const tip = ({ best, count: n }: Cell) => `predicted ${number(best)}\n${n === 1 ? '1 elite' : `the best of ${n}`}`
   return {
     title,
     label: `${title} by ${[x, y].flatMap((axis) => axis?.label ?? []).join(' and ')}`,
@@ -122,13 +123,13 @@ function aboutOf({ promised, space }: Archive): Child {
     ? `${count(promised.length, 'elite')} in ${count(space.niches, 'niche')}`
     : count(promised.length, 'elite')
   return (
-    `${niches}, each the best policy of its kind on the prior. A cell has the colour of the best elite in it: of the ` +
-    'return that the archive promises, and of the one expected since the trials. A trial stands where the archive has ' +
-    'its policy, with a second ring if that was tried again.'
+    `${niches}, each the best policy of its kind on the prior. A cell has the colour of the best predicted return in ` +
+    'it, by the prior or after the trials. A trial stands where the archive has its policy, with a second ring if that ' +
+    'was tried again.'
   )
 }
 
-/** What is lower than anything that the archive promises has the lowest colour. */
+/** What is lower than any return that the prior predicts has the lowest colour. */
 function scaleOfArchive({ promised, expected }: Archive, trials: Trial[]): Scale {
   const observed = trials.flatMap((trial) => (trial.observed === null ? [] : [trial.observed]))
   return scaleOf(
@@ -184,7 +185,8 @@ function spotsOf(trials: Trial[], xs: number[], ys: number[]): Spot[] {
 }
 
 function tipOf({ trial, promised, expected, observed }: Trial): string {
-  return `trial ${trial}: promised ${number(promised)}, expected ${number(expected)}, earned ${number(observed)}`
+  const predicted = `${number(promised)} predicted by the prior, ${number(expected)} before the trial`
+  return `trial ${trial}: ${predicted}, ${number(observed)} on the robot`
 }
 
 function rowsOf({ descriptors, promised, expected }: Archive, trials: Trial[]): Row[] {
@@ -204,8 +206,8 @@ function trialTable(trials: Trial[]): Child {
   return tableFigure({
     name: 'archive-trials',
     title: 'Which policies of the archive were tried',
-    about: 'Promised on the prior, expected just before the trial, and what the robot earned with it.',
-    columns: ['Trial', 'Elite', 'Promised', 'Expected', 'Earned', 'Note'],
+    about: 'The return of each, as the prior predicted it, as predicted just before the trial, and on the robot.',
+    columns: ['Trial', 'Elite', 'Predicted by the prior', 'Predicted before the trial', 'On the robot', 'Note'],
     lines: trials.map(({ trial, elite, promised, expected, observed, learned }) =>
       h(
         'tr',
@@ -223,8 +225,8 @@ function trialTable(trials: Trial[]): Child {
         trial,
         elite: elite + 1,
         promised,
-        expected,
-        observed,
+        predicted_return: expected,
+        return: observed,
         learned: learned ? 1 : 0,
       })),
   })

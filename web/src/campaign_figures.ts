@@ -155,7 +155,7 @@ export function parameters({ parameters }: Campaign, style: StyleOf): Child {
     name: 'parameters-by-trial',
     title: 'Identified parameters against the truth',
     about:
-      'Median and quartiles of the values with which the model chose each trial’s policy. Dashed: the robot’s own.',
+      'Median and quartiles of the values with which the model chose each trial’s policy. A dashed line is the robot’s own value.',
     legend: legendOf(parameters, style, { band: 0.16 }),
     panels: () => priors.flatMap((prior) => names.flatMap((name) => panel(prior, name))),
     table: () => parameters.flatMap((one) => quartileRows(one, { parameter: one.parameter, truth: one.truth })),

@@ -27,7 +27,7 @@ export interface Run {
   timings?: Columns
   errors?: Columns
   notes?: { trial: number[]; note: string[] }
-  /** Not there in the folders of older versions. */
+  /** Identifiability warnings; not there in the folders of older versions. */
   identifiability?: { trial: number[]; warning: string[] }
   truth?: Record<string, number>
   /** Of a learner that has one. */
@@ -38,7 +38,9 @@ export interface Run {
 /** elites.csv and tried.csv; a value an elite. */
 export interface Archive {
   descriptors: { name: string; values: number[] }[]
+  /** Returns that the prior predicts. */
   promised: number[]
+  /** Returns predicted after the trials. */
   expected: number[]
   /** Of archive.bin, if that is usable; bins: of a grid. */
   space: { niches: number; bounds: [number, number][]; bins?: number[] } | null

@@ -1,4 +1,4 @@
-// What moment matching expects of a trial, beside the samples (docs/pilco.md).
+// What moment matching predicts of a trial, beside the samples (docs/pilco.md).
 import { chart, fit, heights, type ChartOptions, type Domain, type Point, type Series } from './chart'
 import { MOMENTS, PREDICTED } from './colours'
 import { column, present, type Columns, type Run } from './data'
@@ -43,7 +43,7 @@ export function gapSentence({ episodes }: Run, trial: number): string {
   if (!gap) return ''
   const parts = [
     present(gap.moment_return) &&
-      `moment matching expects ${number(gap.moment_return)}, the samples ${number(gap.sampled_return)}`,
+      `moment matching predicts ${number(gap.moment_return)}, the samples ${number(gap.sampled_return)}`,
     present(gap.apart) &&
       `means of states are at most ${number(gap.apart, 2)} of the samples’ standard deviations apart` +
         (gap.state ? ` (${gap.state} at ${number(gap.time_s)} s)` : ''),
@@ -91,9 +91,9 @@ export function gaps({ episodes }: Run): Child {
     name: 'moments-by-trial',
     title: 'Moment matching against samples',
     about:
-      'The same model, policy and start: a Gaussian in closed form against 100 sampled episodes, of which a mean is ' +
-      'known to a tenth of their standard deviation. They differ where the states are no Gaussian, ' +
-      'and where states are measured with noise: moment matching knows none.',
+      'Both predict the same trial with the same model: one with Gaussians in closed form, one with 100 sampled ' +
+      'episodes. A mean of the samples is known to a tenth of their standard deviation. The two differ where states are ' +
+      'not Gaussian, and where states are measured with noise, which moment matching does not know.',
     legend: [
       { label: 'moment matching', colour: MOMENTS, symbol: 'triangle' },
       { label: 'samples', colour: PREDICTED, symbol: 'square', dash: '6 3' },
@@ -103,7 +103,7 @@ export function gaps({ episodes }: Run): Child {
         series('apart', {}),
       ]),
       panel('Standard deviations, moments to samples', { label: 'ratio' }, [series('spread', {})], true),
-      panel('Expected return', { label: 'return' }, [series('sampled_return', samples), series('moment_return', {})]),
+      panel('Predicted return', { label: 'return' }, [series('sampled_return', samples), series('moment_return', {})]),
     ],
     table: () => known,
     minWidth: 260,

@@ -86,10 +86,10 @@ function replay(run: Run): Child {
   if (!start) return null
   return player(usable, start, (trial) => {
     const value = (name: string) => run.trials?.[name]?.[trial - 1]
-    const expected = present(value('predicted_return')) ? `, ${number(value('predicted_return'))} predicted` : ''
+    const predicted = present(value('predicted_return')) ? `, ${number(value('predicted_return'))} predicted` : ''
     const solved = value('solved')
     const verdict = present(solved) ? (solved === 1 ? ', solved' : ', not solved') : ''
-    return `Return ${number(value('return'))}${expected}${verdict}.${gapSentence(run, trial)}`
+    return `Return ${number(value('return'))}${predicted}${verdict}.${gapSentence(run, trial)}`
   })
 }
 

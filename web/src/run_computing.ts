@@ -15,7 +15,7 @@ export function times({ timings }: Run): Child {
   return figure({
     name: 'times',
     title: 'Time to compute',
-    about: 'Learning the model, and searching a policy on it. Differs from run to run and machine to machine.',
+    about: 'The times to learn the model and to search a policy on it. They differ from run to run.',
     legend: series,
     panels: () => [
       {

@@ -39,8 +39,8 @@ export function parameters({ trials, truth = {}, identifiability }: Run): Child 
     about: h(
       'div',
       {},
-      'With these values the model chose each trial’s policy; in trial 1 they are those of the prior as given. ' +
-        'Dashed: the robot’s own, where the scenario says them.',
+      'The model chose each trial’s policy with these values. Trial 1 has those of the prior as given. ' +
+        'A dashed line is the robot’s own value, where the scenario says it.',
       warningList(identifiability, trials['trial']?.at(-1)),
     ),
     ...(columns.length > names.length ? { legend: INTERVAL_LEGEND } : {}),
@@ -66,10 +66,12 @@ function withIntervals(points: Point[], trials: Columns, column: string): Point[
   })
 }
 
-/** What the data of the last model could not tell. */
+/** Of the last model: parameters that its data cannot tell apart, or leave uncertain. */
 function warningList(warnings: Run['identifiability'], trial: Cell | undefined): Child {
   const last = (warnings?.warning ?? []).filter((_, i) => warnings?.trial[i] === trial)
-  return last.length > 0 && h('ul', { class: 'warnings' }, ...last.map((warning) => h('li', {}, `${warning}.`)))
+  if (last.length === 0) return null
+  const items = last.map((warning) => h('li', {}, `${warning}.`))
+  return h('div', { class: 'warnings' }, 'Identifiability warnings:', h('ul', {}, ...items))
 }
 
 /** One panel a state, one line a trial. */
@@ -92,8 +94,8 @@ export function errors({ errors, prior }: Run): Child {
     name: 'prediction-error',
     title: 'How wrong is the model?',
     about:
-      'Error of its mean prediction of each trial over 1, 2, 5, … steps, before it was told of the trial: ' +
-      'left one step, right the longest forecast.',
+      'The error of its mean prediction of each trial over 1, 2, 5, … steps, before it learned from the trial. ' +
+      'One step is on the left, the longest prediction on the right.',
     legend: [{ label: first, colour: REAL }, ...(trials.length > 1 ? [others] : [])],
     panels: () =>
       Object.keys(errors)
@@ -120,7 +122,7 @@ export function evidence({ trials }: Run): Child {
   return figure({
     name: 'evidence',
     title: 'Log evidence of the model',
-    about: 'Of all data so far, all outputs together; it grows with the data.',
+    about: 'It is of all data so far and all outputs together. It grows with the data.',
     panels: () => [
       {
         title: '',

@@ -29,8 +29,8 @@ export function returns({ trials }: Run): Child {
     name: 'returns-by-trial',
     title: 'Return, predicted and real',
     about:
-      'Before each trial the model says what return it expects of the policy. ' +
-      'The closer the two, the better it knows the robot.',
+      'The model predicts the return of each trial’s policy. ' +
+      'The closer the two, the better the model knows the robot.',
     legend,
     panels: () => [
       {

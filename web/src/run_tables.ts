@@ -9,7 +9,7 @@ export function notes({ notes }: Run): Child {
   const lines = rows.map(({ trial, note }) => h('tr', {}, h('td', {}, trial), h('td', {}, note)))
   return tableFigure({
     name: 'notes',
-    title: 'Numerical failures that were survived',
+    title: 'Notes',
     columns: ['Trial', 'What happened'],
     lines,
     table: () => rows,

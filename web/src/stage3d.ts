@@ -1,4 +1,4 @@
-// The robot in space, drawn by three.js: the trial, and as a ghost what the model had expected.
+// The robot in space, drawn by three.js: the trial, and as a ghost the model's prediction.
 import {
   BufferGeometry,
   Color,

@@ -8,7 +8,7 @@ import type { LegendEntry } from './legend'
 import { momentSeries } from './moments'
 
 export const ROBOT: LegendEntry = { label: 'the robot', colour: REAL }
-export const MEAN: LegendEntry = { label: 'the model’s mean before the trial', colour: PREDICTED, dash: '6 3' }
+export const MEAN: LegendEntry = { label: 'the model’s predicted mean', colour: PREDICTED, dash: '6 3' }
 
 const MEASURED = { symbol: 'circle', radius: 1.5, opacity: 0.5, line: false } as const
 
@@ -51,11 +51,11 @@ export function statePanels({ trajectory, prediction }: Episode, moments: boolea
       }),
   })
   const recorded = (name: string) => line('robot', REAL, times, column(trajectory, name))
-  const expected = (name: string) => (prediction ? expectedSeries(name, prediction, moments) : [])
+  const predicted = (name: string) => (prediction ? predictions(name, prediction, moments) : [])
   return [
-    ...states.map((state) => panel(state, [...expected(state.name), ...stateSeries(state, times, trajectory)])),
+    ...states.map((state) => panel(state, [...predicted(state.name), ...stateSeries(state, times, trajectory)])),
     ...actions.map((action) => panel(action, [{ ...recorded(action.name), held: true }])),
-    panel({ name: 'reward', unit: '' }, [...expected('reward'), recorded('reward')]),
+    panel({ name: 'reward', unit: '' }, [...predicted('reward'), recorded('reward')]),
   ]
 }
 
@@ -77,7 +77,7 @@ function stateSeries({ name }: Variable, times: Cell[], trajectory: Columns): Se
   return all
 }
 
-function expectedSeries(name: string, prediction: Columns, moments: boolean): Series[] {
+function predictions(name: string, prediction: Columns, moments: boolean): Series[] {
   return [predictedSeries(name, prediction), ...(moments ? [momentSeries(name, prediction)] : [])].filter(
     ({ points }) => points.length > 0,
   )

@@ -101,6 +101,8 @@ await open(runPage, {}, async (page) => {
   await identified.locator('.panel').first().waitFor()
   assert.equal(await identified.locator('.panel').count(), 4) // none for the intervals
   assert.match(await identified.textContent(), /95 % interval/)
+  const warnings = await identified.locator('.warnings li').allTextContents()
+  assert.equal(warnings.at(-1), 'm1 and m2 cannot be told apart by these trials.')
   const parameters = await saved(page, 'Save “Parameters of the prior” as CSV')
   assert.match(parameters, /^trial,phi\.m1,phi\.m1\.low,phi\.m1\.high,phi\.m2,/)
 })
@@ -121,7 +123,7 @@ for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme
     assert.equal(await outlines(page), 0)
     assert.match(
       await page.locator('.player .about').textContent(),
-      /moment matching expects [^;]+; means of states are at most /,
+      /moment matching predicts [^;]+; means of states are at most /,
     )
     const csv = (await saved(page, 'Save “Moment matching against samples” as CSV')).trim().split('\n')
     assert.equal(csv[0], 'trial,sampled_return,moment_return,apart,state,time_s,spread')
@@ -156,18 +158,18 @@ async function readArchive(page) {
   await figure.locator('.panel').first().waitFor()
   const panels = figure.locator('.panel svg')
   assert.equal(await panels.count(), 6)
-  assert.equal(await figure.locator('h4', { hasText: 'expected after 2 trials' }).count(), 3)
+  assert.equal(await figure.locator('h4', { hasText: 'predicted after 2 trials' }).count(), 3)
   assert.match(
     await panels.first().getAttribute('aria-label'),
-    /promised by the archive by tip x at 0\.8 s \(m\) and tip y/,
+    /predicted by the prior by tip x at 0\.8 s \(m\) and tip y/,
   )
   assert.ok((await panels.first().locator('[aria-label=cells] path').count()) > 5, 'all cells have the same colours')
 
   const csv = (await saved(page, 'Save “Which policies of the archive were tried” as CSV')).trim().split('\n')
-  assert.equal(csv[0], 'trial,elite,promised,expected,observed,learned')
+  assert.equal(csv[0], 'trial,elite,promised,predicted_return,return,learned')
   const trials = csv.slice(1).map((line) => line.split(',').map(Number))
   assert.equal(trials.map(([trial, , , , , learned]) => `${trial}:${learned}`).join(), '1:1,2:1,3:0')
-  assert.equal(trials[0][2], trials[0][3], 'before the first trial the archive is believed')
+  assert.equal(trials[0][2], trials[0][3], 'before the first trial another return is predicted than by the prior')
   const labels = await panels.nth(1).locator('[aria-label=trials] text').allTextContents()
   assert.equal(labels.length, new Set(trials.map(([, elite]) => elite)).size)
   assert.ok(labels.includes('1'))
