@@ -69,8 +69,8 @@ class ExtendedEquation {
 
   HWY_INLINE void operator()(const Number* y, Number* slope) const {
     equation_(State<Equation, Number>(y, y + kStates), u_, slope);
-    for (int a = 0; a < kAngleCount<Equation>; ++a) {
-      const int sine = kStates + 2 * a, cosine = sine + 1;
+    for (Index a = 0; a < kAngleCount<Equation>; ++a) {
+      const Index sine = kStates + 2 * a, cosine = sine + 1;
       const Number rate = slope[kAnglesOf<Equation>[a]];
       slope[sine] = y[cosine] * rate;
       slope[cosine] = -(y[sine] * rate);
@@ -121,11 +121,11 @@ class TurningEquation {
 
  private:
   HWY_INLINE void remember_angles() {
-    for (int a = 0; a < kCount; ++a) angle_[a] = x_[kAnglesOf<Equation>[a]];
+    for (Index a = 0; a < kCount; ++a) angle_[a] = x_[kAnglesOf<Equation>[a]];
   }
 
   HWY_INLINE void turn(const Number* x, Number* trig) const {
-    for (int a = 0; a < kCount; ++a) {
+    for (Index a = 0; a < kCount; ++a) {
       const Number turn = x[kAnglesOf<Equation>[a]] - angle_[a], square = turn * turn;
       const Number sine = turn * polynomial(square, {-1. / 39916800, 1. / 362880, -1. / 5040, 1. / 120, -1. / 6, 1});
       const Number cosine =

@@ -11,6 +11,8 @@
 
 #include <hwy/highway.h>
 
+#include "rehearse/core/types.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace rehearse::system {
 namespace HWY_NAMESPACE {
@@ -56,7 +58,7 @@ class State {
   HWY_INLINE State(const Number* x, const Number* trig) : x_(x), trig_(trig) {}
 
   HWY_INLINE Variable<Number> operator[](int i) const {
-    for (int a = 0; a < kAngleCount<Equation>; ++a)
+    for (Index a = 0; a < kAngleCount<Equation>; ++a)
       if (kAnglesOf<Equation>[a] == i) return {x_[i], trig_ + 2 * a};
     return {x_[i], nullptr};
   }
