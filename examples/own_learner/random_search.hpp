@@ -2,11 +2,12 @@
 // Your own learner: random search. Before each trial it draws policies, simulates each on the prior, and proposes the
 // best, or the best one tried if that has earned more.
 //
-// These are the names that a learner in the catalogue has, so that `rehearse learn pendulum --learner random-search`
-// knows it: put this file and random_search.cpp as they are into src/rehearse/learners/random_search, with a
-// CMakeLists.txt beside them that says which rooms they use:
+// These are the names that a learner in the catalogue has: with this file, random_search.cpp and test/ in
+// src/rehearse/learners/random_search, and a CMakeLists.txt there that says which rooms they use,
 //
-//   rehearse_room(learners/random_search USES core dynamics rollout learners)
+//   rehearse_room(learners/random_search USES core dynamics rollout learners TEST_USES policy testing)
+//
+// the program knows it: `rehearse learn pendulum --learner random-search`. CONTRIBUTING.md, "A new learner".
 
 #include <memory>
 #include <vector>
