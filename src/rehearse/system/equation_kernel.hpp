@@ -62,23 +62,23 @@ HWY_EXPORT(ChangeKernel);
 
 // Dispatched at each call: the address of a dispatched function is, before its first call, that of Highway's chooser,
 // which asks the processor for its instruction sets every time.
+void derivative(const double* x, const double* u, const double* phi, double* dxdt) {
+  HWY_DYNAMIC_DISPATCH(DerivativeKernel)(x, u, phi, dxdt);
+}
+
+void change(const ConstMatrixView& X, const ConstMatrixView& U, const double* phi, double duration_s, Index steps,
+            MatrixView dX) {
+  const Batch batch{X.data(), X.outerStride(), U.data(), U.outerStride(), dX.data(), dX.outerStride(), X.rows()};
+  HWY_DYNAMIC_DISPATCH(ChangeKernel)(batch, phi, duration_s, steps);
+}
+
 OdeKernel equation_kernel() {
   using HWY_NAMESPACE::Equation;
   return {.states = Equation::kStates,
           .actions = Equation::kActions,
           .parameters = Equation::kParameters,
-          .derivative =
-              [](const double* x, const double* u, const double* phi, double* dxdt) {
-                HWY_DYNAMIC_DISPATCH(DerivativeKernel)
-                (x, u, phi, dxdt);
-              },
-          .change =
-              [](const ConstMatrixView& X, const ConstMatrixView& U, const double* phi, double duration_s, Index steps,
-                 MatrixView dX) {
-                const Batch batch{X.data(),  X.outerStride(),  U.data(), U.outerStride(),
-                                  dX.data(), dX.outerStride(), X.rows()};
-                HWY_DYNAMIC_DISPATCH(ChangeKernel)(batch, phi, duration_s, steps);
-              }};
+          .derivative = derivative,
+          .change = change};
 }
 
 }  // namespace

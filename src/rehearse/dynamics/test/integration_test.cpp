@@ -31,7 +31,7 @@ TEST(Integration, WhatIsSubtractedIsAddedAgain) {
     subtract_integrals(kKinematics, X, has_prior, targets);
     EXPECT_GT((targets - changes).col(2).cwiseAbs().maxCoeff(), 0.01);
     add_integrals(kKinematics, X, has_prior, targets);
-    EXPECT_LT((targets - changes).cwiseAbs().maxCoeff(), 1e-15) << has_prior;
+    EXPECT_LT((targets - changes).cwiseAbs().maxCoeff(), 1e-14) << has_prior;
   }
 }
 

@@ -47,8 +47,8 @@ TEST(Json, AnEpisodeComesBackAsItWas) {
 TEST(Json, WhatIsNoMatrixIsRefused) {
   using nlohmann::json;
   EXPECT_THROW(to_matrix({{"rows", 2}, {"values", {1.0, 2.0, 3.0}}}), InvalidInput);
-  EXPECT_THROW(to_matrix({{"rows", 0}, {"values", {1.0}}}), InvalidInput);
-  EXPECT_THROW(to_matrix({{"rows", -1}, {"values", {1.0}}}), InvalidInput);
+  EXPECT_THROW(to_matrix({{"rows", 0}, {"values", json::array({1.0})}}), InvalidInput);
+  EXPECT_THROW(to_matrix({{"rows", -1}, {"values", json::array({1.0})}}), InvalidInput);
   EXPECT_THROW(to_matrix({{"rows", 1}}), json::exception);
   EXPECT_THROW(to_vector("text"), json::exception);
 }
