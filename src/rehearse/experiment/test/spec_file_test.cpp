@@ -26,7 +26,7 @@ TEST(SpecFile, SaysBehindEachOptionWhatItDoes) {
   const std::string text = to_toml(resolved.spec, resolved.comments);
   for (const char* line : {"\nseed = 1                                        # seed of all random numbers: the same "
                            "one gives the same run\n",
-                           "\nnoise = 0.1                                     # deviation of what is measured [m]\n",
+                           "\nnoise = 0.01                                    # deviation of what is measured [m]\n",
                            "\ntold_by = \"measured\"                            # states by which the learner is told"})
     EXPECT_NE(text.find(line), std::string::npos) << line << " in " << text;
   std::istringstream lines(text.substr(text.find("[scenario]")));

@@ -23,7 +23,7 @@ void Retry::fields(FieldVisitor& v) {
   v.number("tolerance", tolerance, "fraction of the highest return that a policy which solves the task may lack",
            at_least(0));
   v.number("uncertain_tolerance", uncertain_tolerance,
-           "the same fraction where the model is uncertain; 0: solving is not preferred", at_least(0), published(0));
+           "such a fraction where the model is uncertain; 0: solving is not preferred", at_least(0), published(0));
 }
 
 void Exploration::fields(FieldVisitor& v) {

@@ -94,7 +94,7 @@ void SearchOptions::fields(FieldVisitor& v) {
   v.group("race", race);
   v.group("restarts", restarts, kExpert);
   v.integer("finalists", finalists, "best policies found that are compared once more", between(1, 1e6), published(1));
-  v.integer("selection", selection, "rollouts of each of these; their mean is the predicted return", between(1, 1e6),
+  v.integer("selection", selection, "rollouts of each finalist; their mean is the predicted return", between(1, 1e6),
             published(1));
 }
 
