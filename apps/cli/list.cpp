@@ -121,7 +121,7 @@ void print(const experiment::Catalogue& catalogue, bool with_options) {
 template <class Builder>
 void print_one(Builder& builder, const std::string& kind, bool with_expert) {
   fmt::print("{} {}: {}\n{:{}} {}\n", kind, builder.name(), builder.summary(), "",
-             kind.size() + builder.name().size() + 2, prior_remark(builder));
+             kind.size() + builder.name().size() + 2, remark_of(builder));
   std::vector<Field> shown = options_of(builder);
   const auto middle = std::stable_partition(shown.begin(), shown.end(), [](const Field& f) { return !f.expert; });
   const std::vector<Field> hidden(middle, shown.end());
