@@ -17,6 +17,7 @@
 
 #include "apps/catalogue.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/identification/learn.hpp"
 #include "rehearse/learners/black_drops/black_drops.hpp"
 #include "rehearse/rollout/execute.hpp"
 

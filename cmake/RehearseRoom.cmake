@@ -4,12 +4,12 @@ set(REHEARSE_TEST_OPTIONS $<$<CONFIG:Release>:-O1> ${REHEARSE_WARNINGS})
 
 # Headers that nearly every test reads are parsed once. The target has no definitions of its own, since a compiler refuses
 # precompiled headers that others might have read otherwise. Not so of sources: at -O3 GCC 12 then warns of what is in
-# the standard library.
+# the standard library. A program, though of no test, since programs and libraries are compiled differently.
 if(REHEARSE_TESTS)
   set(empty ${PROJECT_BINARY_DIR}/empty.cpp)
   file(CONFIGURE OUTPUT ${empty} CONTENT "")
-  add_library(rehearse_test_headers OBJECT ${empty})
-  target_link_libraries(rehearse_test_headers PRIVATE Eigen3::Eigen GTest::gtest)
+  add_executable(rehearse_test_headers ${empty})
+  target_link_libraries(rehearse_test_headers PRIVATE Eigen3::Eigen GTest::gtest GTest::gtest_main)
   target_compile_options(rehearse_test_headers PRIVATE ${REHEARSE_TEST_OPTIONS})
   target_precompile_headers(rehearse_test_headers PRIVATE <Eigen/Core> <gtest/gtest.h>)
 endif()

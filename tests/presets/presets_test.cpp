@@ -101,7 +101,7 @@ TEST(Presets, FitTheRunsThatTheyName) {
     for_all_runs(catalogue, [&](auto&, auto&, const Spec& spec) {
       if (preset.options(spec.scenario, spec.learner).empty()) return;
       ++fitting;
-      for (const std::string& line : preset.violations(catalogue, spec)) ADD_FAILURE() << line;
+      for (const std::string& line : violations(preset, catalogue, spec)) ADD_FAILURE() << line;
     });
     EXPECT_GT(fitting, 0u) << preset.source();
   }

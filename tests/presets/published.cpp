@@ -33,7 +33,7 @@ std::string value_text(const std::string& text) {
   return text == "true" || text == "false" || from_text(text, number) ? text : '"' + text + '"';
 }
 
-std::string files::line_of(const PublishedOption& option) {
+std::string line_of(const PublishedOption& option) {
   const bool in_paper = option.published.source == kPaper;
   return fmt::format("set.{} = {}{}\n", option.key, value_text(option.published.text),
                      in_paper ? "" : " # " + option.published.source);
@@ -99,7 +99,7 @@ std::string preset_text(const std::vector<PublishedOption>& options) {
       heads.push_back(head);
       parts.push_back(std::move(head));
     }
-    parts[static_cast<std::size_t>(place)] += files::line_of(option);
+    parts[static_cast<std::size_t>(place)] += line_of(option);
   }
   return fmt::format("{}", fmt::join(parts, ""));
 }

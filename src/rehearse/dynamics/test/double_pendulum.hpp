@@ -12,7 +12,7 @@
 #include "rehearse/prior/prior.hpp"
 #include "rehearse/system/ode.hpp"
 
-namespace rehearse::identification::double_pendulum {
+namespace rehearse::double_pendulum {
 
 inline constexpr double kLength = 0.3, kInertia2 = 0.025, kFriction = 0.05, kGravity = 9.81, kStep = 0.05;
 
@@ -63,4 +63,4 @@ inline Dataset episode(Index n, std::uint64_t seed, double noise = 0) {
   return {.states = states.topRows(n), .actions = actions, .changes = states.bottomRows(n) - states.topRows(n)};
 }
 
-}  // namespace rehearse::identification::double_pendulum
+}  // namespace rehearse::double_pendulum

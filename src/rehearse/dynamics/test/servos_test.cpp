@@ -72,7 +72,7 @@ Dataset steps(Index n, std::uint64_t seed, Ways ways = {}, bool dead = false) {
 }
 
 Servos servos_of(const Dataset& data, Index second_type = 0) {
-  return {data, features(), kinematics(second_type).servos, ResidualGpOptions(), serial_evaluator()};
+  return {data, features(), kinematics(second_type).servos, identification::ResidualGpOptions(), serial_evaluator()};
 }
 
 /// Of where joint j gets to and how fast it is then, as a part of how far it moves.
@@ -124,8 +124,9 @@ TEST(Servos, ARowThatIsNotFiniteIsNaNAlone) {
 
 TEST(Servos, NeedData) { EXPECT_THROW(servos_of(steps(0, 1)), InvalidInput); }
 
-double error_of_x(const Dataset& data, const Kind& kind, const prior::Prior& prior) {
-  const Learned learned = learn(data, features(), kinematics(), &prior, kind, {}, serial_evaluator());
+double error_of_x(const Dataset& data, const identification::Kind& kind, const prior::Prior& prior) {
+  const identification::Learned learned =
+      identification::learn(data, features(), kinematics(), &prior, kind, {}, serial_evaluator());
   const Dataset held_out = steps(200, 2);
   Matrix mean(200, 5), variance(200, 5);
   learned.model->predict(held_out.states, held_out.actions, mean, variance);
@@ -138,10 +139,10 @@ double error_of_x(const Dataset& data, const Kind& kind, const prior::Prior& pri
 
 TEST(ServoModel, KnowsWhatFollowsFromWhereServosGetTo) {
   const Dataset data = steps(15, 1);
-  GpMi without;
+  identification::GpMi without;
   without.gp.servos = false;
   // Eight such data sets: at most 0.006 with servos, 0.21 to 0.48 without.
-  EXPECT_LT(error_of_x(data, GpMi{}, perfect_servos()), 0.02);
+  EXPECT_LT(error_of_x(data, identification::GpMi{}, perfect_servos()), 0.02);
   EXPECT_GT(error_of_x(data, without, perfect_servos()), 0.2);
 }
 
@@ -155,9 +156,9 @@ TEST(ServoModel, AsksWhatFollowsFromJointsThatAreDriven) {
         driven->change(X, U, phi, dX);
         dX.col(4) = (20 * dX.col(4)).array().sin().matrix();
       });
-  EXPECT_LT(error_of_x(data, FixedPrior{}, jerky), 0.1);
+  EXPECT_LT(error_of_x(data, identification::FixedPrior{}, jerky), 0.1);
   jerky.driven = nullptr;
-  EXPECT_GT(error_of_x(data, FixedPrior{}, jerky), 0.3);
+  EXPECT_GT(error_of_x(data, identification::FixedPrior{}, jerky), 0.3);
 }
 
 TEST(ServoModel, ADrawOfServosMovesTheRobotWithThem) {
@@ -169,9 +170,10 @@ TEST(ServoModel, ADrawOfServosMovesTheRobotWithThem) {
     data.changes(i, 4) += kGain * kPush[0] * more;
   }
   const prior::Prior prior = perfect_servos();
-  FixedPrior kind;
+  identification::FixedPrior kind;
   kind.gp.variance = PredictedVariance::noisy;
-  const Learned learned = learn(data, features(), kinematics(), &prior, kind, {}, serial_evaluator());
+  const identification::Learned learned =
+      identification::learn(data, features(), kinematics(), &prior, kind, {}, serial_evaluator());
   const Matrix normals = Matrix::NullaryExpr(50, 5, [&] { return rng.normal(); });
   Matrix drawn(50, 5), mean(50, 5), variance(50, 5);
   learned.model->sample(held_out.states, held_out.actions, normals, drawn);
@@ -183,11 +185,12 @@ TEST(ServoModel, ADrawOfServosMovesTheRobotWithThem) {
 
 TEST(ServoModel, ParametersAreIdentifiedFromWhatFollows) {
   const Dataset data = steps(15, 1);
-  for (const Score score : {Score::product, Score::sum}) {
-    GpMi kind;
+  for (const identification::Score score : {identification::Score::product, identification::Score::sum}) {
+    identification::GpMi kind;
     kind.score = score;
     const prior::Prior wrong = perfect_servos(1.2);
-    const Learned learned = learn(data, features(), kinematics(), &wrong, kind, {}, serial_evaluator());
+    const identification::Learned learned =
+        identification::learn(data, features(), kinematics(), &wrong, kind, {}, serial_evaluator());
     EXPECT_NEAR((*learned.state.phi)(0), kGain, 1e-3);
     EXPECT_TRUE(std::isfinite(*learned.log_evidence));
   }

@@ -11,7 +11,7 @@
 #include "rehearse/prior/prior.hpp"
 #include "rehearse/system/ode.hpp"
 
-namespace rehearse::identification::swing {
+namespace rehearse::swing {
 
 inline void ode(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
   dxdt(0) = -9.81 / phi(0) * std::sin(x(1)) - phi(1) * x(0) + 4 * u(0);
@@ -54,4 +54,4 @@ inline Dataset data(Index n, std::uint64_t seed, const Vector& phi = kTruth) {
 /// Root mean square over rows and outputs.
 inline double rms(const Matrix& errors) { return std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())); }
 
-}  // namespace rehearse::identification::swing
+}  // namespace rehearse::swing

@@ -5,6 +5,7 @@
 #include "line_run.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/run.hpp"
+#include "rehearse/experiment/run_folder.hpp"
 
 namespace rehearse::experiment {
 namespace {

@@ -5,6 +5,7 @@
 #include "naive.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/gp/evidence.hpp"
+#include "rehearse/gp/posterior.hpp"
 
 namespace rehearse::gp {
 namespace {

@@ -10,6 +10,8 @@
 
 namespace rehearse::identification::swing {
 
+using namespace rehearse::swing;  // NOLINT(google-build-using-namespace)
+
 inline Learned learn_swing(const Dataset& data, const Kind& kind, const prior::Prior* prior = nullptr,
                            const WarmStart& start = {}, const Evaluator& evaluator = serial_evaluator()) {
   return learn(data, features(), {}, prior, kind, start, evaluator);

@@ -61,10 +61,10 @@ TEST_P(EachScale, DependsOnTheStateReachedAndOnItsRowAlone) {
   const Dataset data = steps(60, 1);
   const Reward reward = learn(data, GetParam()).reward;
   const Vector all = rewards_of(reward, data);
-  const Matrix elsewhere = Matrix::Zero(1, 4), dynamics::reached = data.states + data.changes;
+  const Matrix elsewhere = Matrix::Zero(1, 4), reached = data.states + data.changes;
   for (Index i = 0; i < data.size(); i += 7) {
     Vector one(1);
-    reward(elsewhere, data.actions.middleRows(i, 1), dynamics::reached.middleRows(i, 1), one);
+    reward(elsewhere, data.actions.middleRows(i, 1), reached.middleRows(i, 1), one);
     EXPECT_EQ(one(0), all(i));
   }
 }

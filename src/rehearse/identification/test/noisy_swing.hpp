@@ -7,6 +7,8 @@
 
 namespace rehearse::identification::swing {
 
+using namespace rehearse::swing;  // NOLINT(google-build-using-namespace)
+
 /// Steps of the true swing with white noise on their changes.
 inline Dataset data_with_noise(Index rows, std::uint64_t seed, double deviation) {
   Dataset data = swing::data(rows, seed);

@@ -76,8 +76,8 @@ TEST(Smoothing, MovesStatesTowardsTheTrueOnes) {
   const Measured m = measured(kNoise, 1);
   const prior::Prior prior = swing::prior({swing::length(0.9), swing::friction()});
   const dynamics::Residuals residuals(m.data, swing::features(), swing::kinematics(), true);
-  gp::FitOptions fit = GpMi{}.gp.fit;
-  const FitProblem problem{residuals, &prior, Score::product, fit, serial_evaluator()};
+  const gp::FitOptions options = GpMi{}.gp.fit;
+  const FitProblem problem{residuals, &prior, Score::product, options, serial_evaluator()};
   Fit fit = unfitted(prior.space.values(), 2, {});
   problem.refit(fit);
   for (const bool moves_phi : {false, true}) {
@@ -156,8 +156,8 @@ TEST(Smoothing, RefusesARowThatFails) {
   const Measured m = measured(kNoise, 1);
   const prior::Prior prior = swing::prior({swing::length(), swing::friction()});
   const dynamics::Residuals residuals(m.data, swing::features(), swing::kinematics());
-  gp::FitOptions fit = GpMi{}.gp.fit;
-  const FitProblem problem{residuals, &prior, Score::product, fit, serial_evaluator()};
+  const gp::FitOptions options = GpMi{}.gp.fit;
+  const FitProblem problem{residuals, &prior, Score::product, options, serial_evaluator()};
   Fit fit = unfitted(prior.space.values(), 2, {});
   problem.refit(fit);
   fit.left_out = 1;

@@ -12,6 +12,8 @@
 
 namespace rehearse::tools {
 
+using moments::Gaussian, moments::Transformed;
+
 inline Matrix normals(Index rows, Index columns, std::uint64_t seed) {
   Rng rng({.seed = seed});
   return Matrix::NullaryExpr(rows, columns, [&] { return rng.normal(); });

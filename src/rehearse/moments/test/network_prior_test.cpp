@@ -15,7 +15,7 @@ TEST(Network, IsTheSumOfItsTermsAtTheFeaturesAndActions) {
   MomentTerm second = first;
   second.output = 1, second.weights *= 2;
   const FeatureMap features({StateKind::angle, StateKind::plain});
-  const Prior prior = network_prior("learned", features, {first, first, second});
+  const prior::Prior prior = network_prior("learned", features, {first, first, second});
   EXPECT_EQ(prior.name, "learned");
   EXPECT_EQ(prior.space.size(), 0);
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/random.hpp"
+#include "rehearse/reward/saturating.hpp"
 #include "rehearse/testing/check_scenario.hpp"
 
 namespace rehearse::robots::cartpole {
@@ -98,8 +99,8 @@ TEST(Cartpole, ShapingMixesAWideRewardOfAngleAndPlace) {
   EXPECT_NEAR(reward(shaped(1), 0.5, -M_PI + 0.6), std::exp(-0.04 - 0.25), 1e-15);
   EXPECT_NEAR(reward(shaped(1), 0, 3 * M_PI + 0.6), std::exp(-0.04), 1e-15) << "full turns count nothing";
   EXPECT_NEAR(reward(shaped(0.3), 0.4, 2), 0.7 * reward(make({}), 0.4, 2) + 0.3 * reward(shaped(1), 0.4, 2), 1e-15);
-  EXPECT_TRUE(make({}).task.saturating_reward);
-  EXPECT_FALSE(shaped(0.5).task.saturating_reward);
+  EXPECT_TRUE(reward::closed_form(make({}).task.reward));
+  EXPECT_FALSE(reward::closed_form(shaped(0.5).task.reward));
 }
 
 TEST(Cartpole, SolvedLooksAtTheLastHalfSecond) {
