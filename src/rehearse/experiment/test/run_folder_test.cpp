@@ -43,7 +43,7 @@ TEST(RunFolder, IsRefusedWhereItIsNone) {
   files::write_file(folder / "run/checkpoint", checkpoint.substr(0, checkpoint.size() / 2));
   EXPECT_NE(complaint("run").find("the checkpoint is truncated or damaged"), std::string::npos);
   files::write_file(folder / "run/checkpoint", checkpoint);
-  files::write_file(folder / "run/spec.toml", spec.substr(0, spec.size() / 2) + "= =");
+  files::write_file(folder / "run/spec.toml", spec.substr(0, spec.find('\n', spec.size() / 2) + 1) + "= =");
   EXPECT_NE(complaint("run").find("spec.toml: line "), std::string::npos);
   files::write_file(folder / "run/spec.toml", spec + "# harmless\n");
   EXPECT_EQ(complaint("run"), "");

@@ -23,7 +23,7 @@ TEST(MomentTerm, ExactTermsAreThePosteriorsOwnNumbers) {
   posterior.predict(X, mean, variance);
   EXPECT_LT((values - mean).cwiseAbs().maxCoeff(), 1e-12);
   for (const MomentTerm& term : terms) {
-    EXPECT_EQ(term.centres, reference.X);
+    EXPECT_LT((term.centres - reference.X).cwiseAbs().maxCoeff(), 1e-12);
     for (Index i = 0; i < 5; ++i) {
       const Vector c =
           (-0.5 * ((term.centres.rowwise() - X.row(i)) * (-term.log_lengths).array().exp().matrix().asDiagonal())

@@ -88,7 +88,7 @@ TEST(ArchiveBytes, EveryTruncationIsRefused) {
     const bool cut = line.find("truncated") != std::string::npos;
     ASSERT_EQ(cut, size >= 8) << size << ": " << line;
   }
-  EXPECT_EQ(refusal(bytes + "x"), "archive.bin: damaged: the files::checksum does not fit");
+  EXPECT_EQ(refusal(bytes + "x"), "archive.bin: damaged: the checksum does not fit");
 }
 
 TEST(ArchiveBytes, EveryChangedByteIsRefused) {

@@ -53,7 +53,7 @@ TEST_F(ArchiveFiles, ADamagedArchiveIsNamedAndTheTablesAreShown) {
   std::string bytes = read_bytes(folder_ / "archive.bin");
   bytes[bytes.size() - 3] ^= 1;
   write(folder_ / "archive.bin", bytes);
-  const std::string damage = "archive.bin: it is no usable archive: damaged: the files::checksum does not fit";
+  const std::string damage = "archive.bin: it is no usable archive: damaged: the checksum does not fit";
   Report report = read_folder(folder_, archive_space);
   EXPECT_EQ(problems_of(report), Lines{damage});
   const json archive = json::parse(report.json)["run"]["archive"];
