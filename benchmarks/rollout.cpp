@@ -1,4 +1,4 @@
-// What a simulated rollout of the pendubot costs against its own triangular products, and by parts. Everything is
+// The cost of a simulated rollout of the pendubot against its own triangular products, and by parts. Everything is
 // measured in turn, in one process, and the least of all repetitions counts: ratios survive a machine that is busy.
 // Run with OPENBLAS_CORETYPE unset.
 

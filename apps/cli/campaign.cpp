@@ -42,7 +42,7 @@ campaign::Share share_of(const std::optional<std::string>& text, Violations& vio
   return {numbers[0], numbers[1]};
 }
 
-/// What is said where runs do not stop by themselves; with ranks, mpirun ends those that do not.
+/// The words for runs that do not stop by themselves; with ranks, mpirun ends those that do not.
 std::function<std::string()> last_words(const ProcessGroup& processes) {
   if (processes.ranks) return nullptr;
   return [] { return "interrupted; to continue, give the same command again"; };

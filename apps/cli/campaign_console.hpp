@@ -33,7 +33,7 @@ class CampaignConsole final : public campaign::CampaignListener {
     Index trial = 1;
   };
 
-  /// What the trials of a learner have cost so far.
+  /// The cost of a learner's trials so far.
   struct Cost {
     double seconds = 0;
     Index trials = 0;
@@ -56,7 +56,7 @@ class CampaignConsole final : public campaign::CampaignListener {
   std::map<std::string, Cost> spent_;  // in runs that have ended
 };
 
-/// What a campaign would do.
+/// Prints the runs that a campaign would do.
 void print_plan(const campaign::CampaignPlan& plan);
 
 }  // namespace rehearse::apps

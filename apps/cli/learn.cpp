@@ -98,7 +98,7 @@ std::string interrupted(const Console& console, const std::filesystem::path& fol
                      folder.string());
 }
 
-/// What is said where work does not stop by itself; with ranks, mpirun ends those that do not.
+/// The words for work that does not stop by itself; with ranks, mpirun ends those that do not.
 std::function<std::string()> last_words(const ProcessGroup& processes, std::function<std::string()> words) {
   return processes.ranks ? nullptr : std::move(words);
 }

@@ -95,7 +95,7 @@ std::string remark_of(const scenario::ScenarioBuilder& builder) {
   return fmt::format("priors: {}{}", fmt::join(builder.prior_names(), ", "), oracle);
 }
 
-/// Of any scenario with any learner.
+/// Options that every run has, whatever its scenario and learner.
 void print_run_options() {
   experiment::Spec spec;
   fmt::print("\nRuns\n");

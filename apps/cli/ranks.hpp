@@ -27,7 +27,7 @@ struct ProcessGroup {
 
   bool leads() const { return !ranks || ranks->rank() == 0; }
 
-  /// Of this process; asked: 0 for its share of the cores.
+  /// Threads of this process; asked: 0 for its share of the cores.
   int threads(Index asked) const;
 };
 

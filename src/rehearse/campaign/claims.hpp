@@ -11,7 +11,7 @@ namespace rehearse::campaign {
 enum class Verdict { pass, fail, undecided };
 const char* to_text(Verdict verdict);
 
-/// Of one part of a claim.
+/// The result of one part of a claim.
 struct PartResult {
   std::string measure;         // "solved by trial 5"
   std::string required;        // "rate ≥ 0.95"
@@ -30,7 +30,7 @@ struct ClaimResult {
   std::vector<PartResult> parts;
 };
 
-/// Of every claim, with the runs so far.
+/// The result of every claim, with the runs so far.
 std::vector<ClaimResult> judge(const Campaign& campaign);
 
 }  // namespace rehearse::campaign

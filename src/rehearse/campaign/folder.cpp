@@ -80,7 +80,7 @@ void check_only_adds(const CampaignPlan& begun, const CampaignPlan& plan, const 
   violations.throw_if_any();
 }
 
-/// What a run of the plan that was killed while its folder was made leaves behind.
+/// A folder left behind by a run of the plan that was killed while it was made.
 bool is_unborn(const std::string& entry, const CampaignPlan& plan) {
   const auto name = experiment::name_of_unborn(entry);
   return name &&

@@ -28,13 +28,13 @@ class CampaignFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path path_of(const PlannedRun& run) const { return path_ / "runs" / run.name; }
 
-  /// What a run's folder holds: done, unfinished (or not there), or failed when it is another's or unreadable.
+  /// The state of a run's folder: done, unfinished (or not there), or failed when it is another's or unreadable.
   RunOutcome read(const PlannedRun& run) const;
 
   /// Removes what runs of the plan left behind that were killed while their folders were made.
   void remove_unborn(const CampaignPlan& plan) const;
 
-  /// What lies under runs/ and is none of the plan's, in order of name.
+  /// Folders under runs/ that are none of the plan's, in order of name.
   std::vector<Skipped> strangers(const CampaignPlan& plan) const;
 
   /// campaign.csv and summary.json, each in one step.

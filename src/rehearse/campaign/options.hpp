@@ -25,7 +25,7 @@ struct Share {
   Index number = 1, of = 1;
 };
 
-/// What does not decide results.
+/// Settings that do not decide results.
 struct CampaignOptions {
   int threads = 0;                       // in all, on this rank; 0: as many as cores
   CampaignListener* listener = nullptr;  // null: nobody listens

@@ -25,7 +25,7 @@ constexpr std::size_t kMostRuns = 100000;
 
 using FileOptions = std::vector<experiment::FileOption>;
 
-/// What the runs of a group have of [[variant]] and [vary].
+/// The options that the runs of a group have from [[variant]] and [vary].
 struct Varied {
   std::string name;
   FileOptions options;

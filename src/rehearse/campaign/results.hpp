@@ -11,7 +11,7 @@ namespace rehearse::campaign {
 
 enum class RunState { unfinished, done, failed };
 
-/// What is known of a planned run.
+/// A planned run as far as it is known.
 struct RunOutcome {
   RunState state = RunState::unfinished;
   std::string reason;                          // why it failed, in one line
@@ -32,7 +32,7 @@ struct RunOutcome {
   /// The first trial up to `until` that solved the task, if any did.
   std::optional<Index> first_success(Index until) const;
 
-  /// Of the trials up to `until`, of which there must be one.
+  /// The best return of the trials up to `until`, of which there must be one.
   double best_return(Index until) const;
 };
 

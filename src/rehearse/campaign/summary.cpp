@@ -24,7 +24,7 @@ std::vector<const RunOutcome*> runs_of(const Campaign& campaign, std::size_t gro
   return runs;
 }
 
-/// Of the runs for which trial `trial` is decided, those for which `solved` holds.
+/// Counts the runs for which `solved` holds among those whose trial `trial` is decided.
 template <class Solved>
 std::optional<SuccessRate> success_rate(const std::vector<const RunOutcome*>& runs, Index trial, Solved solved) {
   SuccessRate rate;

@@ -1,5 +1,5 @@
 #pragma once
-// What a campaign amounts to, as numbers and as the text of its two tables (docs/campaigns.md).
+// The outcome of a campaign, as numbers and as the text of its two tables (docs/campaigns.md).
 
 #include <optional>
 #include <string>
@@ -15,7 +15,7 @@ struct SuccessRate {
   Interval interval;
 };
 
-/// Of one trial, over the runs of a group.
+/// Statistics of one trial, over the runs of a group.
 struct TrialStatistics {
   Index trial = 0;
   Index runs = 0;            // that have this trial
@@ -24,7 +24,7 @@ struct TrialStatistics {
   std::optional<SuccessRate> solved, solved_by;  // in this trial; in this or one before
 };
 
-/// Of every trial that a run of the group has reached.
+/// One entry for every trial that a run of the group has reached.
 std::vector<TrialStatistics> trial_statistics(const Campaign& campaign, std::size_t group);
 
 /// One row a trial of every run, in the order of the plan.

@@ -58,11 +58,11 @@ inline Published published(int value, std::string source = kPaper) {
 }
 inline Published published(const char* name, std::string source = kPaper) { return {name, std::move(source)}; }
 
-/// Who is shown an option without asking for more: experts have tolerances of solvers and the like.
+/// The users who are shown an option without asking for more: experts have tolerances of solvers and the like.
 enum class Audience { everyone, experts };
 inline constexpr Audience kExpert = Audience::experts;
 
-/// What an option does, in a line; what has a unit has it in brackets at the end: "length of the pole [m]".
+/// A line that says what an option does. A unit stands in brackets at its end: "length of the pole [m]".
 struct Help {
   constexpr Help(const char* line, Audience whom = Audience::everyone)  // NOLINT(google-explicit-constructor)
       : text(line), audience(whom) {}
@@ -119,7 +119,7 @@ class FieldVisitor {
   virtual void visit(const std::string& name, std::string& value) = 0;
   virtual void visit(const std::string& name, int& value, const std::vector<std::string>& names) = 0;
 
-  // Of the field which is visited.
+  // About the field that is visited.
   const Published& published() const { return published_; }
   const Help& help() const { return help_; }  // its audience is that of its groups, too
 
@@ -137,7 +137,7 @@ class FieldVisitor {
 /// Anything with fields: `[&](FieldVisitor& v) { v.group("search", search); }`.
 using Fields = std::function<void(FieldVisitor&)>;
 
-/// What an option says of itself.
+/// An option as it describes itself.
 struct Field {
   std::string name;
   std::string value;  // as `set_field` reads it back exactly
@@ -163,7 +163,7 @@ bool set_field(const Fields& fields, std::string_view name, std::string_view tex
 /// A line for every field that violates its bound.
 std::vector<std::string> field_violations(const Fields& fields);
 
-/// Of the names, those most like `name`, for "did you mean".
+/// The name most like `name`, for "did you mean".
 std::string closest(std::string_view name, const std::vector<std::string>& names);
 
 /// Reads a whole text as a double. Returns false if it is not one.

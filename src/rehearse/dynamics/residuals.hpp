@@ -11,7 +11,7 @@
 
 namespace rehearse::dynamics {
 
-/// What the GPs are trained on: inputs, and targets minus the prior mean and integration.hpp; 0 for states that servos
+/// The training data of the GPs: inputs, and targets minus the prior mean and integration.hpp; 0 for states that servos
 /// have told already (servos.hpp). Rows whose prior mean is not finite are left out. Const methods may run
 /// concurrently.
 class Residuals {

@@ -1,5 +1,5 @@
 #pragma once
-// What servos make of their targets. A simulator of rigid bodies is often right about what moving joints do to the
+// A model of servos that reach their targets late or not at all. A simulator of rigid bodies is often right about what moving joints do to the
 // robot, and wrong about how far they move in a step: torque, friction and delays are hard to measure. So GPs learn
 // where the joints get to, and the prior is asked what follows from that.
 

@@ -1,5 +1,5 @@
 #pragma once
-// What becomes of the exceptions of a run. For the sources of this room.
+// Exceptions of a run become failures with a cause. For the sources of this room.
 
 #include <new>
 

@@ -20,7 +20,7 @@ struct ForecastError {
   Vector rms;          // dx, root mean square over the pairs; NaN if there are none
 };
 
-/// What is kept of one trial beside its episode. What does not apply is empty.
+/// The record of one trial beside its episode. A value that does not apply is empty.
 struct TrialRecord {
   Index trial = 0;
   double interaction_s = 0;               // on the plant, up to the end of this trial
@@ -53,7 +53,7 @@ struct History {
   Index done() const { return static_cast<Index>(trials.size()); }
 };
 
-/// Of so many control steps; to the nanosecond, so that 3 × 0.05 is 0.15.
+/// The duration of so many control steps, to the nanosecond, so that 3 × 0.05 is 0.15.
 double seconds(Index steps, double dt_s);
 
 /// The trial with the highest return, the first of equals. There must be one.

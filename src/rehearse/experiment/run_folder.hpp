@@ -33,7 +33,7 @@ class RunFolder {
   /// Every table that follows from the history.
   void write_tables(const History& history, const Resolved& resolved) const;
 
-  /// What the model expects of a trial, and what happened.
+  /// Files about a trial: what the model expected, and what happened.
   void write_prediction(Index trial, const std::string& csv) const;
   void write_trajectory(Index trial, const std::string& csv) const;
 

@@ -21,7 +21,7 @@ struct Until {
 /// are always by the noise-free ones, where the plant knows them.
 enum class ToldBy { truth, measured };
 
-/// What a run is asked to be: everything that decides its results, and nothing else.
+/// The description of a run: everything that decides its results, and nothing else.
 struct Spec {
   std::string scenario;
   std::string learner;
@@ -52,7 +52,7 @@ struct Spec {
   }
 };
 
-/// What options do, in a line each, by the names that a complete spec has for them.
+/// Help lines of options, by the names that a complete spec has for them.
 using Comments = std::map<std::string, std::string>;
 
 /// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec; PRIOR is "none" for a learner that takes none.

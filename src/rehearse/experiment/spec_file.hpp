@@ -39,7 +39,7 @@ class SpecFile {
 /// The spec alone; throws as SpecFile does.
 Spec from_toml(std::string_view text, const std::string& source_name);
 
-/// Of everything in the spec but when it ends, which a run may change on the way.
+/// A checksum of everything in the spec but when it ends, which a run may change on the way.
 std::uint64_t fingerprint(Spec spec);
 
 }  // namespace rehearse::experiment

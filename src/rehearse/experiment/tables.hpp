@@ -26,10 +26,10 @@ std::string timings_csv(const std::vector<TrialRecord>& trials);
 /// Forecast errors: one row per trial and horizon.
 std::string errors_csv(const std::vector<TrialRecord>& trials, const Task& task);
 
-/// What the trials before could not tell of the prior's parameters: one row per warning.
+/// Identifiability warnings of the trials before, one row each.
 std::string identifiability_csv(const std::vector<TrialRecord>& trials);
 
-/// What went wrong and was survived: one row per note.
+/// Failures that were survived, one row each.
 std::string notes_csv(const std::vector<TrialRecord>& trials);
 
 /// The best observed policy and each trial's.

@@ -7,7 +7,7 @@
 
 namespace rehearse::experiment {
 
-/// What is kept of a trial: the proposal that was tried and what came of it. `interaction_s` is left to who knows the
+/// The record of a trial: the proposal that was tried and what came of it. `interaction_s` is left to who knows the
 /// trials before.
 TrialRecord record_of(Index trial, const learners::Proposal& proposal, const Episode& episode,
                       const Resolved& resolved);

@@ -17,7 +17,7 @@ namespace rehearse::files {
 /// "SOURCE: line N: MESSAGE"; without a line if that is 0.
 std::string in_file(const std::string& source, Index line, const std::string& message);
 
-/// What is wrong with a file.
+/// Violations found in a file.
 class FileViolations {
  public:
   explicit FileViolations(std::string source) : source_(std::move(source)) {}

@@ -4,7 +4,7 @@
 
 namespace rehearse::gp {
 
-/// What predictions of one output of a posterior are computed from.
+/// The numbers from which predictions of one output of a posterior are computed.
 struct PosteriorOutput {
   Matrix points;          // D × m: inputs / ℓ, one a column; the variance needs the first `support`
   Matrix trend_points;    // 1 + D × m: z of the trend (kernel.hpp); empty without one

@@ -94,7 +94,7 @@ HeldKernels::HeldKernels(const FitProblem& problem, const Fit& fit)
   for (auto& whitening : made) whitenings_.push_back(std::move(*whitening));
 }
 
-/// Of the rows of the fit.
+/// Targets of the rows of the fit.
 Matrix HeldKernels::targets(const Vector& z) const {
   Matrix all = problem_.residuals.targets(problem_.prior, phi(z));
   if (kept_.empty()) return all;

@@ -4,7 +4,7 @@
 
 namespace rehearse::identification {
 
-/// What the data cannot tell, a sentence each: parameters that only together fit or do not, those that could be
+/// Identifiability warnings, a sentence each: parameters that only together fit or do not, those that could be
 /// nearly anything, and those at the end of their box; with the former what is known of them, if that is simple.
 std::vector<std::string> identifiability_warnings(const PhiPosterior& posterior);
 

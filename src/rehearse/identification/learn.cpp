@@ -17,7 +17,7 @@
 namespace rehearse::identification {
 namespace {
 
-/// What all kinds learn from.
+/// The data and the prior that all kinds learn from.
 struct Given {
   const Dataset& data;
   const FeatureMap& features;

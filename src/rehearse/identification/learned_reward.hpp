@@ -12,7 +12,7 @@
 
 namespace rehearse::identification {
 
-/// What the GP of the reward r is a GP of. A saturating reward is flat nearly everywhere, and a GP of it knows nothing
+/// The scale on which the GP of the reward r is learned. A saturating reward is flat nearly everywhere, and a GP of it knows nothing
 /// of what is beyond the data; its logarithm is a smooth function of the features, which goes on.
 enum class RewardScale {
   linear,       // r itself (the authors' code)

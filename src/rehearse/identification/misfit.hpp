@@ -16,7 +16,7 @@ struct Spread {
   double misfit;                                // mean square, of a GP a degree of freedom
 };
 
-/// Of residuals around which a GP was fitted: the misfit is what it predicts of each row from the others.
+/// The spread of residuals to which a GP was fitted: the misfit is what it predicts of each row from the others.
 Spread spread_of_gp(const gp::Inputs& inputs, const gp::Hyperparameters& kernel, const ConstVectorView& y);
 
 /// The misfits of the GPs of a fit, positive, one an output.
@@ -25,7 +25,7 @@ Vector misfits(const FitProblem& problem, const Fit& fit);
 /// The row nearest to each in the space of the inputs, of equals the first; of a single row itself.
 std::vector<Index> nearest_rows(const gp::Inputs& inputs);
 
-/// Of y that is white around a smooth function of the inputs: half the mean squared difference of nearest rows is the
+/// The spread of y that is white around a smooth function of the inputs: half the mean squared difference of nearest rows is the
 /// variance of what is white (the delta test; Pi and Peterson 1994). scale: the deviation of the changes; parameters:
 /// of the prior that were fitted.
 Spread spread_of_white(const ConstVectorView& y, double scale, Index parameters, const std::vector<Index>& nearest);

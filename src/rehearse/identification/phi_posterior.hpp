@@ -15,7 +15,7 @@ namespace rehearse::identification {
 /// Standard deviations of a normal distribution that hold 95 % on both sides.
 inline constexpr double kNormal = 1.959963984540054;
 
-/// What the data say of the prior's continuous parameters: a normal distribution around the φ learned.
+/// The knowledge of the prior's continuous parameters: a normal distribution around the φ learned.
 struct PhiPosterior {
   std::vector<Parameter> parameters;  // q: the continuous ones, with their boxes
   Vector mean;                        // q, the φ learned

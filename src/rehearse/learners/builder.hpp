@@ -1,5 +1,5 @@
 #pragma once
-// What a family of learners needs to be in the catalogue: options with fields(), make(setting, options), an Entry.
+// The pieces that bring a family of learners into the catalogue: options with fields(), make(setting, options), an Entry.
 
 #include <memory>
 #include <string>
@@ -47,7 +47,7 @@ class OptionsBuilder final : public LearnerBuilder {
   Entry<Options> entry_;
 };
 
-/// What the header of a family declares.
+/// Makes the list that the header of a family declares.
 template <class... Options>
 std::vector<std::unique_ptr<LearnerBuilder>> builders_of(Entry<Options>... entries) {
   std::vector<std::unique_ptr<LearnerBuilder>> all;

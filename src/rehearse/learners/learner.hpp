@@ -44,7 +44,7 @@ struct Proposal {
   double search_s = 0;                         // and searching the policy
 };
 
-/// What a learner makes of its trials, for whoever looks into the run folder: NAME.csv there.
+/// A table that a learner makes of its trials, for whoever looks into the run folder: NAME.csv there.
 struct Table {
   std::string name;                  // "elites"
   std::vector<std::string> columns;  // with units: "x [m]"
@@ -74,9 +74,9 @@ class Learner {
   virtual const Proposal& ask() = 0;
   virtual void tell(const Episode& episode) = 0;  // its true states, rewards: of the plant, or as measured (a run says)
 
-  /// What is not in the episodes (warm starts); small. Called between `tell` and `ask`.
+  /// State that is not in the episodes (warm starts); small. Called between `tell` and `ask`.
   virtual nlohmann::json save() const = 0;
-  /// What it makes of all it was told, if it has such tables. Called after `tell`.
+  /// Tables of all it was told, if it has any. Called after `tell`.
   virtual std::vector<Table> tables() const { return {}; }
   /// The episodes told so far, in order, and what `save` returned after the last of them.
   virtual void load(const std::vector<Episode>& episodes, const nlohmann::json& state) = 0;
@@ -99,7 +99,7 @@ class LearnerBuilder {
   /// Options of the scenario that suit this learner, where neither a preset nor the user sets them: the policy that it
   /// needs. Those that a scenario does not have, or not with that value, are left as they are.
   virtual OptionTexts scenario_defaults() const { return {}; }
-  /// What these options cannot do with a task or a policy, a line each: wrong input that is known before anything is
+  /// Reasons why these options cannot do with a task or a policy, a line each: wrong input that is known before anything is
   /// built.
   virtual std::vector<std::string> violations(const Task& /*task*/, const policy::Policy& /*policy*/) const {
     return {};

@@ -11,7 +11,7 @@
 
 namespace rehearse::moments {
 
-/// What those policies are made of whose actions have analytic moments: one of radial basis functions, or a linear one
+/// The options of a policy whose actions have analytic moments: one of radial basis functions, or a linear one
 /// with a sine as squash. Empty for any other. What it points to lives as long as the policy.
 using AnalyticOptions = std::variant<const policy::RbfOptions*, const policy::LinearOptions*>;
 std::optional<AnalyticOptions> analytic_options(const policy::Policy& policy);

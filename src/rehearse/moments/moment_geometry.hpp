@@ -48,7 +48,7 @@ struct MeanGeometry {
   Small inverse;
 };
 
-/// Of the pair of terms a and b: with A and B the diagonal inverse squared lengths and S = A + B,
+/// Matrices of the pair of terms a and b: with A and B the diagonal inverse squared lengths and S = A + B,
 /// L_ij = exp(−½ z_iᵀ A z_i − ½ z_jᵀ B z_j + v_ijᵀ Q v_ij), v_ij = A z_i + B z_j, and E[c_i c_j] = scale · L_ij
 /// (Deisenroth 2010, section 2.3).
 struct PairGeometry {

@@ -9,7 +9,7 @@
 
 namespace rehearse::moments {
 
-/// What the adjoint needs of the forward pass; reused without allocation of what grows with the centres.
+/// The part of the forward pass that the adjoint needs; reused without allocation of what grows with the centres.
 struct PolicyTape {
   MomentTape network;  // of an RBF policy
   Transformed before;  // the squash

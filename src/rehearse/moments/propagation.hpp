@@ -6,7 +6,7 @@
 
 namespace rehearse::moments {
 
-/// What the adjoint of a step needs of the forward pass.
+/// The part of the forward pass that the adjoint of a step needs.
 struct StepTape {
   PolicyTape policy;
   Transformed action;

@@ -5,7 +5,7 @@
 
 namespace rehearse::moments {
 
-/// Of the reward exp(−½ ‖distances (f − goal)‖²) of Gaussian features f.
+/// Moments of the reward exp(−½ ‖distances (f − goal)‖²) of Gaussian features f.
 struct RewardMoments {
   double mean = 0;      // in [0, 1]
   double variance = 0;  // ≥ 0

@@ -15,7 +15,7 @@ struct Problem {
   std::string what;
 };
 
-/// What the page shows.
+/// The data of a page.
 struct Report {
   std::string json;  // numbers to 6 digits
   std::vector<Problem> problems;

@@ -9,12 +9,12 @@
 
 namespace rehearse::report {
 
-/// Of a run folder (docs/run-folder.md) or a campaign folder (docs/campaigns.md). What cannot be read is left out and
+/// Reads a run folder (docs/run-folder.md) or a campaign folder (docs/campaigns.md). A file that cannot be read is left out and
 /// named among the problems. Throws InvalidInput if the folder is neither, or its spec.toml or summary.json is
 /// unusable. read_archive: of those who know archives; without it archive.bin is not looked at.
 Report read_folder(const std::filesystem::path& folder, const ArchiveReader& read_archive = {});
 
-/// Of one trial of a run folder. Throws InvalidInput, too, if there is no such trial.
+/// Reads one trial of a run folder. Throws InvalidInput, too, if there is no such trial.
 Report read_trial(const std::filesystem::path& folder, Index trial);
 
 /// A self-contained page. page_template: the built page of web/, which has one place for the data. Throws InvalidInput

@@ -13,7 +13,7 @@
 
 namespace rehearse::report {
 
-/// What spec.toml says of a run.
+/// A run as spec.toml describes it.
 struct RunSpec {
   std::string scenario, learner, prior;  // prior: empty without one
   Index trials = 0, seed = 0;

@@ -27,7 +27,7 @@ struct SimulateOptions {
   }
 };
 
-/// What rollouts are made of. References must outlive it.
+/// The parts of a rollout. References must outlive it.
 struct Simulation {
   const dynamics::DynamicsModel& model;
   const policy::Policy& policy;

@@ -14,7 +14,7 @@ namespace rehearse::system {
 /// dx/dt at state x (dx) under the constant action u (du), written to dxdt (dx). Any thread.
 using Ode = std::function<void(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt)>;
 
-/// What an adaptive integration may cost; a robot's control step takes some hundreds.
+/// The most evaluations of an adaptive integration; a robot's control step takes some hundreds.
 constexpr Index kMostEvaluations = 1'000'000;
 
 /// The state after `duration_s`, by adaptive Dormand–Prince 5 with absolute and relative tolerance. Throws

@@ -7,7 +7,7 @@
 
 namespace rehearse::testing {
 
-/// What is wrong with a kernel, called at a state and φ of ones: one that keeps the address of Highway's chooser asks
+/// Checks a kernel at a state and φ of ones. Returns what is wrong, a line each: one that keeps the address of Highway's chooser asks
 /// the processor for its instruction sets at every call, which takes far longer than the equations. One thread.
 std::vector<std::string> check_ode_kernel(system::OdeKernel (*kernel)());
 

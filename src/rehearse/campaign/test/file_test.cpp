@@ -10,7 +10,7 @@ namespace {
 
 using plans::complaint, plans::kHead;
 
-/// What is read of a file in which nothing is wrong.
+/// Reads a file in which nothing is wrong.
 CampaignFile read(const std::string& text) {
   files::FileViolations violations("c.toml");
   CampaignFile file = read_campaign_file(text, "c.toml", violations);

@@ -33,7 +33,7 @@ inline nlohmann::json summary_of(const fs::path& folder) {
   return nlohmann::json::parse(files::read_file(folder / "summary.json"));
 }
 
-/// What must not depend on how the campaign came about.
+/// Bytes that must not depend on how the campaign came about.
 inline std::string results_of(const fs::path& folder) {
   return files::read_file(folder / "campaign.csv") + files::read_file(folder / "summary.json");
 }

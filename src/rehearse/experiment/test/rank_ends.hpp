@@ -11,7 +11,7 @@
 
 namespace rehearse::experiment::fake {
 
-/// How a piece of work ends on each of three ranks.
+/// The ends of a piece of work on three ranks.
 class Ends {
  public:
   explicit Ends(const std::function<void(Ranks&, const RunOptions&)>& work,
@@ -19,7 +19,7 @@ class Ends {
     testing::on_rank_threads(
         3, [&](Ranks& ranks) { add(end_of([&] { work(ranks, options(ranks)); })), ranks.leave(0, ""); }, stop);
   }
-  /// What all ranks say, or how they differ.
+  /// The end that all ranks have in common, or how theirs differ.
   std::string all() const {
     std::string text;
     for (const std::string& word : words_) text += (text.empty() ? "" : " | ") + word;

@@ -80,7 +80,7 @@ TEST(Resume, ExtendsARunAndNeverShrinksIt) {
   EXPECT_NE(message.find("trials = 5, but 6 trials of"), std::string::npos) << message;
 }
 
-/// Of what fails when the run in a folder is resumed.
+/// The message of what fails when the run in a folder is resumed.
 bool may_resuming_help(const fs::path& folder) {
   try {
     resume_run(fake::catalogue(), folder, 9, {});

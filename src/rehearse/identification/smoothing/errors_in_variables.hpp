@@ -23,7 +23,7 @@ class ErrorsInVariables {
 
   const Dataset& path() const { return path_; }  // around which all is linear; the measured rows at first
 
-  /// What has been learned of the path becomes the path.
+  /// Takes the path that has been learned as the path.
   void move_path() {
     along_ = X_;
     path_ = path_of(along_, measured_, blocks_);
@@ -65,11 +65,11 @@ class ErrorsInVariables {
   /// likelier; at least `least` (dx).
   void improve_variances(const Vector& r, const Vector& least);
 
-  /// What is expected of the errors leaves the states, for the next path.
+  /// Subtracts the expected errors from the states, for the next path.
   void subtract_errors(const Vector& r);
   const Matrix& states() const { return X_; }
 
-  /// What the others tell of each output's g + w: residuals and their errors' covariances.
+  /// Information about each output's g + w from the others: residuals and their errors' covariances.
   struct Given {
     Matrix residuals;            // n × dx
     std::vector<Matrix> errors;  // dx, n × n

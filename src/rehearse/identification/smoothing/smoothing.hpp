@@ -7,7 +7,7 @@
 
 namespace rehearse::identification {
 
-/// What noisy measurements and a model learned from them tell of the states of episodes.
+/// The states of episodes as noisy measurements and a model learned from them tell them.
 struct Smoothed {
   Dataset data;  // smoothed states, and changes that differ from φ's by white noise and what GPs have to learn
   Fit fit;       // φ, and kernels, fitted to them; the score is the log evidence of the measured rows, nats

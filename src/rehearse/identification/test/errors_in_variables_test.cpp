@@ -42,7 +42,7 @@ struct Steps {
     return r;
   }
 
-  /// Of the residuals, output by output.
+  /// The covariance of the residuals, output by output.
   Matrix covariance(bool errors_alone = false) const {
     Matrix C = Matrix::Zero(6, 6);
     for (Index m = 0; m < 5; ++m)

@@ -7,7 +7,7 @@
 
 namespace rehearse::learners::black_drops {
 
-/// What the first trial without a prior does.
+/// The first trial without a prior.
 struct FirstTrial {
   enum class Kind {
     actions,   // uniform in their bounds (PILCO, the authors' code)

@@ -43,7 +43,7 @@ struct SearchResult {
   Index failed_rollouts = 0;
 };
 
-/// What a search needs to know.
+/// The problem of a search. References must outlive it.
 struct SearchProblem {
   const dynamics::DynamicsModel& model;
   const policy::Policy& policy;

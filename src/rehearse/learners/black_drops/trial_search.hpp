@@ -9,7 +9,7 @@
 
 namespace rehearse::learners::black_drops {
 
-/// What is known before the search.
+/// Knowledge from before the search.
 struct Known {
   std::vector<Vector> policies;       // where descents start
   std::optional<double> best_return;  // seen in a trial with a policy; empty: there was none

@@ -22,8 +22,8 @@ class TrialSearches {
   /// A policy's predicted return where the model's uncertainty counts.
   SearchResult judge(const Vector& theta);
 
-  /// Of the policies of a search, the one that solves the task most often in simulated episodes; among those that never
-  /// do where uncertainty counts, one that does in the means. Empty if none does, or if the task cannot say.
+  /// The policy of a search that solves the task most often in simulated episodes; among those that never do where
+  /// uncertainty counts, one that does in the means. Empty if none does, or if the task cannot say.
   std::optional<SearchResult> best_that_solves(const SearchResult& found);
 
   bool can_tell_solved() const { return static_cast<bool>(problem_.task.solved); }

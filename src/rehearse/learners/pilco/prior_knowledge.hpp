@@ -13,7 +13,7 @@
 
 namespace rehearse::learners::pilco {
 
-/// What the trials on the robot begin with.
+/// Knowledge of the prior that the trials on the robot begin with.
 struct PriorKnowledge {
   std::vector<moments::MomentTerm> network;  // the means of the GPs of the prior system; empty: none could be learned
   Vector theta;                              // the policy found on these GPs

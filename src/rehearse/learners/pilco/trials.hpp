@@ -21,7 +21,7 @@ class Trials final : public TrialLearner {
 
   nlohmann::json save() const override;
 
-  /// What the GPs behind the proposal of `ask` know, by at most so many points; empty: there are none. Without a prior.
+  /// The GPs behind the proposal of `ask`, summed up by at most so many points; empty: there are none. Without a prior.
   std::vector<moments::MomentTerm> terms(Index inducing, std::vector<std::string>& notes) const;
 
  private:

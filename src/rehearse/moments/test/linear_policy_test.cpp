@@ -10,7 +10,7 @@ namespace {
 
 using policies::act, policies::Case, policies::kLinear, policies::kLinearCase, policies::moments, policies::theta;
 
-// What the squash sees is Gaussian, so that its moments are exact.
+// The input of the squash is Gaussian, so that its moments are exact.
 TEST(LinearPolicy, HasTheMomentsOfSamples) {
   const Case& c = kLinearCase;
   const Gaussian x = tools::random_gaussian(3, 0.5, 4);

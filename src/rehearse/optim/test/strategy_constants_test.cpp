@@ -13,7 +13,7 @@ TEST(StrategyConstants, TheDefaultPopulationGrowsWithTheLogarithm) {
   EXPECT_EQ(default_population(100), 17);
 }
 
-// Of ten dimensions and ten candidates, by the formulas of Hansen 2016 with another program.
+// Constants of ten dimensions and ten candidates, by the formulas of Hansen 2016 with another program.
 TEST(StrategyConstants, AreThoseOfHansensTable) {
   const StrategyConstants c(10, 10, true);
   EXPECT_EQ(c.parents, 5);

@@ -30,7 +30,7 @@ ParameterSpace parameters(const Physics& p) {
                          Parameter::fixed("l", p.l, "m"), Parameter::fixed("b", p.b, "N s/m")});
 }
 
-/// Of the pole's tip from where it is upright at x = 0: x² + 2 x l sin θ + 2 l² + 2 l² cos θ.
+/// The squared distance of the pole's tip from where it is upright at x = 0: x² + 2 x l sin θ + 2 l² + 2 l² cos θ.
 void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
   thread_local Matrix trig;
   trig.resize(X.rows(), 2);

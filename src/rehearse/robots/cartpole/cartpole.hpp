@@ -16,7 +16,7 @@ struct Physics {
   void fields(FieldVisitor& v);
 };
 
-/// Of the authors' code, unless it says otherwise.
+/// Options; defaults are those of the authors' code, unless it says otherwise.
 struct Options {
   Physics plant;
   double dt_s = 0.1;   // MC-PILCO (Amadio 2022): 0.05

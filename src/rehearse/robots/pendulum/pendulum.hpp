@@ -15,7 +15,7 @@ struct Physics {
   void fields(FieldVisitor& v);
 };
 
-/// Of the authors' code.
+/// Options; defaults are those of the authors' code.
 struct Options {
   Physics plant;
   scenario::OdeOptions ode{.box_low = 0.1, .box_high = 2.4, .substeps = 8};

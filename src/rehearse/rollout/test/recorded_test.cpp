@@ -1,4 +1,4 @@
-// What simulations record.
+// Records of simulations.
 
 #include <cmath>
 
