@@ -14,6 +14,7 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/processor.hpp"
 
@@ -150,7 +151,7 @@ void check_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2)
     throw InvalidInput(fmt::format("a command is missing ({}); see rehearse --help", fmt::join(known, ", ")));
   const std::string given = argv[1];
-  if (given.starts_with('-') || std::find(known.begin(), known.end(), given) != known.end()) return;
+  if (given.starts_with('-') || is_among(given, known)) return;
   throw InvalidInput(fmt::format("unknown command '{}', did you mean '{}'? (known: {})", given, closest(given, known),
                                  fmt::join(known, ", ")));
 }

@@ -19,8 +19,9 @@ constexpr const char* kIntroduction =
     "`--set OPTION=VALUE` sets one, and so do files of presets ([presets.md](presets.md)) and campaigns\n"
     "([campaigns.md](campaigns.md)). `rehearse list gp-mi` shows those of a learner, `rehearse list pendubot` those of "
     "a\n"
-    "scenario, `--expert` more. Units stand in brackets; what has none is a count, a fraction or a choice. What is\n"
-    "published stands beside a default that is another: it is the paper's, unless brackets name another source.\n\n"
+    "scenario, `--expert` more. Units stand in brackets; an option without one is a count, a fraction or a choice. A\n"
+    "published value stands beside a default that is another: it is the paper's, unless brackets name another "
+    "source.\n\n"
     "Made by `scripts/published` from what the options say of themselves (`fields()`).\n";
 
 /// Options of a learner, a scenario, or of several that have them with the same default.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "rehearse/core/types.hpp"
-#include "rehearse/experiment/location.hpp"
+#include "rehearse/experiment/spec.hpp"
 
 namespace rehearse::files {
 class FileViolations;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rehearse/campaign/results.hpp"
+#include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/files/write.hpp"
 
 namespace rehearse::campaign {

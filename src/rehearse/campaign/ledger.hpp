@@ -5,6 +5,8 @@
 #include <mutex>
 #include <optional>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "rehearse/campaign/folder.hpp"
 #include "rehearse/campaign/options.hpp"
 #include "rehearse/core/ranks.hpp"

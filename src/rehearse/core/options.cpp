@@ -13,17 +13,21 @@
 namespace rehearse {
 namespace {
 
+std::string bound_text(const Bound& bound, const char* both) {
+  const bool low = std::isfinite(bound.low), high = std::isfinite(bound.high);
+  if (low && high) return fmt::format(fmt::runtime(both), to_text(bound.low), to_text(bound.high));
+  if (high) return fmt::format("≤ {}", to_text(bound.high));
+  return low ? fmt::format("{} {}", bound.low_open ? ">" : "≥", to_text(bound.low)) : "";
+}
+
 std::string violation(const std::string& name, double value, const Bound& bound) {
   const bool low_ok = bound.low_open ? value > bound.low : value >= bound.low;
   const bool in = low_ok && value <= bound.high;  // NaN fails both
   if (in && (bound.infinite || std::isfinite(value))) return {};
   std::string line = fmt::format("{} = {}, must be ", name, to_text(value));
   if (in) return line + "finite";
-  if (std::isfinite(bound.low) && std::isfinite(bound.high))
-    return line + fmt::format("between {} and {}", to_text(bound.low), to_text(bound.high));
-  if (std::isfinite(bound.high)) return line + fmt::format("≤ {}", to_text(bound.high));
-  if (std::isfinite(bound.low)) return line + fmt::format("{} {}", bound.low_open ? ">" : "≥", to_text(bound.low));
-  return line + "a number";
+  const std::string bounds = bound_text(bound, "between {} and {}");
+  return line + (bounds.empty() ? "a number" : bounds);
 }
 
 /// Not less than it, where it has more digits than a double.
@@ -34,23 +38,16 @@ double as_double(Index value) {
   return less ? std::nextafter(nearest, kTooLarge) : nearest;
 }
 
-std::string bound_text(const Bound& bound) {
-  const bool low = std::isfinite(bound.low), high = std::isfinite(bound.high);
-  if (low && high) return fmt::format("{} to {}", to_text(bound.low), to_text(bound.high));
-  if (high) return fmt::format("≤ {}", to_text(bound.high));
-  return low ? fmt::format("{} {}", bound.low_open ? ">" : "≥", to_text(bound.low)) : "";
-}
-
 class Describer final : public FieldVisitor {
  public:
   std::vector<Field> fields;
 
  protected:
   void visit(const std::string& name, double& value, Bound bound) override {
-    add(name, to_text(value)).bound = bound_text(bound);
+    add(name, to_text(value)).bound = bound_text(bound, "{} to {}");
   }
   void visit(const std::string& name, Index& value, Bound bound) override {
-    add(name, fmt::to_string(value)).bound = bound_text(bound);
+    add(name, fmt::to_string(value)).bound = bound_text(bound, "{} to {}");
   }
   void visit(const std::string& name, bool& value) override {
     add(name, value ? "true" : "false").choices = {"true", "false"};

@@ -1,7 +1,7 @@
 #pragma once
-// A model of servos that reach their targets late or not at all. A simulator of rigid bodies is often right about what moving joints do to the
-// robot, and wrong about how far they move in a step: torque, friction and delays are hard to measure. So GPs learn
-// where the joints get to, and the prior is asked what follows from that.
+// A model of servos that reach their targets late or not at all. A simulator of rigid bodies is often right about what
+// moving joints do to the robot, and wrong about how far they move in a step: torque, friction and delays are hard to
+// measure. So GPs learn where the joints get to, and the prior is asked what follows from that.
 
 #include <memory>
 #include <vector>

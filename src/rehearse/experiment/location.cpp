@@ -1,8 +1,7 @@
 #include "rehearse/experiment/location.hpp"
 
-#include <algorithm>
-
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/experiment/resolve.hpp"
 
 namespace rehearse::experiment {
@@ -12,8 +11,7 @@ bool has_violation(const Catalogue& catalogue, const Spec& spec, const std::stri
     resolve(catalogue, spec);
     return false;
   } catch (const InvalidInput& error) {
-    const std::vector<std::string> found = error.violations();
-    return std::find(found.begin(), found.end(), violation) != found.end();
+    return is_among(violation, error.violations());
   }
 }
 

@@ -1,10 +1,9 @@
 #include "rehearse/experiment/resolve.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/priors.hpp"
 #include "rehearse/files/toml_reader.hpp"
@@ -145,10 +144,7 @@ class Resolver {
     }
   }
 
-  bool is_field(const std::string& key) const {
-    const std::vector<std::string> fields = options_like(key);
-    return std::find(fields.begin(), fields.end(), key) != fields.end();
-  }
+  bool is_field(const std::string& key) const { return is_among(key, options_like(key)); }
 
   void complete(const std::vector<std::string>& names, const ChosenPriors& priors) {
     spec_.prior.clear();

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/experiment/location.hpp"
 #include "rehearse/files/checksum.hpp"
 #include "rehearse/files/toml_reader.hpp"
 #include "rehearse/files/write.hpp"

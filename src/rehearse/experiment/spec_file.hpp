@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "rehearse/experiment/location.hpp"
+#include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/experiment/spec.hpp"
 
 namespace rehearse::experiment {

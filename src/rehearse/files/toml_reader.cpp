@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/core/names.hpp"
+
 namespace rehearse::files {
 
 std::string in_file(const std::string& source, Index line, const std::string& message) {
@@ -114,7 +116,7 @@ const toml::table* TomlReader::take_table(const std::string& key) {
 void TomlReader::finish() {
   for (const auto& [key, node] : table_) {
     const std::string name(key.str());
-    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+    if (is_among(name, known_)) continue;
     const std::string place = where_.empty() ? "" : " in " + where_;
     violations_.add(static_cast<Index>(key.source().begin.line),
                     fmt::format("unknown key '{}'{}, did you mean '{}'? (known: {})", name, place,

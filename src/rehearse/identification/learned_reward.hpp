@@ -12,8 +12,8 @@
 
 namespace rehearse::identification {
 
-/// The scale on which the GP of the reward r is learned. A saturating reward is flat nearly everywhere, and a GP of it knows nothing
-/// of what is beyond the data; its logarithm is a smooth function of the features, which goes on.
+/// The scale on which the GP of the reward r is learned. A saturating reward is flat nearly everywhere, and a GP of it
+/// knows nothing of what is beyond the data; its logarithm is a smooth function of the features, which goes on.
 enum class RewardScale {
   linear,       // r itself (the authors' code)
   logarithmic,  // ln(r + floor), around the mean of the data; linear if a reward is negative

@@ -25,9 +25,9 @@ Vector misfits(const FitProblem& problem, const Fit& fit);
 /// The row nearest to each in the space of the inputs, of equals the first; of a single row itself.
 std::vector<Index> nearest_rows(const gp::Inputs& inputs);
 
-/// The spread of y that is white around a smooth function of the inputs: half the mean squared difference of nearest rows is the
-/// variance of what is white (the delta test; Pi and Peterson 1994). scale: the deviation of the changes; parameters:
-/// of the prior that were fitted.
+/// The spread of y that is white around a smooth function of the inputs: half the mean squared difference of nearest
+/// rows is the variance of what is white (the delta test; Pi and Peterson 1994). scale: the deviation of the changes;
+/// parameters: of the prior that were fitted.
 Spread spread_of_white(const ConstVectorView& y, double scale, Index parameters, const std::vector<Index>& nearest);
 
 }  // namespace rehearse::identification

@@ -1,5 +1,6 @@
 #pragma once
-// The pieces that bring a family of learners into the catalogue: options with fields(), make(setting, options), an Entry.
+// The pieces that bring a family of learners into the catalogue: options with fields(), make(setting, options), an
+// Entry.
 
 #include <memory>
 #include <string>

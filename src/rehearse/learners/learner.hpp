@@ -99,8 +99,8 @@ class LearnerBuilder {
   /// Options of the scenario that suit this learner, where neither a preset nor the user sets them: the policy that it
   /// needs. Those that a scenario does not have, or not with that value, are left as they are.
   virtual OptionTexts scenario_defaults() const { return {}; }
-  /// Reasons why these options cannot do with a task or a policy, a line each: wrong input that is known before anything is
-  /// built.
+  /// Reasons why these options cannot do with a task or a policy, a line each: wrong input that is known before
+  /// anything is built.
   virtual std::vector<std::string> violations(const Task& /*task*/, const policy::Policy& /*policy*/) const {
     return {};
   }

@@ -11,7 +11,8 @@
 
 namespace rehearse::moments {
 
-/// The part of the forward pass that the adjoint needs. Reused from call to call without allocation; not shared by threads.
+/// The part of the forward pass that the adjoint needs. Reused from call to call without allocation; not shared by
+/// threads.
 struct MomentTape {
   std::vector<Matrix> points;   // distinct centres less the mean of the input, stride × D
   std::vector<Vector> kernels;  // a term: E[c(x, x_i)], stride

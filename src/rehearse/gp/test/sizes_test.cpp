@@ -2,32 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "naive.hpp"
-#include "rehearse/core/errors.hpp"
 #include "rehearse/gp/evidence.hpp"
-#include "rehearse/gp/posterior.hpp"
+#include "sizes_fixture.hpp"
 
 namespace rehearse::gp {
 namespace {
 
-template <class Call>
-std::string complaint(Call call) {
-  try {
-    call();
-  } catch (const InvalidInput& wrong) {
-    return wrong.what();
-  }
-  return "none";
-}
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-struct Sizes : testing::Test {
-  Matrix X = naive::normals(12, 3, 1), Y = naive::normals(12, 2, 2);
-  Inputs inputs{X};
-  Hyperparameters theta = naive::hyperparameters(3, 1, 1, 0.1);
-  Posterior posterior{inputs, Y, {theta, theta}};
-};
+using Sizes = SizesFixture;
 
 TEST_F(Sizes, SayNameValueAndBound) {
   EXPECT_EQ(complaint([] { require_size("rows", 3, 4); }), "gp rows = 3, must be 4");

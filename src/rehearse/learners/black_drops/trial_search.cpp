@@ -6,6 +6,8 @@
 namespace rehearse::learners::black_drops {
 namespace {
 
+Chosen chosen_of(const SearchResult& found) { return {{found.theta, found.predicted_return}, found.runners_up}; }
+
 /// On the prior, before there are data.
 Chosen search_prior(TrialSearches& searches, const Known& known, const Options& options) {
   std::vector<Vector> starts = known.policies;
@@ -14,7 +16,7 @@ Chosen search_prior(TrialSearches& searches, const Known& known, const Options& 
     found = searches.search(starts, i);
     starts = {found.theta};
   }
-  Chosen chosen{{found.theta, found.predicted_return}, found.runners_up};
+  Chosen chosen = chosen_of(found);
   const auto again = [&](Index i) { return searches.search({chosen.choice.theta}, options.prior_searches - 1 + i); };
   prefer_solving_where_sure(searches, found, again, options.retry, chosen.choice);
   return chosen;
@@ -64,7 +66,7 @@ Chosen search_trial(TrialSearches& searches, const Known& known, const Options& 
     starts = with_best_of(std::move(starts), *means, options.mean_search.policies);
   }
   SearchResult found = searches.search(starts, 0);
-  Chosen chosen{{found.theta, found.predicted_return}, found.runners_up};
+  Chosen chosen = chosen_of(found);
   if (means) {
     found.runners_up.push_back(means->theta);
     found.runners_up.insert(found.runners_up.end(), means->runners_up.begin(), means->runners_up.end());

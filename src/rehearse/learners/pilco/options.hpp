@@ -11,7 +11,7 @@ namespace rehearse::learners::pilco {
 /// What PILCO learns on the prior (Cutler 2015).
 struct PriorPhaseOptions {
   Index episodes = 40;  // at most; Chatzilygeroudis 2018, on the pendubot
-  // So many in a row that taught nothing end the phase: they returned what was promised or more, and no more than one
+  // So many in a row that taught nothing end the phase: they returned what was predicted or more, and no more than one
   // before, within 2 %. 0: none do (Chatzilygeroudis)
   Index settled = 3;
   Index inducing = 300;  // at most so many points of what was learned are the means of the GPs on the robot (PILCO)

@@ -2,33 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "rehearse/core/errors.hpp"
-#include "rehearse/gp/posterior.hpp"
-#include "rehearse/gp/test/naive.hpp"
+#include "rehearse/gp/test/sizes_fixture.hpp"
 #include "rehearse/moments/fitc.hpp"
 #include "rehearse/moments/moment_matching.hpp"
 
 namespace rehearse::moments {
 namespace {
 
-template <class Call>
-std::string complaint(Call call) {
-  try {
-    call();
-  } catch (const InvalidInput& wrong) {
-    return wrong.what();
-  }
-  return "none";
-}
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-struct Sizes : testing::Test {
-  Matrix X = gp::naive::normals(12, 3, 1), Y = gp::naive::normals(12, 2, 2);
-  gp::Inputs inputs{X};
-  gp::Hyperparameters theta = gp::naive::hyperparameters(3, 1, 1, 0.1);
-  gp::Posterior posterior{inputs, Y, {theta, theta}};
-};
+using gp::complaint, gp::contains;
+using Sizes = gp::SizesFixture;
 
 TEST_F(Sizes, OfInducingInputs) {
   const Vector y = Y.col(0);
