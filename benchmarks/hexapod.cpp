@@ -165,7 +165,7 @@ void print_identified(const std::vector<Index>& learned_from) {
       for (const bool servos : {true, false}) {
         identification::GpMi kind;
         kind.gp.servos = servos;
-        const auto learned = identification::learn(data, robot.task.model_features(), robot.task.kinematics(), &prior,
+        const auto learned = identification::learn({data, robot.task.model_features(), robot.task.kinematics(), &prior},
                                                    kind, {}, *evaluator);
         const auto leg = static_cast<Index>((*learned.state.phi)(0));
         fmt::print(" {} |", leg < 0 ? "none" : hexapod::kLegNames[static_cast<std::size_t>(leg)]);
@@ -219,7 +219,7 @@ int main(int argc, char** argv) {
              dynamics::ServoModel(servos, std::make_shared<dynamics::SimulatorModel>(driven)), robot, unseen);
     for (const bool behind_servos : {true, false}) {
       kind.gp.servos = behind_servos;
-      const auto learned = identification::learn(data, robot.task.model_features(), robot.task.kinematics(), &prior,
+      const auto learned = identification::learn({data, robot.task.model_features(), robot.task.kinematics(), &prior},
                                                  kind, {}, *evaluator);
       evaluate(behind_servos ? "and with GPs" : "GPs alone", *learned.model, robot, unseen);
     }

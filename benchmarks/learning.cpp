@@ -35,8 +35,9 @@ struct Problem {
       if (named.name == prior_name) prior = prior::Prior{named.name, named.simulator, named.parameters};
   }
   identification::Learned learn(const identification::Kind& kind, const Evaluator& evaluator) const {
-    return identification::learn(data, scenario.task.model_features(), scenario.task.kinematics(),
-                                 prior ? &*prior : nullptr, kind, {}, evaluator);
+    return identification::learn(
+        {data, scenario.task.model_features(), scenario.task.kinematics(), prior ? &*prior : nullptr}, kind, {},
+        evaluator);
   }
 
   scenario::Scenario scenario;

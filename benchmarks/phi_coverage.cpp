@@ -88,12 +88,12 @@ Result measure(const Condition& condition, std::uint64_t seed) {
   const identification::PhiPosteriorOptions classical{.misfit_observations = 1e12};
   const Evaluator& evaluator = serial_evaluator();
   if (condition.learner == "mi") {
-    const auto learned = identification::learn(data, features, {}, &prior, identification::Mi{}, {}, evaluator);
+    const auto learned = identification::learn({data, features, {}, &prior}, identification::Mi{}, {}, evaluator);
     const auto other = identification::phi_posterior(residuals, prior, *learned.state.phi, classical, evaluator);
     return {judge(learned.posterior.value(), truth), judge(other.value(), truth)};
   }
   const identification::GpMi kind;
-  const auto learned = identification::learn(data, features, scenario.task.kinematics(), &prior, kind, {}, evaluator);
+  const auto learned = identification::learn({data, features, scenario.task.kinematics(), &prior}, kind, {}, evaluator);
   const identification::FitProblem problem{residuals, &prior, kind.score, kind.gp.fit, evaluator};
   auto fit = identification::unfitted(*learned.state.phi, residuals.scale().size(), learned.state.kernels);
   fit.score = *learned.score;

@@ -119,8 +119,9 @@ std::shared_ptr<const dynamics::GpModel> model_of(const Experience& experience, 
     if constexpr (requires { k.gp; }) k.gp.tolerance = tolerance;
   };
   std::visit(set, kind);
-  auto learned = identification::learn(experience.data, scenario.task.model_features(), scenario.task.kinematics(),
-                                       prior ? &*prior : nullptr, kind, {}, evaluator);
+  auto learned = identification::learn(
+      {experience.data, scenario.task.model_features(), scenario.task.kinematics(), prior ? &*prior : nullptr}, kind,
+      {}, evaluator);
   return std::dynamic_pointer_cast<const dynamics::GpModel>(learned.model);
 }
 

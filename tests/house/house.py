@@ -3,6 +3,7 @@
 
 - No source and no test is longer than 300 lines, but for kernels and what is generated.
 - No source depends on one that depends on it: NAME.hpp and NAME.cpp count as one.
+- No public function has more than six parameters: kernels and classes' private ones excepted.
 - Nine of ten .cpp files of the library have a test of their name.
 """
 import collections
@@ -13,6 +14,7 @@ import sys
 ROOT = pathlib.Path(sys.argv[1])
 SOURCES = ROOT / "src" / "rehearse"
 LONGEST = 300
+MOST_PARAMETERS = 6
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
 
 
@@ -70,6 +72,30 @@ def cycles(graph):
     return [f"{', '.join(group)} depend on each other" for group in found]
 
 
+def parameters(text, begin):
+    """How many parameters a list has that opens before `begin`, and where it ends."""
+    depth, angles, commas, i = 1, 0, 0, begin
+    while depth and i < len(text):
+        c = text[i]
+        depth += (c in "({[") - (c in ")}]")
+        angles += (c == "<") - (c == ">" and text[i - 1] != "-")
+        commas += c == "," and depth == 1 and angles == 0
+        i += 1
+    return (0 if text[begin:i - 1].strip() == "" else commas + 1), i
+
+
+def too_many_parameters():
+    for path in SOURCES.rglob("*.hpp"):
+        if in_test(path) or path.stem.endswith("kernel"):
+            continue
+        text = re.sub(r"//.*", "", path.read_text())
+        text = re.sub(r"^ private:.*?^};", "};", text, flags=re.M | re.S)
+        for call in re.finditer(r"(\w+)\((?=\s*(?:const )?[\w:<>]+[&*]* \w)", text):
+            count, end = parameters(text, call.end())
+            if count > MOST_PARAMETERS:
+                yield f"{path.relative_to(ROOT)}: {call[1]} has {count} parameters, may have {MOST_PARAMETERS}"
+
+
 def without_test():
     sources = [p for p in SOURCES.rglob("*.cpp") if not in_test(p)]
     tests = {p.stem[: -len("_test")] for p in SOURCES.rglob("test/*_test.cpp")}
@@ -80,6 +106,6 @@ def without_test():
 
 
 wrong = list(too_long()) + cycles(dependencies(SOURCES, "rehearse/")) + cycles(dependencies(ROOT / "apps", "apps/"))
-wrong += list(without_test())
+wrong += list(too_many_parameters()) + list(without_test())
 print("\n".join(wrong) if wrong else "the house is in order")
 sys.exit(1 if wrong else 0)

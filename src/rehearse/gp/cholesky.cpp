@@ -6,14 +6,13 @@
 
 namespace rehearse::gp {
 
-double factorise(const double* scaled, Index n, Index dimensions, double noise_ratio, double* tiles, const double* z,
-                 const double* noise, double noise_factor) {
+double factorise(const ScaledCovariance& c, double* tiles) {
   for (const double jitter : kJitterLadder) {
-    correlation_matrix(scaled, n, dimensions, 1 + noise_ratio + jitter, tiles);
-    if (z) add_trend(z, n, dimensions + 1, tiles);
-    if (noise)
-      for (Size i = 0; i < tiles_size(n); ++i) tiles[i] += noise_factor * noise[i];
-    if (tiles_cholesky(n, tiles)) return jitter;
+    correlation_matrix(c.scaled, c.n, c.dimensions, 1 + c.noise_ratio + jitter, tiles);
+    if (c.trend) add_trend(c.trend, c.n, c.dimensions + 1, tiles);
+    if (c.noise)
+      for (Size i = 0; i < tiles_size(c.n); ++i) tiles[i] += c.noise_factor * c.noise[i];
+    if (tiles_cholesky(c.n, tiles)) return jitter;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -9,11 +9,18 @@ namespace rehearse::gp {
 /// about n·1e-16, so the second rung is enough for n up to some 10⁵ and the others are a reserve.
 inline constexpr double kJitterLadder[] = {0, 1e-10, 1e-8, 1e-6, 1e-4};
 
-/// Cholesky factor of C + (noise_ratio + jitter)·I into `tiles` (tiles.hpp), with C the correlations of the scaled
-/// inputs (kernel.hpp) and noise_ratio = σ_n²/σ_f²; unless null with the trend of z (D + 1 coordinates; kernel.hpp).
-/// Unless null, `noise`, of the same tiles, is added times `noise_factor`. Returns the jitter used, or NaN if no rung
+/// A covariance over σ_f²: correlations of the scaled inputs (kernel.hpp), noise, and perhaps more.
+struct ScaledCovariance {
+  const double* scaled;
+  Index n, dimensions;
+  double noise_ratio;             // σ_n²/σ_f²
+  const double* trend = nullptr;  // inputs of the trend (dimensions + 1 coordinates; kernel.hpp), or null
+  const double* noise = nullptr;  // tiles that are added times `noise_factor`, or null
+  double noise_factor = 0;
+};
+
+/// Cholesky factor of the covariance with jitter into `tiles` (tiles.hpp). Returns the jitter used, or NaN if no rung
 /// was enough. No allocation.
-double factorise(const double* scaled, Index n, Index dimensions, double noise_ratio, double* tiles,
-                 const double* z = nullptr, const double* noise = nullptr, double noise_factor = 0);
+double factorise(const ScaledCovariance& covariance, double* tiles);
 
 }  // namespace rehearse::gp

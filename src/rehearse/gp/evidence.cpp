@@ -53,8 +53,9 @@ double factorise_at(const Inputs& inputs, const ConstVectorView& flat, const Kno
   if (workspace.trend())
     trend_inputs(inputs.unit().data(), inputs.center().data(), inputs.half_range().data(), n, D,
                  workspace.trend_factors().data(), workspace.trend());
-  return factorise(workspace.scaled(), n, D, noise_ratio, workspace.tiles(), workspace.trend(),
-                   noise ? noise->tiles() : nullptr, std::exp(-2 * flat(D)));
+  return factorise({workspace.scaled(), n, D, noise_ratio, workspace.trend(), noise ? noise->tiles() : nullptr,
+                    std::exp(-2 * flat(D))},
+                   workspace.tiles());
 }
 
 /// −½ ln |K| − n/2 ln 2π, from the factor of K/σ_f².

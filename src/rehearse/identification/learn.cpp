@@ -17,19 +17,18 @@
 namespace rehearse::identification {
 namespace {
 
-/// The data and the prior that all kinds learn from.
+/// What all kinds learn from.
 struct Given {
-  const Dataset& data;
-  const FeatureMap& features;
-  const Kinematics& kinematics;
-  const prior::Prior* prior;
+  const LearningProblem& problem;
   const WarmStart& start;
   const Evaluator& evaluator;
 
   dynamics::Residuals residuals(const GpOptions& gp, bool integrates_rates, bool midpoint) const {
-    Kinematics known = kinematics;
+    const FeatureMap& features = problem.features;
+    Kinematics known = problem.kinematics;
     if (!integrates_rates) known.pairs.clear();
-    return dynamics::Residuals(data, gp.joint_angles ? features : FeatureMap(features.kinds(), {}, features.targets()),
+    return dynamics::Residuals(problem.data,
+                               gp.joint_angles ? features : FeatureMap(features.kinds(), {}, features.targets()),
                                std::move(known), midpoint);
   }
 };
@@ -69,7 +68,8 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
 template <class Finish>
 Learned smoothed_if_likelier(const Given& given, const GpOptions& options, const FitProblem& measured, const Fit& fit,
                              bool moves_phi, Finish finish) {
-  const bool behind_servos = !given.kinematics.servos.empty();  // whose actions are noisy measurements themselves
+  const bool behind_servos =
+      !given.problem.kinematics.servos.empty();  // whose actions are noisy measurements themselves
   if (!options.smooth || behind_servos) return finish(measured, fit, nullptr);
   const auto on = [&](const dynamics::Residuals& residuals) {
     return FitProblem{residuals, measured.prior, measured.score, measured.options, measured.evaluator};
@@ -101,7 +101,7 @@ Learned learn_gps(const Given& given, const GpOptions& options, const prior::Pri
 Learned learn_kind(const ZeroMean& kind, const Given& given) { return learn_gps(given, kind.gp, nullptr, false); }
 
 Learned learn_kind(const FixedPrior& kind, const Given& given) {
-  return learn_gps(given, kind.gp, given.prior, kind.gp.midpoint);
+  return learn_gps(given, kind.gp, given.problem.prior, kind.gp.midpoint);
 }
 
 /// Fails where the prior tunes something and a number is not finite.
@@ -112,7 +112,7 @@ void add_posterior(Learned& learned, const prior::Prior& prior, std::optional<Ph
 }
 
 Learned learn_kind(const GpMi& kind, const Given& given) {
-  const prior::Prior& prior = *given.prior;
+  const prior::Prior& prior = *given.problem.prior;
   const dynamics::Residuals residuals = given.residuals(kind.gp, kind.gp.integrate_rates, kind.gp.midpoint);
   const FitProblem problem{residuals, &prior, kind.score, fit_options(kind.gp, residuals), given.evaluator};
   Fit found = kind.search == PhiSearch::nested ? search_nested(kind, problem, given.start)
@@ -132,8 +132,8 @@ Learned learn_kind(const GpMi& kind, const Given& given) {
 }
 
 Learned learn_kind(const Mi& kind, const Given& given) {
-  const prior::Prior& prior = *given.prior;
-  const dynamics::Residuals residuals(given.data, given.features);
+  const prior::Prior& prior = *given.problem.prior;
+  const dynamics::Residuals residuals(given.problem.data, given.problem.features);
   const Identified identified = least_squares(residuals, prior, given.start.phi, kind);
   Learned learned;
   learned.model = std::make_shared<dynamics::SimulatorModel>(prior, identified.phi);
@@ -155,23 +155,22 @@ const ResidualGpOptions* servo_options(const Kind& kind) {
 
 }  // namespace
 
-Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics, const prior::Prior* prior,
-              const Kind& kind, const WarmStart& start, const Evaluator& evaluator) {
+Learned learn(const LearningProblem& problem, const Kind& kind, const WarmStart& start, const Evaluator& evaluator) {
+  const auto& [data, features, kinematics, prior] = problem;
   if (!prior && !std::holds_alternative<ZeroMean>(kind)) throw InvalidInput("this dynamics model needs a prior");
   if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
-  const auto learn_from = [&](const Dataset& rows, const Kinematics& known, const prior::Prior* around) {
-    const Given given{rows, features, known, around, start, evaluator};
-    return std::visit([&](const auto& k) { return learn_kind(k, given); }, kind);
+  const auto learn_from = [&](const LearningProblem& of) {
+    return std::visit([&](const auto& k) { return learn_kind(k, Given{of, start, evaluator}); }, kind);
   };
   const ResidualGpOptions* options = servo_options(kind);
   if (!options || kinematics.servos.empty()) {
     Kinematics without = kinematics;
     without.servos.clear();
-    return learn_from(data, without, prior);
+    return learn_from({data, features, without, prior});
   }
   const auto servos = std::make_shared<dynamics::Servos>(data, features, kinematics.servos, *options, evaluator);
   const prior::Prior driven = prior->behind_servos();
-  Learned learned = learn_from(dynamics::reached(data, kinematics.servos), kinematics, &driven);
+  Learned learned = learn_from({dynamics::reached(data, kinematics.servos), features, kinematics, &driven});
   learned.model = std::make_shared<dynamics::ServoModel>(servos, learned.model);
   *learned.log_evidence += servos->log_evidence();
   return learned;

@@ -34,8 +34,15 @@ struct Learned {
   std::vector<std::string> notes;         // numerical failures survived
 };
 
+/// What a model is learned from. The data set and the prior must outlive the call.
+struct LearningProblem {
+  const Dataset& data;
+  FeatureMap features;
+  Kinematics kinematics;
+  const prior::Prior* prior;  // null: none
+};
+
 /// Throws InvalidInput if the kind needs a prior and none is given, or the data set has no usable row.
-Learned learn(const Dataset& data, const FeatureMap& features, const Kinematics& kinematics, const prior::Prior* prior,
-              const Kind& kind, const WarmStart& start, const Evaluator& evaluator);
+Learned learn(const LearningProblem& problem, const Kind& kind, const WarmStart& start, const Evaluator& evaluator);
 
 }  // namespace rehearse::identification

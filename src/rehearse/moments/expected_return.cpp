@@ -126,8 +126,8 @@ Vector ExpectedReturn::differentiate(const PolicyMoments& policy, const ReturnWo
     features_.adjoint(workspace.states[at(t + 1)], f, features_later, later);
     Gaussian state = Gaussian::zero(dx);
     features_later = Transformed::zero(dx, f.outputs());
-    propagation.adjoint(workspace.states[at(t)], workspace.features[at(t)], workspace.steps[at(t)], later, state,
-                        features_later, adjoint);
+    propagation.adjoint(workspace.states[at(t)], workspace.features[at(t)], workspace.steps[at(t)], later,
+                        {state, features_later, adjoint});
     later = std::move(state);
   }
   return policy.gradient(adjoint);

@@ -53,12 +53,11 @@ bool Propagation::forward(const Gaussian& state, const Transformed& features, St
 }
 
 void Propagation::adjoint(const Gaussian& state, const Transformed& features, const StepTape& tape,
-                          const Gaussian& next_adjoint, Gaussian& state_adjoint, Transformed& features_adjoint,
-                          PolicyAdjoint& policy) const {
+                          const Gaussian& next_adjoint, StepAdjoint adjoint) const {
   const Index F = features.outputs(), U = policy_.actions(), P = policy_.features();
   const Matrix by_next = (next_adjoint.covariance + next_adjoint.covariance.transpose()) / 2;
-  state_adjoint.mean += next_adjoint.mean;
-  state_adjoint.covariance += by_next + 2 * by_next * (tape.gain * tape.change.gain).transpose();
+  adjoint.state.mean += next_adjoint.mean;
+  adjoint.state.covariance += by_next + 2 * by_next * (tape.gain * tape.change.gain).transpose();
   const Matrix by_both_gains = 2 * state.covariance * by_next;  // by tape.gain · change.gain
 
   Gaussian inputs = Gaussian::zero(F + U);
@@ -72,14 +71,14 @@ void Propagation::adjoint(const Gaussian& state, const Transformed& features, co
       inputs.mean.tail(U), inputs.covariance.bottomRightCorner(U, U),
       features.covariance.topRows(P) * by_cross + features.gain.leftCols(P).transpose() * by_action_gain};
   Gaussian of_seen = Gaussian::zero(P);
-  policy_.adjoint(seen(features, policy_), tape.policy, action, of_seen, policy);
-  features_adjoint.mean += inputs.mean.head(F);
-  features_adjoint.mean.head(P) += of_seen.mean;
-  features_adjoint.covariance += inputs.covariance.topLeftCorner(F, F);
-  features_adjoint.covariance.topLeftCorner(P, P) += of_seen.covariance;
-  features_adjoint.covariance.leftCols(P) += by_cross * tape.action.gain.transpose();
-  features_adjoint.gain += by_gain.leftCols(F);
-  features_adjoint.gain.leftCols(P) += by_action_gain * tape.action.gain.transpose();
+  policy_.adjoint(seen(features, policy_), tape.policy, action, of_seen, adjoint.policy);
+  adjoint.features.mean += inputs.mean.head(F);
+  adjoint.features.mean.head(P) += of_seen.mean;
+  adjoint.features.covariance += inputs.covariance.topLeftCorner(F, F);
+  adjoint.features.covariance.topLeftCorner(P, P) += of_seen.covariance;
+  adjoint.features.covariance.leftCols(P) += by_cross * tape.action.gain.transpose();
+  adjoint.features.gain += by_gain.leftCols(F);
+  adjoint.features.gain.leftCols(P) += by_action_gain * tape.action.gain.transpose();
 }
 
 }  // namespace rehearse::moments

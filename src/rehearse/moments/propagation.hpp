@@ -16,6 +16,13 @@ struct StepTape {
   Transformed change;
 };
 
+/// The adjoints of what a step begins with.
+struct StepAdjoint {
+  Gaussian& state;
+  Transformed& features;
+  PolicyAdjoint& policy;
+};
+
 /// One control step of a Gaussian state under a policy: features → action → inputs of the dynamics → change of the
 /// state → next state (Deisenroth 2011, section 2.2; PILCO's propagate). `dynamics` is of (features, actions), its
 /// outputs are the changes of all states; the policy sees the first of the features, as many as it has. References must
@@ -29,9 +36,9 @@ class Propagation {
   /// features are not as many as those of the dynamics.
   bool forward(const Gaussian& state, const Transformed& features, StepTape& tape, Gaussian& next) const;
 
-  /// Adds to the adjoints of the state, of its features and of the policy what the adjoint of the next state brings.
+  /// Adds to the adjoints of what a step began with what the adjoint of the next state brings.
   void adjoint(const Gaussian& state, const Transformed& features, const StepTape& tape, const Gaussian& next_adjoint,
-               Gaussian& state_adjoint, Transformed& features_adjoint, PolicyAdjoint& policy) const;
+               StepAdjoint adjoint) const;
 
  private:
   const MomentMatching& dynamics_;

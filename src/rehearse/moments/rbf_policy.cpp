@@ -51,7 +51,7 @@ RbfPolicy::RbfPolicy(const policy::RbfOptions& options, const ConstVectorView& t
     factors_.emplace_back(at(tiles_size(centres_)));
     gp::scale_inputs(unscaled_.data(), centres_, features(), inverse_lengths_.back().data(), scaled.data());
     const double jitter_of_ladder =
-        gp::factorise(scaled.data(), centres_, features(), options.noise * options.noise, factors_.back().data());
+        gp::factorise({scaled.data(), centres_, features(), options.noise * options.noise}, factors_.back().data());
     if (std::isnan(jitter_of_ladder)) return;
     terms.push_back({.output = a,
                      .centres = unscaled_ * scale_.asDiagonal(),

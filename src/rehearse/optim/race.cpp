@@ -18,15 +18,15 @@ struct Runner {
 
 class Race {
  public:
-  Race(const BatchObjective& objective, const std::vector<Vector>& starts, const std::vector<Interval>& box,
-       const RaceOptions& options, const StreamKey& key, const Evaluator& evaluator, const SearchListener& listener)
+  Race(const BatchObjective& objective, const SearchSpace& space, const RaceOptions& options, const StreamKey& key,
+       const Evaluator& evaluator, const SearchListener& listener)
       : objective_(objective), options_(options), evaluator_(evaluator), listener_(listener) {
     for (Index i = 0; i < options.descents; ++i) {
       StreamKey own = key;
       own.descent = static_cast<std::uint64_t>(i);
-      const bool given = i < static_cast<Index>(starts.size());
-      runners_.push_back({Cmaes(given ? starts[static_cast<std::size_t>(i)] : random_point(box, own),
-                                given ? options.start_sigma : options.sigma, box, options.cmaes, own),
+      const bool given = i < static_cast<Index>(space.starts.size());
+      runners_.push_back({Cmaes(given ? space.starts[static_cast<std::size_t>(i)] : random_point(space.box, own),
+                                given ? options.start_sigma : options.sigma, space.box, options.cmaes, own),
                           {}});
     }
   }
@@ -150,18 +150,17 @@ void RaceOptions::fields(FieldVisitor& v) {
   v.group("cmaes", cmaes, kExpert);
 }
 
-RaceResult race(const BatchObjective& objective, const std::vector<Vector>& starts, const std::vector<Interval>& box,
-                const RaceOptions& options, const StreamKey& key, const Evaluator& evaluator,
-                const SearchListener& listener) {
+RaceResult race(const BatchObjective& objective, const SearchSpace& space, const RaceOptions& options,
+                const StreamKey& key, const Evaluator& evaluator, const SearchListener& listener) {
   RaceOptions copy = options;
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("race", copy); })) violations.add(line);
-  violations.require(!box.empty(), "race needs a box");
+  violations.require(!space.box.empty(), "race needs a box");
   violations.require(options.max_evaluations / 2 >= options.descents,
                      fmt::format("race.max_evaluations = {}, must be ≥ 2 × race.descents = {}", options.max_evaluations,
                                  2 * options.descents));
   violations.throw_if_any();
-  return Race(objective, starts, box, options, key, evaluator, listener).run();
+  return Race(objective, space, options, key, evaluator, listener).run();
 }
 
 }  // namespace rehearse::optim

@@ -40,10 +40,15 @@ struct RaceResult {
   Index evaluations = 0;
 };
 
-/// Maximises within the box. The first descents begin at the given starts (at most all of them), the others uniformly
-/// in the box. Results depend on the key, never on the evaluator. Throws InvalidInput.
-RaceResult race(const BatchObjective& objective, const std::vector<Vector>& starts, const std::vector<Interval>& box,
-                const RaceOptions& options, const StreamKey& key, const Evaluator& evaluator,
-                const SearchListener& listener = {});
+/// Where a race searches: the first descents begin at the given starts (at most all of them), the others uniformly in
+/// the box.
+struct SearchSpace {
+  std::vector<Interval> box;
+  std::vector<Vector> starts = {};
+};
+
+/// Maximises within the box. Results depend on the key, never on the evaluator. Throws InvalidInput.
+RaceResult race(const BatchObjective& objective, const SearchSpace& space, const RaceOptions& options,
+                const StreamKey& key, const Evaluator& evaluator, const SearchListener& listener = {});
 
 }  // namespace rehearse::optim

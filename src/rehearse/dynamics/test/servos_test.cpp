@@ -126,7 +126,7 @@ TEST(Servos, NeedData) { EXPECT_THROW(servos_of(steps(0, 1)), InvalidInput); }
 
 double error_of_x(const Dataset& data, const identification::Kind& kind, const prior::Prior& prior) {
   const identification::Learned learned =
-      identification::learn(data, features(), kinematics(), &prior, kind, {}, serial_evaluator());
+      identification::learn({data, features(), kinematics(), &prior}, kind, {}, serial_evaluator());
   const Dataset held_out = steps(200, 2);
   Matrix mean(200, 5), variance(200, 5);
   learned.model->predict(held_out.states, held_out.actions, mean, variance);
@@ -173,7 +173,7 @@ TEST(ServoModel, ADrawOfServosMovesTheRobotWithThem) {
   identification::FixedPrior kind;
   kind.gp.variance = PredictedVariance::noisy;
   const identification::Learned learned =
-      identification::learn(data, features(), kinematics(), &prior, kind, {}, serial_evaluator());
+      identification::learn({data, features(), kinematics(), &prior}, kind, {}, serial_evaluator());
   const Matrix normals = Matrix::NullaryExpr(50, 5, [&] { return rng.normal(); });
   Matrix drawn(50, 5), mean(50, 5), variance(50, 5);
   learned.model->sample(held_out.states, held_out.actions, normals, drawn);
@@ -190,7 +190,7 @@ TEST(ServoModel, ParametersAreIdentifiedFromWhatFollows) {
     kind.score = score;
     const prior::Prior wrong = perfect_servos(1.2);
     const identification::Learned learned =
-        identification::learn(data, features(), kinematics(), &wrong, kind, {}, serial_evaluator());
+        identification::learn({data, features(), kinematics(), &wrong}, kind, {}, serial_evaluator());
     EXPECT_NEAR((*learned.state.phi)(0), kGain, 1e-3);
     EXPECT_TRUE(std::isfinite(*learned.log_evidence));
   }

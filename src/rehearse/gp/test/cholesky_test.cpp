@@ -20,7 +20,7 @@ Result factorise(const Matrix& X, double noise_ratio) {
       tiles(static_cast<std::size_t>(tiles_size(n)));
   const Vector ones = Vector::Ones(X.cols());
   scale_inputs(X.data(), n, X.cols(), ones.data(), scaled.data());
-  const double jitter = gp::factorise(scaled.data(), n, X.cols(), noise_ratio, tiles.data());
+  const double jitter = gp::factorise({scaled.data(), n, X.cols(), noise_ratio}, tiles.data());
   return {jitter, lower_from_tiles(n, tiles)};
 }
 

@@ -26,7 +26,7 @@ TEST(Alternating, FindsNoLowerScoreThanTheNestedSearch) {
       nested.search = PhiSearch::nested;
       by_turns.gp.smooth = nested.gp.smooth = false;
       const auto score = [&](const GpMi& kind) {
-        return *learn(data, s.task.feature_map(), s.task.kinematics(), &prior, kind, {}, serial_evaluator()).score;
+        return *learn({data, s.task.feature_map(), s.task.kinematics(), &prior}, kind, {}, serial_evaluator()).score;
       };
       EXPECT_GT(score(by_turns), score(nested) - 0.01) << guess.name << " noise " << noise;
     }

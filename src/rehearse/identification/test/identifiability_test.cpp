@@ -57,7 +57,7 @@ TEST(IdentifiabilityWarnings, AParameterThatMovesNothingCouldBeAnything) {
   const prior::Prior prior =
       swing::prior({swing::length(), swing::friction(), Parameter::continuous("colour", 3, {1, 5})});
   for (const Kind& kind : {Kind(GpMi{}), Kind(Mi{})}) {
-    const auto posterior = learn(data, swing::features(), {}, &prior, kind, {}, serial_evaluator()).posterior;
+    const auto posterior = learn({data, swing::features(), {}, &prior}, kind, {}, serial_evaluator()).posterior;
     const Interval interval = posterior->intervals()[2];
     EXPECT_LT(interval.high - interval.low, 4 + 1e-9);
     EXPECT_GT(interval.high - interval.low, 2.2) << "half the box and more, wherever its mean is";
@@ -73,7 +73,7 @@ TEST(IdentifiabilityWarnings, AtTheEndOfTheBoxWhatLiesBeyondWidensNothing) {
       swing::prior({Parameter::continuous("length", 0.5, {0.3, 0.7}), swing::friction()});  // the truth is 0.8
   Mi kind;
   kind.posterior.misfit_observations = 1e12;
-  const auto posterior = learn(data, swing::features(), {}, &prior, kind, {}, serial_evaluator()).posterior;
+  const auto posterior = learn({data, swing::features(), {}, &prior}, kind, {}, serial_evaluator()).posterior;
   EXPECT_NEAR(posterior->mean(0), 0.7, 1e-6);
   EXPECT_EQ(posterior->intervals()[0].high, 0.7);
   EXPECT_GT(posterior->intervals()[0].low, 0.65);
@@ -89,7 +89,7 @@ TEST(IdentifiabilityWarnings, ParametersThatOnlyActTogetherCannotBeToldApart) {
                    [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
                      swing::ode(x, Vector{{u(0) * phi(2) * phi(3)}}, phi, dxdt);
                    });
-  const auto learned = learn(data, swing::features(), {}, &prior, GpMi{}, {}, serial_evaluator());
+  const auto learned = learn({data, swing::features(), {}, &prior}, GpMi{}, {}, serial_evaluator());
   EXPECT_NEAR((*learned.state.phi)(2) * (*learned.state.phi)(3), 1, 0.1);
   ASSERT_EQ(identifiability_warnings(*learned.posterior).size(), 1u);
   EXPECT_TRUE(identifiability_warnings(*learned.posterior)[0].starts_with(

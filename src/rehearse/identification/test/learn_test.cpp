@@ -126,7 +126,7 @@ TEST(Learn, GpMiIdentifiesThePendubotFromOneEpisode) {
     const Dataset data = one_episode(s, seed);
     ASSERT_EQ(data.size(), 50);
     const Learned learned =
-        learn(data, s.task.feature_map(), s.task.kinematics(), &prior, GpMi{}, {}, serial_evaluator());
+        learn({data, s.task.feature_map(), s.task.kinematics(), &prior}, GpMi{}, {}, serial_evaluator());
     for (Index i = 0; i < 4; ++i) EXPECT_NEAR((*learned.state.phi)(i), 0.5, 0.01) << "seed " << seed << " φ " << i;
   }
 }
@@ -213,7 +213,7 @@ Dataset mostly_noise(Index n, std::uint64_t seed) {
 TEST(Learn, NoiseIsNoFunctionOfManyInputs) {
   const Dataset data = mostly_noise(120, 1), held_out = mostly_noise(50, 2);
   const FeatureMap features(std::vector<StateKind>(static_cast<std::size_t>(data.states.cols())));
-  const Learned learned = learn(data, features, {}, nullptr, ZeroMean{}, {}, serial_evaluator());
+  const Learned learned = learn({data, features, {}, nullptr}, ZeroMean{}, {}, serial_evaluator());
   const Prediction p = predict(*learned.model, held_out);
   EXPECT_LT(swing::rms(p.mean.col(1) - held_out.states.col(0)), 0.1);
   EXPECT_LT(swing::rms(p.mean.rightCols(16)), 1e-6);

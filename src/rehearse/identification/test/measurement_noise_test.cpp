@@ -57,7 +57,7 @@ TEST(MeasurementStd, OfLearnedModelsIsAboutTheTrueOne) {
       data.changes(i, d) += after - before;
     }
   const prior::Prior prior = swing::prior_at(swing::kTruth);
-  const Learned learned = learn(data, swing::features(), {}, &prior, FixedPrior{}, {}, serial_evaluator());
+  const Learned learned = learn({data, swing::features(), {}, &prior}, FixedPrior{}, {}, serial_evaluator());
   const Vector found = learned.model->measurement_std();
   for (Index d = 0; d < 2; ++d) EXPECT_NEAR(found(d) / std(d), 1, 0.25) << d;
 }

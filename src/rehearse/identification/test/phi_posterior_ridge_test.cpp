@@ -51,8 +51,8 @@ TEST(PhiPosterior, OnAnExactRidgeIntervalsHoldTheTruthAndTheKnownIsNamed) {
   for (const Kind& kind : {Kind(Mi{}), Kind(GpMi{})})
     for (std::uint64_t seed = 1; seed <= (kind.index() == Kind(Mi{}).index() ? 4 : 2); ++seed) {
       const Dataset data = double_pendulum::episode(50, seed);
-      const auto learned =
-          learn(data, double_pendulum::features(), double_pendulum::kinematics(), &prior, kind, {}, serial_evaluator());
+      const auto learned = learn({data, double_pendulum::features(), double_pendulum::kinematics(), &prior}, kind, {},
+                                 serial_evaluator());
       const std::string label = fmt::format("{} seed {}", kind.index(), seed);
       expect_to_hold_the_double_pendulum(*learned.posterior, label);
       const Interval m2 = learned.posterior->intervals()[1];
@@ -73,8 +73,8 @@ TEST(PhiPosterior, WhatDifferencesCannotResolveIsNotKnown) {
     const prior::Prior prior = rounded(double_pendulum::prior(), unit);
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       const Dataset data = double_pendulum::episode(50, seed);
-      const auto learned =
-          learn(data, double_pendulum::features(), double_pendulum::kinematics(), &prior, Mi{}, {}, serial_evaluator());
+      const auto learned = learn({data, double_pendulum::features(), double_pendulum::kinematics(), &prior}, Mi{}, {},
+                                 serial_evaluator());
       expect_to_hold_the_double_pendulum(*learned.posterior, fmt::format("unit {} seed {}", unit, seed));
     }
   }

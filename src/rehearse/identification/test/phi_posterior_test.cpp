@@ -189,7 +189,7 @@ TEST(PhiPosterior, CoversTheTruthAsOftenAsItSaysIfTheKernelIsRight) {
 bool covers_in_spite_of_friction(const Kind& kind, std::uint64_t seed) {
   const Dataset data = data_with_noise(60, seed, 0.02);
   const prior::Prior prior = swing::prior({swing::length(), Parameter::fixed("friction", 0)});
-  const auto learned = learn(data, swing::features(), {}, &prior, kind, {}, serial_evaluator());
+  const auto learned = learn({data, swing::features(), {}, &prior}, kind, {}, serial_evaluator());
   const Interval interval = learned.posterior->intervals().front();
   return interval.low <= swing::kTruth(0) && swing::kTruth(0) <= interval.high;
 }
@@ -206,7 +206,7 @@ TEST(PhiPosterior, OfLeastSquaresIsTheClassicalOne) {
   const prior::Prior prior = swing_prior();
   Mi kind;
   kind.posterior = kClassical;
-  const auto learned = learn(data, swing::features(), {}, &prior, kind, {}, serial_evaluator());
+  const auto learned = learn({data, swing::features(), {}, &prior}, kind, {}, serial_evaluator());
   const Matrix targets = dynamics::Residuals(data, swing::features()).targets(&prior, *learned.state.phi);
   Matrix precision = Vector{{12 / (1.7 * 1.7), 12.0}}.asDiagonal();
   for (Index e = 0; e < 2; ++e) {
@@ -224,7 +224,7 @@ TEST(PhiPosterior, OfLeastSquaresSeesTheMisfitInRowsThatAreAlike) {
   Mi classical;
   classical.posterior = kClassical;
   const auto deviation = [&](const Mi& kind) {
-    const auto learned = learn(data, swing::features(), {}, &prior, kind, {}, serial_evaluator());
+    const auto learned = learn({data, swing::features(), {}, &prior}, kind, {}, serial_evaluator());
     return std::sqrt(learned.posterior->covariance(0, 0));
   };
   const double wider = deviation(Mi{}) / deviation(classical);
@@ -249,7 +249,7 @@ TEST(PhiPosterior, IsThereWhereContinuousParametersAreLearned) {
   const prior::Prior discrete =
       swing::prior({Parameter::discrete("length", 0.5, {0.5, 0.8}), Parameter::fixed("friction", 0.3)});
   const auto learned = [&](const Kind& kind, const prior::Prior* with) {
-    return learn(data, swing::features(), {}, with, kind, {}, serial_evaluator());
+    return learn({data, swing::features(), {}, with}, kind, {}, serial_evaluator());
   };
   EXPECT_FALSE(learned(ZeroMean{}, nullptr).posterior);
   EXPECT_FALSE(learned(FixedPrior{}, &prior).posterior);
@@ -264,7 +264,7 @@ TEST(PhiPosterior, IsTheSameForAnyNumberOfThreads) {
   const Dataset data = data_with_errors(50, 4);
   const prior::Prior prior = swing_prior();
   const auto covariance = [&](const Evaluator& evaluator) {
-    return learn(data, swing::features(), {}, &prior, GpMi{}, {}, evaluator).posterior->covariance;
+    return learn({data, swing::features(), {}, &prior}, GpMi{}, {}, evaluator).posterior->covariance;
   };
   EXPECT_EQ(covariance(serial_evaluator()), covariance(*make_thread_evaluator(3)));
 }

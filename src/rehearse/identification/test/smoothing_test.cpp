@@ -42,7 +42,7 @@ Measured measured(const Vector& noise, std::uint64_t seed) {
 Learned learn_swing(const Dataset& data, bool smooth, const prior::Prior& prior, const Evaluator& evaluator) {
   GpMi kind;
   kind.gp.smooth = smooth;
-  return learn(data, swing::features(), swing::kinematics(), &prior, kind, {}, evaluator);
+  return learn({data, swing::features(), swing::kinematics(), &prior}, kind, {}, evaluator);
 }
 
 double error(const dynamics::DynamicsModel& model, const Dataset& truth) {
@@ -110,7 +110,7 @@ TEST(Smoothing, LeavesAMisfitAlone) {
   Dataset data;
   data.append(rollout::execute(*scenario.make_plant(), policy, theta, scenario.task, rng));
   const Learned learned =
-      learn(data, scenario.task.model_features(), scenario.task.kinematics(), &prior, GpMi{}, {}, serial_evaluator());
+      learn({data, scenario.task.model_features(), scenario.task.kinematics(), &prior}, GpMi{}, {}, serial_evaluator());
   const auto& model = dynamic_cast<const dynamics::GpModel&>(*learned.model);
   for (std::size_t e = 0; e < 4; ++e)  // smoothed rows have noise of their own
     EXPECT_EQ(model.posterior().noise_variances()(static_cast<Index>(e)), learned.state.kernels[e].noise_variance());
@@ -133,9 +133,9 @@ TEST(Smoothing, LeavesPhiWhereAnotherScoreOrSearchFoundIt) {
   nested.search = PhiSearch::nested;
   for (GpMi kind : {sum, nested}) {
     const Learned smoothed =
-        learn(m.data, swing::features(), swing::kinematics(), &prior, kind, {}, serial_evaluator());
+        learn({m.data, swing::features(), swing::kinematics(), &prior}, kind, {}, serial_evaluator());
     kind.gp.smooth = false;
-    const Learned raw = learn(m.data, swing::features(), swing::kinematics(), &prior, kind, {}, serial_evaluator());
+    const Learned raw = learn({m.data, swing::features(), swing::kinematics(), &prior}, kind, {}, serial_evaluator());
     EXPECT_EQ(*smoothed.state.phi, *raw.state.phi);
     EXPECT_EQ(*smoothed.score, *raw.score);
     EXPECT_GT(*smoothed.log_evidence, *raw.log_evidence + 20) << "GPs learn from smoothed states all the same";

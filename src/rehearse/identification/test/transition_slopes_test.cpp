@@ -11,7 +11,7 @@ namespace {
 TEST(TransitionSlopes, AreThoseOfTheNextState) {
   const prior::Prior prior = swing::prior_at(swing::kTruth);
   const Dataset rows = swing::data(20, 1);
-  const Learned learned = learn(rows, swing::features(), {}, &prior, FixedPrior{}, {}, serial_evaluator());
+  const Learned learned = learn({rows, swing::features(), {}, &prior}, FixedPrior{}, {}, serial_evaluator());
   const std::vector<Matrix> slopes = transition_slopes(*learned.model, rows);
   Matrix states = rows.states, mean(20, 2), moved(20, 2);
   learned.model->predict_mean(states, rows.actions, mean);

@@ -126,9 +126,10 @@ class BlackDrops final : public TrialLearner {
     if (setting_.progress) setting_.progress({.phase = "model"});
     if (first()) return trust_prior(proposal, options_.prior_variance);
     try {
-      identification::Learned learned = identification::learn(
-          data_, setting_.task.model_features(), setting_.task.kinematics(),
-          setting_.prior ? &*setting_.prior : nullptr, options_.model, state, *setting_.evaluator);
+      identification::Learned learned =
+          identification::learn({data_, setting_.task.model_features(), setting_.task.kinematics(),
+                                 setting_.prior ? &*setting_.prior : nullptr},
+                                options_.model, state, *setting_.evaluator);
       proposal.model = learned.model;
       proposal.phi = learned.state.phi;
       proposal.posterior = std::move(learned.posterior);

@@ -57,7 +57,7 @@ std::vector<Vector> find(const optim::BatchObjective& objective, const std::vect
                          const optim::SearchListener& listener) {
   std::vector<Vector> found;
   if (options.method == Method::race) {
-    auto result = optim::race(objective, starts, box, options.race, key, problem.evaluator, listener);
+    auto result = optim::race(objective, {box, starts}, options.race, key, problem.evaluator, listener);
     for (optim::Contender& contender : result.contenders) found.push_back(std::move(contender.x));
   } else {
     const Vector start = starts.empty() ? random_policy(problem.policy, options, key) : starts.front();

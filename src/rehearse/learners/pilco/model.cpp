@@ -17,20 +17,20 @@ namespace {
 
 /// Inducing inputs for GPs of Y at X: rows spread evenly, then moved to where the sum of the outputs' evidence is
 /// higher, in units of the inputs' spread.
-Matrix inducing_inputs(const gp::Inputs& inputs, const Matrix& X, const Matrix& Y, const ModelOptions& options,
-                       const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
-                       const ProgressSink& progress) {
+Matrix inducing_inputs(const gp::Inputs& inputs, const Matrix& X, const Matrix& Y, const ModelProblem& problem,
+                       const std::vector<gp::Hyperparameters>& kernels) {
+  const ModelOptions& options = problem.options;
   const Index m = options.inducing, D = X.cols();
   Matrix Z(m, D);
   for (Index i = 0; i < m; ++i) Z.row(i) = X.row(i * X.rows() / m);
   if (options.inducing_line_searches == 0) return Z;
   const auto spread = inputs.spread().asDiagonal();
   const auto evidence = [&](const Vector& z, Vector& gradient) {
-    if (progress) progress({.phase = "inducing inputs"});
+    if (problem.progress) problem.progress({.phase = "inducing inputs"});
     const Matrix at = z.reshaped(m, D) * spread;
     std::vector<Matrix> gradients(kernels.size());
     Vector values(Y.cols());
-    evaluator.for_each(Y.cols(), [&](Index e) {
+    problem.evaluator.for_each(Y.cols(), [&](Index e) {
       const auto output = static_cast<std::size_t>(e);
       values(e) = moments::fitc_evidence(X, Y.col(e), at, kernels[output], &gradients[output]);
     });
@@ -45,13 +45,13 @@ Matrix inducing_inputs(const gp::Inputs& inputs, const Matrix& X, const Matrix& 
   return found.x.reshaped(m, D) * spread;
 }
 
-std::vector<moments::MomentTerm> terms(const Matrix& X, const Matrix& Y, const ModelOptions& options,
-                                       const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
-                                       std::vector<std::string>& notes, const ProgressSink& progress) {
+std::vector<moments::MomentTerm> terms(const Matrix& X, const Matrix& Y, const ModelProblem& problem,
+                                       const std::vector<gp::Hyperparameters>& kernels,
+                                       std::vector<std::string>& notes) {
   const gp::Inputs inputs(X);
-  if (X.rows() > options.inducing) {
+  if (X.rows() > problem.options.inducing) {
     try {
-      return moments::fitc_terms(X, Y, inducing_inputs(inputs, X, Y, options, kernels, evaluator, progress), kernels);
+      return moments::fitc_terms(X, Y, inducing_inputs(inputs, X, Y, problem, kernels), kernels);
     } catch (const InvalidInput& error) {
       notes.push_back(fmt::format("all rows are used instead of inducing inputs: {}", error.what()));
     }
@@ -93,16 +93,16 @@ void ModelOptions::fields(FieldVisitor& v) {
             at_least(0), published(500, "PILCO"));
 }
 
-Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
-            const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator,
-            const std::vector<moments::MomentTerm>& mean, const ProgressSink& progress) {
+Model learn(const ModelProblem& problem, const std::vector<gp::Hyperparameters>& start,
+            const std::vector<moments::MomentTerm>& mean) {
+  const auto& [task, data, options, evaluator, progress] = problem;
   Model model{.kernels = start, .log_evidence = std::numeric_limits<double>::quiet_NaN()};
   const FeatureMap features = moments::model_features(task, options.joint_angles);
   std::optional<prior::Prior> prior;
   if (!mean.empty()) prior = moments::network_prior("network", features, mean);
   try {
     const Kinematics none{.dt_s = task.dt_s};  // neither integrals of rates nor servos, which have no moments
-    identification::Learned learned = identification::learn(data, features, none, prior ? &*prior : nullptr,
+    identification::Learned learned = identification::learn({data, features, none, prior ? &*prior : nullptr},
                                                             kind(options, !mean.empty()), {start, {}}, evaluator);
     model.notes = std::move(learned.notes);
     const Dataset& rows = learned.smoothed ? learned.smoothed->data : data;
@@ -110,7 +110,7 @@ Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
     const Matrix X = dynamics::gp_inputs(features, rows.states, rows.actions);
     Matrix Y = rows.changes;
     if (!mean.empty()) Y -= moments::evaluate_means(mean, Y.cols(), X);
-    model.moments = around(mean, terms(X, Y, options, kernels, evaluator, model.notes, progress), task.state_size());
+    model.moments = around(mean, terms(X, Y, problem, kernels, model.notes), task.state_size());
     model.moments_of_all_rows = [X, Y, mean, kernels] {
       return around(mean, moments::exact_terms(gp::Posterior(gp::Inputs(X), Y, kernels)), Y.cols());
     };
@@ -123,12 +123,11 @@ Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
   return model;
 }
 
-std::vector<moments::MomentTerm> terms_of(const Task& task, const Dataset& data, const ModelOptions& options,
-                                          const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
-                                          std::vector<std::string>& notes, const ProgressSink& progress) {
-  const FeatureMap features = moments::model_features(task, options.joint_angles);
-  const Matrix X = dynamics::gp_inputs(features, data.states, data.actions);
-  return terms(X, data.changes, options, kernels, evaluator, notes, progress);
+std::vector<moments::MomentTerm> terms_of(const ModelProblem& problem, const std::vector<gp::Hyperparameters>& kernels,
+                                          std::vector<std::string>& notes) {
+  const FeatureMap features = moments::model_features(problem.task, problem.options.joint_angles);
+  const Matrix X = dynamics::gp_inputs(features, problem.data.states, problem.data.actions);
+  return terms(X, problem.data.changes, problem, kernels, notes);
 }
 
 }  // namespace rehearse::learners::pilco

@@ -42,16 +42,23 @@ struct Model {
   std::vector<std::string> notes;            // numerical failures survived
 };
 
+/// What a model is learned from, and how. References must outlive the calls.
+struct ModelProblem {
+  const Task& task;
+  const Dataset& data;
+  const ModelOptions& options;
+  const Evaluator& evaluator;
+  ProgressSink progress = {};
+};
+
 /// `start`: the kernels of the model before; may be empty. `mean`: the mean functions of the GPs, terms without
 /// uncertainty (Cutler 2015); empty: zero. The same for any number of threads. No data throw; what the progress sink
 /// throws, passes.
-Model learn(const Task& task, const Dataset& data, const ModelOptions& options,
-            const std::vector<gp::Hyperparameters>& start, const Evaluator& evaluator,
-            const std::vector<moments::MomentTerm>& mean = {}, const ProgressSink& progress = {});
+Model learn(const ModelProblem& problem, const std::vector<gp::Hyperparameters>& start,
+            const std::vector<moments::MomentTerm>& mean = {});
 
 /// GPs with these kernels and zero mean: all rows, or, beyond `options.inducing` of them, inducing inputs.
-std::vector<moments::MomentTerm> terms_of(const Task& task, const Dataset& data, const ModelOptions& options,
-                                          const std::vector<gp::Hyperparameters>& kernels, const Evaluator& evaluator,
-                                          std::vector<std::string>& notes, const ProgressSink& progress = {});
+std::vector<moments::MomentTerm> terms_of(const ModelProblem& problem, const std::vector<gp::Hyperparameters>& kernels,
+                                          std::vector<std::string>& notes);
 
 }  // namespace rehearse::learners::pilco

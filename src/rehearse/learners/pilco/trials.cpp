@@ -67,7 +67,7 @@ std::vector<moments::MomentTerm> Trials::terms(Index inducing, std::vector<std::
   if (!asked() || !asked()->model) return {};
   ModelOptions options = options_.model;
   options.inducing = inducing;
-  return terms_of(setting_.task, data_, options, kernels_, *setting_.evaluator, notes, setting_.progress);
+  return terms_of({setting_.task, data_, options, *setting_.evaluator, setting_.progress}, kernels_, notes);
 }
 
 json Trials::save() const {
@@ -131,7 +131,7 @@ Proposal Trials::next_proposal() {
 Model Trials::learn_model() const {
   if (setting_.progress) setting_.progress({.phase = "model"});
   const auto mean = prior_ ? prior_->network : std::vector<moments::MomentTerm>();
-  return pilco::learn(setting_.task, data_, options_.model, kernels_, *setting_.evaluator, mean, setting_.progress);
+  return pilco::learn({setting_.task, data_, options_.model, *setting_.evaluator, setting_.progress}, kernels_, mean);
 }
 
 /// From the proposal's θ. A policy that has solved the task is good enough to stay with. One that was tried twice is

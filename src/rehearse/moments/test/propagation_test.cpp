@@ -62,7 +62,7 @@ void PropagationTest::expect_adjoint(const MomentMatching& dynamics, const Featu
   Transformed features = Transformed::zero(4, taken.features.outputs());
   auto networks = policy_.zero_adjoints();
   Propagation(dynamics, policy_, serial_evaluator())
-      .adjoint(state, taken.features, taken.tape, by, adjoint, features, networks);
+      .adjoint(state, taken.features, taken.tape, by, {adjoint, features, networks});
   moments.adjoint(state, taken.features, features, adjoint);
   const auto f = [&](const Gaussian& at) {
     const Gaussian next = step(at, dynamics, moments).next;

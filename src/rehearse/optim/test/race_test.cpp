@@ -14,8 +14,8 @@ void sphere(const ConstMatrixView& X, std::uint64_t, Index, VectorView values) {
   values = -(X.array() - 1).square().colwise().sum().transpose();
 }
 
-RaceResult run(const RaceOptions& options, const std::vector<Vector>& starts = {}) {
-  return race(sphere, starts, kBox, options, {.purpose = Purpose::search}, serial_evaluator());
+RaceResult run(const RaceOptions& options, const SearchSpace& space = {.box = kBox}) {
+  return race(sphere, space, options, {.purpose = Purpose::search}, serial_evaluator());
 }
 
 TEST(Race, FindsTheOptimumAndPutsTheBestFirst) {
@@ -35,8 +35,9 @@ TEST(Race, NeverExceedsItsEvaluations) {
         counted += X.cols() * samples;
         sphere(X, first, samples, values);
       };
-      const RaceResult result = race(objective, {}, kBox, {.max_evaluations = most, .descents = 8, .rounds = rounds},
-                                     {.purpose = Purpose::search}, serial_evaluator());
+      const RaceResult result =
+          race(objective, {.box = kBox}, {.max_evaluations = most, .descents = 8, .rounds = rounds},
+               {.purpose = Purpose::search}, serial_evaluator());
       EXPECT_EQ(result.evaluations, counted);
       EXPECT_LE(counted, most) << rounds << " rounds";
       EXPECT_EQ(result.contenders.size(), 8u);
@@ -54,7 +55,8 @@ TEST(Race, SaysWhatItNeedsAtLeast) {
 
 TEST(Race, BeginsAtTheStarts) {
   const Vector good = Vector::Ones(3);
-  EXPECT_GE(run({.max_evaluations = 300, .descents = 2, .start_sigma = 1e-3}, {good}).contenders.front().value, -1e-4);
+  const SearchSpace space{.box = kBox, .starts = std::vector<Vector>(1, good)};
+  EXPECT_GE(run({.max_evaluations = 300, .descents = 2, .start_sigma = 1e-3}, space).contenders.front().value, -1e-4);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ TEST(Model, HasInducingInputsBeyondTheLimitOnly) {
   const auto points = [&](Index inducing) {
     ModelOptions options;
     options.inducing = inducing;
-    const Model model = pilco::learn(task(), data, options, {}, serial_evaluator());
+    const Model model = pilco::learn({task(), data, options, serial_evaluator()}, {});
     EXPECT_EQ(model.notes, std::vector<std::string>{});
     return model.moments->terms().front().size();
   };
@@ -59,9 +59,9 @@ Task two_link_task() {
 TEST(Model, HasJointAnglesAsInputsWhereTheTaskNamesThem) {
   const Dataset data = two_links(0);
   ModelOptions options;
-  const Model with = pilco::learn(two_link_task(), data, options, {}, serial_evaluator());
+  const Model with = pilco::learn({two_link_task(), data, options, serial_evaluator()}, {});
   options.joint_angles = false;
-  const Model without = pilco::learn(two_link_task(), data, options, {}, serial_evaluator());
+  const Model without = pilco::learn({two_link_task(), data, options, serial_evaluator()}, {});
   ASSERT_TRUE(with.moments && without.moments);
   EXPECT_EQ(with.moments->inputs(), 8);
   EXPECT_EQ(without.moments->inputs(), 6);
@@ -84,7 +84,7 @@ TEST(Model, SearchesAndForecastsLearnFromTheSameStatesSmoothedOrNot) {
   const FeatureMap features = moments::model_features(two_link_task(), true);
   const Matrix inputs = dynamics::gp_inputs(features, data.states, data.actions);
   const auto learned = [&](const ModelOptions& options, const std::vector<moments::MomentTerm>& around) {
-    Model model = pilco::learn(two_link_task(), data, options, {}, serial_evaluator(), around);
+    Model model = pilco::learn({two_link_task(), data, options, serial_evaluator()}, {}, around);
     Matrix of_forecast(data.size(), 3);
     model.model->predict_mean(data.states, data.actions, of_forecast);
     const Matrix of_search = moments::evaluate_means(model.moments->terms(), 3, inputs);
@@ -106,7 +106,7 @@ TEST(Model, CanBeInterruptedWhileItPlacesInducingInputs) {
   ModelOptions options;
   options.inducing = 8;
   const auto stop = [](const Progress&) { throw std::runtime_error("stopped"); };
-  EXPECT_THROW(pilco::learn(task(), data, options, {}, serial_evaluator(), {}, stop), std::runtime_error);
+  EXPECT_THROW(pilco::learn({task(), data, options, serial_evaluator(), stop}, {}), std::runtime_error);
 }
 
 TEST(Model, SurvivesDataThatTellNothing) {
@@ -115,7 +115,7 @@ TEST(Model, SurvivesDataThatTellNothing) {
   data.actions = Matrix::Zero(3, 1);
   data.changes = data.states;
   data.rewards = Vector::Zero(3);
-  const Model model = pilco::learn(task(), data, {}, {}, serial_evaluator());
+  const Model model = pilco::learn({task(), data, ModelOptions{}, serial_evaluator()}, {});
   EXPECT_FALSE(model.moments || model.model);
   ASSERT_EQ(model.notes.size(), 1U);
   EXPECT_NE(model.notes[0].find("the policy stays"), std::string::npos) << model.notes[0];

@@ -109,7 +109,7 @@ TEST(Pilco, SumsUpManyRowsByInducingInputs) {
 TEST(Pilco, ItsEpisodeByMomentsIsThatOfTheGpsOfAllRows) {
   for (const char* inducing : {"300", "8"}) {
     const auto [proposal, data] = asked_after(1, {{"search.line_searches", "5"}, {"model.inducing", inducing}});
-    const Model model = pilco::learn(task(), data, {}, {}, serial_evaluator());
+    const Model model = pilco::learn({task(), data, ModelOptions{}, serial_evaluator()}, {});
     const moments::ExpectedReturn expected(task(), *rbf(), model.moments);
     moments::ReturnWorkspace workspace;
     const moments::Return result = expected(proposal.theta, nullptr, workspace);

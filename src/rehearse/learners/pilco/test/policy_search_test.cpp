@@ -29,7 +29,9 @@ TEST(PolicySearch, KeepsTheStartWhereNothingHasAValue) {
 
 TEST(PolicySearch, TakesTheBestOfItsRestarts) {
   const auto dynamics =
-      pilco::learn(task(), asked_after(2, {{"search.line_searches", "5"}}).data, {}, {}, serial_evaluator()).moments;
+      pilco::learn({task(), asked_after(2, {{"search.line_searches", "5"}}).data, ModelOptions{}, serial_evaluator()},
+                   {})
+          .moments;
   const auto policy = rbf();
   const Task task = slider::task();
   const SearchProblem problem{dynamics, *policy, task, serial_evaluator(), {}};

@@ -224,7 +224,7 @@ TEST(PriorPhase, ModelsAreAroundTheNetwork) {
   Dataset data;
   const auto random = make(slider::setting(), {});
   data.append(run_trial(random->ask(), 1));
-  const Model model = pilco::learn(task(), data, {}, {}, serial_evaluator(), knowledge.network);
+  const Model model = pilco::learn({task(), data, ModelOptions{}, serial_evaluator()}, {}, knowledge.network);
   ASSERT_TRUE(model.moments && model.model);
   ASSERT_EQ(model.moments->terms().size(), 2U);
   const Matrix X{{0.3}}, U{{0.4}};
@@ -235,7 +235,7 @@ TEST(PriorPhase, ModelsAreAroundTheNetwork) {
   ASSERT_TRUE(model.moments->forward({Vector{{0.3, 0.4}}, Matrix::Zero(2, 2)}, tape, moments));
   EXPECT_NEAR(moments.mean(0), mean(0, 0), 1e-4) << "forecasts leave out points that do not matter";
   EXPECT_NEAR(moments.mean(0), 0.2 * (1.5 * 0.4 - 0.2 * 0.3), 0.01);
-  const Model around_zero = pilco::learn(task(), data, {}, {}, serial_evaluator());
+  const Model around_zero = pilco::learn({task(), data, ModelOptions{}, serial_evaluator()}, {});
   EXPECT_NE(model.log_evidence, around_zero.log_evidence);
 }
 
