@@ -22,7 +22,7 @@ run() { # run FOLDER RUN LAUNCHER… : the run named RUN
     pilco-prior) arguments=(pendulum --learner pilco-prior "${short[@]}" --set pilco.prior_episodes=2) ;;
     ite) arguments=(pendubot --learner ite --prior misleading --set archive.niches=200 --set archive.evaluations=3000) ;;
     hexapod) arguments=(hexapod --learner gp-mi --set damage=rear-left --set search.race.max_evaluations=12
-      --set search.race.descents=2 --set search.selection=1 --set mean_search.policies=0 --set retry.searches=0) ;;
+      --set search.race.descents=2 --set search.selection=1 --set retry.searches=0) ;;
   esac
   "$@" "$program" learn "${arguments[@]}" --trials 2 --seed 5 --threads 2 --out "$out" >/dev/null || fail "$out"
 }

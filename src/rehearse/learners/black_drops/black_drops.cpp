@@ -28,15 +28,13 @@ class BlackDrops final : public TrialLearner {
   }
 
   json save() const override {
-    json kernels = json::array(), policies = json::array(), carried = json::array();
+    json kernels = json::array(), policies = json::array();
     for (const auto& kernel : state_.kernels) kernels.push_back(to_json(kernel.flat()));
     for (const Vector& theta : history_.policies) policies.push_back(to_json(theta));
-    for (const Vector& theta : history_.carried) carried.push_back(to_json(theta));
     return {{"kernels", kernels},
             {"kernel_inputs", state_.kernels.empty() ? 0 : state_.kernels.front().inputs()},
             {"phi", state_.phi ? to_json(*state_.phi) : json()},
-            {"policies", policies},
-            {"carried", carried}};
+            {"policies", policies}};
   }
 
  private:
@@ -50,7 +48,6 @@ class BlackDrops final : public TrialLearner {
     history_.returns.clear();
     for (const Episode& episode : episodes) add(episode);
     history_.policies = to_vectors(state.at("policies"));
-    history_.carried = to_vectors(state.at("carried"));
     state_ = {};
     for (const Vector& flat : to_vectors(state.at("kernels")))
       state_.kernels.push_back(gp::Hyperparameters::from_flat(flat, state.at("kernel_inputs").get<Index>()));
@@ -74,32 +71,24 @@ class BlackDrops final : public TrialLearner {
     }
     // What an interruption must not leave behind is assigned last.
     identification::WarmStart state = state_;
-    std::vector<Vector> carried;
     Task task = setting_.task;
     proposal.model_s = seconds([&] {
       learn_model(proposal, state);
       if (options_.reward.learned) learn_reward(proposal, task);
     });
-    proposal.search_s = seconds([&] { carried = search(proposal, task); });
+    proposal.search_s = seconds([&] { search(proposal, task); });
     state_ = std::move(state);
-    history_.carried = std::move(carried);
     return proposal;
   }
 
-  /// Good policies that are not proposed, best first.
-  std::vector<Vector> search(Proposal& proposal, const Task& task) const {
+  void search(Proposal& proposal, const Task& task) const {
     const SearchProblem problem{*proposal.model, *setting_.policy, task, *setting_.evaluator, setting_.progress};
     TrialSearches searches(problem, options_.search, stream());
-    Known known{.policies = known_policies(history_, *setting_.policy, options_), .prior_alone = first()};
-    if (const auto best = history_.best()) known.best_return = history_.returns[*best];
-    Chosen chosen = search_trial(searches, known, options_);
-    proposal.theta = std::move(chosen.choice.theta);
-    proposal.predicted_return = chosen.choice.predicted_return;
+    Choice choice = search_trial(searches, {known_policies(history_, *setting_.policy, options_), first()}, options_);
+    proposal.theta = std::move(choice.theta);
+    proposal.predicted_return = choice.predicted_return;
     proposal.rollouts = searches.rollouts();
     proposal.failed_rollouts = searches.failed_rollouts();
-    if (static_cast<Index>(chosen.runners_up.size()) > options_.carried)
-      chosen.runners_up.resize(static_cast<std::size_t>(options_.carried));
-    return std::move(chosen.runners_up);
   }
 
   /// The random numbers of this trial.

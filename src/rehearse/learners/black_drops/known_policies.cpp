@@ -14,7 +14,6 @@ std::vector<Vector> known_policies(const History& history, const policy::Policy&
   std::vector<Vector> known;
   const auto best = history.best();
   if (options.start_from_best && best) known.push_back(history.policies[*best]);
-  known.insert(known.end(), history.carried.begin(), history.carried.end());
   if (!options.start_from_examples) return known;
   const Matrix examples = policy.examples();
   for (const auto& example : examples.rowwise()) known.emplace_back(example.transpose());

@@ -7,18 +7,17 @@
 
 namespace rehearse::learners::black_drops {
 
-/// The policies tried so far and what they earned, and good ones of the last search.
+/// The policies tried so far and what they earned.
 struct History {
   std::vector<Vector> policies;  // one a trial
   std::vector<double> returns;
-  std::vector<Vector> carried;  // best first
-  bool random_first = false;    // trial 1 was random actions, not a policy
+  bool random_first = false;  // trial 1 was random actions, not a policy
 
   /// The trial, counted from 0, whose policy earned most; empty before there is one.
   std::optional<std::size_t> best() const;
 };
 
-/// Where descents start: the best policy observed, good ones of the last search, and examples of the policy.
+/// Where descents start: the best policy observed, and examples of the policy.
 std::vector<Vector> known_policies(const History& history, const policy::Policy& policy, const Options& options);
 
 }  // namespace rehearse::learners::black_drops

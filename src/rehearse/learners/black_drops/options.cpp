@@ -10,13 +10,6 @@ void FirstTrial::fields(FieldVisitor& v) {
   v.number("hold_s", hold_s, "how long a random action is held [s]; 0: a step", at_least(0), published(0, kAuthors));
 }
 
-void MeanSearch::fields(FieldVisitor& v) {
-  v.integer("policies", policies, "best policies by mean predictions alone that descents start from; 0: none",
-            at_least(0), published(0));
-  v.number("tolerance", tolerance, "fraction of the return that uncertainty may cost the best one, to be tried at once",
-           at_least(0));
-}
-
 void Retry::fields(FieldVisitor& v) {
   v.integer("searches", searches, "more searches at most, while no policy is expected to solve the task",
             between(0, 1000), published(0));
@@ -24,12 +17,6 @@ void Retry::fields(FieldVisitor& v) {
            at_least(0));
   v.number("uncertain_tolerance", uncertain_tolerance,
            "such a fraction where the model is uncertain; 0: solving is not preferred", at_least(0), published(0));
-}
-
-void Exploration::fields(FieldVisitor& v) {
-  v.number("gain", gain, "fraction of the best return: a smaller gain leads to exploration; 0: never", at_least(0),
-           published(0));
-  v.number("required", required, "fraction of the best return: gain that makes exploration worth a trial", at_least(0));
 }
 
 void Options::fields(FieldVisitor& v) {
@@ -40,13 +27,9 @@ void Options::fields(FieldVisitor& v) {
   v.boolean("start_from_best", start_from_best, "a descent starts from the best policy observed");
   v.boolean("start_from_examples", start_from_examples, "a descent starts from each example that the policy brings",
             published(false));
-  v.group("explore", explore);
-  v.group("mean_search", mean_search);
   v.group("retry", retry);
   v.boolean("success_test", success_test, "policies may be chosen by the task's test of success, not by return alone",
             published(false));
-  v.integer("carried", carried, "descents that start from other good policies of the search before", at_least(0),
-            published(0));
   v.integer("prior_searches", prior_searches, "searches on the prior before the first trial", between(1, 1000));
   v.number("prior_variance", prior_variance, "variance of predictions before there are data", at_least(0));
 }

@@ -19,15 +19,6 @@ struct FirstTrial {
   void fields(FieldVisitor& v);
 };
 
-/// A search that follows the mean predictions, before the one that meets the model's uncertainty. It is not lost in
-/// noise, and costs a fraction where the data are many. Its policy is tried at once if uncertainty costs it next to
-/// nothing.
-struct MeanSearch {
-  Index policies = 4;       // best ones found, from which descents of the other search start; 0: none (the paper)
-  double tolerance = 0.02;  // of the return in the means: what uncertainty may cost
-  void fields(FieldVisitor& v);
-};
-
 /// A trial only confirms what a model that is sure predicts. So a search whose policy is not expected to solve the task
 /// is repeated from other points, and policies that solve it are preferred to others, even of a higher return.
 struct Retry {
@@ -35,15 +26,6 @@ struct Retry {
   double tolerance = 0.05;  // of the highest return: where one that solves has less, the search goes on
   double uncertain_tolerance = 0.2;  // what a policy that solves may cost where the model is uncertain; 0: none is
                                      // preferred
-  void fields(FieldVisitor& v);
-};
-
-/// A search that meets the model's uncertainty ends near what is known. Where it leads no further, another follows the
-/// mean predictions alone, and its policy is tried if its predicted return is much higher: uncertainty may be
-/// unfounded, and if not, the trial resolves it. Fractions of the best return seen.
-struct Exploration {
-  double gain = 0.1;       // a smaller gain is no progress; 0: never explore (the paper)
-  double required = 0.15;  // gain that is worth a trial
   void fields(FieldVisitor& v);
 };
 
@@ -56,12 +38,9 @@ struct Options {
   bool start_from_best = true;      // one descent starts from the best policy observed; the authors' code
   bool start_from_examples = true;  // and one from each example that the policy brings; the paper: none, it has
                                     // no prior on policies
-  Exploration explore;
-  MeanSearch mean_search;
   Retry retry;
   bool success_test = true;   // policies may be chosen by the task's test of success, where it gives one; false: by
                               // their return alone (the paper), then `retry` has no effect
-  Index carried = 3;          // and so many from the best other policies of the search before
   Index prior_searches = 1;   // searches on the prior before the first trial, each from the best of the one before
                               // (the authors' code: 2)
   double prior_variance = 0;  // predicted before there are data (the authors' code: 1)

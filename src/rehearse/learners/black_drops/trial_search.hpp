@@ -1,7 +1,6 @@
 #pragma once
-// The search of one trial: policies that are known → search in the means → search in the model's uncertainty → choice.
+// The search of one trial: policies that are known → search in the model's uncertainty → choice.
 
-#include <optional>
 #include <vector>
 
 #include "rehearse/learners/black_drops/choice.hpp"
@@ -11,17 +10,11 @@ namespace rehearse::learners::black_drops {
 
 /// Knowledge from before the search.
 struct Known {
-  std::vector<Vector> policies;       // where descents start
-  std::optional<double> best_return;  // seen in a trial with a policy; empty: there was none
-  bool prior_alone = false;           // no data: the model is the prior, which is taken at its word
-};
-
-struct Chosen {
-  Choice choice;
-  std::vector<Vector> runners_up;  // other good policies of the search, best first
+  std::vector<Vector> policies;  // where descents start
+  bool prior_alone = false;      // no data: the model is the prior, which is taken at its word
 };
 
 /// Chooses the policy of a trial. References must outlive the call.
-Chosen search_trial(TrialSearches& searches, const Known& known, const Options& options);
+Choice search_trial(TrialSearches& searches, const Known& known, const Options& options);
 
 }  // namespace rehearse::learners::black_drops

@@ -52,9 +52,7 @@ TEST(Choice, PrefersPoliciesThatAreExpectedToSolveTheTask) {
 TEST(Choice, PrefersThemWithinAToleranceWhereTheModelIsUncertain) {
   const auto second = [](const char* tolerance) {
     const auto with = builder("black-drops-prior", "100");
-    for (const auto& [name, value] : std::map<std::string, std::string>{
-             {"mean_search.policies", "0"}, {"explore.gain", "0"}, {"retry.uncertain_tolerance", tolerance}})
-      EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "retry.uncertain_tolerance", tolerance));
     Setting task = setting(slider::prior(1.5));
     task.task.solved = [](const Episode& e) { return e.true_states(e.steps(), 0) > 0.1; };
     const auto learner = with->build(task);

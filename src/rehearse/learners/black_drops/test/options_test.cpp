@@ -21,8 +21,7 @@ TEST(BlackDropsOptions, AreValidByDefault) {
 
 TEST(BlackDropsOptions, TurnOffInPublicationsWhatThePaperHasNot) {
   const auto fields = fields_of({});
-  for (const char* name :
-       {"mean_search.policies", "explore.gain", "retry.searches", "retry.uncertain_tolerance", "carried"})
+  for (const char* name : {"retry.searches", "retry.uncertain_tolerance"})
     EXPECT_EQ(fields.at(name).published.text, "0") << name;
   for (const char* name : {"success_test", "start_from_examples"}) EXPECT_EQ(fields.at(name).published.text, "false");
   EXPECT_EQ(fields.at("first_trial.kind").published.text, "policy");
