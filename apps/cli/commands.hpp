@@ -51,8 +51,8 @@ struct ReplayArguments {
 // With processes, every process calls the same command; only the first prints.
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);
-int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments, const ProcessGroup& processes);
-int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments, const ProcessGroup& processes);
+int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments);
+int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments);
 int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const ProcessGroup& processes);
 int report(const ReportArguments& arguments);
 int replay(const ReplayArguments& arguments);

@@ -18,7 +18,7 @@
 namespace rehearse::apps {
 namespace {
 
-using experiment::Catalogue, experiment::RunOptions, experiment::RunResult, experiment::Spec, experiment::SpecFile;
+using experiment::Catalogue, experiment::RunOptions, experiment::Spec, experiment::SpecFile;
 
 void set_numbers(Spec& spec, const std::optional<std::string>& trials, const std::optional<std::string>& seed,
                  Violations& violations) {
@@ -78,11 +78,6 @@ Spec resolved_spec(const Catalogue& catalogue, const Spec& spec, const std::opti
   }
 }
 
-std::shared_ptr<const Evaluator> evaluator_of(const ProcessGroup& processes, Index asked) {
-  const int threads = processes.threads(asked);
-  return processes.ranks ? make_rank_evaluator(*processes.ranks, threads) : make_thread_evaluator(threads);
-}
-
 std::string advice_after(const experiment::RunFailed& error, const std::filesystem::path& folder) {
   if (error.resume_may_help())
     return fmt::format("what was done is kept; once there is room: rehearse resume {}", folder.string());
@@ -98,38 +93,31 @@ std::string interrupted(const Console& console, const std::filesystem::path& fol
                      folder.string());
 }
 
-/// The words for work that does not stop by itself; with ranks, mpirun ends those that do not.
-std::function<std::string()> last_words(const ProcessGroup& processes, std::function<std::string()> words) {
-  return processes.ranks ? nullptr : std::move(words);
-}
-
 /// Runs with signals caught and the console listening.
 template <class Start>
-int run_on_console(const std::filesystem::path& folder, Index threads, const ProcessGroup& processes, Start start) {
+int run_on_console(const std::filesystem::path& folder, Index threads, Start start) {
   Console console;
-  const RunOptions options{.evaluator = evaluator_of(processes, threads),
-                           .listener = processes.leads() ? &console : nullptr,
-                           .stop = [&] { return processes.ranks ? processes.ranks->stopped() : caught_signal() != 0; },
+  const RunOptions options{.evaluator = make_thread_evaluator(static_cast<int>(threads)),
+                           .listener = &console,
+                           .stop = [] { return caught_signal() != 0; },
                            .cache = cache_folder};
   try {
-    const SignalWatch watch(last_words(processes, [&] { return interrupted(console, folder); }));
-    const RunResult result = start(options);
-    if (processes.leads()) console.finished(result);
+    const SignalWatch watch([&] { return interrupted(console, folder); });
+    console.finished(start(options));
     return kSuccess;
   } catch (const Interrupted&) {
     console.clear_line();
-    if (processes.leads()) complain(interrupted(console, folder));
+    complain(interrupted(console, folder));
     return exit_code_of_signal();
   } catch (const experiment::RunFailed& error) {
     console.clear_line();
-    if (!processes.leads()) throw;
     throw std::runtime_error(fmt::format("{}\n{}", error.what(), advice_after(error, folder)));
   }
 }
 
 }  // namespace
 
-int learn(const Catalogue& catalogue, const LearnArguments& arguments, const ProcessGroup& processes) {
+int learn(const Catalogue& catalogue, const LearnArguments& arguments) {
   Violations violations;
   const std::optional<SpecFile> file = given_file(arguments, violations);
   Spec spec = file ? file->spec() : named_spec(arguments, violations);
@@ -142,19 +130,19 @@ int learn(const Catalogue& catalogue, const LearnArguments& arguments, const Pro
   spec = resolved_spec(catalogue, spec, file, violations);
   violations.throw_if_any();
   const std::filesystem::path folder = arguments.out.value_or("runs/" + experiment::run_name(spec));
-  return run_on_console(folder, threads, processes, [&](const RunOptions& options) {
+  return run_on_console(folder, threads, [&](const RunOptions& options) {
     return experiment::start_run(catalogue, spec, folder, options);
   });
 }
 
-int resume(const Catalogue& catalogue, const ResumeArguments& arguments, const ProcessGroup& processes) {
+int resume(const Catalogue& catalogue, const ResumeArguments& arguments) {
   Violations violations;
   Spec numbers;
   set_numbers(numbers, arguments.trials, {}, violations);
   const Index threads = threads_of(arguments.threads, violations);
   violations.throw_if_any();
   const auto until = arguments.trials ? std::optional<experiment::Until>(numbers.trials) : std::nullopt;
-  return run_on_console(arguments.folder, threads, processes, [&](const RunOptions& options) {
+  return run_on_console(arguments.folder, threads, [&](const RunOptions& options) {
     return experiment::resume_run(catalogue, arguments.folder, until, options);
   });
 }

@@ -196,9 +196,11 @@ int run(int argc, char** argv, const ProcessGroup& processes) {
     if (error.get_exit_code() == 0) return processes.leads() ? app.exit(error) : kSuccess;  // --help, --version
     throw InvalidInput(why_not_parsed(app, error));
   }
-  if (learn_command->parsed()) return learn(catalogue(), learn_arguments, processes);
-  if (resume_command->parsed()) return resume(catalogue(), resume_arguments, processes);
   if (campaign_command->parsed()) return campaign(catalogue(), campaign_arguments, processes);
+  if (processes.ranks && (learn_command->parsed() || resume_command->parsed()))
+    throw InvalidInput("one run is the work of one process, which takes --threads; several processes share a campaign");
+  if (learn_command->parsed()) return learn(catalogue(), learn_arguments);
+  if (resume_command->parsed()) return resume(catalogue(), resume_arguments);
   if (!processes.leads()) return kSuccess;
   if (list_command->parsed()) return list(catalogue(), list_arguments);
   if (report_command->parsed()) return report(report_arguments);

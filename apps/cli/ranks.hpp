@@ -1,5 +1,5 @@
 #pragma once
-// The processes that mpirun or srun started together: they work on one run or one campaign.
+// The processes that mpirun or srun started together: they work on one campaign.
 
 #include <memory>
 #include <string>

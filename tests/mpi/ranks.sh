@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# ranks.sh PROGRAM MPIRUN: campaigns and runs on two and three ranks against one process; ranks that are killed; wrong
+# ranks.sh PROGRAM MPIRUN: campaigns on two and three ranks against one process; ranks that are killed; wrong
 # input.
 source "$(dirname "$0")/../prelude.sh"
 mpirun=$2
@@ -68,33 +68,6 @@ for rank in 0 1; do
   [ "$(grep -lx mine $run/runs/*/timings.csv | wc -l)" = "$finished" ] || fail "$run repeats a finished run"
 done
 
-learn=(pendubot --learner gp-mi --prior misleading --seed 5 --trials 3 --set search.race.max_evaluations=3000
-  --set search.race.descents=2 --set search.selection=20 --set model.subplex.max_evaluations=15)
-files=(spec.toml trials.csv errors.csv policy.json done trajectories/trial-003.csv predictions/trial-003.csv)
-"$program" learn "${learn[@]}" --out alone --threads 1 >/dev/null || fail "the run of one process"
-ranks 2 learn "${learn[@]}" --out two --threads 1 >output 2>&1 || fail "the run of two ranks: $(cat output)"
-same alone two "${files[@]}"
-[ "$(grep -c '^trial ' output)" = 3 ] || fail "not one rank alone tells of the trials: $(cat output)"
-ranks 3 learn "${learn[@]}" --out three-ranks --threads 2 >output 2>&1 || fail "three ranks, two threads: $(cat output)"
-same alone three-ranks "${files[@]}"
-
-# What a learner keeps before its first trial is rank 0's, and known to all.
-prior=(pendulum --learner pilco-prior --set policy=rbf --set pilco.prior_episodes=3 --set search.line_searches=6
-  --trials 2 --seed 7 --threads 1)
-"$program" learn "${prior[@]}" --out prior-alone >/dev/null || fail "the episodes on a prior of one process"
-for run in prior-two prior-cached; do
-  REHEARSE_CACHE=$PWD/cache ranks 2 learn "${prior[@]}" --out $run >output 2>&1 || fail "$run: $(cat output)"
-  same prior-alone $run trials.csv policy.json
-done
-same prior-alone prior-two kept/prior
-[ ! -e prior-cached/kept ] || fail "the second run of two ranks did not find the cache"
-
-first_trial() { [ "$(wc -l <"$1/trials.csv")" -gt 1 ]; } 2>/dev/null
-killed_rank 1 killed first_trial -- learn "${learn[@]}" --threads 1
-[ -e killed/done ] || echo "killed after $(($(wc -l <killed/trials.csv) - 1)) trials"
-ranks 3 resume killed >output 2>&1 || fail "resuming on three ranks: $(cat output)"
-same alone killed "${files[@]}"
-
 # refused PATTERN ARGS… : exit 2 and one message
 refused() {
   local pattern=$1
@@ -103,21 +76,21 @@ refused() {
   [ $? = 2 ] || fail "$*: not 2"
   [ "$(grep -c '^rehearse: ' output)" = 1 ] && grep -q "^rehearse: .*$pattern" output || fail "$* says $(cat output)"
 }
-refused "threads = x" learn pendubot --learner mi --threads x
-refused "already exists" learn "${learn[@]}" --out two
-refused "is not a folder" resume nowhere
+refused "threads = x" campaign c.toml --threads x
+refused "one run is the work of one process" learn pendubot --learner mi --out two
+refused "one run is the work of one process" resume one
+mkdir two && touch two/else
 refused "is not the folder of a campaign" campaign c.toml --out two
 [ "$(ranks 3 --help | grep -c '^Usage')" = 1 ] || fail "help is printed by several"
-"$mpirun" --oversubscribe -n 2 bash -c "'$program' learn pendubot --learner mi --out x\$OMPI_COMM_WORLD_RANK" >output 2>&1
+"$mpirun" --oversubscribe -n 2 bash -c "'$program' campaign c.toml --out x\$OMPI_COMM_WORLD_RANK" >output 2>&1
 grep -q "^rehearse: .*need the same arguments" output || fail "different arguments: $(cat output)"
 
 # Ranks on different processors: one of them has AVX2 alone.
 differently() {
   "$mpirun" --oversubscribe --bind-to none -n 1 "$program" "$@" : -n 1 -x REHEARSE_KERNELS=avx2 "$program" "$@" >output 2>&1
 }
-differently learn "${learn[@]}" --out mixed || fail "a run on different processors: $(cat output)"
-same alone mixed "${files[@]}"
-differently campaign c.toml --out three || fail "a campaign on different processors: $(cat output)"
+differently campaign c.toml --out mixed || fail "a campaign on different processors: $(cat output)"
+same one mixed "${tables[@]}"
 
 SLURM_STEP_NUM_TASKS=2 "$program" list >output 2>&1
 [ $? = 2 ] && grep -q "Open MPI joins 1 of them" output || fail "a launcher that MPI does not know: $(cat output)"

@@ -19,9 +19,6 @@ class SerialEvaluator final : public Evaluator {
  public:
   SerialEvaluator() { require_processor(); }
 
-  void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
-    for (Index i = 0; i < results.cols(); ++i) task(i, results.col(i));
-  }
   void for_each(Index n, const std::function<void(Index)>& task) const override {
     for (Index i = 0; i < n; ++i) task(i);
   }
@@ -35,10 +32,6 @@ class ThreadEvaluator final : public Evaluator {
   explicit ThreadEvaluator(int threads) : arena_(threads) {
     require_processor();
     allow_more_threads_than_cores();
-  }
-
-  void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
-    for_each(results.cols(), [&](Index i) { task(i, results.col(i)); });
   }
 
   void for_each(Index n, const std::function<void(Index)>& task) const override {
@@ -74,22 +67,12 @@ class StoppableEvaluator final : public Evaluator {
   StoppableEvaluator(std::shared_ptr<const Evaluator> evaluator, std::function<bool()> stop)
       : evaluator_(std::move(evaluator)), stop_(std::move(stop)) {}
 
-  void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
-    const auto asking = [&](Index i, VectorView result) {
-      stop_if_asked();
-      task(i, result);
-    };
-    evaluator_->evaluate(asking, results);
-  }
   void for_each(Index n, const std::function<void(Index)>& task) const override {
     const auto asking = [&](Index i) {
       stop_if_asked();
       task(i);
     };
     evaluator_->for_each(n, asking);
-  }
-  std::string once(std::string_view step, const std::function<std::string()>& work) const override {
-    return evaluator_->once(step, work);
   }
   void stop_if_asked() const override {
     if (stop_()) throw Interrupted{};

@@ -2,31 +2,20 @@
 
 #include <functional>
 #include <memory>
-#include <string>
-#include <string_view>
 
 #include "rehearse/core/types.hpp"
 
 namespace rehearse {
 
-/// Spreads independent tasks over threads (or MPI ranks). Handed in from outside; rooms never start threads themselves.
-/// The results of a task must depend on its number alone: then they are the same for any number of workers.
+/// Spreads independent tasks over threads. Handed in from outside; rooms never start threads themselves. The results of
+/// a task must depend on its number alone: then they are the same for any number of threads.
 class Evaluator {
  public:
   virtual ~Evaluator() = default;
 
-  /// Calls task(i, results.col(i)) once for each column i and returns when every column is filled, here and on every
-  /// rank. The first exception of a task (in order of i) is thrown again here. May be called from within a task.
-  virtual void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const = 0;
-
-  /// Calls task(i) once for each i in 0..n−1 on the threads of this process alone: for tasks that change state kept
-  /// here, which every rank must do for itself. Exceptions as above.
+  /// Calls task(i) once for each i in 0..n−1 and returns when all have ended. The first exception of a task (in order
+  /// of i) is thrown again here. May be called from within a task.
   virtual void for_each(Index n, const std::function<void(Index)>& task) const = 0;
-
-  /// What `work` returns, called once in all: with ranks on rank 0 alone, and every rank returns what it returned or
-  /// throws what it threw. For what cannot be shared, the plant and files. step: what it is, "episode 3"; ranks that
-  /// are at different steps all throw. Not from within a task.
-  virtual std::string once(std::string_view /*step*/, const std::function<std::string()>& work) const { return work(); }
 
   /// How many tasks run at once; must not decide results.
   virtual int concurrency() const = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -119,120 +118,6 @@ std::vector<Ranks::End> Ranks::leave(int code, const std::string& message) {
     ends.push_back({static_cast<int>(ends.size()), its_code, std::string(end)});
   }
   return ends;
-}
-
-namespace {
-
-/// How many tasks of this thread's are under way, one within the other.
-thread_local int depth = 0;
-
-struct WithinTask {
-  WithinTask() { ++depth; }
-  ~WithinTask() { --depth; }
-  WithinTask(const WithinTask&) = delete;
-  WithinTask& operator=(const WithinTask&) = delete;
-};
-
-class RankEvaluator final : public Evaluator {
- public:
-  RankEvaluator(Ranks& ranks, int threads) : ranks_(ranks), here_(make_thread_evaluator(threads)) {
-    ends_.push_back(0);
-    for (std::string_view their : ranks.exchange("threads", bytes_of(here_->concurrency())))
-      ends_.push_back(ends_.back() + take<int>(their));
-  }
-
-  /// A block of the columns on each rank, as long as it has threads; then every rank gives its block to all.
-  void evaluate(const std::function<void(Index, VectorView)>& task, MatrixView results) const override {
-    if (depth > 0) return evaluate_here(task, results);
-    const auto [first, end] = block(ranks_.rank(), results.cols());
-    const std::string step = fmt::format("evaluate {} x {}", results.rows(), results.cols());
-    const std::vector<std::string> given = ranks_.exchange(step, work(task, results, first, end));
-    throw_first_failure(given);
-    for (int rank = 0; rank < ranks_.size(); ++rank) {
-      if (rank == ranks_.rank()) continue;
-      const auto [from, to] = block(rank, results.cols());
-      read(std::string_view(given[static_cast<std::size_t>(rank)]).substr(1), results.middleCols(from, to - from));
-    }
-  }
-
-  void for_each(Index n, const std::function<void(Index)>& task) const override {
-    here_->for_each(n, [&](Index i) {
-      const WithinTask within;
-      task(i);
-    });
-  }
-
-  std::string once(std::string_view step, const std::function<std::string()>& work) const override {
-    return ranks_.once(step, work);
-  }
-
-  int concurrency() const override { return ends_.back(); }
-
- private:
-  struct Block {
-    Index first, end;
-  };
-
-  Block block(int rank, Index n) const {
-    const auto at = [&](int i) { return n * ends_[static_cast<std::size_t>(i)] / ends_.back(); };
-    return {at(rank), at(rank + 1)};
-  }
-
-  void evaluate_here(const std::function<void(Index, VectorView)>& task, MatrixView results) const {
-    for_each(results.cols(), [&](Index i) { task(i, results.col(i)); });
-  }
-
-  /// "v" and the columns, or "f", the first task that failed, and why.
-  std::string work(const std::function<void(Index, VectorView)>& task, MatrixView results, Index first,
-                   Index end) const {
-    std::vector<std::string> failures(static_cast<std::size_t>(end - first));
-    for_each(end - first, [&](Index i) {
-      try {
-        task(first + i, results.col(first + i));
-      } catch (...) {
-        failures[static_cast<std::size_t>(i)] = to_bytes(std::current_exception());
-      }
-    });
-    for (Index i = first; i < end; ++i)
-      if (const std::string& failure = failures[static_cast<std::size_t>(i - first)]; !failure.empty())
-        return std::string("f").append(bytes_of(i)).append(failure);
-    std::string bytes = "v";
-    for (Index i = first; i < end; ++i)
-      bytes.append(reinterpret_cast<const char*>(results.col(i).data()), column_bytes(results));
-    return bytes;
-  }
-
-  static std::size_t column_bytes(const MatrixView& results) {
-    return static_cast<std::size_t>(results.rows()) * sizeof(double);
-  }
-
-  static void read(std::string_view bytes, MatrixView columns) {
-    const std::size_t size = column_bytes(columns);
-    for (Index i = 0; i < columns.cols() && size > 0; ++i)
-      std::memcpy(columns.col(i).data(), bytes.data() + static_cast<std::size_t>(i) * size, size);
-  }
-
-  static void throw_first_failure(const std::vector<std::string>& given) {
-    Index earliest = std::numeric_limits<Index>::max();
-    std::string_view failure;
-    for (std::string_view bytes : given) {
-      if (bytes.front() != 'f') continue;
-      bytes.remove_prefix(1);
-      const auto task = take<Index>(bytes);
-      if (task < earliest) earliest = task, failure = bytes;
-    }
-    if (!failure.empty()) throw_from(failure);
-  }
-
-  Ranks& ranks_;
-  std::unique_ptr<Evaluator> here_;
-  std::vector<int> ends_;  // threads of the ranks before rank i
-};
-
-}  // namespace
-
-std::unique_ptr<Evaluator> make_rank_evaluator(Ranks& ranks, int threads) {
-  return std::make_unique<RankEvaluator>(ranks, threads);
 }
 
 }  // namespace rehearse

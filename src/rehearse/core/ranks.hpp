@@ -2,12 +2,9 @@
 
 #include <atomic>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "rehearse/core/evaluator.hpp"
 
 namespace rehearse {
 
@@ -62,10 +59,5 @@ class Ranks {
   std::atomic<bool> stopped_ = false;
   bool over_ = false;  // a rank has left
 };
-
-/// Spreads tasks over all ranks, `threads` on this one (≥ 1). Made, and its calls outside of tasks made, by all ranks
-/// in the same order; calls from within tasks stay in this process. An exception of a task becomes an InvalidInput, an
-/// Interrupted or a std::runtime_error with the same message, on every rank. `ranks` must outlive it.
-std::unique_ptr<Evaluator> make_rank_evaluator(Ranks& ranks, int threads);
 
 }  // namespace rehearse

@@ -134,12 +134,4 @@ History from_checkpoint(std::string_view bytes, std::uint64_t spec_fingerprint) 
   }
 }
 
-std::string to_bytes(const Episode& episode) {
-  std::string bytes;
-  json::to_cbor(to_json(episode), bytes);
-  return bytes;
-}
-
-Episode to_episode(std::string_view bytes) { return learners::to_episode(json::from_cbor(bytes)); }
-
 }  // namespace rehearse::experiment

@@ -14,8 +14,4 @@ std::string to_checkpoint(const History& history, std::uint64_t spec_fingerprint
 /// Throws InvalidInput if the bytes are truncated, damaged, of another version of Rehearse, or of another spec.
 History from_checkpoint(std::string_view bytes, std::uint64_t spec_fingerprint);
 
-/// An episode alone, with exact doubles, for other ranks.
-std::string to_bytes(const Episode& episode);
-Episode to_episode(std::string_view bytes);
-
 }  // namespace rehearse::experiment

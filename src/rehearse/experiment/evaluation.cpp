@@ -1,6 +1,5 @@
 #include "rehearse/experiment/evaluation.hpp"
 
-#include <cstring>
 #include <memory>
 
 #include <fmt/format.h>
@@ -34,17 +33,6 @@ double return_of_episode(const Resolved& resolved, system::Plant& plant, const p
   return rollout::execute(plant, policy, trial.theta, resolved.scenario.task, Rng(key), ask).total_reward();
 }
 
-/// What `number` returns on rank 0, on every rank.
-double once(const Evaluator& evaluator, const std::string& step, const std::function<double()>& number) {
-  double value = 0;
-  const std::string bytes = evaluator.once(step, [&] {
-    value = number();
-    return std::string(reinterpret_cast<const char*>(&value), sizeof value);
-  });
-  std::memcpy(&value, bytes.data(), sizeof value);
-  return value;
-}
-
 }  // namespace
 
 std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator) {
@@ -55,10 +43,8 @@ std::optional<double> expected_return(const Resolved& resolved, const TrialRecor
   Vector returns(scenario.evaluations);
   for (Index i = 0; i < returns.size(); ++i) {
     evaluator.stop_if_asked();
-    returns(i) = once(evaluator, fmt::format("evaluation {} of trial {}", i + 1, trial.trial), [&] {
-      if (!plant) plant = scenario.make_plant();
-      return return_of_episode(resolved, *plant, *policy, trial, i, evaluator);
-    });
+    if (!plant) plant = scenario.make_plant();
+    returns(i) = return_of_episode(resolved, *plant, *policy, trial, i, evaluator);
   }
   return returns(0) + (returns.array() - returns(0)).mean();  // of equal returns exactly that
 }

@@ -12,7 +12,7 @@ Participants::Participants(Resolved resolved, const RunOptions& options)
     : options_(options),
       evaluator_(evaluator_of(options)),
       resolved_(std::move(resolved)),
-      store_(std::make_shared<RunStore>(evaluator_, resolved_.spec, options.cache)),
+      store_(std::make_shared<RunStore>(resolved_.spec, options.cache)),
       learner_(resolved_.learner->build(setting())) {}
 
 system::Plant& Participants::plant() {

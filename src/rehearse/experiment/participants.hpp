@@ -2,8 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <string>
-#include <string_view>
 
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run_options.hpp"
@@ -28,16 +26,10 @@ class Participants {
   const Task& task() const { return resolved_.scenario.task; }
   learners::Learner& learner() const { return *learner_; }
 
-  /// Work with the plant or the folder: on rank 0 alone; its failure is that of every rank.
-  template <class Work>
-  void lead(std::string_view step, Work work) const {
-    evaluator_->once(step, [&] { return work(), std::string(); });
-  }
-
-  /// Connected when it is first needed; rank 0's.
+  /// Connected when it is first needed.
   system::Plant& plant();
 
-  /// Where the learner's store is, on rank 0.
+  /// Where the learner's store is.
   void open_store(const std::filesystem::path& folder) { store_->open(folder); }
 
   /// Which trial progress is about.

@@ -30,37 +30,30 @@ Matrix mean_states(const rollout::Recorded& recorded) {
   return means;
 }
 
-std::string bytes_of(const Vector& v) {
-  return {reinterpret_cast<const char*>(v.data()), static_cast<std::size_t>(v.size()) * sizeof(double)};
-}
-
-/// ask → execute → tell, and the folder. Every rank does the same; the folder is rank 0's.
+/// ask → execute → tell, and the folder.
 class Run {
  public:
-  Run(Participants& participants, const std::optional<RunFolder>& folder, History history)
+  Run(Participants& participants, const RunFolder& folder, History history)
       : with_(participants), folder_(folder), history_(std::move(history)) {}
 
   RunResult finish() {
-    if (folder_) with_.open_store(path());
+    with_.open_store(path());
     if (with_.options().listener) with_.options().listener->started(with_.resolved(), path(), history_.done());
     publish();
     if (history_.done() > 0) evaluate_last();
     if (!complete() || history_.told < history_.done()) catch_up();
     while (!complete()) one_trial(history_.done() + 1);
-    with_.lead("end", [&] { folder_->mark_done(history_.done()); });
+    folder_.mark_done(history_.done());
     return result();
   }
 
  private:
-  /// A step, for ranks to find out when they are at different ones.
-  static std::string named(const char* step, Index trial) { return fmt::format("{} {}", step, trial); }
-
   bool complete() const {
     const bool solved = history_.done() > 0 && history_.trials.back().solved.value_or(false);
     return with_.resolved().spec.ends_with(history_.done(), solved);
   }
 
-  std::filesystem::path path() const { return folder_ ? folder_->path() : std::filesystem::path(); }
+  const std::filesystem::path& path() const { return folder_.path(); }
 
   /// Brings a new learner to where the history ends.
   void catch_up() {
@@ -77,8 +70,8 @@ class Run {
   const learners::Proposal& ask(Index trial) {
     with_.begin_trial(trial);
     with_.evaluator().stop_if_asked();
-    const auto& proposal = named_failure(
-        trial, "learner", [&]() -> const learners::Proposal& { return checked(trial, with_.learner().ask()); });
+    const auto& proposal =
+        named_failure(trial, "learner", [&]() -> const learners::Proposal& { return checked(with_.learner().ask()); });
     with_.evaluator().stop_if_asked();
     return proposal;
   }
@@ -94,38 +87,29 @@ class Run {
       history_.learner = with_.learner().save();
     });
     ++history_.told;
-    with_.lead(named("checkpoint", history_.told), [&] {  // which says that the tables are there
-      for (const learners::Table& table : with_.learner().tables()) folder_->write_learners_table(table);
-      folder_->write_checkpoint(history_);
-    });
+    for (const learners::Table& table : with_.learner().tables()) folder_.write_learners_table(table);
+    folder_.write_checkpoint(history_);  // which says that the tables are there
   }
 
   void one_trial(Index trial) {
     const learners::Proposal& proposal = ask(trial);
-    if (proposal.model) with_.lead(named("prediction", trial), [&] { predict(trial, proposal); });
-    if (proposal.archive) with_.lead(named("archive", trial), [&] { folder_->write_archive(*proposal.archive); });
+    if (proposal.model) predict(trial, proposal);
+    if (proposal.archive) folder_.write_archive(*proposal.archive);
     const Episode episode = named_failure(trial, "plant", [&] { return execute(trial, proposal); });
     keep(record(trial, proposal, episode), episode);
   }
 
-  /// Rank 0's episode, on every rank.
   Episode execute(Index trial, const learners::Proposal& proposal) const {
-    return to_episode(with_.evaluator().once(named("episode", trial), [&] {
-      const Rng rng({.seed = seed(), .trial = number(trial), .purpose = Purpose::start_state});
-      return to_bytes(rollout::execute(with_.plant(), *proposal.policy, proposal.theta, with_.task(), rng,
-                                       [&] { with_.evaluator().stop_if_asked(); }));
-    }));
+    const Rng rng({.seed = seed(), .trial = number(trial), .purpose = Purpose::start_state});
+    return rollout::execute(with_.plant(), *proposal.policy, proposal.theta, with_.task(), rng,
+                            [&] { with_.evaluator().stop_if_asked(); });
   }
 
-  const learners::Proposal& checked(Index trial, const learners::Proposal& proposal) const {
+  static const learners::Proposal& checked(const learners::Proposal& proposal) {
     if (!proposal.policy) throw std::runtime_error("it proposed no policy");
     const Index size = proposal.theta.size(), wanted = proposal.policy->parameters();
     if (size != wanted || !proposal.theta.allFinite())
       throw std::runtime_error(fmt::format("it proposed {} parameters, the policy has {} finite ones", size, wanted));
-    const auto bytes = [&] { return bytes_of(proposal.theta); };
-    const std::string leading = with_.evaluator().once(named("policy", trial), bytes);
-    if (leading != bytes())  // or ranks would go on with different runs
-      throw std::runtime_error("it proposes another policy than that of rank 0");
     return proposal;
   }
 
@@ -136,13 +120,13 @@ class Run {
                                                      proposal.theta, kPredictionParticles);
     std::optional<ExpectedEpisode> moments;
     if (proposal.moments) moments = proposal.moments();
-    folder_->write_prediction(trial, prediction_csv(with_.task(), recorded, moments ? &*moments : nullptr));
+    folder_.write_prediction(trial, prediction_csv(with_.task(), recorded, moments ? &*moments : nullptr));
     draw("prediction", trial, mean_states(recorded));
   }
 
   void draw(const char* kind, Index trial, const Matrix& states) const {
     const auto& drawing = with_.resolved().scenario.drawing;
-    if (drawing) folder_->write_motion(kind, trial, motion_json(*drawing, states));
+    if (drawing) folder_.write_motion(kind, trial, motion_json(*drawing, states));
   }
 
   TrialRecord record(Index trial, const learners::Proposal& proposal, const Episode& episode) const {
@@ -157,7 +141,7 @@ class Run {
   void keep(TrialRecord record, const Episode& episode) {
     history_.trials.push_back(std::move(record));
     history_.episodes.push_back(episode);
-    with_.lead(named("save", history_.done()), [&] { folder_->write_checkpoint(history_); });
+    folder_.write_checkpoint(history_);
     publish();
     evaluate_last();
     tell_last();
@@ -166,13 +150,11 @@ class Run {
 
   /// What follows from the history: the tables, and the last trial's episode.
   void publish() const {
-    with_.lead(named("publish", history_.done()), [&] {
-      folder_->write_tables(history_, with_.resolved());
-      if (history_.done() == 0) return;
-      const Episode& last = history_.episodes.back();
-      folder_->write_trajectory(history_.done(), trajectory_csv(with_.task(), last));
-      draw("trial", history_.done(), last.true_states);
-    });
+    folder_.write_tables(history_, with_.resolved());
+    if (history_.done() == 0) return;
+    const Episode& last = history_.episodes.back();
+    folder_.write_trajectory(history_.done(), trajectory_csv(with_.task(), last));
+    draw("trial", history_.done(), last.true_states);
   }
 
   /// Unless that was done before a kill.
@@ -182,10 +164,8 @@ class Run {
     last.expected_return = named_failure(last.trial, "plant of the evaluations",
                                          [&] { return expected_return(with_.resolved(), last, with_.evaluator()); });
     if (!last.expected_return) return;
-    with_.lead(named("save evaluation", last.trial), [&] {
-      folder_->write_checkpoint(history_);
-      folder_->write_tables(history_, with_.resolved());
-    });
+    folder_.write_checkpoint(history_);
+    folder_.write_tables(history_, with_.resolved());
   }
 
   RunResult result() const {
@@ -201,7 +181,7 @@ class Run {
   static std::uint64_t number(Index index) { return static_cast<std::uint64_t>(index); }
 
   Participants& with_;
-  const std::optional<RunFolder>& folder_;
+  const RunFolder& folder_;
   History history_;
 };
 
@@ -223,27 +203,18 @@ Spec extended_spec(Spec spec, const std::filesystem::path& path, std::optional<U
 RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::filesystem::path& path,
                     const RunOptions& options) {
   Participants participants(resolve(catalogue, spec), options);
-  std::optional<RunFolder> folder;
   const Resolved& resolved = participants.resolved();
-  participants.lead("create", [&] { folder.emplace(RunFolder::create(path, resolved.spec, resolved.comments)); });
+  const RunFolder folder = RunFolder::create(path, resolved.spec, resolved.comments);
   return with_causes(catalogue, resolved.spec, [&] { return Run(participants, folder, {}).finish(); });
 }
 
 RunResult resume_run(const Catalogue& catalogue, const std::filesystem::path& path, std::optional<Until> until,
                      const RunOptions& options) {
-  std::optional<RunFolder> folder;
-  const std::string begun = evaluator_of(options)->once("open", [&] {
-    folder.emplace(RunFolder::open(path));
-    return to_toml(folder->spec()) + '\0' + to_checkpoint(folder->load(), fingerprint(folder->spec()));
-  });
-  const std::size_t middle = begun.find('\0');
-  const Spec spec = from_toml(begun.substr(0, middle), path.string());
-  History history = from_checkpoint(std::string_view(begun).substr(middle + 1), fingerprint(spec));
-  const Spec extended = extended_spec(spec, path, until, history.done());
+  RunFolder folder = RunFolder::open(path);
+  History history = folder.load();
+  const Spec extended = extended_spec(folder.spec(), path, until, history.done());
   Participants participants(resolve(catalogue, extended), options);
-  participants.lead(fmt::format("continue to {}", extended.trials), [&] {
-    folder->change_end({extended.trials, extended.until_solved}, participants.resolved().comments);
-  });
+  folder.change_end({extended.trials, extended.until_solved}, participants.resolved().comments);
   return with_causes(catalogue, participants.resolved().spec,
                      [&] { return Run(participants, folder, std::move(history)).finish(); });
 }

@@ -23,8 +23,7 @@ class RunListener {
   virtual void trial_done(const TrialRecord&) {}
 };
 
-/// Settings that do not decide results. With an evaluator that spreads work over ranks, all of them call the same; rank
-/// 0 alone has a plant, a folder and a listener, and `stop` must answer the same on all (Ranks::stopped).
+/// Settings that do not decide results.
 struct RunOptions {
   std::shared_ptr<const Evaluator> evaluator;  // null: serial
   RunListener* listener = nullptr;             // null: nobody listens

@@ -46,8 +46,7 @@ void write_cached(const fs::path& path, const std::string& bytes) {
 
 }  // namespace
 
-RunStore::RunStore(std::shared_ptr<const Evaluator> evaluator, const Spec& spec, CacheFolder cache)
-    : evaluator_(std::move(evaluator)), owner_(owner_of(spec)), cache_(std::move(cache)) {}
+RunStore::RunStore(const Spec& spec, CacheFolder cache) : owner_(owner_of(spec)), cache_(std::move(cache)) {}
 
 fs::path RunStore::kept(const std::string& name) const {
   return folder_.empty() ? fs::path() : folder_ / "kept" / name;
@@ -60,25 +59,17 @@ fs::path RunStore::cached(const std::string& name) {
 }
 
 std::optional<std::string> RunStore::read(const std::string& name) {
-  // "1" before the bytes: there are any.
-  const std::string found = evaluator_->once(fmt::format("read {} {}", name, ++steps_), [&] {
-    std::optional<std::string> bytes = read_kept(kept(name), owner_);
-    if (!bytes) bytes = read_kept(cached(name), owner_);
-    return bytes ? "1" + *bytes : std::string();
-  });
-  return found.empty() ? std::nullopt : std::optional(found.substr(1));
+  std::optional<std::string> bytes = read_kept(kept(name), owner_);
+  return bytes ? bytes : read_kept(cached(name), owner_);
 }
 
 void RunStore::write(const std::string& name, const std::string& bytes) {
-  evaluator_->once(fmt::format("keep {} {}", name, ++steps_), [&] {
-    const std::string sealed = files::seal(kKind, owner_ + '\0' + bytes);
-    if (const fs::path path = kept(name); !path.empty()) {
-      fs::create_directories(path.parent_path());
-      files::write_file(path, sealed, files::Durability::power);
-    }
-    if (const fs::path path = cached(name); !path.empty()) write_cached(path, sealed);
-    return std::string();
-  });
+  const std::string sealed = files::seal(kKind, owner_ + '\0' + bytes);
+  if (const fs::path path = kept(name); !path.empty()) {
+    fs::create_directories(path.parent_path());
+    files::write_file(path, sealed, files::Durability::power);
+  }
+  if (const fs::path path = cached(name); !path.empty()) write_cached(path, sealed);
 }
 
 }  // namespace rehearse::experiment

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "rehearse/core/evaluator.hpp"
 #include "rehearse/experiment/spec.hpp"
 #include "rehearse/learners/store.hpp"
 
@@ -18,12 +17,12 @@ using CacheFolder = std::function<std::filesystem::path()>;
 
 /// A learner's store: in the run's folder, `kept/NAME`, and in the cache, where runs of the same spec but for the
 /// number of trials find it. A file of another spec, or a damaged one, counts as none. A cache that cannot be written
-/// is left alone. Files are rank 0's.
+/// is left alone.
 class RunStore final : public learners::Store {
  public:
-  RunStore(std::shared_ptr<const Evaluator> evaluator, const Spec& spec, CacheFolder cache);
+  RunStore(const Spec& spec, CacheFolder cache);
 
-  /// Of rank 0; before that nothing is kept in a run folder.
+  /// Before that nothing is kept in a run folder.
   void open(const std::filesystem::path& run_folder) { folder_ = run_folder; }
 
   std::optional<std::string> read(const std::string& name) override;
@@ -33,12 +32,10 @@ class RunStore final : public learners::Store {
   std::filesystem::path kept(const std::string& name) const;
   std::filesystem::path cached(const std::string& name);
 
-  std::shared_ptr<const Evaluator> evaluator_;
   std::string owner_;  // the spec that it belongs to
   CacheFolder cache_;
   std::optional<std::filesystem::path> cache_folder_;
   std::filesystem::path folder_;
-  Index steps_ = 0;
 };
 
 }  // namespace rehearse::experiment

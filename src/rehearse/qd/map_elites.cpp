@@ -77,11 +77,12 @@ void MapElites::step(const Evaluate& evaluate, const Evaluator& evaluator) {
   const Index chunks = (batch + kChunk - 1) / kChunk;
   chunks_.resize(kChunk * (P + D + 2), chunks);
   const auto rows_of = [&](Index c) { return std::min(kChunk, batch - c * kChunk); };
-  const auto task = [&](Index c, VectorView column) {
+  const auto task = [&](Index c) {
+    double* column = chunks_.col(c).data();
     const Index rows = rows_of(c);
     const std::uint64_t first = evaluations_ + static_cast<std::uint64_t>(c * kChunk);
-    Rows X = part(column.data(), 0, rows, P), descriptors = part(column.data(), P, rows, D);
-    Rows performances = part(column.data(), P + D, rows, 1), niches = part(column.data(), P + D + 1, rows, 1);
+    Rows X = part(column, 0, rows, P), descriptors = part(column, P, rows, D);
+    Rows performances = part(column, P + D, rows, 1), niches = part(column, P + D + 1, rows, 1);
     make(first, X);
     evaluate(X, first, performances.col(0), descriptors);
     double descriptor[KdTree::kMostDimensions];
@@ -90,7 +91,7 @@ void MapElites::step(const Evaluate& evaluate, const Evaluator& evaluator) {
       niches(i) = static_cast<double>(archive_.niches().find(descriptor));
     }
   };
-  evaluator.evaluate(task, chunks_);
+  evaluator.for_each(chunks, task);
 
   double descriptor[KdTree::kMostDimensions];
   for (Index c = 0; c < chunks; ++c) {

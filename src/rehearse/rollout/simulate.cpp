@@ -175,7 +175,8 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
   const Index total = Theta.cols() * particles, most = rows_of_chunk(total);
   const Index chunks = (total + most - 1) / most;
   Matrix results(most + 1, chunks);  // returns, and how many failed
-  const auto task_of_chunk = [&](Index c, VectorView result) {
+  const auto task_of_chunk = [&](Index c) {
+    VectorView result = results.col(c);
     const Index first = c * most, rows = std::min(most, total - first);
     Chunk chunk(simulation, rows, buffers_of_this_thread());
     for (Index row = 0; row < rows; ++row) {
@@ -191,7 +192,7 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
     result.head(rows) = chunk.returns();
     result(most) = static_cast<double>(chunk.failed());
   };
-  evaluator.evaluate(task_of_chunk, results);
+  evaluator.for_each(chunks, task_of_chunk);
 
   Simulated simulated{.returns = Matrix(particles, Theta.cols())};
   for (Index c = 0; c < chunks; ++c) {

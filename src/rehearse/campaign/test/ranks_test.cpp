@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "counting_listener.hpp"
+#include "rank_ends.hpp"
 #include "rehearse/campaign/campaign.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/test/fake.hpp"
-#include "rehearse/experiment/test/rank_ends.hpp"
 #include "rehearse/files/write.hpp"
 
 namespace rehearse::campaign {
@@ -34,18 +34,18 @@ TEST(CampaignOnRanks, SameTablesAndAllNewsToRankZero) {
   const fs::path folder = experiment::fake::test_folder();
   campaign(folder / "alone", {.threads = 1});
   CountingListener counter;
-  const auto work = [&](Ranks& ranks, const experiment::RunOptions&) {
+  const auto work = [&](Ranks& ranks) {
     campaign(folder / "ranks",
              {.threads = 1 + ranks.rank(), .listener = ranks.rank() == 0 ? &counter : nullptr, .ranks = &ranks});
   };
-  EXPECT_EQ(experiment::fake::Ends(work).all(), "done");
+  EXPECT_EQ(Ends(work).all(), "done");
   EXPECT_EQ(campaign_results(folder / "ranks"), campaign_results(folder / "alone"));
   EXPECT_EQ(counter.at_once, 6) << "threads of all ranks";
   EXPECT_EQ(counter.begun, 9);
   EXPECT_GE(counter.progressed, 1);
   EXPECT_EQ(counter.ended, 9);
 
-  EXPECT_EQ(experiment::fake::Ends(work).all(), "done") << "again, with nothing left to do";
+  EXPECT_EQ(Ends(work).all(), "done") << "again, with nothing left to do";
   EXPECT_EQ(counter.begun, 9);
   EXPECT_EQ(campaign_results(folder / "ranks"), campaign_results(folder / "alone"));
 }
@@ -54,16 +54,14 @@ TEST(CampaignOnRanks, FailedRunsAreRecorded) {
   const fs::path folder = experiment::fake::test_folder();
   const std::string text = kGrid + "[vary]\nbreaks = [false, true]\n[set]\nsearch.step = 3\n";
   EXPECT_GT(campaign(folder / "alone", {.threads = 1}, text).count(RunState::failed), 0);
-  EXPECT_EQ(experiment::fake::Ends([&](Ranks& ranks, const experiment::RunOptions&) {
-              campaign(folder / "ranks", {.threads = 1, .ranks = &ranks}, text);
-            }).all(),
+  EXPECT_EQ(Ends([&](Ranks& ranks) { campaign(folder / "ranks", {.threads = 1, .ranks = &ranks}, text); }).all(),
             "done");
   EXPECT_EQ(campaign_results(folder / "ranks"), campaign_results(folder / "alone"));
 }
 
 TEST(CampaignOnRanks, ARankThatFailsEndsItOnTheFirstToo) {
   const fs::path folder = experiment::fake::test_folder() / "c";
-  const experiment::fake::Ends ends([&](Ranks& ranks, const experiment::RunOptions&) {
+  const Ends ends([&](Ranks& ranks) {
     const auto stop = [&] {
       if (ranks.rank() == 1) throw std::runtime_error("out of memory");
       return false;
@@ -79,24 +77,20 @@ TEST(CampaignOnRanks, StoppedAndContinued) {
   std::atomic<int> polls{0};
   const auto stop = [&] { return polls++ > 8; };
   std::atomic<Index> left{0};
-  const experiment::fake::Ends first([&](Ranks& ranks, const experiment::RunOptions&) {
+  const Ends first([&](Ranks& ranks) {
     const Campaign part = campaign(folder / "ranks", {.threads = 1, .stop = stop, .ranks = &ranks});
     left += part.count(RunState::unfinished);
   });
   EXPECT_EQ(first.all(), "done");
   EXPECT_GT(left, 0);
-  EXPECT_EQ(experiment::fake::Ends([&](Ranks& ranks, const experiment::RunOptions&) {
-              campaign(folder / "ranks", {.threads = 1, .ranks = &ranks});
-            }).all(),
-            "done");
+  EXPECT_EQ(Ends([&](Ranks& ranks) { campaign(folder / "ranks", {.threads = 1, .ranks = &ranks}); }).all(), "done");
   EXPECT_EQ(campaign_results(folder / "ranks"), campaign_results(folder / "alone"));
 }
 
 TEST(CampaignOnRanks, WrongInputOnAll) {
   const fs::path folder = experiment::fake::test_folder();
   files::write_file(folder / "thesis.txt", "x");
-  const experiment::fake::Ends ends(
-      [&](Ranks& ranks, const experiment::RunOptions&) { campaign(folder, {.threads = 1, .ranks = &ranks}); });
+  const Ends ends([&](Ranks& ranks) { campaign(folder, {.threads = 1, .ranks = &ranks}); });
   EXPECT_EQ(ends.all(), folder.string() + " already exists and is not the folder of a campaign; name another");
 }
 
@@ -116,7 +110,7 @@ class Thrower final : public CampaignListener {
 TEST(CampaignOnRanks, AListenerThatThrowsAtTheStartEndsItOnAll) {
   const fs::path folder = experiment::fake::test_folder();
   Thrower thrower(true);
-  const experiment::fake::Ends ends([&](Ranks& ranks, const experiment::RunOptions&) {
+  const Ends ends([&](Ranks& ranks) {
     campaign(folder / "c", {.threads = 1, .listener = ranks.rank() == 0 ? &thrower : nullptr, .ranks = &ranks});
   });
   EXPECT_EQ(ends.all(), "there is no terminal");
@@ -125,7 +119,7 @@ TEST(CampaignOnRanks, AListenerThatThrowsAtTheStartEndsItOnAll) {
 TEST(CampaignOnRanks, AListenerThatThrowsEndsItOnAll) {
   const fs::path folder = experiment::fake::test_folder();
   Thrower thrower(false);
-  const experiment::fake::Ends ends([&](Ranks& ranks, const experiment::RunOptions&) {
+  const Ends ends([&](Ranks& ranks) {
     campaign(folder / "c", {.threads = 1, .listener = ranks.rank() == 0 ? &thrower : nullptr, .ranks = &ranks});
   });
   EXPECT_EQ(ends.all(), "done | the terminal is gone") << "only rank 0 knows, and nobody waits for ever";

@@ -16,24 +16,13 @@ class EachEvaluator : public ::testing::TestWithParam<int> {
   std::unique_ptr<Evaluator> evaluator_ = make_thread_evaluator(GetParam());
 };
 
-TEST_P(EachEvaluator, FillsEveryColumnOnce) {
+TEST_P(EachEvaluator, CallsEveryTaskOnce) {
   std::vector<std::atomic<int>> calls(1000);
-  Matrix results = Matrix::Zero(3, 1000);
-  evaluator_->evaluate(
-      [&](Index i, VectorView column) {
-        ++calls[static_cast<std::size_t>(i)];
-        column = Vector{{static_cast<double>(i), 1, 2}};
-      },
-      results);
-  for (Index i = 0; i < 1000; ++i) {
-    EXPECT_EQ(calls[static_cast<std::size_t>(i)], 1);
-    EXPECT_EQ(results.col(i), (Vector{{static_cast<double>(i), 1, 2}}));
-  }
+  evaluator_->for_each(1000, [&](Index i) { ++calls[static_cast<std::size_t>(i)]; });
+  for (const auto& count : calls) EXPECT_EQ(count, 1);
 }
 
 TEST_P(EachEvaluator, NothingToDo) {
-  Matrix none(3, 0);
-  evaluator_->evaluate([](Index, VectorView) { FAIL(); }, none);
   evaluator_->for_each(0, [](Index) { FAIL(); });
 }
 
@@ -54,15 +43,13 @@ TEST_P(EachEvaluator, TheFirstExceptionInOrderComesBack) {
 }
 
 TEST_P(EachEvaluator, MayBeCalledFromWithinATask) {
-  Matrix sums(1, 20);
-  evaluator_->evaluate(
-      [&](Index i, VectorView sum) {
-        Matrix products(1, 50);
-        evaluator_->evaluate([&](Index j, VectorView product) { product(0) = static_cast<double>(i * j); }, products);
-        sum(0) = products.sum();
-      },
-      sums);
-  for (Index i = 0; i < 20; ++i) EXPECT_EQ(sums(0, i), static_cast<double>(i * 49 * 50 / 2));
+  Vector sums(20);
+  evaluator_->for_each(20, [&](Index i) {
+    Vector products(50);
+    evaluator_->for_each(50, [&](Index j) { products(j) = static_cast<double>(i * j); });
+    sums(i) = products.sum();
+  });
+  for (Index i = 0; i < 20; ++i) EXPECT_EQ(sums(i), static_cast<double>(i * 49 * 50 / 2));
 }
 
 TEST_P(EachEvaluator, NeverRunsMoreThanItSays) {
@@ -90,11 +77,11 @@ TEST_P(EachEvaluator, MayBeStoppedBetweenTasksAndWithin) {
   EXPECT_THROW(stoppable->for_each(100000, task), Interrupted);
   EXPECT_LE(begun, 10 + GetParam()) << "those that had begun";
   EXPECT_LT(ended, begun);
-  Matrix results(1, 3);
-  EXPECT_THROW(stoppable->evaluate([&](Index, VectorView) { FAIL(); }, results), Interrupted);
+  EXPECT_THROW(stoppable->for_each(3, [&](Index) { FAIL(); }), Interrupted);
   stop = false;
-  stoppable->evaluate([](Index i, VectorView result) { result(0) = static_cast<double>(i); }, results);
-  EXPECT_EQ(results, (Matrix{{0, 1, 2}}));
+  Vector results(3);
+  stoppable->for_each(3, [&](Index i) { results(i) = static_cast<double>(i); });
+  EXPECT_EQ(results, (Vector{{0, 1, 2}}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, EachEvaluator, ::testing::Values(1, 2, 4));

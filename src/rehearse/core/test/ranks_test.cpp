@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/testing/rank_threads.hpp"
 
@@ -150,100 +151,6 @@ TEST(Ranks, QuestionsFromAllThreads) {
       answered += ranks.answer([](const std::string& question) { return "<" + question + ">"; });
   });
 }
-
-/// How many ranks, and threads on each but the last, which has one more.
-struct Workers {
-  int ranks, threads;
-};
-void PrintTo(const Workers& workers, std::ostream* out) { *out << workers.ranks << " ranks × " << workers.threads; }
-
-class RankEvaluators : public ::testing::TestWithParam<Workers> {
- protected:
-  void on_all(const std::function<void(Ranks&, const Evaluator&)>& work) const {
-    const auto [size, threads] = GetParam();
-    on_rank_threads(size, [&, size = size, threads = threads](Ranks& ranks) {
-      const auto evaluator = make_rank_evaluator(ranks, threads + (ranks.rank() + 1 == size));
-      EXPECT_EQ(evaluator->concurrency(), size * threads + 1);
-      work(ranks, *evaluator);
-      EXPECT_EQ(ranks.leave(0, "").size(), static_cast<std::size_t>(size));
-    });
-  }
-};
-
-TEST_P(RankEvaluators, FillEveryColumnOnEveryRank) {
-  for (const Index n : {0, 1, 2, 7, 100}) {
-    std::atomic<Index> calls{0};
-    on_all([&](Ranks&, const Evaluator& evaluator) {
-      Matrix wide = Matrix::Zero(4, n);
-      evaluator.evaluate(
-          [&](Index i, VectorView column) {
-            ++calls;
-            column = Vector{{static_cast<double>(i), 0.1 * static_cast<double>(i)}};
-          },
-          wide.topRows(2));  // columns need not follow each other in memory
-      for (Index i = 0; i < n; ++i) {
-        const auto x = static_cast<double>(i);
-        EXPECT_EQ(wide.col(i), (Vector{{x, 0.1 * x, 0, 0}}));
-      }
-    });
-    EXPECT_EQ(calls, n) << "each once in all";
-  }
-}
-
-TEST_P(RankEvaluators, TheFirstExceptionInOrderOnEveryRank) {
-  on_all([](Ranks&, const Evaluator& evaluator) {
-    Matrix results(1, 90);
-    const auto failing = [&](Index first) {
-      return caught([&] {
-        evaluator.evaluate(
-            [&](Index i, VectorView) {
-              if (i >= first && i % 2 == 0) throw std::domain_error(std::to_string(i));
-              if (i >= first) throw InvalidInput(std::to_string(i));
-            },
-            results);
-      });
-    };
-    for (const Index first : {0, 17, 61, 89}) {
-      const std::string kind = first % 2 == 0 ? "error: " : "input: ";
-      EXPECT_EQ(failing(first), kind + std::to_string(first));
-    }
-    EXPECT_EQ(failing(90), "") << "it can be used again";
-  });
-}
-
-TEST_P(RankEvaluators, ForEachIsForThisProcess) {
-  on_all([](Ranks&, const Evaluator& evaluator) {
-    std::atomic<int> calls{0};
-    evaluator.for_each(20, [&](Index) { ++calls; });
-    EXPECT_EQ(calls, 20);
-  });
-}
-
-TEST_P(RankEvaluators, CallsWithinTasksStayInTheProcess) {
-  on_all([](Ranks& ranks, const Evaluator& evaluator) {
-    const auto sum_of = [&](Index n, const std::function<double(Index)>& term) {
-      Matrix terms(1, n);
-      evaluator.evaluate([&](Index i, VectorView value) { value(0) = term(i); }, terms);
-      return terms.sum();
-    };
-    const auto nested = [&](Index i) {
-      return sum_of(5, [&](Index j) { return sum_of(4, [&](Index k) { return static_cast<double>(i * j * k); }); });
-    };
-    EXPECT_EQ(sum_of(6, nested), 15 * 10 * 6);
-    evaluator.for_each(6, [&](Index i) { EXPECT_EQ(nested(i), static_cast<double>(i * 10 * 6)); });
-    EXPECT_EQ(ranks.once("step", [] { return "still in step"; }), "still in step");
-  });
-}
-
-TEST_P(RankEvaluators, WorkOnce) {
-  std::atomic<int> calls{0};
-  on_all([&](Ranks&, const Evaluator& evaluator) {
-    EXPECT_EQ(evaluator.once("step", [&] { return ++calls, "episode"; }), "episode");
-  });
-  EXPECT_EQ(calls, 1);
-}
-
-INSTANTIATE_TEST_SUITE_P(Ranks, RankEvaluators, ::testing::Values(Workers{1, 1}, Workers{2, 1}, Workers{3, 2}));
 
 }  // namespace
 }  // namespace rehearse

@@ -23,9 +23,9 @@ class Remover {
 /// wait for the disk.
 inline std::filesystem::path test_folder() {
   static Remover remover;
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
   std::filesystem::path root = "/dev/shm";
-  if (!is_directory(root)) root = testing::TempDir();
+  if (!is_directory(root)) root = ::testing::TempDir();
   remover.paths.push_back(root / ("rehearse-test-" + std::to_string(::getpid())));
   const std::filesystem::path path = remover.paths.back() / info->test_suite_name() / info->name();
   std::filesystem::create_directories(path);

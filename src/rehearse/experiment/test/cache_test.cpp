@@ -54,7 +54,7 @@ TEST(Cache, WhatIsNotKeptByAStoreStays) {
 
 TEST(Cache, AStoresEntriesAreKnown) {
   const fs::path cache = fake::test_folder() / "cache";
-  RunStore store(make_thread_evaluator(1), {.scenario = "line", .learner = "echo"}, [&] { return cache; });
+  RunStore store({.scenario = "line", .learner = "echo"}, [&] { return cache; });
   store.write("prior", "learned");
   EXPECT_EQ(store.read("prior"), "learned") << "far below the bound";
   prune_cache({cache}, 0);

@@ -14,14 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::shared_ptr<const Evaluator> evaluator() { return make_thread_evaluator(1); }
-
 Spec spec(Index seed = 1, Index trials = 10) {
   return {.scenario = "line", .learner = "echo", .trials = trials, .seed = seed};
 }
 
 RunStore store(const fs::path& run, const Spec& spec, const fs::path& cache = {}) {
-  RunStore store(evaluator(), spec, [cache] { return cache; });
+  RunStore store(spec, [cache] { return cache; });
   if (!run.empty()) store.open(run);
   return store;
 }
@@ -69,7 +67,7 @@ TEST(RunStore, DoesNotDependOnItsCache) {
   std::ofstream(file) << "not a folder";
   store(run, spec(), file / "below").write("prior", "learned");
   EXPECT_EQ(store(run, spec(), file / "below").read("prior"), "learned");
-  RunStore without(evaluator(), spec(), {});
+  RunStore without(spec(), {});
   without.open(run);
   EXPECT_EQ(without.read("prior"), "learned");
   store({}, spec(), file / "below").write("prior", "nowhere");

@@ -142,26 +142,24 @@ SearchResult judge(const SearchProblem& problem, const Vector& theta, const Sear
 
 Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,
                      const StreamKey& key) {
-  Matrix rates = Matrix::Zero(1, static_cast<Index>(policies.size()));
-  if (!problem.task.solved) return rates.transpose();
+  Vector rates = Vector::Zero(static_cast<Index>(policies.size()));
+  if (!problem.task.solved) return rates;
   const Index rollouts = comparisons(problem, options);
-  problem.evaluator.evaluate(
-      [&](Index j, VectorView rate) {
-        const Matrix Theta = policies[static_cast<std::size_t>(j)].transpose().replicate(rollouts, 1);
-        rollout::Episodes episodes;
-        rollout::simulate_episodes({problem.model, problem.policy, problem.task, key, options.simulate}, Theta, 0,
-                                   episodes);
-        Episode episode;
-        Index solved = 0;
-        for (Index i = 0; i < episodes.rows(); ++i) {
-          if (episodes.failed[static_cast<std::size_t>(i)]) continue;
-          episodes.copy(i, episode);
-          solved += problem.task.solved(episode);
-        }
-        rate(0) = static_cast<double>(solved) / static_cast<double>(rollouts);
-      },
-      rates);
-  return rates.transpose();
+  problem.evaluator.for_each(rates.size(), [&](Index j) {
+    const Matrix Theta = policies[static_cast<std::size_t>(j)].transpose().replicate(rollouts, 1);
+    rollout::Episodes episodes;
+    rollout::simulate_episodes({problem.model, problem.policy, problem.task, key, options.simulate}, Theta, 0,
+                               episodes);
+    Episode episode;
+    Index solved = 0;
+    for (Index i = 0; i < episodes.rows(); ++i) {
+      if (episodes.failed[static_cast<std::size_t>(i)]) continue;
+      episodes.copy(i, episode);
+      solved += problem.task.solved(episode);
+    }
+    rates(j) = static_cast<double>(solved) / static_cast<double>(rollouts);
+  });
+  return rates;
 }
 
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, StreamKey key) {

@@ -150,9 +150,7 @@ class Illumination {
   bool holds(const qd::Search& kept) const {
     const qd::Archive& archive = kept.archive;
     if (archive.parameters() != setting_.policy->parameters() || archive.size() == 0) return false;
-    Matrix verdict(1, 1);
-    setting_.evaluator->evaluate([&](Index, VectorView holds) { holds(0) = try_again(archive); }, verdict);
-    return verdict(0, 0) == 1;
+    return try_again(archive);
   }
 
   bool try_again(const qd::Archive& archive) const {

@@ -6,18 +6,16 @@
 #include <string>
 
 #include "rehearse/core/ranks.hpp"
-#include "rehearse/experiment/run.hpp"
+#include "rehearse/core/events.hpp"
 #include "rehearse/testing/rank_threads.hpp"
 
-namespace rehearse::experiment::fake {
+namespace rehearse::campaign {
 
 /// The ends of a piece of work on three ranks.
 class Ends {
  public:
-  explicit Ends(const std::function<void(Ranks&, const RunOptions&)>& work,
-                const std::function<bool(int rank)>& stop = {}) {
-    testing::on_rank_threads(
-        3, [&](Ranks& ranks) { add(end_of([&] { work(ranks, options(ranks)); })), ranks.leave(0, ""); }, stop);
+  explicit Ends(const std::function<void(Ranks&)>& work) {
+    testing::on_rank_threads(3, [&](Ranks& ranks) { add(end_of([&] { work(ranks); })), ranks.leave(0, ""); });
   }
   /// The end that all ranks have in common, or how theirs differ.
   std::string all() const {
@@ -27,9 +25,6 @@ class Ends {
   }
 
  private:
-  static RunOptions options(Ranks& ranks) {
-    return {.evaluator = make_rank_evaluator(ranks, 1), .stop = [&] { return ranks.stopped(); }};
-  }
   static std::string end_of(const std::function<void()>& work) {
     try {
       work();
@@ -49,4 +44,4 @@ class Ends {
   std::set<std::string> words_;
 };
 
-}  // namespace rehearse::experiment::fake
+}  // namespace rehearse::campaign
