@@ -26,17 +26,19 @@ Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, cons
 /// than a lambda.
 std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps);
 
-/// An equation, vectorised over rows: what equation_kernel.hpp makes of a robot's.
+/// An equation, vectorised over rows: what equation_kernel.hpp makes of a robot's, and formula_ode.hpp of formulas. Any
+/// thread.
 struct OdeKernel {
   Index states = 0, actions = 0, parameters = 0;  // dx, du, size of φ
 
   /// dxdt (dx) at state x (dx) under the action u (du).
-  void (*derivative)(const double* x, const double* u, const double* phi, double* dxdt);
+  std::function<void(const double* x, const double* u, const double* phi, double* dxdt)> derivative;
 
   /// Changes dX of states X (n × dx) under actions U (n × du) over duration_s, by so many steps of Dormand–Prince 5. A
   /// row that leaves the range of the equation comes back as NaN.
-  void (*change)(const ConstMatrixView& X, const ConstMatrixView& U, const double* phi, double duration_s, Index steps,
-                 MatrixView dX);
+  std::function<void(const ConstMatrixView& X, const ConstMatrixView& U, const double* phi, double duration_s,
+                     Index steps, MatrixView dX)>
+      change;
 
   Ode ode() const;
 

@@ -1,0 +1,242 @@
+#include "rehearse/expression/formulas.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <charconv>
+#include <cstring>
+#include <deque>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <muParser.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
+#include "rehearse/core/options.hpp"
+
+namespace rehearse::expression {
+namespace {
+
+// muParser computes with doubles. It is made to compute with nodes instead: variables hold NaNs that carry the number
+// of a node, its own operators are replaced by functions that make an operation of two nodes, and so the result of a
+// formula is the node of its value. All other doubles are numbers of the formula.
+constexpr std::uint64_t kBoxed = 0x7FF9'5245'0000'0000, kPayload = 0xFFFF'FFFF;
+
+double boxed(Node node) { return std::bit_cast<double>(kBoxed | static_cast<std::uint32_t>(node)); }
+
+thread_local TapeBuilder* current = nullptr;  // of the formula that is compiled
+
+Node unboxed(double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  if ((bits & ~kPayload) == kBoxed) return static_cast<Node>(bits & kPayload);
+  return current->constant(value);
+}
+
+template <Op op>
+double one(double a) {
+  return boxed(current->operation(op, unboxed(a)));
+}
+template <Op op>
+double two(double a, double b) {
+  return boxed(current->operation(op, unboxed(a), unboxed(b)));
+}
+/// a > b is b < a.
+template <Op op>
+double swapped(double a, double b) {
+  return two<op>(b, a);
+}
+double where(double condition, double a, double b) {
+  return boxed(current->operation(Op::where, unboxed(condition), unboxed(a), unboxed(b)));
+}
+double clamp(double x, double low, double high) { return two<Op::minimum>(two<Op::maximum>(x, low), high); }
+double same(double a) { return a; }
+
+struct Unary {
+  const char* name;
+  double (*function)(double);
+};
+struct Binary {
+  const char* name;
+  double (*function)(double, double);
+};
+struct Ternary {
+  const char* name;
+  double (*function)(double, double, double);
+};
+
+constexpr Unary kUnary[] = {{"sin", one<Op::sine>},
+                            {"cos", one<Op::cosine>},
+                            {"tan", one<Op::tangent>},
+                            {"asin", one<Op::arcsine>},
+                            {"acos", one<Op::arccosine>},
+                            {"atan", one<Op::arctangent>},
+                            {"sinh", one<Op::hyperbolic_sine>},
+                            {"cosh", one<Op::hyperbolic_cosine>},
+                            {"tanh", one<Op::hyperbolic_tangent>},
+                            {"exp", one<Op::exponential>},
+                            {"log", one<Op::logarithm>},
+                            {"sqrt", one<Op::square_root>},
+                            {"abs", one<Op::absolute>},
+                            {"sign", one<Op::sign>},
+                            {"floor", one<Op::round_down>},
+                            {"ceil", one<Op::round_up>},
+                            {"not", one<Op::logical_not>}};
+constexpr Binary kBinary[] = {
+    {"atan2", two<Op::arctangent2>}, {"min", two<Op::minimum>}, {"max", two<Op::maximum>}, {"pow", two<Op::power>}};
+constexpr Ternary kTernary[] = {{"where", where}, {"clamp", clamp}};
+
+struct Operator {
+  const char* name;
+  double (*function)(double, double);
+  unsigned precedence;
+  mu::EOprtAssociativity associativity = mu::oaLEFT;
+};
+const Operator kOperators[] = {{"+", two<Op::add>, mu::prADD_SUB},
+                               {"-", two<Op::subtract>, mu::prADD_SUB},
+                               {"*", two<Op::multiply>, mu::prMUL_DIV},
+                               {"/", two<Op::divide>, mu::prMUL_DIV},
+                               {"^", two<Op::power>, mu::prPOW, mu::oaRIGHT},
+                               {"<", two<Op::less>, mu::prCMP},
+                               {"<=", two<Op::less_equal>, mu::prCMP},
+                               {">", swapped<Op::less>, mu::prCMP},
+                               {">=", swapped<Op::less_equal>, mu::prCMP},
+                               {"==", two<Op::equal>, mu::prCMP},
+                               {"!=", two<Op::not_equal>, mu::prCMP},
+                               {"&&", two<Op::logical_and>, mu::prLAND},
+                               {"||", two<Op::logical_or>, mu::prLOR}};
+
+/// Takes a number from the front of the text, whatever the locale.
+int take_number(const char* text, int* position, double* value) {
+  if (!std::isdigit(static_cast<unsigned char>(*text)) && *text != '.') return 0;
+  const auto [end, error] = std::from_chars(text, text + std::strlen(text), *value);
+  if (error != std::errc()) return 0;
+  *position += static_cast<int>(end - text);
+  return 1;
+}
+
+class Grammar : public mu::ParserBase {
+ public:
+  Grammar() {
+    EnableBuiltInOprt(false);
+    AddValIdent(take_number);
+    DefineNameChars("0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    DefineOprtChars("+-*/^<>=!&|");
+    DefineInfixOprtChars("+-!");
+    for (const auto& [name, function] : kUnary) DefineFun(name, function, false);
+    for (const auto& [name, function] : kBinary) DefineFun(name, function, false);
+    for (const auto& [name, function] : kTernary) DefineFun(name, function, false);
+    for (const auto& [name, function, precedence, associativity] : kOperators)
+      DefineOprt(name, function, precedence, associativity, false);
+    DefineInfixOprt("-", one<Op::negate>, mu::prINFIX, false);
+    DefineInfixOprt("+", same, mu::prINFIX, false);
+    DefineInfixOprt("!", one<Op::logical_not>, mu::prINFIX, false);
+  }
+
+ private:
+  void InitCharSets() override {}
+  void InitFun() override {}
+  void InitConst() override {}
+  void InitOprt() override {}
+};
+
+/// What formulas look a name up with while they are compiled.
+struct Lookup {
+  std::function<Node(const std::string&)> node;
+  std::deque<double> values;  // whose addresses muParser keeps
+};
+
+double* look_up(const char* name, void* lookup) {
+  auto& [node, values] = *static_cast<Lookup*>(lookup);
+  return &values.emplace_back(boxed(node(name)));
+}
+
+}  // namespace
+
+const std::vector<std::string>& Formulas::function_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& f : kUnary) all.emplace_back(f.name);
+    for (const auto& f : kBinary) all.emplace_back(f.name);
+    for (const auto& f : kTernary) all.emplace_back(f.name);
+    return all;
+  }();
+  return names;
+}
+
+void Formulas::check_name(const std::string& name) const {
+  const auto is_part = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+  const bool good = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
+                    std::all_of(name.begin(), name.end(), is_part);
+  if (!good) throw InvalidInput(fmt::format("'{}' is no name: letters, digits and _, and no digit first", name));
+  if (is_among(name, function_names()) || name == "pi")
+    throw InvalidInput(fmt::format("'{}' is {}", name, name == "pi" ? "the number π" : "a function"));
+  if (inputs_.contains(name) || definitions_.contains(name))
+    throw InvalidInput(fmt::format("the name '{}' is given twice", name));
+}
+
+Node Formulas::input(const std::string& name, Pace pace) {
+  check_name(name);
+  return inputs_[name] = builder_.input(pace);
+}
+
+void Formulas::define(const std::string& name, const std::string& formula) {
+  check_name(name);
+  definitions_[name] = {.formula = formula};
+}
+
+Node Formulas::named(const std::string& name) {
+  if (name == "pi") return builder_.constant(std::numbers::pi);
+  if (const auto found = inputs_.find(name); found != inputs_.end()) return found->second;
+  const auto found = definitions_.find(name);
+  if (found == definitions_.end()) throw_unknown(name);
+  return compiled(found->second, name);
+}
+
+Node Formulas::compiled(Definition& definition, const std::string& name) {
+  if (definition.node != TapeBuilder::kNone) return definition.node;
+  under_way_.push_back(name);
+  if (definition.begun) {
+    const auto first = std::find(under_way_.begin(), under_way_.end(), name);
+    throw InvalidInput(fmt::format("the definition of '{}' needs itself: {}", name,
+                                   fmt::join(std::vector<std::string>(first, under_way_.end()), " → ")));
+  }
+  definition.begun = true;
+  definition.node = compile(definition.formula);
+  under_way_.pop_back();
+  return definition.node;
+}
+
+void Formulas::throw_unknown(const std::string& name) const {
+  if (is_among(name, function_names())) throw InvalidInput(fmt::format("'{0}' is a function: {0}(…)", name));
+  std::vector<std::string> known;
+  for (const auto& [input, node] : inputs_) known.push_back(input);
+  for (const auto& [definition, formula] : definitions_) known.push_back(definition);
+  const std::string like = known.empty() ? "" : fmt::format(", did you mean '{}'?", closest(name, known));
+  throw InvalidInput(fmt::format("unknown name '{}'{} (known: {})", name, like, fmt::join(known, ", ")));
+}
+
+Node Formulas::compile(const std::string& formula) {
+  if (formula.find('?') != std::string::npos) throw InvalidInput("'a ? b : c' is written where(a, b, c)");
+  TapeBuilder* outer = std::exchange(current, &builder_);
+  Lookup lookup{[this](const std::string& name) { return named(name); }, {}};
+  try {
+    Grammar grammar;
+    grammar.SetVarFactory(look_up, &lookup);
+    grammar.SetExpr(formula);
+    const Node node = unboxed(grammar.Eval());
+    current = outer;
+    return node;
+  } catch (const mu::Parser::exception_type& error) {
+    current = outer;
+    throw InvalidInput(fmt::format("'{}': {}", formula, error.GetMsg()));
+  } catch (...) {
+    current = outer;
+    throw;
+  }
+}
+
+}  // namespace rehearse::expression

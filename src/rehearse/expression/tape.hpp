@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::expression {
+
+enum class Op : std::uint8_t {
+  // of one number
+  negate,
+  sine,
+  cosine,
+  tangent,
+  arcsine,
+  arccosine,
+  arctangent,
+  hyperbolic_sine,
+  hyperbolic_cosine,
+  hyperbolic_tangent,
+  exponential,
+  logarithm,
+  square_root,
+  absolute,
+  sign,
+  round_down,
+  round_up,
+  logical_not,
+  // of two
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  arctangent2,
+  minimum,
+  maximum,
+  less,
+  less_equal,
+  equal,
+  not_equal,
+  logical_and,
+  logical_or,
+  // of three
+  multiply_add,           // a b + c, rounded once
+  negative_multiply_add,  // c − a b, rounded once
+  where,                  // b where a is not 0, else c
+};
+
+/// How many numbers an operation takes.
+constexpr int arguments_of(Op op) { return op >= Op::multiply_add ? 3 : op >= Op::add ? 2 : 1; }
+
+/// out = op(a, b, c), numbers of slots; those that the operation does not take are 0.
+struct Instruction {
+  Op op;
+  std::int32_t out, a, b, c;
+};
+
+/// How often an input changes: what follows from some is computed when the last of them changes.
+enum class Pace : std::uint8_t { call, block, always };
+
+/// Formulas as a list of instructions. Slots hold constants, then inputs, then what instructions write.
+struct Tape {
+  std::vector<double> constants;
+  Index inputs = 0;
+  std::vector<Instruction> code[3];   // by pace
+  std::vector<std::int32_t> outputs;  // slots
+  Index slots = 0;
+
+  std::int32_t input_slot(Index input) const {
+    return static_cast<std::int32_t>(constants.size() + static_cast<std::size_t>(input));
+  }
+  std::int32_t slots_of_inputs() const { return input_slot(inputs); }  // and of constants
+};
+
+}  // namespace rehearse::expression

@@ -1,0 +1,233 @@
+#include "rehearse/expression/tape_builder.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+
+#include "rehearse/expression/scalar.hpp"
+
+namespace rehearse::expression {
+namespace {
+
+constexpr double kLargestChain = 16;  // a power by so many multiplications is still cheaper than pow
+
+bool commutes(Op op) {
+  return op == Op::add || op == Op::multiply || op == Op::equal || op == Op::not_equal || op == Op::logical_and ||
+         op == Op::logical_or;
+}
+
+}  // namespace
+
+Node TapeBuilder::add(const Value& value) {
+  values_.push_back(value);
+  return static_cast<Node>(values_.size()) - 1;
+}
+
+Node TapeBuilder::constant(double value) {
+  const auto [place, is_new] = constants_.try_emplace(std::bit_cast<std::uint64_t>(value), kNone);
+  if (is_new) place->second = add({.kind = Value::Kind::constant, .pace = Pace::call, .number = value});
+  return place->second;
+}
+
+Node TapeBuilder::input(Pace pace) { return add({.kind = Value::Kind::input, .pace = pace}); }
+
+void TapeBuilder::known_trigonometry(Node angle, Node sine, Node cosine) { trigonometry_[angle] = {sine, cosine}; }
+
+const double* TapeBuilder::constant_of(Node node) const {
+  return at(node).kind == Value::Kind::constant ? &at(node).number : nullptr;
+}
+
+bool TapeBuilder::is(Node node, double value) const {
+  const double* constant = constant_of(node);
+  return constant && *constant == value;
+}
+
+Node TapeBuilder::operation(Op op, Node a, Node b, Node c) {
+  const auto number = [&](Node node) { return node == kNone ? 0 : at(node).number; };
+  const auto known = [&](Node node) { return node == kNone || constant_of(node); };
+  if (known(a) && known(b) && known(c)) return constant(evaluate(op, number(a), number(b), number(c)));
+  if (const Node simpler = simplified(op, a, b); simpler != kNone) return simpler;
+  if (commutes(op) && a > b) std::swap(a, b);
+  const auto [place, is_new] = operations_.try_emplace({op, a, b, c}, kNone);
+  if (!is_new) return place->second;
+  Pace pace = Pace::call;
+  for (const Node node : {a, b, c})
+    if (node != kNone) pace = std::max(pace, at(node).pace);
+  return place->second = add({.kind = Value::Kind::operation, .pace = pace, .op = op, .a = a, .b = b, .c = c});
+}
+
+Node TapeBuilder::simplified(Op op, Node a, Node b) {
+  switch (op) {
+    case Op::add:
+      return is(a, 0) ? b : is(b, 0) ? a : kNone;
+    case Op::subtract:
+      return is(b, 0) ? a : kNone;
+    case Op::multiply:
+      return is(a, 1) ? b : is(b, 1) ? a : kNone;
+    case Op::divide:
+      return is(b, 1) ? a : quotient(a, b);
+    case Op::power:
+      return power(a, b);
+    case Op::sine:
+    case Op::cosine:
+      return trigonometric(op, a);
+    default:
+      return kNone;
+  }
+}
+
+/// Divisions take a processor ten times as long as products, and equations divide by the same number again and again.
+Node TapeBuilder::quotient(Node a, Node b) {
+  if (is(a, 1) || constant_of(b)) return kNone;
+  return operation(Op::multiply, a, operation(Op::divide, constant(1), b));
+}
+
+Node TapeBuilder::power(Node base, Node exponent) {
+  const double* constant_exponent = constant_of(exponent);
+  if (!constant_exponent) return kNone;
+  const double n = *constant_exponent;
+  if (n == 0) return constant(1);
+  if (n == 0.5) return operation(Op::square_root, base);
+  if (n != std::floor(n) || std::abs(n) > kLargestChain) return kNone;
+  Node product = base;
+  for (int i = 1; i < std::abs(static_cast<int>(n)); ++i) product = operation(Op::multiply, product, base);
+  return n > 0 ? product : operation(Op::divide, constant(1), product);
+}
+
+std::optional<TapeBuilder::Trigonometry> TapeBuilder::trigonometry_of(Node node) {
+  if (const auto known = trigonometry_.find(node); known != trigonometry_.end()) return known->second;
+  const Value value = at(node);
+  if (value.kind != Value::Kind::operation || (value.op != Op::add && value.op != Op::subtract)) return {};
+  const auto a = trigonometry_of(value.a), b = trigonometry_of(value.b);
+  if (!a || !b) return {};
+  const auto times = [&](Node x, Node y) { return operation(Op::multiply, x, y); };
+  const bool sum = value.op == Op::add;
+  const Trigonometry both{
+      operation(sum ? Op::add : Op::subtract, times(a->sine, b->cosine), times(a->cosine, b->sine)),
+      operation(sum ? Op::subtract : Op::add, times(a->cosine, b->cosine), times(a->sine, b->sine))};
+  trigonometry_[node] = both;
+  return both;
+}
+
+Node TapeBuilder::trigonometric(Op op, Node a) {
+  const auto known = trigonometry_of(a);
+  if (!known) return kNone;
+  return op == Op::sine ? known->sine : known->cosine;
+}
+
+namespace {
+
+/// Slots for values that are needed for a while.
+class SlotPool {
+ public:
+  explicit SlotPool(std::int32_t first) : next_(first) {}
+  std::int32_t take() {
+    if (free_.empty()) return next_++;
+    const std::int32_t slot = free_.back();
+    free_.pop_back();
+    return slot;
+  }
+  void give_back(std::int32_t slot) { free_.push_back(slot); }
+  std::int32_t slots() const { return next_; }
+
+ private:
+  std::int32_t next_;
+  std::vector<std::int32_t> free_;
+};
+
+}  // namespace
+
+/// Values that outputs need, in order, with sums of products as one operation.
+class TapeBuilder::Writer {
+ public:
+  Writer(std::vector<Value> values, const std::vector<Node>& outputs)
+      : values_(std::move(values)), outputs_(outputs), uses_(values_.size(), 0), slots_(values_.size(), 0) {
+    for (const Node output : outputs_) count(output);
+    fuse();
+  }
+
+  Tape write() {
+    Tape tape;
+    place_constants_and_inputs(tape);
+    SlotPool pool(tape.slots_of_inputs());
+    for (const Pace pace : {Pace::call, Pace::block, Pace::always})
+      for (std::size_t i = 0; i < values_.size(); ++i)
+        if (is_operation(i) && values_[i].pace == pace && uses_[i] > 0) write(static_cast<Node>(i), pool, tape);
+    for (const Node output : outputs_) tape.outputs.push_back(slot(output));
+    tape.slots = pool.slots();
+    return tape;
+  }
+
+ private:
+  Value& at(Node node) { return values_[static_cast<std::size_t>(node)]; }
+  int& uses(Node node) { return uses_[static_cast<std::size_t>(node)]; }
+  std::int32_t& slot(Node node) { return slots_[static_cast<std::size_t>(node)]; }
+  bool is_operation(std::size_t i) const { return values_[i].kind == Value::Kind::operation; }
+
+  void count(Node node) {
+    if (uses(node)++ > 0) return;
+    for (const Node argument : {at(node).a, at(node).b, at(node).c})
+      if (argument != kNone) count(argument);
+  }
+
+  /// Of the same pace: what is computed less often stays so.
+  bool is_product_of_its_own(Node node, Pace pace) {
+    return at(node).op == Op::multiply && is_operation(static_cast<std::size_t>(node)) && uses(node) == 1 &&
+           at(node).pace == pace;
+  }
+
+  void fuse() {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      if (!is_operation(i) || uses_[i] == 0) continue;
+      Value& value = values_[i];
+      if (value.op != Op::add && value.op != Op::subtract) continue;
+      const bool sum = value.op == Op::add;
+      const Node product = is_product_of_its_own(value.b, value.pace)          ? value.b
+                           : sum && is_product_of_its_own(value.a, value.pace) ? value.a
+                                                                               : kNone;
+      if (product == kNone) continue;
+      const Node other = product == value.b ? value.a : value.b;
+      value.op = sum ? Op::multiply_add : Op::negative_multiply_add;
+      value.a = at(product).a, value.b = at(product).b, value.c = other;
+      uses(product) = 0;
+    }
+  }
+
+  void place_constants_and_inputs(Tape& tape) {
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      if (values_[i].kind == Value::Kind::constant && uses_[i] > 0) {
+        slots_[i] = static_cast<std::int32_t>(tape.constants.size());
+        tape.constants.push_back(values_[i].number);
+      }
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      if (values_[i].kind == Value::Kind::input) slots_[i] = tape.input_slot(tape.inputs++);
+  }
+
+  /// What is computed anew for each block has slots that others take when it is no longer needed; the rest stays.
+  void write(Node node, SlotPool& pool, Tape& tape) {
+    const Value& value = at(node);
+    const auto argument = [&](Node of) { return of == kNone ? 0 : slot(of); };
+    const Instruction instruction{value.op, 0, argument(value.a), argument(value.b), argument(value.c)};
+    if (value.pace == Pace::always)
+      for (const Node of : {value.a, value.b, value.c}) release(of, pool);
+    slot(node) = pool.take();
+    auto& code = tape.code[static_cast<std::size_t>(value.pace)];
+    code.push_back(instruction);
+    code.back().out = slot(node);
+  }
+
+  void release(Node node, SlotPool& pool) {
+    if (node == kNone || at(node).kind != Value::Kind::operation || at(node).pace != Pace::always) return;
+    if (--uses(node) == 0) pool.give_back(slot(node));
+  }
+
+  std::vector<Value> values_;
+  const std::vector<Node>& outputs_;
+  std::vector<int> uses_;  // by values and outputs that are needed themselves
+  std::vector<std::int32_t> slots_;
+};
+
+Tape TapeBuilder::tape(const std::vector<Node>& outputs) const { return Writer(values_, outputs).write(); }
+
+}  // namespace rehearse::expression

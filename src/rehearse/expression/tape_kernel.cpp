@@ -1,0 +1,190 @@
+#include "rehearse/expression/tape_kernel.hpp"
+
+#ifndef HWY_BASELINE_TARGETS
+#define HWY_BASELINE_TARGETS HWY_AVX2
+#endif
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rehearse/expression/tape_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// Highway's order matters: the functions come after the target.
+#include <hwy/contrib/math/math-inl.h>
+
+#include "rehearse/core/sine-inl.hpp"
+#include "rehearse/expression/scalar.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace rehearse::expression {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<double>;
+using V = hn::Vec<D>;
+
+template <class F>
+HWY_INLINE void each(double* out, const double* a, Index n, F f) {
+  const D d;
+  for (Index i = 0; i < n; i += static_cast<Index>(hn::Lanes(d))) hn::Store(f(hn::Load(d, a + i)), d, out + i);
+}
+template <class F>
+HWY_INLINE void each(double* out, const double* a, const double* b, Index n, F f) {
+  const D d;
+  for (Index i = 0; i < n; i += static_cast<Index>(hn::Lanes(d)))
+    hn::Store(f(hn::Load(d, a + i), hn::Load(d, b + i)), d, out + i);
+}
+template <class F>
+HWY_INLINE void each(double* out, const double* a, const double* b, const double* c, Index n, F f) {
+  const D d;
+  for (Index i = 0; i < n; i += static_cast<Index>(hn::Lanes(d)))
+    hn::Store(f(hn::Load(d, a + i), hn::Load(d, b + i), hn::Load(d, c + i)), d, out + i);
+}
+
+HWY_INLINE V keep_nan(V in, V out) { return hn::IfThenElse(hn::IsNaN(in), in, out); }
+/// Highway 1.0.3's is 0 of NaN and of what overflows.
+HWY_INLINE V exponential(V x) {
+  const D d;
+  return keep_nan(x, hn::IfThenElse(hn::Gt(x, hn::Set(d, 709.78)), hn::Inf(d), hn::Exp(d, x)));
+}
+HWY_INLINE V smaller(V a, V b) { return hn::IfThenElse(hn::Or(hn::IsNaN(a), hn::Lt(a, b)), a, b); }
+template <class M>
+HWY_INLINE V truth(M holds, V a, V b) {
+  const D d;
+  return keep_nan(a, keep_nan(b, hn::IfThenElseZero(holds, hn::Set(d, 1.0))));
+}
+HWY_INLINE auto is_true(V a) { return hn::Ne(a, hn::Zero(D())); }
+
+/// Where there is no vectorised function.
+HWY_INLINE void one_by_one(const Instruction& i, double* out, const double* a, const double* b, Index n) {
+  for (Index k = 0; k < n; ++k) out[k] = evaluate(i.op, a[k], b[k], 0);
+}
+
+HWY_INLINE void execute(const Instruction& i, double* slots, Index n) {
+  double* out = slots + i.out * kBlock;
+  const double *a = slots + i.a * kBlock, *b = slots + i.b * kBlock, *c = slots + i.c * kBlock;
+  const D d;
+  switch (i.op) {
+    case Op::negate:
+      return each(out, a, n, [](V x) HWY_ATTR { return hn::Neg(x); });
+    case Op::sine:
+      return each(out, a, n, [d](V x) HWY_ATTR { return rehearse::HWY_NAMESPACE::sine(d, x); });
+    case Op::cosine:
+      return each(out, a, n, [d](V x) HWY_ATTR { return rehearse::HWY_NAMESPACE::cosine(d, x); });
+    case Op::hyperbolic_tangent:
+      return each(out, a, n, [d](V x) HWY_ATTR { return keep_nan(x, hn::Tanh(d, x)); });
+    case Op::exponential:
+      return each(out, a, n, [](V x) HWY_ATTR { return exponential(x); });
+    case Op::square_root:
+      return each(out, a, n, [](V x) HWY_ATTR { return hn::Sqrt(x); });
+    case Op::absolute:
+      return each(out, a, n, [](V x) HWY_ATTR { return hn::Abs(x); });
+    case Op::add:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return hn::Add(x, y); });
+    case Op::subtract:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return hn::Sub(x, y); });
+    case Op::multiply:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return hn::Mul(x, y); });
+    case Op::divide:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return hn::Div(x, y); });
+    case Op::minimum:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return smaller(x, y); });
+    case Op::maximum:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return hn::Neg(smaller(hn::Neg(x), hn::Neg(y))); });
+    case Op::less:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return truth(hn::Lt(x, y), x, y); });
+    case Op::less_equal:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return truth(hn::Le(x, y), x, y); });
+    case Op::equal:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return truth(hn::Eq(x, y), x, y); });
+    case Op::not_equal:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return truth(hn::Ne(x, y), x, y); });
+    case Op::logical_and:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return truth(hn::And(is_true(x), is_true(y)), x, y); });
+    case Op::logical_or:
+      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return truth(hn::Or(is_true(x), is_true(y)), x, y); });
+    case Op::multiply_add:
+      return each(out, a, b, c, n, [](V x, V y, V z) HWY_ATTR { return hn::MulAdd(x, y, z); });
+    case Op::negative_multiply_add:
+      return each(out, a, b, c, n, [](V x, V y, V z) HWY_ATTR { return hn::NegMulAdd(x, y, z); });
+    case Op::where:
+      return each(out, a, b, c, n,
+                  [](V x, V y, V z) HWY_ATTR { return keep_nan(x, hn::IfThenElse(is_true(x), y, z)); });
+    default:
+      return one_by_one(i, out, a, b, n);
+  }
+}
+
+HWY_INLINE Index whole_vectors(Index rows) { return (rows + 7) / 8 * 8; }
+
+HWY_INLINE void run_code(const Code& code, double* slots, Index n) {
+  for (Index i = 0; i < code.count; ++i) execute(code.instructions[i], slots, n);
+}
+
+HWY_INLINE void copy(double* to, const double* from, Index n) {
+  each(to, from, n, [](V v) HWY_ATTR { return v; });
+}
+
+/// states = start + h Σ_j a_j k_j over the first `Stages` slopes; k: a slot for each state, stage by stage.
+template <int Stages>
+HWY_INLINE void combine(const double* start, const double* k, Index states, const double (&a)[Stages], double h,
+                        double* out, Index n) {
+  const D d;
+  V weights[Stages];
+  for (int j = 0; j < Stages; ++j) weights[j] = hn::Set(d, h * a[j]);
+  for (Index s = 0; s < states; ++s)
+    for (Index i = 0; i < n; i += static_cast<Index>(hn::Lanes(d))) {
+      V sum = hn::Load(d, start + s * kBlock + i);
+      for (int j = 0; j < Stages; ++j)
+        if (a[j] != 0) sum = hn::MulAdd(weights[j], hn::Load(d, k + (j * states + s) * kBlock + i), sum);
+      hn::Store(sum, d, out + s * kBlock + i);
+    }
+}
+
+void IntegrateKernel(const BlockOde& ode, const Block& block, double* work, double h, Index steps) {
+  static constexpr double kA2[] = {1.0 / 5}, kA3[] = {3.0 / 40, 9.0 / 40}, kA4[] = {44.0 / 45, -56.0 / 15, 32.0 / 9},
+                          kA5[] = {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+                          kA6[] = {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+                          kB[] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84};
+  double* slots = block.slots;
+  const Index n = whole_vectors(block.rows), states = ode.states;
+  double *x = slots + ode.first_state * kBlock, *start = work, *k = work + states * kBlock;
+  const auto slopes = [&](int stage) HWY_ATTR {
+    run_code(ode.code, slots, n);
+    for (Index s = 0; s < states; ++s) copy(k + (stage * states + s) * kBlock, slots + ode.slopes[s] * kBlock, n);
+  };
+  for (Index step = 0; step < steps; ++step) {
+    for (Index s = 0; s < states; ++s) copy(start + s * kBlock, x + s * kBlock, n);
+    slopes(0);
+    combine(start, k, states, kA2, h, x, n);
+    slopes(1);
+    combine(start, k, states, kA3, h, x, n);
+    slopes(2);
+    combine(start, k, states, kA4, h, x, n);
+    slopes(3);
+    combine(start, k, states, kA5, h, x, n);
+    slopes(4);
+    combine(start, k, states, kA6, h, x, n);
+    slopes(5);
+    combine(start, k, states, kB, h, x, n);
+  }
+}
+
+void RunKernel(const Code& code, const Block& block) { run_code(code, block.slots, whole_vectors(block.rows)); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rehearse::expression
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rehearse::expression {
+
+HWY_EXPORT(RunKernel);
+HWY_EXPORT(IntegrateKernel);
+
+void run(const Code& code, const Block& block) { HWY_DYNAMIC_DISPATCH(RunKernel)(code, block); }
+
+void integrate(const BlockOde& ode, const Block& block, double* work, double h, Index steps) {
+  HWY_DYNAMIC_DISPATCH(IntegrateKernel)(ode, block, work, h, steps);
+}
+
+}  // namespace rehearse::expression
+#endif

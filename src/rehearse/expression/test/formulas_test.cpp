@@ -1,0 +1,81 @@
+#include "rehearse/expression/formulas.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+#include "run_formula.hpp"
+
+namespace rehearse::expression {
+namespace {
+
+TEST(Formulas, FollowTheRulesOfArithmetic) {
+  EXPECT_EQ(value_of("2 + 3 * 4"), 14);
+  EXPECT_EQ(value_of("(2 + 3) * 4"), 20);
+  EXPECT_EQ(value_of("2 - 3 - 4"), -5);
+  EXPECT_EQ(value_of("-x^2", 3), -9);
+  EXPECT_EQ(value_of("2^3^2"), 512);
+  EXPECT_EQ(value_of("x / y / 2", 12, 3), 2);
+  EXPECT_EQ(value_of("x - -y", 1, 2), 3);
+  EXPECT_EQ(value_of("1e-3 * x", 2), 2e-3);
+  EXPECT_NEAR(value_of("sin(pi / 2) + atan2(x, y)", 1, 1), 1 + std::numbers::pi / 4, 1e-15);
+  EXPECT_EQ(value_of("max(x, y) + clamp(x, -1, 1)", 5, 7), 8);
+}
+
+TEST(Formulas, CompareAndChoose) {
+  EXPECT_EQ(value_of("x < y", 1, 2), 1);
+  EXPECT_EQ(value_of("x > y", 1, 2), 0);
+  EXPECT_EQ(value_of("x >= 1 && y <= 2", 1, 2), 1);
+  EXPECT_EQ(value_of("x == 2 || y != 2", 1, 2), 0);
+  EXPECT_EQ(value_of("!(x < y)", 1, 2), 0);
+  EXPECT_EQ(value_of("2 == x", 2), 1) << "a number first";
+  EXPECT_EQ(value_of("where(abs(x) < 1, x, y)", 0.5, 7), 0.5);
+  EXPECT_EQ(value_of("where(abs(x) < 1, x, y)", 1.5, 7), 7);
+}
+
+TEST(Formulas, MayUseDefinitionsInAnyOrder) {
+  Formulas formulas;
+  const Node x = formulas.input("x", Pace::always);
+  formulas.define("twice_square", "2 * square");
+  formulas.define("square", "x * x");
+  EXPECT_EQ(formulas.named("x"), x);
+  const Tape tape = formulas.builder().tape({formulas.compile("twice_square + square")});
+  EXPECT_EQ(run_tape(tape, Matrix{{3}}), (Matrix{{27}}));
+}
+
+std::string complaint_of(const std::string& formula) {
+  Formulas formulas;
+  formulas.input("theta1", Pace::always);
+  formulas.define("a", "b + 1");
+  formulas.define("b", "a + 1");
+  formulas.define("broken", "1 +");
+  try {
+    formulas.compile(formula);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Formulas, ErrorsSayWhatIsWrong) {
+  EXPECT_EQ(complaint_of("theta + 1"), "unknown name 'theta', did you mean 'theta1'? (known: theta1, a, b, broken)");
+  EXPECT_EQ(complaint_of("a"), "the definition of 'a' needs itself: a → b → a");
+  EXPECT_EQ(complaint_of("theta1 ? 1 : 2"), "'a ? b : c' is written where(a, b, c)");
+  for (const char* wrong : {"", "1 +", "sin()", "sin(1, 2)", "(theta1", "theta1)", "theta1 theta1", "1..2", "min(1)",
+                            "theta1 = 2", "\"text\"", "sin", "broken", "theta1 $ 2", "1 < "})
+    EXPECT_NE(complaint_of(wrong), "") << wrong;
+}
+
+TEST(Formulas, NamesAreNamesAndGivenOnce) {
+  Formulas formulas;
+  formulas.input("x", Pace::always);
+  for (const char* wrong : {"", "1x", "x y", "x", "sin", "pi", "θ"}) {
+    EXPECT_THROW(formulas.input(wrong, Pace::always), InvalidInput) << wrong;
+    EXPECT_THROW(formulas.define(wrong, "1"), InvalidInput) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace rehearse::expression

@@ -1,0 +1,92 @@
+#include "rehearse/expression/tape_builder.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "run_formula.hpp"
+
+namespace rehearse::expression {
+namespace {
+
+std::size_t length(const Tape& tape) { return tape.code[0].size() + tape.code[1].size() + tape.code[2].size(); }
+
+TEST(TapeBuilder, TheSameOperationIsDoneOnce) {
+  TapeBuilder builder;
+  const Node x = builder.input(Pace::always), y = builder.input(Pace::always);
+  EXPECT_EQ(builder.operation(Op::add, x, y), builder.operation(Op::add, y, x));
+  EXPECT_NE(builder.operation(Op::subtract, x, y), builder.operation(Op::subtract, y, x));
+}
+
+TEST(TapeBuilder, ConstantsAreComputedAtOnce) {
+  TapeBuilder builder;
+  const Node x = builder.input(Pace::always);
+  const Node six = builder.operation(Op::multiply, builder.constant(2), builder.constant(3));
+  EXPECT_EQ(*builder.constant_of(six), 6);
+  EXPECT_EQ(builder.constant_of(x), nullptr);
+  EXPECT_EQ(builder.operation(Op::add, x, builder.constant(0)), x);
+  EXPECT_EQ(builder.operation(Op::multiply, builder.constant(1), x), x);
+  EXPECT_EQ(builder.operation(Op::divide, x, builder.constant(1)), x);
+}
+
+TEST(TapeBuilder, SumsOfProductsAreFusedAndWhatNobodyNeedsIsLeftOut) {
+  TapeBuilder builder;
+  const Node x = builder.input(Pace::always), y = builder.input(Pace::always);
+  builder.operation(Op::sine, x);
+  const Node sum = builder.operation(Op::add, builder.operation(Op::multiply, x, y), x);
+  const Tape tape = builder.tape({sum});
+  ASSERT_EQ(length(tape), 1u);
+  EXPECT_EQ(tape.code[2][0].op, Op::multiply_add);
+  EXPECT_EQ(run_tape(tape, Matrix{{2, 3}, {4, 5}}), (Matrix{{8}, {24}}));
+}
+
+TEST(TapeBuilder, EveryValueIsComputedAtThePaceOfItsInputs) {
+  TapeBuilder builder;
+  const Node phi = builder.input(Pace::call), u = builder.input(Pace::block), x = builder.input(Pace::always);
+  const Node square = builder.operation(Op::multiply, phi, phi), push = builder.operation(Op::add, square, u);
+  const Tape tape = builder.tape({builder.operation(Op::multiply, push, x)});
+  for (const auto& code : tape.code)
+    EXPECT_EQ(code.size(), 1u) << "and no product is fused into a sum of a faster pace";
+  EXPECT_EQ(run_tape(tape, Matrix{{2, 3, 5}}), (Matrix{{35}}));
+}
+
+TEST(TapeBuilder, SmallPowersAreProducts) {
+  for (int n = -4; n <= 5; ++n) {
+    TapeBuilder builder;
+    const Node x = builder.input(Pace::always);
+    const Tape tape = builder.tape({builder.operation(Op::power, x, builder.constant(n))});
+    EXPECT_NEAR(run_tape(tape, Matrix{{-1.5}})(0, 0), std::pow(-1.5, n), 1e-14) << n;
+    for (const Instruction& instruction : tape.code[2]) EXPECT_NE(instruction.op, Op::power);
+  }
+}
+
+TEST(TapeBuilder, SinesOfSumsFollowFromThoseThatAreKnown) {
+  TapeBuilder builder;
+  const Node a = builder.input(Pace::always), b = builder.input(Pace::always);
+  const Node sine_a = builder.input(Pace::always), cosine_a = builder.input(Pace::always),
+             sine_b = builder.input(Pace::always), cosine_b = builder.input(Pace::always);
+  builder.known_trigonometry(a, sine_a, cosine_a);
+  builder.known_trigonometry(b, sine_b, cosine_b);
+  EXPECT_EQ(builder.operation(Op::sine, a), sine_a);
+  const Node difference = builder.operation(Op::subtract, a, b), both = builder.operation(Op::add, difference, a);
+  const Tape tape = builder.tape({builder.operation(Op::sine, both), builder.operation(Op::cosine, both)});
+  for (const Instruction& instruction : tape.code[2]) {
+    EXPECT_NE(instruction.op, Op::sine);
+    EXPECT_NE(instruction.op, Op::cosine);
+  }
+  const double x = 0.7, y = -1.3;
+  const Matrix at{{x, y, std::sin(x), std::cos(x), std::sin(y), std::cos(y)}};
+  EXPECT_NEAR(run_tape(tape, at)(0, 0), std::sin(2 * x - y), 1e-15);
+  EXPECT_NEAR(run_tape(tape, at)(0, 1), std::cos(2 * x - y), 1e-15);
+}
+
+TEST(TapeBuilder, SlotsAreUsedAgain) {
+  TapeBuilder builder;
+  const Node x = builder.input(Pace::always);
+  Node chain = x;
+  for (int i = 0; i < 100; ++i) chain = builder.operation(Op::hyperbolic_tangent, chain);
+  EXPECT_LE(builder.tape({chain}).slots, 3);
+}
+
+}  // namespace
+}  // namespace rehearse::expression
