@@ -12,8 +12,10 @@
 #include "rehearse/experiment/preset_check.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run.hpp"
+#include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -47,19 +49,44 @@ Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string
   }
 }
 
-std::optional<SpecFile> given_file(const LearnArguments& arguments, Violations& violations) {
-  if (!arguments.scenario.ends_with(".toml")) return std::nullopt;
+/// A TOML file that is named instead of a scenario: a robot, or the spec of a run.
+struct GivenFile {
+  std::string text;
+  bool describes_run = false;
+};
+
+std::optional<GivenFile> read_given(const std::string& scenario) {
+  if (!scenario.ends_with(".toml")) return std::nullopt;
+  GivenFile file{files::read_file(scenario, files::Links::follow)};
+  file.describes_run = files::parse_toml(file.text, scenario).contains("run");
+  return file;
+}
+
+std::optional<SpecFile> spec_file(const LearnArguments& arguments, const std::optional<GivenFile>& file,
+                                  Violations& violations) {
+  if (!file || !file->describes_run) return std::nullopt;
   const auto given = [&](const char* option) {
     return fmt::format("{} cannot be given with {}, which says it already", option, arguments.scenario);
   };
   violations.require(!arguments.learner, given("--learner"));
   violations.require(!arguments.prior, given("--prior"));
-  return SpecFile(files::read_file(arguments.scenario, files::Links::follow), arguments.scenario);
+  return SpecFile(file->text, arguments.scenario);
 }
 
-Spec named_spec(const LearnArguments& arguments, Violations& violations) {
+/// With the robot that is named, or that of the run that is named.
+Catalogue with_given(const Catalogue& catalogue, const LearnArguments& arguments,
+                     const std::optional<GivenFile>& file) {
+  if (!file) return catalogue;
+  if (!file->describes_run) return catalogue.with_robot(file->text, arguments.scenario);
+  const std::filesystem::path folder = std::filesystem::path(arguments.scenario).parent_path();
+  return experiment::with_robot_beside(catalogue, folder / experiment::kRobotFile);
+}
+
+Spec named_spec(const Catalogue& catalogue, const LearnArguments& arguments, Violations& violations) {
   Spec spec;
   spec.scenario = arguments.scenario;
+  for (const experiment::RobotFile& robot : catalogue.robots)
+    if (robot.source == arguments.scenario) spec.scenario = robot.name;
   spec.learner = arguments.learner.value_or("");
   spec.prior = arguments.prior.value_or("");
   violations.require(!arguments.prior || !arguments.prior->empty(), "--prior names none");
@@ -117,10 +144,12 @@ int run_on_console(const std::filesystem::path& folder, Index threads, Start sta
 
 }  // namespace
 
-int learn(const Catalogue& catalogue, const LearnArguments& arguments) {
+int learn(const Catalogue& built_in, const LearnArguments& arguments) {
   Violations violations;
-  const std::optional<SpecFile> file = given_file(arguments, violations);
-  Spec spec = file ? file->spec() : named_spec(arguments, violations);
+  const std::optional<GivenFile> given = read_given(arguments.scenario);
+  const Catalogue catalogue = with_given(built_in, arguments, given);
+  const std::optional<SpecFile> file = spec_file(arguments, given, violations);
+  Spec spec = file ? file->spec() : named_spec(catalogue, arguments, violations);
   set_numbers(spec, arguments.trials, arguments.seed, violations);
   const Index threads = threads_of(arguments.threads, violations);
   spec.until_solved |= arguments.until_solved;

@@ -41,26 +41,26 @@ killed_rank() {
   fail "rank $rank ends before it can be killed, six times"
 }
 
-short_campaign '["mi", "black-drops-prior"]' 1-3 >c.toml
+short_campaign '["mi", "black-drops-prior"]' 1-8 >c.toml
 
 "$program" campaign c.toml --out one >/dev/null || fail "the campaign of one process"
 ranks 3 campaign c.toml --out three >output 2>&1 || fail "the campaign of three ranks: $(cat output)"
 same one three "${tables[@]}"
-[ "$(grep -c '^c: 6 runs' output)" = 1 ] || fail "not one rank alone speaks: $(cat output)"
-[ "$(grep -c '^\[./6\]' output)" = 6 ] || fail "not every run is told of once: $(cat output)"
+[ "$(grep -c '^c: 16 runs' output)" = 1 ] || fail "not one rank alone speaks: $(cat output)"
+[ "$(grep -c '^\[ *[0-9]*/16\]' output)" = 16 ] || fail "not every run is told of once: $(cat output)"
 
 "$mpirun" --oversubscribe -n 2 bash -c \
   "'$program' campaign c.toml --out shares --threads 1 --share \$((OMPI_COMM_WORLD_RANK + 1))/2" >output 2>&1 ||
   fail "shares that mpirun started: $(cat output)"
 "$program" campaign c.toml --out shares >output || fail "the tables of shares that mpirun started"
-grep -q "6 of 6 runs done already" output || fail "the shares leave runs to do: $(cat output)"
+grep -q "16 of 16 runs done already" output || fail "the shares leave runs to do: $(cat output)"
 same one shares "${tables[@]}"
 
 first_done_run() { compgen -G "$1/runs/*/done" >/dev/null; }
 for rank in 0 1; do
   run=killed-$rank
   killed_rank $rank $run first_done_run -- campaign c.toml
-  echo "rank $rank killed with $(find $run/runs -name done | wc -l) of 6 runs done"
+  echo "rank $rank killed with $(find $run/runs -name done | wc -l) of 16 runs done"
   for done in "$run"/runs/*/done; do echo mine >"${done%done}timings.csv"; done
   finished=$(grep -lx mine $run/runs/*/timings.csv | wc -l)
   ranks 2 campaign c.toml --out $run >output 2>&1 || fail "starting $run again: $(cat output)"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 
 namespace rehearse::experiment {
@@ -43,6 +44,22 @@ std::unique_ptr<scenario::ScenarioBuilder> Catalogue::scenario(const std::string
 
 std::unique_ptr<learners::LearnerBuilder> Catalogue::learner(const std::string& name) const {
   return named(learner_builders(), name);
+}
+
+Catalogue Catalogue::with_robot(const std::string& text, const std::string& source) const {
+  if (!read_robot) throw InvalidInput(fmt::format("{}: this program reads no robots from files", source));
+  const std::string name = read_robot(text, source)->name();
+  if (scenario(name)) throw InvalidInput(fmt::format("{}: name = '{}' is that of another scenario", source, name));
+  Catalogue with = *this;
+  with.robots.push_back({name, source, text});
+  with.scenarios.emplace_back([read = read_robot, text, source] { return read(text, source); });
+  return with;
+}
+
+const RobotFile* Catalogue::robot(const std::string& scenario) const {
+  for (const RobotFile& each : robots)
+    if (each.name == scenario) return &each;
+  return nullptr;
 }
 
 std::string Catalogue::why_missing(const std::string& kind, const std::string& name) const {

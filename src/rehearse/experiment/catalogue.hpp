@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rehearse/learners/learner.hpp"
@@ -21,17 +22,33 @@ struct NamedText {
   std::string name, text;
 };
 
+/// A robot that a file describes.
+struct RobotFile {
+  std::string name;    // of its scenario
+  std::string source;  // the file
+  std::string text;
+};
+
 /// What there is to choose from. apps generates one from the folders of robots, learners and presets; a program with a
 /// robot of its own makes one by hand. A value; every call makes new builders, because their options can be set.
 struct Catalogue {
   std::vector<std::function<std::unique_ptr<scenario::ScenarioBuilder>()>> scenarios;
   std::vector<std::function<std::vector<std::unique_ptr<learners::LearnerBuilder>>()>> learner_families;
   std::vector<NotBuilt> not_built;
+  std::function<std::unique_ptr<scenario::ScenarioBuilder>(std::string_view text, const std::string& source)>
+      read_robot;                          // makes a scenario of a robot's file; null: this program reads none
+  std::vector<RobotFile> robots;           // whose scenarios are there, too
   std::vector<NamedText> presets;          // "as-published"
   std::vector<NamedText> default_presets;  // each under the name of its scenario, where it applies unasked
 
   std::vector<std::unique_ptr<scenario::ScenarioBuilder>> scenario_builders() const;
   std::vector<std::unique_ptr<learners::LearnerBuilder>> learner_builders() const;
+
+  /// With the robot of a file. Throws InvalidInput if it is none, or has the name of another scenario.
+  Catalogue with_robot(const std::string& text, const std::string& source) const;
+
+  /// The file of a scenario; null if it has none.
+  const RobotFile* robot(const std::string& scenario) const;
 
   /// Null if there is none of that name.
   std::unique_ptr<scenario::ScenarioBuilder> scenario(const std::string& name) const;

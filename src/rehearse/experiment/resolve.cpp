@@ -6,6 +6,7 @@
 #include "rehearse/core/names.hpp"
 #include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/priors.hpp"
+#include "rehearse/files/checksum.hpp"
 #include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::experiment {
@@ -29,6 +30,7 @@ class Resolver {
     for (const auto& line : field_violations([this](FieldVisitor& v) { spec_.fields(v); })) violations_.add(line);
     if (!scenario_builder_) violations_.add(catalogue.why_missing("scenario", spec.scenario));
     if (!learner_builder_) violations_.add(catalogue.why_missing("learner", spec.learner));
+    check_robot(catalogue.robot(spec.scenario));
     if (!scenario_builder_ || !learner_builder_) violations_.throw_if_any();
   }
 
@@ -51,10 +53,20 @@ class Resolver {
     auto prior = contained([&] { return priors.prior(); });
     violations_.throw_if_any();
     complete(names, priors);
-    return {spec_, *scenario, std::move(*prior), std::move(learner_builder_), std::move(comments_)};
+    return {spec_, *scenario, std::move(*prior), std::move(learner_builder_), std::move(comments_), std::move(robot_)};
   }
 
  private:
+  void check_robot(const RobotFile* file) {
+    const std::string checksum = file ? fmt::format("{:016x}", files::checksum(file->text)) : "";
+    if (!spec_.robot.empty() && spec_.robot != checksum)
+      violations_.add(file ? fmt::format("{} has another robot than this run began with", file->source)
+                           : fmt::format("the file of the robot '{}' is missing", spec_.scenario));
+    spec_.robot = checksum;
+    comments_["robot"] = "checksum of robot.toml, the file that describes the robot";
+    if (file) robot_ = file->text;
+  }
+
   /// What `make` returns, or nothing when it finds its input invalid.
   template <class Make>
   auto contained(Make make) -> std::optional<decltype(make())> {
@@ -170,6 +182,7 @@ class Resolver {
 
   Spec spec_;
   Comments comments_;
+  std::string robot_;
   Violations violations_;
   std::unique_ptr<scenario::ScenarioBuilder> scenario_builder_;
   std::unique_ptr<learners::LearnerBuilder> learner_builder_;

@@ -25,16 +25,23 @@ std::string already_exists(const fs::path& path) {
 
 }  // namespace
 
+Catalogue with_robot_beside(const Catalogue& catalogue, const fs::path& file) {
+  if (!fs::exists(file)) return catalogue;
+  return catalogue.with_robot(files::read_file(file), file.string());
+}
+
 RunFolder::RunFolder(fs::path path, Spec spec, files::FolderLock lock)
     : path_(std::move(path)), spec_(std::move(spec)), lock_(std::move(lock)) {}
 
-RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comments& comments) {
+RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comments& comments,
+                            const std::string& robot) {
   const fs::path path = files::without_slash(given);
   if (fs::exists(fs::symlink_status(path))) throw InvalidInput(already_exists(path));
   const fs::path unborn = make_unborn(path);
   try {
     files::FolderLock lock(unborn);
     files::write_file(unborn / kSpec, to_toml(spec, comments), files::Durability::power);
+    if (!robot.empty()) files::write_file(unborn / kRobotFile, robot, files::Durability::power);
     files::write_file(unborn / kCheckpoint, to_checkpoint({}, fingerprint(spec)), files::Durability::power);
     if (!files::rename_new(unborn, path)) throw InvalidInput(already_exists(path));
     return {path, spec, std::move(lock)};

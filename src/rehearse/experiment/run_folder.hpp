@@ -10,13 +10,21 @@
 
 namespace rehearse::experiment {
 
+/// Beside spec.toml: the file that describes the robot.
+inline constexpr const char* kRobotFile = "robot.toml";
+
+/// With the robot of this file, if there is one.
+Catalogue with_robot_beside(const Catalogue& catalogue, const std::filesystem::path& file);
+
 /// The folder of one run, locked while this lives. The checkpoint is the truth and each file is replaced in one step:
 /// after a kill at any instant, `load` and `write_tables` bring the rest up to date.
 class RunFolder {
  public:
   /// A new folder with a complete spec and no trial. It appears in one step, or not at all.
   /// Throws InvalidInput if there is anything of that name.
-  static RunFolder create(const std::filesystem::path& path, const Spec& spec, const Comments& comments = {});
+  /// robot: the text of the file that describes the robot, if there is one; it is kept.
+  static RunFolder create(const std::filesystem::path& path, const Spec& spec, const Comments& comments = {},
+                          const std::string& robot = {});
 
   /// Throws InvalidInput if it is no run folder, cannot be read, or is in use.
   static RunFolder open(const std::filesystem::path& path);

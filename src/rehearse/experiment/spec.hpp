@@ -25,6 +25,7 @@ enum class ToldBy { truth, measured };
 struct Spec {
   std::string scenario;
   std::string learner;
+  std::string robot;  // checksum of the file that describes the scenario's robot; empty: it is built in
   std::string prior;  // a name, several as "a,b,c", "oracle" (the plant's own dynamics), or empty: the default
   Index trials = 10;
   bool until_solved = false;  // ends before, with a trial that solves the task

@@ -81,6 +81,7 @@ void check_format(const toml::table& file, const std::string& source) {
 
 void read_run(files::TomlReader run, Spec& spec) {
   run.take("scenario", spec.scenario);
+  run.take("robot", spec.robot);
   run.take("learner", spec.learner);
   run.take("prior", spec.prior);
   run.take_fields([&](FieldVisitor& v) { spec.fields(v); });
@@ -109,8 +110,10 @@ std::vector<FileOption> read_options(const toml::table& file, files::TomlReader&
 std::string to_toml(const Spec& spec, const Comments& comments) {
   std::string text = fmt::format(
       "# A run of Rehearse, complete: `rehearse learn` of this file gives the same trials.csv.\n"
-      "format = {}\n\n[run]\nscenario = {}\nlearner = {}\n",
-      kFormat, in_quotes(spec.scenario), in_quotes(spec.learner));
+      "format = {}\n\n[run]\nscenario = {}\n",
+      kFormat, in_quotes(spec.scenario));
+  if (!spec.robot.empty()) text += option_line("robot = " + in_quotes(spec.robot), "robot", comments);
+  text += fmt::format("learner = {}\n", in_quotes(spec.learner));
   if (!spec.prior.empty()) text += fmt::format("prior = {}\n", in_quotes(spec.prior));
   text += option_line(fmt::format("trials = {}", spec.trials), "trials", comments);
   text += option_line(fmt::format("until_solved = {}", spec.until_solved), "until_solved", comments);

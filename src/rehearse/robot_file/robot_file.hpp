@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "rehearse/scenario/scenario.hpp"
+
+namespace rehearse::robot_file {
+
+/// The scenario of a robot that a file describes (docs/own-robot.md). Use it for a robot without a line of C++. Plant
+/// and priors are differential equations; options are `measurement_noise`, `substeps`, `evaluations`, those of the
+/// policy, and `plant.NAME` for every parameter of the plant. source: the file's name, for messages. Throws
+/// InvalidInput with a line for everything that is wrong, "SOURCE: line N: …".
+std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const std::string& source);
+
+}  // namespace rehearse::robot_file

@@ -1,0 +1,47 @@
+#pragma once
+// One table of a robot's file: takes formulas, numbers by name and lists of tables. For the sources of this room.
+
+#include <string>
+#include <vector>
+
+#include "rehearse/files/toml_reader.hpp"
+#include "rehearse/robot_file/robot.hpp"
+
+namespace rehearse::robot_file {
+
+class Table {
+ public:
+  Table(const toml::table& table, const std::string& where, files::FileViolations& violations)
+      : table_(table), where_(where), violations_(violations), reader_(table, where, violations) {}
+
+  files::TomlReader& reader() { return reader_; }
+  void wrong(const std::string& key, const std::string& message) { reader_.wrong(key, message); }
+  void finish() { reader_.finish(); }
+
+  Formula formula(const std::string& key);                // text or a number; empty: it is not there
+  std::vector<Formula> formulas(const std::string& key);  // a list of them, or one
+  Definitions definitions(const std::string& key);        // a table of them
+  bool number(const std::string& key, double& value, Bound bound = {});
+  bool interval(const std::string& key, Interval& value);
+
+  /// The tables of a table, or of a list of tables, in the order of the file, under their names; empty: none is there.
+  struct Part {
+    std::string name;
+    const toml::table* table;
+  };
+  std::vector<Part> tables(const std::string& key);
+  std::vector<const toml::table*> list(const std::string& key);
+
+ private:
+  Formula formula_of(const std::string& key, const toml::node& node);
+
+  const toml::table& table_;
+  std::string where_;
+  files::FileViolations& violations_;
+  files::TomlReader reader_;
+};
+
+/// Keys and values of a table in the order of the file.
+std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::table& table);
+
+}  // namespace rehearse::robot_file

@@ -1,0 +1,129 @@
+#include "rehearse/robot_file/read.hpp"
+
+#include <gtest/gtest.h>
+
+#include "example.hpp"
+
+namespace rehearse::robot_file {
+namespace {
+
+using example::complaint_of, example::kSwing, example::with;
+
+TEST(ReadRobot, TakesEverythingThatStandsInTheFile) {
+  const Robot robot = read(kSwing, "swing.toml");
+  EXPECT_EQ(robot.name, "swing");
+  EXPECT_EQ(robot.horizon, 20);
+  EXPECT_EQ(robot.state_names(), (std::vector<std::string>{"rate", "angle"}));
+  EXPECT_EQ(robot.states[0].scale, 10);
+  EXPECT_EQ(robot.states[1].variable.kind, StateKind::angle);
+  EXPECT_EQ(robot.actions[0].bounds.high, 2);
+  EXPECT_EQ(robot.reward.distance.size(), 2u);
+  ASSERT_EQ(robot.dynamics.size(), 1u);
+  EXPECT_EQ(robot.dynamics[0].rates[0].text, "torque / (m * l^2)");
+  EXPECT_EQ(robot.dynamics[0].rates[1].text, "rate") << "the state that is its rate";
+  EXPECT_EQ(robot.plant.parameters.values(), (Vector{{1, 0.5}}));
+  ASSERT_EQ(robot.priors.size(), 1u);
+  EXPECT_EQ(robot.priors[0].dynamics, "pendulum") << "of one there is no question";
+  EXPECT_EQ(robot.priors[0].parameters[0].value, 1.3);
+  EXPECT_EQ(robot.priors[0].parameters[0].box.high, 2);
+  EXPECT_EQ(robot.priors[0].parameters[1].kind, Parameter::Kind::fixed);
+}
+
+TEST(ReadRobot, PriorsKeepTheirOrder) {
+  const Robot robot = read(kSwing + "[prior.a]\n[prior.b]\n", "swing.toml");
+  ASSERT_EQ(robot.priors.size(), 3u);
+  EXPECT_EQ(robot.priors[0].name, "heavy");
+  EXPECT_EQ(robot.priors[2].name, "b");
+}
+
+TEST(ReadRobot, ParametersMayHaveChoices) {
+  const Robot robot = read(with("tune.m = [0.5, 2]", "tune.m = { choices = [1, 1.3, 2] }"), "swing.toml");
+  EXPECT_EQ(robot.priors[0].parameters[0].choices, (std::vector<double>{1, 1.3, 2}));
+}
+
+struct Wrong {
+  const char *part, *by, *said;
+};
+void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.by; }
+
+class WrongRobot : public ::testing::TestWithParam<Wrong> {};
+
+// Every message names the file, the line and what to write.
+TEST_P(WrongRobot, IsRefusedWithItsLine) {
+  const auto& [part, by, said] = GetParam();
+  const std::string complaint = complaint_of(with(part, by));
+  EXPECT_NE(complaint.find("swing.toml: "), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find(said), std::string::npos) << complaint;
+}
+
+const Wrong kWrong[] = {
+    {"format = 1", "format = 2", "line 1: a robot begins with format = 1"},
+    {"name = \"swing\"", "name = \"my swing\"", "line 2: name = 'my swing', must be of letters"},
+    {"name = \"swing\"", "nmae = \"swing\"", "line 2: unknown key 'nmae', did you mean 'name'?"},
+    {"dt_s = 0.1", "dt_s = 0", "line 3: dt_s = 0, must be > 0"},
+    {"dt_s = 0.1", "", "dt_s is missing"},
+    {"dt_s = 0.1", "dt_s = \"fast\"", "line 3: dt_s = fast"},
+    {"horizon = 20", "horizon = 0", "line 4: horizon must be a whole number of control steps"},
+    {"horizon = 20", "horizon = 2.5", "horizon must be a whole number"},
+    {"name = \"rate\"", "", "a state needs a name"},
+    {"name = \"angle\"", "name = \"rate\"", "the name 'rate' is given twice"},
+    {"name = \"rate\"", "name = \"sin\"", "'sin' is a function"},
+    {"scale = 10", "scale = -1", "scale = -1, must be > 0"},
+    {"scale = 10", "skale = 10", "unknown key 'skale' in [[state]], did you mean 'scale'?"},
+    {"rate = \"rate\"", "rate = \"speed\"", "unknown name 'speed'"},
+    {"angle = true", "angle = 1", "angle = 1"},
+    {"start = 3", "start = \"up\"", "start = up"},
+    {"start_noise = 0.1", "start_noise = -0.1", "start_noise = -0.1, must be ≥ 0"},
+    {"bounds = [-2, 2]", "bounds = [2, -2]", "bounds = [2, -2], must be [low, high] with low < high"},
+    {"bounds = [-2, 2]", "bounds = 2", "bounds must be [low, high]"},
+    {"bounds = [-2, 2]", "", "an action needs bounds = [low, high]"},
+    {"[[action]]", "[action]", "each action is a part of its own: [[action]]"},
+    {"height = \"cos(angle)\"", "height = \"cos(angel)\"", "height: unknown name 'angel', did you mean 'angle'?"},
+    {"height = \"cos(angle)\"", "height = \"height + 1\"", "needs itself: height → height"},
+    {"height = \"cos(angle)\"", "height = [1]", "height must be a formula in quotes, or a number"},
+    {"distance = [", "distances = [", "unknown key 'distances' in [reward], did you mean 'distance'?"},
+    {"distance = [\"1 - height\", \"sin(angle)\"]", "", "[reward] needs distance = […]"},
+    {"\"sin(angle)\"]", "\"sin angle\"]", "reward.distance: 'sin' is a function: sin(…)"},
+    {"\"sin(angle)\"]", "\"sin(angle\"]", "reward.distance: 'sin(angle'"},
+    {"width = 0.5", "width = 0", "width = 0, must be > 0"},
+    {"[reward]", "[rewards]", "unknown key 'rewards', did you mean 'reward'?"},
+    {"when = \"height > 0.9\"", "", "[success] needs when"},
+    {"when = \"height > 0.9\"", "when = \"height ? 1 : 0\"", "success.when: 'a ? b : c' is written where(a, b, c)"},
+    {"last_s = 0.2", "last_s = -1", "last_s = -1, must be ≥ 0"},
+    {"[dynamics.pendulum]", "[dynamic.pendulum]", "unknown key 'dynamic', did you mean 'dynamics'?"},
+    {"m = 1, l", "m = \"heavy\", l", "m must be a number"},
+    {"{ value = 0.5, unit = \"m\" }", "{ unit = \"m\" }", "parameter l needs a value"},
+    {"m = 1, l = {", "u = 1, l = {", "unknown parameter 'm'"},
+    {"rate.rate = \"torque / (m * l^2)\"", "rate.rat = \"torque\"",
+     "rate.rat: there is no state 'rat', did you mean 'rate'?"},
+    {"rate.rate = \"torque / (m * l^2)\"", "", "rate.rate is missing: the derivative of rate by time"},
+    {"torque / (m * l^2)", "torque / (m * L^2)", "rate.rate: unknown name 'L', did you mean 'l'?"},
+    {"define.torque = \"u +", "define.torque = \"u + +* ", "torque: 'u + +* "},
+    {"[plant]", "", "[plant] is missing: the robot, or what plays it"},
+    {"[plant]", "[plant]\ndynamics = \"pendulums\"", "there is no [dynamics.pendulums], did you mean 'pendulum'?"},
+    {"[plant]", "[plant]\nmeasurement_noise = -1", "measurement_noise = -1, must be ≥ 0"},
+    {"[plant]", "[plant]\nparameters.mass = 1", "unknown parameter 'mass', did you mean 'm'? (known: m, l)"},
+    {"[plant]", "[plant]\ntune.m = [0, 1]", "unknown key 'tune' in [plant]"},
+    {"tune.m = [0.5, 2]", "tune.m = [2, 0.5]", "m"},
+    {"tune.m = [0.5, 2]", "tune.m = [0.5, 1]", "m"},
+    {"tune.m = [0.5, 2]", "tune.m = 2", "tune.m must be [low, high]"},
+    {"tune.m = [0.5, 2]", "tune.n = [0.5, 2]", "unknown parameter 'n', did you mean 'm'?"},
+    {"[plant]", "[policy]\npolicy = \"deep\"\n[plant]", "policy = deep"},
+    {"[plant]", "[policy]\nhiden = 5\n[plant]", "unknown key 'hiden' in [policy], did you mean 'hidden'?"},
+    {"[plant]", "[[body]]\nname = \"rod\"\nfrom = [0, 0]\n[plant]", "a body goes from = [x, y] to = [x, y]"},
+    {"[plant]", "[[body]]\nname = \"rod\"\nfrom = [0, 0]\nto = [\"x\", 1]\n[plant]", "body rod: unknown name 'x'"},
+    {"dt_s = 0.1", "dt_s = 0.1\nended = \"angle >\"", "ended: 'angle >'"},
+    {"dt_s = 0.1", "dt_s = 0.1 0.2", "line 3: "},
+};
+INSTANTIATE_TEST_SUITE_P(Files, WrongRobot, ::testing::ValuesIn(kWrong));
+
+TEST(ReadRobot, SaysEverythingThatIsWrongAtOnce) {
+  std::string text = with("dt_s = 0.1", "dt_s = 0");
+  text += "[polcy]\n";
+  const std::string complaint = complaint_of(text);
+  EXPECT_NE(complaint.find("dt_s = 0"), std::string::npos);
+  EXPECT_NE(complaint.find("unknown key 'polcy'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rehearse::robot_file

@@ -1,0 +1,90 @@
+#include "rehearse/robot_file/task.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "example.hpp"
+#include "rehearse/robot_file/read.hpp"
+
+namespace rehearse::robot_file {
+namespace {
+
+using example::kSwing, example::with;
+
+double reward_at(const Task& task, double rate, double angle, double u = 0) {
+  Vector rewards(1);
+  const Matrix X{{rate, angle}};
+  task.reward(X, Matrix{{u}}, X, rewards);
+  return rewards(0);
+}
+
+Episode at_angle(double angle, Index steps = 20) {
+  Episode episode;
+  episode.states = episode.true_states = Matrix::Zero(steps + 1, 2);
+  episode.true_states.col(1).setConstant(angle);
+  episode.actions = Matrix::Zero(steps, 1);
+  episode.rewards = Vector::Zero(steps);
+  return episode;
+}
+
+TEST(RobotTask, RewardsAreHighNearTheGoal) {
+  const Task task = make_task(read(kSwing, "swing.toml"));
+  EXPECT_EQ(reward_at(task, 3, 0), 1);
+  const double d2 = std::pow(1 - std::cos(1), 2) + std::pow(std::sin(1), 2);
+  EXPECT_NEAR(reward_at(task, 3, 1), std::exp(-d2 / (2 * 0.5 * 0.5)), 1e-14);
+}
+
+TEST(RobotTask, RewardsMayBeAnyFormulaOfStatesAndActions) {
+  const Task task = make_task(
+      read(with("distance = [\"1 - height\", \"sin(angle)\"]\nwidth = 0.5", "formula = \"height - 0.1 * u^2\""),
+           "swing.toml"));
+  EXPECT_NEAR(reward_at(task, 0, 1, 2), std::cos(1) - 0.4, 1e-15);
+}
+
+TEST(RobotTask, IsSolvedWhereTheConditionHoldsAtTheEnd) {
+  const Task task = make_task(read(kSwing, "swing.toml"));
+  EXPECT_TRUE(task.solved(at_angle(0.1)));
+  EXPECT_FALSE(task.solved(at_angle(1)));
+  EXPECT_FALSE(task.solved(at_angle(0.1, 19))) << "cut short";
+  Episode late = at_angle(2);
+  late.true_states.col(1).tail(3).setZero();
+  EXPECT_TRUE(task.solved(late)) << "0.2 s are three states";
+  late.true_states(18, 1) = 2;
+  EXPECT_FALSE(task.solved(late));
+}
+
+TEST(RobotTask, EndsWhereAConditionHolds) {
+  const Task task = make_task(read(with("dt_s = 0.1", "dt_s = 0.1\nended = \"abs(rate) > 5\""), "swing.toml"));
+  EXPECT_FALSE(task.ended(Vector{{4, 0}}));
+  EXPECT_TRUE(task.ended(Vector{{-6, 0}}));
+}
+
+TEST(RobotTask, DistancesOfFeaturesHaveAClosedForm) {
+  const auto form = closed_form(read(kSwing, "swing.toml"));
+  ASSERT_TRUE(form);
+  const Vector goal{{0.0, 1.0, 0.0}};  // rate, cos, sin
+  EXPECT_LT((form->distances * (form->goal - goal)).norm(), 1e-12);
+  const Vector features{{2, std::cos(1), std::sin(1)}};
+  const double d2 = (form->distances * (features - form->goal)).squaredNorm();
+  EXPECT_NEAR(d2, (std::pow(1 - std::cos(1), 2) + std::pow(std::sin(1), 2)) / 0.25, 1e-12);
+}
+
+TEST(RobotTask, OtherDistancesHaveNone) {
+  for (const char* distance : {"angle", "u", "height^2", "sin(2 * angle)", "rate * height", "abs(rate)"})
+    EXPECT_FALSE(closed_form(read(with("\"sin(angle)\"]", "\"" + std::string(distance) + "\"]"), "swing.toml")))
+        << distance;
+}
+
+TEST(RobotTask, BodiesAreDrawn) {
+  EXPECT_FALSE(make_drawing(read(kSwing, "swing.toml")));
+  const auto drawing = make_drawing(
+      read(kSwing + "[[body]]\nname = \"rod\"\nfrom = [0, 0]\nto = [\"-sin(angle)\", \"height\"]\n", "swing.toml"));
+  ASSERT_TRUE(drawing);
+  const auto lines = std::get<scenario::LineDrawing>(*drawing).lines(Vector{{0, 0.3}});
+  EXPECT_NEAR(lines[0].to.x(), -std::sin(0.3), 1e-15);
+  EXPECT_NEAR(lines[0].to.y(), std::cos(0.3), 1e-15);
+}
+
+}  // namespace
+}  // namespace rehearse::robot_file
