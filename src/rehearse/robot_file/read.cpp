@@ -1,8 +1,6 @@
 #include "rehearse/robot_file/read.hpp"
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +8,7 @@
 #include "rehearse/core/names.hpp"
 #include "rehearse/expression/formulas.hpp"
 #include "rehearse/robot_file/table.hpp"
+#include "rehearse/robot_file/variant.hpp"
 
 namespace rehearse::robot_file {
 namespace {
@@ -28,7 +27,7 @@ class Reader {
     read_task();
     read_dynamics();
     read_plant();
-    for (const auto& [name, table] : file_.tables("prior")) robot_.priors.push_back(variant(name, *table, true));
+    read_priors();
     read_policy();
     read_bodies();
     file_.finish();
@@ -151,17 +150,11 @@ class Reader {
         if (!entry.number("value", value)) entry.wrong("value", fmt::format("parameter {} needs a value", name));
         entry.reader().take("unit", unit);
         entry.finish();
-      } else if (!take_number(name, *node, value)) {
+      } else if (!take_number(name, *node, value, violations_)) {
         continue;
       }
       dynamics.parameters.push_back(Parameter::fixed(name, value, unit));
     }
-  }
-
-  bool take_number(const std::string& name, const toml::node& node, double& value) {
-    if (node.is_number()) return value = *node.value<double>(), true;
-    violations_.add(files::line_of(node), fmt::format("{} must be a number", name));
-    return false;
   }
 
   /// A state whose rate is another state needs no formula.
@@ -188,80 +181,20 @@ class Reader {
   void read_plant() {
     const toml::table* part = file_.reader().take_table("plant");
     if (!part) return required(false, "[plant]", "the robot, or what plays it");
-    robot_.plant = variant("plant", *part, false);
-  }
-
-  /// [plant] or [prior.NAME].
-  Variant variant(const std::string& name, const toml::table& part, bool is_prior) {
-    Table table(part, is_prior ? fmt::format("[prior.{}]", name) : "[plant]", violations_);
-    Variant variant{.name = name};
-    const Dynamics* dynamics = named_dynamics(table, part, variant.dynamics);
-    std::vector<Parameter> parameters = dynamics ? dynamics->parameters : std::vector<Parameter>();
-    if (const toml::table* values = table.reader().take_table("parameters"))
-      for (const auto& [parameter, node] : in_order(*values))
-        if (Parameter* own = find(parameter, *node, parameters, dynamics != nullptr))
-          take_number(parameter, *node, own->value);
-    if (is_prior)
-      if (const toml::table* tuned = table.reader().take_table("tune"))
-        for (const auto& [parameter, node] : in_order(*tuned))
-          if (Parameter* own = find(parameter, *node, parameters, dynamics != nullptr)) tune(*node, *own);
-    if (!is_prior) {
-      table.number("measurement_noise", robot_.measurement_noise, at_least(0));
-    }
+    Table table(*part, "[plant]", violations_);
+    table.number("measurement_noise", robot_.measurement_noise, at_least(0));
+    robot_.plant = read_variant("plant", table, robot_.dynamics, violations_);
     table.finish();
-    try {
-      variant.parameters = ParameterSpace(parameters);
-    } catch (const InvalidInput& error) {
-      for (const std::string& line : error.violations()) violations_.add(files::line_of(part), line);
-    }
-    return variant;
   }
 
-  const Dynamics* named_dynamics(Table& table, const toml::table& part, std::string& name) {
-    if (robot_.dynamics.empty()) return table.reader().take("dynamics", name), nullptr;
-    if (!table.reader().take("dynamics", name)) name = robot_.dynamics.front().name;  // of one there is no question
-    std::vector<std::string> known;
-    for (const Dynamics& each : robot_.dynamics) {
-      if (each.name == name) return &each;
-      known.push_back(each.name);
+  void read_priors() {
+    for (const auto& [name, part] : file_.tables("prior")) {
+      Table table(*part, fmt::format("[prior.{}]", name), violations_);
+      Variant prior = read_variant(name, table, robot_.dynamics, violations_);
+      tune(table, prior, violations_);
+      table.finish();
+      robot_.priors.push_back(std::move(prior));
     }
-    violations_.add(part.contains("dynamics") ? files::line_of(*part.get("dynamics")) : files::line_of(part),
-                    fmt::format("there is no [dynamics.{}], did you mean '{}'?", name, closest(name, known)));
-    return nullptr;
-  }
-
-  Parameter* find(const std::string& name, const toml::node& node, std::vector<Parameter>& parameters, bool known) {
-    std::vector<std::string> names;
-    for (Parameter& parameter : parameters) {
-      if (parameter.name == name) return &parameter;
-      names.push_back(parameter.name);
-    }
-    if (known)
-      violations_.add(files::line_of(node), names.empty()
-                                                ? fmt::format("'{}' is no parameter: the dynamics has none", name)
-                                                : fmt::format("unknown parameter '{}', did you mean '{}'? (known: {})",
-                                                              name, closest(name, names), fmt::join(names, ", ")));
-    return nullptr;
-  }
-
-  /// [low, high], or { choices = […] }.
-  void tune(const toml::node& node, Parameter& parameter) {
-    const toml::array* pair = node.as_array();
-    if (const toml::table* table = node.as_table()) {
-      if (const toml::node* choices = table->get("choices"); choices && choices->is_array() && table->size() == 1) {
-        std::vector<double> values;
-        for (const toml::node& choice : *choices->as_array()) values.push_back(choice.value<double>().value_or(NAN));
-        parameter = Parameter::discrete(parameter.name, parameter.value, values, parameter.unit);
-        return;
-      }
-    }
-    if (pair && pair->size() == 2 && pair->get(0)->is_number() && pair->get(1)->is_number())
-      parameter =
-          Parameter::continuous(parameter.name, parameter.value,
-                                {*pair->get(0)->value<double>(), *pair->get(1)->value<double>()}, parameter.unit);
-    else
-      violations_.add(files::line_of(node),
-                      fmt::format("tune.{} must be [low, high] or {{ choices = […] }}", parameter.name));
   }
 
   void read_policy() {

@@ -36,11 +36,6 @@ TEST(ReadRobot, PriorsKeepTheirOrder) {
   EXPECT_EQ(robot.priors[2].name, "b");
 }
 
-TEST(ReadRobot, ParametersMayHaveChoices) {
-  const Robot robot = read(with("tune.m = [0.5, 2]", "tune.m = { choices = [1, 1.3, 2] }"), "swing.toml");
-  EXPECT_EQ(robot.priors[0].parameters[0].choices, (std::vector<double>{1, 1.3, 2}));
-}
-
 struct Wrong {
   const char *part, *by, *said;
 };

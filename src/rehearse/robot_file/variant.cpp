@@ -1,0 +1,111 @@
+#include "rehearse/robot_file/variant.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace rehearse::robot_file {
+namespace {
+
+/// Null, and a violation, if there is none of that name. Of one there is no question.
+const Dynamics* named_dynamics(Table& table, const std::vector<Dynamics>& dynamics, std::string& name) {
+  if (!table.reader().take("dynamics", name) && !dynamics.empty()) name = dynamics.front().name;
+  std::vector<std::string> known;
+  for (const Dynamics& each : dynamics) {
+    if (each.name == name) return &each;
+    known.push_back(each.name);
+  }
+  if (!known.empty())
+    table.wrong("dynamics", fmt::format("there is no [dynamics.{}], did you mean '{}'?", name, closest(name, known)));
+  return nullptr;
+}
+
+class Values {
+ public:
+  Values(std::vector<Parameter> parameters, files::FileViolations& violations)
+      : parameters_(std::move(parameters)), violations_(violations) {}
+
+  /// Calls set(parameter, node) for every key of the table that is a parameter.
+  template <class Set>
+  void each(const toml::table* table, Set set) {
+    if (!table) return;
+    for (const auto& [name, node] : in_order(*table))
+      if (Parameter* parameter = find(name, *node)) set(*parameter, *node);
+  }
+
+  ParameterSpace space(Index line) const {
+    try {
+      return ParameterSpace(parameters_);
+    } catch (const InvalidInput& error) {
+      for (const std::string& message : error.violations()) violations_.add(line, message);
+      return {};
+    }
+  }
+
+ private:
+  Parameter* find(const std::string& name, const toml::node& node) {
+    std::vector<std::string> names;
+    for (Parameter& parameter : parameters_) {
+      if (parameter.name == name) return &parameter;
+      names.push_back(parameter.name);
+    }
+    violations_.add(files::line_of(node), names.empty()
+                                              ? fmt::format("'{}' is no parameter: the dynamics has none", name)
+                                              : fmt::format("unknown parameter '{}', did you mean '{}'? (known: {})",
+                                                            name, closest(name, names), fmt::join(names, ", ")));
+    return nullptr;
+  }
+
+  std::vector<Parameter> parameters_;
+  files::FileViolations& violations_;
+};
+
+Parameter tunable(const Parameter& parameter, const toml::node& node, files::FileViolations& violations) {
+  const toml::array *pair = node.as_array(), *choices = nullptr;
+  if (const toml::table* table = node.as_table(); table && table->size() == 1) choices = (*table)["choices"].as_array();
+  if (choices) {
+    std::vector<double> values;
+    for (const toml::node& choice : *choices) values.push_back(choice.value<double>().value_or(NAN));
+    return Parameter::discrete(parameter.name, parameter.value, values, parameter.unit);
+  }
+  if (pair && pair->size() == 2 && pair->get(0)->is_number() && pair->get(1)->is_number())
+    return Parameter::continuous(parameter.name, parameter.value,
+                                 {*pair->get(0)->value<double>(), *pair->get(1)->value<double>()}, parameter.unit);
+  violations.add(files::line_of(node),
+                 fmt::format("tune.{} must be [low, high] or {{ choices = […] }}", parameter.name));
+  return parameter;
+}
+
+}  // namespace
+
+bool take_number(const std::string& name, const toml::node& node, double& value, files::FileViolations& violations) {
+  if (node.is_number()) return value = *node.value<double>(), true;
+  violations.add(files::line_of(node), fmt::format("{} must be a number", name));
+  return false;
+}
+
+Variant read_variant(const std::string& name, Table& table, const std::vector<Dynamics>& dynamics,
+                     files::FileViolations& violations) {
+  Variant variant{.name = name};
+  const Dynamics* of = named_dynamics(table, dynamics, variant.dynamics);
+  const toml::table* given = table.reader().take_table("parameters");
+  if (!of) return variant;
+  Values values(of->parameters, violations);
+  values.each(given, [&](Parameter& parameter, const toml::node& node) {
+    take_number(parameter.name, node, parameter.value, violations);
+  });
+  variant.parameters = values.space(table.reader().line());
+  return variant;
+}
+
+void tune(Table& table, Variant& variant, files::FileViolations& violations) {
+  const toml::table* given = table.reader().take_table("tune");
+  if (variant.parameters.size() == 0) return;
+  Values values(variant.parameters.all(), violations);
+  values.each(given,
+              [&](Parameter& parameter, const toml::node& node) { parameter = tunable(parameter, node, violations); });
+  variant.parameters = values.space(table.reader().line());
+}
+
+}  // namespace rehearse::robot_file
