@@ -7,4 +7,7 @@ namespace rehearse::apps {
 /// Every robot and learner of this build.
 experiment::Catalogue catalogue();
 
+/// The file that a robot of one's own begins with: examples/robots/pendulum.toml.
+std::string robot_template();
+
 }  // namespace rehearse::apps

@@ -55,8 +55,7 @@ void say_unfinished(const Campaign& campaign) {
 
 }  // namespace
 
-int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments,
-             const ProcessGroup& processes) {
+int campaign(const experiment::Catalogue& built_in, const CampaignArguments& arguments, const ProcessGroup& processes) {
   Violations violations;
   const Index threads = threads_of(arguments.threads, violations);
   const campaign::Share share = share_of(arguments.share, violations);
@@ -64,6 +63,7 @@ int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& ar
   violations.require(share.of == 1 || !arguments.check_claims, "--check-claims needs all runs, --share does some");
   violations.throw_if_any();
   const std::string text = files::read_file(arguments.file, files::Links::follow);
+  const experiment::Catalogue catalogue = campaign::with_robot_of(built_in, text, arguments.file);
   if (arguments.dry_run) {
     const campaign::CampaignPlan plan = campaign::plan_campaign(catalogue, text, arguments.file);
     if (processes.leads()) print_plan(plan);

@@ -19,8 +19,16 @@ struct ListArguments {
   bool expert = false;
 };
 
+struct CheckArguments {
+  std::string file;  // of a robot
+};
+
+struct NewArguments {
+  std::string name;  // of a robot
+};
+
 struct LearnArguments {
-  std::string scenario;  // a name, or a spec.toml
+  std::string scenario;  // a name, a robot's file, or a spec.toml
   std::optional<std::string> learner, prior, preset, trials, seed, threads, out;
   bool until_solved = false;
   std::vector<std::string> set;
@@ -51,6 +59,8 @@ struct ReplayArguments {
 // With processes, every process calls the same command; only the first prints.
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);
+int check(const CheckArguments& arguments);
+int make_new(const NewArguments& arguments);
 int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments);
 int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments);
 int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const ProcessGroup& processes);

@@ -84,9 +84,7 @@ Catalogue with_given(const Catalogue& catalogue, const LearnArguments& arguments
 
 Spec named_spec(const Catalogue& catalogue, const LearnArguments& arguments, Violations& violations) {
   Spec spec;
-  spec.scenario = arguments.scenario;
-  for (const experiment::RobotFile& robot : catalogue.robots)
-    if (robot.source == arguments.scenario) spec.scenario = robot.name;
+  spec.scenario = catalogue.scenario_name(arguments.scenario);
   spec.learner = arguments.learner.value_or("");
   spec.prior = arguments.prior.value_or("");
   violations.require(!arguments.prior || !arguments.prior->empty(), "--prior names none");

@@ -35,12 +35,15 @@ Do many runs and compare them:
 See what happened, in a browser:
   rehearse report runs/demo
 What there is to learn, and with what:
-  rehearse list)";
+  rehearse list
+A robot of your own:
+  rehearse new my_robot)";
 
 constexpr const char* kLearnExample = R"(Examples:
   rehearse learn pendubot --learner gp-mi --prior misleading --trials 10 --seed 1
   rehearse learn pendubot --learner gp-mi --set plant.b1=0.2 --set prior.l2=0.3
   rehearse learn pendubot --learner gp-mi --preset as-published
+  rehearse learn my_robot.toml --learner gp-mi
   rehearse learn runs/demo/spec.toml --out runs/again
 
 The folder holds one row a trial in trials.csv, the trajectories, the model's predictions,
@@ -70,9 +73,22 @@ CLI::App* add_list(CLI::App& app, ListArguments& arguments) {
   return command;
 }
 
+CLI::App* add_new(CLI::App& app, NewArguments& arguments) {
+  CLI::App* command = app.add_subcommand("new", "Begin a robot of your own: a file with comments, NAME.toml");
+  add(command, "NAME", arguments.name, "The robot's name: letters, digits, - and _", "")->required();
+  return command;
+}
+
+CLI::App* add_check(CLI::App& app, CheckArguments& arguments) {
+  CLI::App* command = app.add_subcommand("check", "Say what a robot's file means, and try its plant and priors");
+  add(command, "ROBOT.toml", arguments.file, "The file, for instance examples/robots/pendulum.toml", "")->required();
+  return command;
+}
+
 CLI::App* add_learn(CLI::App& app, LearnArguments& arguments) {
   CLI::App* command = app.add_subcommand("learn", "Learn a policy for a scenario");
-  add(command, "SCENARIO", arguments.scenario, "A scenario of `rehearse list`, or the spec.toml of a run to repeat", "")
+  add(command, "SCENARIO", arguments.scenario,
+      "A scenario of `rehearse list`, the file of a robot of your own, or the spec.toml of a run to repeat", "")
       ->required();
   add(command, "--learner", arguments.learner, "The learner, one of `rehearse list`", "NAME");
   add(command, "--prior", arguments.prior,
@@ -144,7 +160,7 @@ CLI::App* add_replay(CLI::App& app, ReplayArguments& arguments) {
 }
 
 /// CLI11 speaks of what it did not expect; we know what was meant.
-void check_command(const CLI::App& app, int argc, char** argv) {
+void check_command_name(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     known.push_back(command->get_name());
@@ -178,18 +194,22 @@ int run(int argc, char** argv, const ProcessGroup& processes) {
   app.set_version_flag("--version", "rehearse " REHEARSE_VERSION, "Show the version");
   app.require_subcommand(1);
   ListArguments list_arguments;
+  NewArguments new_arguments;
+  CheckArguments check_arguments;
   LearnArguments learn_arguments;
   ResumeArguments resume_arguments;
   CampaignArguments campaign_arguments;
   ReportArguments report_arguments;
   ReplayArguments replay_arguments;
   const CLI::App* list_command = add_list(app, list_arguments);
+  const CLI::App* new_command = add_new(app, new_arguments);
+  const CLI::App* check_command = add_check(app, check_arguments);
   const CLI::App* learn_command = add_learn(app, learn_arguments);
   const CLI::App* resume_command = add_resume(app, resume_arguments);
   const CLI::App* campaign_command = add_campaign(app, campaign_arguments);
   const CLI::App* report_command = add_report(app, report_arguments);
   add_replay(app, replay_arguments);
-  check_command(app, argc, argv);
+  check_command_name(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -203,6 +223,8 @@ int run(int argc, char** argv, const ProcessGroup& processes) {
   if (resume_command->parsed()) return resume(catalogue(), resume_arguments);
   if (!processes.leads()) return kSuccess;
   if (list_command->parsed()) return list(catalogue(), list_arguments);
+  if (new_command->parsed()) return make_new(new_arguments);
+  if (check_command->parsed()) return check(check_arguments);
   if (report_command->parsed()) return report(report_arguments);
   return replay(replay_arguments);
 }

@@ -49,11 +49,21 @@ std::unique_ptr<learners::LearnerBuilder> Catalogue::learner(const std::string& 
 Catalogue Catalogue::with_robot(const std::string& text, const std::string& source) const {
   if (!read_robot) throw InvalidInput(fmt::format("{}: this program reads no robots from files", source));
   const std::string name = read_robot(text, source)->name();
+  if (const RobotFile* same = robot(name)) {
+    if (same->text == text) return *this;
+    throw InvalidInput(fmt::format("{} and {} are two robots of one name, '{}'", source, same->source, name));
+  }
   if (scenario(name)) throw InvalidInput(fmt::format("{}: name = '{}' is that of another scenario", source, name));
   Catalogue with = *this;
   with.robots.push_back({name, source, text});
   with.scenarios.emplace_back([read = read_robot, text, source] { return read(text, source); });
   return with;
+}
+
+std::string Catalogue::scenario_name(const std::string& name_or_source) const {
+  for (const RobotFile& each : robots)
+    if (each.source == name_or_source) return each.name;
+  return name_or_source;
 }
 
 const RobotFile* Catalogue::robot(const std::string& scenario) const {

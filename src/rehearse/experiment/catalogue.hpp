@@ -44,8 +44,12 @@ struct Catalogue {
   std::vector<std::unique_ptr<scenario::ScenarioBuilder>> scenario_builders() const;
   std::vector<std::unique_ptr<learners::LearnerBuilder>> learner_builders() const;
 
-  /// With the robot of a file. Throws InvalidInput if it is none, or has the name of another scenario.
+  /// With the robot of a file, which may be there already. Throws InvalidInput if it is none, or has the name of
+  /// another scenario.
   Catalogue with_robot(const std::string& text, const std::string& source) const;
+
+  /// The name of the scenario of a robot that came from this file; else what is given, a name itself.
+  std::string scenario_name(const std::string& name_or_source) const;
 
   /// The file of a scenario; null if it has none.
   const RobotFile* robot(const std::string& scenario) const;

@@ -215,8 +215,10 @@ void Formulas::throw_unknown(const std::string& name) const {
   std::vector<std::string> known;
   for (const auto& [input, node] : inputs_) known.push_back(input);
   for (const auto& [definition, formula] : definitions_) known.push_back(definition);
-  const std::string like = known.empty() ? "" : fmt::format(", did you mean '{}'?", closest(name, known));
-  throw InvalidInput(fmt::format("unknown name '{}'{} (known: {})", name, like, fmt::join(known, ", ")));
+  std::vector<std::string> like = known;
+  like.insert(like.end(), function_names().begin(), function_names().end());
+  throw InvalidInput(fmt::format("unknown name '{}', did you mean '{}'? (known: {})", name, closest(name, like),
+                                 fmt::join(known, ", ")));
 }
 
 Node Formulas::compile(const std::string& formula) {

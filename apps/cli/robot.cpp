@@ -1,0 +1,116 @@
+// A robot of one's own: `new` and `check`.
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/catalogue.hpp"
+#include "apps/cli/commands.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/write.hpp"
+#include "rehearse/reward/saturating.hpp"
+#include "rehearse/robot_file/robot_file.hpp"
+#include "rehearse/robot_file/try_out.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+std::string description(const StateVariable& state) {
+  std::string text = state.name + (state.unit.empty() ? "" : fmt::format(" [{}]", state.unit));
+  if (state.kind == StateKind::angle) text += ", an angle";
+  if (state.kind == StateKind::omitted) text += ", no input of models and policies";
+  if (!state.rate.empty()) text += fmt::format(", whose rate is {}", state.rate);
+  if (!state.parent.empty()) text += fmt::format(", carried by {}", state.parent);
+  return text;
+}
+
+void print_task(const scenario::Scenario& scenario) {
+  const Task& task = scenario.task;
+  fmt::print("{}: {} steps of {} s, {} s in all\n\nstates\n", scenario.name, task.horizon, task.dt_s, task.episode_s());
+  for (std::size_t i = 0; i < task.states.size(); ++i)
+    fmt::print("  {}; starts at {:.4g} ± {:.3g}\n", description(task.states[i]), task.start_mean(static_cast<Index>(i)),
+               task.start_std(static_cast<Index>(i)));
+  fmt::print("actions\n");
+  for (const ActionVariable& action : task.actions)
+    fmt::print("  {}{} from {:g} to {:g}\n", action.name, action.unit.empty() ? "" : fmt::format(" [{}]", action.unit),
+               action.bounds.low, action.bounds.high);
+  fmt::print("reward\n  {}\n", reward::closed_form(task.reward)
+                                   ? "saturating distance of features, as moment matching (PILCO) needs it"
+                                   : "a formula; PILCO needs distances that are sums of multiples of features");
+  fmt::print("success\n  {}\n", task.solved ? "is told" : "is not told: there is no [success]");
+  fmt::print("drawing\n  {}\n", scenario.drawing ? "bodies are drawn in reports" : "none: there is no [[body]]");
+}
+
+void print_parameters(const ParameterSpace& parameters) {
+  for (const Parameter& parameter : parameters.all()) {
+    if (parameter.kind == Parameter::Kind::continuous)
+      fmt::print("    {} = {:g}, learned in [{:g}, {:g}]\n", parameter.name, parameter.value, parameter.box.low,
+                 parameter.box.high);
+    else if (parameter.kind == Parameter::Kind::discrete)
+      fmt::print("    {} = {:g}, one of {}\n", parameter.name, parameter.value, fmt::join(parameter.choices, ", "));
+  }
+}
+
+void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried& tried,
+                 const scenario::Scenario& scenario, const robot_file::Tried& all) {
+  fmt::print("  {}: {:.2g} rows a second on one thread{}\n", prior.name, tried.rows_per_s,
+             tried.failed > 0 ? fmt::format(", {} of {} rows failed", tried.failed, all.steps) : "");
+  print_parameters(prior.parameters);
+  for (std::size_t i = 0; i < scenario.task.states.size(); ++i) {
+    const auto s = static_cast<Index>(i);
+    fmt::print("    {}: a step changes it by {:.3g}, the prior errs by {:.3g}\n", scenario.task.states[i].name,
+               all.change(s), tried.error(s));
+  }
+}
+
+/// What a learner would stumble over.
+std::vector<std::string> complaints_of(const robot_file::Tried& tried) {
+  std::vector<std::string> complaints = tried.broken;
+  if (!tried.end.empty())
+    complaints.push_back(fmt::format("the plant failed after {} steps: {}", tried.steps, tried.end));
+  for (const robot_file::PriorTried& prior : tried.priors) {
+    for (const std::string& name : prior.idle)
+      complaints.push_back(
+          fmt::format("prior {}: {} changes no prediction, so it cannot be learned", prior.name, name));
+    if (prior.failed > 0)
+      complaints.push_back(
+          fmt::format("prior {}: {} of {} rows have no prediction", prior.name, prior.failed, tried.steps));
+  }
+  return complaints;
+}
+
+}  // namespace
+
+int check(const CheckArguments& arguments) {
+  const std::string text = files::read_file(arguments.file, files::Links::follow);
+  const scenario::Scenario scenario = robot_file::builder(text, arguments.file)->build();
+  print_task(scenario);
+  const robot_file::Tried tried = robot_file::try_out(scenario);
+  fmt::print("priors, on {} steps of the plant under random actions\n", tried.steps);
+  for (std::size_t i = 0; i < tried.priors.size(); ++i)
+    print_prior(scenario.priors[i], tried.priors[i], scenario, tried);
+  if (scenario.priors.empty()) fmt::print("  none: learners without a prior can be used\n");
+  const std::vector<std::string> complaints = complaints_of(tried);
+  if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
+  fmt::print("\nall is well; to learn: rehearse learn {} --learner {}\n", arguments.file,
+             scenario.priors.empty() ? "black-drops" : "gp-mi");
+  return kSuccess;
+}
+
+int make_new(const NewArguments& arguments) {
+  const std::filesystem::path path = arguments.name + ".toml";
+  std::string text = robot_template();
+  const std::string name = "name = \"pendulum-file\"";
+  const std::size_t at = text.find(name);
+  text.replace(at, name.size(), fmt::format("name = \"{}\"", arguments.name));
+  robot_file::builder(text, path.string());  // the name may be none
+  if (std::filesystem::exists(path))
+    throw InvalidInput(fmt::format("{} exists, and is not overwritten", path.string()));
+  files::write_file(path, text);
+  fmt::print("{} is a pendulum, to be made your robot. Say what it is, then: rehearse check {}\n", path.string(),
+             path.string());
+  return kSuccess;
+}
+
+}  // namespace rehearse::apps

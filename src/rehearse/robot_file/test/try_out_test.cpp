@@ -1,0 +1,50 @@
+#include "rehearse/robot_file/try_out.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "example.hpp"
+
+namespace rehearse::robot_file {
+namespace {
+
+using example::kSwing, example::with;
+
+Tried tried(const std::string& text) { return try_out(builder(text, "swing.toml")->build()); }
+
+TEST(TryOut, SaysHowFarPriorAndPlantAreApart) {
+  const Tried found = tried(kSwing);
+  EXPECT_EQ(found.steps, 60);
+  EXPECT_EQ(found.end, "");
+  EXPECT_EQ(found.broken, std::vector<std::string>{});
+  EXPECT_NEAR(found.start_reward, std::exp(-2 * (1 - std::cos(3)) / (2 * 0.25)), 1e-12);
+  ASSERT_EQ(found.priors.size(), 1u);
+  EXPECT_GT(found.priors[0].error(0), 0.01 * found.change(0));
+  EXPECT_LT(found.priors[0].error(0), found.change(0));
+  EXPECT_GT(found.priors[0].rows_per_s, 0);
+  EXPECT_EQ(found.priors[0].failed, 0);
+  EXPECT_EQ(found.priors[0].idle, std::vector<std::string>{});
+  const Tried right = tried(with("parameters.m = 1.3\ntune.m = [0.5, 2]", ""));
+  EXPECT_LT(right.priors[0].error(0), 1e-6);
+}
+
+TEST(TryOut, NamesAParameterThatChangesNothing) {
+  const std::string unused = with("m = 1, l", "m = 1, k = 3, l");
+  const Tried found = tried(unused + "tune.k = [1, 5]\n");
+  EXPECT_EQ(found.priors[0].idle, std::vector<std::string>{"k"});
+}
+
+TEST(TryOut, NamesARewardThatIsNoNumber) {
+  const Tried found = tried(with("distance = [\"1 - height\", \"sin(angle)\"]\nwidth = 0.5", "formula = \"1 / rate\""));
+  EXPECT_EQ(found.broken, std::vector<std::string>{"the reward of the start is inf, must be a finite number"});
+}
+
+TEST(TryOut, NamesAPlantThatLosesItsWay) {
+  const Tried found = tried(with("define.torque = \"u +", "define.torque = \"1 / (angle - angle) +"));
+  EXPECT_EQ(found.broken, std::vector<std::string>{"the plant comes to states that are not finite"});
+  EXPECT_GT(found.priors[0].failed, 0);
+}
+
+}  // namespace
+}  // namespace rehearse::robot_file

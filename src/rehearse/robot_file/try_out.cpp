@@ -1,0 +1,122 @@
+#include "rehearse/robot_file/try_out.hpp"
+
+#include <cmath>
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/core/stopwatch.hpp"
+
+namespace rehearse::robot_file {
+namespace {
+
+struct Steps {
+  Matrix X, U, dX;  // measured without noise where the plant knows it
+  std::string end;
+};
+
+Vector random_action(const Task& task, Rng& rng) {
+  Vector u(task.action_size());
+  for (Index i = 0; i < u.size(); ++i) {
+    const Interval bounds = task.actions[static_cast<std::size_t>(i)].bounds;
+    u(i) = rng.uniform(bounds.low, bounds.high);
+  }
+  return u;
+}
+
+Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) {
+  const Task& task = scenario.task;
+  Steps steps{Matrix(episodes * task.horizon, task.state_size()),
+              Matrix(episodes * task.horizon, task.action_size()),
+              Matrix(episodes * task.horizon, task.state_size()),
+              {}};
+  Index row = 0;
+  const auto plant = scenario.make_plant();
+  const auto state_of = [&](const Vector& measured) {
+    const Vector truth = plant->truth();
+    return truth.size() > 0 ? truth : measured;
+  };
+  try {
+    for (Index e = 0; e < episodes; ++e) {
+      Rng rng({.seed = seed, .trial = static_cast<std::uint64_t>(e) + 1, .purpose = Purpose::start_state});
+      Vector x = state_of(plant->reset(rng));
+      for (Index t = 0; t < task.horizon; ++t, ++row) {
+        const Vector u = random_action(task, rng), next = state_of(plant->step(u));
+        steps.X.row(row) = x, steps.U.row(row) = u, steps.dX.row(row) = next - x;
+        x = next;
+        if (task.ended && task.ended(x) && ++row) break;
+      }
+    }
+  } catch (const std::exception& error) {
+    steps.end = error.what();
+  }
+  steps.X.conservativeResize(row, Eigen::NoChange);
+  steps.U.conservativeResize(row, Eigen::NoChange);
+  steps.dX.conservativeResize(row, Eigen::NoChange);
+  return steps;
+}
+
+Vector root_mean_square(const Matrix& rows) {
+  if (rows.rows() == 0) return Vector::Zero(rows.cols());
+  return (rows.colwise().squaredNorm() / static_cast<double>(rows.rows())).cwiseSqrt().transpose();
+}
+
+/// Values of a tunable parameter that are far from where it starts.
+std::vector<double> others(const Parameter& parameter) {
+  if (parameter.kind == Parameter::Kind::discrete) return parameter.choices;
+  return {parameter.box.low + 0.25 * (parameter.box.high - parameter.box.low),
+          parameter.box.low + 0.75 * (parameter.box.high - parameter.box.low)};
+}
+
+std::vector<std::string> idle_parameters(const scenario::NamedPrior& prior, const Steps& steps, const Matrix& usual) {
+  std::vector<std::string> idle;
+  Matrix changed(usual.rows(), usual.cols());
+  for (Index i = 0; i < prior.parameters.size(); ++i) {
+    if (!prior.parameters[i].tunable()) continue;
+    bool moves = false;
+    for (const double value : others(prior.parameters[i])) {
+      Vector phi = prior.parameters.values();
+      phi(i) = value;
+      system::change_contained(*prior.simulator, steps.X, steps.U, phi, changed);
+      moves |= !((changed.array() == usual.array()) || (changed.array().isNaN() && usual.array().isNaN())).all();
+    }
+    if (!moves) idle.push_back(prior.parameters[i].name);
+  }
+  return idle;
+}
+
+PriorTried try_prior(const scenario::NamedPrior& prior, const Steps& steps) {
+  PriorTried tried{.name = prior.name};
+  Matrix predicted(steps.X.rows(), steps.X.cols());
+  const Stopwatch watch;
+  tried.failed = system::change_contained(*prior.simulator, steps.X, steps.U, prior.parameters.values(), predicted);
+  tried.rows_per_s = watch.per_s(steps.X.rows());
+  const Matrix errors = predicted - steps.dX;
+  tried.error = root_mean_square(errors.array().isNaN().select(0, errors));
+  tried.idle = idle_parameters(prior, steps, predicted);
+  return tried;
+}
+
+}  // namespace
+
+Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) {
+  const Steps steps = drive(scenario, episodes, seed), again = drive(scenario, episodes, seed);
+  const Task& task = scenario.task;
+  Tried tried{.steps = steps.X.rows(), .end = steps.end, .change = root_mean_square(steps.dX)};
+  Vector reward(1);
+  const Matrix start = task.start_mean.transpose();
+  task.reward(start, Matrix::Zero(1, task.action_size()), start, reward);
+  tried.start_reward = reward(0);
+  if (!std::isfinite(tried.start_reward))
+    tried.broken.push_back(fmt::format("the reward of the start is {}, must be a finite number", tried.start_reward));
+  if (!steps.dX.allFinite())
+    tried.broken.emplace_back("the plant comes to states that are not finite");
+  else if (again.X.rows() != steps.X.rows() || again.dX != steps.dX)
+    tried.broken.emplace_back("the plant does other things from the same start and the same random numbers");
+  if (steps.X.rows() > 0)
+    for (const scenario::NamedPrior& prior : scenario.priors) tried.priors.push_back(try_prior(prior, steps));
+  return tried;
+}
+
+}  // namespace rehearse::robot_file

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rehearse/scenario/scenario.hpp"
+
+namespace rehearse::robot_file {
+
+/// How a prior does on what the plant did.
+struct PriorTried {
+  std::string name;
+  Vector error;                   // of each state: root mean square error of its change in a step
+  Index failed = 0;               // rows without a prediction
+  double rows_per_s = 0;          // on one thread
+  std::vector<std::string> idle;  // tunable parameters that change no prediction
+};
+
+struct Tried {
+  Index steps = 0;          // of the plant, under random actions
+  std::string end;          // why an episode was cut short; empty: none was
+  Vector change;            // of each state: root mean square change in a step
+  double start_reward = 0;  // of the start, without an action
+  std::vector<PriorTried> priors;
+  std::vector<std::string> broken;  // laws of plants and simulators, a line each
+};
+
+/// Use it before anything is learned: tries plant and priors of a scenario on some episodes of random actions. Says
+/// what a learner would stumble over later. The same for the same seed, but for times.
+Tried try_out(const scenario::Scenario& scenario, Index episodes = 3, std::uint64_t seed = 1);
+
+}  // namespace rehearse::robot_file

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# robot_file.sh PROGRAM: begins a robot, checks it, learns it, and does what goes wrong.
+source "$(dirname "$0")/../prelude.sh"
+
+few=(--set search.race.max_evaluations=600 --set search.race.descents=2 --set search.selection=10 --threads 1)
+files=(spec.toml robot.toml trials.csv errors.csv policy.json trajectories/trial-002.csv predictions/trial-002.csv
+  motion/trial-002.json)
+
+"$program" new my_robot >output || fail "new: $(cat output)"
+grep -q "rehearse check my_robot.toml" output || fail "new does not say what comes next: $(cat output)"
+"$program" check my_robot.toml >output 2>&1 || fail "check: $(cat output)"
+grep -q "rehearse learn my_robot.toml --learner gp-mi" output || fail "check does not say what comes next: $(cat output)"
+
+"$program" learn my_robot.toml --learner gp-mi --trials 2 "${few[@]}" --out alone >output 2>&1 || fail "learn: $(cat output)"
+"$program" learn my_robot.toml --learner gp-mi --trials 1 "${few[@]}" --out extended >/dev/null || fail "one trial"
+echo "name = \"another\"" >my_robot.toml # what is done to the file later does not matter
+"$program" resume extended --trials 2 --threads 1 >output 2>&1 || fail "resume: $(cat output)"
+same alone extended "${files[@]}"
+"$program" learn alone/spec.toml --out again --threads 2 >output 2>&1 || fail "learn of spec.toml: $(cat output)"
+same alone again "${files[@]}"
+
+sed -i 's/horizon = 40/horizon = 41/' extended/robot.toml
+"$program" resume extended --trials 3 >output 2>&1
+[ $? = 2 ] && grep -q "has another robot than this run began with" output || fail "another robot: $(cat output)"
+rm extended/robot.toml
+"$program" resume extended --trials 3 >output 2>&1
+[ $? = 2 ] && grep -q "unknown scenario 'my_robot'" output || fail "no robot: $(cat output)"
+
+"$program" new many >/dev/null
+printf '%s\n' 'format = 1' 'scenario = "many.toml"' 'learners = ["mi"]' 'seeds = "1-2"' 'trials = 1' '[set]' \
+  'search.race.max_evaluations = 600' 'search.race.descents = 2' 'search.selection = 10' >c.toml
+"$program" campaign c.toml --out campaign --threads 1 >output 2>&1 || fail "campaign: $(cat output)"
+"$program" campaign c.toml --out campaign --threads 1 >output 2>&1 || fail "campaign again: $(cat output)"
+grep -q "^many-mi-useful-1,many,mi" campaign/campaign.csv || fail "the campaign's table: $(cat campaign/campaign.csv)"
+
+"$program" new pilco_robot >/dev/null
+"$program" learn pilco_robot.toml --learner pilco --trials 2 --set search.line_searches=3 --set search.restarts=0 \
+  --out pilco >output 2>&1 || fail "pilco: $(cat output)"
+
+# refused PATTERN COMMAND… : exit 2, the pattern, and nothing is left
+refused() {
+  local pattern=$1
+  shift
+  "$program" "$@" >output 2>&1
+  [ $? = 2 ] && grep -q "$pattern" output || fail "$* says $(cat output)"
+  [ -e left ] && fail "$* leaves a folder"
+}
+refused "is not overwritten" new pilco_robot
+refused "must be of letters" new "my robot"
+refused "cannot read nowhere.toml" check nowhere.toml
+printf "format = 1\nname = \"x\"\nhorizon = -1\n" >wrong.toml
+refused "wrong.toml: line 3" check wrong.toml
+sed 's/"pilco_robot"/"pendulum"/' pilco_robot.toml >taken.toml
+refused "is that of another scenario" learn taken.toml --learner mi --out left
+sed 's/sin(theta)"\]/sine(theta)"]/' pilco_robot.toml >misspelt.toml
+refused "misspelt.toml: line [0-9]*: reward.distance" learn misspelt.toml --learner mi --out left
+sed 's/tune = { m/tune = { b = [0, 1], m/; s/u - b \* dtheta/u/' pilco_robot.toml >idle.toml
+refused "prior useful: b changes no prediction" check idle.toml
+
+finish
