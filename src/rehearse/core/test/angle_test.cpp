@@ -7,12 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include "not_finite.hpp"
 #include "rehearse/core/random.hpp"
 
 namespace rehearse {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kInf = std::numeric_limits<double>::infinity();
+constexpr double kPi = std::numbers::pi;
 
 /// The library's functions reduce exactly; a reduced angle must have the same sine and cosine.
 void expect_reduced(double x) {

@@ -1,23 +1,21 @@
 #include "rehearse/core/linear_algebra.hpp"
 
-#include <limits>
-
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include "matrix_tools.hpp"
+#include "not_finite.hpp"
 
 namespace rehearse {
 namespace {
 
-const Index kSizes[] = {1, 2, 7, 31, 32, 33, 64, 97, 161, 290};
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+const Index kFactorSizes[] = {1, 2, 7, 31, 32, 33, 64, 97, 161, 290};
 
 Matrix lower_triangle(Index n) { return positive_definite(n).llt().matrixL(); }
 
 /// As `A`, with NaN above the diagonal: nobody may look there.
 Matrix hidden_above(Matrix A) {
-  A.triangularView<Eigen::StrictlyUpper>().setConstant(kNaN);
+  A.triangularView<Eigen::StrictlyUpper>().setConstant(kNan);
   return A;
 }
 
@@ -32,7 +30,7 @@ TEST(LinearAlgebra, FactorsStandAsTheyAreOrTransposed) {
 }
 
 TEST(LinearAlgebra, Cholesky) {
-  for (const Index n : kSizes) {
+  for (const Index n : kFactorSizes) {
     Matrix A = hidden_above(positive_definite(n));
     ASSERT_TRUE(cholesky(A));
     EXPECT_TRUE(Matrix(A.triangularView<Eigen::Lower>()).isApprox(lower_triangle(n), 1e-12)) << n;
@@ -51,7 +49,7 @@ TEST(LinearAlgebra, CholeskyOfABlock) {
 
 TEST(LinearAlgebra, CholeskySaysWhenThereIsNone) {
   for (const Index n : {3, 40, 97})
-    for (const double bad : {0.0, -1.0, kNaN}) {
+    for (const double bad : {0.0, -1.0, kNan}) {
       Matrix A = positive_definite(n);
       A(n - 1, n - 1) = bad;
       EXPECT_FALSE(cholesky(A)) << n << " " << bad;
@@ -59,7 +57,7 @@ TEST(LinearAlgebra, CholeskySaysWhenThereIsNone) {
 }
 
 TEST(LinearAlgebra, Solve) {
-  for (const Index n : kSizes) {
+  for (const Index n : kFactorSizes) {
     const Matrix L = lower_triangle(n), hidden = hidden_above(L), B = normals(n, 9, 4);
     Matrix X = B;
     solve_lower(hidden, X);

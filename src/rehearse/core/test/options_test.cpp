@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "test_tools.hpp"
 
 namespace rehearse {
 namespace {
@@ -36,12 +37,7 @@ Fields fields_of(Outer& options) {
 }
 
 std::string refusal(Outer& options, const char* name, const char* text) {
-  try {
-    set_field(fields_of(options), name, text);
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "accepted";
+  return message_of<InvalidInput>([&] { set_field(fields_of(options), name, text); });
 }
 
 TEST(Options, AreFiniteUnlessTheirBoundAllowsOther) {

@@ -1,22 +1,22 @@
 #include "rehearse/core/tiles.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "matrix_tools.hpp"
+#include "not_finite.hpp"
 #include "tile_tools.hpp"
 
 namespace rehearse {
 namespace {
 
-const Index kSizes[] = {1, 2, 5, 31, 32, 33, 63, 64, 70, 97, 161};
+const Index kTiledSizes[] = {1, 2, 5, 31, 32, 33, 63, 64, 70, 97, 161};
 
 TEST(Tiles, EveryEntryHasItsOwnPlace) {
-  for (const Index n : kSizes) {
+  for (const Index n : kTiledSizes) {
     std::vector<int> seen(static_cast<std::size_t>(tiles_size(n)));
     for (Index j = 0; j < n; ++j)
       for (Index i = j; i < n; ++i) EXPECT_EQ(++seen.at(static_cast<std::size_t>(entry_offset(i, j))), 1);
@@ -24,7 +24,7 @@ TEST(Tiles, EveryEntryHasItsOwnPlace) {
 }
 
 TEST(Tiles, Cholesky) {
-  for (const Index n : kSizes) {
+  for (const Index n : kTiledSizes) {
     const Matrix A = positive_definite(n);
     auto tiles = to_tiles(A);
     ASSERT_TRUE(tiles_cholesky(n, tiles.data()));
@@ -47,7 +47,7 @@ TEST(Tiles, CholeskyOfAnIllConditionedMatrixIsBackwardStable) {
 
 TEST(Tiles, CholeskySaysWhenThereIsNone) {
   for (const Index n : {3, 40, 97}) {
-    for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double bad : {0.0, -1.0, kNan}) {
       Matrix A = positive_definite(n);
       A(n - 1, n - 1) = bad;
       EXPECT_FALSE(tiles_cholesky(n, to_tiles(A).data())) << n << " " << bad;
@@ -56,7 +56,7 @@ TEST(Tiles, CholeskySaysWhenThereIsNone) {
 }
 
 TEST(Tiles, Solve) {
-  for (const Index n : kSizes) {
+  for (const Index n : kTiledSizes) {
     const Matrix A = positive_definite(n), L = A.llt().matrixL();
     auto tiles = to_tiles(A);
     tiles_cholesky(n, tiles.data());
@@ -73,7 +73,7 @@ TEST(Tiles, Solve) {
 }
 
 TEST(Tiles, Inverse) {
-  for (const Index n : kSizes) {
+  for (const Index n : kTiledSizes) {
     const Matrix A = positive_definite(n), L = A.llt().matrixL();
     auto tiles = to_tiles(A);
     tiles_cholesky(n, tiles.data());

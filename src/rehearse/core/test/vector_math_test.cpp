@@ -1,16 +1,14 @@
 #include "rehearse/core/vector_math.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
+#include "not_finite.hpp"
 #include "rehearse/core/random.hpp"
 
 namespace rehearse {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
 Vector uniforms(Index n, double low, double high) {
   Rng rng({.seed = 1});

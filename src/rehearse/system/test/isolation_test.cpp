@@ -27,7 +27,7 @@ std::shared_ptr<const Simulator> hostile() {
   return make_simulator(ParameterSpace({Parameter::continuous("a", 0, {-1, 1})}), change);
 }
 
-const Vector kPhi{{0.25}};
+const Vector kShift{{0.25}};
 
 Matrix numbered(Index rows) {
   Matrix X(rows, 3);
@@ -39,7 +39,7 @@ Matrix numbered(Index rows) {
 void expect_answers(const Simulator& simulator, const Matrix& U) {
   const Matrix X = numbered(U.rows());
   Matrix dX = Matrix::Zero(X.rows(), X.cols());
-  simulator.change(X, U, kPhi, dX);
+  simulator.change(X, U, kShift, dX);
   for (Index i = 0; i < X.rows(); ++i) {
     if (U(i, 0) < 0) {
       EXPECT_TRUE(dX.row(i).array().isNaN().all()) << i;

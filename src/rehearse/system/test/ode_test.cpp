@@ -2,16 +2,14 @@
 
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/test/not_finite.hpp"
 
 namespace rehearse::system {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
 /// x'' = −ω² x + u: states (x, x'), φ = (ω).
 void oscillator(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {

@@ -1,7 +1,8 @@
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
+
+#include "rehearse/core/test/not_finite.hpp"
 
 #define REHEARSE_EQUATION "rehearse/system/test/functions.hpp"
 #include "rehearse/system/equation_kernel.hpp"
@@ -9,7 +10,6 @@
 namespace rehearse::system {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const Vector kOffset{{0.25}}, kStart = Vector::Zero(10);
 
 Vector expected(double u) {

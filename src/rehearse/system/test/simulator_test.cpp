@@ -2,18 +2,16 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/test/not_finite.hpp"
 
 namespace rehearse::system {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 
 /// dX = X + U, unless the row's first state is negative: then `harm` is done. Keeps the sizes of the calls.
 class Fragile final : public Simulator {
