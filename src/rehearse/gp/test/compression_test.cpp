@@ -11,7 +11,7 @@ Hyperparameters unit_signal(Index dimensions, double length, double noise) {
   return naive::hyperparameters(dimensions, length, 1, noise);
 }
 
-struct Prediction {
+struct Conditional {
   Vector mean, deviation;
 };
 
@@ -20,13 +20,13 @@ Vector weights(const Matrix& X, const Hyperparameters& theta, const Vector& y) {
 }
 
 /// K: covariance of the targets, k: that of the targets with the queries.
-Prediction condition(const Matrix& K, const Matrix& k, const Vector& y) {
+Conditional condition(const Matrix& K, const Matrix& k, const Vector& y) {
   const Eigen::LLT<Matrix> llt(K);
   const Vector explained = llt.matrixL().solve(k).colwise().squaredNorm();
   return {k.transpose() * llt.solve(y), (1 - explained.array()).max(0).sqrt()};
 }
 
-Prediction condition(const Summary& summary, const Matrix& X, const Matrix& F, const Hyperparameters& theta) {
+Conditional condition(const Summary& summary, const Matrix& X, const Matrix& F, const Hyperparameters& theta) {
   const Matrix K = summary.covariance.selfadjointView<Eigen::Lower>();
   return condition(K, naive::covariance(X(summary.points, Eigen::all), F, theta), summary.targets);
 }
@@ -63,8 +63,8 @@ TEST(Summarise, StaysWithinItsBound) {
       const auto summary = summarise(naive::covariance(X, X, theta), ratio, y, weights(X, theta, y), t, 150);
       ASSERT_TRUE(summary);
       EXPECT_LT(summary->points.size(), 150);
-      const Prediction exact = condition(naive::noisy_covariance(X, theta), naive::covariance(X, F, theta), y);
-      const Prediction few = condition(*summary, X, F, theta);
+      const Conditional exact = condition(naive::noisy_covariance(X, theta), naive::covariance(X, F, theta), y);
+      const Conditional few = condition(*summary, X, F, theta);
       const Eigen::ArrayXd bound = (t + std::sqrt(t)) * few.deviation.array() + 1e-9;
       EXPECT_TRUE(((few.deviation - exact.deviation).array().abs() <= bound).all()) << noise << " " << t;
       EXPECT_LE((few.mean - exact.mean).cwiseAbs().maxCoeff(), summary->mean_error + 1e-9) << noise << " " << t;

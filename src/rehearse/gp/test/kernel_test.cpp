@@ -17,16 +17,12 @@ std::vector<double> scaled(const Matrix& X) {
   return out;
 }
 
-Matrix correlations(const Matrix& A, const Matrix& B) {
-  return naive::covariance(A, B, {.log_lengths = Vector::Zero(A.cols()), .log_signal = 0, .log_noise = 0});
-}
-
 TEST(Kernel, CorrelationMatrix) {
   for (const Index n : {1, 2, 7, 8, 9, 31, 33, 64, 100}) {
     const Matrix X = naive::normals(n, 5, 1);
     std::vector<double> tiles(static_cast<std::size_t>(tiles_size(n)));
     correlation_matrix(scaled(X).data(), n, 5, 3.5, tiles.data());
-    Matrix expected = correlations(X, X);
+    Matrix expected = naive::correlations(X, X);
     expected.diagonal().setConstant(3.5);
     EXPECT_TRUE(lower_from_tiles(n, tiles).isApprox(lower(expected), 1e-14)) << n;
   }
@@ -38,7 +34,7 @@ TEST(Kernel, GradientSums) {
     const Matrix X = naive::normals(n, D, 2), inverse = naive::normals(n, n, 3);
     Vector b = Vector::Zero(padded(n)), sums(8 * (D + 1)), expected = Vector::Zero(D + 1);
     b.head(n) = naive::normals(n, 1, 4);
-    const Matrix C = correlations(X, X);
+    const Matrix C = naive::correlations(X, X);
     for (Index j = 0; j < n; ++j) {
       for (Index i = j + 1; i < n; ++i) {
         const double w = (b(i) * b(j) - inverse(i, j)) * C(i, j);

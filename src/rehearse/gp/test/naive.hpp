@@ -44,6 +44,11 @@ inline Matrix covariance(const Matrix& A, const Matrix& B, const Hyperparameters
   return K;
 }
 
+/// The same with lengths and a signal of 1.
+inline Matrix correlations(const Matrix& A, const Matrix& B) {
+  return covariance(A, B, {.log_lengths = Vector::Zero(A.cols()), .log_signal = 0, .log_noise = 0});
+}
+
 inline Matrix noisy_covariance(const Matrix& X, const Hyperparameters& theta) {
   return covariance(X, X, theta) + theta.noise_variance() * Matrix::Identity(X.rows(), X.rows());
 }

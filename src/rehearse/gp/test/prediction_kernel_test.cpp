@@ -9,10 +9,6 @@
 namespace rehearse::gp {
 namespace {
 
-Matrix correlations(const Matrix& A, const Matrix& B) {
-  return naive::covariance(A, B, {.log_lengths = Vector::Zero(A.cols()), .log_signal = 0, .log_noise = 0});
-}
-
 /// Queries as the kernel wants them, column-major here: kChunk × D.
 Matrix padded_queries(const Matrix& Q) {
   Matrix padded = Matrix::Zero(kChunk, Q.cols());
@@ -39,7 +35,7 @@ TEST(PredictionKernel, MeansAndNorms) {
       const Vector w = naive::normals(n, 1, 8);
       Vector means(kChunk), norms(kChunk), means_only(kChunk);
       Matrix columns(n, kChunk);
-      const Matrix queries = padded_queries(Q), packed = pack(L), expected = correlations(X, Q);
+      const Matrix queries = padded_queries(Q), packed = pack(L), expected = naive::correlations(X, Q);
       correlate({points.data()}, n, D, w.data(), {queries.data()}, rows, columns.data(), means.data());
       triangular_norms(packed.data(), n, columns.data(), rows, norms.data());
       EXPECT_LT((means.head(rows) - expected.transpose() * w).norm(), 1e-13 * (1 + w.norm()));

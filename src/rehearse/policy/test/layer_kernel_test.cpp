@@ -5,17 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "rehearse/core/random.hpp"
+#include "fixture.hpp"
 
 namespace rehearse::policy {
 namespace {
 
-Matrix normals(Index rows, Index columns, std::uint64_t seed) {
-  Rng rng({.seed = seed});
-  Matrix numbers(rows, columns);
-  for (double& value : numbers.reshaped()) value = rng.normal();
-  return numbers;
-}
+using fixture::normals;
 
 TEST(Layer, IsItsFormulaForAnyNumberOfRowsAndStrides) {
   constexpr Index kInputs = 3, kOutputs = 2;

@@ -12,15 +12,15 @@ namespace rehearse::policy {
 namespace {
 
 const FeatureMap kFeatures({StateKind::plain, StateKind::plain});
-const std::vector<Interval> kBounds = {{-1, 1}};
+const std::vector<Interval> kUnitBounds = {{-1, 1}};
 
 /// One of every kind, for two states where that matters.
 std::vector<std::shared_ptr<const Policy>> policies() {
   const Vector scale = Vector::Ones(2);
-  return {make_mlp({.features = kFeatures, .scale = scale, .hidden = 2, .squash = {kBounds, 1}}),
-          make_linear({.features = kFeatures, .scale = scale, .squash = {kBounds, 1}}),
-          make_rbf({.features = kFeatures, .scale = scale, .centres = 2, .bounds = kBounds}),
-          make_schedule(kBounds, 0.1, 5), make_gait(6)};
+  return {make_mlp({.features = kFeatures, .scale = scale, .hidden = 2, .squash = {kUnitBounds, 1}}),
+          make_linear({.features = kFeatures, .scale = scale, .squash = {kUnitBounds, 1}}),
+          make_rbf({.features = kFeatures, .scale = scale, .centres = 2, .bounds = kUnitBounds}),
+          make_schedule(kUnitBounds, 0.1, 5), make_gait(6)};
 }
 
 TEST(Policy, WrongSizesAreRefusedByEveryKind) {
