@@ -1,17 +1,15 @@
 #include "rehearse/optim/cmaes.hpp"
 
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/optim/derivative_free.hpp"
 
 namespace rehearse::optim {
 namespace {
-
-using Function = std::function<double(const Vector&)>;
 
 double sphere(const Vector& x) { return -x.squaredNorm(); }
 
@@ -28,7 +26,7 @@ double rosenbrock(const Vector& x) {
   return -sum;
 }
 
-Cmaes& descend(Cmaes& search, const Function& f, double target) {
+Cmaes& descend(Cmaes& search, const ScalarObjective& f, double target) {
   Vector values(search.population());
   while (search.stop() == Stop::none && search.best_value() < target) {
     const Matrix& X = search.ask();
@@ -38,7 +36,7 @@ Cmaes& descend(Cmaes& search, const Function& f, double target) {
   return search;
 }
 
-Index evaluations_to(const Function& f, double target, Index n, std::uint64_t seed, CmaesOptions options = {}) {
+Index evaluations_to(const ScalarObjective& f, double target, Index n, std::uint64_t seed, CmaesOptions options = {}) {
   Cmaes search(Vector::Constant(n, 0.3), 0.5, {}, options, {.seed = seed, .purpose = Purpose::search});
   descend(search, f, target);
   EXPECT_GE(search.best_value(), target) << to_string(search.stop());
@@ -70,7 +68,8 @@ double rotated_ellipsoid(const Vector& x) {  // by a Householder reflection
 
 // Equal on average; the sums over 8 seeds differ by less than 10 %, here and with other seeds.
 TEST(Cmaes, TheCholeskyFactorSearchesLikeTheEigendecomposition) {
-  for (const Function& f : {Function(ellipsoid), Function(rotated_ellipsoid), Function(rosenbrock)}) {
+  for (const ScalarObjective& f :
+       {ScalarObjective(ellipsoid), ScalarObjective(rotated_ellipsoid), ScalarObjective(rosenbrock)}) {
     double eigen = 0, cholesky = 0;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
       eigen += static_cast<double>(evaluations_to(f, -1e-9, 12, seed));

@@ -24,14 +24,14 @@ SquaresProblem problem(std::function<Vector(const Vector&)> errors, Index n, dou
           Vector::Constant(n, -bound), Vector::Constant(n, bound)};
 }
 
-Vector rosenbrock(const Vector& x) { return Vector{{10 * (x(1) - x(0) * x(0)), 1 - x(0)}}; }
+Vector rosenbrock_residuals(const Vector& x) { return Vector{{10 * (x(1) - x(0) * x(0)), 1 - x(0)}}; }
 
 TEST(MinimiseSquares, FollowsACurvedValleyToItsEnd) {
-  const SquaresResult found = minimise_squares(problem(rosenbrock, 2, 5), Vector{{-1.2, 1}});
+  const SquaresResult found = minimise_squares(problem(rosenbrock_residuals, 2, 5), Vector{{-1.2, 1}});
   EXPECT_LT((found.x - Vector::Ones(2)).norm(), 1e-9);
   EXPECT_LT(found.evaluations, 60);
   EXPECT_TRUE(found.converged);
-  EXPECT_EQ(found.value, rosenbrock(found.x).squaredNorm());
+  EXPECT_EQ(found.value, rosenbrock_residuals(found.x).squaredNorm());
 }
 
 TEST(MinimiseSquares, LeavesResidualsThatNoPointExplains) {
@@ -44,7 +44,7 @@ TEST(MinimiseSquares, LeavesResidualsThatNoPointExplains) {
 
 // On the edge x0 = 0.5 the best x1 is x0² = 0.25.
 TEST(MinimiseSquares, EndsAtTheBorderWhereTheMinimumIsBeyond) {
-  SquaresProblem bounded = problem(rosenbrock, 2, 5);
+  SquaresProblem bounded = problem(rosenbrock_residuals, 2, 5);
   bounded.high(0) = 0.5;
   const SquaresResult found = minimise_squares(bounded, Vector{{-1.2, 1}});
   EXPECT_EQ(found.x(0), 0.5);
@@ -74,16 +74,16 @@ TEST(MinimiseSquares, StepsToWhereThereIsNoValueAreNotMade) {
 }
 
 TEST(MinimiseSquares, SaysWhereDerivativesMislead) {
-  SquaresProblem wrong = problem(rosenbrock, 2, 5);
-  wrong.derivatives = [](const Vector& x, const Vector&) { return Matrix(-differences(rosenbrock, x)); };
+  SquaresProblem wrong = problem(rosenbrock_residuals, 2, 5);
+  wrong.derivatives = [](const Vector& x, const Vector&) { return Matrix(-differences(rosenbrock_residuals, x)); };
   const SquaresResult found = minimise_squares(wrong, Vector{{-1.2, 1}});
   EXPECT_FALSE(found.converged);
   EXPECT_EQ(found.x, (Vector{{-1.2, 1}}));
 }
 
 TEST(MinimiseSquares, RefusesAStartOutsideTheBox) {
-  EXPECT_THROW(minimise_squares(problem(rosenbrock, 2, 1), Vector{{0, 2}}), InvalidInput);
-  EXPECT_THROW(minimise_squares(problem(rosenbrock, 2, 1), Vector{{0}}), InvalidInput);
+  EXPECT_THROW(minimise_squares(problem(rosenbrock_residuals, 2, 1), Vector{{0, 2}}), InvalidInput);
+  EXPECT_THROW(minimise_squares(problem(rosenbrock_residuals, 2, 1), Vector{{0}}), InvalidInput);
 }
 
 }  // namespace

@@ -10,12 +10,12 @@ namespace {
 const std::vector<Interval> kBox(3, Interval{-2, 2});
 
 /// −‖x − 1‖².
-void sphere(const ConstMatrixView& X, std::uint64_t, Index, VectorView values) {
+void spheres(const ConstMatrixView& X, std::uint64_t, Index, VectorView values) {
   values = -(X.array() - 1).square().colwise().sum().transpose();
 }
 
 RaceResult run(const RaceOptions& options, const SearchSpace& space = {.box = kBox}) {
-  return race(sphere, space, options, {.purpose = Purpose::search}, serial_evaluator());
+  return race(spheres, space, options, {.purpose = Purpose::search}, serial_evaluator());
 }
 
 TEST(Race, FindsTheOptimumAndPutsTheBestFirst) {
@@ -33,7 +33,7 @@ TEST(Race, NeverExceedsItsEvaluations) {
       const BatchObjective objective = [&](const ConstMatrixView& X, std::uint64_t first, Index samples,
                                            VectorView values) {
         counted += X.cols() * samples;
-        sphere(X, first, samples, values);
+        spheres(X, first, samples, values);
       };
       const RaceResult result =
           race(objective, {.box = kBox}, {.max_evaluations = most, .descents = 8, .rounds = rounds},

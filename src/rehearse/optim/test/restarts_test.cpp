@@ -1,17 +1,15 @@
 #include "rehearse/optim/restarts.hpp"
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/optim/derivative_free.hpp"
 
 namespace rehearse::optim {
 namespace {
-
-using Function = std::function<double(const Vector&)>;
 
 double rastrigin(const Vector& x) {
   double sum = 0;
@@ -19,9 +17,9 @@ double rastrigin(const Vector& x) {
   return -sum;
 }
 
-double sphere(const Vector& x) { return -(x.array() - 1).square().sum(); }
+double sphere_around_ones(const Vector& x) { return -(x.array() - 1).square().sum(); }
 
-BatchObjective each(const Function& f) {
+BatchObjective each(const ScalarObjective& f) {
   return [f](const ConstMatrixView& X, std::uint64_t, Index, VectorView values) {
     for (Index j = 0; j < X.cols(); ++j) values(j) = f(X.col(j));
   };
@@ -109,9 +107,9 @@ TEST(Restarts, CandidatesHoldBestPointsAndMeansInOrder) {
 
 TEST(Restarts, MayLeaveOutTheBestPoints) {
   SearchOptions options{.max_evaluations = 3000};
-  const auto both = maximise(each(sphere), Vector::Zero(5), box5, options, key(1));
+  const auto both = maximise(each(sphere_around_ones), Vector::Zero(5), box5, options, key(1));
   options.means_alone = true;
-  const auto means = maximise(each(sphere), Vector::Zero(5), box5, options, key(1));
+  const auto means = maximise(each(sphere_around_ones), Vector::Zero(5), box5, options, key(1));
   ASSERT_FALSE(means.candidates.empty());
   for (const Candidate& candidate : means.candidates) EXPECT_TRUE(candidate.mean);
   EXPECT_GT(both.candidates.size(), means.candidates.size());
@@ -120,7 +118,7 @@ TEST(Restarts, MayLeaveOutTheBestPoints) {
 
 TEST(Restarts, SingleSaysWhyItsDescentStopped) {
   const SearchOptions options{.strategy = Strategy::single};
-  const auto result = maximise(each(sphere), Vector::Zero(5), box5, options, key(1));
+  const auto result = maximise(each(sphere_around_ones), Vector::Zero(5), box5, options, key(1));
   EXPECT_EQ(result.descents.size(), 1u);
   EXPECT_EQ(result.stop, result.descents.front().stop);
   EXPECT_NEAR(result.value, 0, 1e-9);
@@ -133,7 +131,7 @@ TEST(Restarts, TheListenerHearsEveryGenerationAndMayStop) {
     last = evaluations;
     if (evaluations > 100) throw std::runtime_error("enough");
   };
-  EXPECT_THROW(maximise(each(sphere), Vector::Zero(5), box5, {}, key(1), listener), std::runtime_error);
+  EXPECT_THROW(maximise(each(sphere_around_ones), Vector::Zero(5), box5, {}, key(1), listener), std::runtime_error);
 }
 
 TEST(Restarts, WithoutAnyFiniteValueTheStartComesBack) {
@@ -154,7 +152,7 @@ TEST(Restarts, UncertaintyHandlingSolvesASphereWithMultiplicativeNoise) {
         Rng rng({.seed = seed, .candidate = first + static_cast<std::uint64_t>(j)});
         double sum = 0;
         for (Index k = 0; k < samples; ++k) sum += std::exp(rng.normal());
-        values(j) = sphere(X.col(j)) * sum / static_cast<double>(samples);
+        values(j) = sphere_around_ones(X.col(j)) * sum / static_cast<double>(samples);
       }
     };
     SearchOptions options{.strategy = Strategy::single, .max_evaluations = 30000, .final_samples = 50};
@@ -171,7 +169,7 @@ TEST(Restarts, ReportEveryViolation) {
   options.cmaes.population = 2;
   options.uncertainty.reevaluated = 2;
   try {
-    maximise(each(sphere), Vector{{7}}, {{0, 1}, {2, 2}}, options, key(1));
+    maximise(each(sphere_around_ones), Vector{{7}}, {{0, 1}, {2, 2}}, options, key(1));
     FAIL();
   } catch (const InvalidInput& error) {
     const std::string text = error.what();
