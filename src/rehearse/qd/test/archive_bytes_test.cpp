@@ -6,6 +6,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
+#include "rehearse/core/test/test_tools.hpp"
 #include "rehearse/files/checksum.hpp"
 
 namespace rehearse::qd {
@@ -52,12 +53,7 @@ TEST(ArchiveBytes, AnEmptyArchiveIsOneToo) {
 }
 
 std::string refusal(std::string_view bytes) {
-  try {
-    from_bytes(bytes, "archive.bin");
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return {};
+  return message_of<InvalidInput>([&] { from_bytes(bytes, "archive.bin"); });
 }
 
 /// Changes bytes and makes the checksum right again: what a hostile file could be.

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rehearse/core/random.hpp"
+#include "uniform_points.hpp"
 
 namespace rehearse::qd {
 namespace {
@@ -15,15 +15,10 @@ Index nearest_of_all(const Matrix& points, const Vector& query) {
   return nearest;
 }
 
-Matrix random(Index D, Index n, std::uint64_t seed) {
-  Rng rng({.seed = seed});
-  return Matrix::NullaryExpr(D, n, [&] { return rng.uniform(-1, 1); });
-}
-
 TEST(KdTree, FindsWhatALookAtEveryPointFinds) {
   for (const Index D : {1, 2, 3, 6, 12})
     for (const Index n : {1, 2, 7, 50, 1000}) {
-      const Matrix points = random(D, n, 1), queries = 1.5 * random(D, 200, 2);
+      const Matrix points = uniform_points(D, n, -1, 1, 1), queries = 1.5 * uniform_points(D, 200, -1, 1, 2);
       const KdTree tree(points);
       for (Index q = 0; q < queries.cols(); ++q)
         ASSERT_EQ(tree.nearest(queries.col(q).data()), nearest_of_all(points, queries.col(q))) << D << ' ' << n;
@@ -48,7 +43,7 @@ TEST(KdTree, OfEquallyNearPointsTheFirst) {
 }
 
 TEST(KdTree, StaysInItsBoundsFarAway) {
-  const KdTree tree(random(2, 300, 1));
+  const KdTree tree(uniform_points(2, 300, -1, 1, 1));
   for (const double far : {1e150, 1e300, -1e308}) {
     const Index found = tree.nearest(Vector{{far, -far}}.data());
     EXPECT_GE(found, 0);

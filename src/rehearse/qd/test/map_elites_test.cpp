@@ -8,6 +8,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/qd/archive_bytes.hpp"
+#include "square_archive.hpp"
 
 namespace rehearse::qd {
 namespace {
@@ -18,13 +19,9 @@ void bowl(const ConstMatrixView& X, std::uint64_t, VectorView performances, Matr
   descriptors = X.leftCols(2);
 }
 
-Archive archive(Index bins = 10, Index parameters = 5) {
-  return {Niches(Grid{{{-1, 1}, {-1, 1}}, {bins, bins}}), parameters};
-}
-
 MapElites search(const MapElitesOptions& options = {.batch = 100, .initial = 200}, std::uint64_t seed = 1,
                  Index bins = 10) {
-  return {archive(bins), {.box = std::vector<Interval>(5, {-1, 1})}, options, {.seed = seed}};
+  return {square_archive(bins), {.box = std::vector<Interval>(5, {-1, 1})}, options, {.seed = seed}};
 }
 
 std::string bytes_of(const MapElites& search) {
@@ -88,8 +85,8 @@ TEST(MapElites, GoesOnFromWhatWasKept) {
   resumed.resume(std::move(back.archive), back.evaluations, back.failed);
   run(resumed, 6);
   EXPECT_EQ(bytes_of(resumed), bytes_of(whole));
-  EXPECT_THROW(resumed.resume(archive(11), 0, 0), InvalidInput);
-  EXPECT_THROW(resumed.resume(archive(10, 4), 0, 0), InvalidInput);
+  EXPECT_THROW(resumed.resume(square_archive(11), 0, 0), InvalidInput);
+  EXPECT_THROW(resumed.resume(square_archive(10, 4), 0, 0), InvalidInput);
 }
 
 TEST(MapElites, AnInterruptedGenerationLeavesNoTrace) {
@@ -135,8 +132,8 @@ TEST(MapElites, AShareOfTheFirstSolutionsIsNearTheExamples) {
   Matrix examples(2, 5);
   examples << Vector::Constant(5, 0.5).transpose(), Vector::Constant(5, -1).transpose();
   const std::vector<Interval> box(5, {-1, 1});
-  MapElites with(archive(), {.box = box, .examples = examples}, options, {.seed = 1});
-  MapElites without(archive(), {.box = box}, options, {.seed = 1});
+  MapElites with(square_archive(), {.box = box, .examples = examples}, options, {.seed = 1});
+  MapElites without(square_archive(), {.box = box}, options, {.seed = 1});
   const Matrix X = with.ask(), uniform = without.ask();
   Index near[2] = {0, 0}, same = 0;
   for (Index i = 0; i < X.rows(); ++i) {
@@ -153,7 +150,8 @@ TEST(MapElites, StaysInItsBoxOrGoesAnywhere) {
   MapElitesOptions options{.batch = 100, .initial = 100};
   options.variation.iso_sigma = 0.5;
   const auto largest = [&](std::vector<Interval> box) {
-    MapElites searching(archive(), {.box = std::move(box), .start = Vector::Constant(5, 0.9)}, options, {.seed = 1});
+    MapElites searching(square_archive(), {.box = std::move(box), .start = Vector::Constant(5, 0.9)}, options,
+                        {.seed = 1});
     double most = 0;
     for (int g = 0; g < 20; ++g) {
       most = std::max(most, searching.ask().cwiseAbs().maxCoeff());
@@ -168,7 +166,7 @@ TEST(MapElites, StaysInItsBoxOrGoesAnywhere) {
 TEST(MapElites, RefusesWrongInputByName) {
   const auto refusal = [](SearchSpace space, MapElitesOptions options) -> std::string {
     try {
-      MapElites(archive(), std::move(space), options, {});
+      MapElites(square_archive(), std::move(space), options, {});
     } catch (const InvalidInput& error) {
       return error.what();
     }

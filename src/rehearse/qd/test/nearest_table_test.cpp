@@ -2,21 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "rehearse/core/random.hpp"
+#include "uniform_points.hpp"
 
 namespace rehearse::qd {
 namespace {
 
-/// D × n, uniform in [low, high).
-Matrix random(Index D, Index n, double low, double high, std::uint64_t seed) {
-  Rng rng({.seed = seed});
-  return Matrix::NullaryExpr(D, n, [&] { return rng.uniform(low, high); });
-}
-
 TEST(NearestTable, FindsWhatTheTreeFinds) {
   for (const Index D : {1, 2, 3})
     for (const double spread : {0.1, 1.0, 3.0}) {  // points in a corner, in the cube, mostly outside
-      const Matrix points = random(D, 500, 0, spread, 1), queries = random(D, 3000, 0, 1, 2);
+      const Matrix points = uniform_points(D, 500, 0, spread, 1), queries = uniform_points(D, 3000, 0, 1, 2);
       const KdTree tree(points);
       const NearestTable table(tree, points);
       for (Index q = 0; q < queries.cols(); ++q)
@@ -39,7 +33,7 @@ TEST(NearestTable, OfEquallyNearPointsTheFirst) {
 }
 
 TEST(NearestTable, KnowsNothingOutsideTheCube) {
-  const Matrix points = random(2, 100, 0, 1, 1);
+  const Matrix points = uniform_points(2, 100, 0, 1, 1);
   const NearestTable table(KdTree(points), points);
   for (const double outside : {-1e-9, 1.0, 1e300}) EXPECT_EQ(table.nearest(Vector{{0.5, outside}}.data()), -1);
   EXPECT_TRUE(NearestTable().empty());

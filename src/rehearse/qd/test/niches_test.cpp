@@ -8,6 +8,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
+#include "rehearse/core/test/test_tools.hpp"
 
 namespace rehearse::qd {
 namespace {
@@ -73,32 +74,23 @@ TEST(Cvt, SpreadsItsCentroidsEvenly) {
   EXPECT_GT(distortion(30), 0.0016);
 }
 
-std::string refusal(const std::function<void()>& make) {
-  try {
-    make();
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return {};
-}
-
 TEST(Niches, RefuseWrongInputByName) {
-  const std::string grid = refusal([] { Niches(Grid{{{0, 1}, {1, 1}}, {2, 0}}); });
+  const std::string grid = message_of<InvalidInput>([] { Niches(Grid{{{0, 1}, {1, 1}}, {2, 0}}); });
   EXPECT_NE(grid.find("descriptor 2: bounds [1, 1], must be finite with low < high"), std::string::npos) << grid;
   EXPECT_NE(grid.find("descriptor 2: 0 bins, must be ≥ 1"), std::string::npos) << grid;
-  EXPECT_NE(refusal([] {
+  EXPECT_NE(message_of<InvalidInput>([] {
               Niches(Grid{{{0, 1}}, {2, 3}});
             }).find("bins of 2 descriptors, must be of 1"),
             std::string::npos);
-  EXPECT_NE(refusal([] {
+  EXPECT_NE(message_of<InvalidInput>([] {
               Niches(Grid{std::vector<Interval>(10, {0, 1}), std::vector<Index>(10, 10)});
             }).find("the grid has 1e+10 niches, must be ≤ 1e+08"),
             std::string::npos);
-  EXPECT_NE(refusal([] {
+  EXPECT_NE(message_of<InvalidInput>([] {
               Niches(Cvt{.bounds = {{0, 1}}, .niches = 10, .samples = 9});
             }).find("samples = 9, must be ≥ niches = 10"),
             std::string::npos);
-  EXPECT_NE(refusal([] {
+  EXPECT_NE(message_of<InvalidInput>([] {
               Niches(Cvt{.bounds = std::vector<Interval>(65, {0, 1})});
             }).find("65 descriptors"),
             std::string::npos);

@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "square_archive.hpp"
+
 namespace rehearse::qd {
 namespace {
 
-Archive archive() { return {Niches(Grid{{{-1, 1}, {-1, 1}}, {10, 10}}), 5}; }
-
 TEST(Variation, HasTheSpreadThatItIsGiven) {
-  Archive two = archive();
+  Archive two = square_archive();
   const Vector a = Vector::Zero(5), b = Vector{{0.8, 0, 0, 0, 0}};
   two.add(0, 0, a.data(), a.data());
   two.add(1, 0, a.data(), b.data());
@@ -29,7 +29,7 @@ TEST(Variation, HasTheSpreadThatItIsGiven) {
 }
 
 TEST(Variation, ResetsOnTheLattice) {
-  Archive one = archive();
+  Archive one = square_archive();
   const Vector zero = Vector::Zero(5);
   one.add(0, 0, zero.data(), zero.data());
   const Index n = 20000;
