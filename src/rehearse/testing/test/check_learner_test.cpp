@@ -5,23 +5,33 @@
 
 #include "rehearse/core/random.hpp"
 #include "rehearse/policy/schedule.hpp"
+#include "small_task.hpp"
 
 namespace rehearse::testing {
 namespace {
 
-enum class Fault { none, asks_anew, counts_threads, forgets, no_policy, wrong_size, other_tables, unnamed_columns };
+enum class LearnerFault {
+  none,
+  asks_anew,
+  counts_threads,
+  forgets,
+  no_policy,
+  wrong_size,
+  other_tables,
+  unnamed_columns
+};
 
 /// Proposes the sum of all returns and a number of tells that only `save` keeps.
 class Adding final : public learners::Learner {
  public:
-  Adding(learners::Setting setting, Fault fault) : setting_(std::move(setting)), fault_(fault) {}
+  Adding(learners::Setting setting, LearnerFault fault) : setting_(std::move(setting)), fault_(fault) {}
 
   const learners::Proposal& ask() override {
-    if (fault_ == Fault::asks_anew) ++extra_;
-    const double threads = fault_ == Fault::counts_threads ? setting_.evaluator->concurrency() : 0;
-    if (fault_ != Fault::no_policy) proposal_.policy = policy::make_schedule({{0, 1}}, 1, 2);
+    if (fault_ == LearnerFault::asks_anew) ++extra_;
+    const double threads = fault_ == LearnerFault::counts_threads ? setting_.evaluator->concurrency() : 0;
+    if (fault_ != LearnerFault::no_policy) proposal_.policy = policy::make_schedule({{0, 1}}, 1, 2);
     proposal_.theta = Vector{{sum_ + extra_ + threads, tells_}};
-    if (fault_ == Fault::wrong_size) proposal_.theta.conservativeResize(1);
+    if (fault_ == LearnerFault::wrong_size) proposal_.theta.conservativeResize(1);
     return proposal_;
   }
   void tell(const Episode& episode) override {
@@ -30,27 +40,27 @@ class Adding final : public learners::Learner {
     ++since_built_;
   }
   std::vector<learners::Table> tables() const override {
-    const double since_built = fault_ == Fault::other_tables ? since_built_ : 0;
+    const double since_built = fault_ == LearnerFault::other_tables ? since_built_ : 0;
     learners::Table table{"sums", {"sum", "since built"}, Matrix{{sum_, since_built}}};
-    if (fault_ == Fault::unnamed_columns) table.columns.pop_back();
+    if (fault_ == LearnerFault::unnamed_columns) table.columns.pop_back();
     return {table};
   }
   nlohmann::json save() const override { return {{"tells", tells_}}; }
   void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override {
     for (const Episode& episode : episodes) sum_ += episode.total_reward();
-    if (fault_ != Fault::forgets) tells_ = state.at("tells").get<double>();
+    if (fault_ != LearnerFault::forgets) tells_ = state.at("tells").get<double>();
   }
 
  private:
   learners::Setting setting_;
-  Fault fault_;
+  LearnerFault fault_;
   learners::Proposal proposal_;
   double sum_ = 0, tells_ = 0, extra_ = 0, since_built_ = 0;
 };
 
-class Builder final : public learners::LearnerBuilder {
+class AddingBuilder final : public learners::LearnerBuilder {
  public:
-  explicit Builder(Fault fault) : fault_(fault) {}
+  explicit AddingBuilder(LearnerFault fault) : fault_(fault) {}
   std::string name() const override { return "adding"; }
   std::string summary() const override { return "adds"; }
   learners::PriorUse prior_use() const override { return learners::PriorUse::none; }
@@ -61,7 +71,7 @@ class Builder final : public learners::LearnerBuilder {
   }
 
  private:
-  Fault fault_;
+  LearnerFault fault_;
 };
 
 Episode run_trial(const learners::Proposal& proposal, std::uint64_t trial) {
@@ -71,22 +81,24 @@ Episode run_trial(const learners::Proposal& proposal, std::uint64_t trial) {
           .rewards = Vector{{0.1 * static_cast<double>(trial) + 0.01 * proposal.theta(0)}}};
 }
 
-std::string check(Fault fault) {
-  std::string text;
-  for (const std::string& line : check_learner(Builder(fault), {}, run_trial)) text += line + "\n";
-  return text;
-}
+std::string check_adding(LearnerFault fault) { return joined(check_learner(AddingBuilder(fault), {}, run_trial)); }
 
-TEST(CheckLearner, AcceptsAGoodOne) { EXPECT_EQ(check(Fault::none), ""); }
+TEST(CheckLearner, AcceptsAGoodOne) { EXPECT_EQ(check_adding(LearnerFault::none), ""); }
 
 TEST(CheckLearner, FindsFaults) {
-  EXPECT_NE(check(Fault::asks_anew).find("trial 1: asked again, another theta is proposed"), std::string::npos);
-  EXPECT_NE(check(Fault::counts_threads).find("trial 1: two threads give another theta"), std::string::npos);
-  EXPECT_NE(check(Fault::no_policy).find("trial 1: a proposal without a policy"), std::string::npos);
-  EXPECT_NE(check(Fault::wrong_size).find("trial 1: 1 parameters, the policy takes 2"), std::string::npos);
-  EXPECT_NE(check(Fault::forgets).find("loaded after 1 episodes, trial 2 has another theta"), std::string::npos);
-  EXPECT_NE(check(Fault::other_tables).find("loaded after 1 episodes, other tables after trial 2"), std::string::npos);
-  EXPECT_NE(check(Fault::unnamed_columns).find("trial 1: table sums has 2 columns and names of 1"), std::string::npos);
+  EXPECT_NE(check_adding(LearnerFault::asks_anew).find("trial 1: asked again, another theta is proposed"),
+            std::string::npos);
+  EXPECT_NE(check_adding(LearnerFault::counts_threads).find("trial 1: two threads give another theta"),
+            std::string::npos);
+  EXPECT_NE(check_adding(LearnerFault::no_policy).find("trial 1: a proposal without a policy"), std::string::npos);
+  EXPECT_NE(check_adding(LearnerFault::wrong_size).find("trial 1: 1 parameters, the policy takes 2"),
+            std::string::npos);
+  EXPECT_NE(check_adding(LearnerFault::forgets).find("loaded after 1 episodes, trial 2 has another theta"),
+            std::string::npos);
+  EXPECT_NE(check_adding(LearnerFault::other_tables).find("loaded after 1 episodes, other tables after trial 2"),
+            std::string::npos);
+  EXPECT_NE(check_adding(LearnerFault::unnamed_columns).find("trial 1: table sums has 2 columns and names of 1"),
+            std::string::npos);
 }
 
 }  // namespace

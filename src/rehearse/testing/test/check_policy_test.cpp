@@ -6,19 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/robots/pendubot/pendubot.hpp"
+#include "small_task.hpp"
 
 namespace rehearse::testing {
 namespace {
-
-Task task() {
-  Task task;
-  task.states = {{"x", ""}};
-  task.actions = {{"u", "", {-1, 1}}};
-  task.start_mean = task.start_std = Vector{{0}};
-  task.dt_s = 0.1;
-  task.horizon = 5;
-  return task;
-}
 
 /// One parameter, one action: u = law(θ, x) row by row, of the whole batch.
 class Made final : public policy::Policy {
@@ -42,11 +33,7 @@ void good(const ConstMatrixView& Theta, const ConstMatrixView& X, MatrixView U) 
   for (Index i = 0; i < X.rows(); ++i) U(i, 0) = std::tanh(Theta(i, 0) * X(i, 0));
 }
 
-std::string check(Made::Act act) {
-  std::string text;
-  for (const std::string& line : check_policy(Made(std::move(act)), task())) text += line + "\n";
-  return text;
-}
+std::string check(Made::Act act) { return joined(check_policy(Made(std::move(act)), small_task())); }
 
 TEST(CheckPolicy, AcceptsGoodOnes) {
   EXPECT_EQ(check(good), "");
@@ -70,11 +57,12 @@ TEST(CheckPolicy, FindsFaults) {
     good(Theta, X, U);
     if (Theta.outerStride() > Theta.rows() && Theta.rows() > 1) U(0, 0) += 0 * Theta.data()[2 * Theta.outerStride()];
   };
-  EXPECT_EQ(check_policy(Made(greedy, 2), task()).at(0), "reads more than its parameters() columns of θ and its rows");
+  EXPECT_EQ(check_policy(Made(greedy, 2), small_task()).at(0),
+            "reads more than its parameters() columns of θ and its rows");
 }
 
 TEST(CheckPolicy, SizesMustFitTheTask) {
-  EXPECT_EQ(check_policy(Made(good, 0, 2), task()),
+  EXPECT_EQ(check_policy(Made(good, 0, 2), small_task()),
             (std::vector<std::string>{"parameters() = 0, must be ≥ 1", "actions() = 2, must be the task's 1"}));
 }
 

@@ -16,10 +16,10 @@ namespace rehearse::testing {
 namespace {
 
 /// A simulator of two states and one action, given by its batch function.
-class Made final : public system::Simulator {
+class MadeSimulator final : public system::Simulator {
  public:
   using Change = std::function<void(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView dX)>;
-  explicit Made(Change change) : change_(std::move(change)) {}
+  explicit MadeSimulator(Change change) : change_(std::move(change)) {}
   const ParameterSpace& parameters() const override { return space_; }
   void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector&, MatrixView dX) const override {
     change_(X, U, dX);
@@ -39,13 +39,15 @@ bool complains(const std::vector<std::string>& lines, const std::string& text) {
   return false;
 }
 
-std::vector<std::string> check(Made::Change change) { return check_simulator(Made(std::move(change)), kX, kU, {}); }
+std::vector<std::string> check_made_simulator(MadeSimulator::Change change) {
+  return check_simulator(MadeSimulator(std::move(change)), kX, kU, {});
+}
 
 TEST(CheckSimulator, AcceptsAGoodOne) {
   const auto good = [](const ConstMatrixView& X, const ConstMatrixView& U, MatrixView dX) {
     dX = X.colwise() + U.col(0);
   };
-  EXPECT_EQ(check(good), std::vector<std::string>{});
+  EXPECT_EQ(check_made_simulator(good), std::vector<std::string>{});
 }
 
 TEST(CheckSimulator, AcceptsThePendubotAndAnyEquation) {
@@ -68,8 +70,8 @@ TEST(CheckSimulator, FindsRowsThatKnowOfEachOther) {
   const auto mean = [](const ConstMatrixView& X, const ConstMatrixView&, MatrixView dX) {
     dX = X.rowwise() - X.colwise().mean();
   };
-  EXPECT_TRUE(complains(check(mean), "by itself"));
-  EXPECT_TRUE(complains(check(mean), "disturb other rows"));
+  EXPECT_TRUE(complains(check_made_simulator(mean), "by itself"));
+  EXPECT_TRUE(complains(check_made_simulator(mean), "disturb other rows"));
 }
 
 TEST(CheckSimulator, FindsMemory) {
@@ -77,7 +79,7 @@ TEST(CheckSimulator, FindsMemory) {
   const auto counting = [calls](const ConstMatrixView& X, const ConstMatrixView&, MatrixView dX) {
     dX = X * (1 + 1e-15 * ++*calls);
   };
-  EXPECT_TRUE(complains(check(counting), "repeated"));
+  EXPECT_TRUE(complains(check_made_simulator(counting), "repeated"));
 }
 
 TEST(CheckSimulator, FindsSharedScratch) {
@@ -88,22 +90,22 @@ TEST(CheckSimulator, FindsSharedScratch) {
     dX = alone && inside == 1 ? X : 2 * X;
     --inside;
   };
-  EXPECT_TRUE(complains(check(racing), "several threads"));
+  EXPECT_TRUE(complains(check_made_simulator(racing), "several threads"));
 }
 
 TEST(CheckSimulator, FindsNanThatIsSwallowed) {
   const auto swallowing = [](const ConstMatrixView& X, const ConstMatrixView&, MatrixView dX) {
     dX = X.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; });
   };
-  EXPECT_TRUE(complains(check(swallowing), "answered with numbers"));
+  EXPECT_TRUE(complains(check_made_simulator(swallowing), "answered with numbers"));
 }
 
 TEST(CheckSimulator, SaysWhenTheSampleIsUnfit) {
   const auto good = [](const ConstMatrixView& X, const ConstMatrixView&, MatrixView dX) { dX = X; };
-  EXPECT_TRUE(complains(check_simulator(Made(good), kX.topRows(1), kU.topRows(1), {}), "≥ 2"));
-  EXPECT_TRUE(complains(check_simulator(Made(good), kX, kU, Vector::Ones(2)), "phi has 2 values, must be 0"));
+  EXPECT_TRUE(complains(check_simulator(MadeSimulator(good), kX.topRows(1), kU.topRows(1), {}), "≥ 2"));
+  EXPECT_TRUE(complains(check_simulator(MadeSimulator(good), kX, kU, Vector::Ones(2)), "phi has 2 values, must be 0"));
   const auto failing = [](const ConstMatrixView&, const ConstMatrixView&, MatrixView) { throw 1; };
-  EXPECT_TRUE(complains(check(failing), "cannot be simulated"));
+  EXPECT_TRUE(complains(check_made_simulator(failing), "cannot be simulated"));
 }
 
 }  // namespace
