@@ -8,13 +8,15 @@
 namespace rehearse::moments {
 namespace {
 
-using policies::act, policies::Case, policies::kLinear, policies::kLinearCase, policies::moments, policies::theta;
+using policies::act, policies::action_moments, policies::Case, policies::kLinear, policies::kLinearCase,
+    policies::theta;
 
 // The input of the squash is Gaussian, so that its moments are exact.
 TEST(LinearPolicy, HasTheMomentsOfSamples) {
   const Case& c = kLinearCase;
   const Gaussian x = tools::random_gaussian(3, 0.5, 4);
-  tools::expect_samples([&](const Vector& at, const Vector&) { return act(c, at); }, x, moments(c, theta(c), x), 6);
+  tools::expect_samples([&](const Vector& at, const Vector&) { return act(c, at); }, x, action_moments(c, theta(c), x),
+                        6);
 }
 
 TEST(LinearPolicy, HasASquashWhoseMomentsAreKnown) {

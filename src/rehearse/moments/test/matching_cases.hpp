@@ -28,7 +28,7 @@ struct Reference {
   gp::Posterior posterior(const std::string& name) const { return {gp::Inputs(X), Y, hyperparameters(name)}; }
 };
 
-inline Transformed moments(const MomentMatching& matching, const Gaussian& x) {
+inline Transformed matched_moments(const MomentMatching& matching, const Gaussian& x) {
   MomentTape tape;
   Transformed result;
   EXPECT_TRUE(matching.forward(x, tape, result));

@@ -7,7 +7,7 @@
 namespace rehearse::moments {
 namespace {
 
-using matching::mixture, matching::moments;
+using matching::mixture, matching::matched_moments;
 
 TEST(MomentAdjoint, AgreesWithDifferencesForAnyNumberOfInputs) {
   for (const Index D : {1, 2, 3, 4, 5, 6, 7, 9}) {
@@ -20,7 +20,8 @@ TEST(MomentAdjoint, AgreesWithDifferencesForAnyNumberOfInputs) {
       ASSERT_TRUE(matching.forward(x, tape, result));
       Gaussian adjoint = Gaussian::zero(D);
       matching.adjoint(x, tape, result, by, adjoint);
-      tools::expect_slopes([&](const Gaussian& at) { return tools::inner(by, moments(matching, at)); }, x, adjoint);
+      tools::expect_slopes([&](const Gaussian& at) { return tools::inner(by, matched_moments(matching, at)); }, x,
+                           adjoint);
     }
   }
 }
@@ -49,14 +50,14 @@ TEST(MomentAdjoint, OfTheTermsAgreesWithDifferences) {
   Gaussian adjoint = Gaussian::zero(5);
   std::vector<TermAdjoint> adjoints = matching.zero_adjoints();
   matching.adjoint(x, tape, result, by, adjoint, &adjoints);
-  tools::expect_slopes([&](const Gaussian& at) { return tools::inner(by, moments(matching, at)); }, x, adjoint);
+  tools::expect_slopes([&](const Gaussian& at) { return tools::inner(by, matched_moments(matching, at)); }, x, adjoint);
   for (std::size_t k = 0; k < terms.size(); ++k) {
     const auto expect = [&](const Vector& start, const Vector& value, auto set) {
       const Vector expected = tools::slopes(
           [&](const Vector& at) {
             std::vector<MomentTerm> moved = terms;
             set(moved[k], at);
-            return tools::inner(by, moments({moved, 2}, x));
+            return tools::inner(by, matched_moments({moved, 2}, x));
           },
           start, 1e-3);
       EXPECT_LT((value - expected).norm(), 1e-8 * expected.norm()) << k;

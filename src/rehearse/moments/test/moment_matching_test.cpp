@@ -12,11 +12,11 @@
 namespace rehearse::moments {
 namespace {
 
-using matching::mixture, matching::moments, matching::Reference;
+using matching::mixture, matching::matched_moments, matching::Reference;
 
 void expect_agreement(const MomentMatching& matching, const nlohmann::json& test, const nlohmann::json& expected,
                       double tolerance) {
-  const Transformed result = moments(matching, {reference::vector(test["m"]), reference::matrix(test["s"])});
+  const Transformed result = matched_moments(matching, {reference::vector(test["m"]), reference::matrix(test["s"])});
   EXPECT_LT(reference::error(result.mean, reference::matrix(expected["M"])), tolerance) << test["hyp"] << test["m"];
   const Matrix covariance = reference::matrix(expected["S"]);
   // Of a known function at a known input only the 1e-6 are left that PILCO adds: what comes before is rounding, of
@@ -56,7 +56,7 @@ TEST(MomentMatching, AgreesWithSamplesOfAMixture) {
   const std::vector<MomentTerm> terms = mixture(3);
   const Gaussian x = tools::random_gaussian(3, 0.6, 11);
   tools::expect_samples([&](const Vector& at, const Vector& normals) { return draw(terms, at, normals); }, x,
-                        moments({terms, 2}, x), 12);
+                        matched_moments({terms, 2}, x), 12);
 }
 
 /// cov[f(x), g(x)] of two networks, by the product of two Gaussians and explicit inverses.
@@ -91,7 +91,8 @@ TEST(MomentMatching, OfGpsAroundANetworkIsTheSumOfBothAndWhatTheyShare) {
   const std::vector<MomentTerm> all = mixture(4), gps(all.begin(), all.begin() + 2),
                                 network(all.begin() + 2, all.end());
   const Gaussian x = tools::random_gaussian(4, 0.6, 13);
-  const Transformed sum = moments({all, 2}, x), gp = moments({gps, 2}, x), prior = moments({network, 2}, x);
+  const Transformed sum = matched_moments({all, 2}, x), gp = matched_moments({gps, 2}, x),
+                    prior = matched_moments({network, 2}, x);
   Matrix C(2, 2);
   for (const MomentTerm& f : gps)
     for (const MomentTerm& g : network) C(f.output, g.output) = plain_covariance(f, g, x);
@@ -105,7 +106,7 @@ TEST(MomentMatching, OfACertainInputIsThePrediction) {
   const Reference reference;
   const gp::Posterior posterior = reference.posterior("perturbed");
   const Gaussian x{reference.X.row(3).transpose(), Matrix::Zero(6, 6)};
-  const Transformed result = moments({exact_terms(posterior), 4}, x);
+  const Transformed result = matched_moments({exact_terms(posterior), 4}, x);
   Matrix mean(1, 4), variance(1, 4);
   posterior.predict(x.mean.transpose(), mean, variance);
   EXPECT_LT((result.mean - mean.transpose()).norm(), 1e-12);
@@ -115,7 +116,7 @@ TEST(MomentMatching, OfACertainInputIsThePrediction) {
 TEST(MomentMatching, IsTheSameForAnyNumberOfThreads) {
   const MomentMatching matching(mixture(6, 150), 2);
   const Gaussian x = tools::random_gaussian(6, 0.5, 51);
-  const Transformed one = moments(matching, x);
+  const Transformed one = matched_moments(matching, x);
   const auto threads = make_thread_evaluator(3);
   MomentTape tape;
   Transformed three;
@@ -152,13 +153,13 @@ TEST(MomentMatching, LengthScalesOutOfAllProportionStayFinite) {
   std::vector<MomentTerm> terms = mixture(3);
   const Gaussian x = tools::random_gaussian(3, 1, 63);
   for (MomentTerm& term : terms) term.log_lengths(2) = 400;  // an input that does not matter
-  const Transformed result = moments({terms, 2}, x);
+  const Transformed result = matched_moments({terms, 2}, x);
   for (MomentTerm& term : terms) term.log_lengths(2) = 20;
-  const Transformed nearly = moments({terms, 2}, x);
+  const Transformed nearly = matched_moments({terms, 2}, x);
   EXPECT_LT((result.mean - nearly.mean).norm(), 1e-12);
   EXPECT_LT((result.covariance - nearly.covariance).norm(), 1e-12);
   for (MomentTerm& term : terms) term.log_lengths(2) = -400;  // no two points are alike
-  EXPECT_LT(moments({terms, 2}, x).mean.norm(), 1e-90);
+  EXPECT_LT(matched_moments({terms, 2}, x).mean.norm(), 1e-90);
 }
 
 }  // namespace

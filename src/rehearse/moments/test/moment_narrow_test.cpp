@@ -3,19 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "rehearse/gp/test/naive.hpp"
-#include "rehearse/moments/moment_matching.hpp"
-#include "rehearse/moments/test/gaussian_tools.hpp"
+#include "matching_cases.hpp"
 
 namespace rehearse::moments {
 namespace {
 
-Transformed moments(const MomentMatching& matching, const Gaussian& x) {
-  MomentTape tape;
-  Transformed result;
-  EXPECT_TRUE(matching.forward(x, tape, result));
-  return result;
-}
+using matching::matched_moments;
 
 /// Two smooth functions without noise, with the largest signal-to-noise ratio that fits give.
 gp::Posterior exact_data(std::uint64_t seed, double noise = 1e-5) {
@@ -40,7 +33,7 @@ TEST(MomentNarrow, OfACertainInputIsThePredictionOfExactData) {
     Matrix mean(20, 2), variance(20, 2);
     posterior.predict(at, mean, variance);
     for (Index i = 0; i < 20; ++i) {
-      const Transformed result = moments(matching, {at.row(i).transpose(), Matrix::Zero(3, 3)});
+      const Transformed result = matched_moments(matching, {at.row(i).transpose(), Matrix::Zero(3, 3)});
       EXPECT_GE(result.covariance.diagonal().minCoeff(), 0);
       EXPECT_LT((result.covariance.diagonal() - variance.row(i).transpose()).norm(), 1e-12);
       EXPECT_EQ(result.covariance(0, 1), 0);
@@ -70,10 +63,10 @@ TEST(MomentNarrow, CovariancesOfNarrowInputsArePositiveAndGrowAsTheSlopesSay) {
   const Matrix at = gp::naive::normals(10, 3, 3);
   for (Index i = 0; i < 10; ++i) {
     const Vector curvature = half_laplacian(posterior, at.row(i));
-    const Matrix certain = moments(matching, around(at, i, 0)).covariance;
+    const Matrix certain = matched_moments(matching, around(at, i, 0)).covariance;
     for (const double deviation : {1e-8, 1e-6, 1e-4, 1e-3}) {
       const Gaussian x = around(at, i, deviation);
-      const Transformed result = moments(matching, x);
+      const Transformed result = matched_moments(matching, x);
       Matrix growth = result.gain.transpose() * x.covariance * result.gain;
       growth.diagonal() += deviation * deviation * curvature;
       const Eigen::SelfAdjointEigenSolver<Matrix> solver(result.covariance);

@@ -11,7 +11,7 @@
 namespace rehearse::moments {
 namespace {
 
-using matching::mixture, matching::moments, matching::Reference;
+using matching::mixture, matching::matched_moments, matching::Reference;
 
 TEST(MomentTerm, ExactTermsAreThePosteriorsOwnNumbers) {
   const Reference reference;
@@ -43,7 +43,7 @@ TEST(MomentTerm, MeanTermsKeepTheMeansAlone) {
   const Matrix at = reference.X.topRows(3), values = evaluate_means(means, 4, at);
   for (Index i = 0; i < 3; ++i) {
     const Gaussian x{at.row(i).transpose(), Matrix::Zero(6, 6)};
-    const Transformed full = moments({fitc, 4}, x), mean = moments({means, 4}, x);
+    const Transformed full = matched_moments({fitc, 4}, x), mean = matched_moments({means, 4}, x);
     EXPECT_EQ(full.mean, mean.mean);
     EXPECT_LT((mean.covariance.diagonal().array() - 1e-6).abs().maxCoeff(), 1e-12);
     EXPECT_LT((mean.mean - values.row(i).transpose()).norm(), 1e-12);

@@ -31,7 +31,7 @@ inline const Case kLinearCase{policy::make_linear(kLinear), policy_moments(*poli
 
 inline Vector theta(const Case& c) { return tools::normals(c.policy->parameters(), 1, 1); }
 
-inline Transformed moments(const Case& c, const Vector& theta, const Gaussian& x) {
+inline Transformed action_moments(const Case& c, const Vector& theta, const Gaussian& x) {
   const auto policy = c.at(theta);
   PolicyTape tape;
   Transformed action;

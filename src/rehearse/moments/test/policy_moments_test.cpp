@@ -10,7 +10,8 @@
 namespace rehearse::moments {
 namespace {
 
-using policies::act, policies::Case, policies::kLinearCase, policies::kRbfCase, policies::moments, policies::theta;
+using policies::act, policies::Case, policies::kLinearCase, policies::kRbfCase, policies::action_moments,
+    policies::theta;
 
 class PolicyMomentsTest : public ::testing::TestWithParam<Case> {};
 
@@ -20,7 +21,7 @@ INSTANTIATE_TEST_SUITE_P(All, PolicyMomentsTest, ::testing::Values(kRbfCase, kLi
 TEST_P(PolicyMomentsTest, OfAKnownStateAreThePolicy) {
   const Case& c = GetParam();
   const Gaussian x{tools::normals(3, 1, 2), Matrix::Zero(3, 3)};
-  const Transformed action = moments(c, theta(c), x);
+  const Transformed action = action_moments(c, theta(c), x);
   EXPECT_LT((action.mean - act(c, x.mean)).norm(), 1e-9);
   EXPECT_LT(action.covariance.norm(), 1e-9);
 }
@@ -30,7 +31,7 @@ TEST_P(PolicyMomentsTest, OfAKnownStateAreThePolicy) {
 TEST_P(PolicyMomentsTest, OfANearlyKnownStateHaveTheSlopesOfThePolicy) {
   const Case& c = GetParam();
   const Gaussian x{tools::normals(3, 1, 2), 1e-8 * tools::random_gaussian(3, 1, 3).covariance};
-  const Transformed action = moments(c, theta(c), x);
+  const Transformed action = action_moments(c, theta(c), x);
   Matrix slopes(2, 3);
   for (Index d = 0; d < 3; ++d)
     slopes.col(d) = (act(c, x.mean + 1e-5 * Vector::Unit(3, d)) - act(c, x.mean - 1e-5 * Vector::Unit(3, d))) / 2e-5;
@@ -50,19 +51,19 @@ TEST_P(PolicyMomentsTest, AdjointAgreesWithDifferences) {
   Gaussian adjoint = Gaussian::zero(3);
   PolicyAdjoint of_policy = policy->zero_adjoints();
   policy->adjoint(x, tape, by, adjoint, of_policy);
-  tools::expect_slopes([&](const Gaussian& at) { return tools::inner(by, moments(c, theta(c), at)); }, x, adjoint, 1e-3,
-                       1e-6);
+  tools::expect_slopes([&](const Gaussian& at) { return tools::inner(by, action_moments(c, theta(c), at)); }, x,
+                       adjoint, 1e-3, 1e-6);
   const Vector gradient = policy->gradient(of_policy);
   const Vector expected =
-      tools::slopes([&](const Vector& at) { return tools::inner(by, moments(c, at, x)); }, theta(c), 1e-4);
+      tools::slopes([&](const Vector& at) { return tools::inner(by, action_moments(c, at, x)); }, theta(c), 1e-4);
   EXPECT_LT((gradient - expected).norm(), 1e-7 * expected.norm());
 }
 
 TEST_P(PolicyMomentsTest, SayWhatCannotBeComputed) {
   const Case& c = GetParam();
   EXPECT_THROW(c.at(Vector::Zero(5)), InvalidInput);
-  EXPECT_THROW(moments(c, theta(c), Gaussian::zero(4)), InvalidInput);
-  EXPECT_THROW(moments(c, theta(c), {Vector::Zero(3), Matrix::Zero(2, 2)}), InvalidInput);
+  EXPECT_THROW(action_moments(c, theta(c), Gaussian::zero(4)), InvalidInput);
+  EXPECT_THROW(action_moments(c, theta(c), {Vector::Zero(3), Matrix::Zero(2, 2)}), InvalidInput);
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     Vector at = theta(c);
     at(7) = bad;

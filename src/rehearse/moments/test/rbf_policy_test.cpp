@@ -7,7 +7,7 @@
 namespace rehearse::moments {
 namespace {
 
-using policies::kRbf, policies::kRbfCase, policies::moments, policies::theta;
+using policies::kRbf, policies::kRbfCase, policies::action_moments, policies::theta;
 
 // Actions are in the middle of their bounds, where the squash has slope 3/2.
 TEST(RbfPolicy, PilcosJitterIsAddedBeforeTheSquash) {
@@ -31,10 +31,10 @@ TEST(RbfPolicy, LengthScalesOutOfAllProportionStayFinite) {
   for (const double log_length : {-400.0, 400.0}) {
     Vector at = theta(kRbfCase);
     at.head(2 * 3).setConstant(log_length);
-    const Transformed action = moments(kRbfCase, at, x);
+    const Transformed action = action_moments(kRbfCase, at, x);
     EXPECT_TRUE(action.mean.allFinite() && action.covariance.allFinite() && action.gain.allFinite()) << log_length;
     at.head(2 * 3).setConstant(log_length > 0 ? 20 : -20);
-    EXPECT_EQ(moments(kRbfCase, at, x).mean, action.mean) << "clamped as the policy itself has it";
+    EXPECT_EQ(action_moments(kRbfCase, at, x).mean, action.mean) << "clamped as the policy itself has it";
   }
 }
 

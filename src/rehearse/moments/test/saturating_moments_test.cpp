@@ -34,7 +34,8 @@ TEST(SaturatingMoments, AgreeWithPilcoIncludingDerivatives) {
 }
 
 /// Features and then the reward, with the tasks' feature maps: of the cart-pole and the pendubot.
-void expect_agreement(const FeatureMap& map, const reward::ClosedForm& reward, const nlohmann::json& tests) {
+void expect_agreement_after_features(const FeatureMap& map, const reward::ClosedForm& reward,
+                                     const nlohmann::json& tests) {
   const FeatureMoments features(map);
   for (const auto& test : tests["cases"]) {
     const Gaussian state{reference::vector(test["m"]), reference::matrix(test["s"])};
@@ -56,10 +57,11 @@ TEST(SaturatingMoments, AgreeWithPilcosTipDistances) {
   using enum StateKind;
   const auto losses = reference::load("d_losses.json");
   const double width = 0.25, l = 0.5;
-  expect_agreement(FeatureMap({plain, plain, plain, angle}),
-                   {.goal = Vector{{0, 0, 0, -1, 0}}, .distances = Matrix{{1, 0, 0, 0, l}, {0, 0, 0, l, 0}} / width},
-                   losses["loss_cp"]);
-  expect_agreement(
+  expect_agreement_after_features(
+      FeatureMap({plain, plain, plain, angle}),
+      {.goal = Vector{{0, 0, 0, -1, 0}}, .distances = Matrix{{1, 0, 0, 0, l}, {0, 0, 0, l, 0}} / width},
+      losses["loss_cp"]);
+  expect_agreement_after_features(
       FeatureMap({plain, plain, angle, angle}),
       {.goal = Vector{{0, 0, 1, 0, 1, 0}}, .distances = Matrix{{0, 0, l, 0, l, 0}, {0, 0, 0, l, 0, l}} / width},
       losses["loss_pendubot"]);

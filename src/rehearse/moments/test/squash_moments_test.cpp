@@ -15,7 +15,7 @@ std::vector<Index> squashed(const nlohmann::json& test) {
   return indices;
 }
 
-std::vector<Interval> symmetric(const Vector& half_widths) {
+std::vector<Interval> symmetric_bounds(const Vector& half_widths) {
   std::vector<Interval> bounds;
   for (const double w : half_widths) bounds.push_back({-w, w});
   return bounds;
@@ -33,7 +33,7 @@ TEST(SquashMoments, AgreeWithPilcoIncludingDerivatives) {
     const std::vector<Index> indices = squashed(test);
     const Vector m = reference::vector(test["m"]);
     const Gaussian a{m(indices), reference::matrix(test["v"])(indices, indices)};
-    const SquashMoments squash(symmetric(reference::vector(test["scale_e"])));
+    const SquashMoments squash(symmetric_bounds(reference::vector(test["scale_e"])));
     const Transformed result = squash(a);
     const Matrix gain = reference::matrix(expected["C"])(indices, Eigen::all);
     EXPECT_LT(reference::error(result.mean, reference::matrix(expected["M"])), 1e-9) << test["name"];
