@@ -6,11 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/dynamics/test/swing.hpp"
+#include "scores.hpp"
 
 namespace rehearse::identification {
 namespace {
-
-constexpr Score kScores[] = {Score::sum, Score::product, Score::harmonic};
 
 /// GPs fitted to what the swing of wrong parameters leaves of 30 steps.
 struct HeldKernelsTest : testing::Test {

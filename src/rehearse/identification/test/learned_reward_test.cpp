@@ -36,7 +36,7 @@ Vector rewards_of(const Reward& reward, const Dataset& data) {
   return rewards;
 }
 
-LearnedReward learn(const Dataset& data, RewardScale scale = RewardScale::evidence) {
+LearnedReward learn_cartpole_reward(const Dataset& data, RewardScale scale = RewardScale::evidence) {
   RewardOptions options;
   options.scale = scale;
   return learn_reward(data, cartpole().feature_map(), options);
@@ -51,7 +51,7 @@ double held_out_error(const Reward& reward) {
 class EachScale : public ::testing::TestWithParam<RewardScale> {};
 
 TEST_P(EachScale, IsCloseToTheTrueRewardOfTheCartpole) {
-  const LearnedReward learned = learn(steps(300, 1), GetParam());
+  const LearnedReward learned = learn_cartpole_reward(steps(300, 1), GetParam());
   EXPECT_LT(held_out_error(learned.reward), 0.05);
   EXPECT_TRUE(std::isfinite(learned.log_evidence));
   EXPECT_TRUE(learned.notes.empty());
@@ -59,7 +59,7 @@ TEST_P(EachScale, IsCloseToTheTrueRewardOfTheCartpole) {
 
 TEST_P(EachScale, DependsOnTheStateReachedAndOnItsRowAlone) {
   const Dataset data = steps(60, 1);
-  const Reward reward = learn(data, GetParam()).reward;
+  const Reward reward = learn_cartpole_reward(data, GetParam()).reward;
   const Vector all = rewards_of(reward, data);
   const Matrix elsewhere = Matrix::Zero(1, 4), reached = data.states + data.changes;
   for (Index i = 0; i < data.size(); i += 7) {
@@ -73,7 +73,7 @@ TEST_P(EachScale, TakesRewardsThatAreAllTheSame) {
   for (const double value : {0.0, 1e-12, 3.0, -3.0}) {
     Dataset data = steps(30, 1);
     data.rewards.setConstant(value);
-    const Vector learned = rewards_of(learn(data, GetParam()).reward, data);
+    const Vector learned = rewards_of(learn_cartpole_reward(data, GetParam()).reward, data);
     EXPECT_LT((learned.array() - value).abs().maxCoeff(), 0.02 * std::abs(value) + 1e-12) << value;
   }
 }
@@ -82,7 +82,7 @@ TEST_P(EachScale, TakesRewardsThatAreHardlyMoreThanZero) {
   Dataset data = steps(30, 1);
   data.rewards.setZero();
   data.rewards(3) = 1e-305;
-  EXPECT_LT(rewards_of(learn(data, GetParam()).reward, data).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT(rewards_of(learn_cartpole_reward(data, GetParam()).reward, data).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scales, EachScale,
@@ -90,8 +90,9 @@ INSTANTIATE_TEST_SUITE_P(Scales, EachScale,
 
 TEST(LearnedReward, EvidenceIsOfTheRewardsWhateverTheScale) {
   const Dataset data = steps(100, 1);
-  const LearnedReward linear = learn(data, RewardScale::linear), logs = learn(data, RewardScale::logarithmic);
-  const LearnedReward likelier = learn(data);
+  const LearnedReward linear = learn_cartpole_reward(data, RewardScale::linear),
+                      logs = learn_cartpole_reward(data, RewardScale::logarithmic);
+  const LearnedReward likelier = learn_cartpole_reward(data);
   EXPECT_EQ(likelier.log_evidence, std::max(linear.log_evidence, logs.log_evidence));
   EXPECT_EQ(likelier.scale, logs.log_evidence >= linear.log_evidence ? RewardScale::logarithmic : RewardScale::linear);
 
@@ -99,7 +100,7 @@ TEST(LearnedReward, EvidenceIsOfTheRewardsWhateverTheScale) {
   Dataset scaled = data;
   scaled.rewards *= 100;
   for (const auto& [scale, before] : {std::pair{RewardScale::linear, linear}, {RewardScale::logarithmic, logs}})
-    EXPECT_NEAR(learn(scaled, scale).log_evidence, before.log_evidence - 100 * std::log(100), 1e-3);
+    EXPECT_NEAR(learn_cartpole_reward(scaled, scale).log_evidence, before.log_evidence - 100 * std::log(100), 1e-3);
 }
 
 TEST(LearnedReward, OfSaturatingRewardsTheLogarithmGoesOnBeyondTheData) {
@@ -109,8 +110,8 @@ TEST(LearnedReward, OfSaturatingRewardsTheLogarithmGoesOnBeyondTheData) {
     if (low.rewards(i) < 0.05) rows.push_back(i);
   low = {low.states(rows, Eigen::all), low.actions(rows, Eigen::all), low.changes(rows, Eigen::all), low.rewards(rows)};
   ASSERT_GT(low.size(), 100);
-  EXPECT_LT(held_out_error(learn(low, RewardScale::logarithmic).reward),
-            0.5 * held_out_error(learn(low, RewardScale::linear).reward));
+  EXPECT_LT(held_out_error(learn_cartpole_reward(low, RewardScale::logarithmic).reward),
+            0.5 * held_out_error(learn_cartpole_reward(low, RewardScale::linear).reward));
 }
 
 TEST(LearnedReward, NoPredictionIsAboveTheCeiling) {
@@ -149,24 +150,24 @@ TEST(LearnedReward, CautionCostsLittleWhereThereAreDataAndMuchElsewhere) {
 TEST(LearnedReward, NegativeRewardsAreLearnedLinearly) {
   Dataset data = steps(50, 1);
   data.rewards.array() -= 0.5;
-  EXPECT_EQ(learn(data, RewardScale::logarithmic).scale, RewardScale::linear);
+  EXPECT_EQ(learn_cartpole_reward(data, RewardScale::logarithmic).scale, RewardScale::linear);
 }
 
 TEST(LearnedReward, LeavesOutWhatIsNotFiniteAndSaysSo) {
   Dataset data = steps(60, 1);
-  const Vector expected = rewards_of(learn({data.states.topRows(58), data.actions.topRows(58), data.changes.topRows(58),
-                                            Vector(data.rewards.head(58))})
+  const Vector expected = rewards_of(learn_cartpole_reward({data.states.topRows(58), data.actions.topRows(58),
+                                                            data.changes.topRows(58), Vector(data.rewards.head(58))})
                                          .reward,
                                      data);
   data.rewards(58) = std::numeric_limits<double>::quiet_NaN();
   data.rewards(59) = std::numeric_limits<double>::infinity();
-  const LearnedReward learned = learn(data);
+  const LearnedReward learned = learn_cartpole_reward(data);
   EXPECT_EQ(rewards_of(learned.reward, data), expected);
   ASSERT_EQ(learned.notes.size(), 1u);
   EXPECT_EQ(learned.notes.front(), "2 rewards are not finite and were left out");
 }
 
-TEST(LearnedReward, NeedsData) { EXPECT_THROW(learn({}), InvalidInput); }
+TEST(LearnedReward, NeedsData) { EXPECT_THROW(learn_cartpole_reward({}), InvalidInput); }
 
 }  // namespace
 }  // namespace rehearse::identification

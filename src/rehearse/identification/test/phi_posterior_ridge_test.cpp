@@ -14,8 +14,6 @@
 namespace rehearse::identification {
 namespace {
 
-using Sentences = std::vector<std::string>;
-
 /// The prior whose changes are rounded, as those of a program that prints so many digits.
 prior::Prior rounded(const prior::Prior& prior, double unit) {
   class Rounded final : public system::Simulator {
@@ -58,8 +56,9 @@ TEST(PhiPosterior, OnAnExactRidgeIntervalsHoldTheTruthAndTheKnownIsNamed) {
       const Interval m2 = learned.posterior->intervals()[1];
       EXPECT_TRUE(m2.low < 0.22 && m2.high > 1.11) << label << ": " << m2.low << " to " << m2.high;
       EXPECT_EQ(identifiability_warnings(*learned.posterior),
-                Sentences{"m1, m2, r2 and I1 cannot be told apart by these trials; known are m1 + m2 = 1.24, r2·m2 = "
-                          "0.105 and I1 + 0.09·m2 = 0.111"})
+                std::vector<std::string>{
+                    "m1, m2, r2 and I1 cannot be told apart by these trials; known are m1 + m2 = 1.24, r2·m2 = "
+                    "0.105 and I1 + 0.09·m2 = 0.111"})
           << label;
       Matrix mean(other.size(), 4), variance(other.size(), 4);
       learned.model->predict(other.states, other.actions, mean, variance);

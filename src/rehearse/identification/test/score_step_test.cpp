@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "scores.hpp"
+
 namespace rehearse::identification {
 namespace {
-
-constexpr Score kScores[] = {Score::sum, Score::product, Score::harmonic};
 
 /// Two outputs that want different steps.
 Quadratics two_outputs() {

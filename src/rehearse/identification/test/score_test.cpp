@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "scores.hpp"
+
 namespace rehearse::identification {
 namespace {
-
-constexpr Score kScores[] = {Score::sum, Score::product, Score::harmonic};
 
 TEST(ScoreOf, AgreesWithTheFormulas) {
   const Vector log_p{{-1.5, 0.3, 2}};

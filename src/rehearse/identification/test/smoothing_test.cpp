@@ -39,13 +39,13 @@ Measured measured(const Vector& noise, std::uint64_t seed) {
   return result;
 }
 
-Learned learn_swing(const Dataset& data, bool smooth, const prior::Prior& prior, const Evaluator& evaluator) {
+Learned learn_with_smoothing(const Dataset& data, bool smooth, const prior::Prior& prior, const Evaluator& evaluator) {
   GpMi kind;
   kind.gp.smooth = smooth;
   return learn({data, swing::features(), swing::kinematics(), &prior}, kind, {}, evaluator);
 }
 
-double error(const dynamics::DynamicsModel& model, const Dataset& truth) {
+double rms_error(const dynamics::DynamicsModel& model, const Dataset& truth) {
   Matrix mean(truth.size(), 2);
   model.predict_mean(truth.states, truth.actions, mean);
   return swing::rms(mean - truth.changes);
@@ -57,8 +57,8 @@ TEST(Smoothing, FindsParametersNoiseAndDynamicsThatNoisyStepsHide) {
   double smoothed_error = 0, raw_error = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Measured m = measured(kNoise, seed), other = measured(kNoise, 10 + seed);
-    const Learned raw = learn_swing(m.data, false, prior, serial_evaluator());
-    const Learned smoothed = learn_swing(m.data, true, prior, serial_evaluator());
+    const Learned raw = learn_with_smoothing(m.data, false, prior, serial_evaluator());
+    const Learned smoothed = learn_with_smoothing(m.data, true, prior, serial_evaluator());
     EXPECT_GT(*smoothed.log_evidence, *raw.log_evidence + 20);
     const Vector deviation = smoothed.posterior->covariance.diagonal().cwiseSqrt();
     for (Index i = 0; i < 2; ++i) {
@@ -66,8 +66,8 @@ TEST(Smoothing, FindsParametersNoiseAndDynamicsThatNoisyStepsHide) {
       EXPECT_LT(deviation(i), 0.1);
       EXPECT_NEAR(smoothed.model->measurement_std()(i) / kNoise(i), 1, 0.3) << seed;
     }
-    smoothed_error += error(*smoothed.model, other.truth);
-    raw_error += error(*raw.model, other.truth);
+    smoothed_error += rms_error(*smoothed.model, other.truth);
+    raw_error += rms_error(*raw.model, other.truth);
   }
   EXPECT_LT(smoothed_error, 0.7 * raw_error);
 }
@@ -91,8 +91,8 @@ TEST(Smoothing, MovesStatesTowardsTheTrueOnes) {
 TEST(Smoothing, LeavesExactStatesAlone) {
   const Measured m = measured(Vector::Zero(2), 1);
   const prior::Prior prior = swing::prior({swing::length(), swing::friction()});
-  const Learned raw = learn_swing(m.data, false, prior, serial_evaluator());
-  const Learned smoothed = learn_swing(m.data, true, prior, serial_evaluator());
+  const Learned raw = learn_with_smoothing(m.data, false, prior, serial_evaluator());
+  const Learned smoothed = learn_with_smoothing(m.data, true, prior, serial_evaluator());
   EXPECT_EQ(*smoothed.state.phi, *raw.state.phi);
   EXPECT_EQ(*smoothed.log_evidence, *raw.log_evidence);
 }
@@ -121,8 +121,8 @@ TEST(Smoothing, NeedsStepsThatShareMeasurements) {
   Rng rng({.seed = 1, .purpose = Purpose::test});
   for (double& change : data.changes.reshaped()) change += 0.05 * rng.normal();
   const prior::Prior prior = swing::prior({swing::length(), swing::friction()});
-  EXPECT_EQ(*learn_swing(data, true, prior, serial_evaluator()).state.phi,
-            *learn_swing(data, false, prior, serial_evaluator()).state.phi);
+  EXPECT_EQ(*learn_with_smoothing(data, true, prior, serial_evaluator()).state.phi,
+            *learn_with_smoothing(data, false, prior, serial_evaluator()).state.phi);
 }
 
 TEST(Smoothing, LeavesPhiWhereAnotherScoreOrSearchFoundIt) {
@@ -145,8 +145,8 @@ TEST(Smoothing, LeavesPhiWhereAnotherScoreOrSearchFoundIt) {
 TEST(Smoothing, HasTheSameBitsOnAnyThreads) {
   const Measured m = measured(kNoise, 1);
   const prior::Prior prior = swing::prior({swing::length(), swing::friction()});
-  const Learned one = learn_swing(m.data, true, prior, serial_evaluator());
-  const Learned more = learn_swing(m.data, true, prior, *make_thread_evaluator(3));
+  const Learned one = learn_with_smoothing(m.data, true, prior, serial_evaluator());
+  const Learned more = learn_with_smoothing(m.data, true, prior, *make_thread_evaluator(3));
   EXPECT_EQ(*one.state.phi, *more.state.phi);
   EXPECT_EQ(one.model->measurement_std(), more.model->measurement_std());
   EXPECT_EQ(*one.log_evidence, *more.log_evidence);
