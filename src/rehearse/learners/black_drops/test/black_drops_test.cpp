@@ -13,7 +13,6 @@ namespace rehearse::learners::black_drops {
 namespace {
 
 using slider::builder;
-using slider::History;
 using slider::learn;
 using slider::run_trial;
 using slider::setting;
@@ -40,7 +39,7 @@ TEST_P(EachLearner, KeepsTheLaws) {
 // sign: what is best for it drives the slider away.
 TEST_P(EachLearner, LearnsTheSlider) {
   const auto learner = builder(GetParam(), "600")->build(setting(slider::prior(-1)));
-  const History history = learn(*learner, 4);
+  const slider::History history = learn(*learner, 4);
   EXPECT_GT(*std::max_element(history.returns.begin(), history.returns.end()), 7.5);
   EXPECT_GT(history.returns.back(), 7);
   if (std::string(GetParam()) != "black-drops") {
@@ -84,7 +83,7 @@ TEST_P(EachLearner, LearnsTheRewardToo) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Setting blind = without_reward(slider::prior(0.6), true);
     blind.seed = seed;
-    const History history = learn(*reward_builder(GetParam(), "600")->build(blind), 4);
+    const slider::History history = learn(*reward_builder(GetParam(), "600")->build(blind), 4);
     learned += *std::max_element(history.returns.begin(), history.returns.end()) > 7.5;
   }
   EXPECT_GE(learned, std::string(GetParam()) == "black-drops" ? 3 : 5);
@@ -187,7 +186,7 @@ TEST(BlackDrops, IdentifiesThePriorsParametersAfterOneTrial) {
 
 TEST(BlackDrops, SavesThePolicyOfEveryTrial) {
   const auto learner = builder("black-drops")->build(setting());
-  const History history = learn(*learner, 3);
+  const slider::History history = learn(*learner, 3);
   const nlohmann::json policies = learner->save().at("policies");
   ASSERT_EQ(policies.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k)

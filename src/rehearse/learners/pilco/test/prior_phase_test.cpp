@@ -21,7 +21,7 @@ namespace {
 using slider::learn, slider::run_trial, slider::task;
 
 /// A slider that is thought to be pulled a third as strongly.
-Setting setting(std::uint64_t seed = 1) {
+Setting setting_with_prior(std::uint64_t seed = 1) {
   Setting setting = slider::setting(seed);
   setting.prior = slider::prior(0.5, 0);
   return setting;
@@ -34,7 +34,7 @@ Options options(Index prior_episodes = 3, Index line_searches = 20) {
   return options;
 }
 
-std::unique_ptr<LearnerBuilder> builder(const char* line_searches) {
+std::unique_ptr<LearnerBuilder> builder_with_prior(const char* line_searches) {
   auto builder = std::move(builders().back());
   const Fields fields = [&](FieldVisitor& v) { builder->fields(v); };
   EXPECT_TRUE(set_field(fields, "pilco.prior_episodes", "2"));
@@ -45,12 +45,13 @@ std::unique_ptr<LearnerBuilder> builder(const char* line_searches) {
 void expect_same(const PriorKnowledge& a, const PriorKnowledge& b) { EXPECT_EQ(to_json(a), to_json(b)); }
 
 TEST(PriorPhase, ALearnerWithAPriorKeepsTheLaws) {
-  EXPECT_EQ(testing::check_learner(*builder("10"), setting(), run_trial), std::vector<std::string>{});
+  EXPECT_EQ(testing::check_learner(*builder_with_prior("10"), setting_with_prior(), run_trial),
+            std::vector<std::string>{});
 }
 
 TEST(PriorPhase, TheFirstTrialIsThePolicyOfThePrior) {
-  const PriorKnowledge knowledge = learn_on_prior(setting(), options());
-  const auto learner = make(setting(), options());
+  const PriorKnowledge knowledge = learn_on_prior(setting_with_prior(), options());
+  const auto learner = make(setting_with_prior(), options());
   const Proposal& first = learner->ask();
   EXPECT_EQ(first.policy->name(), "rbf");
   EXPECT_EQ(first.theta, knowledge.theta);
@@ -75,7 +76,7 @@ TEST(PriorPhase, TheFirstTrialIsThePolicyOfThePrior) {
 
 TEST(PriorPhase, LearnsTheRealSliderFromThere) {
   for (const std::uint64_t seed : {1, 2}) {
-    const auto [proposals, returns] = learn(*make(setting(seed), options(3, 40)), 3);
+    const auto [proposals, returns] = learn(*make(setting_with_prior(seed), options(3, 40)), 3);
     EXPECT_GT(returns.back(), 8) << seed;
     EXPECT_GE(returns.back(), returns.front()) << seed;
     const Proposal& last = proposals.back();
@@ -86,10 +87,10 @@ TEST(PriorPhase, LearnsTheRealSliderFromThere) {
 }
 
 TEST(PriorPhase, GoesOnFromTheStoreAfterEachEpisode) {
-  const PriorKnowledge whole = learn_on_prior(setting(), options());
+  const PriorKnowledge whole = learn_on_prior(setting_with_prior(), options());
   for (const Index stop_after : {0, 1, 2, 3}) {
     const auto store = std::make_shared<MemoryStore>();
-    Setting interrupted = setting();
+    Setting interrupted = setting_with_prior();
     interrupted.store = store;
     interrupted.progress = [&](const Progress& progress) {
       if (progress.phase == "prior " + std::to_string(stop_after) + "/3: search" && progress.rollouts == 3)
@@ -115,7 +116,7 @@ TEST(PriorPhase, GoesOnFromTheStoreAfterEachEpisode) {
 
 /// What is kept after two of three episodes, with one of them lost.
 std::string contradiction() {
-  Setting with_store = setting();
+  Setting with_store = setting_with_prior();
   const auto store = std::make_shared<MemoryStore>();
   with_store.store = store;
   with_store.progress = [](const Progress& progress) {
@@ -130,9 +131,9 @@ std::string contradiction() {
 }
 
 TEST(PriorPhase, BeginsAnewWhereTheStoreHoldsSomethingElse) {
-  const PriorKnowledge whole = learn_on_prior(setting(), options(1));
+  const PriorKnowledge whole = learn_on_prior(setting_with_prior(), options(1));
   for (const std::string& bytes : {std::string("not CBOR"), std::string("\xa0"), std::string(), contradiction()}) {
-    Setting with_store = setting();
+    Setting with_store = setting_with_prior();
     const auto store = std::make_shared<MemoryStore>();
     store->kept["prior"] = bytes;
     with_store.store = store;
@@ -141,7 +142,7 @@ TEST(PriorPhase, BeginsAnewWhereTheStoreHoldsSomethingElse) {
 }
 
 TEST(PriorPhase, SurvivesASimulatorThatFails) {
-  Setting broken = setting();
+  Setting broken = setting_with_prior();
   const ParameterSpace none;
   const auto fails_on_the_left = [](const ConstMatrixView& X, const ConstMatrixView& U, const Vector&, MatrixView dX) {
     dX = (X.array() < 0.9).select(std::numeric_limits<double>::quiet_NaN(), 0.1 * U.array()).matrix();
@@ -171,7 +172,7 @@ TEST(PriorPhase, SurvivesASimulatorThatFails) {
 TEST(PriorPhase, EndsWithEpisodesThatTeachNothing) {
   const auto returns = [](Index settled) {
     std::vector<double> all;
-    Setting with = setting();
+    Setting with = setting_with_prior();
     with.task.solved = [&](const Episode& episode) {
       all.push_back(episode.total_reward());
       return false;
@@ -197,7 +198,7 @@ TEST(PriorPhase, HandsOverNoMorePointsThanAsked) {
   const auto points = [](Index inducing) {
     Options three = options(3, 5);
     three.prior->inducing = inducing;
-    return learn_on_prior(setting(), three).network.front().size();
+    return learn_on_prior(setting_with_prior(), three).network.front().size();
   };
   EXPECT_EQ(points(7), 7);
   EXPECT_EQ(points(300), 3 * task().horizon);
@@ -210,12 +211,12 @@ TEST(PriorPhase, NeedsAPrior) {
   } catch (const InvalidInput& error) {
     EXPECT_NE(std::string(error.what()).find("needs a prior"), std::string::npos);
   }
-  EXPECT_THROW(make(setting(), options(0)), InvalidInput);
+  EXPECT_THROW(make(setting_with_prior(), options(0)), InvalidInput);
 }
 
 // The GPs of the real slider around those of the prior: moments are of the sum, and so is the model for forecasts.
 TEST(PriorPhase, ModelsAreAroundTheNetwork) {
-  const PriorKnowledge knowledge = learn_on_prior(setting(), options(2));
+  const PriorKnowledge knowledge = learn_on_prior(setting_with_prior(), options(2));
   ASSERT_EQ(knowledge.network.size(), 1U);
   EXPECT_EQ(knowledge.network[0].variance, 0);
   EXPECT_EQ(knowledge.network[0].reduction.size(), 0);
