@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using line::kClaim, line::kGrid, line::kHead, line::refusal, line::results_of, line::run, line::summary_of;
+using line::kClaim, line::kGrid, line::kThreeLearners, line::refusal, line::results_of, line::run, line::summary_of;
 
 /// A complete campaign with damage: what `damage` does to it.
 template <class Damage>
@@ -111,7 +111,7 @@ TEST(CampaignFolder, ARankThatJoinsWaitsUntilItSeesTheFile) {
 
 TEST(CampaignFolder, AFileThatOnlyAddsExtendsTheFolder) {
   const fs::path folder = experiment::fake::test_folder();
-  const std::string more = kHead + "priors = [\"far\", \"near\"]\nseeds = \"1-3\"\ntrials = 3\n" + kClaim;
+  const std::string more = kThreeLearners + "priors = [\"far\", \"near\"]\nseeds = \"1-3\"\ntrials = 3\n" + kClaim;
   run(folder / "grown");
   run(folder / "grown", more);
   run(folder / "whole", more);
@@ -124,7 +124,7 @@ TEST(CampaignFolder, AFileThatAsksForSomethingElseIsRefused) {
   run(folder);
   const std::string before = results_of(folder) + files::read_file(folder / "campaign.toml");
   const std::string name = folder.string();
-  EXPECT_EQ(refusal(folder, kHead + "seeds = \"2-3\"\ntrials = 1\n[set]\nsearch.step = 1\n"),
+  EXPECT_EQ(refusal(folder, kThreeLearners + "seeds = \"2-3\"\ntrials = 1\n[set]\nsearch.step = 1\n"),
             name +
                 " was begun with line-echo-near-1 and 3 other runs, which the campaign file no longer has; name "
                 "another folder\n" +

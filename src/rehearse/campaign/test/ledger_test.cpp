@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using line::kGrid, line::kHead, line::results_of, line::run, line::summary_of;
+using line::kGrid, line::kThreeLearners, line::results_of, line::run, line::summary_of;
 
 TEST(Ledger, GivesEachUnfinishedRunOnceInTheOrderOfThePlan) {
   const fs::path folder = experiment::fake::test_folder() / "campaign";
@@ -27,7 +27,7 @@ TEST(Ledger, GivesEachUnfinishedRunOnceInTheOrderOfThePlan) {
 
 TEST(Ledger, AFailureIsRecordedAndDoesNotStopTheOthers) {
   const fs::path folder = experiment::fake::test_folder() / "campaign";
-  const std::string text = kHead + "seeds = \"1-2\"\ntrials = 8\n[vary]\nbreaks = [false, true]\n";
+  const std::string text = kThreeLearners + "seeds = \"1-2\"\ntrials = 8\n[vary]\nbreaks = [false, true]\n";
   const Campaign campaign = run(folder, text, {.threads = 2});
   EXPECT_EQ(campaign.count(RunState::failed), 4);
   EXPECT_EQ(campaign.count(RunState::done), 4);

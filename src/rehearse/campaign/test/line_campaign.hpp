@@ -15,8 +15,9 @@ namespace rehearse::campaign::line {
 
 namespace fs = std::filesystem;
 
-inline const std::string kHead = "format = 1\nscenario = \"line\"\nlearners = [\"echo\", \"echo-alone\", \"pilco\"]\n";
-inline const std::string kGrid = kHead + "priors = [\"near\", \"far\"]\nseeds = \"1-2\"\ntrials = 2\n";
+inline const std::string kThreeLearners =
+    "format = 1\nscenario = \"line\"\nlearners = [\"echo\", \"echo-alone\", \"pilco\"]\n";
+inline const std::string kGrid = kThreeLearners + "priors = [\"near\", \"far\"]\nseeds = \"1-2\"\ntrials = 2\n";
 inline const std::string kClaim =
     "[[claim]]\ntext = \"it works\"\nlearner = \"echo\"\nsolved_by = 2\nat_least_runs = 1\n";
 

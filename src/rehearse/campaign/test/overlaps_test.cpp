@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "plans.hpp"
 #include "rehearse/campaign/planner.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/resolve.hpp"
-#include "rehearse/experiment/test/fake.hpp"
 
 namespace rehearse::campaign {
 namespace {
@@ -13,47 +13,49 @@ namespace {
 using Lines = std::vector<std::string>;
 
 /// Of a file whose tables begin at line 5.
-std::string complaint(const std::string& tables, const std::string& priors = "\"near\"") {
+std::string complaint_of_tables(const std::string& tables, const std::string& priors = "\"near\"") {
   const std::string head =
       "format = 1\nscenario = \"line\"\nseeds = [4, 2]\nlearners = [\"echo\"]; priors = [" + priors;
   const std::string text = std::string(head).replace(head.find("; "), 2, "\n") + "]\n" + tables;
-  return experiment::fake::message_of<InvalidInput>(
-      [&] { plan_campaign(experiment::fake::catalogue(), text, "c.toml"); });
+  return plans::complaint(text);
 }
 
 TEST(CampaignOverlaps, ADrawnOptionIsNeitherVariedNorSet) {
-  EXPECT_EQ(complaint("[vary]\nprior.gain = [1, 2]\n[draw]\nprior.gain = [1, 2]\n"),
+  EXPECT_EQ(complaint_of_tables("[vary]\nprior.gain = [1, 2]\n[draw]\nprior.gain = [1, 2]\n"),
             "c.toml: line 9: prior.gain of [draw] is in [vary] too, line 7: only one of them would count");
-  EXPECT_EQ(complaint("[draw]\nprior.gain = [1, 2]\n[vary]\nprior.gain = [1, 2]\n"),
+  EXPECT_EQ(complaint_of_tables("[draw]\nprior.gain = [1, 2]\n[vary]\nprior.gain = [1, 2]\n"),
             "c.toml: line 9: prior.gain of [vary] is in [draw] too, line 7: only one of them would count");
-  EXPECT_EQ(complaint("[set]\nnoise = 1\n[draw]\nnoise = [1, 2]\n"),
+  EXPECT_EQ(complaint_of_tables("[set]\nnoise = 1\n[draw]\nnoise = [1, 2]\n"),
             "c.toml: line 9: noise of [draw] is in [set] too, line 7: only one of them would count");
-  EXPECT_EQ(complaint("[learner.echo]\nsearch.step = 1\n[draw]\nsearch.step = [1, 2]\n"),
+  EXPECT_EQ(complaint_of_tables("[learner.echo]\nsearch.step = 1\n[draw]\nsearch.step = [1, 2]\n"),
             "c.toml: line 9: search.step of [draw] is in [learner.echo] too, line 7: only one of them would count");
-  EXPECT_EQ(complaint("[[variant]]\nname = \"a\"\nset.noise = 1\n[draw]\nnoise = [1, 2]\n"),
+  EXPECT_EQ(complaint_of_tables("[[variant]]\nname = \"a\"\nset.noise = 1\n[draw]\nnoise = [1, 2]\n"),
             "c.toml: line 10: noise of [draw] is in [[variant]] too, line 8: only one of them would count");
 }
 
 TEST(CampaignOverlaps, NeitherIsAVariedOneVariedTwice) {
-  EXPECT_EQ(complaint("[[variant]]\nname = \"a\"\nset.noise = 1\n[vary]\nnoise = [1, 2]\n"),
+  EXPECT_EQ(complaint_of_tables("[[variant]]\nname = \"a\"\nset.noise = 1\n[vary]\nnoise = [1, 2]\n"),
             "c.toml: line 10: noise of [vary] is in [[variant]] too, line 8: only one of them would count");
-  EXPECT_EQ(complaint("[vary]\nnoise = [1, 2]\nscenario.noise = [3, 4]\n"),
+  EXPECT_EQ(complaint_of_tables("[vary]\nnoise = [1, 2]\nscenario.noise = [3, 4]\n"),
             "c.toml: line 8: scenario.noise of [vary] is in [vary] too, line 7 as noise: only one of them would count");
 }
 
 TEST(CampaignOverlaps, OtherNamesOfAnOptionAreTheSameOption) {
-  EXPECT_EQ(complaint("[vary]\nprior.near.gain = [1, 2]\n[draw]\nprior.gain = [1, 2]\n"),
+  EXPECT_EQ(complaint_of_tables("[vary]\nprior.near.gain = [1, 2]\n[draw]\nprior.gain = [1, 2]\n"),
             "c.toml: line 9: prior.gain of [draw] is in [vary] too, line 7 as prior.near.gain: only one of them would "
             "count");
-  EXPECT_EQ(complaint("[set]\nscenario.plant.gain = 1\n[draw]\nplant.gain = [1, 2]\n"),
+  EXPECT_EQ(complaint_of_tables("[set]\nscenario.plant.gain = 1\n[draw]\nplant.gain = [1, 2]\n"),
             "c.toml: line 9: plant.gain of [draw] is in [set] too, line 7 as scenario.plant.gain: only one of them "
             "would count");
 }
 
 TEST(CampaignOverlaps, DifferentOptionsAndVariantsAreFine) {
-  EXPECT_EQ(complaint("[set]\nnoise = 1\n[vary]\nnoise = [1, 2]\n[draw]\nprior.gain = [1, 2]\n"), "");
-  EXPECT_EQ(complaint("[[variant]]\nname = \"a\"\nset.noise = 1\n[[variant]]\nname = \"b\"\nset.noise = 2\n"), "");
-  EXPECT_EQ(complaint("[vary]\nprior.near.gain = [1, 2]\n[draw]\nprior.far.gain = [1, 2]\n", "\"near\", \"far\""), "")
+  EXPECT_EQ(complaint_of_tables("[set]\nnoise = 1\n[vary]\nnoise = [1, 2]\n[draw]\nprior.gain = [1, 2]\n"), "");
+  EXPECT_EQ(complaint_of_tables("[[variant]]\nname = \"a\"\nset.noise = 1\n[[variant]]\nname = \"b\"\nset.noise = 2\n"),
+            "");
+  EXPECT_EQ(
+      complaint_of_tables("[vary]\nprior.near.gain = [1, 2]\n[draw]\nprior.far.gain = [1, 2]\n", "\"near\", \"far\""),
+      "")
       << "no run has both";
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kGrid =
+const std::string kNineRuns =
     "format = 1\nscenario = \"line\"\nlearners = [\"echo\", \"echo-alone\", \"pilco\"]\n"
     "priors = [\"near\", \"far\"]\nseeds = \"1-3\"\ntrials = 2\n";
 
@@ -26,7 +26,7 @@ std::string campaign_results(const fs::path& folder) {
   return files::read_file(folder / "campaign.csv") + files::read_file(folder / "summary.json");
 }
 
-Campaign campaign(const fs::path& folder, const CampaignOptions& options, const std::string& text = kGrid) {
+Campaign campaign(const fs::path& folder, const CampaignOptions& options, const std::string& text = kNineRuns) {
   return run_campaign(experiment::fake::catalogue(), text, "c.toml", folder, options);
 }
 
@@ -52,7 +52,7 @@ TEST(CampaignOnRanks, SameTablesAndAllNewsToRankZero) {
 
 TEST(CampaignOnRanks, FailedRunsAreRecorded) {
   const fs::path folder = experiment::fake::test_folder();
-  const std::string text = kGrid + "[vary]\nbreaks = [false, true]\n[set]\nsearch.step = 3\n";
+  const std::string text = kNineRuns + "[vary]\nbreaks = [false, true]\n[set]\nsearch.step = 3\n";
   EXPECT_GT(campaign(folder / "alone", {.threads = 1}, text).count(RunState::failed), 0);
   EXPECT_EQ(Ends([&](Ranks& ranks) { campaign(folder / "ranks", {.threads = 1, .ranks = &ranks}, text); }).all(),
             "done");

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using line::kClaim, line::kHead, line::results_of, line::run, line::summary_of;
+using line::kClaim, line::kThreeLearners, line::results_of, line::run, line::summary_of;
 
 statistics::Table three_trials() {
   return {.header = {"interaction_s", "return", "solved"},
@@ -47,7 +47,7 @@ TEST(RunOutcome, ALastTrialStandsForLaterOnesOnceTheRunIsDone) {
 
 TEST(RunOutcome, RunsThatEndOnceSolvedCountAsTheyEnded) {
   const fs::path folder = experiment::fake::test_folder() / "campaign";
-  const std::string grid = kHead + "priors = [\"near\"]\nseeds = \"1-3\"\ntrials = 8\n" + kClaim;
+  const std::string grid = kThreeLearners + "priors = [\"near\"]\nseeds = \"1-3\"\ntrials = 8\n" + kClaim;
   const Campaign ended = run(folder, "until_solved = true\n" + grid);
   EXPECT_TRUE(ended.complete());
   const auto counts = [&](const char* trial_measure) {

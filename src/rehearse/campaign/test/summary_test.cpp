@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using line::kClaim, line::kGrid, line::kHead, line::run, line::summary_of;
+using line::kClaim, line::kGrid, line::kThreeLearners, line::run, line::summary_of;
 
 TEST(Summary, CsvHasARowForEveryTrialInTheOrderOfTheFile) {
   const fs::path folder = experiment::fake::test_folder() / "campaign";
@@ -59,7 +59,8 @@ TEST(Summary, HoldsRunsGroupsAndClaims) {
 
 TEST(Summary, FailedRunsCountAsNotSolvedAndKeepTheirRows) {
   const fs::path folder = experiment::fake::test_folder() / "campaign";
-  const Campaign campaign = run(folder, kHead + "seeds = \"1-2\"\ntrials = 8\n[vary]\nbreaks = [false, true]\n");
+  const Campaign campaign =
+      run(folder, kThreeLearners + "seeds = \"1-2\"\ntrials = 8\n[vary]\nbreaks = [false, true]\n");
   const RunOutcome& failed = campaign.outcome(1, 0);
   ASSERT_LT(failed.done(), 8);
   const auto rows = statistics::read_csv(files::read_file(folder / "campaign.csv"));

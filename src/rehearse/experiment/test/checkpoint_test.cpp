@@ -39,7 +39,7 @@ History history_of_one() {
   return history;
 }
 
-std::string complaint(const std::string& bytes, std::uint64_t spec = 42) {
+std::string checkpoint_complaint(const std::string& bytes, std::uint64_t spec = 42) {
   return fake::message_of<InvalidInput>([&] { from_checkpoint(bytes, spec); });
 }
 
@@ -72,17 +72,18 @@ TEST(Checkpoint, KeepsEveryBit) {
 
 TEST(Checkpoint, EveryTruncationIsRefused) {
   const std::string bytes = to_checkpoint(history_of_one(), 42);
-  for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_NE(complaint(bytes.substr(0, size)), "") << size;
-  EXPECT_EQ(complaint(bytes.substr(0, bytes.size() - 1)), "the checkpoint is truncated or damaged");
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_NE(checkpoint_complaint(bytes.substr(0, size)), "") << size;
+  EXPECT_EQ(checkpoint_complaint(bytes.substr(0, bytes.size() - 1)), "the checkpoint is truncated or damaged");
 }
 
 TEST(Checkpoint, DamageAnotherVersionAndAnotherSpecAreRefused) {
   std::string bytes = to_checkpoint(history_of_one(), 42);
-  EXPECT_NE(complaint(bytes, 43).find("belongs to another spec.toml"), std::string::npos);
-  EXPECT_NE(complaint("rehearse-checkpoint 2 0 0\n").find("another version"), std::string::npos);
+  EXPECT_NE(checkpoint_complaint(bytes, 43).find("belongs to another spec.toml"), std::string::npos);
+  EXPECT_NE(checkpoint_complaint("rehearse-checkpoint 2 0 0\n").find("another version"), std::string::npos);
   bytes[bytes.size() / 2] ^= 1;
-  EXPECT_EQ(complaint(bytes), "the checkpoint is truncated or damaged");
-  EXPECT_EQ(complaint("hello"), "the checkpoint is truncated or not one of Rehearse");
+  EXPECT_EQ(checkpoint_complaint(bytes), "the checkpoint is truncated or damaged");
+  EXPECT_EQ(checkpoint_complaint("hello"), "the checkpoint is truncated or not one of Rehearse");
 }
 
 }  // namespace

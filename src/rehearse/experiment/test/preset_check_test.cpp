@@ -5,17 +5,19 @@
 #include "presets.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/resolve.hpp"
+#include "specs.hpp"
 
 namespace rehearse::experiment {
 namespace {
 
-using presets::Options, presets::spec_of, presets::with;
+using presets::with;
+using specs::Options, specs::spec_of;
 
 Options options_of(const std::string& text, const Spec& spec) {
   return with_preset(with(text), spec, "careful").options;
 }
 
-std::string complaint(const std::string& text, const std::string& name = "careful") {
+std::string preset_complaint(const std::string& text, const std::string& name = "careful") {
   return fake::message_of<InvalidInput>([&] { with_preset(with(text), spec_of("echo"), name); });
 }
 
@@ -33,7 +35,7 @@ TEST(PresetCheck, GivesEachRunTheOptionsThatAreForIt) {
 TEST(PresetCheck, ComesAfterDefaultsAndBeforeWhatIsAskedForLater) {
   Catalogue catalogue = with("[set]\nsearch.step = 0.2\nprior.gain = 3\n");
   catalogue.default_presets = {{"line", "format = 1\n[set]\nsearch.step = 0.1\nnoise = 3\n"}};
-  Spec spec = with_preset(catalogue, spec_of("echo", {{"noise", "1"}}), "careful");
+  Spec spec = with_preset(catalogue, spec_of("echo", "", {{"noise", "1"}}), "careful");
   Spec complete = resolve(catalogue, spec).spec;
   EXPECT_EQ(complete.options[1], (std::pair<std::string, std::string>{"scenario.noise", "1"}));
   EXPECT_EQ(complete.options[4], (std::pair<std::string, std::string>{"learner.search.step", "0.2"}));
@@ -45,17 +47,17 @@ TEST(PresetCheck, ComesAfterDefaultsAndBeforeWhatIsAskedForLater) {
 
 TEST(PresetCheck, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(
-      complaint("", "carefull"),
+      preset_complaint("", "carefull"),
       "unknown preset 'carefull', did you mean 'careful'? (known: careful, bold); a file is named with its .toml");
   EXPECT_EQ(fake::message_of<InvalidInput>([] { find_preset(fake::catalogue(), "bold"); }),
             "unknown preset 'bold': there are none; a file is named with its .toml");
-  EXPECT_EQ(complaint(""), "presets/careful.toml: nothing is set for learner echo on scenario line");
+  EXPECT_EQ(preset_complaint(""), "presets/careful.toml: nothing is set for learner echo on scenario line");
   EXPECT_EQ(
-      complaint("[set]\nnoise = -1\nsearch.stp = 1\n[[for]]\nlearners = [\"eco\"]\n"),
+      preset_complaint("[set]\nnoise = -1\nsearch.stp = 1\n[[for]]\nlearners = [\"eco\"]\n"),
       "presets/careful.toml: line 5: unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)\n"
       "presets/careful.toml: line 3: noise = -1, must be ≥ 0 (learner echo on line)\n"
       "presets/careful.toml: line 4: unknown option 'search.stp', did you mean 'search.step'? (learner echo on line)");
-  EXPECT_EQ(complaint("colour = 1\nfor = 3\n[set]\nnoise = [1, 2]\n"),
+  EXPECT_EQ(preset_complaint("colour = 1\nfor = 3\n[set]\nnoise = [1, 2]\n"),
             "presets/careful.toml: line 2: unknown key 'colour', did you mean 'for'? (known: format, title, set, for)\n"
             "presets/careful.toml: line 3: parts for some runs are written as [[for]]\n"
             "presets/careful.toml: line 5: noise: a value must be a number, true, false or text");
@@ -65,7 +67,7 @@ TEST(PresetCheck, SaysWhatIsWrongAndWhere) {
 
 /// An option that is wrong without the preset is not its fault.
 TEST(PresetCheck, IsNotBlamedForOthers) {
-  EXPECT_EQ(with_preset(with("[set]\nnoise = 1\n"), spec_of("echo", {{"colour", "red"}}), "careful").options.size(),
+  EXPECT_EQ(with_preset(with("[set]\nnoise = 1\n"), spec_of("echo", "", {{"colour", "red"}}), "careful").options.size(),
             2u);
 }
 

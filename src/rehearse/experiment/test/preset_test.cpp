@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "presets.hpp"
 #include "rehearse/core/errors.hpp"
+#include "specs.hpp"
 
 namespace rehearse::experiment {
 namespace {
 
-using presets::Options, presets::spec_of;
+using specs::Options, specs::spec_of;
 
 TEST(Preset, GivesItsOptionsWithTheirLinesInTheOrderOfTheFile) {
   const Preset preset("format = 1\n[set]\nb = 1\na = 2\n[[for]]\nscenarios = [\"line\"]\nset.b = 3\n", "x.toml");

@@ -13,7 +13,7 @@ namespace rehearse::experiment::specs {
 
 using Options = std::vector<std::pair<std::string, std::string>>;
 
-inline Spec spec_of(const std::string& learner, const std::string& prior, const Options& options = {}) {
+inline Spec spec_of(const std::string& learner, const std::string& prior = "", const Options& options = {}) {
   return {.scenario = "line", .learner = learner, .prior = prior, .options = options};
 }
 
