@@ -65,6 +65,8 @@ function(rehearse_room name)
   rehearse_check_includes("${name}" "${ROOM_USES};${ROOM_TEST_USES}" "${tests};${test_headers}")
   if(REHEARSE_TESTS AND tests)
     add_executable(test_${target} ${tests})
+    # Tests of a room are compiled several at once: what takes time are headers and templates, which they share.
+    set_target_properties(test_${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     target_compile_options(test_${target} PRIVATE ${REHEARSE_TEST_OPTIONS})
     target_precompile_headers(test_${target} REUSE_FROM rehearse_test_headers)
     target_compile_definitions(test_${target} PRIVATE TEST_DATA_DIR="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
