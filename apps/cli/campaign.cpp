@@ -12,6 +12,7 @@
 #include "apps/cli/signals.hpp"
 #include "rehearse/campaign/claims.hpp"
 #include "rehearse/campaign/planner.hpp"
+#include "rehearse/campaign/robot_of.hpp"
 #include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::apps {

@@ -8,10 +8,6 @@
 
 namespace rehearse::campaign {
 
-/// The catalogue with the robot that a campaign names by its file, as seen from the campaign's file. Throws InvalidInput.
-experiment::Catalogue with_robot_of(const experiment::Catalogue& catalogue, std::string_view text,
-                                    const std::string& source);
-
 /// Throws InvalidInput with a line for everything that is wrong. source: the file's name, for messages.
 CampaignPlan plan_campaign(const experiment::Catalogue& catalogue, std::string_view text, const std::string& source);
 

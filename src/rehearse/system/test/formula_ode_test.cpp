@@ -27,7 +27,7 @@ Vector slopes(const Vector& x, const Vector& u, const Vector& phi) {
                  (u(1) + m * 9.81 * l * std::sin(x(2)) - b * x(1) + u(0) * l * std::cos(x(2))) / inertia, x(1)}};
 }
 
-const Vector kPhi{{0.7, 0.4, 0.1}};
+const Vector kSwingPhi{{0.7, 0.4, 0.1}};
 
 Matrix random_rows(Index rows, Index columns) {
   Rng rng({.seed = 1});
@@ -43,9 +43,9 @@ TEST(FormulaOde, SlopesAreThoseOfTheFormulas) {
   EXPECT_EQ(kernel.parameters, 3);
   const Matrix X = random_rows(20, 3), U = random_rows(20, 2);
   for (Index i = 0; i < X.rows(); ++i) {
-    const Vector x = X.row(i), u = U.row(i), expected = slopes(x, u, kPhi);
+    const Vector x = X.row(i), u = U.row(i), expected = slopes(x, u, kSwingPhi);
     Vector slope(3);
-    kernel.derivative(x.data(), u.data(), kPhi.data(), slope.data());
+    kernel.derivative(x.data(), u.data(), kSwingPhi.data(), slope.data());
     EXPECT_LT((slope - expected).norm(), 1e-13 * expected.norm());
   }
 }
@@ -54,10 +54,10 @@ TEST(FormulaOde, ChangesAreThoseOfAnAdaptiveIntegrator) {
   const OdeKernel kernel = formula_kernel(swing());
   const Matrix X = random_rows(150, 3), U = random_rows(150, 2);
   Matrix dX(150, 3);
-  kernel.change(X, U, kPhi.data(), 0.05, 20, dX);
+  kernel.change(X, U, kSwingPhi.data(), 0.05, 20, dX);
   const auto ode = [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) { dxdt = slopes(x, u, phi); };
   for (Index i = 0; i < X.rows(); i += 7) {
-    const Vector x = X.row(i), after = integrate_adaptive(ode, x, U.row(i), kPhi, 0.05);
+    const Vector x = X.row(i), after = integrate_adaptive(ode, x, U.row(i), kSwingPhi, 0.05);
     EXPECT_LT((x + dX.row(i).transpose() - after).norm(), 1e-8) << i;
   }
 }
@@ -66,8 +66,8 @@ TEST(FormulaOde, ARowDoesNotDependOnTheOthers) {
   const OdeKernel kernel = formula_kernel(swing());
   const Matrix X = random_rows(100, 3), U = random_rows(100, 2);
   Matrix all(100, 3), some(3, 3);
-  kernel.change(X, U, kPhi.data(), 0.05, 5, all);
-  kernel.change(X.middleRows(70, 3), U.middleRows(70, 3), kPhi.data(), 0.05, 5, some);
+  kernel.change(X, U, kSwingPhi.data(), 0.05, 5, all);
+  kernel.change(X.middleRows(70, 3), U.middleRows(70, 3), kSwingPhi.data(), 0.05, 5, some);
   EXPECT_EQ(some, all.middleRows(70, 3));
 }
 
@@ -77,7 +77,7 @@ TEST(FormulaOde, ARowThatLosesItsWayFailsAlone) {
   X(3, 1) = 1e300;
   X(5, 1) = 1e7;
   Matrix dX(10, 3);
-  kernel.change(X, random_rows(10, 2), kPhi.data(), 0.05, 5, dX);
+  kernel.change(X, random_rows(10, 2), kSwingPhi.data(), 0.05, 5, dX);
   for (Index i = 0; i < 10; ++i) EXPECT_EQ(dX.row(i).array().isNaN().all(), i == 3 || i == 5) << i;
 }
 
