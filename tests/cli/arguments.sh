@@ -40,7 +40,7 @@ expect 2 "unknown scenario or learner 'gpmi', did you mean 'gp-mi'?" 1 list gpmi
 expect 2 "--expert is for one scenario or learner" 1 list --expert
 expect 0 '"value": "restarts"' - list --json
 
-expect 2 "a command is missing (list, learn, resume, " 1
+expect 2 "a command is missing (list, new, check, learn, " 1
 expect 2 "unknown command 'lern', did you mean 'learn'?" 1 lern
 expect 2 "unknown flag '--colour' of list" 1 list --colour
 expect 2 "unknown flag '--prio' of learn, did you mean '--prior'?" 1 learn pendubot --prio=useful
