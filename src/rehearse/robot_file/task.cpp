@@ -143,49 +143,72 @@ std::function<bool(const Episode&)> solved_of(const Robot& robot) {
   };
 }
 
+/// The distances with sine and cosine of each angle as inputs of their own, behind states and actions.
+Program program_of_features(const Robot& robot) {
+  Formulas formulas = task_formulas(robot);
+  for (const State& state : robot.states) {
+    if (state.variable.kind != StateKind::angle) continue;
+    const Node sine = formulas.builder().input(Pace::always), cosine = formulas.builder().input(Pace::always);
+    formulas.builder().known_trigonometry(formulas.named(state.variable.name), sine, cosine);
+  }
+  std::vector<Node> nodes;
+  for (const Formula& distance : robot.reward.distance) nodes.push_back(formulas.compile(distance.text));
+  return {formulas, nodes};
+}
+
+/// Of each feature its input of program_of_features.
+std::vector<Index> inputs_of_features(const Robot& robot) {
+  std::vector<Index> inputs;
+  Index state = 0, sine = static_cast<Index>(robot.states.size() + robot.actions.size());
+  for (const State& each : robot.states) {
+    if (each.variable.kind == StateKind::plain) inputs.push_back(state);
+    if (each.variable.kind == StateKind::angle) {
+      inputs.insert(inputs.end(), {sine + 1, sine});  // features have the cosine first
+      sine += 2;
+    }
+    ++state;
+  }
+  return inputs;
+}
+
+struct Linear {
+  Matrix slopes;   // outputs × inputs
+  Vector at_zero;  // one an output
+};
+
+/// Tried at some points: empty where the program is not linear in its inputs.
+std::optional<Linear> linear_in_inputs(const Program& program) {
+  constexpr Index kProbes = 8;
+  const Index inputs = program.inputs();
+  Matrix X = Matrix::Zero(1 + inputs + kProbes, inputs);
+  X.middleRows(1, inputs).setIdentity();
+  for (Index i = 0; i < kProbes; ++i)
+    for (Index j = 0; j < inputs; ++j)
+      X(1 + inputs + i, j) = std::sin(3.7 * static_cast<double>(i * inputs + j + 1));  // points of no pattern
+  const Matrix d = evaluate(program, X, Matrix(X.rows(), 0));
+  const Linear linear{(d.middleRows(1, inputs).rowwise() - d.row(0)).transpose(), d.row(0)};
+  const Matrix expected = (X.bottomRows(kProbes) * linear.slopes.transpose()).rowwise() + d.row(0);
+  if (!d.allFinite() || !((expected - d.bottomRows(kProbes)).cwiseAbs().maxCoeff() < 1e-9)) return {};
+  return linear;
+}
+
 }  // namespace
 
 void check_formulas(const Robot& robot, files::FileViolations& violations) { Checker(robot, violations).check(); }
 
 std::optional<reward::ClosedForm> closed_form(const Robot& robot) {
-  Formulas formulas = task_formulas(robot);
-  const auto dx = static_cast<Index>(robot.states.size()), du = static_cast<Index>(robot.actions.size());
-  Task task;
-  for (Index i = 0; i < dx; ++i) {
-    task.states.push_back(robot.states[static_cast<std::size_t>(i)].variable);
-    if (task.states.back().kind != StateKind::angle) continue;
-    const Node sine = formulas.builder().input(Pace::always), cosine = formulas.builder().input(Pace::always);
-    formulas.builder().known_trigonometry(formulas.named(task.states.back().name), sine, cosine);
-  }
-  std::vector<Node> nodes;
-  for (const Formula& distance : robot.reward.distance) nodes.push_back(formulas.compile(distance.text));
-  const Program program(formulas, nodes);
-
-  // Inputs: states, actions, sine and cosine of each angle; which of them are features, in the features' order.
-  std::vector<Index> feature;
-  for (Index i = 0, a = 0; i < dx; ++i) {
-    const StateKind kind = task.states[static_cast<std::size_t>(i)].kind;
-    if (kind == StateKind::plain) feature.push_back(i);
-    if (kind == StateKind::angle) feature.push_back(dx + du + 2 * a + 1), feature.push_back(dx + du + 2 * a), ++a;
-  }
-  const Index inputs = program.inputs(), rows = 1 + inputs, probes = 8;
-  Matrix X = Matrix::Zero(rows + probes, inputs);
-  X.middleRows(1, inputs).setIdentity();
-  for (Index i = 0; i < probes; ++i)
-    for (Index j = 0; j < inputs; ++j) X(rows + i, j) = std::sin(3.7 * static_cast<double>(i * inputs + j + 1));
-  const Matrix d = evaluate(program, X, Matrix(X.rows(), 0));
-  const Matrix slopes = (d.middleRows(1, inputs).rowwise() - d.row(0)).transpose();  // distances × inputs
-  const Matrix linear = (X.bottomRows(probes) * slopes.transpose()).rowwise() + d.row(0);
-  if (!d.allFinite() || !((linear - d.bottomRows(probes)).cwiseAbs().maxCoeff() < 1e-9)) return {};
+  const std::optional<Linear> linear = linear_in_inputs(program_of_features(robot));
+  if (!linear) return {};
+  const std::vector<Index> features = inputs_of_features(robot);
   reward::ClosedForm form;
-  form.distances = Matrix(d.cols(), static_cast<Index>(feature.size()));
-  Matrix rest = slopes;
-  for (std::size_t f = 0; f < feature.size(); ++f) {
-    form.distances.col(static_cast<Index>(f)) = slopes.col(feature[f]) / robot.reward.width;
-    rest.col(feature[f]).setZero();
+  form.distances = Matrix(linear->slopes.rows(), static_cast<Index>(features.size()));
+  Matrix rest = linear->slopes;
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    form.distances.col(static_cast<Index>(f)) = linear->slopes.col(features[f]) / robot.reward.width;
+    rest.col(features[f]).setZero();
   }
   if (rest.cwiseAbs().maxCoeff() > 0) return {};  // an action, an angle as it is, a state that is no feature
-  const Vector wanted = -d.row(0).transpose() / robot.reward.width;
+  const Vector wanted = -linear->at_zero / robot.reward.width;
   form.goal = form.distances.completeOrthogonalDecomposition().solve(wanted);
   if ((form.distances * form.goal - wanted).norm() > 1e-9 * (1 + wanted.norm())) return {};
   return form;
