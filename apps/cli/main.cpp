@@ -103,7 +103,7 @@ CLI::App* add_learn(CLI::App& app, LearnArguments& arguments) {
   command->add_flag("--until-solved", arguments.until_solved, "End before, with a trial that solves the task");
   add(command, "--seed", arguments.seed, "Of all random numbers: the same seed gives the same run. Default: 1", "S");
   add(command, "--threads", arguments.threads,
-      "Threads to compute with, with mpirun of each process; results do not depend on it. Default: all cores", "K");
+      "Threads to compute with; results do not depend on it. Default: all cores", "K");
   add(command, "--out", arguments.out,
       "The run folder, which must not exist. Default: runs/SCENARIO-LEARNER-PRIOR-SEED", "DIR");
   add(command, "--set", arguments.set,

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "apps/cli/signals.hpp"
 #include "rehearse/core/errors.hpp"
 #ifdef REHEARSE_MPI
 #include "rehearse/mpi/ranks.hpp"
@@ -63,7 +62,7 @@ int ProcessGroup::threads(Index asked) const {
 
 void join(ProcessGroup& processes, const Launch& launch, int argc, char** argv) {
   if (launch.size <= 1) return;
-  processes.ranks = mpi::join([] { return caught_signal() != 0; });
+  processes.ranks = mpi::join();
   Ranks& ranks = *processes.ranks;
   if (ranks.size() != launch.size)
     throw InvalidInput(

@@ -55,22 +55,18 @@ std::string to_bytes(const std::exception_ptr& failure) {
 
 }  // namespace
 
-// A message is: whether this rank was asked to stop, the length of the step's name, the name, and what is given.
+// A message is: the length of the step's name, the name, and what is given.
 std::vector<std::string> Ranks::exchange(std::string_view step, std::string_view bytes) {
   if (over_) throw std::runtime_error("the ranks have parted");
-  std::string mine(1, stop_ && stop_() ? 1 : 0);
-  mine.append(bytes_of(step.size())).append(step).append(bytes);
+  const std::string mine = bytes_of(step.size()).append(step).append(bytes);
   std::vector<std::string> given = carry(mine);
   std::vector<std::string> steps;
-  bool stopped = stopped_;
   for (std::string& message : given) {
     std::string_view rest = message;
-    stopped = take<char>(rest) != 0 || stopped;
     const auto length = take<std::size_t>(rest);
     steps.emplace_back(rest.substr(0, length));
     message = rest.substr(length);
   }
-  stopped_ = stopped;
   check_steps(step, steps, given);
   return given;
 }

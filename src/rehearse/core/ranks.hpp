@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -15,7 +14,7 @@ namespace rehearse {
 /// breaks this (it met an exception that the others did not), all the others throw instead of waiting for ever.
 class Ranks {
  public:
-  explicit Ranks(std::function<bool()> stop = {}) : stop_(std::move(stop)) {}
+  Ranks() = default;
   virtual ~Ranks() = default;
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
@@ -28,10 +27,6 @@ class Ranks {
 
   /// What `work` returns on rank 0, on every rank; only rank 0 calls it. Its exception is thrown everywhere.
   std::string once(std::string_view step, const std::function<std::string()>& work);
-
-  /// Whether a rank was asked to stop (`stop` of the constructor) before the last call that all made: the same answer
-  /// everywhere.
-  bool stopped() const { return stopped_; }
 
   struct End {
     int rank = 0;
@@ -55,8 +50,6 @@ class Ranks {
  private:
   void check_steps(std::string_view step, const std::vector<std::string>& steps, const std::vector<std::string>& given);
 
-  std::function<bool()> stop_;
-  std::atomic<bool> stopped_ = false;
   bool over_ = false;  // a rank has left
 };
 

@@ -10,7 +10,7 @@ namespace rehearse::experiment {
 
 /// Mean return of the trial's policy over the scenario's `evaluations` episodes, on a plant made for them and from
 /// random streams of their own: the trial, and whatever follows it, never notices. Empty if the scenario asks for none.
-/// Every rank calls it; rank 0 has the plant. Asks the evaluator before every step whether to stop. Throws what the
+/// Asks the evaluator before every step whether to stop. Throws what the
 /// plant throws.
 std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator);
 

@@ -4,8 +4,6 @@
 #include <memory>
 #include <new>
 
-#include "rehearse/expression/tape_kernel.hpp"
-
 namespace rehearse::expression {
 namespace {
 
@@ -30,7 +28,22 @@ double* slots_of_this_thread(Index slots) {
 
 void load(double* slot, const double* from, Index rows) {
   std::copy_n(from, rows, slot);
-  std::fill(slot + rows, slot + (rows + 7) / 8 * 8, from[0]);
+  std::fill(slot + rows, slot + whole_vectors(rows), from[0]);
+}
+
+void fill(double* slot, double value, Index rows) { std::fill_n(slot, whole_vectors(rows), value); }
+
+void fill_constants(const Tape& tape, const Block& block) {
+  double* slot = block.slots;
+  for (const double constant : tape.constants) {
+    fill(slot, constant, block.rows);
+    slot += kBlock;
+  }
+}
+
+Code code_of(const Tape& tape, Pace pace) {
+  const auto& code = tape.code[static_cast<std::size_t>(pace)];
+  return {code.data(), static_cast<Index>(code.size())};
 }
 
 }  // namespace rehearse::expression

@@ -1,13 +1,22 @@
 #pragma once
 
-#include "rehearse/core/types.hpp"
+#include "rehearse/expression/tape_kernel.hpp"
 
 namespace rehearse::expression {
 
 /// Slots of the calling thread, aligned, which keep what they hold until they are asked for again.
 double* slots_of_this_thread(Index slots);
 
-/// Fills the first `rows` numbers of a slot, and with the first of them up to a multiple of 8.
+/// Fills the first `rows` numbers of a slot, and with the first of them up to whole vectors.
 void load(double* slot, const double* from, Index rows);
+
+/// The same value in `rows` rows, up to whole vectors.
+void fill(double* slot, double value, Index rows);
+
+/// Writes a tape's constants into their slots.
+void fill_constants(const Tape& tape, const Block& block);
+
+/// The instructions of one pace.
+Code code_of(const Tape& tape, Pace pace);
 
 }  // namespace rehearse::expression

@@ -10,6 +10,7 @@
 // Highway's order matters: the functions come after the target.
 #include <hwy/contrib/math/math-inl.h>
 
+#include "rehearse/core/dormand_prince.hpp"
 #include "rehearse/core/sine-inl.hpp"
 #include "rehearse/expression/scalar.hpp"
 
@@ -113,8 +114,6 @@ HWY_INLINE void execute(const Instruction& i, double* slots, Index n) {
   }
 }
 
-HWY_INLINE Index whole_vectors(Index rows) { return (rows + 7) / 8 * 8; }
-
 HWY_INLINE void run_code(const Code& code, double* slots, Index n) {
   for (Index i = 0; i < code.count; ++i) execute(code.instructions[i], slots, n);
 }
@@ -140,10 +139,7 @@ HWY_INLINE void combine(const double* start, const double* k, Index states, cons
 }
 
 void IntegrateKernel(const BlockOde& ode, const Block& block, double* work, double h, Index steps) {
-  static constexpr double kA2[] = {1.0 / 5}, kA3[] = {3.0 / 40, 9.0 / 40}, kA4[] = {44.0 / 45, -56.0 / 15, 32.0 / 9},
-                          kA5[] = {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-                          kA6[] = {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-                          kB[] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84};
+  using namespace dormand_prince;
   double* slots = block.slots;
   const Index n = whole_vectors(block.rows), states = ode.states;
   double *x = slots + ode.first_state * kBlock, *start = work, *k = work + states * kBlock;
@@ -154,17 +150,17 @@ void IntegrateKernel(const BlockOde& ode, const Block& block, double* work, doub
   for (Index step = 0; step < steps; ++step) {
     for (Index s = 0; s < states; ++s) copy(start + s * kBlock, x + s * kBlock, n);
     slopes(0);
-    combine(start, k, states, kA2, h, x, n);
+    combine(start, k, states, kStage2, h, x, n);
     slopes(1);
-    combine(start, k, states, kA3, h, x, n);
+    combine(start, k, states, kStage3, h, x, n);
     slopes(2);
-    combine(start, k, states, kA4, h, x, n);
+    combine(start, k, states, kStage4, h, x, n);
     slopes(3);
-    combine(start, k, states, kA5, h, x, n);
+    combine(start, k, states, kStage5, h, x, n);
     slopes(4);
-    combine(start, k, states, kA6, h, x, n);
+    combine(start, k, states, kStage6, h, x, n);
     slopes(5);
-    combine(start, k, states, kB, h, x, n);
+    combine(start, k, states, kEnd, h, x, n);
   }
 }
 

@@ -6,7 +6,10 @@ namespace rehearse::expression {
 
 inline constexpr Index kBlock = 64;  // rows that a slot holds
 
-/// Slots of kBlock numbers, aligned to 64 bytes. Of each the first `rows`, rounded up to a multiple of 8, are computed.
+/// Rows that are computed where `rows` are wanted.
+constexpr Index whole_vectors(Index rows) { return (rows + 7) / 8 * 8; }
+
+/// Slots of kBlock numbers, aligned to 64 bytes. The first whole_vectors(rows) of each are computed.
 /// Pointers alone: code for one instruction set instantiates nothing that the linker could take for the others' code.
 struct Block {
   double* slots;

@@ -7,7 +7,7 @@ namespace rehearse::learners {
 
 /// Keeps what takes a learner long before its first trial and is not in the episodes, so that a run that was killed
 /// goes on from there, and another that would compute the same begins with it. It belongs to one setting and its
-/// options. What is lost is computed again: a store changes no result. On every rank alike.
+/// options. What is lost is computed again: a store changes no result.
 class Store {
  public:
   virtual ~Store() = default;

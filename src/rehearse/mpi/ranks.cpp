@@ -49,7 +49,7 @@ void wait_gently(const MPI_Request& request) {
 /// An error of MPI itself ends all ranks, as is its default.
 class MpiRanks final : public Ranks {
  public:
-  explicit MpiRanks(std::function<bool()> stop) : Ranks(std::move(stop)) {
+  MpiRanks() {
     int provided = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
     if (provided < MPI_THREAD_SERIALIZED) throw std::runtime_error("this MPI cannot be used from several threads");
@@ -126,7 +126,7 @@ class MpiRanks final : public Ranks {
 
 }  // namespace
 
-std::unique_ptr<Ranks> join(std::function<bool()> stop) { return std::make_unique<MpiRanks>(std::move(stop)); }
+std::unique_ptr<Ranks> join() { return std::make_unique<MpiRanks>(); }
 
 std::string cores() {
   char host[256] = {};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -9,8 +8,7 @@
 namespace rehearse::mpi {
 
 /// Joins the processes that mpirun or srun started with this one. Once in a process; MPI ends with the value.
-/// stop: whether this process was asked to stop.
-std::unique_ptr<Ranks> join(std::function<bool()> stop);
+std::unique_ptr<Ranks> join();
 
 /// The cores that this process may use, and on which machine; equal where processes share them.
 std::string cores();

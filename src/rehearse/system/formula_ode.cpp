@@ -9,15 +9,13 @@
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/expression/formulas.hpp"
 #include "rehearse/expression/slots.hpp"
-#include "rehearse/expression/tape_kernel.hpp"
+#include "rehearse/system/batch.hpp"
 
 namespace rehearse::system {
 namespace {
 
-using expression::Code, expression::kBlock, expression::load, expression::Node, expression::Op, expression::Pace,
+using expression::code_of, expression::fill, expression::fill_constants, expression::kBlock, expression::load, expression::Node, expression::Op, expression::Pace,
     expression::slots_of_this_thread, expression::Tape;
-
-constexpr double kLargestTurn = 30000;  // rad in a control step; what turns further is a simulation that lost its way
 
 /// The slopes of states as a tape. Its inputs are parameters, actions, states, and sine and cosine of each angle, which
 /// are integrated with the states: (sin θ)' = cos θ θ̇.
@@ -61,7 +59,7 @@ class SlopeTape {
     for (Index i = 0; i < states_; ++i) fill(slot(slots, first_state() + i), x[i], 1);
     for (Index i = 0; i < actions_; ++i) fill(slot(slots, first_action() + i), u[i], 1);
     turn(slots, 1);
-    for (const auto pace : {1, 2}) expression::run(code(pace), {slots, 1});
+    for (const Pace pace : {Pace::block, Pace::always}) expression::run(code_of(tape_, pace), {slots, 1});
     for (Index i = 0; i < states_; ++i) dxdt[i] = slots[tape_.outputs[static_cast<std::size_t>(i)] * kBlock];
   }
 
@@ -74,8 +72,8 @@ class SlopeTape {
       for (Index i = 0; i < states_; ++i) load(slot(slots, first_state() + i), X.col(i).data() + row, rows);
       for (Index i = 0; i < actions_; ++i) load(slot(slots, first_action() + i), U.col(i).data() + row, rows);
       turn(slots, rows);
-      expression::run(code(1), {slots, rows});
-      const expression::BlockOde ode{code(2), tape_.outputs.data(), integrated(), tape_.input_slot(first_state())};
+      expression::run(code_of(tape_, Pace::block), {slots, rows});
+      const expression::BlockOde ode{code_of(tape_, Pace::always), tape_.outputs.data(), integrated(), tape_.input_slot(first_state())};
       expression::integrate(ode, {slots, rows}, slots + tape_.slots * kBlock, duration_s / static_cast<double>(steps),
                             steps);
       for (Index i = 0; i < states_; ++i) {
@@ -88,7 +86,6 @@ class SlopeTape {
 
  private:
   static Index size(const std::vector<std::string>& names) { return static_cast<Index>(names.size()); }
-  static Index whole_vectors(Index rows) { return (rows + 7) / 8 * 8; }
 
   /// Inputs, in their order.
   Index first_action() const { return parameters_; }
@@ -97,26 +94,19 @@ class SlopeTape {
   Index integrated() const { return states_ + 2 * static_cast<Index>(angles_.size()); }
 
   double* slot(double* slots, Index input) const { return slots + tape_.input_slot(input) * kBlock; }
-  Code code(int pace) const {
-    const auto& instructions = tape_.code[pace];
-    return {instructions.data(), static_cast<Index>(instructions.size())};
-  }
-
-  static void fill(double* slot, double value, Index rows) { std::fill_n(slot, whole_vectors(rows), value); }
 
   /// Constants, parameters and what follows from them alone.
   void begin(double* slots, const double* phi, Index rows) const {
-    for (std::size_t i = 0; i < tape_.constants.size(); ++i)
-      fill(slots + static_cast<Index>(i) * kBlock, tape_.constants[i], rows);
+    fill_constants(tape_, {slots, rows});
     for (Index i = 0; i < parameters_; ++i) fill(slot(slots, i), phi[i], rows);
-    expression::run(code(0), {slots, rows});
+    expression::run(code_of(tape_, Pace::call), {slots, rows});
   }
 
   void turn(double* slots, Index rows) const {
     for (std::size_t a = 0; a < angles_.size(); ++a) {
       const Index sine = first_trigonometry() + 2 * static_cast<Index>(a);
       vector_sin_cos(slot(slots, first_state() + angles_[a]), slot(slots, sine), slot(slots, sine + 1),
-                     whole_vectors(rows));
+                     expression::whole_vectors(rows));
     }
   }
 

@@ -10,6 +10,7 @@
 
 #include <initializer_list>
 
+#include "rehearse/core/dormand_prince.hpp"
 #include "rehearse/core/types.hpp"
 #include "rehearse/system/batch.hpp"
 #include "rehearse/system/pack-inl.hpp"
@@ -18,8 +19,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace rehearse::system {
 namespace HWY_NAMESPACE {
-
-constexpr double kLargestTurn = 30000;  // rad in a control step; what turns further is a simulation that lost its way
 
 /// out = x + h Σ_j a_j k_j over the first `Stages` slopes.
 template <int Stages, int N, class Number>
@@ -36,23 +35,20 @@ HWY_INLINE void combine(const Number* x, const Number k[][N], const double (&a)[
 /// One step of Dormand and Prince 1980, fifth order. slopes(x, dxdt) writes the N derivatives at x.
 template <int N, class Number, class Slopes>
 HWY_INLINE void dopri5_step(const Slopes& slopes, Number* x, double h) {
-  static constexpr double kA2[] = {1.0 / 5}, kA3[] = {3.0 / 40, 9.0 / 40}, kA4[] = {44.0 / 45, -56.0 / 15, 32.0 / 9},
-                          kA5[] = {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-                          kA6[] = {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-                          kB[] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84};
+  using namespace dormand_prince;
   Number k[6][N], y[N];
   slopes(x, k[0]);
-  combine<1, N>(x, k, kA2, h, y);
+  combine<1, N>(x, k, kStage2, h, y);
   slopes(y, k[1]);
-  combine<2, N>(x, k, kA3, h, y);
+  combine<2, N>(x, k, kStage3, h, y);
   slopes(y, k[2]);
-  combine<3, N>(x, k, kA4, h, y);
+  combine<3, N>(x, k, kStage4, h, y);
   slopes(y, k[3]);
-  combine<4, N>(x, k, kA5, h, y);
+  combine<4, N>(x, k, kStage5, h, y);
   slopes(y, k[4]);
-  combine<5, N>(x, k, kA6, h, y);
+  combine<5, N>(x, k, kStage6, h, y);
   slopes(y, k[5]);
-  combine<6, N>(x, k, kB, h, x);
+  combine<6, N>(x, k, kEnd, h, x);
 }
 
 /// An equation whose state is longer by the sines and cosines of its angles, which obey (sin θ)' = cos θ θ̇: cheaper

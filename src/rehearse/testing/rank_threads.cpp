@@ -26,8 +26,7 @@ struct Shared {
 
 class RankThread final : public Ranks {
  public:
-  RankThread(int rank, Shared& shared, const std::function<bool(int)>& stop)
-      : Ranks([rank, &stop] { return stop && stop(rank); }), rank_(rank), shared_(shared) {}
+  RankThread(int rank, Shared& shared) : rank_(rank), shared_(shared) {}
 
   int rank() const override { return rank_; }
   int size() const override { return static_cast<int>(shared_.given.size()); }
@@ -70,13 +69,13 @@ class RankThread final : public Ranks {
 
 }  // namespace
 
-void on_rank_threads(int size, const std::function<void(Ranks&)>& work, const std::function<bool(int)>& stop) {
+void on_rank_threads(int size, const std::function<void(Ranks&)>& work) {
   Shared shared(size);
   std::vector<std::thread> threads;
   threads.reserve(static_cast<std::size_t>(size));
   for (int rank = 0; rank < size; ++rank)
     threads.emplace_back([&, rank] {
-      RankThread own(rank, shared, stop);
+      RankThread own(rank, shared);
       work(own);
     });
   for (std::thread& thread : threads) thread.join();

@@ -7,8 +7,7 @@
 namespace rehearse::testing {
 
 /// Calls work(ranks) on `size` threads at once, each with a rank of its own: ranks without processes, to try what is
-/// made for them. stop: whether a rank is asked to stop; may be empty. Returns when all have; an exception of `work`
-/// is one of the test's, and ends the program.
-void on_rank_threads(int size, const std::function<void(Ranks&)>& work, const std::function<bool(int rank)>& stop = {});
+/// made for them. Returns when all have; an exception of `work` is one of the test's, and ends the program.
+void on_rank_threads(int size, const std::function<void(Ranks&)>& work);
 
 }  // namespace rehearse::testing

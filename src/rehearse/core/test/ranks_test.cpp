@@ -75,22 +75,6 @@ TEST(Ranks, OnceOnTheFirstRankAlone) {
             Words::same(3, std::string("a\0b", 3) + "input: no such folder" + "error: too far" + "interrupted"));
 }
 
-TEST(Ranks, AllStopWhereOneIsAskedTo) {
-  std::atomic<bool> asked{false};
-  Words words;
-  const auto work = [&](Ranks& ranks) {
-    ranks.exchange("before", "");
-    words.add(ranks, ranks.stopped() ? "stop" : "go");
-    ranks.exchange("between", "");
-    if (ranks.rank() == 0) asked = true;  // rank 2 polls it before the next exchange at the latest
-    ranks.exchange("after", "");
-    ranks.exchange("after that", "");
-    words.add(ranks, ranks.stopped() ? "stop" : "go");
-  };
-  on_rank_threads(3, work, [&](int rank) { return rank == 2 && asked; });
-  EXPECT_EQ(words.all(), Words::same(3, "gostop"));
-}
-
 TEST(Ranks, WhoLeavesEarlyIsNotWaitedFor) {
   Words words;
   on_rank_threads(3, [&](Ranks& ranks) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rehearse/expression/formulas.hpp"
-#include "rehearse/expression/tape_kernel.hpp"
+#include "rehearse/expression/slots.hpp"
 
 namespace rehearse::expression {
 
@@ -15,11 +15,11 @@ inline Matrix run_tape(const Tape& tape, const Matrix& inputs) {
   };
   std::vector<Slot> slots(static_cast<std::size_t>(tape.slots));
   double* first = slots.front().rows;
-  for (std::size_t i = 0; i < tape.constants.size(); ++i) std::fill_n(slots[i].rows, kBlock, tape.constants[i]);
+  fill_constants(tape, {first, kBlock});
   for (Index i = 0; i < tape.inputs; ++i)
     for (Index k = 0; k < kBlock; ++k)
       first[tape.input_slot(i) * kBlock + k] = inputs(std::min(k, inputs.rows() - 1), i);
-  for (const auto& code : tape.code) run({code.data(), static_cast<Index>(code.size())}, {first, inputs.rows()});
+  for (const Pace pace : {Pace::call, Pace::block, Pace::always}) run(code_of(tape, pace), {first, inputs.rows()});
   Matrix outputs(inputs.rows(), static_cast<Index>(tape.outputs.size()));
   for (Index o = 0; o < outputs.cols(); ++o)
     for (Index k = 0; k < outputs.rows(); ++k)
