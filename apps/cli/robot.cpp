@@ -64,7 +64,7 @@ void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried
   }
 }
 
-/// What a learner would stumble over.
+/// A line for everything that a learner would stumble over.
 std::vector<std::string> complaints_of(const robot_file::Tried& tried) {
   std::vector<std::string> complaints = tried.broken;
   if (!tried.end.empty())

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The coefficients of Dormand and Prince 1980, fifth order: stage i begins at x + h Σ_j k<Stage i>[j] k_j, and the step
-/// ends at x + h Σ_j kEnd[j] k_j.
+/// The coefficients of Dormand and Prince 1980, fifth order: stage i begins at x + h Σ_j k<Stage i>[j] k_j, and the
+/// step ends at x + h Σ_j kEnd[j] k_j.
 namespace rehearse::dormand_prince {
 
 inline constexpr double kStage2[] = {1.0 / 5}, kStage3[] = {3.0 / 40, 9.0 / 40},

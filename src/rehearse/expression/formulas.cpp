@@ -143,7 +143,7 @@ class Grammar : public mu::ParserBase {
   void InitOprt() override {}
 };
 
-/// What formulas look a name up with while they are compiled.
+/// Finds the node of a name while a formula is compiled.
 struct Lookup {
   std::function<Node(const std::string&)> node;
   std::deque<double> values;  // whose addresses muParser keeps

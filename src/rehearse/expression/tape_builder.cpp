@@ -171,7 +171,7 @@ class TapeBuilder::Writer {
       if (argument != kNone) count(argument);
   }
 
-  /// Of the same pace: what is computed less often stays so.
+  /// A product that nothing else uses, of the same pace: a product that is computed less often stays so.
   bool is_product_of_its_own(Node node, Pace pace) {
     return at(node).op == Op::multiply && is_operation(static_cast<std::size_t>(node)) && uses(node) == 1 &&
            at(node).pace == pace;
@@ -204,7 +204,7 @@ class TapeBuilder::Writer {
       if (values_[i].kind == Value::Kind::input) slots_[i] = tape.input_slot(tape.inputs++);
   }
 
-  /// What is computed anew for each block has slots that others take when it is no longer needed; the rest stays.
+  /// Appends an instruction. Values of pace `always` give their slots to others when nobody needs them; the rest stays.
   void write(Node node, SlotPool& pool, Tape& tape) {
     const Value& value = at(node);
     const auto argument = [&](Node of) { return of == kNone ? 0 : slot(of); };

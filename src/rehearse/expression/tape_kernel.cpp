@@ -54,7 +54,7 @@ HWY_INLINE V truth(M holds, V a, V b) {
 }
 HWY_INLINE auto is_true(V a) { return hn::Ne(a, hn::Zero(D())); }
 
-/// Where there is no vectorised function.
+/// Calls the C library for each number: for operations without a vectorised function.
 HWY_INLINE void one_by_one(const Instruction& i, double* out, const double* a, const double* b, Index n) {
   for (Index k = 0; k < n; ++k) out[k] = evaluate(i.op, a[k], b[k], 0);
 }

@@ -17,7 +17,7 @@
 namespace rehearse::identification {
 namespace {
 
-/// What all kinds learn from.
+/// The input of every kind of learning.
 struct Given {
   const LearningProblem& problem;
   const WarmStart& start;

@@ -34,7 +34,7 @@ struct Learned {
   std::vector<std::string> notes;         // numerical failures survived
 };
 
-/// What a model is learned from. The data set and the prior must outlive the call.
+/// The data, and the prior if there is one, that a model is learned from. Both must outlive the call.
 struct LearningProblem {
   const Dataset& data;
   FeatureMap features;

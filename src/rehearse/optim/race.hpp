@@ -40,8 +40,8 @@ struct RaceResult {
   Index evaluations = 0;
 };
 
-/// Where a race searches: the first descents begin at the given starts (at most all of them), the others uniformly in
-/// the box.
+/// The box that a race searches, and its starts: the first descents begin at the given starts (at most all of them),
+/// the others uniformly in the box.
 struct SearchSpace {
   std::vector<Interval> box;
   std::vector<Vector> starts = {};

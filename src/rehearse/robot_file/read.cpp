@@ -182,7 +182,7 @@ class Reader {
     const toml::table* part = file_.reader().take_table("plant");
     if (!part) return required(false, "[plant]", "the robot, or what plays it");
     Table table(*part, "[plant]", violations_);
-    table.number("measurement_noise", robot_.measurement_noise, at_least(0));
+    table.number("measurement_noise", robot_.options.measurement_noise, at_least(0));
     robot_.plant = read_variant("plant", table, robot_.dynamics, violations_);
     table.finish();
   }
@@ -200,7 +200,7 @@ class Reader {
   void read_policy() {
     if (const toml::table* part = file_.reader().take_table("policy")) {
       files::TomlReader reader(*part, "[policy]", violations_);
-      reader.take_fields([&](FieldVisitor& v) { robot_.policy.fields(v); });
+      reader.take_fields([&](FieldVisitor& v) { robot_.options.policy.fields(v); });
       reader.finish();
     }
   }

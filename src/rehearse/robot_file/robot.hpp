@@ -8,7 +8,7 @@
 
 #include "rehearse/core/parameters.hpp"
 #include "rehearse/core/task.hpp"
-#include "rehearse/scenario/policy_options.hpp"
+#include "rehearse/scenario/ode_scenario.hpp"
 #include "rehearse/system/formula_ode.hpp"
 
 namespace rehearse::robot_file {
@@ -77,9 +77,7 @@ struct Robot {
   std::vector<Dynamics> dynamics;
   Variant plant;
   std::vector<Variant> priors;  // the first is the default
-  double measurement_noise = 0;
-  Index substeps = 20;
-  scenario::PolicyOptions policy;
+  scenario::OdeOptions options;
   std::vector<Body> bodies;
 
   std::vector<std::string> state_names() const;

@@ -23,6 +23,12 @@ std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::tabl
   return result;
 }
 
+std::optional<Interval> pair_of(const toml::node& node) {
+  const toml::array* pair = node.as_array();
+  if (!pair || pair->size() != 2 || !pair->get(0)->is_number() || !pair->get(1)->is_number()) return {};
+  return Interval{*pair->get(0)->value<double>(), *pair->get(1)->value<double>()};
+}
+
 Formula Table::formula_of(const std::string& key, const toml::node& node) {
   if (node.is_string() || node.is_number()) return {files::text_of(node), files::line_of(node)};
   violations_.add(files::line_of(node), fmt::format("{} must be a formula in quotes, or a number", key));
@@ -60,10 +66,10 @@ bool Table::number(const std::string& key, double& value, Bound bound) {
 bool Table::interval(const std::string& key, Interval& value) {
   const toml::node* node = reader_.take(key);
   if (!node) return false;
-  const toml::array* pair = node->as_array();
-  if (!pair || pair->size() != 2 || !pair->get(0)->is_number() || !pair->get(1)->is_number())
+  const auto pair = pair_of(*node);
+  if (!pair)
     wrong(key, fmt::format("{} must be [low, high]", key));
-  else if (value = {*pair->get(0)->value<double>(), *pair->get(1)->value<double>()}; !(value.low < value.high))
+  else if (value = *pair; !(value.low < value.high))
     wrong(key, fmt::format("{} = [{}, {}], must be [low, high] with low < high", key, value.low, value.high));
   return true;
 }

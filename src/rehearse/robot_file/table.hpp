@@ -1,6 +1,7 @@
 #pragma once
 // One table of a robot's file: takes formulas, numbers by name and lists of tables. For the sources of this room.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ class Table {
   files::FileViolations& violations_;
   files::TomlReader reader_;
 };
+
+/// Two numbers, [low, high], in whatever order; empty: the node is something else.
+std::optional<Interval> pair_of(const toml::node& node);
 
 /// Keys and values of a table in the order of the file.
 std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::table& table);

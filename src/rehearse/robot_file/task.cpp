@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/expression/program.hpp"
+#include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::robot_file {
 namespace {
@@ -28,7 +29,7 @@ Program program(const Robot& robot, const std::vector<Formula>& outputs) {
   return {formulas, nodes};
 }
 
-/// Of states and actions (rows × any); U may be empty where no formula needs it, then actions are 0.
+/// The formulas (rows × outputs) of states and actions; columns of X and U are the program's inputs, in this order.
 Matrix evaluate(const Program& program, const ConstMatrixView& X, const ConstMatrixView& U) {
   std::vector<const double*> columns;
   for (Index i = 0; i < X.cols(); ++i) columns.push_back(X.col(i).data());
@@ -38,7 +39,7 @@ Matrix evaluate(const Program& program, const ConstMatrixView& X, const ConstMat
   return results;
 }
 
-/// Of one state, without actions.
+/// The formulas of one state, where all actions are 0.
 Vector evaluate(const Program& program, const ConstVectorView& x, Index actions) {
   const Matrix X = x.transpose(), U = Matrix::Zero(1, actions);
   return evaluate(program, X, U).row(0);
@@ -81,7 +82,7 @@ class Checker {
           formula.line, [&] { formulas.compile(formula.text); }, what);
   }
 
-  /// What uses a wrong definition is not to blame.
+  /// Formulas that use a wrong definition are not compiled: the definition is to blame.
   void check_definitions(Formulas& formulas, const Definitions& definitions) {
     good_ = true;
     for (const auto& [name, formula] : definitions)
@@ -124,22 +125,12 @@ Reward reward_of(const Robot& robot) {
   };
 }
 
-/// Truth is any number but 0; NaN is none.
-bool holds(const Program& condition, const ConstVectorView& x, Index actions) {
-  const double value = evaluate(condition, x, actions)(0);
-  return value != 0 && !std::isnan(value);
-}
-
-std::function<bool(const Episode&)> solved_of(const Robot& robot) {
-  if (robot.success.when.empty()) return {};
-  const Index horizon = robot.horizon;
-  const Index first = std::max<Index>(0, horizon - std::lround(robot.success.last_s / robot.dt_s));
-  const auto actions = static_cast<Index>(robot.actions.size());
-  return [=, condition = program(robot, {robot.success.when})](const Episode& episode) {
-    if (episode.steps() < horizon || episode.ended) return false;
-    for (Index t = first; t <= horizon; ++t)
-      if (!holds(condition, episode.true_states.row(t).transpose(), actions)) return false;
-    return true;
+/// Whether a condition holds in a state: truth is any number but 0, and NaN is none.
+std::function<bool(const ConstVectorView& x)> condition(const Robot& robot, const Formula& formula) {
+  return [program = program(robot, {formula}),
+          actions = static_cast<Index>(robot.actions.size())](const ConstVectorView& x) {
+    const double value = evaluate(program, x, actions)(0);
+    return value != 0 && !std::isnan(value);
   };
 }
 
@@ -156,7 +147,7 @@ Program program_of_features(const Robot& robot) {
   return {formulas, nodes};
 }
 
-/// Of each feature its input of program_of_features.
+/// Which input of program_of_features each feature is.
 std::vector<Index> inputs_of_features(const Robot& robot) {
   std::vector<Index> inputs;
   Index state = 0, sine = static_cast<Index>(robot.states.size() + robot.actions.size());
@@ -229,11 +220,9 @@ Task make_task(const Robot& robot) {
   task.horizon = robot.horizon;
   task.reward = reward_of(robot);
   task.reward_floor = robot.reward.floor;
-  task.solved = solved_of(robot);
-  if (!robot.ended.empty())
-    task.ended = [condition = program(robot, {robot.ended}), actions = task.action_size()](const ConstVectorView& x) {
-      return holds(condition, x, actions);
-    };
+  if (!robot.success.when.empty())
+    task.solved = scenario::holds_at_the_end(task, robot.success.last_s, condition(robot, robot.success.when));
+  if (!robot.ended.empty()) task.ended = condition(robot, robot.ended);
   return task;
 }
 

@@ -12,7 +12,7 @@ namespace rehearse::robot_file {
 /// Compiles every formula of the robot and adds what is wrong with one, at its line.
 void check_formulas(const Robot& robot, files::FileViolations& violations);
 
-/// What a robot's formulas make of a task; they must be free of violations.
+/// The task that a robot's formulas describe; they must be free of violations.
 Task make_task(const Robot& robot);
 std::optional<scenario::Drawing> make_drawing(const Robot& robot);
 

@@ -62,16 +62,15 @@ class Values {
 };
 
 Parameter tunable(const Parameter& parameter, const toml::node& node, files::FileViolations& violations) {
-  const toml::array *pair = node.as_array(), *choices = nullptr;
+  const toml::array* choices = nullptr;
   if (const toml::table* table = node.as_table(); table && table->size() == 1) choices = (*table)["choices"].as_array();
   if (choices) {
     std::vector<double> values;
     for (const toml::node& choice : *choices) values.push_back(choice.value<double>().value_or(NAN));
     return Parameter::discrete(parameter.name, parameter.value, values, parameter.unit);
   }
-  if (pair && pair->size() == 2 && pair->get(0)->is_number() && pair->get(1)->is_number())
-    return Parameter::continuous(parameter.name, parameter.value,
-                                 {*pair->get(0)->value<double>(), *pair->get(1)->value<double>()}, parameter.unit);
+  if (const auto box = pair_of(node))
+    return Parameter::continuous(parameter.name, parameter.value, *box, parameter.unit);
   violations.add(files::line_of(node),
                  fmt::format("tune.{} must be [low, high] or {{ choices = […] }}", parameter.name));
   return parameter;

@@ -8,7 +8,7 @@
 
 namespace rehearse::robot_file {
 
-/// The dynamics that a part names, with the values that it gives to parameters. What is wrong becomes a violation.
+/// The dynamics that a part names, with the values that it gives to parameters. Wrong input becomes a violation.
 Variant read_variant(const std::string& name, Table& table, const std::vector<Dynamics>& dynamics,
                      files::FileViolations& violations);
 

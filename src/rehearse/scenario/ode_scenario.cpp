@@ -21,9 +21,8 @@ void OdeOptions::fields(FieldVisitor& v) {
 Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options) {
   const Task& task = parts.task;
   parts.kernel.require_sizes(task.state_size(), task.action_size(), parts.plant.size());
-  const auto simulator = [&](const ParameterSpace& parameters) {
-    return system::make_ode_simulator(parts.kernel, parameters.fixed_at(parameters.values()), task.dt_s,
-                                      options.substeps);
+  const auto simulator = [&](const system::OdeKernel& kernel, const ParameterSpace& parameters) {
+    return system::make_ode_simulator(kernel, parameters.fixed_at(parameters.values()), task.dt_s, options.substeps);
   };
   const system::OdePlantOptions plant{
       .ode = parts.kernel.ode(),
@@ -35,12 +34,13 @@ Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options) 
   Scenario scenario{.name = parts.name,
                     .task = task,
                     .make_plant = [plant] { return system::make_ode_plant(plant); },
-                    .oracle = simulator(parts.plant),
+                    .oracle = simulator(parts.kernel, parts.plant),
                     .policy = make_policy(options.policy, task, parts.policy_scale),
                     .drawing = parts.drawing,
                     .evaluations = options.evaluations};
   for (const Guess& guess : parts.guesses)
-    scenario.priors.push_back({guess.name, simulator(guess.parameters), guess.parameters});
+    scenario.priors.push_back(
+        {guess.name, simulator(guess.kernel.value_or(parts.kernel), guess.parameters), guess.parameters});
   return scenario;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
-// Scenarios of simulated robots that are one differential equation: the plant integrates it adaptively, priors and
-// oracle are the same equation, vectorised, at other parameters.
+// Scenarios of simulated robots that are one differential equation: the plant integrates it adaptively, the oracle is
+// the same equation, vectorised, and priors are it at other parameters, or another one.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,8 @@ struct OdeOptions {
 
 struct Guess {
   std::string name;
-  ParameterSpace parameters;  // values, and which may be tuned
+  ParameterSpace parameters;                     // values, and which may be tuned
+  std::optional<system::OdeKernel> kernel = {};  // an equation of its own; empty: the plant's
 };
 
 struct OdeScenario {

@@ -14,8 +14,8 @@
 namespace rehearse::system {
 namespace {
 
-using expression::code_of, expression::fill, expression::fill_constants, expression::kBlock, expression::load, expression::Node, expression::Op, expression::Pace,
-    expression::slots_of_this_thread, expression::Tape;
+using expression::code_of, expression::fill, expression::fill_constants, expression::kBlock, expression::load,
+    expression::Node, expression::Op, expression::Pace, expression::slots_of_this_thread, expression::Tape;
 
 /// The slopes of states as a tape. Its inputs are parameters, actions, states, and sine and cosine of each angle, which
 /// are integrated with the states: (sin θ)' = cos θ θ̇.
@@ -73,7 +73,8 @@ class SlopeTape {
       for (Index i = 0; i < actions_; ++i) load(slot(slots, first_action() + i), U.col(i).data() + row, rows);
       turn(slots, rows);
       expression::run(code_of(tape_, Pace::block), {slots, rows});
-      const expression::BlockOde ode{code_of(tape_, Pace::always), tape_.outputs.data(), integrated(), tape_.input_slot(first_state())};
+      const expression::BlockOde ode{code_of(tape_, Pace::always), tape_.outputs.data(), integrated(),
+                                     tape_.input_slot(first_state())};
       expression::integrate(ode, {slots, rows}, slots + tape_.slots * kBlock, duration_s / static_cast<double>(steps),
                             steps);
       for (Index i = 0; i < states_; ++i) {

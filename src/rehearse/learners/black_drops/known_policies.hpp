@@ -17,7 +17,7 @@ struct History {
   std::optional<std::size_t> best() const;
 };
 
-/// Where descents start: the best policy observed, and examples of the policy.
+/// The policies that descents start from: the best one observed, and examples of the policy.
 std::vector<Vector> known_policies(const History& history, const policy::Policy& policy, const Options& options);
 
 }  // namespace rehearse::learners::black_drops

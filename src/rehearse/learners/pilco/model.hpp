@@ -42,7 +42,7 @@ struct Model {
   std::vector<std::string> notes;            // numerical failures survived
 };
 
-/// What a model is learned from, and how. References must outlive the calls.
+/// The data that a model is learned from, and the options. References must outlive the calls.
 struct ModelProblem {
   const Task& task;
   const Dataset& data;

@@ -61,7 +61,7 @@ inline std::string with(const std::string& part, const std::string& by) {
   return text.replace(at, part.size(), by);
 }
 
-/// What is said of a file; empty: nothing.
+/// The violations of a file, a line each; empty: there is none.
 inline std::string complaint_of(const std::string& text) {
   try {
     builder(text, "swing.toml");
