@@ -77,9 +77,9 @@ std::optional<SpecFile> spec_file(const LearnArguments& arguments, const std::op
 Catalogue with_given(const Catalogue& catalogue, const LearnArguments& arguments,
                      const std::optional<GivenFile>& file) {
   if (!file) return catalogue;
-  if (!file->describes_run) return catalogue.with_robot(file->text, arguments.scenario);
   const std::filesystem::path folder = std::filesystem::path(arguments.scenario).parent_path();
-  return experiment::with_robot_beside(catalogue, folder / experiment::kRobotFile);
+  if (file->describes_run) return experiment::with_robot_of_run(catalogue, folder);
+  return catalogue.with_robot(file->text, arguments.scenario, folder);
 }
 
 Spec named_spec(const Catalogue& catalogue, const LearnArguments& arguments, Violations& violations) {

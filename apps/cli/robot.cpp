@@ -84,8 +84,11 @@ std::vector<std::string> complaints_of(const robot_file::Tried& tried) {
 
 int check(const CheckArguments& arguments) {
   const std::string text = files::read_file(arguments.file, files::Links::follow);
-  const scenario::Scenario scenario = robot_file::builder(text, arguments.file)->build();
+  const std::filesystem::path folder = std::filesystem::path(arguments.file).parent_path();
+  const experiment::Catalogue known = catalogue().with_robot(text, arguments.file, folder);
+  const scenario::Scenario scenario = known.scenario(known.scenario_name(arguments.file))->build();
   print_task(scenario);
+  if (scenario.require_ready) scenario.require_ready();
   const robot_file::Tried tried = robot_file::try_out(scenario);
   fmt::print("priors, on {} steps of the plant under random actions\n", tried.steps);
   for (std::size_t i = 0; i < tried.priors.size(); ++i)
@@ -104,7 +107,7 @@ int make_new(const NewArguments& arguments) {
   const std::string name = "name = \"pendulum-file\"";
   const std::size_t at = text.find(name);
   text.replace(at, name.size(), fmt::format("name = \"{}\"", arguments.name));
-  robot_file::builder(text, path.string());  // the name may be none
+  robot_file::builder(text, path.string(), [](const std::string&) { return std::nullopt; });  // the name may be none
   if (std::filesystem::exists(path))
     throw InvalidInput(fmt::format("{} exists, and is not overwritten", path.string()));
   files::write_file(path, text);

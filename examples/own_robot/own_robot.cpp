@@ -35,11 +35,8 @@ int main() {
   task.reward = reward::saturating([](const ConstMatrixView& X, VectorView d2) { d2 = X.col(1).cwiseAbs2(); }, 0.2);
 
   // The robot. Here it is simulated; yours implements system::Plant: reset and step.
-  const auto robot = system::make_ode_plant({.ode = cart,
-                                             .phi = Vector{{1.6}},
-                                             .dt_s = task.dt_s,
-                                             .start_mean = task.start_mean,
-                                             .start_std = task.start_std});
+  const auto robot = system::make_ode_plant(
+      {.ode = cart, .phi = Vector{{1.6}}, .dt_s = task.dt_s, .around = {task.start_mean, task.start_std, {}}});
 
   learners::Setting setting;
   setting.task = task;

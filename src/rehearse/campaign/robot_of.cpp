@@ -12,7 +12,7 @@ experiment::Catalogue with_robot_of(const experiment::Catalogue& catalogue, std:
   const std::string scenario = files::parse_toml(text, source)["scenario"].value_or(std::string());
   if (!scenario.ends_with(".toml")) return catalogue;
   const std::filesystem::path file = std::filesystem::path(source).parent_path() / scenario;
-  return catalogue.with_robot(files::read_file(file, files::Links::follow), scenario);
+  return catalogue.with_robot(files::read_file(file, files::Links::follow), scenario, file.parent_path());
 }
 
 }  // namespace rehearse::campaign

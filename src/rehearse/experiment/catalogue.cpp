@@ -5,6 +5,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -46,17 +47,29 @@ std::unique_ptr<learners::LearnerBuilder> Catalogue::learner(const std::string& 
   return named(learner_builders(), name);
 }
 
-Catalogue Catalogue::with_robot(const std::string& text, const std::string& source) const {
+Catalogue Catalogue::with_robot(const std::string& text, const std::string& source,
+                                const std::filesystem::path& folder) const {
   if (!read_robot) throw InvalidInput(fmt::format("{}: this program reads no robots from files", source));
-  const std::string name = read_robot(text, source)->name();
+  const auto from_disk = [&](const std::string& path) -> std::optional<std::string> {
+    if (!std::filesystem::is_regular_file(folder / path)) return {};
+    return files::read_file(folder / path, files::Links::follow);
+  };
+  const auto builder = read_robot(text, source, from_disk);
+  const std::string name = builder->name();
   if (const RobotFile* same = robot(name)) {
     if (same->text == text) return *this;
     throw InvalidInput(fmt::format("{} and {} are two robots of one name, '{}'", source, same->source, name));
   }
   if (scenario(name)) throw InvalidInput(fmt::format("{}: name = '{}' is that of another scenario", source, name));
   Catalogue with = *this;
-  with.robots.push_back({name, source, text});
-  with.scenarios.emplace_back([read = read_robot, text, source] { return read(text, source); });
+  with.robots.push_back({name, source, text, builder->files()});
+  with.scenarios.emplace_back([read = read_robot, robot = with.robots.back()] {
+    return read(robot.text, robot.source, [&](const std::string& path) -> std::optional<std::string> {
+      for (const scenario::NamedFile& file : robot.files)
+        if (file.path == path) return file.bytes;
+      return {};
+    });
+  });
   return with;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +29,13 @@ struct RobotFile {
   std::string name;    // of its scenario
   std::string source;  // the file
   std::string text;
+  std::vector<scenario::NamedFile> files;  // that it names
 };
+
+/// Makes a scenario of a robot's file. read_file: the bytes of a file by its path from there; empty: there is none.
+using ReadRobot = std::function<std::unique_ptr<scenario::ScenarioBuilder>(
+    std::string_view text, const std::string& source,
+    const std::function<std::optional<std::string>(const std::string& path)>& read_file)>;
 
 /// What there is to choose from. apps generates one from the folders of robots, learners and presets; a program with a
 /// robot of its own makes one by hand. A value; every call makes new builders, because their options can be set.
@@ -35,8 +43,7 @@ struct Catalogue {
   std::vector<std::function<std::unique_ptr<scenario::ScenarioBuilder>()>> scenarios;
   std::vector<std::function<std::vector<std::unique_ptr<learners::LearnerBuilder>>()>> learner_families;
   std::vector<NotBuilt> not_built;
-  std::function<std::unique_ptr<scenario::ScenarioBuilder>(std::string_view text, const std::string& source)>
-      read_robot;                          // makes a scenario of a robot's file; null: this program reads none
+  ReadRobot read_robot;                    // null: this program reads no robots from files
   std::vector<RobotFile> robots;           // whose scenarios are there, too
   std::vector<NamedText> presets;          // "as-published"
   std::vector<NamedText> default_presets;  // each under the name of its scenario, where it applies unasked
@@ -44,9 +51,9 @@ struct Catalogue {
   std::vector<std::unique_ptr<scenario::ScenarioBuilder>> scenario_builders() const;
   std::vector<std::unique_ptr<learners::LearnerBuilder>> learner_builders() const;
 
-  /// With the robot of a file, which may be there already. Throws InvalidInput if it is none, or has the name of
-  /// another scenario.
-  Catalogue with_robot(const std::string& text, const std::string& source) const;
+  /// With the robot of a file, which may be there already. folder: where the files are that it names; they are read
+  /// once. Throws InvalidInput if it is none, or has the name of another scenario.
+  Catalogue with_robot(const std::string& text, const std::string& source, const std::filesystem::path& folder) const;
 
   /// The name of the scenario of a robot that came from this file; else what is given, a name itself.
   std::string scenario_name(const std::string& name_or_source) const;

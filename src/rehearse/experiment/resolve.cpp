@@ -19,6 +19,14 @@ Fields fields_of(Builder& builder) {
   return [&builder](FieldVisitor& v) { builder.fields(v); };
 }
 
+/// The robot's file as it is; with the files that it names, and their names, where there are some.
+std::string checksum_of(const RobotFile& robot) {
+  std::string bytes = robot.text;
+  for (const scenario::NamedFile& file : robot.files)
+    bytes += fmt::format("\n{} {}\n", file.path, file.bytes.size()) + file.bytes;
+  return fmt::format("{:016x}", files::checksum(bytes));
+}
+
 /// Resolves one spec, collecting what is wrong with it as far as it can be known.
 class Resolver {
  public:
@@ -58,13 +66,13 @@ class Resolver {
 
  private:
   void check_robot(const RobotFile* file) {
-    const std::string checksum = file ? fmt::format("{:016x}", files::checksum(file->text)) : "";
+    const std::string checksum = file ? checksum_of(*file) : "";
     if (!spec_.robot.empty() && spec_.robot != checksum)
       violations_.add(file ? fmt::format("{} has another robot than this run began with", file->source)
                            : fmt::format("the file of the robot '{}' is missing", spec_.scenario));
     spec_.robot = checksum;
-    comments_["robot"] = "checksum of robot.toml, the file that describes the robot";
-    if (file) robot_ = file->text;
+    comments_["robot"] = "checksum of robot.toml, the file that describes the robot, and of the files that it names";
+    if (file) robot_ = *file;
   }
 
   /// What `make` returns, or nothing when it finds its input invalid.
@@ -182,7 +190,7 @@ class Resolver {
 
   Spec spec_;
   Comments comments_;
-  std::string robot_;
+  std::optional<RobotFile> robot_;
   Violations violations_;
   std::unique_ptr<scenario::ScenarioBuilder> scenario_builder_;
   std::unique_ptr<learners::LearnerBuilder> learner_builder_;

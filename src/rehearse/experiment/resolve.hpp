@@ -16,7 +16,7 @@ struct Resolved {
   std::optional<prior::Prior> prior;
   std::shared_ptr<const learners::LearnerBuilder> learner;
   Comments comments;
-  std::string robot = {};  // the text of the file that describes the robot; empty: it is built in
+  std::optional<RobotFile> robot = {};  // the file that describes the robot; empty: it is built in
 };
 
 /// Throws InvalidInput with a line for everything that is wrong.

@@ -204,6 +204,7 @@ RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::fil
                     const RunOptions& options) {
   Participants participants(resolve(catalogue, spec), options);
   const Resolved& resolved = participants.resolved();
+  if (resolved.scenario.require_ready) resolved.scenario.require_ready();
   const RunFolder folder = RunFolder::create(path, resolved.spec, resolved.comments, resolved.robot);
   return with_causes(catalogue, resolved.spec, [&] { return Run(participants, folder, {}).finish(); });
 }
@@ -211,7 +212,7 @@ RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::fil
 RunResult resume_run(const Catalogue& built_in, const std::filesystem::path& path, std::optional<Until> until,
                      const RunOptions& options) {
   RunFolder folder = RunFolder::open(path);
-  const Catalogue catalogue = with_robot_beside(built_in, path / kRobotFile);
+  const Catalogue catalogue = with_robot_of_run(built_in, path);
   History history = folder.load();
   const Spec extended = extended_spec(folder.spec(), path, until, history.done());
   Participants participants(resolve(catalogue, extended), options);

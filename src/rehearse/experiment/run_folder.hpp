@@ -12,9 +12,10 @@ namespace rehearse::experiment {
 
 /// Beside spec.toml: the file that describes the robot.
 inline constexpr const char* kRobotFile = "robot.toml";
+inline constexpr const char* kRobotFolder = "robot";  // with the files that it names
 
-/// With the robot of this file, if there is one.
-Catalogue with_robot_beside(const Catalogue& catalogue, const std::filesystem::path& file);
+/// With the robot that a run folder keeps, if it keeps one.
+Catalogue with_robot_of_run(const Catalogue& catalogue, const std::filesystem::path& folder);
 
 /// The folder of one run, locked while this lives. The checkpoint is the truth and each file is replaced in one step:
 /// after a kill at any instant, `load` and `write_tables` bring the rest up to date.
@@ -22,9 +23,9 @@ class RunFolder {
  public:
   /// A new folder with a complete spec and no trial. It appears in one step, or not at all.
   /// Throws InvalidInput if there is anything of that name.
-  /// robot: the text of the file that describes the robot, if there is one; it is kept.
+  /// robot: the file that describes the robot, if there is one; it is kept, with the files that it names.
   static RunFolder create(const std::filesystem::path& path, const Spec& spec, const Comments& comments = {},
-                          const std::string& robot = {});
+                          const std::optional<RobotFile>& robot = {});
 
   /// Throws InvalidInput if it is no run folder, cannot be read, or is in use.
   static RunFolder open(const std::filesystem::path& path);

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/files/write.hpp"
 
 namespace rehearse::experiment {
@@ -19,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 2> kFolders = {"trajectories", "predictions"};
-constexpr std::array<std::string_view, 5> kFiles = {"lock", "spec.toml", "spec.toml.tmp", "checkpoint",
-                                                    "checkpoint.tmp"};
+constexpr std::array<std::string_view, 7> kFiles = {"lock",           "spec.toml", "spec.toml.tmp", "checkpoint",
+                                                    "checkpoint.tmp", kRobotFile,  "robot.toml.tmp"};
 
 std::string unborn_name(const std::string& name) { return fmt::format(".{}.{}", name, ::getpid()); }
 
@@ -33,6 +34,7 @@ bool is_alive(const fs::path& unborn) {
 
 bool is_of_a_beginning(const fs::directory_entry& entry) {
   const std::string name = entry.path().filename().string();
+  if (name == kRobotFolder) return fs::is_directory(entry.symlink_status());
   const bool folder = std::find(kFolders.begin(), kFolders.end(), name) != kFolders.end();
   if (folder) return fs::is_directory(entry.symlink_status()) && fs::is_empty(entry.path());
   return std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end();

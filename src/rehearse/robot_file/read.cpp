@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "rehearse/core/names.hpp"
 #include "rehearse/expression/formulas.hpp"
+#include "rehearse/robot_file/read_dynamics.hpp"
 #include "rehearse/robot_file/table.hpp"
 #include "rehearse/robot_file/variant.hpp"
 
@@ -17,7 +17,8 @@ constexpr std::int64_t kFormat = 1;
 
 class Reader {
  public:
-  Reader(const toml::table& file, const std::string& source) : violations_(source), file_(file, "", violations_) {}
+  Reader(const toml::table& file, const std::string& source, const ReadFile& read_file)
+      : read_file_(read_file), violations_(source), file_(file, "", violations_) {}
 
   Robot read() {
     read_head();
@@ -25,7 +26,8 @@ class Reader {
     read_actions();
     robot_.definitions = file_.definitions("define");
     read_task();
-    read_dynamics();
+    read_dynamics(file_, robot_, read_file_, violations_);
+    required(!robot_.dynamics.empty(), "[dynamics.NAME]", "how the states change");
     read_plant();
     read_priors();
     read_policy();
@@ -126,58 +128,6 @@ class Reader {
     robot_.ended = file_.formula("ended");
   }
 
-  void read_dynamics() {
-    for (const auto& [name, part] : file_.tables("dynamics")) {
-      Table table(*part, fmt::format("[dynamics.{}]", name), violations_);
-      Dynamics dynamics{.name = name, .line = files::line_of(*part)};
-      read_parameters(table, dynamics);
-      dynamics.definitions = table.definitions("define");
-      read_rates(table, files::line_of(*part), dynamics);
-      table.finish();
-      robot_.dynamics.push_back(dynamics);
-    }
-    required(!robot_.dynamics.empty(), "[dynamics.NAME]", "how the states change");
-  }
-
-  void read_parameters(Table& table, Dynamics& dynamics) {
-    const toml::table* values = table.reader().take_table("parameters");
-    if (!values) return;
-    for (const auto& [name, node] : in_order(*values)) {
-      double value = 0;
-      std::string unit;
-      if (const toml::table* with_unit = node->as_table()) {
-        Table entry(*with_unit, name, violations_);
-        if (!entry.number("value", value)) entry.wrong("value", fmt::format("parameter {} needs a value", name));
-        entry.reader().take("unit", unit);
-        entry.finish();
-      } else if (!take_number(name, *node, value, violations_)) {
-        continue;
-      }
-      dynamics.parameters.push_back(Parameter::fixed(name, value, unit));
-    }
-  }
-
-  /// A state whose rate is another state needs no formula.
-  void read_rates(Table& table, Index line, Dynamics& dynamics) {
-    const Definitions given = table.definitions("rate");
-    const std::vector<std::string> states = robot_.state_names();
-    for (const auto& [name, formula] : given)
-      if (!is_among(name, states))
-        violations_.add(formula.line, fmt::format("rate.{}: there is no state '{}', did you mean '{}'?", name, name,
-                                                  states.empty() ? "" : closest(name, states)));
-    for (const State& state : robot_.states) {
-      const auto own =
-          std::find_if(given.begin(), given.end(), [&](const auto& each) { return each.first == state.variable.name; });
-      if (own != given.end())
-        dynamics.rates.push_back(own->second);
-      else if (!state.variable.rate.empty())
-        dynamics.rates.push_back({state.variable.rate, line});
-      else
-        violations_.add(line, fmt::format("rate.{} is missing: the derivative of {} by time, a formula",
-                                          state.variable.name, state.variable.name));
-    }
-  }
-
   void read_plant() {
     const toml::table* part = file_.reader().take_table("plant");
     if (!part) return required(false, "[plant]", "the robot, or what plays it");
@@ -221,6 +171,7 @@ class Reader {
     }
   }
 
+  const ReadFile& read_file_;
   files::FileViolations violations_;
   Table file_;
   expression::Formulas names_;  // of states and actions
@@ -229,9 +180,9 @@ class Reader {
 
 }  // namespace
 
-Robot read(std::string_view text, const std::string& source) {
+Robot read(std::string_view text, const std::string& source, const ReadFile& read_file) {
   const toml::table file = files::parse_toml(text, source);
-  return Reader(file, source).read();
+  return Reader(file, source, read_file).read();
 }
 
 }  // namespace rehearse::robot_file

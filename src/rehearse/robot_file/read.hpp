@@ -4,11 +4,12 @@
 #include <string_view>
 
 #include "rehearse/robot_file/robot.hpp"
+#include "rehearse/robot_file/robot_file.hpp"
 
 namespace rehearse::robot_file {
 
-/// Reads a robot's file (docs/own-robot.md). Throws InvalidInput with a line for everything that is wrong,
-/// "SOURCE: line N: …".
-Robot read(std::string_view text, const std::string& source);
+/// Reads a robot's file (docs/own-robot.md), and the files that it names. Throws InvalidInput with a line for
+/// everything that is wrong, "SOURCE: line N: …".
+Robot read(std::string_view text, const std::string& source, const ReadFile& read_file);
 
 }  // namespace rehearse::robot_file

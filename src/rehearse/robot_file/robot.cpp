@@ -26,8 +26,9 @@ system::OdeFormulas Robot::equation(const Dynamics& of) const {
   for (const Parameter& parameter : of.parameters) equation.parameters.push_back(parameter.name);
   for (const State& state : states)
     if (state.variable.kind == StateKind::angle) equation.angles.push_back(state.variable.name);
-  for (const auto& [name, formula] : of.definitions) equation.definitions.emplace_back(name, formula.text);
-  for (const Formula& rate : of.rates) equation.slopes.push_back(rate.text);
+  const auto& equations = std::get<Equations>(of.source);
+  for (const auto& [name, formula] : equations.definitions) equation.definitions.emplace_back(name, formula.text);
+  for (const Formula& rate : equations.rates) equation.slopes.push_back(rate.text);
   return equation;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "rehearse/core/parameters.hpp"
@@ -42,13 +43,24 @@ struct Success {
   double last_s = 0;
 };
 
-/// How states change: dx/dt as formulas of states, actions and parameters.
+/// dx/dt as formulas of states, actions and parameters.
+struct Equations {
+  Definitions definitions;
+  std::vector<Formula> rates;  // one a state
+};
+
+/// A program that is asked (system/program.hpp).
+struct ProgramSource {
+  std::vector<std::string> command;
+  double start_s = 30, answer_s = 10;
+};
+
+/// How states change, and what computes it.
 struct Dynamics {
   std::string name;
   Index line = 0;
   std::vector<Parameter> parameters;  // all fixed, at their usual values
-  Definitions definitions;
-  std::vector<Formula> rates;  // one a state
+  std::variant<Equations, ProgramSource> source;
 };
 
 /// Dynamics with values of their own, and which of them may be tuned.
@@ -79,11 +91,12 @@ struct Robot {
   std::vector<Variant> priors;  // the first is the default
   scenario::OdeOptions options;
   std::vector<Body> bodies;
+  std::vector<scenario::NamedFile> files;  // of programs
 
   std::vector<std::string> state_names() const;
   std::vector<std::string> action_names() const;
   const Dynamics& dynamics_of(const Variant& variant) const;
-  system::OdeFormulas equation(const Dynamics& dynamics) const;
+  system::OdeFormulas equation(const Dynamics& dynamics) const;  // whose source are Equations
 };
 
 }  // namespace rehearse::robot_file

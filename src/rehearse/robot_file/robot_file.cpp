@@ -1,5 +1,6 @@
 #include "rehearse/robot_file/robot_file.hpp"
 
+#include "rehearse/robot_file/dynamics.hpp"
 #include "rehearse/robot_file/read.hpp"
 #include "rehearse/robot_file/task.hpp"
 
@@ -32,23 +33,28 @@ class Builder final : public scenario::ScenarioBuilder {
   }
 
   scenario::Scenario build() const override {
-    scenario::OdeScenario parts{.name = robot_.name,
-                                .task = make_task(robot_),
-                                .kernel = kernel(robot_.plant),
-                                .plant = ParameterSpace(plant_),
-                                .policy_scale = policy_scale(),
-                                .drawing = make_drawing(robot_)};
-    for (const Variant& prior : robot_.priors) parts.guesses.push_back({prior.name, prior.parameters, kernel(prior)});
-    return scenario::make_ode_scenario(parts, robot_.options);
+    const DynamicsMaker dynamics(robot_);
+    const Variant plant{robot_.plant.name, robot_.plant.dynamics, ParameterSpace(plant_)};
+    const Task task = make_task(robot_);
+    const Vector noise = Vector::Constant(task.state_size(), robot_.options.measurement_noise);
+    scenario::Scenario scenario{.name = robot_.name,
+                                .task = task,
+                                .make_plant = dynamics.plant(plant, {task.start_mean, task.start_std, noise}),
+                                .oracle = dynamics.simulator(plant, robot_.options.substeps),
+                                .policy = make_policy(robot_.options.policy, task, policy_scale()),
+                                .drawing = make_drawing(robot_),
+                                .require_ready = dynamics.require_ready(),
+                                .evaluations = robot_.options.evaluations};
+    for (const Variant& prior : robot_.priors)
+      scenario.priors.push_back({prior.name, dynamics.simulator(prior, robot_.options.substeps), prior.parameters});
+    return scenario;
   }
+
+  std::vector<scenario::NamedFile> files() const override { return robot_.files; }
 
  private:
   static std::string help_of(const Parameter& parameter) {
     return "of the robot" + (parameter.unit.empty() ? "" : " [" + parameter.unit + "]");
-  }
-
-  system::OdeKernel kernel(const Variant& variant) const {
-    return system::formula_kernel(robot_.equation(robot_.dynamics_of(variant)));
   }
 
   Vector policy_scale() const {
@@ -66,8 +72,9 @@ class Builder final : public scenario::ScenarioBuilder {
 
 }  // namespace
 
-std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const std::string& source) {
-  Robot robot = read(text, source);
+std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const std::string& source,
+                                                   const ReadFile& read_file) {
+  Robot robot = read(text, source, read_file);
   files::FileViolations violations(source);
   check_formulas(robot, violations);
   violations.throw_if_any();

@@ -61,7 +61,8 @@ class Checker {
     for (const Body& body : robot_.bodies)
       for (const Formula* formula : {&body.from[0], &body.from[1], &body.to[0], &body.to[1]})
         compile(formulas, fmt::format("body {}", body.name), *formula);
-    for (const Dynamics& dynamics : robot_.dynamics) check_dynamics(dynamics);
+    for (const Dynamics& dynamics : robot_.dynamics)
+      if (const auto* equations = std::get_if<Equations>(&dynamics.source)) check_equations(dynamics, *equations);
   }
 
  private:
@@ -93,7 +94,7 @@ class Checker {
             formula.line, [&, &name = name] { formulas.named(name); }, name);
   }
 
-  void check_dynamics(const Dynamics& dynamics) {
+  void check_equations(const Dynamics& dynamics, const Equations& equations) {
     Formulas formulas;
     for (const Parameter& parameter : dynamics.parameters)
       named(dynamics.line, [&] { formulas.input(parameter.name, Pace::call); });
@@ -101,9 +102,9 @@ class Checker {
       named(dynamics.line, [&] { formulas.input(name, Pace::block); });
     for (const std::string& name : robot_.state_names())
       named(dynamics.line, [&] { formulas.input(name, Pace::always); });
-    check_definitions(formulas, dynamics.definitions);
-    for (std::size_t i = 0; i < dynamics.rates.size(); ++i)
-      compile(formulas, fmt::format("rate.{}", robot_.state_names()[i]), dynamics.rates[i]);
+    check_definitions(formulas, equations.definitions);
+    for (std::size_t i = 0; i < equations.rates.size(); ++i)
+      compile(formulas, fmt::format("rate.{}", robot_.state_names()[i]), equations.rates[i]);
   }
 
   const Robot& robot_;

@@ -89,6 +89,7 @@ std::vector<std::string> idle_parameters(const scenario::NamedPrior& prior, cons
 PriorTried try_prior(const scenario::NamedPrior& prior, const Steps& steps) {
   PriorTried tried{.name = prior.name};
   Matrix predicted(steps.X.rows(), steps.X.cols());
+  system::change_contained(*prior.simulator, steps.X, steps.U, prior.parameters.values(), predicted);  // it may start
   const Stopwatch watch;
   tried.failed = system::change_contained(*prior.simulator, steps.X, steps.U, prior.parameters.values(), predicted);
   tried.rows_per_s = watch.per_s(steps.X.rows());

@@ -28,9 +28,7 @@ Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options) 
       .ode = parts.kernel.ode(),
       .phi = parts.plant.values(),
       .dt_s = task.dt_s,
-      .start_mean = task.start_mean,
-      .start_std = task.start_std,
-      .measurement_std = Vector::Constant(task.state_size(), options.measurement_noise)};
+      .around = {task.start_mean, task.start_std, Vector::Constant(task.state_size(), options.measurement_noise)}};
   Scenario scenario{.name = parts.name,
                     .task = task,
                     .make_plant = [plant] { return system::make_ode_plant(plant); },

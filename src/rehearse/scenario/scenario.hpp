@@ -33,9 +33,15 @@ struct Scenario {
   std::vector<NamedPrior> priors;                   // the first is the default
   std::shared_ptr<const system::Simulator> oracle;  // the plant's own dynamics, for `--prior oracle`; may be null
   std::shared_ptr<const policy::Policy> policy;
-  std::optional<Drawing> drawing;  // empty: it cannot be shown
-  Index evaluations = 0;           // extra episodes of each trial's policy on a plant of their own, which are no
-                                   // interaction: their mean return is recorded as expected_return; 0: none
+  std::optional<Drawing> drawing;       // empty: it cannot be shown
+  std::function<void()> require_ready;  // throws InvalidInput with why plant or priors cannot be asked; null: they can
+  Index evaluations = 0;                // extra episodes of each trial's policy on a plant of their own, which are no
+                                        // interaction: their mean return is recorded as expected_return; 0: none
+};
+
+/// A file that a robot's file names, by its path from there.
+struct NamedFile {
+  std::string path, bytes;
 };
 
 /// A scenario whose options can still be set: what a robot's folder gives to the catalogue.
@@ -45,8 +51,9 @@ class ScenarioBuilder {
   virtual std::string name() const = 0;
   virtual std::string summary() const = 0;  // one line for `rehearse list`
   virtual std::vector<std::string> prior_names() const = 0;
-  virtual void fields(FieldVisitor& v) = 0;  // plant.NAME, noise, …
-  virtual Scenario build() const = 0;        // throws InvalidInput
+  virtual void fields(FieldVisitor& v) = 0;                    // plant.NAME, noise, …
+  virtual Scenario build() const = 0;                          // throws InvalidInput
+  virtual std::vector<NamedFile> files() const { return {}; }  // what it is made of beside the robot's file
 };
 
 }  // namespace rehearse::scenario

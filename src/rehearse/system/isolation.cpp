@@ -6,8 +6,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
-#include <limits>
-#include <mutex>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -21,10 +19,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "rehearse/system/workers.hpp"
+
 namespace rehearse::system {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Sizes of a request. Then come φ, and the states and actions row by row; the answer is the changes row by row.
 struct Request {
@@ -119,9 +117,9 @@ class Server {
 };
 
 /// A process that simulates, seen from outside.
-class Worker {
+class ForkedWorker final : public Worker {
  public:
-  explicit Worker(const Simulator& simulator) {
+  ForkedWorker(const Simulator& simulator, double row_s) : row_s_(row_s) {
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail();
     process_ = fork();
@@ -132,17 +130,16 @@ class Worker {
     close(socket_);
     fail();
   }
-  ~Worker() {
+  ~ForkedWorker() override {
     close(socket_);
     kill(process_, SIGKILL);
     while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
-  Worker(const Worker&) = delete;
-  Worker& operator=(const Worker&) = delete;
+  ForkedWorker(const ForkedWorker&) = delete;
+  ForkedWorker& operator=(const ForkedWorker&) = delete;
 
-  /// How many rows it answered, from the first on; it is of no use any more if that is not all of them.
-  Index change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, double row_s, MatrixView dX) {
+  Index change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) override {
     const Request request{X.rows(), X.cols(), U.cols(), phi.size()};
     numbers_.resize(request.size());
     double* at = numbers_.data();
@@ -155,7 +152,7 @@ class Worker {
     if (!send_all(socket_, &request, sizeof request) ||
         !send_all(socket_, numbers_.data(), sizeof(double) * numbers_.size()))
       return 0;
-    const auto limit = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(row_s));
+    const auto limit = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(row_s_));
     for (Index i = 0; i < X.rows(); ++i) {
       if (!receive(socket_, numbers_.data(), sizeof(double) * static_cast<std::size_t>(X.cols()), Clock::now() + limit))
         return i;
@@ -171,6 +168,7 @@ class Worker {
     throw std::system_error(errno, std::generic_category(), "no process can be made for the simulator");
   }
 
+  double row_s_;
   pid_t process_ = -1;
   int socket_ = -1;
   std::vector<double> numbers_;
@@ -179,46 +177,20 @@ class Worker {
 class Isolated final : public Simulator {
  public:
   Isolated(std::shared_ptr<const Simulator> simulator, double row_s)
-      : simulator_(std::move(simulator)), row_s_(row_s) {}
+      : simulator_(simulator),
+        workers_({.start = [simulator, row_s] { return std::make_unique<ForkedWorker>(*simulator, row_s); },
+                  .row_by_row = true}) {}
 
   const ParameterSpace& parameters() const override { return simulator_->parameters(); }
 
   void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
     check_sizes(*this, X, U, phi, dX);
-    const Index n = X.rows();
-    std::unique_ptr<Worker> worker = take();
-    for (Index done = 0, suspect = -1; done < n;) {
-      if (!worker) worker = std::make_unique<Worker>(*simulator_);
-      const Index left = n - done;
-      done += worker->change(X.bottomRows(left), U.bottomRows(left), phi, row_s_, dX.bottomRows(left));
-      if (done == n) break;
-      worker.reset();
-      const bool again = suspect == done;
-      if (again) dX.row(done++).setConstant(kNan);
-      suspect = again ? -1 : done;
-    }
-    give_back(std::move(worker));
+    workers_.change(X, U, phi, dX);
   }
 
  private:
-  std::unique_ptr<Worker> take() const {
-    const std::lock_guard lock(mutex_);
-    if (idle_.empty()) return nullptr;
-    std::unique_ptr<Worker> worker = std::move(idle_.back());
-    idle_.pop_back();
-    return worker;
-  }
-
-  void give_back(std::unique_ptr<Worker> worker) const {
-    if (!worker) return;
-    const std::lock_guard lock(mutex_);
-    idle_.push_back(std::move(worker));
-  }
-
   std::shared_ptr<const Simulator> simulator_;
-  double row_s_;
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<Worker>> idle_;
+  Workers workers_;
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "rehearse/system/ode.hpp"
 
-#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -55,37 +54,6 @@ class OdeSimulator final : public Simulator {
   Index substeps_;
 };
 
-class OdePlant final : public Plant {
- public:
-  explicit OdePlant(OdePlantOptions options) : options_(std::move(options)) {}
-
-  Vector reset(Rng& rng) override {
-    x_ = options_.start_mean;
-    for (Index i = 0; i < x_.size(); ++i) x_(i) += options_.start_std(i) * rng.normal();
-    rng_ = rng;
-    return measured();
-  }
-
-  Vector step(const Vector& u) override {
-    if (!rng_) throw std::logic_error("the plant makes a step before it was reset");
-    x_ = integrate_adaptive(options_.ode, x_, u, options_.phi, options_.dt_s, options_.tolerance);
-    return measured();
-  }
-
-  Vector truth() const override { return x_; }
-
- private:
-  Vector measured() {
-    Vector y = x_;
-    for (Index i = 0; i < options_.measurement_std.size(); ++i) y(i) += options_.measurement_std(i) * rng_->normal();
-    return y;
-  }
-
-  OdePlantOptions options_;
-  Vector x_;
-  std::optional<Rng> rng_;
-};
-
 }  // namespace
 
 Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, const Vector& phi, double duration_s,
@@ -133,16 +101,12 @@ std::shared_ptr<const Simulator> make_ode_simulator(OdeKernel kernel, ParameterS
 }
 
 std::unique_ptr<Plant> make_ode_plant(OdePlantOptions options) {
-  const Index n = options.start_mean.size(), noisy = options.measurement_std.size();
-  Violations violations;
-  violations.require(
-      options.start_std.size() == n,
-      fmt::format("start_std has {} entries, must have the {} of start_mean", options.start_std.size(), n));
-  violations.require(noisy == 0 || noisy == n,
-                     fmt::format("measurement_std has {} entries, must have none or the {} of start_mean", noisy, n));
-  violations.require(options.dt_s > 0, fmt::format("dt_s = {}, must be > 0", options.dt_s));
-  violations.throw_if_any();
-  return std::make_unique<OdePlant>(std::move(options));
+  if (!(options.dt_s > 0)) throw InvalidInput(fmt::format("dt_s = {}, must be > 0", options.dt_s));
+  const auto motion = [ode = std::move(options.ode), phi = options.phi, dt_s = options.dt_s,
+                       tolerance = options.tolerance](const Vector& x, const Vector& u) {
+    return integrate_adaptive(ode, x, u, phi, dt_s, tolerance);
+  };
+  return make_simulated_plant(motion, std::move(options.around));
 }
 
 }  // namespace rehearse::system

@@ -7,6 +7,7 @@
 #include "rehearse/core/parameters.hpp"
 #include "rehearse/core/types.hpp"
 #include "rehearse/system/plant.hpp"
+#include "rehearse/system/simulated_plant.hpp"
 #include "rehearse/system/simulator.hpp"
 
 namespace rehearse::system {
@@ -53,8 +54,7 @@ struct OdePlantOptions {
   Ode ode;
   Vector phi;
   double dt_s = 0;
-  Vector start_mean, start_std;  // dx
-  Vector measurement_std;        // dx; empty: none
+  StartAndSensors around;
   double tolerance = 1e-12;
 };
 std::unique_ptr<Plant> make_ode_plant(OdePlantOptions options);

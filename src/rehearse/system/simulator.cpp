@@ -62,10 +62,14 @@ Index change_contained(const Simulator& simulator, const ConstMatrixView& X, con
   check_sizes(simulator, X, U, phi, dX);
   try {
     simulator.change(X, U, phi, dX);
+  } catch (const Unavailable&) {
+    throw;
   } catch (...) {
     for (Index i = 0; i < X.rows(); ++i) {
       try {
         simulator.change(X.middleRows(i, 1), U.middleRows(i, 1), phi, dX.middleRows(i, 1));
+      } catch (const Unavailable&) {
+        throw;
       } catch (...) {
         dX.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
       }

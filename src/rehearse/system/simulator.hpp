@@ -2,16 +2,24 @@
 
 #include <functional>
 #include <memory>
+#include <stdexcept>
 
 #include "rehearse/core/parameters.hpp"
 #include "rehearse/core/types.hpp"
 
 namespace rehearse::system {
 
+/// The simulator cannot be asked any more: this ends a run, where a row that cannot be simulated ends a rollout.
+class Unavailable : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A black box that maps states, actions and parameters to state changes over one control step, a batch at a time.
 ///
 /// Laws (checked by testing::check_simulator): `change` may run concurrently; a row depends on that row alone; a row
-/// that cannot be simulated comes back as NaN, or the call throws, and then it is retried row by row. It must not run
+/// that cannot be simulated comes back as NaN, or the call throws, and then it is retried row by row; Unavailable alone
+/// goes on to the caller. It must not run
 /// oneTBB tasks of its own: the calling thread could pick up another batch in the middle of this one.
 class Simulator {
  public:

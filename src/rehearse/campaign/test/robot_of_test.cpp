@@ -28,7 +28,7 @@ experiment::Catalogue reading_catalogue() {
     std::string name_;
   };
   const auto line = catalogue.scenarios.front();
-  catalogue.read_robot = [line](std::string_view text, const std::string&) {
+  catalogue.read_robot = [line](std::string_view text, const std::string&, const auto&) {
     return std::make_unique<Named>(line(), std::string(text));
   };
   return catalogue;
@@ -54,12 +54,12 @@ TEST(RobotOfACampaign, ABuiltInOneNeedsNoFile) {
 }
 
 TEST(RobotOfACampaign, RobotsOfOneNameAreOneFile) {
-  const experiment::Catalogue once = reading_catalogue().with_robot("mine", "a.toml");
-  EXPECT_EQ(once.with_robot("mine", "b.toml").robots.size(), 1u);
+  const experiment::Catalogue once = reading_catalogue().with_robot("mine", "a.toml", "");
+  EXPECT_EQ(once.with_robot("mine", "b.toml", "").robots.size(), 1u);
   EXPECT_EQ(once.scenario_name("a.toml"), "mine");
   EXPECT_EQ(once.scenario_name("line"), "line");
-  EXPECT_THROW(once.with_robot("line", "a.toml"), InvalidInput) << "built in";
-  EXPECT_THROW(experiment::fake::catalogue().with_robot("mine", "a.toml"), InvalidInput) << "reads none";
+  EXPECT_THROW(once.with_robot("line", "a.toml", ""), InvalidInput) << "built in";
+  EXPECT_THROW(experiment::fake::catalogue().with_robot("mine", "a.toml", ""), InvalidInput) << "reads none";
 }
 
 }  // namespace

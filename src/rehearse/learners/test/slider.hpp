@@ -51,8 +51,7 @@ inline Episode run_trial_on(const Vector& truth, const Proposal& proposal, std::
   const auto plant = system::make_ode_plant({.ode = ode,
                                              .phi = truth,
                                              .dt_s = task.dt_s,
-                                             .start_mean = task.start_mean,
-                                             .start_std = task.start_std,
+                                             .around = {task.start_mean, task.start_std, {}},
                                              .tolerance = 1e-9});
   return rollout::execute(*plant, *proposal.policy, proposal.theta, task,
                           Rng({.trial = trial, .purpose = Purpose::start_state}));

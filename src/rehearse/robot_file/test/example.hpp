@@ -53,6 +53,9 @@ parameters.m = 1.3
 tune.m = [0.5, 2]
 )toml";
 
+/// The folder of a robot that names no file.
+inline std::optional<std::string> no_files(const std::string&) { return std::nullopt; }
+
 /// The text with one part replaced, which must be there.
 inline std::string with(const std::string& part, const std::string& by) {
   std::string text = kSwing;
@@ -64,7 +67,7 @@ inline std::string with(const std::string& part, const std::string& by) {
 /// The violations of a file, a line each; empty: there is none.
 inline std::string complaint_of(const std::string& text) {
   try {
-    builder(text, "swing.toml");
+    builder(text, "swing.toml", no_files);
   } catch (const InvalidInput& error) {
     return error.what();
   }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/robot_file/robot_file.hpp"
+#include "rehearse/robot_file/test/example.hpp"
 #include "rehearse/robot_file/try_out.hpp"
 #include "rehearse/robots/pendulum/pendulum.hpp"
 
@@ -18,7 +19,7 @@ scenario::Scenario example(const std::string& name) {
   std::ifstream in(file);
   std::stringstream text;
   text << in.rdbuf();
-  return builder(text.str(), file)->build();
+  return builder(text.str(), file, example::no_files)->build();
 }
 
 class EachRobotFile : public ::testing::TestWithParam<const char*> {};

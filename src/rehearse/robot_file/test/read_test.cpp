@@ -10,7 +10,7 @@ namespace {
 using example::complaint_of, example::kSwing, example::with;
 
 TEST(ReadRobot, TakesEverythingThatStandsInTheFile) {
-  const Robot robot = read(kSwing, "swing.toml");
+  const Robot robot = read(kSwing, "swing.toml", example::no_files);
   EXPECT_EQ(robot.name, "swing");
   EXPECT_EQ(robot.horizon, 20);
   EXPECT_EQ(robot.state_names(), (std::vector<std::string>{"rate", "angle"}));
@@ -19,8 +19,8 @@ TEST(ReadRobot, TakesEverythingThatStandsInTheFile) {
   EXPECT_EQ(robot.actions[0].bounds.high, 2);
   EXPECT_EQ(robot.reward.distance.size(), 2u);
   ASSERT_EQ(robot.dynamics.size(), 1u);
-  EXPECT_EQ(robot.dynamics[0].rates[0].text, "torque / (m * l^2)");
-  EXPECT_EQ(robot.dynamics[0].rates[1].text, "rate") << "the state that is its rate";
+  EXPECT_EQ(std::get<Equations>(robot.dynamics[0].source).rates[0].text, "torque / (m * l^2)");
+  EXPECT_EQ(std::get<Equations>(robot.dynamics[0].source).rates[1].text, "rate") << "the state that is its rate";
   EXPECT_EQ(robot.plant.parameters.values(), (Vector{{1, 0.5}}));
   ASSERT_EQ(robot.priors.size(), 1u);
   EXPECT_EQ(robot.priors[0].dynamics, "pendulum") << "of one there is no question";
@@ -30,7 +30,7 @@ TEST(ReadRobot, TakesEverythingThatStandsInTheFile) {
 }
 
 TEST(ReadRobot, PriorsKeepTheirOrder) {
-  const Robot robot = read(kSwing + "[prior.a]\n[prior.b]\n", "swing.toml");
+  const Robot robot = read(kSwing + "[prior.a]\n[prior.b]\n", "swing.toml", example::no_files);
   ASSERT_EQ(robot.priors.size(), 3u);
   EXPECT_EQ(robot.priors[0].name, "heavy");
   EXPECT_EQ(robot.priors[2].name, "b");

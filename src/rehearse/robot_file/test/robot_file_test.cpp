@@ -14,7 +14,7 @@ namespace {
 using example::kSwing;
 
 TEST(RobotFile, MakesAScenarioWithEverythingOfTheFile) {
-  const auto made = builder(kSwing, "swing.toml");
+  const auto made = builder(kSwing, "swing.toml", example::no_files);
   EXPECT_EQ(made->name(), "swing");
   EXPECT_EQ(made->prior_names(), std::vector<std::string>{"heavy"});
   const scenario::Scenario scenario = made->build();
@@ -26,7 +26,7 @@ TEST(RobotFile, MakesAScenarioWithEverythingOfTheFile) {
 
 // u + m g l sin θ over m l².
 TEST(RobotFile, PlantAndPriorsFollowTheEquation) {
-  const scenario::Scenario scenario = builder(kSwing, "swing.toml")->build();
+  const scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
   Matrix change(1, 2);
   scenario.oracle->change(Matrix{{0.0, 3.0}}, Matrix{{1.0}}, scenario.oracle->parameters().values(), change);
   const double rate = (1 + 9.81 * 0.5 * std::sin(3)) / 0.25;
@@ -43,7 +43,7 @@ TEST(RobotFile, PlantAndPriorsFollowTheEquation) {
 }
 
 TEST(RobotFile, OptionsSetThePlant) {
-  const auto made = builder(kSwing, "swing.toml");
+  const auto made = builder(kSwing, "swing.toml", example::no_files);
   const Fields fields = [&](FieldVisitor& v) { made->fields(v); };
   EXPECT_TRUE(set_field(fields, "plant.m", "2"));
   EXPECT_TRUE(set_field(fields, "measurement_noise", "0.1"));
@@ -53,7 +53,7 @@ TEST(RobotFile, OptionsSetThePlant) {
 }
 
 TEST(RobotFile, KeepsTheLaws) {
-  const scenario::Scenario scenario = builder(kSwing, "swing.toml")->build();
+  const scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
   const Matrix X = Matrix::Random(70, 2), U = Matrix::Random(70, 1);
   EXPECT_EQ(testing::check_simulator(*scenario.priors[0].simulator, X, U, scenario.priors[0].parameters.values()),
             std::vector<std::string>{});

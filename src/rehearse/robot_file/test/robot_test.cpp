@@ -9,7 +9,7 @@ namespace rehearse::robot_file {
 namespace {
 
 TEST(Robot, SaysTheEquationOfADynamics) {
-  const Robot robot = read(example::kSwing, "swing.toml");
+  const Robot robot = read(example::kSwing, "swing.toml", example::no_files);
   const system::OdeFormulas equation = robot.equation(robot.dynamics_of(robot.plant));
   EXPECT_EQ(equation.states, (std::vector<std::string>{"rate", "angle"}));
   EXPECT_EQ(equation.actions, std::vector<std::string>{"u"});

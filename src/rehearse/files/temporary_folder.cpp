@@ -1,0 +1,40 @@
+#include "rehearse/files/temporary_folder.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/files/write.hpp"
+
+namespace rehearse::files {
+
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (fs::temp_directory_path() / "rehearse-XXXXXX").string();
+  if (!::mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), "no folder can be made: " + name);
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+void TemporaryFolder::add(const fs::path& file, std::string_view bytes) const {
+  if (!stays_within(file)) throw InvalidInput(fmt::format("{} leads out of its folder", file.string()));
+  fs::create_directories((path_ / file).parent_path());
+  write_file(path_ / file, bytes);
+  fs::permissions(path_ / file, fs::perms::owner_all);
+}
+
+bool stays_within(const fs::path& path) {
+  return !path.empty() && path.is_relative() && std::find(path.begin(), path.end(), "..") == path.end();
+}
+
+}  // namespace rehearse::files

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace rehearse::files {
+
+/// A folder of its own for files that somebody else is to read, below TMPDIR or /tmp; removed with this object, with
+/// all that is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();  // throws std::system_error
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// A file that its owner may read and execute, by its path from here, which must not lead out of the folder.
+  void add(const std::filesystem::path& file, std::string_view bytes) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Whether a path stays within the folder that it is seen from: relative, and without "..".
+bool stays_within(const std::filesystem::path& path);
+
+}  // namespace rehearse::files

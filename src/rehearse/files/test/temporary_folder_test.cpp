@@ -1,0 +1,32 @@
+#include "rehearse/files/temporary_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/files/regular_file.hpp"
+
+namespace rehearse::files {
+namespace {
+
+TEST(TemporaryFolder, HasFilesAndIsGoneWithItsObject) {
+  std::filesystem::path path;
+  {
+    const TemporaryFolder folder, other;
+    path = folder.path();
+    EXPECT_NE(path, other.path());
+    folder.add("a/b.txt", "text");
+    EXPECT_EQ(read_file(path / "a/b.txt"), "text");
+    EXPECT_NE(std::filesystem::status(path / "a/b.txt").permissions() & std::filesystem::perms::owner_exec,
+              std::filesystem::perms::none);
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(TemporaryFolder, NothingIsWrittenOutsideOfIt) {
+  const TemporaryFolder folder;
+  for (const char* out : {"", "/tmp/x", "../x", "a/../../x"}) EXPECT_THROW(folder.add(out, ""), InvalidInput) << out;
+  EXPECT_TRUE(stays_within("./a/b"));
+}
+
+}  // namespace
+}  // namespace rehearse::files

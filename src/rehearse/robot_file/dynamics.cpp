@@ -1,0 +1,77 @@
+#include "rehearse/robot_file/dynamics.hpp"
+
+#include <algorithm>
+
+#include "rehearse/system/formula_ode.hpp"
+#include "rehearse/system/ode.hpp"
+
+namespace rehearse::robot_file {
+namespace {
+
+/// Simulates as long as its files are needed.
+template <class Made>
+std::shared_ptr<const system::Simulator> kept_with(std::shared_ptr<const files::TemporaryFolder> folder,
+                                                   std::shared_ptr<Made> made) {
+  struct Both {
+    std::shared_ptr<const files::TemporaryFolder> folder;  // goes last
+    std::shared_ptr<Made> made;
+  };
+  const auto both = std::make_shared<Both>(Both{std::move(folder), std::move(made)});
+  return {both, both->made.get()};
+}
+
+}  // namespace
+
+DynamicsMaker::DynamicsMaker(const Robot& robot) : robot_(robot) {
+  if (robot.files.empty()) return;
+  const auto folder = std::make_shared<files::TemporaryFolder>();
+  for (const scenario::NamedFile& file : robot.files) folder->add(file.path, file.bytes);
+  folder_ = folder;
+}
+
+system::Program DynamicsMaker::program(const Dynamics& dynamics) const {
+  const auto& source = std::get<ProgramSource>(dynamics.source);
+  system::Program program{.command = source.command,
+                          .folder = folder_ ? folder_->path() : std::filesystem::path(),
+                          .start_s = source.start_s,
+                          .answer_s = source.answer_s,
+                          .states = robot_.state_names(),
+                          .actions = robot_.action_names(),
+                          .dt_s = robot_.dt_s};
+  for (const Parameter& parameter : dynamics.parameters) program.parameters.push_back(parameter.name);
+  return program;
+}
+
+std::shared_ptr<const system::Simulator> DynamicsMaker::simulator(const Variant& variant, Index substeps) const {
+  const Dynamics& dynamics = robot_.dynamics_of(variant);
+  const ParameterSpace fixed = variant.parameters.fixed_at(variant.parameters.values());
+  if (std::holds_alternative<ProgramSource>(dynamics.source))
+    return kept_with(folder_, std::make_shared<system::ProgramSimulator>(program(dynamics), fixed));
+  return system::make_ode_simulator(system::formula_kernel(robot_.equation(dynamics)), fixed, robot_.dt_s, substeps);
+}
+
+std::function<std::unique_ptr<system::Plant>()> DynamicsMaker::plant(const Variant& variant,
+                                                                     const system::StartAndSensors& around) const {
+  const Dynamics& dynamics = robot_.dynamics_of(variant);
+  if (std::holds_alternative<ProgramSource>(dynamics.source))
+    return [program = program(dynamics), phi = variant.parameters, around, folder = folder_] {
+      return system::make_program_plant(program, phi, around);
+    };
+  const system::OdePlantOptions options{.ode = system::formula_kernel(robot_.equation(dynamics)).ode(),
+                                        .phi = variant.parameters.values(),
+                                        .dt_s = robot_.dt_s,
+                                        .around = around};
+  return [options] { return system::make_ode_plant(options); };
+}
+
+std::function<void()> DynamicsMaker::require_ready() const {
+  std::vector<system::Program> programs;
+  for (const Dynamics& dynamics : robot_.dynamics)
+    if (std::holds_alternative<ProgramSource>(dynamics.source)) programs.push_back(program(dynamics));
+  if (programs.empty()) return nullptr;
+  return [programs, folder = folder_] {
+    for (const system::Program& program : programs) system::require_program(program);
+  };
+}
+
+}  // namespace rehearse::robot_file

@@ -1,0 +1,36 @@
+#pragma once
+// What computes a robot's dynamics, by where they come from. For the sources of this room.
+
+#include <functional>
+#include <memory>
+
+#include "rehearse/files/temporary_folder.hpp"
+#include "rehearse/robot_file/robot.hpp"
+#include "rehearse/system/plant.hpp"
+#include "rehearse/system/program.hpp"
+#include "rehearse/system/simulated_plant.hpp"
+#include "rehearse/system/simulator.hpp"
+
+namespace rehearse::robot_file {
+
+/// Simulators and plants of a robot's [dynamics.NAME].
+class DynamicsMaker {
+ public:
+  /// Where programs and models find their files: made here, and kept as long as anybody needs it.
+  explicit DynamicsMaker(const Robot& robot);
+
+  std::shared_ptr<const system::Simulator> simulator(const Variant& variant, Index substeps) const;
+  std::function<std::unique_ptr<system::Plant>()> plant(const Variant& variant,
+                                                        const system::StartAndSensors& around) const;
+
+  /// Throws InvalidInput with why a program cannot be spoken with; null if there is none to be asked.
+  std::function<void()> require_ready() const;
+
+ private:
+  system::Program program(const Dynamics& dynamics) const;
+
+  const Robot& robot_;
+  std::shared_ptr<const files::TemporaryFolder> folder_;  // null: no files are named
+};
+
+}  // namespace rehearse::robot_file

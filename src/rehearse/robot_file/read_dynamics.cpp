@@ -1,0 +1,126 @@
+#include "rehearse/robot_file/read_dynamics.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/names.hpp"
+#include "rehearse/files/temporary_folder.hpp"
+#include "rehearse/robot_file/variant.hpp"
+
+namespace rehearse::robot_file {
+namespace {
+
+/// Whether an argument of a command looks like a file: script.py, ./simulator.
+bool looks_like_a_file(const std::string& argument, bool first) {
+  if (argument.starts_with('-')) return false;
+  const std::filesystem::path path(argument);
+  const std::string extension = path.extension().string();
+  const auto is_letter = [](unsigned char c) { return std::isalpha(c); };
+  const bool named = extension.size() > 1 && std::all_of(extension.begin() + 1, extension.end(), is_letter);
+  return path.is_relative() && (named || (first && path.has_parent_path()));
+}
+
+class DynamicsReader {
+ public:
+  DynamicsReader(Robot& robot, const ReadFile& read_file, files::FileViolations& violations)
+      : robot_(robot), read_file_(read_file), violations_(violations) {}
+
+  void read(const std::string& name, const toml::table& part) {
+    Table table(part, fmt::format("[dynamics.{}]", name), violations_);
+    Dynamics dynamics{.name = name, .line = files::line_of(part)};
+    read_parameters(table, dynamics);
+    if (std::vector<std::string> command; table.reader().take("program", command))
+      dynamics.source = read_program(table, std::move(command));
+    else
+      dynamics.source = read_equations(table, dynamics.line);
+    table.finish();
+    robot_.dynamics.push_back(std::move(dynamics));
+  }
+
+ private:
+  void read_parameters(Table& table, Dynamics& dynamics) {
+    const toml::table* values = table.reader().take_table("parameters");
+    if (!values) return;
+    for (const auto& [name, node] : in_order(*values)) {
+      double value = 0;
+      std::string unit;
+      if (const toml::table* with_unit = node->as_table()) {
+        Table entry(*with_unit, name, violations_);
+        if (!entry.number("value", value)) entry.wrong("value", fmt::format("parameter {} needs a value", name));
+        entry.reader().take("unit", unit);
+        entry.finish();
+      } else if (!take_number(name, *node, value, violations_)) {
+        continue;
+      }
+      dynamics.parameters.push_back(Parameter::fixed(name, value, unit));
+    }
+  }
+
+  Equations read_equations(Table& table, Index line) {
+    Equations equations{.definitions = table.definitions("define")};
+    const Definitions given = table.definitions("rate");
+    const std::vector<std::string> states = robot_.state_names();
+    for (const auto& [name, formula] : given)
+      if (!is_among(name, states))
+        violations_.add(formula.line, fmt::format("rate.{}: there is no state '{}', did you mean '{}'?", name, name,
+                                                  states.empty() ? "" : closest(name, states)));
+    for (const State& state : robot_.states) equations.rates.push_back(rate_of(state, given, line));
+    return equations;
+  }
+
+  /// A state whose rate is another state needs no formula.
+  Formula rate_of(const State& state, const Definitions& given, Index line) {
+    const std::string& name = state.variable.name;
+    for (const auto& [own, formula] : given)
+      if (own == name) return formula;
+    if (!state.variable.rate.empty()) return {state.variable.rate, line};
+    violations_.add(line, fmt::format("rate.{} is missing: the derivative of {} by time, a formula; or program = […] "
+                                      "says who computes the dynamics",
+                                      name, name));
+    return {};
+  }
+
+  ProgramSource read_program(Table& table, std::vector<std::string> command) {
+    ProgramSource program{.command = std::move(command)};
+    table.number("start_s", program.start_s, above(0));
+    table.number("answer_s", program.answer_s, above(0));
+    if (program.command.empty() || program.command.front().empty())
+      table.wrong("program", "program = [\"python3\", \"simulator.py\"]: a program and its arguments");
+    for (std::size_t i = 0; i < program.command.size(); ++i) {
+      const std::string& argument = program.command[i];
+      if (!keep(argument) && looks_like_a_file(argument, i == 0))
+        table.wrong("program", fmt::format("'{}' is no file in the folder of the robot's file", argument));
+    }
+    std::vector<std::string> files;
+    table.reader().take("files", files);
+    for (const std::string& file : files)
+      if (!keep(file)) table.wrong("files", fmt::format("'{}' is no file in the folder of the robot's file", file));
+    return program;
+  }
+
+  /// False: there is no such file.
+  bool keep(const std::string& path) {
+    for (const scenario::NamedFile& file : robot_.files)
+      if (file.path == path) return true;
+    if (!files::stays_within(path)) return false;
+    std::optional<std::string> bytes = read_file_(path);
+    if (!bytes) return false;
+    robot_.files.push_back({path, std::move(*bytes)});
+    return true;
+  }
+
+  Robot& robot_;
+  const ReadFile& read_file_;
+  files::FileViolations& violations_;
+};
+
+}  // namespace
+
+void read_dynamics(Table& file, Robot& robot, const ReadFile& read_file, files::FileViolations& violations) {
+  DynamicsReader reader(robot, read_file, violations);
+  for (const auto& [name, part] : file.tables("dynamics")) reader.read(name, *part);
+}
+
+}  // namespace rehearse::robot_file

@@ -1,0 +1,65 @@
+#include "rehearse/robot_file/dynamics.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/robot_file/read.hpp"
+#include "rehearse/robot_file/robot_file.hpp"
+#include "rehearse/robot_file/test/example.hpp"
+#include "rehearse/robot_file/try_out.hpp"
+
+namespace rehearse::robot_file {
+namespace {
+
+// The example's pendulum, at a thousandth of its rates: the answer to each row is the row.
+constexpr const char* kEcho = R"py(
+import json, sys
+hello = json.loads(sys.stdin.readline())
+print(json.dumps({"rehearse": 1}), flush=True)
+for line in sys.stdin:
+    asked = json.loads(line)["change"]
+    rows = [[0.001 * (u[0] + asked["parameters"][0]), 0.01 * x[0]] for x, u in zip(asked["states"], asked["actions"])]
+    print(json.dumps({"change": rows}), flush=True)
+)py";
+
+std::string with_echo() {
+  return example::with("[prior.heavy]", "[dynamics.echo]\nprogram = [\"python3\", \"echo.py\"]\nparameters = { a = 2 }\n"
+                                        "[prior.echo]\ndynamics = \"echo\"\ntune.a = [1, 3]\n[prior.heavy]");
+}
+
+std::optional<std::string> echo_folder(const std::string& path) {
+  if (path == "echo.py") return kEcho;
+  return std::nullopt;
+}
+
+TEST(Dynamics, APriorMayBeAProgram) {
+  const scenario::Scenario scenario = builder(with_echo(), "swing.toml", echo_folder)->build();
+  ASSERT_TRUE(scenario.require_ready);
+  EXPECT_NO_THROW(scenario.require_ready());
+  const scenario::NamedPrior& prior = scenario.priors.front();
+  ASSERT_EQ(prior.name, "echo");
+  Matrix X{{1, 2}, {3, 4}}, U{{0.5}, {1}}, dX(2, 2);
+  prior.simulator->change(X, U, prior.parameters.values(), dX);
+  EXPECT_EQ(dX, (Matrix{{0.001 * 2.5, 0.01}, {0.001 * 3, 0.01 * 3}}));
+  const Tried tried = try_out(scenario);
+  EXPECT_EQ(tried.priors.front().failed, 0);
+  EXPECT_TRUE(tried.priors.front().idle.empty());
+}
+
+TEST(Dynamics, AProgramThatCannotBeAskedIsSaidBeforeARun) {
+  const auto broken = [](const std::string&) -> std::optional<std::string> { return "import no_such_module"; };
+  const scenario::Scenario scenario = builder(with_echo(), "swing.toml", broken)->build();
+  try {
+    scenario.require_ready();
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("no_such_module"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Dynamics, EquationsNeedNobody) {
+  EXPECT_FALSE(builder(example::kSwing, "swing.toml", example::no_files)->build().require_ready);
+}
+
+}  // namespace
+}  // namespace rehearse::robot_file

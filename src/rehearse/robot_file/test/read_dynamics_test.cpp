@@ -1,0 +1,63 @@
+#include "rehearse/robot_file/read_dynamics.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/robot_file/read.hpp"
+#include "rehearse/robot_file/test/example.hpp"
+
+namespace rehearse::robot_file {
+namespace {
+
+/// The example with a program beside its equations, which says so.
+std::string with_program(const std::string& lines) { return example::kSwing + "[dynamics.other]\n" + lines + "\n"; }
+
+std::optional<std::string> folder(const std::string& path) {
+  if (path == "sim.py") return "print()";
+  if (path == "data/masses.csv") return "1,2";
+  return std::nullopt;
+}
+
+std::string complaint_of_program(const std::string& lines) {
+  try {
+    read(with_program(lines), "swing.toml", folder);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ReadDynamics, AProgramHasItsFilesAndItsTimes) {
+  const Robot robot = read(with_program("program = [\"python3\", \"-u\", \"sim.py\", \"0.5\"]\nfiles = "
+                                        "[\"data/masses.csv\"]\nanswer_s = 3\nparameters.k = 2"),
+                           "swing.toml", folder);
+  ASSERT_EQ(robot.dynamics.size(), 2u);
+  const auto& program = std::get<ProgramSource>(robot.dynamics[1].source);
+  EXPECT_EQ(program.command, (std::vector<std::string>{"python3", "-u", "sim.py", "0.5"}));
+  EXPECT_EQ(program.answer_s, 3);
+  EXPECT_EQ(program.start_s, 30);
+  ASSERT_EQ(robot.files.size(), 2u);
+  EXPECT_EQ(robot.files[0].path, "sim.py");
+  EXPECT_EQ(robot.files[1].bytes, "1,2");
+  EXPECT_EQ(robot.dynamics[1].parameters.front().name, "k");
+}
+
+TEST(ReadDynamics, WhatIsWrongWithAProgramIsSaid) {
+  const auto expect = [](const std::string& lines, const std::string& part) {
+    const std::string complaint = complaint_of_program(lines);
+    EXPECT_NE(complaint.find(part), std::string::npos) << complaint;
+    EXPECT_EQ(complaint.rfind("swing.toml: line ", 0), 0u) << complaint;
+  };
+  expect("program = []", "a program and its arguments");
+  expect("program = 3", "program");
+  expect("program = [\"python3\", \"simm.py\"]", "'simm.py' is no file in the folder of the robot's file");
+  expect("program = [\"./sim\"]", "'./sim' is no file");
+  expect("program = [\"python3\", \"../sim.py\"]", "'../sim.py' is no file");
+  expect("program = [\"sim\"]\nfiles = [\"none\"]", "'none' is no file");
+  expect("program = [\"sim\"]\nanswer_s = 0", "answer_s = 0, must be > 0");
+  expect("program = [\"sim\"]\nrate.angle = \"1\"", "unknown key 'rate'");
+  expect("progam = [\"sim\"]", "unknown key 'progam' in [dynamics.other], did you mean 'program'?");
+}
+
+}  // namespace
+}  // namespace rehearse::robot_file

@@ -1,0 +1,155 @@
+#include "rehearse/system/conversation.hpp"
+
+#include <bit>
+#include <cstring>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "rehearse/system/messages.hpp"
+
+namespace rehearse::system {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "raw numbers are little-endian");
+
+constexpr std::size_t kWords = 1 << 20;  // bytes that a program may print beside an answer
+
+/// The end of the first line that begins with '{'. A program's own prints are passed over.
+std::size_t object_line(std::string_view text) {
+  for (std::size_t at = 0;;) {
+    const std::size_t end = text.find('\n', at);
+    if (end == std::string_view::npos) return 0;
+    if (text[at] == '{') return end + 1;
+    at = end + 1;
+  }
+}
+
+/// The last line of it, without what is before.
+std::string_view last_line(std::string_view text) {
+  text.remove_suffix(1);
+  const std::size_t before = text.rfind('\n');
+  return before == std::string_view::npos ? text : text.substr(before + 1);
+}
+
+void append(std::string& bytes, const void* data, std::size_t size) {
+  bytes.append(static_cast<const char*>(data), size);
+}
+
+void append_columns(std::string& bytes, const ConstMatrixView& rows) {
+  for (Index c = 0; c < rows.cols(); ++c)
+    append(bytes, rows.col(c).data(), sizeof(double) * static_cast<std::size_t>(rows.rows()));
+}
+
+}  // namespace
+
+Conversation::Conversation(const Program& program) : program_(program) {
+  try {
+    process_.emplace(program.command, program.folder);
+    if (!greet()) process_.reset();
+  } catch (const std::system_error& error) {
+    problem_ = error.what();
+  }
+}
+
+bool Conversation::wrong(const std::string& why) {
+  problem_ = fmt::format("the program '{}': {}", fmt::join(program_.command, " "), why);
+  if (process_ && !process_->last_words().empty()) {
+    std::string words = process_->last_words();
+    while (!words.empty() && words.back() == '\n') words.pop_back();
+    problem_ += "; its standard error ends with\n" + words;
+  }
+  return false;
+}
+
+/// Sends, and waits for an answer; it stands in the process.
+bool Conversation::hear(std::string_view message, const Process::Complete& complete, Process::Limits limits) {
+  switch (process_->exchange(message, complete, limits)) {
+    case Process::Outcome::answered: return true;
+    case Process::Outcome::ended: return wrong(process_->end());
+    case Process::Outcome::wrong:
+      return wrong(fmt::format("it wrote something else than the answer: {}", messages::excerpt(process_->unused())));
+    case Process::Outcome::flooded:
+      return wrong(fmt::format("it wrote more than {} bytes without an answer: {}", limits.bytes,
+                               messages::excerpt(process_->unused())));
+    case Process::Outcome::late: break;
+  }
+  late_ = true;
+  return wrong(fmt::format("it did not answer within {:g} s", limits.seconds));
+}
+
+std::optional<std::string> Conversation::answer_line(std::string_view message, Process::Limits limits) {
+  if (!hear(message, object_line, limits)) return {};
+  return std::string(last_line(process_->answer()));
+}
+
+bool Conversation::greet() {
+  const auto answer = answer_line(messages::hello(program_), {program_.start_s, kWords});
+  if (!answer) return false;
+  try {
+    const messages::Hello hello = messages::read_hello(*answer, program_);
+    doubles_ = hello.doubles, has_changes_ = hello.change, has_episodes_ = hello.reset;
+    return true;
+  } catch (const std::runtime_error& error) {
+    return wrong(error.what());
+  }
+}
+
+bool Conversation::change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
+  if (!has_changes_) return wrong("it does not understand the message \"change\"");
+  return doubles_ ? change_in_doubles(X, U, phi, dX) : change_in_json(X, U, phi, dX);
+}
+
+bool Conversation::change_in_doubles(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi,
+                                     MatrixView dX) {
+  const std::int64_t rows = X.rows();
+  message_.clear();
+  append(message_, &rows, sizeof rows);
+  append(message_, phi.data(), sizeof(double) * static_cast<std::size_t>(phi.size()));
+  append_columns(message_, X);
+  append_columns(message_, U);
+  const std::size_t size = sizeof rows + sizeof(double) * static_cast<std::size_t>(dX.size());
+  const auto complete = [&](std::string_view text) -> std::size_t {
+    const std::size_t known = std::min(text.size(), sizeof rows);
+    if (std::memcmp(text.data(), &rows, known) != 0 || text.size() > size) return Process::kWrong;
+    return text.size() == size ? size : 0;
+  };
+  if (!hear(message_, complete, {program_.answer_s, size})) return false;
+  const char* at = process_->answer().data() + sizeof rows;
+  for (Index c = 0; c < dX.cols(); ++c, at += sizeof(double) * static_cast<std::size_t>(rows))
+    std::memcpy(dX.col(c).data(), at, sizeof(double) * static_cast<std::size_t>(rows));
+  return true;
+}
+
+bool Conversation::change_in_json(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi,
+                                  MatrixView dX) {
+  const std::size_t numbers = 64 * static_cast<std::size_t>(dX.size());  // bytes, generously
+  const auto answer = answer_line(messages::change(X, U, phi), {program_.answer_s, kWords + numbers});
+  if (!answer) return false;
+  try {
+    messages::read_change(*answer, dX);
+    return true;
+  } catch (const std::runtime_error& error) {
+    return wrong(error.what());
+  }
+}
+
+std::optional<Conversation::Measured> Conversation::measured(const std::string& message) {
+  const auto answer = answer_line(message, {program_.answer_s, kWords});
+  if (!answer) return {};
+  try {
+    const messages::State state = messages::read_state(*answer, static_cast<Index>(program_.states.size()));
+    return Measured{state.measured, state.truth};
+  } catch (const std::runtime_error& error) {
+    wrong(error.what());
+    return {};
+  }
+}
+
+std::optional<Conversation::Measured> Conversation::reset(const Vector& start, const Vector& phi, std::uint64_t seed) {
+  return measured(messages::reset(start, phi, seed));
+}
+
+std::optional<Conversation::Measured> Conversation::step(const Vector& u) { return measured(messages::step(u)); }
+
+}  // namespace rehearse::system

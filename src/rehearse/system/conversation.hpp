@@ -1,0 +1,49 @@
+#pragma once
+// One program that runs, spoken with. For the sources of this room.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "rehearse/system/process.hpp"
+#include "rehearse/system/program.hpp"
+
+namespace rehearse::system {
+
+class Conversation {
+ public:
+  /// Starts the program and says hello. Where that fails, `problem` says why, and nothing else may be called.
+  explicit Conversation(const Program& program);
+
+  const std::string& problem() const { return problem_; }  // empty: all is well
+  bool late() const { return late_; }                      // the last answer did not come in time
+  bool has_episodes() const { return has_episodes_; }      // it can reset and step
+
+  /// Changes dX (n × dx); n from 1 to kMostRows. False: see `problem`.
+  bool change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX);
+  static constexpr Index kMostRows = 1024;
+
+  /// What a robot that keeps its own state answers.
+  struct Measured {
+    Vector state;
+    Vector truth;  // empty: it does not know
+  };
+  std::optional<Measured> reset(const Vector& start, const Vector& phi, std::uint64_t seed);
+  std::optional<Measured> step(const Vector& u);
+
+ private:
+  bool hear(std::string_view message, const Process::Complete& complete, Process::Limits limits);
+  bool greet();
+  std::optional<std::string> answer_line(std::string_view message, Process::Limits limits);
+  std::optional<Measured> measured(const std::string& message);
+  bool change_in_doubles(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX);
+  bool change_in_json(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX);
+  bool wrong(const std::string& why);
+
+  Program program_;
+  std::optional<Process> process_;
+  std::string problem_, message_;
+  bool late_ = false, doubles_ = false, has_changes_ = true, has_episodes_ = false;
+};
+
+}  // namespace rehearse::system

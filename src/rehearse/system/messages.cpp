@@ -1,0 +1,184 @@
+#include "rehearse/system/messages.hpp"
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace rehearse::system::messages {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+template <class... Args>
+[[noreturn]] void refuse(fmt::format_string<Args...> format, Args&&... args) {
+  throw std::runtime_error(fmt::format(format, std::forward<Args>(args)...));
+}
+
+/// Numbers that JSON's readers take for floating-point ones: 1.0, not 1.
+void write(std::string& text, double value) {
+  if (!std::isfinite(value)) {
+    text += "null";
+    return;
+  }
+  const std::size_t from = text.size();
+  fmt::format_to(std::back_inserter(text), "{}", value);
+  if (text.find_first_of(".e", from) == std::string::npos) text += ".0";
+}
+
+template <class Values>
+void write_list(std::string& text, const Values& values) {
+  text += '[';
+  for (Index i = 0; i < values.size(); ++i) {
+    if (i > 0) text += ',';
+    write(text, values(i));
+  }
+  text += ']';
+}
+
+void write_rows(std::string& text, const ConstMatrixView& rows) {
+  text += '[';
+  for (Index i = 0; i < rows.rows(); ++i) {
+    if (i > 0) text += ',';
+    write_list(text, rows.row(i));
+  }
+  text += ']';
+}
+
+Json object_of(std::string_view text) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) refuse("it answered what is no JSON: {}", excerpt(text));
+  if (!json.is_object()) refuse("it answered what is no JSON object: {}", excerpt(text));
+  if (const auto error = json.find("error"); error != json.end())
+    refuse("it answered an error: {}", error->is_string() ? error->get<std::string>() : error->dump());
+  return json;
+}
+
+const Json& member(const Json& object, const char* key, std::string_view text) {
+  const auto found = object.find(key);
+  if (found == object.end()) refuse("its answer has no \"{}\": {}", key, excerpt(text));
+  return *found;
+}
+
+double number_of(const Json& json) { return json.is_number() ? json.get<double>() : kNan; }
+
+Vector vector_of(const Json& json, const char* key, Index size) {
+  if (!json.is_array() || static_cast<Index>(json.size()) != size)
+    refuse("\"{}\" of its answer must be a list of {} numbers", key, size);
+  Vector values(size);
+  for (Index i = 0; i < size; ++i) values(i) = number_of(json[static_cast<std::size_t>(i)]);
+  return values;
+}
+
+/// A program may repeat names, so that a mistaken order is found.
+void require_same(const Json& object, const char* key, const std::vector<std::string>& names) {
+  const auto given = object.find(key);
+  if (given == object.end()) return;
+  if (*given != Json(names))
+    refuse("its {} are {}, the robot's file has [{}]", key, given->dump(), fmt::join(names, ", "));
+}
+
+void read_messages(const Json& object, Hello& hello) {
+  const auto messages = object.find("messages");
+  if (messages == object.end()) return;
+  hello.change = hello.reset = hello.step = false;
+  for (const Json& each : *messages) {
+    if (each == "change")
+      hello.change = true;
+    else if (each == "reset")
+      hello.reset = true;
+    else if (each == "step")
+      hello.step = true;
+    else
+      refuse("it understands the message {}; there are \"change\", \"reset\" and \"step\"", each.dump());
+  }
+  if (hello.reset != hello.step) refuse("\"reset\" and \"step\" go together");
+}
+
+}  // namespace
+
+std::string excerpt(std::string_view text) {
+  constexpr std::size_t kMost = 120;
+  std::string line(text.substr(0, std::min(text.find('\n'), kMost)));
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+  return line + (text.size() > line.size() + 1 ? " …" : "");
+}
+
+std::string hello(const Program& program) {
+  const Json message = {{"rehearse", kVersion},
+                        {"states", program.states},
+                        {"actions", program.actions},
+                        {"parameters", program.parameters},
+                        {"dt_s", program.dt_s}};
+  return message.dump() + "\n";
+}
+
+std::string change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) {
+  std::string text = R"({"change":{"states":)";
+  write_rows(text, X);
+  text += R"(,"actions":)";
+  write_rows(text, U);
+  text += R"(,"parameters":)";
+  write_list(text, phi);
+  return text += "}}\n";
+}
+
+std::string reset(const Vector& start, const Vector& phi, std::uint64_t seed) {
+  std::string text = R"({"reset":{"state":)";
+  write_list(text, start);
+  text += R"(,"parameters":)";
+  write_list(text, phi);
+  return text + fmt::format(R"(,"seed":{}}}}})", seed) + "\n";
+}
+
+std::string step(const Vector& u) {
+  std::string text = R"({"step":{"action":)";
+  write_list(text, u);
+  return text += "}}\n";
+}
+
+Hello read_hello(std::string_view text, const Program& program) {
+  const Json object = object_of(text);
+  if (const Json& version = member(object, "rehearse", text); version != kVersion)
+    refuse("it speaks version {} of the messages, this is version {}", version.dump(), kVersion);
+  require_same(object, "states", program.states);
+  require_same(object, "actions", program.actions);
+  require_same(object, "parameters", program.parameters);
+  Hello hello;
+  const std::string encoding = object.value("encoding", Json("json")).dump();
+  hello.doubles = encoding == R"("doubles")";
+  if (!hello.doubles && encoding != R"("json")")
+    refuse("it wants the encoding {}; there are \"json\" and \"doubles\"", encoding);
+  read_messages(object, hello);
+  return hello;
+}
+
+void read_change(std::string_view text, MatrixView dX) {
+  const Json object = object_of(text);
+  const Json& rows = member(object, "change", text);
+  if (!rows.is_array() || static_cast<Index>(rows.size()) != dX.rows())
+    refuse("\"change\" of its answer must be a list of {} rows", dX.rows());
+  for (Index i = 0; i < dX.rows(); ++i) {
+    const Json& row = rows[static_cast<std::size_t>(i)];
+    if (row.is_null())
+      dX.row(i).setConstant(kNan);
+    else
+      dX.row(i) = vector_of(row, "change", dX.cols()).transpose();
+  }
+}
+
+State read_state(std::string_view text, Index size) {
+  const Json object = object_of(text);
+  State state{vector_of(member(object, "state", text), "state", size), {}};
+  if (const auto truth = object.find("truth"); truth != object.end()) state.truth = vector_of(*truth, "truth", size);
+  return state;
+}
+
+}  // namespace rehearse::system::messages

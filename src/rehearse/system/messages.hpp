@@ -1,0 +1,38 @@
+#pragma once
+// The texts that programs are spoken to with (docs/programs.md). For the sources of this room.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rehearse/core/types.hpp"
+#include "rehearse/system/program.hpp"
+
+namespace rehearse::system::messages {
+
+inline constexpr int kVersion = 1;
+
+/// What a program says of itself.
+struct Hello {
+  bool doubles = false;                           // its changes come as raw numbers
+  bool change = true, reset = false, step = false;  // the messages that it understands
+};
+
+std::string hello(const Program& program);
+std::string change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi);
+std::string reset(const Vector& start, const Vector& phi, std::uint64_t seed);
+std::string step(const Vector& u);
+
+/// Answers. They throw std::runtime_error that says what is wrong with one.
+Hello read_hello(std::string_view text, const Program& program);
+void read_change(std::string_view text, MatrixView dX);  // rows that are null, or have one, are NaN
+struct State {
+  Vector measured, truth;
+};
+State read_state(std::string_view text, Index size);
+
+/// A line, or what it begins with, for messages to people.
+std::string excerpt(std::string_view text);
+
+}  // namespace rehearse::system::messages

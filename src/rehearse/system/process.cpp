@@ -1,0 +1,189 @@
+#include "rehearse/system/process.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace rehearse::system {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kLastWords = 2000;  // bytes of standard error that are kept
+constexpr std::size_t kPipe = 1 << 20;    // bytes: a batch goes through without the two waiting for each other
+
+[[noreturn]] void fail(int error, const std::string& what) {
+  throw std::system_error(error, std::generic_category(), what);
+}
+
+void close_all(std::initializer_list<int> files) {
+  for (const int file : files)
+    if (file >= 0) close(file);
+}
+
+/// Both ends of its standard streams. Its input is a socket: who writes to a pipe that nobody reads gets a signal.
+struct Streams {
+  std::array<int, 2> input{-1, -1}, output{-1, -1}, error{-1, -1};  // ours, its own
+
+  Streams() {
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input.data()) != 0 || !pipe_of(output) || !pipe_of(error)) {
+      const int why = errno;
+      close_all({input[0], input[1], output[0], output[1], error[0], error[1]});
+      fail(why, "no pipe can be made for a program");
+    }
+    for (const int ours : {input[0], output[0], error[0]}) fcntl(ours, F_SETFL, fcntl(ours, F_GETFL) | O_NONBLOCK);
+    const int size = kPipe;
+    setsockopt(input[0], SOL_SOCKET, SO_SNDBUF, &size, sizeof size);
+    fcntl(output[0], F_SETPIPE_SZ, size);
+  }
+
+ private:
+  static bool pipe_of(std::array<int, 2>& ends) { return pipe2(ends.data(), O_CLOEXEC) == 0; }
+};
+
+/// What the new process is to be like.
+class Spawning {
+ public:
+  Spawning(const Streams& streams, const std::string& folder) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_adddup2(&actions_, streams.input[1], STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions_, streams.output[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions_, streams.error[1], STDERR_FILENO);
+    if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+    posix_spawnattr_setpgroup(&attributes_, 0);  // the terminal's Ctrl-C is for us
+    sigset_t signals;
+    sigfillset(&signals);
+    posix_spawnattr_setsigdefault(&attributes_, &signals);
+    sigemptyset(&signals);
+    posix_spawnattr_setsigmask(&attributes_, &signals);
+  }
+  ~Spawning() {
+    posix_spawn_file_actions_destroy(&actions_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+  Spawning(const Spawning&) = delete;
+  Spawning& operator=(const Spawning&) = delete;
+
+  int spawn(const std::vector<std::string>& command, pid_t& process) const {
+    std::vector<char*> arguments;
+    for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+    arguments.push_back(nullptr);
+    return posix_spawnp(&process, arguments.front(), &actions_, &attributes_, arguments.data(), environ);
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+  posix_spawnattr_t attributes_;
+};
+
+/// Bytes read, 0 at the end of the stream, −1 where there are none now.
+ssize_t read_some(int file, std::array<char, 1 << 16>& buffer) {
+  for (;;) {
+    const ssize_t n = read(file, buffer.data(), buffer.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno != EAGAIN) return 0;
+    return n;
+  }
+}
+
+}  // namespace
+
+Process::Process(const std::vector<std::string>& command, const std::filesystem::path& folder) {
+  const Streams streams;
+  const int failed = Spawning(streams, folder.string()).spawn(command, process_);
+  close_all({streams.input[1], streams.output[1], streams.error[1]});
+  input_ = streams.input[0], output_ = streams.output[0], error_ = streams.error[0];
+  if (failed == 0) return;
+  close_all({input_, output_, error_});
+  fail(failed, fmt::format("the program '{}' cannot be started", command.front()));
+}
+
+Process::~Process() {
+  close_all({input_, output_, error_});
+  if (process_ < 0) return;
+  kill(-process_, SIGKILL);
+  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+bool Process::send(std::string_view& left) {
+  const ssize_t n = ::send(input_, left.data(), left.size(), MSG_NOSIGNAL);
+  if (n < 0) return errno == EINTR || errno == EAGAIN;
+  left.remove_prefix(static_cast<std::size_t>(n));
+  return true;
+}
+
+bool Process::receive() {
+  thread_local std::array<char, 1 << 16> buffer;
+  const ssize_t n = read_some(output_, buffer);
+  if (n > 0) received_.append(buffer.data(), static_cast<std::size_t>(n));
+  return n != 0;
+}
+
+void Process::read_errors() {
+  thread_local std::array<char, 1 << 16> buffer;
+  const ssize_t n = read_some(error_, buffer);
+  if (n == 0) close(error_), error_ = -1;
+  if (n <= 0) return;
+  errors_.append(buffer.data(), static_cast<std::size_t>(n));
+  if (errors_.size() > kLastWords) errors_.erase(0, errors_.size() - kLastWords);
+}
+
+Process::Outcome Process::exchange(std::string_view message, const Complete& complete, Limits limits) {
+  const auto until =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
+  for (;;) {
+    const std::size_t end = received_.empty() ? 0 : complete(received_);
+    if (end == kWrong) return Outcome::wrong;
+    if (end > 0) {
+      answer_.assign(received_, 0, end);
+      received_.erase(0, end);
+      return Outcome::answered;
+    }
+    if (received_.size() > limits.bytes) return Outcome::flooded;
+    const auto left_ms = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
+    if (left_ms <= 0) return Outcome::late;
+    std::array<pollfd, 3> ready{{{output_, POLLIN, 0},
+                                 {error_, POLLIN, 0},
+                                 {message.empty() || !input_open_ ? -1 : input_, POLLOUT, 0}}};
+    if (poll(ready.data(), ready.size(), static_cast<int>(std::min<std::int64_t>(left_ms, 1000))) < 0) continue;
+    if (ready[1].revents != 0) read_errors();
+    if (ready[2].revents != 0 && !send(message)) input_open_ = false;  // its end is seen at its output
+    if (ready[0].revents != 0 && !receive()) return Outcome::ended;
+  }
+}
+
+std::string Process::unused() const { return received_.substr(0, 200); }
+
+std::string Process::end() {
+  int status = 0;
+  pid_t ended = 0;
+  for (int i = 0; i < 20 && ended == 0; ++i) {  // it closed its output, and ends at any moment
+    ended = waitpid(process_, &status, WNOHANG);
+    if (error_ >= 0) read_errors();
+    if (ended == 0) poll(nullptr, 0, 10);
+  }
+  if (ended == 0) return "it closed its standard output";
+  if (ended == process_) {
+    kill(-process_, SIGKILL);  // its own children
+    process_ = -1;
+  }
+  if (WIFSIGNALED(status)) return fmt::format("it was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+  return fmt::format("it ended with exit status {}", WEXITSTATUS(status));
+}
+
+}  // namespace rehearse::system

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sys/types.h>
+
+namespace rehearse::system {
+
+/// A program that runs beside this one, with its standard streams in our hands; started without a shell, in a process
+/// group of its own, which is killed with this object. What it writes to standard error is read all the time, and its
+/// end is kept. One thread.
+class Process {
+ public:
+  /// command: the program, as the shell's PATH finds it or by its path from the folder, and its arguments. folder: where
+  /// it runs. Throws std::system_error if it cannot be started.
+  Process(const std::vector<std::string>& command, const std::filesystem::path& folder);
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  enum class Outcome { answered, wrong, ended, late, flooded };
+
+  /// Looks at what the program wrote that is not yet used: how many bytes of it are the answer, 0 where some are still to
+  /// come, kWrong where it is none.
+  using Complete = std::function<std::size_t(std::string_view)>;
+  static constexpr std::size_t kWrong = ~std::size_t{0};
+
+  /// Sends a message and waits for the answer, so long and so many bytes at most. The answer stands in `answer`.
+  struct Limits {
+    double seconds = 10;
+    std::size_t bytes = 1 << 20;
+  };
+  Outcome exchange(std::string_view message, const Complete& complete, Limits limits);
+  std::string_view answer() const { return answer_; }
+
+  /// What it wrote that was not used: the beginning, for messages.
+  std::string unused() const;
+
+  /// The last lines that it wrote to standard error, perhaps cut; and how it ended, or nothing while it runs.
+  const std::string& last_words() const { return errors_; }
+  std::string end();
+
+ private:
+  bool send(std::string_view& left);
+  bool receive();
+  void read_errors();
+
+  pid_t process_ = -1;
+  int input_ = -1, output_ = -1, error_ = -1;
+  bool input_open_ = true;
+  std::string received_, answer_, errors_;
+};
+
+}  // namespace rehearse::system

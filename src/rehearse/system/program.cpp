@@ -1,0 +1,144 @@
+#include "rehearse/system/program.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/system/conversation.hpp"
+
+namespace rehearse::system {
+namespace {
+
+constexpr Index kPatience = 24;  // faults in a row
+
+class ProgramWorker final : public Worker {
+ public:
+  explicit ProgramWorker(const Program& program) : conversation_(program) {}
+
+  Index change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) override {
+    if (!began_ && !conversation_.problem().empty()) return 0;
+    began_ = true;
+    for (Index done = 0; done < X.rows(); done += Conversation::kMostRows) {
+      const Index rows = std::min(Conversation::kMostRows, X.rows() - done);
+      if (!conversation_.change(X.middleRows(done, rows), U.middleRows(done, rows), phi, dX.middleRows(done, rows)))
+        return done;
+    }
+    return X.rows();
+  }
+
+  std::string problem() const override { return conversation_.problem(); }
+  bool costly() const override { return !began_ || conversation_.late(); }
+
+ private:
+  Conversation conversation_;
+  bool began_ = false;
+};
+
+/// Rows that have no meaning are not asked: many programs would end.
+class FiniteRows {
+ public:
+  FiniteRows(const ConstMatrixView& X, const ConstMatrixView& U) {
+    for (Index i = 0; i < X.rows(); ++i)
+      if (X.row(i).allFinite() && U.row(i).allFinite()) rows_.push_back(i);
+  }
+  bool all(Index rows) const { return static_cast<Index>(rows_.size()) == rows; }
+  Matrix of(const ConstMatrixView& rows) const { return rows(rows_, Eigen::all); }
+  void scatter(const Matrix& dX, MatrixView all) const {
+    all.setConstant(std::numeric_limits<double>::quiet_NaN());
+    all(rows_, Eigen::all) = dX;
+  }
+
+ private:
+  std::vector<Index> rows_;
+};
+
+/// A robot that keeps its own state, as a program does that can reset and step.
+class EpisodePlant final : public Plant {
+ public:
+  EpisodePlant(const Program& program, Vector phi, StartAndSensors around)
+      : program_(program), phi_(std::move(phi)), around_(std::move(around)) {}
+
+  Vector reset(Rng& rng) override {
+    Vector start = around_.start_mean;
+    for (Index i = 0; i < start.size(); ++i) start(i) += around_.start_std(i) * rng.normal();
+    const auto seed = static_cast<std::uint64_t>(rng.uniform() * 0x1p53);
+    rng_ = rng;
+    if (!conversation_) conversation_.emplace(program_);
+    if (!conversation_->problem().empty()) fail();
+    return seen(conversation_->reset(start, phi_, seed));
+  }
+
+  Vector step(const Vector& u) override {
+    if (!conversation_) throw std::logic_error("the plant makes a step before it was reset");
+    return seen(conversation_->step(u));
+  }
+
+  Vector truth() const override { return truth_; }
+
+ private:
+  Vector seen(const std::optional<Conversation::Measured>& answer) {
+    if (!answer) fail();
+    Vector y = answer->state;
+    truth_ = answer->truth;
+    for (Index i = 0; i < around_.measurement_std.size(); ++i)
+      if (around_.measurement_std(i) > 0) y(i) += around_.measurement_std(i) * rng_->normal();
+    return y;
+  }
+
+  [[noreturn]] void fail() {
+    const std::string problem = conversation_->problem();
+    conversation_.reset();  // the next episode begins with another process
+    throw std::runtime_error(problem);
+  }
+
+  Program program_;
+  Vector phi_;
+  StartAndSensors around_;
+  std::optional<Conversation> conversation_;
+  std::optional<Rng> rng_;
+  Vector truth_;
+};
+
+/// Throws InvalidInput where it cannot be spoken with. Whether it can reset and step.
+bool has_episodes(const Program& program) {
+  const Conversation conversation(program);
+  if (!conversation.problem().empty()) throw InvalidInput(conversation.problem());
+  return conversation.has_episodes();
+}
+
+}  // namespace
+
+ProgramSimulator::ProgramSimulator(Program program, ParameterSpace parameters)
+    : parameters_(std::move(parameters)),
+      workers_({.start = [program = std::move(program)] { return std::make_unique<ProgramWorker>(program); },
+                .patience = kPatience}) {}
+
+void ProgramSimulator::change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi,
+                              MatrixView dX) const {
+  check_sizes(*this, X, U, phi, dX);
+  const FiniteRows finite(X, U);
+  if (finite.all(X.rows())) return workers_.change(X, U, phi.head(parameters_.size()), dX);
+  const Matrix some = finite.of(X);
+  Matrix changes(some.rows(), X.cols());
+  workers_.change(some, finite.of(U), phi.head(parameters_.size()), changes);
+  finite.scatter(changes, dX);
+}
+
+std::unique_ptr<Plant> make_program_plant(const Program& program, const ParameterSpace& phi,
+                                          const StartAndSensors& around) {
+  if (has_episodes(program)) return std::make_unique<EpisodePlant>(program, phi.values(), around);
+  const auto simulator = std::make_shared<ProgramSimulator>(program, phi);
+  const auto motion = [simulator, phi = phi.values()](const Vector& x, const Vector& u) -> Vector {
+    Matrix dX(1, x.size());
+    simulator->change(x.transpose(), u.transpose(), phi, dX);
+    if (!dX.allFinite()) throw std::runtime_error(simulator->faults().last);
+    return x + dX.row(0).transpose();
+  };
+  return make_simulated_plant(motion, around);
+}
+
+void require_program(const Program& program) { has_episodes(program); }
+
+}  // namespace rehearse::system

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "rehearse/core/types.hpp"
+#include "rehearse/system/plant.hpp"
+
+namespace rehearse::system {
+
+/// Where an episode starts and how it is measured, with Gaussian noise.
+struct StartAndSensors {
+  Vector start_mean, start_std;  // dx
+  Vector measurement_std;        // dx; empty: none
+};
+
+/// The state after one control step from state x (dx) under the action u (du). It may throw.
+using Motion = std::function<Vector(const Vector& x, const Vector& u)>;
+
+/// Use it for a robot that a function plays. Its truth is known. One thread. Throws InvalidInput where sizes differ.
+std::unique_ptr<Plant> make_simulated_plant(Motion motion, StartAndSensors around);
+
+}  // namespace rehearse::system

@@ -1,0 +1,26 @@
+#include "rehearse/system/conversation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rehearse/system/test/programs.hpp"
+
+namespace rehearse::system {
+namespace {
+
+TEST(Conversation, SaysWhatTheProgramUnderstands) {
+  EXPECT_FALSE(Conversation(hostile_program("doubles")).has_episodes());
+  Conversation robot(robot_program());
+  EXPECT_TRUE(robot.has_episodes());
+  Matrix dX(1, 3);
+  EXPECT_FALSE(robot.change(Matrix::Zero(1, 3), Matrix::Zero(1, 1), Vector{{1}}, dX));
+  EXPECT_NE(robot.problem().find("does not understand"), std::string::npos);
+}
+
+TEST(Conversation, AProblemNamesTheProgramAndItsLastWords) {
+  const Conversation conversation(test_program({"sh", "-c", "echo words >&2"}));
+  EXPECT_EQ(conversation.problem(),
+            "the program 'sh -c echo words >&2': it ended with exit status 0; its standard error ends with\nwords");
+}
+
+}  // namespace
+}  // namespace rehearse::system

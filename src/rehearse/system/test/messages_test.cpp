@@ -1,0 +1,58 @@
+#include "rehearse/system/messages.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/system/test/programs.hpp"
+
+namespace rehearse::system::messages {
+namespace {
+
+TEST(Messages, AreLinesWithNumbersThatAreFloatingPoint) {
+  const Matrix X{{1, 0.1}, {-2e300, 3}}, U{{0}, {0.5}};
+  EXPECT_EQ(change(X, U, Vector{{7}}),
+            "{\"change\":{\"states\":[[1.0,0.1],[-2e+300,3.0]],\"actions\":[[0.0],[0.5]],\"parameters\":[7.0]}}\n");
+  EXPECT_EQ(reset(Vector{{1}}, Vector{}, 12), "{\"reset\":{\"state\":[1.0],\"parameters\":[],\"seed\":12}}\n");
+  EXPECT_EQ(step(Vector{{-1, 2}}), "{\"step\":{\"action\":[-1.0,2.0]}}\n");
+}
+
+TEST(Messages, NumbersGoRoundToTheBit) {
+  Matrix X(50, 1), back(50, 1);
+  for (Index i = 0; i < 50; ++i) X(i, 0) = std::sin(static_cast<double>(i) * 1.7) * std::pow(10, static_cast<double>(i % 20) - 10);
+  std::string text = change(X, Matrix(50, 0), {});
+  const std::size_t from = text.find("[["), to = text.find("]]") + 2;
+  read_change("{\"change\":" + text.substr(from, to - from) + "}", back);
+  EXPECT_EQ(back, X);
+}
+
+TEST(Messages, WrongAnswersSayWhatIsWrong) {
+  const auto why = [](const std::string& text) -> std::string {
+    Matrix dX(2, 2);
+    try {
+      read_change(text, dX);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why("{\"change\":[[1,2],[3,4]]}"), "");
+  EXPECT_EQ(why("{\"change\":[[1,2],null]}"), "");
+  EXPECT_EQ(why("{\"change\":[[1,2]]}"), "\"change\" of its answer must be a list of 2 rows");
+  EXPECT_EQ(why("{\"change\":[[1,2],[3]]}"), "\"change\" of its answer must be a list of 2 numbers");
+  EXPECT_EQ(why("{\"change\":7}"), "\"change\" of its answer must be a list of 2 rows");
+  EXPECT_EQ(why("{\"changes\":[]}"), "its answer has no \"change\": {\"changes\":[]}");
+  EXPECT_EQ(why("{\"change\":[[1,2],[3,"), "it answered what is no JSON: {\"change\":[[1,2],[3,");
+  EXPECT_EQ(why("{\"error\":\"no\"}"), "it answered an error: no");
+  EXPECT_THROW(read_state("{\"state\":[1]}", 2), std::runtime_error);
+  EXPECT_EQ(read_state("{\"state\":[1,2]}", 2).truth.size(), 0);
+}
+
+TEST(Messages, ALongLineIsCutAndHasNoEscapes) {
+  EXPECT_EQ(excerpt("a\033[31mb"), "a?[31mb");
+  EXPECT_LT(excerpt(std::string(1000, 'x')).size(), 130u);
+}
+
+}  // namespace
+}  // namespace rehearse::system::messages

@@ -1,0 +1,78 @@
+#include "rehearse/system/process.hpp"
+
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace rehearse::system {
+namespace {
+
+std::size_t a_line(std::string_view text) {
+  const std::size_t end = text.find('\n');
+  return end == std::string_view::npos ? 0 : end + 1;
+}
+
+Process::Outcome say(Process& process, const std::string& text, Process::Limits limits = {}) {
+  return process.exchange(text, a_line, limits);
+}
+
+TEST(Process, AnswersAndItsFolderIsItsOwn) {
+  Process process({"sh", "-c", "pwd; cat"}, "/");
+  EXPECT_EQ(say(process, ""), Process::Outcome::answered);
+  EXPECT_EQ(process.answer(), "/\n");
+  const std::string long_line(3 << 20, 'x');  // more than a pipe holds
+  EXPECT_EQ(say(process, long_line + "\n", {.seconds = 10, .bytes = 4 << 20}), Process::Outcome::answered);
+  EXPECT_EQ(process.answer(), long_line + "\n");
+}
+
+TEST(Process, ThereIsNoShellAndNoSignalOfOurs) {
+  EXPECT_THROW(Process({"exit 0"}, ""), std::system_error);
+  Process process({"echo", "$HOME; `ls`"}, "");
+  EXPECT_EQ(say(process, ""), Process::Outcome::answered);
+  EXPECT_EQ(process.answer(), "$HOME; `ls`\n");
+}
+
+TEST(Process, HowItFailsIsSaid) {
+  Process ended({"sh", "-c", "echo why >&2; exit 7"}, "");
+  EXPECT_EQ(say(ended, "x\n"), Process::Outcome::ended);
+  EXPECT_EQ(ended.end(), "it ended with exit status 7");
+  EXPECT_EQ(ended.last_words(), "why\n");
+  Process killed({"sh", "-c", "kill -9 $$"}, "");
+  EXPECT_EQ(say(killed, ""), Process::Outcome::ended);
+  EXPECT_EQ(killed.end(), "it was ended by signal 9 (Killed)");
+  Process late({"sleep", "100"}, "");
+  EXPECT_EQ(say(late, "x\n", {.seconds = 0.1}), Process::Outcome::late);
+  Process flood({"sh", "-c", "yes | tr -d '\\n'"}, "");
+  EXPECT_EQ(say(flood, "", {.seconds = 10, .bytes = 1000}), Process::Outcome::flooded);
+}
+
+TEST(Process, OneThatDoesNotReadDoesNoHarm) {
+  Process process({"sh", "-c", "exec <&-; echo closed; sleep 100"}, "");
+  EXPECT_EQ(say(process, std::string(10 << 20, 'x'), {.seconds = 5}), Process::Outcome::answered);
+  EXPECT_EQ(say(process, "again\n", {.seconds = 0.1}), Process::Outcome::late);
+}
+
+/// A process that ended may be there until somebody asks how.
+bool is_alive(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string number, name, state;
+  return file >> number >> name >> state && state != "Z";
+}
+
+TEST(Process, ItsChildrenEndWithIt) {
+  pid_t child = 0;
+  {
+    Process process({"sh", "-c", "sleep 100 & echo $!; wait"}, "");
+    ASSERT_EQ(say(process, ""), Process::Outcome::answered);
+    child = std::stoi(std::string(process.answer()));
+    EXPECT_TRUE(is_alive(child));
+  }
+  for (int i = 0; i < 100 && is_alive(child); ++i) usleep(10000);
+  EXPECT_FALSE(is_alive(child));
+}
+
+}  // namespace
+}  // namespace rehearse::system

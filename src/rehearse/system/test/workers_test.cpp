@@ -1,0 +1,78 @@
+#include "rehearse/system/workers.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace rehearse::system {
+namespace {
+
+/// Counts what it is asked. It answers no batch that has a row whose state is in `bad`; with `by_row`, all before that.
+struct Script {
+  std::vector<double> bad;
+  bool by_row = false, costly = false;
+  Index asked = 0, started = 0;
+};
+
+class ScriptedWorker final : public Worker {
+ public:
+  explicit ScriptedWorker(Script& script) : script_(script) { ++script_.started; }
+
+  Index change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector&, MatrixView dX) override {
+    ++script_.asked;
+    dX = X + U;
+    for (Index i = 0; i < X.rows(); ++i)
+      for (const double bad : script_.bad)
+        if (X(i, 0) == bad) return script_.by_row ? i : 0;
+    return X.rows();
+  }
+  std::string problem() const override { return "scripted"; }
+  bool costly() const override { return script_.costly; }
+
+ private:
+  Script& script_;
+};
+
+Matrix asked_of(Script& script, Index rows, Index patience = 0) {
+  const Workers workers({.start = [&script] { return std::make_unique<ScriptedWorker>(script); },
+                         .row_by_row = script.by_row,
+                         .patience = patience});
+  Matrix X(rows, 1), dX(rows, 1);
+  for (Index i = 0; i < rows; ++i) X(i, 0) = static_cast<double>(i);
+  workers.change(X, Matrix::Ones(rows, 1), {}, dX);
+  return dX;
+}
+
+TEST(Workers, TheRowsThatAreToBlameAreNaNAndNoOthers) {
+  for (const bool by_row : {false, true})
+    for (const std::vector<double>& bad :
+         std::vector<std::vector<double>>{{}, {0}, {12}, {5, 6}, {0, 3, 4, 11, 12}}) {
+      Script script{.bad = bad, .by_row = by_row};
+      const Matrix dX = asked_of(script, 13);
+      for (Index i = 0; i < 13; ++i) {
+        const bool is_bad = std::find(bad.begin(), bad.end(), static_cast<double>(i)) != bad.end();
+        EXPECT_EQ(std::isnan(dX(i, 0)), is_bad) << i;
+        if (!is_bad) {
+          EXPECT_EQ(dX(i, 0), static_cast<double>(i) + 1);
+        }
+      }
+      EXPECT_EQ(script.started, by_row ? 1 + 2 * static_cast<Index>(bad.size()) - (bad.size() && bad.back() == 12)
+                                       : script.started);
+    }
+}
+
+TEST(Workers, ABatchThatTakesLongIsHalvedAtOnce) {
+  Script quick{.bad = {3}}, costly{.bad = {3}, .costly = true};
+  asked_of(quick, 16), asked_of(costly, 16);
+  EXPECT_LT(costly.asked, quick.asked);
+}
+
+TEST(Workers, PatienceEnds) {
+  Script script{.bad = {0, 1, 2, 3, 4, 5, 6, 7}};
+  EXPECT_THROW(asked_of(script, 8, 6), Unavailable) << "no row was ever answered";
+  script.bad = {0, 1, 3, 4, 5, 6, 7};
+  EXPECT_TRUE(std::isnan(asked_of(script, 8, 6)(7, 0))) << "row 2 is still answered";
+}
+
+}  // namespace
+}  // namespace rehearse::system

@@ -1,0 +1,133 @@
+#include "rehearse/system/workers.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace rehearse::system {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr Index kCostly = 8;  // faults that one is counted for which takes long
+
+/// Which rows are asked for next.
+class Progress {
+ public:
+  Progress(Index rows, bool row_by_row) : rows_(rows), ask_(rows), row_by_row_(row_by_row) {}
+
+  bool done() const { return done_ == rows_; }
+  Index first() const { return done_; }
+  Index count() const { return std::min(ask_, rows_ - done_); }
+
+  void answered(Index rows) {
+    if (rows == count()) ask_ = rows_;
+    done_ += rows;
+    if (rows > 0) failures_ = 0;
+  }
+
+  /// Whether the first row that is left is to be given up.
+  bool gives_up(bool costly) {
+    const bool one = row_by_row_ || count() == 1, all = ask_ == rows_;
+    if (++failures_ == 1 && (one || (all && !costly))) return false;  // was it killed from outside?
+    failures_ = 0;
+    if (one) return true;
+    ask_ = (count() + 1) / 2;
+    return false;
+  }
+
+ private:
+  Index rows_, done_ = 0, ask_;
+  Index failures_ = 0;  // of the same rows
+  bool row_by_row_;
+};
+
+}  // namespace
+
+void Workers::change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const {
+  std::unique_ptr<Worker> worker = take();
+  Index faults_in_a_row = 0;
+  for (Progress rows(X.rows(), options_.row_by_row); !rows.done();) {
+    if (!worker) worker = options_.start();
+    const Index first = rows.first(), count = rows.count();
+    const Index answered = worker->change(X.middleRows(first, count), U.middleRows(first, count), phi,
+                                          dX.middleRows(first, count));
+    rows.answered(answered);
+    if (answered > 0) {
+      remember(X.middleRows(first, 1), U.middleRows(first, 1), phi);
+      faults_in_a_row = 0;
+    }
+    if (answered == count) continue;
+    note(*worker);
+    const bool costly = worker->costly();
+    faults_in_a_row += costly ? kCostly : 1;
+    if (options_.patience > 0 && faults_in_a_row >= options_.patience) {
+      require_one_that_answers(X, U, phi);
+      faults_in_a_row = 0;
+    }
+    worker.reset();
+    if (!rows.gives_up(costly)) continue;
+    dX.row(rows.first()).setConstant(kNan);
+    rows.answered(1);
+  }
+  give_back(std::move(worker));
+}
+
+Faults Workers::faults() const {
+  const std::lock_guard lock(mutex_);
+  return faults_;
+}
+
+std::unique_ptr<Worker> Workers::take() const {
+  const std::lock_guard lock(mutex_);
+  if (idle_.empty()) return nullptr;
+  std::unique_ptr<Worker> worker = std::move(idle_.back());
+  idle_.pop_back();
+  return worker;
+}
+
+void Workers::give_back(std::unique_ptr<Worker> worker) const {
+  if (!worker) return;
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(worker));
+}
+
+Workers::KnownRows Workers::some_of(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) {
+  constexpr Index kSome = 4;
+  const Index apart = (X.rows() + kSome - 1) / kSome, count = (X.rows() + apart - 1) / apart;
+  const auto rows = Eigen::seqN(0, count, apart);
+  return {X(rows, Eigen::all), U(rows, Eigen::all), phi};
+}
+
+void Workers::remember(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const {
+  if (options_.patience == 0) return;
+  const std::lock_guard lock(mutex_);
+  if (!known_) known_ = {X, U, phi};
+}
+
+void Workers::note(const Worker& worker) const {
+  const std::lock_guard lock(mutex_);
+  ++faults_.count;
+  faults_.last = worker.problem();
+}
+
+void Workers::require_one_that_answers(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const {
+  std::optional<KnownRows> known;
+  {
+    const std::lock_guard lock(mutex_);
+    known = known_;
+  }
+  if (!known) known = some_of(X, U, phi);
+  std::string problem;
+  for (Index i = 0; i < known->X.rows(); ++i) {
+    std::unique_ptr<Worker> worker = options_.start();
+    Matrix dX(1, known->X.cols());
+    if (worker->change(known->X.row(i), known->U.row(i), known->phi, dX) == 1) {
+      remember(known->X.row(i), known->U.row(i), known->phi);
+      return give_back(std::move(worker));
+    }
+    problem = worker->problem();
+  }
+  throw Unavailable(problem);
+}
+
+}  // namespace rehearse::system

@@ -1,0 +1,76 @@
+#pragma once
+// Simulating outside this process, where it may die or hang.
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rehearse/core/types.hpp"
+#include "rehearse/system/simulator.hpp"
+
+namespace rehearse::system {
+
+/// What went wrong outside so far.
+struct Faults {
+  Index count = 0;
+  std::string last;  // for people
+};
+
+/// Somebody outside this process who simulates.
+class Worker {
+ public:
+  virtual ~Worker() = default;
+
+  /// Writes the changes dX (n × dx) of states X (n × dx) under actions U (n × du). Returns how many rows it answered,
+  /// from the first on; it is of no use any more if that is not all of them.
+  virtual Index change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) = 0;
+
+  /// Why it did not answer, for people.
+  virtual std::string problem() const { return {}; }
+
+  /// Whether it kept its caller waiting, or never got ready.
+  virtual bool costly() const { return false; }
+};
+
+/// As many workers as there are calls at a time, started when they are needed. A row that a worker does not answer is
+/// asked once more of a new one and comes back as NaN if that fails, too: a worker that is killed from outside changes
+/// no number. Where a batch is answered as a whole it is halved until the row is found. Any thread.
+class Workers {
+ public:
+  struct Options {
+    std::function<std::unique_ptr<Worker>()> start;
+    bool row_by_row = false;  // each row is answered by itself: the first that is missing is to blame
+    Index patience = 0;       // faults in a row before a row is asked that was answered before; 0: endless
+  };
+  explicit Workers(Options options) : options_(std::move(options)) {}
+
+  /// X: n × dx, U: n × du, dX: n × dx. Throws Unavailable where patience ends and even that row is not answered, nor,
+  /// where none ever was, any of some rows of these.
+  void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const;
+
+  Faults faults() const;
+
+ private:
+  struct KnownRows {
+    Matrix X, U;
+    Vector phi;
+  };
+
+  static KnownRows some_of(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi);
+  std::unique_ptr<Worker> take() const;
+  void give_back(std::unique_ptr<Worker> worker) const;
+  void remember(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const;
+  void note(const Worker& worker) const;
+  void require_one_that_answers(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const;
+
+  Options options_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<Worker>> idle_;
+  mutable std::optional<KnownRows> known_;
+  mutable Faults faults_;
+};
+
+}  // namespace rehearse::system
