@@ -14,7 +14,8 @@ struct Term {
   Index component = 0;  // of a sensor's numbers, or of a place: 0, 1, 2 are x, y, z
 };
 
-/// A state is offset + Σ factor · number. The angle of a second link, measured as the first's is, is {"hip"} + {"knee"}.
+/// A state is offset + Σ factor · number. The angle of a second link, measured as the first's is, is {"hip"} +
+/// {"knee"}.
 struct State {
   enum class Kind {
     position,  // of hinges [rad] and slides [m]; can be set
@@ -39,9 +40,9 @@ struct Action {
   Kind kind = Kind::actuator;
 };
 
-/// Numbers of the model that a parameter p moves. `value`: each becomes factor · p^power. `scale`: each is multiplied by
-/// that. All values are set first, then scales multiply in the order of parameters. A link's mass m and length l, in the
-/// file 2 kg and 0.5 m, move its inertia by {.factor = 1 / 2.} for m and {.factor = 1 / 0.25, .power = 2} for l.
+/// Numbers of the model that a parameter p moves. `value`: each becomes factor · p^power. `scale`: each is multiplied
+/// by that. All values are set first, then scales multiply in the order of parameters. A link's mass m and length l, in
+/// the file 2 kg and 0.5 m, move its inertia by {.factor = 1 / 2.} for m and {.factor = 1 / 0.25, .power = 2} for l.
 struct Target {
   enum class Apply { value, scale };
   std::string kind;      // "body", "joint", "geom", "actuator", "tendon" or "option"; field_names() has all fields
@@ -58,8 +59,8 @@ struct ModelParameter {
   std::vector<Target> targets;
 };
 
-/// How a model of MuJoCo is a robot. States and actions are those of the task, in its order. Positions and velocities of
-/// joints that no state gives begin every step of a simulator where the keyframe has them: `unseen` lists them.
+/// How a model of MuJoCo is a robot. States and actions are those of the task, in its order. Positions and velocities
+/// of joints that no state gives begin every step of a simulator where the keyframe has them: `unseen` lists them.
 struct ModelDescription {
   std::string path;      // MJCF or URDF; files that it names are looked for beside it
   std::string keyframe;  // empty: the model's reference position, at rest

@@ -123,18 +123,18 @@ scenario::SolidDrawing make_drawing(const ModelDescription& description) {
   const auto kinematics = std::make_shared<const Kinematics>(compiled);
   scenario::SolidDrawing drawing;
   std::map<int, int> nameless;
-  const auto pieces = kinematics->at(Vector::Zero(compiled->states().size()), [&](const mjModel& model,
-                                                                                   const mjData& data) {
-    std::vector<Piece> pieces;
-    for (int geom = 0; geom < model.ngeom; ++geom) {
-      lift_floor(model, data, geom, drawing.floor_m);
-      const std::optional<Piece> shown = is_shown(model, geom) ? piece(model, geom) : std::nullopt;
-      if (!shown) continue;
-      drawing.bodies.push_back({name_of(model, geom, nameless), shown->shape});
-      pieces.push_back(*shown);
-    }
-    return pieces;
-  });
+  const auto pieces =
+      kinematics->at(Vector::Zero(compiled->states().size()), [&](const mjModel& model, const mjData& data) {
+        std::vector<Piece> pieces;
+        for (int geom = 0; geom < model.ngeom; ++geom) {
+          lift_floor(model, data, geom, drawing.floor_m);
+          const std::optional<Piece> shown = is_shown(model, geom) ? piece(model, geom) : std::nullopt;
+          if (!shown) continue;
+          drawing.bodies.push_back({name_of(model, geom, nameless), shown->shape});
+          pieces.push_back(*shown);
+        }
+        return pieces;
+      });
   drawing.poses = [kinematics, pieces](const ConstVectorView& state) {
     kinematics->require(state);
     return kinematics->at(state, [&](const mjModel&, const mjData& data) {

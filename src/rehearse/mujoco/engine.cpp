@@ -14,8 +14,8 @@
 namespace rehearse::mujoco {
 namespace {
 
-// MuJoCo's handlers are functions without an argument of ours, one of each for the whole program. So what a guarded call
-// needs stands here, once a thread.
+// MuJoCo's handlers are functions without an argument of ours, one of each for the whole program. So what a guarded
+// call needs stands here, once a thread.
 thread_local std::jmp_buf* innermost = nullptr;
 thread_local std::array<char, 300> last_error{};
 

@@ -90,11 +90,11 @@ const Field* find_field(const Target& target, const std::string& where, Violatio
   for (const Field& field : kFields)
     if (target.kind == field.kind && target.field == field.name) return &field;
   const std::vector<std::string> known = field_names(target.kind), all = kinds();
-  violations.add(known.empty() ? fmt::format("{}: there is no kind '{}', did you mean '{}'? (known: {})", where,
-                                             target.kind, closest(target.kind, all), fmt::join(all, ", "))
-                               : fmt::format("{}: {} has no field '{}', did you mean '{}'? (known: {})", where,
-                                             target.kind, target.field, closest(target.field, known),
-                                             fmt::join(known, ", ")));
+  violations.add(known.empty()
+                     ? fmt::format("{}: there is no kind '{}', did you mean '{}'? (known: {})", where, target.kind,
+                                   closest(target.kind, all), fmt::join(all, ", "))
+                     : fmt::format("{}: {} has no field '{}', did you mean '{}'? (known: {})", where, target.kind,
+                                   target.field, closest(target.field, known), fmt::join(known, ", ")));
   return nullptr;
 }
 
@@ -115,8 +115,8 @@ Entries find_entries(mjModel& model, const Target& target, const std::string& wh
   if (id < 0) return {};
   const int size = size_of(*field, model, id);
   if (target.component >= size || target.component < -1) {
-    violations.add(fmt::format("{}: component = {}, must be from 0 to {}, or −1 for all", where, target.component,
-                               size - 1));
+    violations.add(
+        fmt::format("{}: component = {}, must be from 0 to {}, or −1 for all", where, target.component, size - 1));
     return {};
   }
   const int begin = std::max(0, static_cast<int>(target.component));

@@ -15,7 +15,7 @@ struct Field {
   mjtObj type;  // mjOBJ_UNKNOWN: of the whole model
   int size;     // numbers of an element; 0: one for each degree of freedom of a joint
   mjtNum* (*first)(mjModel& model, int id);
-  bool constants = false;                               // mj_setConst must follow
+  bool constants = false;                                         // mj_setConst must follow
   void (*follow)(mjModel& model, int id) = [](mjModel&, int) {};  // what else depends on it
 };
 

@@ -43,9 +43,9 @@ class Instance {
   std::shared_ptr<const CompiledModel> compiled_;
   ModelPointer model_;
   DataPointer data_;
-  Vector phi_;                                // that the model has
-  Vector qpos_, qvel_, act_, ctrl_; // where every row begins
-  bool spoilt_ = false;                       // MuJoCo left its data midway
+  Vector phi_;                       // that the model has
+  Vector qpos_, qvel_, act_, ctrl_;  // where every row begins
+  bool spoilt_ = false;              // MuJoCo left its data midway
 };
 
 /// Instances for as many calls as there are at a time. Any thread.

@@ -17,7 +17,8 @@ std::string text_of(const ModelParameter& parameter) { return fmt::format("param
 
 void require_numbers(const ModelParameter& parameter, const Target& target, Violations& violations) {
   const std::string where = fmt::format("{}, {}", text_of(parameter), text_of(target));
-  violations.require(std::isfinite(target.factor), fmt::format("{}: factor = {}, must be finite", where, target.factor));
+  violations.require(std::isfinite(target.factor),
+                     fmt::format("{}: factor = {}, must be finite", where, target.factor));
   violations.require(std::isfinite(target.power), fmt::format("{}: power = {}, must be finite", where, target.power));
 }
 

@@ -13,8 +13,8 @@ class Parameters {
   Parameters() = default;
   Parameters(mjModel& original, const std::vector<ModelParameter>& parameters, Violations& violations);
 
-  /// Moves the numbers of a copy of `original` to what they are at phi (in the description's order). Whether mj_setConst
-  /// must follow.
+  /// Moves the numbers of a copy of `original` to what they are at phi (in the description's order). Whether
+  /// mj_setConst must follow.
   bool apply(mjModel& original, const Vector& phi, mjModel& model) const;
 
   Index size() const { return size_; }

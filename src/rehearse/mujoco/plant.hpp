@@ -7,8 +7,8 @@
 
 namespace rehearse::mujoco {
 
-/// A robot that MuJoCo plays. Positions and velocities of joints start at N(start_mean, diag(start_std²)); states that are
-/// read only follow from them. What no state gives starts where the keyframe has it and moves on from step to step.
+/// A robot that MuJoCo plays. Positions and velocities of joints start at N(start_mean, diag(start_std²)); states that
+/// are read only follow from them. What no state gives starts where the keyframe has it and moves on from step to step.
 struct PlantOptions {
   ModelDescription model;
   Vector phi;                    // in the order of the model's parameters

@@ -49,8 +49,10 @@ class ModelSimulator final : public system::Simulator {
       x = X.row(i);
       u = U.row(i);
       instance->place(x);
-      if (instance->step(u)) instance->read(x);
-      else x.setConstant(kNan);
+      if (instance->step(u))
+        instance->read(x);
+      else
+        x.setConstant(kNan);
       dX.row(i) = x.transpose() - X.row(i);
     }
     instances_.give_back(std::move(instance));
@@ -60,8 +62,8 @@ class ModelSimulator final : public system::Simulator {
   void require_columns(Index dx, Index du) const {
     const Index states = instances_.compiled().states().size(), actions = instances_.compiled().actions();
     if (dx == states && du == actions) return;
-    throw InvalidInput(fmt::format("{} states and {} actions for a model of {} states and {} actions", dx, du, states,
-                                   actions));
+    throw InvalidInput(
+        fmt::format("{} states and {} actions for a model of {} states and {} actions", dx, du, states, actions));
   }
 
   Instances instances_;

@@ -43,9 +43,9 @@ void check_terms(const State& state, Violations& violations) {
   violations.require(std::isfinite(state.offset),
                      fmt::format("{}: offset = {}, must be finite", where(state), state.offset));
   for (auto term = state.terms.begin(); term != state.terms.end(); ++term) {
-    violations.require(std::isfinite(term->factor) && term->factor != 0,
-                       fmt::format("{}: factor = {} of '{}', must be finite and not 0", where(state), term->factor,
-                                   term->element));
+    violations.require(
+        std::isfinite(term->factor) && term->factor != 0,
+        fmt::format("{}: factor = {} of '{}', must be finite and not 0", where(state), term->factor, term->element));
     const bool twice = is_settable(state.kind) && std::any_of(state.terms.begin(), term, [&](const Term& other) {
                          return other.element == term->element;
                        });
@@ -109,9 +109,9 @@ States::Setting States::setting(const mjModel& model, const std::vector<State>& 
     for (const Term& term : states[i].terms) column(term);
   }
   const auto n = static_cast<Index>(names.size()), m = static_cast<Index>(setting.joints.size());
-  const std::string what = fmt::format("the {} {} ({}) of {} joints ({})", n,
-                                       kind == State::Kind::position ? "positions" : "velocities",
-                                       fmt::join(names, ", "), m, fmt::join(joint_names(model, setting.joints), ", "));
+  const std::string what =
+      fmt::format("the {} {} ({}) of {} joints ({})", n, kind == State::Kind::position ? "positions" : "velocities",
+                  fmt::join(names, ", "), m, fmt::join(joint_names(model, setting.joints), ", "));
   if (n != m) return violations.add(fmt::format("{}: there must be one of each joint", what)), setting;
   if (n == 0) return setting;
 

@@ -19,8 +19,9 @@ std::string compile_complaint(double dt_s, Index substeps) {
 TEST(CompiledModel, AControlStepIsAWholeNumberOfTimesteps) {
   EXPECT_EQ(compile_complaint(0.0004, 0),
             "dt_s = 0.0004 is 0.4 timesteps of the model (0.001 s), must be a whole number; substeps = 1 makes it one");
-  EXPECT_EQ(compile_complaint(0.0105, 0),
-            "dt_s = 0.0105 is 10.5 timesteps of the model (0.001 s), must be a whole number; substeps = 11 makes it one");
+  EXPECT_EQ(
+      compile_complaint(0.0105, 0),
+      "dt_s = 0.0105 is 10.5 timesteps of the model (0.001 s), must be a whole number; substeps = 11 makes it one");
   EXPECT_EQ(compile_complaint(0, 0), "dt_s = 0, must be > 0");
   EXPECT_EQ(compile_complaint(0.1, -1), "substeps = -1, must be ≥ 1, or 0 for the model's own");
   EXPECT_EQ(compile_complaint(0.05, 0), "");

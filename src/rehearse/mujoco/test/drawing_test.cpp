@@ -15,9 +15,8 @@ using scenario::SolidDrawing;
 using scenario::Sphere;
 
 SolidDrawing shapes() {
-  return make_drawing({.path = data_file("shapes.xml"),
-                       .dt_s = 0.002,
-                       .states = {{"x", State::Kind::position, {{"slide"}}, 0}}});
+  return make_drawing(
+      {.path = data_file("shapes.xml"), .dt_s = 0.002, .states = {{"x", State::Kind::position, {{"slide"}}, 0}}});
 }
 
 const SolidDrawing::Body& body_of(const SolidDrawing& drawing, const std::string& name) {
@@ -54,8 +53,8 @@ TEST(ModelDrawing, TheBoxAroundAMeshHoldsIt) {
   const SolidDrawing drawing = shapes();
   const scenario::Pose pose = drawing.poses(Vector{{0}}).back();
   const Eigen::Vector3d half = std::get<Box>(body_of(drawing, "wedge").shape).size_m / 2;
-  for (const Eigen::Vector3d& corner : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, 0, 1), Eigen::Vector3d(0, 1, 1),
-                                        Eigen::Vector3d(0, 0, 2)}) {
+  for (const Eigen::Vector3d& corner :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, 0, 1), Eigen::Vector3d(0, 1, 1), Eigen::Vector3d(0, 0, 2)}) {
     const Eigen::Vector3d inside = pose.orientation.inverse() * (corner - pose.position);
     EXPECT_TRUE((inside.cwiseAbs().array() <= half.array() + 1e-6).all()) << corner.transpose();
   }

@@ -46,15 +46,17 @@ TEST(Parameters, ScalesMultiplyAndPowersSquare) {
 
 TEST(Parameters, OneMovesSeveralFieldsAndSeveralMoveOne) {
   ModelDescription model = pendulum_model();
-  model.parameters = {{"m", "kg", 2, {{"body", "arm", "mass"}, {"body", "arm", "inertia", -1, Apply::scale}}},
-                      {"l", "m", 0.8,
-                       {{"body", "arm", "ipos", 2, Apply::value, -0.5},
-                        {"body", "arm", "inertia", -1, Apply::scale, 1, 2}}}};
+  model.parameters = {
+      {"m", "kg", 2, {{"body", "arm", "mass"}, {"body", "arm", "inertia", -1, Apply::scale}}},
+      {"l",
+       "m",
+       0.8,
+       {{"body", "arm", "ipos", 2, Apply::value, -0.5}, {"body", "arm", "inertia", -1, Apply::scale, 1, 2}}}};
   const PendulumNumbers numbers{.mass = 2, .inertia = 0.08 * 2 * 0.64, .centre = 0.4};
-  EXPECT_NEAR((by_model(model, kAngleAndRate, kTorque) -
-               by_equation(pendulum_equation(numbers), kAngleAndRate, kTorque))
-                  .norm(),
-              0, 1e-8);
+  EXPECT_NEAR(
+      (by_model(model, kAngleAndRate, kTorque) - by_equation(pendulum_equation(numbers), kAngleAndRate, kTorque))
+          .norm(),
+      0, 1e-8);
 }
 
 TEST(Parameters, AFirstLinkMayBeLonger) {

@@ -43,8 +43,11 @@ TEST(ModelPlant, DrawsAndMovesAsAnEquationDoes) {
 }
 
 TEST(ModelPlant, ReadOnlyStatesFollowFromTheStart) {
-  PlantOptions options{.model = pendulum_model(), .phi = Vector(), .start_mean = Vector{{0.5, 0, 9}},
-                       .start_std = Vector::Zero(3), .measurement_std = Vector()};
+  PlantOptions options{.model = pendulum_model(),
+                       .phi = Vector(),
+                       .start_mean = Vector{{0.5, 0, 9}},
+                       .start_std = Vector::Zero(3),
+                       .measurement_std = Vector()};
   options.model.states.push_back({"tip x", State::Kind::site, {{"tip"}}, 0});
   const auto plant = make_plant(options);
   Rng rng({.seed = 5});

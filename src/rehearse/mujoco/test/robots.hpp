@@ -35,8 +35,7 @@ inline system::Ode pendulum_equation(const PendulumNumbers& n = {}) {
     const double about_hinge = n.inertia + n.mass * n.centre * n.centre + n.armature;
     const double lost = n.damping * x(1) + n.friction * std::copysign(1.0, x(1));
     dxdt(0) = x(1);
-    dxdt(1) = (n.gear * (u(0) + n.push) - lost - n.stiffness * x(0) -
-               n.mass * n.gravity * n.centre * std::sin(x(0))) /
+    dxdt(1) = (n.gear * (u(0) + n.push) - lost - n.stiffness * x(0) - n.mass * n.gravity * n.centre * std::sin(x(0))) /
               about_hinge;
   };
 }

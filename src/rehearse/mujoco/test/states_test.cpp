@@ -71,9 +71,9 @@ TEST(States, WrongStatesAreAllNamed) {
 }
 
 TEST(States, PositionsMustTellTheJointsApart) {
-  EXPECT_EQ(states_complaint({{"a", State::Kind::position, {{"elbow"}}, 0},
-                              {"b", State::Kind::position, {{"elbow", 2}}, 0}}),
-            "the 2 positions (a, b) of 1 joints (elbow): there must be one of each joint");
+  EXPECT_EQ(
+      states_complaint({{"a", State::Kind::position, {{"elbow"}}, 0}, {"b", State::Kind::position, {{"elbow", 2}}, 0}}),
+      "the 2 positions (a, b) of 1 joints (elbow): there must be one of each joint");
   EXPECT_EQ(states_complaint({{"a", State::Kind::velocity, {{"elbow"}, {"shoulder"}}, 0},
                               {"b", State::Kind::velocity, {{"elbow", 2}, {"shoulder", 2}}, 0}}),
             "the 2 velocities (a, b) of 2 joints (elbow, shoulder) do not tell these apart: one follows from others");
