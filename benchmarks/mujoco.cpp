@@ -66,6 +66,7 @@ void engine(benchmark::State& state) {
 }
 
 BENCHMARK(engine)->ArgName("substeps")->Arg(1)->Arg(5)->Arg(25)->UseRealTime();
+BENCHMARK(engine)->ArgName("substeps")->Arg(25)->Threads(2)->UseRealTime();
 BENCHMARK(simulator)->ArgName("substeps")->Arg(1)->Arg(5)->Arg(25)->UseRealTime();
 BENCHMARK(simulator)->ArgName("substeps")->Arg(25)->Threads(2)->UseRealTime();
 

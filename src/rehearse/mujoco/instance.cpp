@@ -7,6 +7,10 @@
 namespace rehearse::mujoco {
 namespace {
 
+/// What warnings count from. MuJoCo writes the text of one, which all threads share, where it has counted none. It
+/// resets its data where they go bad, and then counts from 0: any other count says so, too.
+constexpr int kNoWarnings = 2;
+
 void assign(double* to, const Vector& from) { Vector::Map(to, from.size()) = from; }
 
 }  // namespace
@@ -43,6 +47,7 @@ void Instance::start_over() {
     mj_resetData(model_.get(), data_.get());
   else
     mj_resetDataKeyframe(model_.get(), data_.get(), keyframe);
+  for (mjWarningStat& warning : data_->warning) warning.number = kNoWarnings;
   spoilt_ = false;
 }
 
@@ -61,7 +66,7 @@ void Instance::place(const Vector& x) {
 
 bool Instance::diverged() const {
   for (const int bad : {mjWARN_INERTIA, mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC, mjWARN_BADCTRL})
-    if (data_->warning[bad].number > 0) return true;
+    if (data_->warning[bad].number != kNoWarnings) return true;
   return false;
 }
 

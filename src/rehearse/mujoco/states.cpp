@@ -53,6 +53,8 @@ void check_terms(const State& state, Violations& violations) {
   }
 }
 
+int joint_of(const mjModel& model, const Term& term) { return mj_name2id(&model, mjOBJ_JOINT, term.element.c_str()); }
+
 std::vector<std::string> joint_names(const mjModel& model, const std::vector<int>& joints) {
   std::vector<std::string> names;
   for (const int joint : joints) names.emplace_back(mj_id2name(&model, mjOBJ_JOINT, joint));
@@ -96,36 +98,41 @@ States::Setting States::setting(const mjModel& model, const std::vector<State>& 
                                 Violations& violations) {
   Setting setting;
   std::vector<std::string> names;
-  const auto column = [&](const Term& term) {
-    const int joint = mj_name2id(&model, mjOBJ_JOINT, term.element.c_str());
-    const auto found = std::find(setting.joints.begin(), setting.joints.end(), joint);
-    if (found == setting.joints.end()) return setting.joints.push_back(joint), setting.joints.size() - 1;
-    return static_cast<std::size_t>(found - setting.joints.begin());
-  };
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (states[i].kind != kind) continue;
     setting.states.push_back(static_cast<Index>(i));
     names.push_back(states[i].name);
-    for (const Term& term : states[i].terms) column(term);
+    for (const Term& term : states[i].terms) setting.add_joint(model, term);
   }
-  const auto n = static_cast<Index>(names.size()), m = static_cast<Index>(setting.joints.size());
-  const std::string what =
-      fmt::format("the {} {} ({}) of {} joints ({})", n, kind == State::Kind::position ? "positions" : "velocities",
-                  fmt::join(names, ", "), m, fmt::join(joint_names(model, setting.joints), ", "));
-  if (n != m) return violations.add(fmt::format("{}: there must be one of each joint", what)), setting;
-  if (n == 0) return setting;
-
-  Matrix factors = Matrix::Zero(n, n);
-  for (Index s = 0; s < n; ++s)
-    for (const Term& term : states[static_cast<std::size_t>(setting.states[static_cast<std::size_t>(s)])].terms)
-      factors(s, static_cast<Index>(column(term))) += term.factor;
-  const Eigen::FullPivLU<Matrix> lu(factors);
-  if (!lu.isInvertible())
-    return violations.add(fmt::format("{} do not tell these apart: one follows from others", what)), setting;
-  setting.inverse = lu.inverse();
+  const std::string what = fmt::format(
+      "the {} {} ({}) of {} joints ({})", names.size(), kind == State::Kind::position ? "positions" : "velocities",
+      fmt::join(names, ", "), setting.joints.size(), fmt::join(joint_names(model, setting.joints), ", "));
+  if (names.size() != setting.joints.size())
+    violations.add(fmt::format("{}: there must be one of each joint", what));
+  else if (!names.empty() && !setting.invert(setting.factors(model, states)))
+    violations.add(fmt::format("{} do not tell these apart: one follows from others", what));
   for (const int joint : setting.joints)
     setting.addresses.push_back(kind == State::Kind::position ? model.jnt_qposadr[joint] : model.jnt_dofadr[joint]);
   return setting;
+}
+
+void States::Setting::add_joint(const mjModel& model, const Term& term) {
+  const int joint = joint_of(model, term);
+  if (std::find(joints.begin(), joints.end(), joint) == joints.end()) joints.push_back(joint);
+}
+
+Matrix States::Setting::factors(const mjModel& model, const std::vector<State>& of) const {
+  Matrix factors = Matrix::Zero(static_cast<Index>(states.size()), static_cast<Index>(joints.size()));
+  for (Index s = 0; s < factors.rows(); ++s)
+    for (const Term& term : of[static_cast<std::size_t>(states[static_cast<std::size_t>(s)])].terms)
+      factors(s, std::find(joints.begin(), joints.end(), joint_of(model, term)) - joints.begin()) = term.factor;
+  return factors;
+}
+
+bool States::Setting::invert(const Matrix& factors) {
+  const Eigen::FullPivLU<Matrix> lu(factors);
+  if (lu.isInvertible()) inverse = lu.inverse();
+  return lu.isInvertible();
 }
 
 void States::Setting::write(const Vector& x, const std::vector<Reading>& readings, double* numbers) const {

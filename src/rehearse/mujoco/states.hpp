@@ -45,6 +45,9 @@ class States {
     std::vector<int> joints, addresses;
     Matrix inverse;
 
+    void add_joint(const mjModel& model, const Term& term);
+    Matrix factors(const mjModel& model, const std::vector<State>& of) const;  // a row a state, a column a joint
+    bool invert(const Matrix& factors);
     void write(const Vector& x, const std::vector<Reading>& states, double* numbers) const;
   };
 
