@@ -36,6 +36,9 @@ Parameters::Parameters(mjModel& original, const std::vector<ModelParameter>& par
     : size_(static_cast<Index>(parameters.size())) {
   for (Index p = 0; p < size_; ++p) {
     const ModelParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    const bool twice = std::any_of(parameters.begin(), parameters.begin() + p,
+                                   [&](const ModelParameter& other) { return other.name == parameter.name; });
+    violations.require(!twice, fmt::format("{} stands twice", text_of(parameter)));
     violations.require(!parameter.targets.empty(), fmt::format("{} has no targets, must have one", text_of(parameter)));
     for (const Target& target : parameter.targets) {
       require_numbers(parameter, target, violations);

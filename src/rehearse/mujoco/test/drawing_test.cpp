@@ -60,6 +60,13 @@ TEST(ModelDrawing, TheBoxAroundAMeshHoldsIt) {
   }
 }
 
+TEST(ModelDrawing, AMeshIsReadFromItsFile) {
+  const SolidDrawing drawing = make_drawing({.path = data_file("wedge.xml"), .dt_s = 0.002});
+  const Eigen::Vector3d size = std::get<Box>(body_of(drawing, "wedge").shape).size_m;
+  EXPECT_GE(size.maxCoeff(), 3);
+  EXPECT_EQ(drawing.floor_m, std::nullopt);
+}
+
 TEST(ModelDrawing, AnglesOfStatesTurnLinks) {
   const auto poses = make_drawing(acrobot_model()).poses(Vector{{M_PI / 2, 0, 0, 0}});
   EXPECT_NEAR((poses[0].position - Eigen::Vector3d(0.5, 0, 0)).norm(), 0, 1e-12);

@@ -119,11 +119,13 @@ TEST(Parameters, WrongOnesAreAllNamed) {
   ModelDescription model = pendulum_model();
   model.parameters = {{"a", "", 1, {}},
                       {"b", "", 1, {{"body", "arm", "mass", -1, Apply::value, NAN}, {"body", "arm", "mas"}}},
-                      {"c", "", 1, {{"body", "arm", "mass"}}}};
-  EXPECT_EQ(complaint_of([&] { make_simulator(model, parameter_space(model)); }),
+                      {"c", "", 1, {{"body", "arm", "mass"}}},
+                      {"c", "", 1, {{"body", "arm", "inertia"}}}};
+  EXPECT_EQ(complaint_of([&] { make_simulator(model, {}); }),
             "parameter 'a' has no targets, must have one\n"
             "parameter 'b', body 'arm' mass: factor = nan, must be finite\n"
             "parameter 'b': body has no field 'mas', did you mean 'mass'? (known: inertia, ipos, mass, pos)\n"
+            "parameter 'c' stands twice\n"
             "'b' and 'c' both set the mass of the same body, must be one");
 }
 
