@@ -33,7 +33,7 @@ Shape cylinder(double radius, double half) {
 /// MuJoCo puts a mesh's origin into its centre of mass, which is not the middle of the box around it.
 Piece mesh(const mjModel& model, int geom) {
   const int id = model.geom_dataid[geom];
-  const float* vertices = model.mesh_vert + 3 * model.mesh_vertadr[id];
+  const float* vertices = numbers_of<3>(model.mesh_vert, model.mesh_vertadr[id]);
   const Eigen::Map<const Eigen::Matrix3Xf> points(vertices, 3, model.mesh_vertnum[id]);
   const Eigen::Vector3d low = points.rowwise().minCoeff().cast<double>(),
                         high = points.rowwise().maxCoeff().cast<double>();
@@ -41,7 +41,7 @@ Piece mesh(const mjModel& model, int geom) {
 }
 
 std::optional<Piece> piece(const mjModel& model, int geom) {
-  const ConstVector3 size(model.geom_size + 3 * geom);
+  const ConstVector3 size(numbers_of<3>(model.geom_size, geom));
   const Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   switch (model.geom_type[geom]) {
     case mjGEOM_SPHERE:
@@ -62,7 +62,7 @@ std::optional<Piece> piece(const mjModel& model, int geom) {
 
 bool is_shown(const mjModel& model, int geom) {
   const int material = model.geom_matid[geom];
-  const float* colour = material < 0 ? model.geom_rgba + 4 * geom : model.mat_rgba + 4 * material;
+  const float* colour = material < 0 ? numbers_of<4>(model.geom_rgba, geom) : numbers_of<4>(model.mat_rgba, material);
   return model.geom_group[geom] < kShownGroups && colour[3] > 0;
 }
 
@@ -84,15 +84,15 @@ void lift_floor(const mjModel& model, const mjData& data, int geom, std::optiona
 
 scenario::Pose pose(const mjData& data, const Piece& piece) {
   using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  const Eigen::Matrix3d turn = Eigen::Map<const RowMajor>(data.geom_xmat + 9 * piece.geom);
-  const Eigen::Vector3d origin = ConstVector3(data.geom_xpos + 3 * piece.geom);
+  const Eigen::Matrix3d turn = Eigen::Map<const RowMajor>(numbers_of<9>(data.geom_xmat, piece.geom));
+  const Eigen::Vector3d origin = ConstVector3(numbers_of<3>(data.geom_xpos, piece.geom));
   return {origin + turn * piece.middle, Eigen::Quaterniond(turn).normalized()};
 }
 
 /// Where everything is in a state: an instance of its own for every call at a time.
 class Kinematics {
  public:
-  Kinematics(std::shared_ptr<const CompiledModel> compiled)
+  explicit Kinematics(const std::shared_ptr<const CompiledModel>& compiled)
       : instances_(compiled), phi_(compiled->start_values()), states_(compiled->states().size()) {}
 
   void require(const ConstVectorView& state) const {
@@ -139,6 +139,7 @@ scenario::SolidDrawing make_drawing(const ModelDescription& description) {
     kinematics->require(state);
     return kinematics->at(state, [&](const mjModel&, const mjData& data) {
       std::vector<scenario::Pose> poses;
+      poses.reserve(pieces.size());
       for (const Piece& each : pieces) poses.push_back(pose(data, each));
       return poses;
     });

@@ -1,6 +1,7 @@
 #pragma once
 // MuJoCo's own objects, and how its errors are survived. For the files of this room.
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -36,6 +37,12 @@ template <class Work>
 const char* guarded(Work work) {
   static_assert(std::is_trivially_destructible_v<Work>, "work is left by longjmp");
   return guarded([](void* data) { (*static_cast<Work*>(data))(); }, &work);
+}
+
+/// Those of one object in an array of MuJoCo's that has `Size` numbers of each.
+template <int Size, class Number>
+Number* numbers_of(Number* array, int id) {
+  return array + std::ptrdiff_t{Size} * id;
 }
 
 /// Names of all objects of a type (mjOBJ_BODY, …) that have one.

@@ -22,7 +22,7 @@ void forget_shortcuts(mjModel& model, int body) {
 
 /// The radius about its middle within which MuJoCo looks for contacts of a geom.
 void bound(mjModel& model, int geom) {
-  const double* size = model.geom_size + 3 * geom;
+  const double* size = numbers_of<3>(model.geom_size, geom);
   double& radius = model.geom_rbound[geom];
   switch (model.geom_type[geom]) {
     case mjGEOM_SPHERE:
@@ -49,24 +49,25 @@ constexpr bool kConstants = true;
 
 constexpr Field kFields[] = {
     {"body", "mass", mjOBJ_BODY, 1, [](mjModel& m, int i) { return m.body_mass + i; }, kConstants},
-    {"body", "inertia", mjOBJ_BODY, 3, [](mjModel& m, int i) { return m.body_inertia + 3 * i; }, kConstants},
-    {"body", "ipos", mjOBJ_BODY, 3, [](mjModel& m, int i) { return m.body_ipos + 3 * i; }, kConstants,
+    {"body", "inertia", mjOBJ_BODY, 3, [](mjModel& m, int i) { return numbers_of<3>(m.body_inertia, i); }, kConstants},
+    {"body", "ipos", mjOBJ_BODY, 3, [](mjModel& m, int i) { return numbers_of<3>(m.body_ipos, i); }, kConstants,
      forget_shortcuts},
-    {"body", "pos", mjOBJ_BODY, 3, [](mjModel& m, int i) { return m.body_pos + 3 * i; }, kConstants},
+    {"body", "pos", mjOBJ_BODY, 3, [](mjModel& m, int i) { return numbers_of<3>(m.body_pos, i); }, kConstants},
     {"joint", "damping", mjOBJ_JOINT, 0, [](mjModel& m, int i) { return m.dof_damping + m.jnt_dofadr[i]; }},
     {"joint", "frictionloss", mjOBJ_JOINT, 0, [](mjModel& m, int i) { return m.dof_frictionloss + m.jnt_dofadr[i]; }},
     {"joint", "armature", mjOBJ_JOINT, 0, [](mjModel& m, int i) { return m.dof_armature + m.jnt_dofadr[i]; },
      kConstants},
     {"joint", "stiffness", mjOBJ_JOINT, 1, [](mjModel& m, int i) { return m.jnt_stiffness + i; }},
-    {"geom", "friction", mjOBJ_GEOM, 3, [](mjModel& m, int i) { return m.geom_friction + 3 * i; }},
-    {"geom", "size", mjOBJ_GEOM, 3, [](mjModel& m, int i) { return m.geom_size + 3 * i; }, false, bound},
-    {"geom", "pos", mjOBJ_GEOM, 3, [](mjModel& m, int i) { return m.geom_pos + 3 * i; }, false,
+    {"geom", "friction", mjOBJ_GEOM, 3, [](mjModel& m, int i) { return numbers_of<3>(m.geom_friction, i); }},
+    {"geom", "size", mjOBJ_GEOM, 3, [](mjModel& m, int i) { return numbers_of<3>(m.geom_size, i); }, false, bound},
+    {"geom", "pos", mjOBJ_GEOM, 3, [](mjModel& m, int i) { return numbers_of<3>(m.geom_pos, i); }, false,
      [](mjModel& m, int i) { m.geom_sameframe[i] = 0; }},
-    {"actuator", "gear", mjOBJ_ACTUATOR, 6, [](mjModel& m, int i) { return m.actuator_gear + 6 * i; }, kConstants},
+    {"actuator", "gear", mjOBJ_ACTUATOR, 6, [](mjModel& m, int i) { return numbers_of<6>(m.actuator_gear, i); },
+     kConstants},
     {"actuator", "gainprm", mjOBJ_ACTUATOR, mjNGAIN,
-     [](mjModel& m, int i) { return m.actuator_gainprm + mjNGAIN * i; }},
+     [](mjModel& m, int i) { return numbers_of<mjNGAIN>(m.actuator_gainprm, i); }},
     {"actuator", "biasprm", mjOBJ_ACTUATOR, mjNBIAS,
-     [](mjModel& m, int i) { return m.actuator_biasprm + mjNBIAS * i; }},
+     [](mjModel& m, int i) { return numbers_of<mjNBIAS>(m.actuator_biasprm, i); }},
     {"tendon", "damping", mjOBJ_TENDON, 1, [](mjModel& m, int i) { return m.tendon_damping + i; }},
     {"tendon", "frictionloss", mjOBJ_TENDON, 1, [](mjModel& m, int i) { return m.tendon_frictionloss + i; }},
     {"tendon", "stiffness", mjOBJ_TENDON, 1, [](mjModel& m, int i) { return m.tendon_stiffness + i; }},

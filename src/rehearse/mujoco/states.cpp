@@ -57,6 +57,7 @@ int joint_of(const mjModel& model, const Term& term) { return mj_name2id(&model,
 
 std::vector<std::string> joint_names(const mjModel& model, const std::vector<int>& joints) {
   std::vector<std::string> names;
+  names.reserve(joints.size());
   for (const int joint : joints) names.emplace_back(mj_id2name(&model, mjOBJ_JOINT, joint));
   return names;
 }
