@@ -42,7 +42,7 @@ struct Action {
 
 /// Numbers of the model that a parameter p moves. `value`: each becomes factor · p^power. `scale`: each is multiplied
 /// by that. All values are set first, then scales multiply in the order of parameters. A link's mass m and length l, in
-/// the file 2 kg and 0.5 m, move its inertia by {.factor = 1 / 2.} for m and {.factor = 1 / 0.25, .power = 2} for l.
+/// the file 2 kg and 0.5 m, scale its inertia by {.factor = 1 / 2.} for m and {.factor = 1 / 0.25, .power = 2} for l.
 struct Target {
   enum class Apply { value, scale };
   std::string kind;      // "body", "joint", "geom", "actuator", "tendon" or "option"; field_names() has all fields
@@ -61,6 +61,8 @@ struct ModelParameter {
 
 /// How a model of MuJoCo is a robot. States and actions are those of the task, in its order. Positions and velocities
 /// of joints that no state gives begin every step of a simulator where the keyframe has them: `unseen` lists them.
+/// MuJoCo cuts actions to the ranges of their actuators. Of a URDF it keeps collision shapes alone, joins links whose
+/// joint is fixed, and looks for meshes beside the file, whatever folder they are said to be in.
 struct ModelDescription {
   std::string path;      // MJCF or URDF; files that it names are looked for beside it
   std::string keyframe;  // empty: the model's reference position, at rest
