@@ -1,0 +1,92 @@
+#include "rehearse/mujoco/simulator.hpp"
+
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rehearse/core/names.hpp"
+#include "rehearse/core/options.hpp"
+#include "rehearse/mujoco/instance.hpp"
+
+namespace rehearse::mujoco {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Where φ has each of the description's parameters.
+std::vector<Index> order_of(const std::vector<ModelParameter>& described, const ParameterSpace& parameters) {
+  std::vector<std::string> names;
+  std::vector<Index> order;
+  Violations violations;
+  for (const ModelParameter& parameter : described) {
+    names.push_back(parameter.name);
+    order.push_back(parameters.find(parameter.name));
+    violations.require(order.back() >= 0, fmt::format("parameter '{}' of the model is missing", parameter.name));
+  }
+  for (const std::string& name : parameters.names())
+    violations.require(is_among(name, names),
+                       names.empty() ? fmt::format("unknown parameter '{}': the model has none", name)
+                                     : fmt::format("unknown parameter '{}', did you mean '{}'? (known: {})", name,
+                                                   closest(name, names), fmt::join(names, ", ")));
+  violations.throw_if_any();
+  return order;
+}
+
+class ModelSimulator final : public system::Simulator {
+ public:
+  ModelSimulator(std::shared_ptr<const CompiledModel> compiled, ParameterSpace parameters, std::vector<Index> order)
+      : instances_(std::move(compiled)), parameters_(std::move(parameters)), order_(std::move(order)) {}
+
+  const ParameterSpace& parameters() const override { return parameters_; }
+
+  void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
+    check_sizes(*this, X, U, phi, dX);
+    require_columns(X.cols(), U.cols());
+    std::unique_ptr<Instance> instance = instances_.take(phi(order_));
+    Vector x(X.cols()), u(U.cols());
+    for (Index i = 0; i < X.rows(); ++i) {
+      x = X.row(i);
+      u = U.row(i);
+      instance->place(x);
+      if (instance->step(u))
+        instance->read(x);
+      else
+        x.setConstant(kNan);
+      dX.row(i) = x.transpose() - X.row(i);
+    }
+    instances_.give_back(std::move(instance));
+  }
+
+ private:
+  void require_columns(Index dx, Index du) const {
+    const Index states = instances_.compiled().states().size(), actions = instances_.compiled().actions();
+    if (dx == states && du == actions) return;
+    throw InvalidInput(
+        fmt::format("{} states and {} actions for a model of {} states and {} actions", dx, du, states, actions));
+  }
+
+  Instances instances_;
+  ParameterSpace parameters_;
+  std::vector<Index> order_;
+};
+
+}  // namespace
+
+std::shared_ptr<const system::Simulator> make_simulator(const ModelDescription& description,
+                                                        ParameterSpace parameters) {
+  auto compiled = std::make_shared<const CompiledModel>(description);
+  std::vector<Index> order = order_of(description.parameters, parameters);
+  return std::make_shared<ModelSimulator>(std::move(compiled), std::move(parameters), std::move(order));
+}
+
+ParameterSpace parameter_space(const ModelDescription& description) {
+  std::vector<Parameter> parameters;
+  for (const ModelParameter& each : description.parameters)
+    parameters.push_back(Parameter::fixed(each.name, each.value, each.unit));
+  return ParameterSpace(parameters);
+}
+
+std::vector<std::string> unseen(const ModelDescription& description) { return CompiledModel(description).unseen(); }
+
+}  // namespace rehearse::mujoco
