@@ -1,5 +1,6 @@
-// Your own learner on a robot that comes with Rehearse: the pendulum. First a checker says whether the learner
-// keeps the laws; then it learns in three trials. random_search.hpp says how it gets into the catalogue.
+// A learner by hand, on a robot that comes with Rehearse: the pendulum. First a checker says whether the learner keeps
+// the laws; then it learns in three trials. The loop at the end is all there is to learning: ask for a policy, try it,
+// tell what happened.
 
 #include <cstdio>
 
