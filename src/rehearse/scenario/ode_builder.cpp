@@ -7,11 +7,8 @@ namespace {
 
 class OdeBuilder final : public ScenarioBuilder {
  public:
-  OdeBuilder(std::string summary, OdeScenario parts, OdeOptions options)
-      : summary_(std::move(summary)),
-        parts_(std::move(parts)),
-        options_(std::move(options)),
-        plant_(parts_.plant.all()) {
+  OdeBuilder(std::string summary, OdeScenario parts, const OdeOptions& options)
+      : summary_(std::move(summary)), parts_(std::move(parts)), options_(options), plant_(parts_.plant.all()) {
     if (parts_.policy_scale.size() == 0) parts_.policy_scale = Vector::Ones(parts_.task.feature_map().features());
   }
 
@@ -56,8 +53,8 @@ class OdeBuilder final : public ScenarioBuilder {
 
 }  // namespace
 
-std::unique_ptr<ScenarioBuilder> make_ode_builder(std::string summary, OdeScenario parts, OdeOptions options) {
-  auto builder = std::make_unique<OdeBuilder>(std::move(summary), std::move(parts), std::move(options));
+std::unique_ptr<ScenarioBuilder> make_ode_builder(std::string summary, OdeScenario parts, const OdeOptions& options) {
+  auto builder = std::make_unique<OdeBuilder>(std::move(summary), std::move(parts), options);
   builder->build();  // says what is wrong
   return builder;
 }

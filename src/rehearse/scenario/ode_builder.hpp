@@ -11,6 +11,7 @@ namespace rehearse::scenario {
 /// `plant.NAME` for each parameter of the plant, `measurement_noise`, `substeps`, `evaluations` and those of the
 /// policy; `options` has their defaults. An empty policy_scale is 1 for every input. Throws InvalidInput as the
 /// scenario does.
-std::unique_ptr<ScenarioBuilder> make_ode_builder(std::string summary, OdeScenario parts, OdeOptions options = {});
+std::unique_ptr<ScenarioBuilder> make_ode_builder(std::string summary, OdeScenario parts,
+                                                  const OdeOptions& options = {});
 
 }  // namespace rehearse::scenario

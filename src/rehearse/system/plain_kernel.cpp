@@ -60,7 +60,7 @@ class Row {
 
 }  // namespace
 
-OdeKernel plain_kernel(Ode ode, const OdeSizes& sizes) {
+OdeKernel plain_kernel(const Ode& ode, const OdeSizes& sizes) {
   const auto derivative = [ode, sizes](const double* x, const double* u, const double* phi, double* dxdt) {
     Row row(ode, sizes, phi);
     row.state() = Vector::Map(x, sizes.states);

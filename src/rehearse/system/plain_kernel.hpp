@@ -12,6 +12,6 @@ struct OdeSizes {
 /// A kernel of any equation, a lambda for instance, row by row. Use it for a robot of one's own where no more is wanted
 /// than to write its equation down; equation_kernel.hpp is some thirty times as fast. An equation that makes dxdt
 /// another size throws InvalidInput at its first use.
-OdeKernel plain_kernel(Ode ode, const OdeSizes& sizes);
+OdeKernel plain_kernel(const Ode& ode, const OdeSizes& sizes);
 
 }  // namespace rehearse::system
