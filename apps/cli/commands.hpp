@@ -64,7 +64,9 @@ int make_new(const NewArguments& arguments);
 int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments);
 int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments);
 int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const ProcessGroup& processes);
-int report(const ReportArguments& arguments);
-int replay(const ReplayArguments& arguments);
+
+/// share: the folder of the page, where it is not beside the program.
+int report(const ReportArguments& arguments, const std::string& share);
+int replay(const ReplayArguments& arguments, const std::string& share);
 
 }  // namespace rehearse::apps

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "apps/cli/program.hpp"
+
 namespace rehearse::apps {
 
 std::string printable(std::string_view text) {
@@ -26,7 +28,7 @@ void complain(std::string_view message) {
   const std::string safe = printable(message);
   for (std::string_view rest = safe; !rest.empty();) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    fmt::print(stderr, "rehearse: {}\n", rest.substr(0, end));
+    fmt::print(stderr, "{}: {}\n", program_name(), rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
 }

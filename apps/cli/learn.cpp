@@ -7,6 +7,7 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
 #include "apps/cli/console.hpp"
+#include "apps/cli/program.hpp"
 #include "apps/cli/signals.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/preset_check.hpp"
@@ -105,7 +106,7 @@ Spec resolved_spec(const Catalogue& catalogue, const Spec& spec, const std::opti
 
 std::string advice_after(const experiment::RunFailed& error, const std::filesystem::path& folder) {
   if (error.resume_may_help())
-    return fmt::format("what was done is kept; once there is room: rehearse resume {}", folder.string());
+    return fmt::format("what was done is kept; once there is room: {} resume {}", program_name(), folder.string());
   return fmt::format(
       "what was done is kept in {}; resumed, it would come to the same: learn with other options or "
       "another seed",
@@ -114,7 +115,7 @@ std::string advice_after(const experiment::RunFailed& error, const std::filesyst
 
 std::string interrupted(const Console& console, const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder)) return "interrupted before anything was done";
-  return fmt::format("interrupted after {} trials; to continue: rehearse resume {}", console.trials_done(),
+  return fmt::format("interrupted after {} trials; to continue: {} resume {}", console.trials_done(), program_name(),
                      folder.string());
 }
 

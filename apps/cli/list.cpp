@@ -6,6 +6,7 @@
 
 #include "apps/cli/commands.hpp"
 #include "apps/cli/options_table.hpp"
+#include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/experiment/preset.hpp"
@@ -114,7 +115,7 @@ void print(const experiment::Catalogue& catalogue, bool with_options) {
   if (with_options) print_run_options();
   if (!catalogue.not_built.empty()) fmt::print("\nNot built\n");
   for (const auto& missing : catalogue.not_built) fmt::print("  {:<18} {}\n", missing.name, missing.reason);
-  if (!with_options) fmt::print("\nOptions for --set, with what they do: rehearse list NAME\n");
+  if (!with_options) fmt::print("\nOptions for --set, with what they do: {} list NAME\n", program_name());
 }
 
 /// Those that everyone needs, and unless it is asked for them only the number of the others.
@@ -131,7 +132,7 @@ void print_one(Builder& builder, const std::string& kind, bool with_expert) {
   if (with_expert)
     fmt::print("\nFor experts\n{}", options_table(hidden, terminal_width()));
   else
-    fmt::print("\n{} more for experts: rehearse list {} --expert\n", hidden.size(), builder.name());
+    fmt::print("\n{} more for experts: {} list {} --expert\n", hidden.size(), program_name(), builder.name());
 }
 
 template <class Builder>
@@ -162,7 +163,7 @@ int list(const experiment::Catalogue& catalogue, const ListArguments& arguments)
     else
       refuse(catalogue, *arguments.name);
   } else if (arguments.expert) {
-    throw InvalidInput("--expert is for one scenario or learner: rehearse list NAME --expert");
+    throw InvalidInput(fmt::format("--expert is for one scenario or learner: {} list NAME --expert", program_name()));
   } else if (arguments.json)
     fmt::print("{}\n", as_json(catalogue).dump(2));
   else

@@ -16,19 +16,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kPage = "report.html";
 constexpr std::string_view kPageBegins = "<!doctype html>";
 
+/// A program of one's own is told where Rehearse was installed, and has its own build folder.
+[[noreturn]] void refuse_without_page(const fs::path& program, const std::string& share) {
+  const bool in_build = share.empty() && fs::exists(program / "CMakeCache.txt");
+  const std::string command =
+      fmt::format("cmake {0} && cmake --build {0} --target page", in_build ? program.string() : "BUILD_FOLDER");
+  const std::string install = share.empty() ? "" : fmt::format(" && cmake --install BUILD_FOLDER, into {}", share);
+  throw InvalidInput(
+      fmt::format("the page of reports is not built; with nodejs and npm installed: {}{}", command, install));
+}
+
 /// The page without data, in the build folder or where `cmake --install` put it.
-std::string page_template() {
+std::string page_template(const std::string& share) {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const fs::path& folder : {program, program.parent_path()}) {
-    const fs::path page = folder / "share/rehearse/report.html";
-    if (fs::exists(page)) return files::read_file(page, files::Links::follow);
-  }
-  const std::string build = fs::exists(program / "CMakeCache.txt") ? program.string() : "BUILD_FOLDER";
-  throw InvalidInput(fmt::format(
-      "the page of reports is not built; with nodejs and npm installed: cmake {0} && cmake --build {0} --target page",
-      build));
+  for (const fs::path& folder : {program / "share/rehearse", program.parent_path() / "share/rehearse", fs::path(share)})
+    if (fs::exists(folder / kPage)) return files::read_file(folder / kPage, files::Links::follow);
+  refuse_without_page(program, share);
 }
 
 /// Whatever is there under this name and is no page of ours may be the work of hours.
@@ -51,8 +57,8 @@ void write(const fs::path& path, const std::string& page) {
   }
 }
 
-int write_page(const fs::path& folder, const report::Report& report, const fs::path& out) {
-  const std::string page = to_html(report, page_template());
+int write_page(const fs::path& folder, const report::Report& report, const std::string& share, const fs::path& out) {
+  const std::string page = to_html(report, page_template(share));
   write(out, page);
   for (const report::Problem& problem : report.problems)
     complain(fmt::format("{}: {}", (folder / problem.where).string(), problem.what));
@@ -77,17 +83,17 @@ Index trial_of(const ReplayArguments& arguments) {
 
 }  // namespace
 
-int report(const ReportArguments& arguments) {
+int report(const ReportArguments& arguments, const std::string& share) {
   const fs::path folder = arguments.folder;
-  return write_page(folder, report::read_folder(folder, archive_space),
+  return write_page(folder, report::read_folder(folder, archive_space), share,
                     arguments.out.value_or((folder / "report.html").string()));
 }
 
-int replay(const ReplayArguments& arguments) {
+int replay(const ReplayArguments& arguments, const std::string& share) {
   const fs::path folder = arguments.folder;
   const Index trial = trial_of(arguments);
   const fs::path beside = folder / fmt::format("replay-{:03}.html", trial);
-  return write_page(folder, report::read_trial(folder, trial), arguments.out.value_or(beside.string()));
+  return write_page(folder, report::read_trial(folder, trial), share, arguments.out.value_or(beside.string()));
 }
 
 }  // namespace rehearse::apps

@@ -6,6 +6,7 @@
 
 #include "apps/catalogue.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/files/write.hpp"
@@ -96,7 +97,7 @@ int check(const CheckArguments& arguments) {
   if (scenario.priors.empty()) fmt::print("  none: learners without a prior can be used\n");
   const std::vector<std::string> complaints = complaints_of(tried);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
-  fmt::print("\nall is well; to learn: rehearse learn {} --learner {}\n", arguments.file,
+  fmt::print("\nall is well; to learn: {} learn {} --learner {}\n", program_name(), arguments.file,
              scenario.priors.empty() ? "black-drops" : "gp-mi");
   return kSuccess;
 }
@@ -111,8 +112,8 @@ int make_new(const NewArguments& arguments) {
   if (std::filesystem::exists(path))
     throw InvalidInput(fmt::format("{} exists, and is not overwritten", path.string()));
   files::write_file(path, text);
-  fmt::print("{} is a pendulum, to be made your robot. Say what it is, then: rehearse check {}\n", path.string(),
-             path.string());
+  fmt::print("{} is a pendulum, to be made your robot. Say what it is, then: {} check {}\n", path.string(),
+             program_name(), path.string());
   return kSuccess;
 }
 

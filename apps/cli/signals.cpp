@@ -9,6 +9,8 @@
 #include <semaphore.h>
 #include <unistd.h>
 
+#include "apps/cli/program.hpp"
+
 namespace rehearse::apps {
 namespace {
 
@@ -31,7 +33,8 @@ void catch_signals() {
 
 /// On a terminal the line that is being rewritten gives way.
 void say(const std::string& line) {
-  const std::string text = fmt::format("{}rehearse: {}\n", ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", line);
+  const std::string text =
+      fmt::format("{}{}: {}\n", ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", program_name(), line);
   std::fputs(text.c_str(), stderr);
 }
 

@@ -1,0 +1,64 @@
+#include "apps/cli/additions.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+/// The characters of names in robots' files: folders of runs are named after scenarios and learners.
+bool is_word(const std::string& name) {
+  const auto is_part = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
+  return !name.empty() && std::all_of(name.begin(), name.end(), is_part);
+}
+
+/// Adds a name to those that are taken, unless it is wrong.
+void take(const std::string& kind, const std::string& name, std::vector<std::string>& taken, Violations& violations) {
+  violations.require(is_word(name), fmt::format("{} '{}': its name must be of letters, digits, - and _", kind, name));
+  violations.require(!is_among(name, taken),
+                     fmt::format("{} '{}': its name must be its own, but another {} has it", kind, name, kind));
+  taken.push_back(name);
+}
+
+void add_robots(experiment::Catalogue& catalogue, const std::vector<RobotMaker>& robots, Violations& violations) {
+  std::vector<std::string> taken;
+  for (const auto& builder : catalogue.scenario_builders()) taken.push_back(builder->name());
+  for (const RobotMaker& make : robots) {
+    const auto builder = make ? make() : nullptr;
+    if (builder)
+      take("scenario", builder->name(), taken, violations);
+    else
+      violations.add("a robot is null, must be made by a function");
+    catalogue.scenarios.push_back(make);
+  }
+}
+
+void add_learners(experiment::Catalogue& catalogue, const std::vector<LearnerFamily>& families,
+                  Violations& violations) {
+  std::vector<std::string> taken;
+  for (const auto& builder : catalogue.learner_builders()) taken.push_back(builder->name());
+  for (const LearnerFamily& make : families) {
+    violations.require(make != nullptr, "a family of learners is null, must be made by a function");
+    if (!make) continue;
+    for (const auto& builder : make()) take("learner", builder->name(), taken, violations);
+    catalogue.learner_families.push_back(make);
+  }
+}
+
+}  // namespace
+
+experiment::Catalogue with_additions(experiment::Catalogue catalogue, const std::vector<RobotMaker>& robots,
+                                     const std::vector<LearnerFamily>& learners) {
+  Violations violations;
+  if (!robots.empty()) add_robots(catalogue, robots, violations);
+  if (!learners.empty()) add_learners(catalogue, learners, violations);
+  violations.throw_if_any();
+  return catalogue;
+}
+
+}  // namespace rehearse::apps

@@ -1,0 +1,206 @@
+#include "apps/cli/parser.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/cli/program.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
+#include "rehearse/core/options.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+constexpr const char* kAbout = R"(Learn a robot's policy in a handful of trials.
+
+A learner optimises a policy on a guess of the robot's dynamics (the prior), tries
+it on the robot once, corrects its model from what happened, and repeats.)";
+
+constexpr const char* kExample = R"(Example: swing up the pendubot in 10 trials, starting from a wrong simulator:
+  {0} learn pendubot --learner gp-mi --prior misleading --out runs/demo
+Then continue it to 15 trials:
+  {0} resume runs/demo --trials 15
+Do many runs and compare them:
+  {0} campaign campaigns/pendubot-short.toml --out runs/short
+See what happened, in a browser:
+  {0} report runs/demo
+What there is to learn, and with what:
+  {0} list
+A robot of your own:
+  {0} new my_robot)";
+
+constexpr const char* kLearnExample = R"(Examples:
+  {0} learn pendubot --learner gp-mi --prior misleading --trials 10 --seed 1
+  {0} learn pendubot --learner gp-mi --set plant.b1=0.2 --set prior.l2=0.3
+  {0} learn pendubot --learner gp-mi --preset as-published
+  {0} learn my_robot.toml --learner gp-mi
+  {0} learn runs/demo/spec.toml --out runs/again
+
+The folder holds one row a trial in trials.csv, the trajectories, the model's predictions,
+the policies, and spec.toml, which gives the same trials.csv when it is run again.
+Ctrl-C stops the run; `{0} resume` continues it.)";
+
+constexpr const char* kCampaignExample = R"(Example:
+  {0} campaign campaigns/pendubot-short.toml --out runs/short
+
+The same command continues what was interrupted. The folder holds the run folders in runs,
+a row for every trial in campaign.csv, and statistics and claims in summary.json.
+docs/campaigns.md describes the file.)";
+
+template <class Command, class T>
+CLI::Option* add(Command* command, const std::string& name, T& value, const std::string& help, const char* type) {
+  return command->add_option(name, value, help)->type_name(type);
+}
+
+void add_list(CLI::App& app, ListArguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("list", "Show the scenarios, their priors, and the learners, or the options of one");
+  add(command, "NAME", arguments.name, "A scenario or a learner, to be shown with its options", "");
+  command->add_flag("--json", arguments.json, "As JSON, with all options");
+  command->add_flag("--expert", arguments.expert, "With the options of NAME that only experts need, too");
+  command->add_flag("--options", arguments.options,
+                    "With all options that --set can change, their defaults, and what is published of them");
+}
+
+void add_new(CLI::App& app, NewArguments& arguments) {
+  CLI::App* command = app.add_subcommand("new", "Begin a robot of your own: a file with comments, NAME.toml");
+  add(command, "NAME", arguments.name, "The robot's name: letters, digits, - and _", "")->required();
+}
+
+void add_check(CLI::App& app, CheckArguments& arguments) {
+  CLI::App* command = app.add_subcommand("check", "Say what a robot's file means, and try its plant and priors");
+  add(command, "ROBOT.toml", arguments.file, "The file, for instance examples/robots/pendulum.toml", "")->required();
+}
+
+void add_learn(CLI::App& app, LearnArguments& arguments) {
+  CLI::App* command = app.add_subcommand("learn", "Learn a policy for a scenario");
+  add(command, "SCENARIO", arguments.scenario,
+      "A scenario that `list` shows, the file of a robot of your own, or the spec.toml of a run to repeat", "")
+      ->required();
+  add(command, "--learner", arguments.learner, "The learner, one that `list` shows", "NAME");
+  add(command, "--prior", arguments.prior,
+      "The guess to start from: one of the scenario's, several as a,b,c for a learner that can choose, or `oracle`, "
+      "the plant's own dynamics. Default: the scenario's first",
+      "NAME");
+  add(command, "--preset", arguments.preset,
+      "Options that go together: a preset that `list` shows, for instance as-published, or a file FILE.toml; --set "
+      "comes after it",
+      "NAME");
+  add(command, "--trials", arguments.trials, "How often the plant may be used. Default: 10", "N");
+  command->add_flag("--until-solved", arguments.until_solved, "End before, with a trial that solves the task");
+  add(command, "--seed", arguments.seed, "Of all random numbers: the same seed gives the same run. Default: 1", "S");
+  add(command, "--threads", arguments.threads,
+      "Threads to compute with; results do not depend on it. Default: all cores", "K");
+  add(command, "--out", arguments.out,
+      "The run folder, which must not exist. Default: runs/SCENARIO-LEARNER-PRIOR-SEED", "DIR");
+  add(command, "--set", arguments.set, "Set an option that `list SCENARIO` or `list LEARNER` shows; may be repeated",
+      "KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->footer(fmt::format(kLearnExample, program_name()));
+}
+
+void add_resume(CLI::App& app, ResumeArguments& arguments) {
+  CLI::App* command = app.add_subcommand("resume", "Continue a run that was interrupted, or extend it");
+  add(command, "DIR", arguments.folder, "The run folder", "")->required();
+  add(command, "--trials", arguments.trials,
+      "Trials in all, those done included, even where a run with --until-solved ended before. Default: as many as were "
+      "asked for",
+      "N");
+  add(command, "--threads", arguments.threads, "Threads to compute with. Default: all cores", "K");
+}
+
+void add_campaign(CLI::App& app, CampaignArguments& arguments) {
+  CLI::App* command = app.add_subcommand("campaign", "Do a grid of runs, or continue it: learners × priors × seeds");
+  add(command, "FILE", arguments.file, "The campaign file, for instance campaigns/pendubot-short.toml", "")->required();
+  add(command, "--out", arguments.out,
+      "The folder of the campaign; one that was begun is continued. Default: runs/ and the file's name", "DIR");
+  add(command, "--threads", arguments.threads,
+      "Threads to compute with in all, one a run where there are enough runs; with mpirun, of each process. Default: "
+      "all cores",
+      "K");
+  add(command, "--share", arguments.share,
+      "Of N processes that work on the folder at the same time, be the K-th and do every N-th run; the same command "
+      "without it, when all have ended, writes the tables",
+      "K/N");
+  command->add_flag("--dry-run", arguments.dry_run, "Check the file and say what would be done, without doing it");
+  command->add_flag("--check-claims", arguments.check_claims, "Exit with status 1 if a claim fails");
+  command->footer(fmt::format(kCampaignExample, program_name()));
+}
+
+void add_report(CLI::App& app, ReportArguments& arguments) {
+  CLI::App* command = app.add_subcommand("report", "Show a run or a campaign as a page for the browser");
+  add(command, "DIR", arguments.folder, "The folder of the run or the campaign", "")->required();
+  add(command, "--out", arguments.out, "The page. Default: report.html in the folder", "FILE.html");
+}
+
+void add_replay(CLI::App& app, ReplayArguments& arguments) {
+  CLI::App* command = app.add_subcommand("replay", "Show the motion of one trial as a page for the browser");
+  add(command, "DIR", arguments.folder, "The run folder", "")->required();
+  add(command, "--trial", arguments.trial, "Which trial, from 1", "N")->required();
+  add(command, "--out", arguments.out, "The page. Default: for instance replay-003.html in the folder", "FILE.html");
+}
+
+/// CLI11 speaks of what it did not expect; we know what was meant.
+void check_command_name(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(command->get_name());
+  if (argc < 2)
+    throw InvalidInput(fmt::format("a command is missing ({}); see {} --help", fmt::join(known, ", "), program_name()));
+  const std::string given = argv[1];
+  if (given.starts_with('-') || is_among(given, known)) return;
+  throw InvalidInput(fmt::format("unknown command '{}', did you mean '{}'? (known: {})", given, closest(given, known),
+                                 fmt::join(known, ", ")));
+}
+
+/// The first flag that its command does not have, and which may have been meant; else what CLI11 says.
+std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
+  for (const CLI::App* command : app.get_subcommands()) {
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (const std::string& given : command->remaining()) {
+      if (!given.starts_with("--")) continue;
+      const std::string flag = given.substr(0, given.find('='));
+      return fmt::format("unknown flag '{}' of {}, did you mean '{}'? (known: {})", flag, command->get_name(),
+                         closest(flag, known), fmt::join(known, ", "));
+    }
+  }
+  return error.what();
+}
+
+void add_all(CLI::App& app, Typed& typed) {
+  app.footer(fmt::format(kExample, program_name()));
+  app.set_version_flag("--version", "rehearse " REHEARSE_VERSION, "Show the version");
+  app.require_subcommand(1);
+  add_list(app, typed.list);
+  add_new(app, typed.make_new);
+  add_check(app, typed.check);
+  add_learn(app, typed.learn);
+  add_resume(app, typed.resume);
+  add_campaign(app, typed.campaign);
+  add_report(app, typed.report);
+  add_replay(app, typed.replay);
+}
+
+}  // namespace
+
+std::optional<Typed> parse(int argc, char** argv, bool silent) {
+  CLI::App app(kAbout, program_name());
+  Typed typed;
+  add_all(app, typed);
+  check_command_name(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) throw InvalidInput(why_not_parsed(app, error));
+    if (!silent) app.exit(error);  // --help, --version
+    return std::nullopt;
+  }
+  typed.command = app.get_subcommands().front()->get_name();
+  return typed;
+}
+
+}  // namespace rehearse::apps

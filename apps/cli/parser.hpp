@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/cli/commands.hpp"
+
+namespace rehearse::apps {
+
+/// What was typed: a command, and the arguments of that one.
+struct Typed {
+  std::string command;
+  ListArguments list;
+  NewArguments make_new;
+  CheckArguments check;
+  LearnArguments learn;
+  ResumeArguments resume;
+  CampaignArguments campaign;
+  ReportArguments report;
+  ReplayArguments replay;
+};
+
+/// Throws InvalidInput. Empty: help or the version was asked for, and is printed unless `silent`.
+std::optional<Typed> parse(int argc, char** argv, bool silent);
+
+}  // namespace rehearse::apps
