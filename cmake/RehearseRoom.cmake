@@ -14,18 +14,22 @@ if(REHEARSE_TESTS)
   target_precompile_headers(rehearse_test_headers PRIVATE <Eigen/Core> <gtest/gtest.h>)
 endif()
 
-# rehearse_room(NAME [USES room...] [FOLDERS folder...] [LINKS target...] [PRIVATE_LINKS target...] [TEST_USES room...]
+# rehearse_room(NAME [SOURCES file...] [USES room...] [FOLDERS folder...] [LINKS target...] [PRIVATE_LINKS target...] [TEST_USES room...]
 #               [TEST_LINKS target...])
 #
 # Makes the folder it is called from a room: one static library rehearse_NAME (rehearse::NAME when installed) of its
-# *.cpp, those of FOLDERS included, and one test program of its test/*.cpp. USES is the room's row in the table of
+# *.cpp, those of FOLDERS included, and one test program of its test/*.cpp; with SOURCES of those alone, and no test. USES is the room's row in the table of
 # docs/architecture.md, TEST_USES what its tests use beside that: a file that includes a header of another room is an
 # error at configure time, so the build enforces the direction.
 function(rehearse_room name)
-  cmake_parse_arguments(ROOM "" "" "USES;FOLDERS;LINKS;PRIVATE_LINKS;TEST_USES;TEST_LINKS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;FOLDERS;LINKS;PRIVATE_LINKS;TEST_USES;TEST_LINKS" ${ARGN})
   string(REPLACE "/" "_" target ${name})
 
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  if(ROOM_SOURCES)
+    set(sources ${ROOM_SOURCES})
+    list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  endif()
   file(GLOB headers CONFIGURE_DEPENDS *.hpp *.h)
   foreach(folder IN LISTS ROOM_FOLDERS)
     file(GLOB more_sources CONFIGURE_DEPENDS ${folder}/*.cpp)
@@ -63,7 +67,7 @@ function(rehearse_room name)
   file(GLOB tests CONFIGURE_DEPENDS test/*.cpp)
   file(GLOB test_headers CONFIGURE_DEPENDS test/*.hpp)
   rehearse_check_includes("${name}" "${ROOM_USES};${ROOM_TEST_USES}" "${tests};${test_headers}")
-  if(REHEARSE_TESTS AND tests)
+  if(REHEARSE_TESTS AND tests AND NOT ROOM_SOURCES)
     add_executable(test_${target} ${tests})
     # Tests of a room are compiled several at once: what takes time are headers and templates, which they share.
     set_target_properties(test_${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 TemporaryFolder::TemporaryFolder() {
   std::string name = (fs::temp_directory_path() / "rehearse-XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw std::system_error(errno, std::generic_category(), "no folder can be made: " + name);
+  if (!::mkdtemp(name.data()))
+    throw std::system_error(errno, std::generic_category(), "no folder can be made: " + name);
   path_ = name;
 }
 

@@ -13,16 +13,12 @@ namespace {
 class ModelPlant final : public system::Plant {
  public:
   ModelPlant(const PlantOptions& options, std::shared_ptr<const CompiledModel> compiled)
-      : start_mean_(options.start_mean),
-        start_std_(options.start_std),
-        measurement_std_(options.measurement_std),
-        instance_(std::move(compiled)) {
+      : around_(options.around), instance_(std::move(compiled)) {
     instance_.apply(options.phi);
   }
 
   Vector reset(Rng& rng) override {
-    x_ = start_mean_;
-    for (Index i = 0; i < x_.size(); ++i) x_(i) += start_std_(i) * rng.normal();
+    x_ = around_.start(rng);
     rng_ = rng;
     instance_.place(x_);
     return measured(instance_.look());
@@ -43,12 +39,10 @@ class ModelPlant final : public system::Plant {
     if (simulated) instance_.read(x_);
     if (!simulated || !x_.allFinite())
       throw std::runtime_error(fmt::format("MuJoCo's simulation of {} diverged", instance_.compiled().path()));
-    Vector y = x_;
-    for (Index i = 0; i < measurement_std_.size(); ++i) y(i) += measurement_std_(i) * rng_->normal();
-    return y;
+    return around_.measured(x_, *rng_);
   }
 
-  Vector start_mean_, start_std_, measurement_std_;
+  system::StartAndSensors around_;
   Instance instance_;
   Vector x_;
   std::optional<Rng> rng_;
@@ -62,10 +56,8 @@ std::unique_ptr<system::Plant> make_plant(const PlantOptions& options) {
   const auto require_size = [&](const char* name, Index size, Index must) {
     violations.require(size == must, fmt::format("{} has {} entries, must have {}", name, size, must));
   };
-  const Index states = compiled->states().size();
-  require_size("start_mean", options.start_mean.size(), states);
-  require_size("start_std", options.start_std.size(), states);
-  if (options.measurement_std.size() > 0) require_size("measurement_std", options.measurement_std.size(), states);
+  require_size("start_mean", options.around.start_mean.size(), compiled->states().size());
+  options.around.check(violations);
   require_size("phi", options.phi.size(), compiled->parameters().size());
   violations.throw_if_any();
   return std::make_unique<ModelPlant>(options, std::move(compiled));

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "rehearse/mujoco/drawing.hpp"
+#include "rehearse/mujoco/plant.hpp"
+#include "rehearse/mujoco/simulator.hpp"
 #include "rehearse/system/formula_ode.hpp"
 #include "rehearse/system/ode.hpp"
 
@@ -42,11 +47,19 @@ system::Program DynamicsMaker::program(const Dynamics& dynamics) const {
   return program;
 }
 
+mujoco::ModelDescription DynamicsMaker::model(const Dynamics& dynamics) const {
+  ModelSource model = std::get<ModelSource>(dynamics.source);
+  model.path = folder_->path() / model.path;
+  model.dt_s = robot_.dt_s;
+  return model;
+}
+
 std::shared_ptr<const system::Simulator> DynamicsMaker::simulator(const Variant& variant, Index substeps) const {
   const Dynamics& dynamics = robot_.dynamics_of(variant);
   const ParameterSpace fixed = variant.parameters.fixed_at(variant.parameters.values());
   if (std::holds_alternative<ProgramSource>(dynamics.source))
     return kept_with(folder_, std::make_shared<system::ProgramSimulator>(program(dynamics), fixed));
+  if (std::holds_alternative<ModelSource>(dynamics.source)) return mujoco::make_simulator(model(dynamics), fixed);
   return system::make_ode_simulator(system::formula_kernel(robot_.equation(dynamics)), fixed, robot_.dt_s, substeps);
 }
 
@@ -57,11 +70,40 @@ std::function<std::unique_ptr<system::Plant>()> DynamicsMaker::plant(const Varia
     return [program = program(dynamics), phi = variant.parameters, around, folder = folder_] {
       return system::make_program_plant(program, phi, around);
     };
+  if (std::holds_alternative<ModelSource>(dynamics.source))
+    return [options = mujoco::PlantOptions{model(dynamics), variant.parameters.values(), around}, folder = folder_] {
+      return mujoco::make_plant(options);
+    };
   const system::OdePlantOptions options{.ode = system::formula_kernel(robot_.equation(dynamics)).ode(),
                                         .phi = variant.parameters.values(),
                                         .dt_s = robot_.dt_s,
                                         .around = around};
   return [options] { return system::make_ode_plant(options); };
+}
+
+std::optional<scenario::Drawing> DynamicsMaker::drawing() const {
+  std::vector<const Variant*> variants = {&robot_.plant};
+  for (const Variant& prior : robot_.priors) variants.push_back(&prior);
+  for (const Variant* variant : variants) {
+    const Dynamics& dynamics = robot_.dynamics_of(*variant);
+    if (std::holds_alternative<ModelSource>(dynamics.source)) return mujoco::make_drawing(model(dynamics));
+  }
+  return {};
+}
+
+void DynamicsMaker::check_models(files::FileViolations& violations) const {
+  for (const Dynamics& dynamics : robot_.dynamics) {
+    if (!std::holds_alternative<ModelSource>(dynamics.source)) continue;
+    try {
+      mujoco::unseen(model(dynamics));
+    } catch (const InvalidInput& error) {
+      const std::string folder = folder_->path().string() + "/";
+      for (std::string line : error.violations()) {
+        for (std::size_t at; (at = line.find(folder)) != std::string::npos;) line.erase(at, folder.size());
+        violations.add(dynamics.line, fmt::format("[dynamics.{}]: {}", dynamics.name, line));
+      }
+    }
+  }
 }
 
 std::function<void()> DynamicsMaker::require_ready() const {

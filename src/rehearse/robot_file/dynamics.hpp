@@ -3,9 +3,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "rehearse/files/temporary_folder.hpp"
+#include "rehearse/files/toml_reader.hpp"
 #include "rehearse/robot_file/robot.hpp"
+#include "rehearse/scenario/drawing.hpp"
 #include "rehearse/system/plant.hpp"
 #include "rehearse/system/program.hpp"
 #include "rehearse/system/simulated_plant.hpp"
@@ -23,11 +26,18 @@ class DynamicsMaker {
   std::function<std::unique_ptr<system::Plant>()> plant(const Variant& variant,
                                                         const system::StartAndSensors& around) const;
 
+  /// How the model looks that the plant or the first prior is; empty: none is one.
+  std::optional<scenario::Drawing> drawing() const;
+
+  /// A violation for everything that models do not have.
+  void check_models(files::FileViolations& violations) const;
+
   /// Throws InvalidInput with why a program cannot be spoken with; null if there is none to be asked.
   std::function<void()> require_ready() const;
 
  private:
   system::Program program(const Dynamics& dynamics) const;
+  mujoco::ModelDescription model(const Dynamics& dynamics) const;
 
   const Robot& robot_;
   std::shared_ptr<const files::TemporaryFolder> folder_;  // null: no files are named

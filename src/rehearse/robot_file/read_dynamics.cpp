@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "rehearse/core/names.hpp"
-#include "rehearse/files/temporary_folder.hpp"
+#include "rehearse/robot_file/kept_files.hpp"
+#include "rehearse/robot_file/read_model.hpp"
 #include "rehearse/robot_file/variant.hpp"
 
 namespace rehearse::robot_file {
@@ -25,22 +27,41 @@ bool looks_like_a_file(const std::string& argument, bool first) {
 class DynamicsReader {
  public:
   DynamicsReader(Robot& robot, const ReadFile& read_file, files::FileViolations& violations)
-      : robot_(robot), read_file_(read_file), violations_(violations) {}
+      : robot_(robot), kept_(robot.files, read_file), violations_(violations) {}
 
   void read(const std::string& name, const toml::table& part) {
     Table table(part, fmt::format("[dynamics.{}]", name), violations_);
     Dynamics dynamics{.name = name, .line = files::line_of(part)};
     read_parameters(table, dynamics);
-    if (std::vector<std::string> command; table.reader().take("program", command))
-      dynamics.source = read_program(table, std::move(command));
-    else
-      dynamics.source = read_equations(table, dynamics.line);
+    read_source(table, dynamics);
     table.finish();
     robot_.dynamics.push_back(std::move(dynamics));
   }
 
  private:
+  void read_source(Table& table, Dynamics& dynamics) {
+    std::vector<std::string> command;
+    std::string model;
+    if (table.reader().take("program", command))
+      dynamics.source = read_program(table, std::move(command));
+    else if (table.reader().take("model", model))
+      dynamics.source = read_model(table, model);
+    else
+      dynamics.source = read_equations(table, dynamics.line);
+  }
+
+  ModelSource read_model(Table& table, const std::string& path) {
+    kept_.require(table, "model", path);
+    kept_.take_files(table);
+    ModelSource model = model_of(table, robot_, violations_);
+    model.path = path;
+    model.parameters = std::move(moved_);
+    return model;
+  }
+
   void read_parameters(Table& table, Dynamics& dynamics) {
+    moved_.clear();
+    const bool is_model = table.reader().has("model");
     const toml::table* values = table.reader().take_table("parameters");
     if (!values) return;
     for (const auto& [name, node] : in_order(*values)) {
@@ -50,7 +71,10 @@ class DynamicsReader {
         Table entry(*with_unit, name, violations_);
         if (!entry.number("value", value)) entry.wrong("value", fmt::format("parameter {} needs a value", name));
         entry.reader().take("unit", unit);
+        if (is_model) moved_.push_back(moved_by(entry, {.name = name, .unit = unit, .value = value}, violations_));
         entry.finish();
+      } else if (is_model) {
+        violations_.add(files::line_of(*node), fmt::format("parameter {} must say what it sets or scales", name));
       } else if (!take_number(name, *node, value, violations_)) {
         continue;
       }
@@ -76,9 +100,10 @@ class DynamicsReader {
     for (const auto& [own, formula] : given)
       if (own == name) return formula;
     if (!state.variable.rate.empty()) return {state.variable.rate, line};
-    violations_.add(line, fmt::format("rate.{} is missing: the derivative of {} by time, a formula; or program = […] "
-                                      "says who computes the dynamics",
-                                      name, name));
+    violations_.add(line,
+                    fmt::format("rate.{} is missing: the derivative of {} by time, a formula; or program = […] or "
+                                "model = \"…\" says what computes the dynamics",
+                                name, name));
     return {};
   }
 
@@ -90,29 +115,15 @@ class DynamicsReader {
       table.wrong("program", "program = [\"python3\", \"simulator.py\"]: a program and its arguments");
     for (std::size_t i = 0; i < program.command.size(); ++i) {
       const std::string& argument = program.command[i];
-      if (!keep(argument) && looks_like_a_file(argument, i == 0))
-        table.wrong("program", fmt::format("'{}' is no file in the folder of the robot's file", argument));
+      if (!kept_.keep(argument) && looks_like_a_file(argument, i == 0)) kept_.require(table, "program", argument);
     }
-    std::vector<std::string> files;
-    table.reader().take("files", files);
-    for (const std::string& file : files)
-      if (!keep(file)) table.wrong("files", fmt::format("'{}' is no file in the folder of the robot's file", file));
+    kept_.take_files(table);
     return program;
   }
 
-  /// False: there is no such file.
-  bool keep(const std::string& path) {
-    for (const scenario::NamedFile& file : robot_.files)
-      if (file.path == path) return true;
-    if (!files::stays_within(path)) return false;
-    std::optional<std::string> bytes = read_file_(path);
-    if (!bytes) return false;
-    robot_.files.push_back({path, std::move(*bytes)});
-    return true;
-  }
-
   Robot& robot_;
-  const ReadFile& read_file_;
+  KeptFiles kept_;
+  std::vector<mujoco::ModelParameter> moved_;  // what parameters do to a model
   files::FileViolations& violations_;
 };
 

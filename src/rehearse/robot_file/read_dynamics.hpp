@@ -7,7 +7,8 @@
 
 namespace rehearse::robot_file {
 
-/// Adds the dynamics to the robot, whose states are known, and the files that they name. Wrong input becomes a violation.
+/// Adds the dynamics to the robot, whose states are known, and the files that they name. Wrong input becomes a
+/// violation.
 void read_dynamics(Table& file, Robot& robot, const ReadFile& read_file, files::FileViolations& violations);
 
 }  // namespace rehearse::robot_file

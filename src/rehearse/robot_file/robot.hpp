@@ -9,6 +9,7 @@
 
 #include "rehearse/core/parameters.hpp"
 #include "rehearse/core/task.hpp"
+#include "rehearse/mujoco/description.hpp"
 #include "rehearse/scenario/ode_scenario.hpp"
 #include "rehearse/system/formula_ode.hpp"
 
@@ -55,12 +56,15 @@ struct ProgramSource {
   double start_s = 30, answer_s = 10;
 };
 
+/// A model of MuJoCo. Path, control step and values of parameters come later.
+using ModelSource = mujoco::ModelDescription;
+
 /// How states change, and what computes it.
 struct Dynamics {
   std::string name;
   Index line = 0;
   std::vector<Parameter> parameters;  // all fixed, at their usual values
-  std::variant<Equations, ProgramSource> source;
+  std::variant<Equations, ProgramSource, ModelSource> source;
 };
 
 /// Dynamics with values of their own, and which of them may be tuned.
@@ -91,7 +95,7 @@ struct Robot {
   std::vector<Variant> priors;  // the first is the default
   scenario::OdeOptions options;
   std::vector<Body> bodies;
-  std::vector<scenario::NamedFile> files;  // of programs
+  std::vector<scenario::NamedFile> files;  // of programs and models
 
   std::vector<std::string> state_names() const;
   std::vector<std::string> action_names() const;

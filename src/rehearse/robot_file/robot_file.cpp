@@ -42,7 +42,7 @@ class Builder final : public scenario::ScenarioBuilder {
                                 .make_plant = dynamics.plant(plant, {task.start_mean, task.start_std, noise}),
                                 .oracle = dynamics.simulator(plant, robot_.options.substeps),
                                 .policy = make_policy(robot_.options.policy, task, policy_scale()),
-                                .drawing = make_drawing(robot_),
+                                .drawing = robot_.bodies.empty() ? dynamics.drawing() : make_drawing(robot_),
                                 .require_ready = dynamics.require_ready(),
                                 .evaluations = robot_.options.evaluations};
     for (const Variant& prior : robot_.priors)
@@ -78,6 +78,7 @@ std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const 
   files::FileViolations violations(source);
   check_formulas(robot, violations);
   violations.throw_if_any();
+  DynamicsMaker(robot).check_models(violations);
   for (const std::string& line : make_task(robot).violations()) violations.add(0, line);
   violations.throw_if_any();
   return std::make_unique<Builder>(std::move(robot));

@@ -65,14 +65,17 @@ bool Conversation::wrong(const std::string& why) {
 /// Sends, and waits for an answer; it stands in the process.
 bool Conversation::hear(std::string_view message, const Process::Complete& complete, Process::Limits limits) {
   switch (process_->exchange(message, complete, limits)) {
-    case Process::Outcome::answered: return true;
-    case Process::Outcome::ended: return wrong(process_->end());
+    case Process::Outcome::answered:
+      return true;
+    case Process::Outcome::ended:
+      return wrong(process_->end());
     case Process::Outcome::wrong:
       return wrong(fmt::format("it wrote something else than the answer: {}", messages::excerpt(process_->unused())));
     case Process::Outcome::flooded:
       return wrong(fmt::format("it wrote more than {} bytes without an answer: {}", limits.bytes,
                                messages::excerpt(process_->unused())));
-    case Process::Outcome::late: break;
+    case Process::Outcome::late:
+      break;
   }
   late_ = true;
   return wrong(fmt::format("it did not answer within {:g} s", limits.seconds));

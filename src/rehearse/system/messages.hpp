@@ -15,7 +15,7 @@ inline constexpr int kVersion = 1;
 
 /// What a program says of itself.
 struct Hello {
-  bool doubles = false;                           // its changes come as raw numbers
+  bool doubles = false;                             // its changes come as raw numbers
   bool change = true, reset = false, step = false;  // the messages that it understands
 };
 

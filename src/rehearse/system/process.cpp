@@ -157,9 +157,8 @@ Process::Outcome Process::exchange(std::string_view message, const Complete& com
     if (received_.size() > limits.bytes) return Outcome::flooded;
     const auto left_ms = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
     if (left_ms <= 0) return Outcome::late;
-    std::array<pollfd, 3> ready{{{output_, POLLIN, 0},
-                                 {error_, POLLIN, 0},
-                                 {message.empty() || !input_open_ ? -1 : input_, POLLOUT, 0}}};
+    std::array<pollfd, 3> ready{
+        {{output_, POLLIN, 0}, {error_, POLLIN, 0}, {message.empty() || !input_open_ ? -1 : input_, POLLOUT, 0}}};
     if (poll(ready.data(), ready.size(), static_cast<int>(std::min<std::int64_t>(left_ms, 1000))) < 0) continue;
     if (ready[1].revents != 0) read_errors();
     if (ready[2].revents != 0 && !send(message)) input_open_ = false;  // its end is seen at its output
@@ -182,7 +181,8 @@ std::string Process::end() {
     kill(-process_, SIGKILL);  // its own children
     process_ = -1;
   }
-  if (WIFSIGNALED(status)) return fmt::format("it was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+  if (WIFSIGNALED(status))
+    return fmt::format("it was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
   return fmt::format("it ended with exit status {}", WEXITSTATUS(status));
 }
 

@@ -16,8 +16,8 @@ namespace rehearse::system {
 /// end is kept. One thread.
 class Process {
  public:
-  /// command: the program, as the shell's PATH finds it or by its path from the folder, and its arguments. folder: where
-  /// it runs. Throws std::system_error if it cannot be started.
+  /// command: the program, as the shell's PATH finds it or by its path from the folder, and its arguments. folder:
+  /// where it runs. Throws std::system_error if it cannot be started.
   Process(const std::vector<std::string>& command, const std::filesystem::path& folder);
   ~Process();
   Process(const Process&) = delete;
@@ -25,8 +25,8 @@ class Process {
 
   enum class Outcome { answered, wrong, ended, late, flooded };
 
-  /// Looks at what the program wrote that is not yet used: how many bytes of it are the answer, 0 where some are still to
-  /// come, kWrong where it is none.
+  /// Looks at what the program wrote that is not yet used: how many bytes of it are the answer, 0 where some are still
+  /// to come, kWrong where it is none.
   using Complete = std::function<std::size_t(std::string_view)>;
   static constexpr std::size_t kWrong = ~std::size_t{0};
 

@@ -61,8 +61,7 @@ class EpisodePlant final : public Plant {
       : program_(program), phi_(std::move(phi)), around_(std::move(around)) {}
 
   Vector reset(Rng& rng) override {
-    Vector start = around_.start_mean;
-    for (Index i = 0; i < start.size(); ++i) start(i) += around_.start_std(i) * rng.normal();
+    const Vector start = around_.start(rng);
     const auto seed = static_cast<std::uint64_t>(rng.uniform() * 0x1p53);
     rng_ = rng;
     if (!conversation_) conversation_.emplace(program_);
@@ -80,11 +79,8 @@ class EpisodePlant final : public Plant {
  private:
   Vector seen(const std::optional<Conversation::Measured>& answer) {
     if (!answer) fail();
-    Vector y = answer->state;
     truth_ = answer->truth;
-    for (Index i = 0; i < around_.measurement_std.size(); ++i)
-      if (around_.measurement_std(i) > 0) y(i) += around_.measurement_std(i) * rng_->normal();
-    return y;
+    return around_.measured(answer->state, *rng_);
   }
 
   [[noreturn]] void fail() {

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/core/errors.hpp"
-
 namespace rehearse::system {
 namespace {
 
@@ -16,27 +14,20 @@ class SimulatedPlant final : public Plant {
   SimulatedPlant(Motion motion, StartAndSensors around) : motion_(std::move(motion)), around_(std::move(around)) {}
 
   Vector reset(Rng& rng) override {
-    x_ = around_.start_mean;
-    for (Index i = 0; i < x_.size(); ++i) x_(i) += around_.start_std(i) * rng.normal();
+    x_ = around_.start(rng);
     rng_ = rng;
-    return measured();
+    return around_.measured(x_, *rng_);
   }
 
   Vector step(const Vector& u) override {
     if (!rng_) throw std::logic_error("the plant makes a step before it was reset");
     x_ = motion_(x_, u);
-    return measured();
+    return around_.measured(x_, *rng_);
   }
 
   Vector truth() const override { return x_; }
 
  private:
-  Vector measured() {
-    Vector y = x_;
-    for (Index i = 0; i < around_.measurement_std.size(); ++i) y(i) += around_.measurement_std(i) * rng_->normal();
-    return y;
-  }
-
   Motion motion_;
   StartAndSensors around_;
   Vector x_;
@@ -45,14 +36,29 @@ class SimulatedPlant final : public Plant {
 
 }  // namespace
 
-std::unique_ptr<Plant> make_simulated_plant(Motion motion, StartAndSensors around) {
-  const Index n = around.start_mean.size(), noisy = around.measurement_std.size();
-  Violations violations;
-  violations.require(
-      around.start_std.size() == n,
-      fmt::format("start_std has {} entries, must have the {} of start_mean", around.start_std.size(), n));
+Vector StartAndSensors::start(Rng& rng) const {
+  Vector x = start_mean;
+  for (Index i = 0; i < x.size(); ++i) x(i) += start_std(i) * rng.normal();
+  return x;
+}
+
+Vector StartAndSensors::measured(const Vector& state, Rng& rng) const {
+  Vector y = state;
+  for (Index i = 0; i < measurement_std.size(); ++i) y(i) += measurement_std(i) * rng.normal();
+  return y;
+}
+
+void StartAndSensors::check(Violations& violations) const {
+  const Index n = start_mean.size(), noisy = measurement_std.size();
+  violations.require(start_std.size() == n,
+                     fmt::format("start_std has {} entries, must have the {} of start_mean", start_std.size(), n));
   violations.require(noisy == 0 || noisy == n,
                      fmt::format("measurement_std has {} entries, must have none or the {} of start_mean", noisy, n));
+}
+
+std::unique_ptr<Plant> make_simulated_plant(Motion motion, StartAndSensors around) {
+  Violations violations;
+  around.check(violations);
   violations.throw_if_any();
   return std::make_unique<SimulatedPlant>(std::move(motion), std::move(around));
 }

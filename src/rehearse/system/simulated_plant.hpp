@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/types.hpp"
 #include "rehearse/system/plant.hpp"
 
@@ -12,6 +13,10 @@ namespace rehearse::system {
 struct StartAndSensors {
   Vector start_mean, start_std;  // dx
   Vector measurement_std;        // dx; empty: none
+
+  Vector start(Rng& rng) const;                          // the true state (dx)
+  Vector measured(const Vector& state, Rng& rng) const;  // of a true state (dx)
+  void check(Violations& violations) const;              // of sizes
 };
 
 /// The state after one control step from state x (dx) under the action u (du). It may throw.

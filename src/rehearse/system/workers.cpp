@@ -49,8 +49,8 @@ void Workers::change(const ConstMatrixView& X, const ConstMatrixView& U, const V
   for (Progress rows(X.rows(), options_.row_by_row); !rows.done();) {
     if (!worker) worker = options_.start();
     const Index first = rows.first(), count = rows.count();
-    const Index answered = worker->change(X.middleRows(first, count), U.middleRows(first, count), phi,
-                                          dX.middleRows(first, count));
+    const Index answered =
+        worker->change(X.middleRows(first, count), U.middleRows(first, count), phi, dX.middleRows(first, count));
     rows.answered(answered);
     if (answered > 0) {
       remember(X.middleRows(first, 1), U.middleRows(first, 1), phi);

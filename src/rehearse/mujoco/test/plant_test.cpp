@@ -11,9 +11,7 @@ namespace {
 PlantOptions acrobot_plant(double noise) {
   return {.model = acrobot_model(),
           .phi = Vector(),
-          .start_mean = Vector{{3, 3, 0, 0}},
-          .start_std = Vector::Constant(4, 0.1),
-          .measurement_std = Vector::Constant(4, noise)};
+          .around = {Vector{{3, 3, 0, 0}}, Vector::Constant(4, 0.1), Vector::Constant(4, noise)}};
 }
 
 TEST(ModelPlant, KeepsTheLaws) {
@@ -27,12 +25,8 @@ TEST(ModelPlant, KeepsTheLaws) {
 TEST(ModelPlant, DrawsAndMovesAsAnEquationDoes) {
   const auto plant = make_plant(acrobot_plant(0.01));
   const PlantOptions options = acrobot_plant(0.01);
-  const auto other = system::make_ode_plant({.ode = acrobot_equation(),
-                                             .phi = Vector(),
-                                             .dt_s = kControlStep,
-                                             .start_mean = options.start_mean,
-                                             .start_std = options.start_std,
-                                             .measurement_std = options.measurement_std});
+  const auto other = system::make_ode_plant(
+      {.ode = acrobot_equation(), .phi = Vector(), .dt_s = kControlStep, .around = options.around});
   Rng rng({.seed = 5}), same_rng({.seed = 5});
   EXPECT_NEAR((plant->reset(rng) - other->reset(same_rng)).norm(), 0, 1e-12);
   for (int t = 0; t < 10; ++t) {
@@ -43,11 +37,8 @@ TEST(ModelPlant, DrawsAndMovesAsAnEquationDoes) {
 }
 
 TEST(ModelPlant, ReadOnlyStatesFollowFromTheStart) {
-  PlantOptions options{.model = pendulum_model(),
-                       .phi = Vector(),
-                       .start_mean = Vector{{0.5, 0, 9}},
-                       .start_std = Vector::Zero(3),
-                       .measurement_std = Vector()};
+  PlantOptions options{
+      .model = pendulum_model(), .phi = Vector(), .around = {Vector{{0.5, 0, 9}}, Vector::Zero(3), Vector()}};
   options.model.states.push_back({"tip x", State::Kind::site, {{"tip"}}, 0});
   const auto plant = make_plant(options);
   Rng rng({.seed = 5});
@@ -71,13 +62,11 @@ TEST(ModelPlant, WrongSizesAreAllNamed) {
   EXPECT_EQ(complaint_of([] {
               make_plant({.model = acrobot_model(),
                           .phi = Vector{{1}},
-                          .start_mean = Vector::Zero(3),
-                          .start_std = Vector::Zero(2),
-                          .measurement_std = Vector::Zero(1)});
+                          .around = {Vector::Zero(3), Vector::Zero(2), Vector::Zero(1)}});
             }),
             "start_mean has 3 entries, must have 4\n"
-            "start_std has 2 entries, must have 4\n"
-            "measurement_std has 1 entries, must have 4\n"
+            "start_std has 2 entries, must have the 3 of start_mean\n"
+            "measurement_std has 1 entries, must have none or the 3 of start_mean\n"
             "phi has 1 entries, must have 0");
 }
 

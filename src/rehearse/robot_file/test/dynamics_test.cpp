@@ -23,8 +23,9 @@ for line in sys.stdin:
 )py";
 
 std::string with_echo() {
-  return example::with("[prior.heavy]", "[dynamics.echo]\nprogram = [\"python3\", \"echo.py\"]\nparameters = { a = 2 }\n"
-                                        "[prior.echo]\ndynamics = \"echo\"\ntune.a = [1, 3]\n[prior.heavy]");
+  return example::with("[prior.heavy]",
+                       "[dynamics.echo]\nprogram = [\"python3\", \"echo.py\"]\nparameters = { a = 2 }\n"
+                       "[prior.echo]\ndynamics = \"echo\"\ntune.a = [1, 3]\n[prior.heavy]");
 }
 
 std::optional<std::string> echo_folder(const std::string& path) {

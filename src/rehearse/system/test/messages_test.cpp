@@ -20,7 +20,8 @@ TEST(Messages, AreLinesWithNumbersThatAreFloatingPoint) {
 
 TEST(Messages, NumbersGoRoundToTheBit) {
   Matrix X(50, 1), back(50, 1);
-  for (Index i = 0; i < 50; ++i) X(i, 0) = std::sin(static_cast<double>(i) * 1.7) * std::pow(10, static_cast<double>(i % 20) - 10);
+  for (Index i = 0; i < 50; ++i)
+    X(i, 0) = std::sin(static_cast<double>(i) * 1.7) * std::pow(10, static_cast<double>(i % 20) - 10);
   std::string text = change(X, Matrix(50, 0), {});
   const std::size_t from = text.find("[["), to = text.find("]]") + 2;
   read_change("{\"change\":" + text.substr(from, to - from) + "}", back);

@@ -17,7 +17,7 @@ namespace {
 constexpr double value(Harm harm) { return static_cast<double>(harm); }
 
 /// Those that end or spoil an answer at once.
-const std::vector<Harm> kHarms = {Harm::killed,    Harm::failed, Harm::left,  Harm::wrong_size,
+const std::vector<Harm> kHarms = {Harm::killed,    Harm::failed,  Harm::left,  Harm::wrong_size,
                                   Harm::no_answer, Harm::partial, Harm::flood, Harm::crashed};
 const std::vector<std::string> kEncodings = {"json", "doubles"};
 
@@ -198,8 +198,8 @@ TEST(Program, OneThatCannotBeSpokenWithIsRefusedWithWhy) {
 }
 
 TEST(ProgramPlant, ASimulatorPlaysTheRobot) {
-  const auto plant = make_program_plant(hostile_program("json"), shift_of(0.25),
-                                        {Vector{{1, 2, 3}}, Vector::Zero(3), {}});
+  const auto plant =
+      make_program_plant(hostile_program("json"), shift_of(0.25), {Vector{{1, 2, 3}}, Vector::Zero(3), {}});
   Rng rng({.seed = 1});
   EXPECT_EQ(plant->reset(rng), (Vector{{1, 2, 3}}));
   EXPECT_EQ(plant->step(Vector{{0.5}}), (Vector{{2.75, 4.75, 6.75}}));
@@ -208,8 +208,7 @@ TEST(ProgramPlant, ASimulatorPlaysTheRobot) {
 }
 
 TEST(ProgramPlant, ARobotKeepsItsState) {
-  const auto plant =
-      make_program_plant(robot_program(), shift_of(3), {Vector{{1, 2, 3}}, Vector::Zero(3), {}});
+  const auto plant = make_program_plant(robot_program(), shift_of(3), {Vector{{1, 2, 3}}, Vector::Zero(3), {}});
   Rng rng({.seed = 1});
   for (int episode = 0; episode < 2; ++episode) {
     EXPECT_EQ(plant->reset(rng), (Vector{{1, 2, 3}}));

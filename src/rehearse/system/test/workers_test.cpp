@@ -45,8 +45,7 @@ Matrix asked_of(Script& script, Index rows, Index patience = 0) {
 
 TEST(Workers, TheRowsThatAreToBlameAreNaNAndNoOthers) {
   for (const bool by_row : {false, true})
-    for (const std::vector<double>& bad :
-         std::vector<std::vector<double>>{{}, {0}, {12}, {5, 6}, {0, 3, 4, 11, 12}}) {
+    for (const std::vector<double>& bad : std::vector<std::vector<double>>{{}, {0}, {12}, {5, 6}, {0, 3, 4, 11, 12}}) {
       Script script{.bad = bad, .by_row = by_row};
       const Matrix dX = asked_of(script, 13);
       for (Index i = 0; i < 13; ++i) {
@@ -56,8 +55,8 @@ TEST(Workers, TheRowsThatAreToBlameAreNaNAndNoOthers) {
           EXPECT_EQ(dX(i, 0), static_cast<double>(i) + 1);
         }
       }
-      EXPECT_EQ(script.started, by_row ? 1 + 2 * static_cast<Index>(bad.size()) - (bad.size() && bad.back() == 12)
-                                       : script.started);
+      EXPECT_EQ(script.started,
+                by_row ? 1 + 2 * static_cast<Index>(bad.size()) - (bad.size() && bad.back() == 12) : script.started);
     }
 }
 

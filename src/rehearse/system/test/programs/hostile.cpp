@@ -1,6 +1,7 @@
 // A program that does harm, for tests: dX = X + u + φ, in the encoding that is asked for.
 //
-//   hostile_program ENCODING [MARK]      with a file MARK, harm is done until the file exists, which the first harm makes
+//   hostile_program ENCODING [MARK]      with a file MARK, harm is done until the file exists, which the first harm
+//   makes
 //
 // What it does for a row follows from the row's action (Harm in test/programs.hpp).
 
@@ -47,24 +48,40 @@ void harm(Harm kind) {
     std::ofstream file(mark);
   }
   switch (kind) {
-    case Harm::killed: std::raise(SIGKILL); break;
-    case Harm::hung: pause(); break;
-    case Harm::failed: std::cerr << "impossible state" << std::endl; std::exit(1);
-    case Harm::left: std::exit(0);
-    case Harm::wrong_size: answer_wrongly(R"({"change":[[1.0]]})", 77); break;
-    case Harm::no_answer: answer_wrongly(R"({"change":[[1.0,})", -1); break;
+    case Harm::killed:
+      std::raise(SIGKILL);
+      break;
+    case Harm::hung:
+      pause();
+      break;
+    case Harm::failed:
+      std::cerr << "impossible state" << std::endl;
+      std::exit(1);
+    case Harm::left:
+      std::exit(0);
+    case Harm::wrong_size:
+      answer_wrongly(R"({"change":[[1.0]]})", 77);
+      break;
+    case Harm::no_answer:
+      answer_wrongly(R"({"change":[[1.0,})", -1);
+      break;
     case Harm::partial:
       std::cout << (in_json ? R"({"change":[[1.)" : std::string("\1\0\0\0", 4)) << std::flush;
       std::exit(0);
     case Harm::flood:
       for (const std::string words(10000, 'f');;) std::cout << words << std::flush;
-    case Harm::crashed: std::raise(SIGSEGV); break;
-    case Harm::error: line(R"({"error":"out of reach"})"); break;
+    case Harm::crashed:
+      std::raise(SIGSEGV);
+      break;
+    case Harm::error:
+      line(R"({"error":"out of reach"})");
+      break;
     case Harm::noise:
       std::cerr << std::string(1 << 20, 'n') << std::endl;
       if (in_json) line("loading …\nloaded");
       break;
-    case Harm::no_row: break;
+    case Harm::no_row:
+      break;
   }
 }
 

@@ -1,0 +1,31 @@
+#include "rehearse/robot_file/kept_files.hpp"
+
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "rehearse/files/temporary_folder.hpp"
+
+namespace rehearse::robot_file {
+
+bool KeptFiles::keep(const std::string& path) {
+  for (const scenario::NamedFile& file : files_)
+    if (file.path == path) return true;
+  if (!files::stays_within(path)) return false;
+  std::optional<std::string> bytes = read_file_(path);
+  if (!bytes) return false;
+  files_.push_back({path, std::move(*bytes)});
+  return true;
+}
+
+void KeptFiles::require(Table& table, const std::string& key, const std::string& path) {
+  if (!keep(path)) table.wrong(key, fmt::format("'{}' is no file in the folder of the robot's file", path));
+}
+
+void KeptFiles::take_files(Table& table) {
+  std::vector<std::string> paths;
+  table.reader().take("files", paths);
+  for (const std::string& path : paths) require(table, "files", path);
+}
+
+}  // namespace rehearse::robot_file
