@@ -32,7 +32,7 @@ int run(const experiment::Catalogue& catalogue, const Typed& typed, const Proces
   if (!processes.leads()) return kSuccess;
   if (command == "list") return list(catalogue, typed.list);
   if (command == "new") return make_new(typed.make_new);
-  if (command == "check") return check(typed.check);
+  if (command == "check") return check(catalogue, typed.check, share);
   if (command == "report") return report(typed.report, share);
   return replay(typed.replay, share);
 }

@@ -20,7 +20,8 @@ struct ListArguments {
 };
 
 struct CheckArguments {
-  std::string file;  // of a robot
+  std::string file;                // of a robot
+  std::optional<std::string> out;  // the page with its motion
 };
 
 struct NewArguments {
@@ -59,7 +60,7 @@ struct ReplayArguments {
 // With processes, every process calls the same command; only the first prints.
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);
-int check(const CheckArguments& arguments);
+int check(const experiment::Catalogue& catalogue, const CheckArguments& arguments, const std::string& share);
 int make_new(const NewArguments& arguments);
 int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments);
 int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments);

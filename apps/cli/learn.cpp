@@ -106,7 +106,7 @@ Spec resolved_spec(const Catalogue& catalogue, const Spec& spec, const std::opti
 
 std::string advice_after(const experiment::RunFailed& error, const std::filesystem::path& folder) {
   if (error.resume_may_help())
-    return fmt::format("what was done is kept; once there is room: {} resume {}", program_name(), folder.string());
+    return fmt::format("what was done is kept; once the cause is gone: {} resume {}", program_name(), folder.string());
   return fmt::format(
       "what was done is kept in {}; resumed, it would come to the same: learn with other options or "
       "another seed",

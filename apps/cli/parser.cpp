@@ -71,6 +71,8 @@ void add_new(CLI::App& app, NewArguments& arguments) {
 void add_check(CLI::App& app, CheckArguments& arguments) {
   CLI::App* command = app.add_subcommand("check", "Say what a robot's file means, and try its plant and priors");
   add(command, "ROBOT.toml", arguments.file, "The file, for instance examples/robots/pendulum.toml", "")->required();
+  add(command, "--out", arguments.out,
+      "Also show the motion of an episode of random actions, as a page for the browser", "FILE.html");
 }
 
 void add_learn(CLI::App& app, LearnArguments& arguments) {

@@ -8,7 +8,9 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/run.hpp"
 #include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/files/write.hpp"
 #include "rehearse/reward/saturating.hpp"
 #include "rehearse/robot_file/robot_file.hpp"
@@ -81,13 +83,23 @@ std::vector<std::string> complaints_of(const robot_file::Tried& tried) {
   return complaints;
 }
 
+/// The motion of an episode of random actions: the first trial of a learner that has no model yet.
+void write_motion(const experiment::Catalogue& catalogue, const std::string& scenario, const std::string& share,
+                  const std::string& page) {
+  const files::TemporaryFolder folder;
+  experiment::Spec spec;
+  spec.scenario = scenario, spec.learner = "black-drops", spec.trials = 1;
+  experiment::start_run(catalogue, spec, folder.path() / "run", {});
+  replay({.folder = (folder.path() / "run").string(), .trial = "1", .out = page}, share);
+}
+
 }  // namespace
 
-int check(const CheckArguments& arguments) {
+int check(const experiment::Catalogue& built_in, const CheckArguments& arguments, const std::string& share) {
   const std::string text = files::read_file(arguments.file, files::Links::follow);
   const std::filesystem::path folder = std::filesystem::path(arguments.file).parent_path();
-  const experiment::Catalogue known = catalogue().with_robot(text, arguments.file, folder);
-  const scenario::Scenario scenario = known.scenario(known.scenario_name(arguments.file))->build();
+  const experiment::Catalogue catalogue = built_in.with_robot(text, arguments.file, folder);
+  const scenario::Scenario scenario = catalogue.scenario(catalogue.scenario_name(arguments.file))->build();
   print_task(scenario);
   if (scenario.require_ready) scenario.require_ready();
   const robot_file::Tried tried = robot_file::try_out(scenario);
@@ -96,6 +108,7 @@ int check(const CheckArguments& arguments) {
     print_prior(scenario.priors[i], tried.priors[i], scenario, tried);
   if (scenario.priors.empty()) fmt::print("  none: learners without a prior can be used\n");
   const std::vector<std::string> complaints = complaints_of(tried);
+  if (arguments.out && tried.end.empty()) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
   fmt::print("\nall is well; to learn: {} learn {} --learner {}\n", program_name(), arguments.file,
              scenario.priors.empty() ? "black-drops" : "gp-mi");

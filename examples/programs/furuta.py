@@ -19,7 +19,7 @@ def rate(x, torque, mass, length, inertia):
     return np.stack([(about * f1 - m12 * f2) / determinant, (m11 * f2 - m12 * f1) / determinant, darm, dpole])
 
 
-def change(states, actions, parameters, dt, steps=6):
+def change(states, actions, parameters, dt, steps=3):
     """Changes of states (4 × n) over a control step, by Runge and Kutta's fourth order."""
     x, u, h = states, actions[0], dt / steps
     for _ in range(steps):

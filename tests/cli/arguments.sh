@@ -190,14 +190,14 @@ expect 0 "best return" - learn pendubot --learner gp-mi "${quick[@]}" --out begu
   "$program" list >/dev/null 2>&1 || exit 0  # not with a sanitizer
   expect 1 "there is not enough memory; the largest sizes that are asked for: learner.search.selection = 1000000, scenario.hidden = 3000" 2 \
     learn pendulum --learner gp-mi --trials 1 --threads 1 --set search.selection=1000000 --set hidden=3000 --out large
-  grep -q "once there is room: rehearse resume large" stderr || fail "without memory it says $(cat stderr)"
+  grep -q "once the cause is gone: rehearse resume large" stderr || fail "without memory it says $(cat stderr)"
   exit $failures
 ) || fail "see above"
 (
   trap '' XFSZ
   ulimit -f 20  # the spec fits, the prediction does not
   expect 1 "cannot write full/" 2 learn pendubot --learner gp-mi "${quick[@]}" --out full
-  grep -q "once there is room: rehearse resume full" stderr || fail "on a full disk it says $(cat stderr)"
+  grep -q "once the cause is gone: rehearse resume full" stderr || fail "on a full disk it says $(cat stderr)"
   exit $failures
 ) || fail "see above"
 expect 0 "best return" - resume full

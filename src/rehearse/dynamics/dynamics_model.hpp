@@ -27,6 +27,10 @@ class DynamicsModel {
   /// Whether all variances are 0.
   virtual bool certain() const { return false; }
 
+  /// How many rows a call should have, as of the simulator that is asked (system::Simulator); 0: it makes no
+  /// difference.
+  virtual Index rows_at_once() const { return 0; }
+
   /// What a measurement adds to each state, as far as the data tell: a standard deviation each (dx). Empty: nothing.
   virtual const Vector& measurement_std() const {
     static const Vector nothing;

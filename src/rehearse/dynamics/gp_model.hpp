@@ -41,6 +41,7 @@ class GpModel final : public DynamicsModel {
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override;
   void predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const override;
 
+  Index rows_at_once() const override { return mean_ ? mean_->prior.simulator->rows_at_once() : 0; }
   const Vector& measurement_std() const override { return measurement_std_; }
   void set_measurement_std(Vector std) { measurement_std_ = std::move(std); }
 

@@ -72,6 +72,7 @@ class ServoModel final : public DynamicsModel {
   void sample(const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& normals,
               MatrixView change) const override;
   const Vector& measurement_std() const override { return body_->measurement_std(); }
+  Index rows_at_once() const override { return body_->rows_at_once(); }
 
  private:
   std::shared_ptr<const Servos> servos_;

@@ -20,6 +20,7 @@ class SimulatorModel final : public DynamicsModel {
     prior_.mean(X, U, phi_, mean);
   }
   bool certain() const override { return variance_ == 0; }
+  Index rows_at_once() const override { return prior_.simulator->rows_at_once(); }
 
  private:
   prior::Prior prior_;

@@ -8,6 +8,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/memory.hpp"
 #include "rehearse/experiment/run_options.hpp"
+#include "rehearse/system/simulator.hpp"
 
 namespace rehearse::experiment {
 
@@ -18,6 +19,8 @@ auto named_failure(Index trial, const char* who, Step step) -> decltype(step()) 
     return step();
   } catch (const std::bad_alloc&) {
     throw;  // with the options that ask for so much
+  } catch (const system::Unavailable& error) {
+    throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()), true);
   } catch (const std::exception& error) {
     throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()));
   }

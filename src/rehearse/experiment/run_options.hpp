@@ -38,7 +38,8 @@ class RunFailed : public std::runtime_error {
   explicit RunFailed(const std::string& message, bool resume_may_help = false)
       : std::runtime_error(message), resume_may_help_(resume_may_help) {}
 
-  /// The cause is outside of the run: a full disk. What a run computes it computes again in the same way.
+  /// The cause is outside of the run: a full disk, a program that answers no more. What a run computes it computes
+  /// again in the same way.
   bool resume_may_help() const { return resume_may_help_; }
 
  private:

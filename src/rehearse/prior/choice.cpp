@@ -54,6 +54,12 @@ class Choice final : public system::Simulator {
     kept = std::move(own);
   }
 
+  Index rows_at_once() const override {
+    Index most = 0;
+    for (const Prior& prior : priors_) most = std::max(most, prior.simulator->rows_at_once());
+    return most;
+  }
+
  private:
   /// Where each parameter of a prior is taken from in the joint φ; −1: fixed by the prior.
   std::vector<Index> add_tunable(const Prior& prior, std::vector<Parameter>& joint) const {

@@ -11,7 +11,8 @@ namespace rehearse::robot_file {
 
 class KeptFiles {
  public:
-  KeptFiles(std::vector<scenario::NamedFile>& files, const ReadFile& read_file) : files_(files), read_file_(read_file) {}
+  KeptFiles(std::vector<scenario::NamedFile>& files, const ReadFile& read_file)
+      : files_(files), read_file_(read_file) {}
 
   /// False: there is no such file in the folder of the robot's file.
   bool keep(const std::string& path);

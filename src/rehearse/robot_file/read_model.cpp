@@ -92,7 +92,9 @@ class ModelReader {
         state.terms = terms_of(state.name, *terms, component);
         ++said;
       }
-    if (said != 1) table.wrong("position", fmt::format("state.{} must be one of position, velocity, sensor, body and site", state.name));
+    if (said != 1)
+      table.wrong("position",
+                  fmt::format("state.{} must be one of position, velocity, sensor, body and site", state.name));
     table.finish();
   }
 
@@ -118,9 +120,10 @@ class ModelReader {
     }
     const toml::table* part = node.as_table();
     if (!part || part->size() != 1 || !(*part)["joint"].is_string())
-      return violations_.add(files::line_of(node), fmt::format("action.{} must be the name of an actuator, or {{ joint = "
-                                                               "\"…\" }}, which it pushes",
-                                                               name));
+      return violations_.add(files::line_of(node),
+                             fmt::format("action.{} must be the name of an actuator, or {{ joint = "
+                                         "\"…\" }}, which it pushes",
+                                         name));
     action = {*(*part)["joint"].value<std::string>(), mujoco::Action::Kind::joint};
   }
 

@@ -12,8 +12,11 @@ namespace {
 
 /// Rows of a chunk, by the size of the batch alone: each chunk reads the whole model at every step, which on a busy
 /// machine costs more than using it, so many; but so few that a late generation's candidates still occupy several
-/// threads.
-Index rows_of_chunk(Index batch) { return batch >= 512 ? 64 : 32; }
+/// threads. A model that asks somebody for whom a call is dear is called twice a step at least, for two threads.
+Index rows_of_chunk(Index batch, Index rows_at_once) {
+  const Index usual = batch >= 512 ? 64 : 32;
+  return std::max(usual, std::min(rows_at_once, (batch + 1) / 2));
+}
 
 /// Memory of a chunk, kept by each thread from one to the next: fresh pages cost more than a step of a cheap model.
 struct Buffers {
@@ -172,7 +175,7 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
   const auto& [first_candidate, particles] = candidates;
   const Index horizon = simulation.task.horizon;
   check(simulation, Theta.rows(), particles);
-  const Index total = Theta.cols() * particles, most = rows_of_chunk(total);
+  const Index total = Theta.cols() * particles, most = rows_of_chunk(total, simulation.model.rows_at_once());
   const Index chunks = (total + most - 1) / most;
   Matrix results(most + 1, chunks);  // returns, and how many failed
   const auto task_of_chunk = [&](Index c) {

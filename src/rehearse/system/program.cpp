@@ -86,7 +86,7 @@ class EpisodePlant final : public Plant {
   [[noreturn]] void fail() {
     const std::string problem = conversation_->problem();
     conversation_.reset();  // the next episode begins with another process
-    throw std::runtime_error(problem);
+    throw Unavailable(problem);
   }
 
   Program program_;

@@ -33,6 +33,7 @@ class ProgramSimulator final : public Simulator {
   const ParameterSpace& parameters() const override { return parameters_; }
   /// Throws Unavailable, with why, where the program answers nothing any more.
   void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override;
+  Index rows_at_once() const override { return 1024; }
 
   Faults faults() const { return workers_.faults(); }
 

@@ -30,6 +30,9 @@ class Simulator {
 
   /// X: n × dx, U: n × du, phi: values in the order of parameters(), dX: n × dx.
   virtual void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const = 0;
+
+  /// How many rows a call should have so that it is worth its cost, if there are so many; 0: it makes no difference.
+  virtual Index rows_at_once() const { return 0; }
 };
 
 /// Writes dX (n × dx) for X (n × dx), U (n × du) and phi; keeps the laws above.

@@ -1,4 +1,5 @@
 // The files of examples/robots, and the built-in robots that some of them are.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -8,6 +9,8 @@
 #include "rehearse/robot_file/robot_file.hpp"
 #include "rehearse/robot_file/test/example.hpp"
 #include "rehearse/robot_file/try_out.hpp"
+#include "rehearse/robots/cartpole/cartpole.hpp"
+#include "rehearse/robots/pendubot/pendubot.hpp"
 #include "rehearse/robots/pendulum/pendulum.hpp"
 
 namespace rehearse::robot_file {
@@ -36,22 +39,59 @@ TEST_P(EachRobotFile, IsInOrder) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Examples, EachRobotFile, ::testing::Values("pendulum", "acrobot"));
+INSTANTIATE_TEST_SUITE_P(Examples, EachRobotFile,
+                         ::testing::Values("pendulum", "cartpole", "pendubot", "acrobot", "arm"));
 
-// Not to the bit: the built-in equation is written with other associations and fused multiply-adds, and turns sines and
-// cosines along, where a file's integrates them.
-TEST(RobotFiles, APendulumIsThatOfTheProgram) {
-  const scenario::Scenario file = example("pendulum"), built_in = robots::pendulum::builder()->build();
-  const Matrix X = 3 * Matrix::Random(100, 2), U = 2.5 * Matrix::Random(100, 1);
-  Matrix a(100, 2), b(100, 2);
-  file.oracle->change(X, U, file.oracle->parameters().values(), a);
-  built_in.oracle->change(X, U, built_in.oracle->parameters().values(), b);
-  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-9) << "rounding, and polynomials of the turn of an angle";
-  Vector of_file(100), of_program(100);
-  file.task.reward(X, U, X, of_file);
-  built_in.task.reward(X, U, X, of_program);
-  EXPECT_LT((of_file - of_program).cwiseAbs().maxCoeff(), 1e-14);
+struct Same {
+  const char* file;
+  std::unique_ptr<scenario::ScenarioBuilder> (*built_in)();
+};
+
+/// A robot that is built in, and the file that describes it, too.
+class EachBuiltInRobot : public ::testing::TestWithParam<Same> {};
+
+void expect_same_changes(const system::Simulator& of_file, const Vector& phi, const system::Simulator& of_program,
+                         const Vector& same_phi, const Task& task) {
+  const Index n = 100;
+  const Matrix X = 3 * Matrix::Random(n, task.state_size()),
+               U = task.actions[0].bounds.high * Matrix::Random(n, task.action_size());
+  Matrix a(n, X.cols()), b(n, X.cols());
+  of_file.change(X, U, phi, a);
+  of_program.change(X, U, same_phi, b);
+  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-7) << "rounding, and steps of the integration";
 }
+
+// Not to the bit: the built-in equation is written with other associations and fused multiply-adds, and some turn sines
+// and cosines along, where a file's integrates them.
+TEST_P(EachBuiltInRobot, IsThatOfItsFile) {
+  const scenario::Scenario file = example(GetParam().file), built_in = GetParam().built_in()->build();
+  const Task &task = file.task, &same = built_in.task;
+  expect_same_changes(*file.oracle, file.oracle->parameters().values(), *built_in.oracle,
+                      built_in.oracle->parameters().values(), task);
+  for (const scenario::NamedPrior& prior : built_in.priors) {
+    const auto of_file = std::find_if(file.priors.begin(), file.priors.end(),
+                                      [&](const scenario::NamedPrior& each) { return each.name == prior.name; });
+    if (of_file == file.priors.end()) continue;  // the pendulum's file begins robots, with one guess
+    EXPECT_EQ(of_file->parameters.values(), prior.parameters.values()) << prior.name;
+    EXPECT_EQ(of_file->parameters.names(), prior.parameters.names());
+    expect_same_changes(*of_file->simulator, of_file->parameters.values(), *prior.simulator, prior.parameters.values(),
+                        task);
+  }
+  EXPECT_EQ(file.priors.front().name, built_in.priors.front().name);
+  EXPECT_EQ(task.start_mean, same.start_mean);
+  EXPECT_EQ(task.start_std, same.start_std);
+  EXPECT_EQ(task.horizon, same.horizon);
+  const Matrix X = 3 * Matrix::Random(100, task.state_size()), U = Matrix::Zero(100, task.action_size());
+  Vector of_file(100), of_program(100);
+  task.reward(X, U, X, of_file);
+  same.reward(X, U, X, of_program);
+  EXPECT_LT((of_file - of_program).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, EachBuiltInRobot,
+                         ::testing::Values(Same{"pendulum", robots::pendulum::builder},
+                                           Same{"cartpole", robots::cartpole::builder},
+                                           Same{"pendubot", robots::pendubot::builder}));
 
 }  // namespace
 }  // namespace rehearse::robot_file

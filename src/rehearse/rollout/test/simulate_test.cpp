@@ -234,5 +234,29 @@ TEST(Simulate, WrongSizesAreRefused) {
   EXPECT_THROW(simulate_episodes({cart::Model(), *policy, task, kKey}, right, 0, episodes), InvalidInput);
 }
 
+/// The cart, whose calls are dear.
+class DearCart final : public dynamics::DynamicsModel {
+ public:
+  void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
+               MatrixView variance) const override {
+    ++calls;
+    cart_.predict(X, U, mean, variance);
+  }
+  Index rows_at_once() const override { return 1000; }
+  mutable Index calls = 0;
+
+ private:
+  cart::Model cart_;
+};
+
+TEST(Simulate, AModelWhoseCallsAreDearIsCalledTwiceAStep) {
+  const Task task = cart::task();
+  const Matrix Theta = cart::candidates(100);
+  const DearCart dear;
+  const Simulated simulated = simulate_cart(task, Theta, 3, {}, dear);
+  EXPECT_EQ(dear.calls, 2 * task.horizon);
+  EXPECT_LT((simulated.returns - simulate_cart(task, Theta, 3).returns).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 }  // namespace
 }  // namespace rehearse::rollout

@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# programs.sh PROGRAM EXAMPLES: robots whose dynamics are programs and models of MuJoCo, and what goes wrong with them.
+examples=$(realpath "$2")
+source "$(dirname "$0")/../prelude.sh"
+PATH=/usr/bin:$PATH # Debian's Python, which has NumPy
+
+few=(--set search.race.max_evaluations=400 --set search.race.descents=2 --set search.selection=10)
+files=(spec.toml robot.toml trials.csv errors.csv policy.json trajectories/trial-002.csv)
+cp -r "$examples"/* .
+cc -O2 -o programs/pendubot programs/pendubot.c -lm || fail "the example in C"
+
+"$program" learn programs/pendubot.toml --learner gp-mi --trials 2 "${few[@]}" --threads 1 --out one >output 2>&1 ||
+  fail "a program in C: $(cat output)"
+"$program" learn programs/pendubot.toml --learner gp-mi --trials 2 "${few[@]}" --threads 2 --out two >/dev/null 2>&1
+same one two "${files[@]}"
+"$program" learn programs/pendubot.toml --learner gp-mi --trials 1 "${few[@]}" --out extended >/dev/null 2>&1
+rm programs/pendubot # the run has its own
+"$program" resume extended --trials 2 >output 2>&1 || fail "resume: $(cat output)"
+same one extended "${files[@]}"
+echo "an addition" >>extended/robot/pendubot
+"$program" resume extended --trials 3 >output 2>&1
+[ $? = 2 ] && grep -q "has another robot than this run began with" output || fail "another program: $(cat output)"
+
+"$program" check programs/furuta.toml >output 2>&1 || fail "NumPy: $(cat output)"
+"$program" learn programs/pendulum.toml --learner gp-mi --trials 1 "${few[@]}" --out node >output 2>&1 ||
+  fail "JavaScript: $(cat output)"
+
+if ! "$program" list | grep -q "MuJoCo was not found\|mujoco.*not built"; then
+  "$program" learn models/acrobot.toml --learner mi --trials 1 "${few[@]}" --out model >output 2>&1 || fail "MJCF: $(cat output)"
+  [ -e model/motion/trial-001.json ] && cmp models/acrobot.xml model/robot/acrobot.xml || fail "the model is not kept"
+  sed 's/body upper mass/body uper mass/' models/acrobot.toml >models/misspelt.toml
+  "$program" check models/misspelt.toml >output 2>&1
+  [ $? = 2 ] && grep -q "upper" output || fail "a misspelt body: $(cat output)"
+fi
+
+# A simulator that ends after so many answers in all, however often it is started, and that a file repairs.
+cat >tired.py <<'PY'
+import json, os, sys
+count = sys.argv[1]
+print('{"rehearse": 1}', flush=True)
+sys.stdin.readline()
+for line in sys.stdin:
+    used = os.path.getsize(count) if os.path.exists(count) else 0
+    if used > 400 and not os.path.exists(count + ".repaired"):
+        sys.exit("the licence has ended")
+    with open(count, "a") as file:
+        file.write("x")
+    asked = json.loads(line)["change"]
+    rows = [[(u[0] - 0.01 * x[0]) * 0.3, 0.1 * x[0]] for x, u in zip(asked["states"], asked["actions"])]
+    print(json.dumps({"change": rows}), flush=True)
+PY
+"$program" new tired >/dev/null
+{
+  sed '/^\[prior.useful\]/,$d' tired.toml
+  printf '%s\n' '[dynamics.slow]' "program = [\"python3\", \"tired.py\", \"$PWD/count\"]" '[prior.slow]' 'dynamics = "slow"'
+} >t && mv t tired.toml
+learn_tired() { "$program" learn tired.toml --learner black-drops-prior --trials 2 "${few[@]}" --threads 1 --out "$1" >output 2>&1; }
+touch count.repaired
+learn_tired whole || fail "a program that is repaired: $(cat output)"
+rm count count.repaired
+learn_tired tired_run
+[ $? = 1 ] && grep -q "the licence has ended" output || fail "a program that ends for good: $(cat output)"
+touch count.repaired
+"$program" resume tired_run --threads 1 >output 2>&1 || fail "resume of a program that is repaired: $(cat output)"
+same whole tired_run trials.csv policy.json
+
+# refused PATTERN SED : exit 2 before there is a folder
+refused() {
+  sed "$2" tired.toml >wrong.toml
+  "$program" learn wrong.toml --learner mi --out left >output 2>&1
+  [ $? = 2 ] && grep -q "$1" output || fail "$2 says $(cat output)"
+  [ -e left ] && fail "$2 leaves a folder"
+}
+refused "'tyred.py' is no file in the folder" 's/"tired.py"/"tyred.py"/'
+refused "'no-python' cannot be started" 's/"python3"/"no-python"/'
+refused "exit status 1; its standard error ends with" 's/"tired.py", /"-c", "import nothing", /'
+rm count.repaired
+
+finish
