@@ -17,6 +17,7 @@ struct ListArguments {
   bool json = false;
   bool options = false;
   bool expert = false;
+  bool schema = false;
 };
 
 struct CheckArguments {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/catalogue.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/options_table.hpp"
 #include "apps/cli/program.hpp"
@@ -164,7 +165,9 @@ int list(const experiment::Catalogue& catalogue, const ListArguments& arguments)
       refuse(catalogue, *arguments.name);
   } else if (arguments.expert) {
     throw InvalidInput(fmt::format("--expert is for one scenario or learner: {} list NAME --expert", program_name()));
-  } else if (arguments.json)
+  } else if (arguments.schema)
+    fmt::print("{}", robot_schema());
+  else if (arguments.json)
     fmt::print("{}\n", as_json(catalogue).dump(2));
   else
     print(catalogue, arguments.options);

@@ -61,6 +61,7 @@ void add_list(CLI::App& app, ListArguments& arguments) {
   command->add_flag("--expert", arguments.expert, "With the options of NAME that only experts need, too");
   command->add_flag("--options", arguments.options,
                     "With all options that --set can change, their defaults, and what is published of them");
+  command->add_flag("--schema", arguments.schema, "The JSON schema of robots' files, for editors");
 }
 
 void add_new(CLI::App& app, NewArguments& arguments) {

@@ -172,6 +172,8 @@ class Run {
     RunResult result{.folder = path(), .trials = history_.done()};
     result.best_return = best_trial(history_.trials).total_reward;
     result.warnings = history_.trials.back().warnings;
+    if (const auto& faults = with_.resolved().scenario.faults)
+      for (const std::string& fault : faults()) result.warnings.push_back(fault);
     for (const TrialRecord& trial : history_.trials)
       if (!result.solved_at && trial.solved.value_or(false)) result.solved_at = trial.trial;
     return result;

@@ -18,7 +18,7 @@ struct RunResult {
   Index trials = 0;
   std::optional<Index> solved_at;  // the first trial that solved the task
   double best_return = 0;
-  std::vector<std::string> warnings;  // what the trials could not tell of φ, as of the last trial's model
+  std::vector<std::string> warnings;  // what the trials could not tell of φ, as of the last trial's model; and faults
 };
 
 /// Runs a spec in a new folder. Throws InvalidInput before the folder exists, then RunFailed or Interrupted.

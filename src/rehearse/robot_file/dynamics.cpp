@@ -54,11 +54,13 @@ mujoco::ModelDescription DynamicsMaker::model(const Dynamics& dynamics) const {
   return model;
 }
 
-std::shared_ptr<const system::Simulator> DynamicsMaker::simulator(const Variant& variant, Index substeps) const {
+std::shared_ptr<const system::Simulator> DynamicsMaker::simulator(const Variant& variant, Index substeps) {
   const Dynamics& dynamics = robot_.dynamics_of(variant);
   const ParameterSpace fixed = variant.parameters.fixed_at(variant.parameters.values());
-  if (std::holds_alternative<ProgramSource>(dynamics.source))
-    return kept_with(folder_, std::make_shared<system::ProgramSimulator>(program(dynamics), fixed));
+  if (std::holds_alternative<ProgramSource>(dynamics.source)) {
+    programs_.emplace_back(variant.name, std::make_shared<system::ProgramSimulator>(program(dynamics), fixed));
+    return kept_with(folder_, programs_.back().second);
+  }
   if (std::holds_alternative<ModelSource>(dynamics.source)) return mujoco::make_simulator(model(dynamics), fixed);
   return system::make_ode_simulator(system::formula_kernel(robot_.equation(dynamics)), fixed, robot_.dt_s, substeps);
 }
@@ -104,6 +106,18 @@ void DynamicsMaker::check_models(files::FileViolations& violations) const {
       }
     }
   }
+}
+
+std::function<std::vector<std::string>()> DynamicsMaker::faults() const {
+  if (programs_.empty()) return nullptr;
+  return [programs = programs_] {
+    std::vector<std::string> sentences;
+    for (const auto& [name, program] : programs)
+      if (const system::Faults faults = program->faults(); faults.count > 0)
+        sentences.push_back(
+            fmt::format("{}: {} processes were replaced, the last because of {}", name, faults.count, faults.last));
+    return sentences;
+  };
 }
 
 std::function<void()> DynamicsMaker::require_ready() const {

@@ -22,7 +22,7 @@ class DynamicsMaker {
   /// Where programs and models find their files: made here, and kept as long as anybody needs it.
   explicit DynamicsMaker(const Robot& robot);
 
-  std::shared_ptr<const system::Simulator> simulator(const Variant& variant, Index substeps) const;
+  std::shared_ptr<const system::Simulator> simulator(const Variant& variant, Index substeps);
   std::function<std::unique_ptr<system::Plant>()> plant(const Variant& variant,
                                                         const system::StartAndSensors& around) const;
 
@@ -31,6 +31,9 @@ class DynamicsMaker {
 
   /// A violation for everything that models do not have.
   void check_models(files::FileViolations& violations) const;
+
+  /// What became of the processes of the simulators that were made; null: there are none.
+  std::function<std::vector<std::string>()> faults() const;
 
   /// Throws InvalidInput with why a program cannot be spoken with; null if there is none to be asked.
   std::function<void()> require_ready() const;
@@ -41,6 +44,7 @@ class DynamicsMaker {
 
   const Robot& robot_;
   std::shared_ptr<const files::TemporaryFolder> folder_;  // null: no files are named
+  std::vector<std::pair<std::string, std::shared_ptr<const system::ProgramSimulator>>> programs_;  // under their names
 };
 
 }  // namespace rehearse::robot_file

@@ -33,7 +33,7 @@ class Builder final : public scenario::ScenarioBuilder {
   }
 
   scenario::Scenario build() const override {
-    const DynamicsMaker dynamics(robot_);
+    DynamicsMaker dynamics(robot_);
     const Variant plant{robot_.plant.name, robot_.plant.dynamics, ParameterSpace(plant_)};
     const Task task = make_task(robot_);
     const Vector noise = Vector::Constant(task.state_size(), robot_.options.measurement_noise);
@@ -47,6 +47,7 @@ class Builder final : public scenario::ScenarioBuilder {
                                 .evaluations = robot_.options.evaluations};
     for (const Variant& prior : robot_.priors)
       scenario.priors.push_back({prior.name, dynamics.simulator(prior, robot_.options.substeps), prior.parameters});
+    scenario.faults = dynamics.faults();
     return scenario;
   }
 

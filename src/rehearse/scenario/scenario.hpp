@@ -35,8 +35,9 @@ struct Scenario {
   std::shared_ptr<const policy::Policy> policy;
   std::optional<Drawing> drawing;       // empty: it cannot be shown
   std::function<void()> require_ready;  // throws InvalidInput with why plant or priors cannot be asked; null: they can
-  Index evaluations = 0;                // extra episodes of each trial's policy on a plant of their own, which are no
-                                        // interaction: their mean return is recorded as expected_return; 0: none
+  std::function<std::vector<std::string>()> faults;  // of programs so far, a sentence each; null: there are none
+  Index evaluations = 0;  // extra episodes of each trial's policy on a plant of their own, which are no
+                          // interaction: their mean return is recorded as expected_return; 0: none
 };
 
 /// A file that a robot's file names, by its path from there.
