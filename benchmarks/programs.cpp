@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "rehearse/system/process.hpp"
-#include "rehearse/system/program.hpp"
+#include "rehearse/system/program_simulator.hpp"
 
 namespace {
 

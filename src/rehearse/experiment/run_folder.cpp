@@ -18,27 +18,12 @@ constexpr const char *kSpec = "spec.toml", *kCheckpoint = "checkpoint", *kDone =
 
 fs::path trial_file(const fs::path& folder, Index trial) { return folder / fmt::format("trial-{:03}.csv", trial); }
 
-void keep(const RobotFile& robot, const fs::path& folder) {
-  files::write_file(folder / kRobotFile, robot.text, files::Durability::power);
-  for (const scenario::NamedFile& file : robot.files) {
-    const fs::path path = folder / kRobotFolder / file.path;
-    fs::create_directories(path.parent_path());
-    files::write_file(path, file.bytes, files::Durability::power);
-  }
-}
-
 std::string already_exists(const fs::path& path) {
   return fmt::format("{} already exists and is never overwritten; name another folder, or continue a run with `resume`",
                      path.string());
 }
 
 }  // namespace
-
-Catalogue with_robot_of_run(const Catalogue& catalogue, const fs::path& folder) {
-  const fs::path file = folder / kRobotFile;
-  if (!fs::exists(file)) return catalogue;
-  return catalogue.with_robot(files::read_file(file), file.string(), folder / kRobotFolder);
-}
 
 RunFolder::RunFolder(fs::path path, Spec spec, files::FolderLock lock)
     : path_(std::move(path)), spec_(std::move(spec)), lock_(std::move(lock)) {}
@@ -51,7 +36,7 @@ RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comme
   try {
     files::FolderLock lock(unborn);
     files::write_file(unborn / kSpec, to_toml(spec, comments), files::Durability::power);
-    if (robot) keep(*robot, unborn);
+    if (robot) keep_robot(*robot, unborn);
     files::write_file(unborn / kCheckpoint, to_checkpoint({}, fingerprint(spec)), files::Durability::power);
     if (!files::rename_new(unborn, path)) throw InvalidInput(already_exists(path));
     return {path, spec, std::move(lock)};

@@ -3,19 +3,13 @@
 #include <filesystem>
 #include <string>
 
+#include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/experiment/record.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/files/write.hpp"
 #include "rehearse/learners/learner.hpp"
 
 namespace rehearse::experiment {
-
-/// Beside spec.toml: the file that describes the robot.
-inline constexpr const char* kRobotFile = "robot.toml";
-inline constexpr const char* kRobotFolder = "robot";  // with the files that it names
-
-/// With the robot that a run folder keeps, if it keeps one.
-Catalogue with_robot_of_run(const Catalogue& catalogue, const std::filesystem::path& folder);
 
 /// The folder of one run, locked while this lives. The checkpoint is the truth and each file is replaced in one step:
 /// after a kill at any instant, `load` and `write_tables` bring the rest up to date.

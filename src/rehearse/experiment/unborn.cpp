@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/run_folder.hpp"
+#include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/files/write.hpp"
 
 namespace rehearse::experiment {

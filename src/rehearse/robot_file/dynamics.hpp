@@ -10,7 +10,7 @@
 #include "rehearse/robot_file/robot.hpp"
 #include "rehearse/scenario/drawing.hpp"
 #include "rehearse/system/plant.hpp"
-#include "rehearse/system/program.hpp"
+#include "rehearse/system/program_simulator.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 #include "rehearse/system/simulator.hpp"
 

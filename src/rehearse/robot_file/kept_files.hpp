@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "rehearse/robot_file/robot_file.hpp"
+#include "rehearse/robot_file/read_file.hpp"
 #include "rehearse/robot_file/table.hpp"
 
 namespace rehearse::robot_file {

@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "rehearse/robot_file/read_file.hpp"
 #include "rehearse/robot_file/robot.hpp"
-#include "rehearse/robot_file/robot_file.hpp"
 
 namespace rehearse::robot_file {
 

@@ -1,8 +1,8 @@
 #pragma once
 // [dynamics.NAME] of a robot's file. For the sources of this room.
 
+#include "rehearse/robot_file/read_file.hpp"
 #include "rehearse/robot_file/robot.hpp"
-#include "rehearse/robot_file/robot_file.hpp"
 #include "rehearse/robot_file/table.hpp"
 
 namespace rehearse::robot_file {

@@ -50,7 +50,7 @@ struct Equations {
   std::vector<Formula> rates;  // one a state
 };
 
-/// A program that is asked (system/program.hpp).
+/// A program that is asked (system/program_simulator.hpp).
 struct ProgramSource {
   std::vector<std::string> command;
   double start_s = 30, answer_s = 10;

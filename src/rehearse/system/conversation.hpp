@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "rehearse/core/types.hpp"
 #include "rehearse/system/process.hpp"
 #include "rehearse/system/program.hpp"
 

@@ -66,7 +66,8 @@ Keys known_keys() {
       std::smatch match;
       if (!std::regex_search(line, match, complaint)) continue;
       const std::string keys = match[2];
-      known[match[1]].insert(std::sregex_token_iterator(keys.begin(), keys.end(), comma, -1), std::sregex_token_iterator());
+      known[match[1]].insert(std::sregex_token_iterator(keys.begin(), keys.end(), comma, -1),
+                             std::sregex_token_iterator());
     }
   }
   return known;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/core/parameters.hpp"
 #include "rehearse/system/program.hpp"
 #include "rehearse/system/test/harm.hpp"
 

@@ -1,4 +1,4 @@
-#include "rehearse/system/program.hpp"
+#include "rehearse/system/program_simulator.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,0 +1,20 @@
+#pragma once
+// The robot of a file, as a run folder keeps it.
+
+#include <filesystem>
+
+#include "rehearse/experiment/catalogue.hpp"
+
+namespace rehearse::experiment {
+
+/// Beside spec.toml: the file that describes the robot.
+inline constexpr const char* kRobotFile = "robot.toml";
+inline constexpr const char* kRobotFolder = "robot";  // with the files that it names
+
+/// With the robot that a run folder keeps, if it keeps one.
+Catalogue with_robot_of_run(const Catalogue& catalogue, const std::filesystem::path& folder);
+
+/// Writes both.
+void keep_robot(const RobotFile& robot, const std::filesystem::path& folder);
+
+}  // namespace rehearse::experiment
