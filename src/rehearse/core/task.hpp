@@ -34,6 +34,18 @@ struct ActionVariable {
 using Reward = std::function<void(const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& X_next,
                                   VectorView rewards)>;
 
+/// Steps of a batch as a cost sees them, one a row.
+struct Steps {
+  const ConstMatrixView& X;         // states (rows × dx)
+  const ConstMatrixView& U;         // actions (rows × du)
+  const ConstMatrixView& X_next;    // the states reached
+  const ConstMatrixView& U_before;  // the actions one step before; 0 in the first step
+  double time_s = 0;                // since the start, when the step begins
+};
+
+/// What each step costs, for what a reward cannot know: changes of actions, time. As a reward must be.
+using StepCost = std::function<void(const Steps& steps, VectorView costs)>;
+
 /// What every room may know of a problem. A plain value.
 struct Task {
   std::vector<StateVariable> states;
@@ -43,6 +55,7 @@ struct Task {
   double dt_s = 0;    // control step
   Index horizon = 0;  // steps of an episode, T
   Reward reward;
+  StepCost cost;            // is subtracted from the reward of each step; empty: nothing is
   Reward initial_reward;    // a guess that stands in while the reward is still to be learned; empty: none
   double reward_floor = 0;  // charged for every step that an early end or a failed simulation leaves out
 

@@ -20,6 +20,8 @@ std::vector<std::string> without_moments(const Task& task, const policy::Policy&
                      fmt::format("policy = {} has no analytic moments, which {} needs: choose policy = rbf "
                                  "(--set policy=rbf), policy = linear with policy_squash = sine, or {}",
                                  policy.name(), who, otherwise));
+  violations.require(!task.cost,
+                     fmt::format("the task has a cost of steps, whose moments are not known: choose {}", otherwise));
   violations.require(reward::closed_form(task.reward) != nullptr,
                      fmt::format("the scenario's reward has no analytic moments, which {} needs: give it a closed "
                                  "form (reward::saturating), or choose {}",

@@ -110,6 +110,7 @@ class Reader {
       robot_.reward.formula = table.formula("formula");
       table.number("width", robot_.reward.width, above(0));
       table.number("floor", robot_.reward.floor);
+      robot_.reward.cost = table.formula("cost");
       if (robot_.reward.distance.empty() == robot_.reward.formula.empty())
         violations_.add(files::line_of(*part),
                         "[reward] needs distance = […], what is 0 at the goal, or formula = \"…\"");

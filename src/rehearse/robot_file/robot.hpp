@@ -36,6 +36,7 @@ struct RewardFormulas {
   double width = 1;               // of all of them together
   Formula formula;                // instead of a distance
   double floor = 0;
+  Formula cost;  // of states, actions, actions before (NAME_before) and time; is subtracted
 };
 
 /// A condition that has to hold for the last seconds of an episode.

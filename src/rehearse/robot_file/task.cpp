@@ -22,11 +22,23 @@ Formulas task_formulas(const Robot& robot) {
   return formulas;
 }
 
+/// Of a cost: then come the actions one step before, and the time since the start.
+void add_inputs_of_costs(Formulas& formulas, const Robot& robot) {
+  for (const std::string& name : robot.action_names()) formulas.input(name + "_before", Pace::always);
+  formulas.input("time", Pace::always);
+}
+
 Program program(const Robot& robot, const std::vector<Formula>& outputs) {
   Formulas formulas = task_formulas(robot);
   std::vector<Node> nodes;
   for (const Formula& output : outputs) nodes.push_back(formulas.compile(output.text));
   return {formulas, nodes};
+}
+
+Program cost_program(const Robot& robot) {
+  Formulas formulas = task_formulas(robot);
+  add_inputs_of_costs(formulas, robot);
+  return {formulas, {formulas.compile(robot.reward.cost.text)}};
 }
 
 /// The formulas (rows × outputs) of states and actions; columns of X and U are the program's inputs, in this order.
@@ -61,6 +73,9 @@ class Checker {
     for (const Body& body : robot_.bodies)
       for (const Formula* formula : {&body.from[0], &body.from[1], &body.to[0], &body.to[1]})
         compile(formulas, fmt::format("body {}", body.name), *formula);
+    if (!robot_.reward.cost.empty() && good_)
+      named(
+          robot_.reward.cost.line, [&] { cost_program(robot_); }, "reward.cost");
     for (const Dynamics& dynamics : robot_.dynamics)
       if (const auto* equations = std::get_if<Equations>(&dynamics.source)) check_equations(dynamics, *equations);
   }
@@ -123,6 +138,16 @@ Reward reward_of(const Robot& robot) {
   return [program = program(robot, {robot.reward.formula})](const ConstMatrixView&, const ConstMatrixView& U,
                                                             const ConstMatrixView& X_next, VectorView rewards) {
     rewards = evaluate(program, X_next, U).col(0);
+  };
+}
+
+StepCost cost_of(const Robot& robot) {
+  if (robot.reward.cost.empty()) return {};
+  return [program = cost_program(robot)](const Steps& steps, VectorView costs) {
+    thread_local Matrix more;
+    more.resize(steps.U.rows(), 2 * steps.U.cols() + 1);
+    more << steps.U, steps.U_before, Vector::Constant(steps.U.rows(), steps.time_s);
+    costs = evaluate(program, steps.X_next, more).col(0);
   };
 }
 
@@ -221,6 +246,7 @@ Task make_task(const Robot& robot) {
   task.horizon = robot.horizon;
   task.reward = reward_of(robot);
   task.reward_floor = robot.reward.floor;
+  task.cost = cost_of(robot);
   if (!robot.success.when.empty())
     task.solved = scenario::holds_at_the_end(task, robot.success.last_s, condition(robot, robot.success.when));
   if (!robot.ended.empty()) task.ended = condition(robot, robot.ended);

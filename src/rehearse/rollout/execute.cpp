@@ -23,11 +23,17 @@ void record_state(Episode& episode, Index row, const Vector& measured, const sys
   episode.true_states.row(row) = (truth.size() == measured.size() ? truth : measured).transpose();
 }
 
+/// What the step earns, less what it costs.
 double reward_of(const Task& task, const Episode& episode, Index t) {
-  Vector reward(1);
-  task.reward(episode.true_states.middleRows(t, 1), episode.actions.middleRows(t, 1),
-              episode.true_states.middleRows(t + 1, 1), reward);
-  return reward(0);
+  Vector reward(1), cost = Vector::Zero(1);
+  const ConstMatrixView x = episode.true_states.middleRows(t, 1), u = episode.actions.middleRows(t, 1),
+                        next = episode.true_states.middleRows(t + 1, 1);
+  task.reward(x, u, next, reward);
+  if (task.cost) {
+    const Matrix before = t > 0 ? Matrix(episode.actions.row(t - 1)) : Matrix::Zero(1, u.cols());
+    task.cost({x, u, next, before, static_cast<double>(t) * task.dt_s}, cost);
+  }
+  return reward(0) - cost(0);
 }
 
 /// Ends an episode after `steps`: the rest earns the reward floor. failure: why, if that is no fall.

@@ -20,8 +20,8 @@ Index rows_of_chunk(Index batch, Index rows_at_once) {
 
 /// Memory of a chunk, kept by each thread from one to the next: fresh pages cost more than a step of a cheap model.
 struct Buffers {
-  Matrix Theta, X, seen, next, noise, U;
-  Vector reward, returns, state;
+  Matrix Theta, X, seen, next, noise, U, U_before;
+  Vector reward, cost, returns, state;
   std::vector<std::uint64_t> candidates, particles;
   std::vector<char> alive;
 };
@@ -40,6 +40,10 @@ class Chunk {
     for (Matrix* states : {&b_.X, &b_.seen, &b_.next, &b_.noise}) states->resize(rows, task_.state_size());
     b_.U.resize(rows, task_.action_size());
     b_.reward.resize(rows);
+    if (task_.cost) {
+      b_.U_before.setZero(rows, task_.action_size());
+      b_.cost.resize(rows);
+    }
     b_.returns.setZero(rows);
     b_.candidates.resize(static_cast<std::size_t>(rows));
     b_.particles.resize(static_cast<std::size_t>(rows));
@@ -78,6 +82,7 @@ class Chunk {
       model_.predict_mean(b_.X, b_.U, b_.next);
     b_.next += b_.X;
     task_.reward(b_.X, b_.U, b_.next, b_.reward);
+    if (task_.cost) charge(t);
     if (record) write(t, *record);
     for (Index row = 0; row < b_.X.rows(); ++row) settle(row, t);
     b_.X.swap(b_.next);
@@ -121,6 +126,12 @@ class Chunk {
       record.steps[i] += !record.failed[i];
       record.ended[i] = !record.failed[i] && ended(row);
     }
+  }
+
+  void charge(Index t) {
+    task_.cost({b_.X, b_.U, b_.next, b_.U_before, static_cast<double>(t) * task_.dt_s}, b_.cost);
+    b_.reward -= b_.cost;
+    b_.U_before = b_.U;
   }
 
   bool finite(Index row) const { return b_.next.row(row).allFinite() && std::isfinite(b_.reward(row)); }

@@ -192,6 +192,7 @@ Entry<Options> entry(const char* name, const char* summary, identification::Kind
 /// A learner that learns the reward knows neither it nor when the task is solved.
 void forget_reward(Task& task) {
   task.reward = nullptr;
+  task.cost = nullptr;
   task.solved = nullptr;
 }
 

@@ -23,10 +23,12 @@ TEST(Requirements, SayEverythingThatHasNoMoments) {
                                               .scale = Vector::Ones(task.feature_map().features()),
                                               .squash = {task.action_bounds(), 1}});
   task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView) {};
+  task.cost = [](const Steps&, VectorView costs) { costs.setZero(); };
   const auto all = complaints(task, *with_tanh);
-  ASSERT_EQ(all.size(), 2u);
+  ASSERT_EQ(all.size(), 3u);
   EXPECT_TRUE(all[0].starts_with("policy = linear has no analytic moments, which PILCO needs")) << all[0];
-  EXPECT_TRUE(all[1].ends_with("or choose black-drops")) << all[1];
+  EXPECT_TRUE(all[1].starts_with("the task has a cost of steps")) << all[1];
+  EXPECT_TRUE(all[2].ends_with("or choose black-drops")) << all[2];
 }
 
 TEST(Requirements, AModelOfTooManyInputsIsRefused) {

@@ -97,7 +97,9 @@ TEST(ReadModel, WhatIsWrongIsSaidWithItsLine) {
   expect("state.angle = 3", "must be the name of a joint");
   expect("state.angle = { velocity = \"hinge\", position = \"hinge\" }", "must be one of position, velocity");
   expect(kRod + "\nparameters.k = 2", "must say what it sets or scales");
-  expect(kRod + "\nparameters.k = { value = 2, sets = \"mass of rod\" }", "KIND ELEMENT FIELD");
+  expect(kRod + "\nparameters.k = { value = 2, sets = \"mass of rod\" }",
+         "there is no kind 'mass', did you mean 'body'?");
+  expect(kRod + "\nparameters.k = { value = 2, sets = \"body rod\" }", "KIND ELEMENT FIELD");
   expect(kRod + "\nparameters.k = { value = 2, sets = \"body rot mass\" }", "rod");
   expect(kRod + "\nparameters.k = { value = 2, sets = \"body rod maas\" }", "mass");
   expect(kRod + "\nsubsteps = 0", "substeps = 0, must be");

@@ -89,5 +89,19 @@ TEST(RobotTask, BodiesAreDrawn) {
   EXPECT_NEAR(lines[0].to.y(), std::cos(0.3), 1e-15);
 }
 
+TEST(RobotTask, ACostSeesActionsBeforeAndTime) {
+  const Task task = make_task(read(with("width = 0.5", "width = 0.5\ncost = \"2 * (u - u_before)^2 + height * time\""),
+                                   "swing.toml", example::no_files));
+  ASSERT_TRUE(task.cost);
+  const Matrix X = Matrix::Zero(2, 2), next{{0, 0.3}, {1, 2}}, U{{1}, {2}}, before{{0.5}, {-1}};
+  Vector costs(2);
+  task.cost({X, U, next, before, 3}, costs);
+  EXPECT_NEAR(costs(0), 2 * 0.25 + std::cos(0.3) * 3, 1e-12);
+  EXPECT_NEAR(costs(1), 2 * 9 + std::cos(2.0) * 3, 1e-12);
+  EXPECT_FALSE(make_task(read(kSwing, "swing.toml", example::no_files)).cost);
+  EXPECT_NE(example::complaint_of(with("width = 0.5", "width = 0.5\ncost = \"u_befor\"")).find("'u_before'"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace rehearse::robot_file

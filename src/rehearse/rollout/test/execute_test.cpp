@@ -244,5 +244,19 @@ TEST(Execute, AStepThatCannotBeSimulatedIsAFall) {
   EXPECT_EQ(episode.charged, -0.5 * 17);
 }
 
+TEST(Execute, ACostIsSubtractedInEveryStep) {
+  Task task = cart::task();
+  CartPlant plant, same;
+  const Episode free = execute(plant, *cart::policy(), cart::candidates(1), task, kRng);
+  task.cost = [](const Steps& steps, VectorView costs) {
+    costs = (steps.U - steps.U_before).col(0).array().square() + steps.time_s;
+  };
+  const Episode costly = execute(same, *cart::policy(), cart::candidates(1), task, kRng);
+  for (Index t = 0; t < task.horizon; ++t) {
+    const double change = free.actions(t, 0) - (t > 0 ? free.actions(t - 1, 0) : 0);
+    EXPECT_NEAR(free.rewards(t) - costly.rewards(t), change * change + static_cast<double>(t) * task.dt_s, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace rehearse::rollout

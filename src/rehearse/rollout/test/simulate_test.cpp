@@ -258,5 +258,28 @@ TEST(Simulate, AModelWhoseCallsAreDearIsCalledTwiceAStep) {
   EXPECT_LT((simulated.returns - simulate_cart(task, Theta, 3).returns).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+/// A tenth of what an action changes, and the time.
+void cost_of_changes(const Steps& steps, VectorView costs) {
+  costs = 0.1 * (steps.U - steps.U_before).col(0).cwiseAbs().array() + steps.time_s;
+}
+
+TEST(Simulate, ACostIsSubtractedInEveryStep) {
+  Task task = cart::task();
+  const Matrix Theta = cart::candidates(3);
+  const Recorded free = simulate_recorded({cart::Model(), *cart::policy(), task, kKey, {}}, Theta.col(1), 2);
+  task.cost = cost_of_changes;
+  const Recorded costly = simulate_recorded({cart::Model(), *cart::policy(), task, kKey, {}}, Theta.col(1), 2);
+  Matrix u_before = Matrix::Zero(2, 1), u(2, 1);
+  for (Index t = 0; t < task.horizon; ++t) {
+    const auto i = static_cast<std::size_t>(t);
+    ASSERT_EQ(costly.states[i], free.states[i]);
+    cart::policy()->act(Theta.col(1).transpose().replicate(2, 1), free.states[i], 0, u);
+    for (Index p = 0; p < 2; ++p)
+      EXPECT_NEAR(free.rewards(p, t) - costly.rewards(p, t),
+                  0.1 * std::abs(u(p, 0) - u_before(p, 0)) + static_cast<double>(t) * task.dt_s, 1e-12);
+    u_before = u;
+  }
+}
+
 }  // namespace
 }  // namespace rehearse::rollout
