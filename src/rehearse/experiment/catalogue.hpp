@@ -37,8 +37,9 @@ using ReadRobot = std::function<std::unique_ptr<scenario::ScenarioBuilder>(
     std::string_view text, const std::string& source,
     const std::function<std::optional<std::string>(const std::string& path)>& read_file)>;
 
-/// What there is to choose from. apps generates one from the folders of robots, learners and presets; a program with a
-/// robot of its own makes one by hand. A value; every call makes new builders, because their options can be set.
+/// What there is to choose from. apps generates one from the folders of robots, learners and presets;
+/// rehearse/cli/cli.hpp adds those of a program. A value; every call makes new builders, because their options can be
+/// set.
 struct Catalogue {
   std::vector<std::function<std::unique_ptr<scenario::ScenarioBuilder>()>> scenarios;
   std::vector<std::function<std::vector<std::unique_ptr<learners::LearnerBuilder>>()>> learner_families;
