@@ -52,7 +52,7 @@ void write_rows(std::string& text, const ConstMatrixView& rows) {
 }
 
 Json object_of(std::string_view text) {
-  const Json json = Json::parse(text, nullptr, false);
+  Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) refuse("it answered what is no JSON: {}", excerpt(text));
   if (!json.is_object()) refuse("it answered what is no JSON object: {}", excerpt(text));
   if (const auto error = json.find("error"); error != json.end())

@@ -80,6 +80,7 @@ class Spawning {
 
   int spawn(const std::vector<std::string>& command, pid_t& process) const {
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
     return posix_spawnp(&process, arguments.front(), &actions_, &attributes_, arguments.data(), environ);
