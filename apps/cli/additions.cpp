@@ -1,8 +1,5 @@
 #include "apps/cli/additions.hpp"
 
-#include <algorithm>
-#include <cctype>
-
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
@@ -10,12 +7,6 @@
 
 namespace rehearse::apps {
 namespace {
-
-/// The characters of names in robots' files: folders of runs are named after scenarios and learners.
-bool is_word(const std::string& name) {
-  const auto is_part = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
-  return !name.empty() && std::all_of(name.begin(), name.end(), is_part);
-}
 
 /// Adds a name to those that are taken, unless it is wrong.
 void take(const std::string& kind, const std::string& name, std::vector<std::string>& taken, Violations& violations) {

@@ -50,7 +50,7 @@ std::unique_ptr<learners::LearnerBuilder> Catalogue::learner(const std::string& 
 Catalogue Catalogue::with_robot(const std::string& text, const std::string& source,
                                 const std::filesystem::path& folder) const {
   if (!read_robot) throw InvalidInput(fmt::format("{}: this program reads no robots from files", source));
-  const auto from_disk = [&](const std::string& path) -> std::optional<std::string> {
+  const scenario::ReadFile from_disk = [&](const std::string& path) -> std::optional<std::string> {
     if (!std::filesystem::is_regular_file(folder / path)) return {};
     return files::read_file(folder / path, files::Links::follow);
   };

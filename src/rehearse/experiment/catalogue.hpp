@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,14 +31,12 @@ struct RobotFile {
   std::vector<scenario::NamedFile> files;  // that it names
 };
 
-/// Makes a scenario of a robot's file. read_file: the bytes of a file by its path from there; empty: there is none.
+/// Makes a scenario of a robot's file.
 using ReadRobot = std::function<std::unique_ptr<scenario::ScenarioBuilder>(
-    std::string_view text, const std::string& source,
-    const std::function<std::optional<std::string>(const std::string& path)>& read_file)>;
+    std::string_view text, const std::string& source, const scenario::ReadFile& read_file)>;
 
-/// What there is to choose from. apps generates one from the folders of robots, learners and presets;
-/// rehearse/cli/cli.hpp adds those of a program. A value; every call makes new builders, because their options can be
-/// set.
+/// The robots, learners and presets of a program. apps generates one from their folders; rehearse/cli/cli.hpp adds
+/// those of a program of one's own. A value; every call makes new builders, because their options can be set.
 struct Catalogue {
   std::vector<std::function<std::unique_ptr<scenario::ScenarioBuilder>()>> scenarios;
   std::vector<std::function<std::vector<std::unique_ptr<learners::LearnerBuilder>>()>> learner_families;

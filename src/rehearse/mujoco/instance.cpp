@@ -7,8 +7,8 @@
 namespace rehearse::mujoco {
 namespace {
 
-/// What warnings count from. MuJoCo writes the text of one, which all threads share, where it has counted none. It
-/// resets its data where they go bad, and then counts from 0: any other count says so, too.
+/// Warnings are counted from here. MuJoCo writes the text of one, which all threads share, where it has counted none.
+/// It resets its data where they go bad, and then counts from 0: any other count says so, too.
 constexpr int kNoWarnings = 2;
 
 void assign(double* to, const Vector& from) { Vector::Map(to, from.size()) = from; }
@@ -93,22 +93,10 @@ bool Instance::place_bodies() {
 }
 
 std::unique_ptr<Instance> Instances::take(const Vector& phi) const {
-  std::unique_ptr<Instance> instance;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!idle_.empty()) {
-      instance = std::move(idle_.back());
-      idle_.pop_back();
-    }
-  }
+  std::unique_ptr<Instance> instance = idle_.take();
   if (!instance) instance = std::make_unique<Instance>(compiled_);
   instance->apply(phi);
   return instance;
-}
-
-void Instances::give_back(std::unique_ptr<Instance> instance) const {
-  const std::lock_guard lock(mutex_);
-  idle_.push_back(std::move(instance));
 }
 
 }  // namespace rehearse::mujoco

@@ -2,9 +2,9 @@
 // One copy of a model, and its data. For the files of this room.
 
 #include <memory>
-#include <mutex>
-#include <vector>
+#include <utility>
 
+#include "rehearse/core/pool.hpp"
 #include "rehearse/mujoco/compiled_model.hpp"
 
 namespace rehearse::mujoco {
@@ -23,7 +23,7 @@ class Instance {
   /// A control step under u (du). False if the simulation diverged. Allocates nothing.
   bool step(const Vector& u);
 
-  /// What states see where nothing has moved since `place`: false if that cannot be computed.
+  /// Computes what states see where nothing has moved since `place`. False if that cannot be.
   bool look();
 
   /// Computes where bodies and geoms are, as `look` does only for states that need it.
@@ -57,12 +57,11 @@ class Instances {
 
   /// One at phi. An instance that threw is not given back.
   std::unique_ptr<Instance> take(const Vector& phi) const;
-  void give_back(std::unique_ptr<Instance> instance) const;
+  void give_back(std::unique_ptr<Instance> instance) const { idle_.give_back(std::move(instance)); }
 
  private:
   std::shared_ptr<const CompiledModel> compiled_;
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<Instance>> idle_;
+  mutable Pool<Instance> idle_;
 };
 
 }  // namespace rehearse::mujoco

@@ -1,5 +1,5 @@
 #pragma once
-// What computes a robot's dynamics, by where they come from. For the sources of this room.
+// Makes what computes a robot's dynamics, by where they come from. For the sources of this room.
 
 #include <functional>
 #include <memory>
@@ -19,7 +19,7 @@ namespace rehearse::robot_file {
 /// Simulators and plants of a robot's [dynamics.NAME].
 class DynamicsMaker {
  public:
-  /// Where programs and models find their files: made here, and kept as long as anybody needs it.
+  /// Makes the folder where programs and models find their files; it is kept as long as anybody needs it.
   explicit DynamicsMaker(const Robot& robot);
 
   std::shared_ptr<const system::Simulator> simulator(const Variant& variant, Index substeps);
@@ -32,7 +32,7 @@ class DynamicsMaker {
   /// A violation for everything that models do not have.
   void check_models(files::FileViolations& violations) const;
 
-  /// What became of the processes of the simulators that were made; null: there are none.
+  /// Says, later, how many processes of the simulators that were made had to be replaced; null: there are none.
   std::function<std::vector<std::string>()> faults() const;
 
   /// Throws InvalidInput with why a program cannot be spoken with; null if there is none to be asked.

@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "rehearse/robot_file/read_file.hpp"
 #include "rehearse/robot_file/table.hpp"
+#include "rehearse/scenario/scenario.hpp"
 
 namespace rehearse::robot_file {
 
 class KeptFiles {
  public:
-  KeptFiles(std::vector<scenario::NamedFile>& files, const ReadFile& read_file)
+  KeptFiles(std::vector<scenario::NamedFile>& files, const scenario::ReadFile& read_file)
       : files_(files), read_file_(read_file) {}
 
   /// False: there is no such file in the folder of the robot's file.
@@ -25,7 +25,7 @@ class KeptFiles {
 
  private:
   std::vector<scenario::NamedFile>& files_;
-  const ReadFile& read_file_;
+  const scenario::ReadFile& read_file_;
 };
 
 }  // namespace rehearse::robot_file

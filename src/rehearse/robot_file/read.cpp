@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/core/names.hpp"
 #include "rehearse/expression/formulas.hpp"
 #include "rehearse/robot_file/read_dynamics.hpp"
 #include "rehearse/robot_file/table.hpp"
@@ -17,7 +18,7 @@ constexpr std::int64_t kFormat = 1;
 
 class Reader {
  public:
-  Reader(const toml::table& file, const std::string& source, const ReadFile& read_file)
+  Reader(const toml::table& file, const std::string& source, const scenario::ReadFile& read_file)
       : read_file_(read_file), violations_(source), file_(file, "", violations_) {}
 
   Robot read() {
@@ -43,8 +44,7 @@ class Reader {
     if (!format || format->value<std::int64_t>() != kFormat)
       violations_.add(format ? files::line_of(*format) : 0, fmt::format("a robot begins with format = {}", kFormat));
     file_.reader().take("name", robot_.name);
-    const auto is_part = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
-    if (robot_.name.empty() || !std::all_of(robot_.name.begin(), robot_.name.end(), is_part))
+    if (!is_word(robot_.name))
       file_.wrong("name", fmt::format("name = '{}', must be of letters, digits, - and _", robot_.name));
     file_.reader().take("summary", robot_.summary);
     required(file_.number("dt_s", robot_.dt_s, above(0)), "dt_s", "seconds of a control step");
@@ -172,7 +172,7 @@ class Reader {
     }
   }
 
-  const ReadFile& read_file_;
+  const scenario::ReadFile& read_file_;
   files::FileViolations violations_;
   Table file_;
   expression::Formulas names_;  // of states and actions
@@ -181,7 +181,7 @@ class Reader {
 
 }  // namespace
 
-Robot read(std::string_view text, const std::string& source, const ReadFile& read_file) {
+Robot read(std::string_view text, const std::string& source, const scenario::ReadFile& read_file) {
   const toml::table file = files::parse_toml(text, source);
   return Reader(file, source, read_file).read();
 }

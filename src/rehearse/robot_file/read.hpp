@@ -3,13 +3,12 @@
 #include <string>
 #include <string_view>
 
-#include "rehearse/robot_file/read_file.hpp"
 #include "rehearse/robot_file/robot.hpp"
 
 namespace rehearse::robot_file {
 
 /// Reads a robot's file (docs/own-robot.md), and the files that it names. Throws InvalidInput with a line for
 /// everything that is wrong, "SOURCE: line N: …".
-Robot read(std::string_view text, const std::string& source, const ReadFile& read_file);
+Robot read(std::string_view text, const std::string& source, const scenario::ReadFile& read_file);
 
 }  // namespace rehearse::robot_file

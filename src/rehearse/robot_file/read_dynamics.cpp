@@ -26,7 +26,7 @@ bool looks_like_a_file(const std::string& argument, bool first) {
 
 class DynamicsReader {
  public:
-  DynamicsReader(Robot& robot, const ReadFile& read_file, files::FileViolations& violations)
+  DynamicsReader(Robot& robot, const scenario::ReadFile& read_file, files::FileViolations& violations)
       : robot_(robot), kept_(robot.files, read_file), violations_(violations) {}
 
   void read(const std::string& name, const toml::table& part) {
@@ -129,7 +129,7 @@ class DynamicsReader {
 
 }  // namespace
 
-void read_dynamics(Table& file, Robot& robot, const ReadFile& read_file, files::FileViolations& violations) {
+void read_dynamics(Table& file, Robot& robot, const scenario::ReadFile& read_file, files::FileViolations& violations) {
   DynamicsReader reader(robot, read_file, violations);
   for (const auto& [name, part] : file.tables("dynamics")) reader.read(name, *part);
 }

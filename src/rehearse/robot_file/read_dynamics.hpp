@@ -1,7 +1,6 @@
 #pragma once
 // [dynamics.NAME] of a robot's file. For the sources of this room.
 
-#include "rehearse/robot_file/read_file.hpp"
 #include "rehearse/robot_file/robot.hpp"
 #include "rehearse/robot_file/table.hpp"
 
@@ -9,6 +8,6 @@ namespace rehearse::robot_file {
 
 /// Adds the dynamics to the robot, whose states are known, and the files that they name. Wrong input becomes a
 /// violation.
-void read_dynamics(Table& file, Robot& robot, const ReadFile& read_file, files::FileViolations& violations);
+void read_dynamics(Table& file, Robot& robot, const scenario::ReadFile& read_file, files::FileViolations& violations);
 
 }  // namespace rehearse::robot_file

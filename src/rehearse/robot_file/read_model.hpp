@@ -6,7 +6,7 @@
 
 namespace rehearse::robot_file {
 
-/// What states and actions of the robot are in the model. Wrong input becomes a violation.
+/// The model's part of a robot: its states and actions there. Wrong input becomes a violation.
 ModelSource model_of(Table& table, const Robot& robot, files::FileViolations& violations);
 
 /// The parameter with what it `sets` and `scales`.

@@ -20,17 +20,7 @@ class Builder final : public scenario::ScenarioBuilder {
     return names;
   }
 
-  void fields(FieldVisitor& v) override {
-    for (Parameter& parameter : plant_)
-      v.number("plant." + parameter.name, parameter.value, help_of(parameter).c_str());
-    v.number("measurement_noise", robot_.options.measurement_noise, "deviation of every measured state [its unit]",
-             at_least(0));
-    v.integer("substeps", robot_.options.substeps,
-              expert("steps of integration of priors and oracle in a control step"), between(1, 1e4));
-    v.integer("evaluations", robot_.options.evaluations, "extra episodes for each trial's expected_return; 0: none",
-              between(0, 1e6));
-    robot_.options.policy.fields(v);
-  }
+  void fields(FieldVisitor& v) override { robot_.options.fields_of_robot(v, plant_); }
 
   scenario::Scenario build() const override {
     DynamicsMaker dynamics(robot_);
@@ -54,10 +44,6 @@ class Builder final : public scenario::ScenarioBuilder {
   std::vector<scenario::NamedFile> files() const override { return robot_.files; }
 
  private:
-  static std::string help_of(const Parameter& parameter) {
-    return "of the robot" + (parameter.unit.empty() ? "" : " [" + parameter.unit + "]");
-  }
-
   Vector policy_scale() const {
     std::vector<double> scale;
     for (const State& state : robot_.states) {
@@ -74,7 +60,7 @@ class Builder final : public scenario::ScenarioBuilder {
 }  // namespace
 
 std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const std::string& source,
-                                                   const ReadFile& read_file) {
+                                                   const scenario::ReadFile& read_file) {
   Robot robot = read(text, source, read_file);
   files::FileViolations violations(source);
   check_formulas(robot, violations);

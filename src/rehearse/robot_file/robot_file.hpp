@@ -4,7 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "rehearse/robot_file/read_file.hpp"
 #include "rehearse/scenario/scenario.hpp"
 
 namespace rehearse::robot_file {
@@ -14,6 +13,6 @@ namespace rehearse::robot_file {
 /// plant. source: the file's name, for messages. Throws InvalidInput with a line for everything that is wrong,
 /// "SOURCE: line N: …".
 std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const std::string& source,
-                                                   const ReadFile& read_file);
+                                                   const scenario::ReadFile& read_file);
 
 }  // namespace rehearse::robot_file

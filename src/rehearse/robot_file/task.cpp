@@ -22,12 +22,6 @@ Formulas task_formulas(const Robot& robot) {
   return formulas;
 }
 
-/// Of a cost: then come the actions one step before, and the time since the start.
-void add_inputs_of_costs(Formulas& formulas, const Robot& robot) {
-  for (const std::string& name : robot.action_names()) formulas.input(name + "_before", Pace::always);
-  formulas.input("time", Pace::always);
-}
-
 Program program(const Robot& robot, const std::vector<Formula>& outputs) {
   Formulas formulas = task_formulas(robot);
   std::vector<Node> nodes;
@@ -35,9 +29,11 @@ Program program(const Robot& robot, const std::vector<Formula>& outputs) {
   return {formulas, nodes};
 }
 
+/// Its further inputs are the actions one step before, and the time since the start.
 Program cost_program(const Robot& robot) {
   Formulas formulas = task_formulas(robot);
-  add_inputs_of_costs(formulas, robot);
+  for (const std::string& name : robot.action_names()) formulas.input(name + "_before", Pace::always);
+  formulas.input("time", Pace::always);
   return {formulas, {formulas.compile(robot.reward.cost.text)}};
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::rollout {
 namespace {
@@ -23,7 +24,7 @@ void record_state(Episode& episode, Index row, const Vector& measured, const sys
   episode.true_states.row(row) = (truth.size() == measured.size() ? truth : measured).transpose();
 }
 
-/// What the step earns, less what it costs.
+/// The step's reward, less its cost.
 double reward_of(const Task& task, const Episode& episode, Index t) {
   Vector reward(1), cost = Vector::Zero(1);
   const ConstMatrixView x = episode.true_states.middleRows(t, 1), u = episode.actions.middleRows(t, 1),
@@ -46,30 +47,6 @@ void end(Episode& episode, Index steps, const Task& task, std::string failure = 
   episode.actions.conservativeResize(steps, Eigen::NoChange);
   episode.rewards.conservativeResize(steps);
 }
-
-/// A simulator as a plant; the state is NaN after a step that failed.
-class SimulatedPlant final : public system::Plant {
- public:
-  SimulatedPlant(const system::Simulator& simulator, const Vector& phi, const Task& task)
-      : simulator_(simulator), phi_(phi), task_(task) {}
-
-  Vector reset(Rng& rng) override {
-    state_ = task_.start_mean;
-    for (Index i = 0; i < state_.size(); ++i) state_(i) += task_.start_std(i) * rng.normal();
-    return state_;
-  }
-  Vector step(const Vector& u) override {
-    Matrix change(1, state_.size());
-    system::change_contained(simulator_, state_.transpose(), u.transpose(), phi_, change);
-    return state_ += change.transpose();
-  }
-
- private:
-  const system::Simulator& simulator_;
-  const Vector& phi_;
-  const Task& task_;
-  Vector state_;
-};
 
 void check(const policy::Policy& policy, const Vector& theta, const Task& task) {
   Violations violations;
@@ -131,8 +108,13 @@ Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector
 
 Episode execute(const system::Simulator& simulator, const Vector& phi, const policy::Policy& policy,
                 const Vector& theta, const Task& task, Rng rng) {
-  SimulatedPlant plant(simulator, phi, task);
-  return run(plant, policy, theta, task, rng, {}, true);
+  const auto motion = [&](const Vector& x, const Vector& u) -> Vector {  // NaN after a step that failed
+    Matrix change(1, x.size());
+    system::change_contained(simulator, x.transpose(), u.transpose(), phi, change);
+    return x + change.transpose();
+  };
+  const auto plant = system::make_simulated_plant(motion, {task.start_mean, task.start_std, {}});
+  return run(*plant, policy, theta, task, rng, {}, true);
 }
 
 Episode as_measured(Episode episode, const Task& task) {

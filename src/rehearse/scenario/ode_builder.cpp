@@ -21,17 +21,7 @@ class OdeBuilder final : public ScenarioBuilder {
     return names;
   }
 
-  void fields(FieldVisitor& v) override {
-    for (Parameter& parameter : plant_)
-      v.number("plant." + parameter.name, parameter.value, help_of(parameter).c_str());
-    v.number("measurement_noise", options_.measurement_noise, "deviation of every measured state [its unit]",
-             at_least(0));
-    v.integer("substeps", options_.substeps, expert("steps of integration of priors and oracle in a control step"),
-              between(1, 1e4));
-    v.integer("evaluations", options_.evaluations, "extra episodes for each trial's expected_return; 0: none",
-              between(0, 1e6));
-    options_.policy.fields(v);
-  }
+  void fields(FieldVisitor& v) override { options_.fields_of_robot(v, plant_); }
 
   Scenario build() const override {
     if (const auto wrong = parts_.task.violations(); !wrong.empty()) throw InvalidInput(wrong);
@@ -41,10 +31,6 @@ class OdeBuilder final : public ScenarioBuilder {
   }
 
  private:
-  static std::string help_of(const Parameter& parameter) {
-    return "of the robot" + (parameter.unit.empty() ? "" : " [" + parameter.unit + "]");
-  }
-
   std::string summary_;
   OdeScenario parts_;
   OdeOptions options_;

@@ -18,6 +18,18 @@ void OdeOptions::fields(FieldVisitor& v) {
   policy.fields(v);
 }
 
+void OdeOptions::fields_of_robot(FieldVisitor& v, std::vector<Parameter>& plant) {
+  for (Parameter& parameter : plant) {
+    const std::string help = "of the robot" + (parameter.unit.empty() ? "" : " [" + parameter.unit + "]");
+    v.number("plant." + parameter.name, parameter.value, help.c_str());
+  }
+  v.number("measurement_noise", measurement_noise, "deviation of every measured state [its unit]", at_least(0));
+  v.integer("substeps", substeps, expert("steps of integration of priors and oracle in a control step"),
+            between(1, 1e4));
+  v.integer("evaluations", evaluations, "extra episodes for each trial's expected_return; 0: none", between(0, 1e6));
+  policy.fields(v);
+}
+
 Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options) {
   const Task& task = parts.task;
   parts.kernel.require_sizes(task.state_size(), task.action_size(), parts.plant.size());

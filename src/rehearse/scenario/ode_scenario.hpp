@@ -27,6 +27,10 @@ struct OdeOptions {
 
   Interval box() const { return {box_low, box_high}; }
   void fields(FieldVisitor& v);
+
+  /// Instead, for a robot without options of its own: `plant.NAME` for each parameter of the plant, measurement_noise,
+  /// substeps, evaluations, and those of the policy.
+  void fields_of_robot(FieldVisitor& v, std::vector<Parameter>& plant);
 };
 
 struct Guess {

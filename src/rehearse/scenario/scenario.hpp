@@ -45,6 +45,9 @@ struct NamedFile {
   std::string path, bytes;
 };
 
+/// The bytes of a file by its path from the robot's file; empty: there is none.
+using ReadFile = std::function<std::optional<std::string>(const std::string& path)>;
+
 /// A scenario whose options can still be set: what a robot's folder gives to the catalogue.
 class ScenarioBuilder {
  public:

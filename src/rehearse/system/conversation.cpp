@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/system/messages.hpp"
-
 namespace rehearse::system {
 namespace {
 
@@ -81,21 +79,23 @@ bool Conversation::hear(std::string_view message, const Process::Complete& compl
   return wrong(fmt::format("it did not answer within {:g} s", limits.seconds));
 }
 
-std::optional<std::string> Conversation::answer_line(std::string_view message, Process::Limits limits) {
-  if (!hear(message, object_line, limits)) return {};
-  return std::string(last_line(process_->answer()));
-}
-
-bool Conversation::greet() {
-  const auto answer = answer_line(messages::hello(program_), {program_.start_s, kWords});
-  if (!answer) return false;
+/// Sends a line, and reads the line of the answer by read(text), which throws std::runtime_error where it is wrong.
+template <class Read>
+bool Conversation::ask(std::string_view message, Process::Limits limits, Read read) {
+  if (!hear(message, object_line, limits)) return false;
   try {
-    const messages::Hello hello = messages::read_hello(*answer, program_);
-    doubles_ = hello.doubles, has_changes_ = hello.change, has_episodes_ = hello.reset;
+    read(last_line(process_->answer()));
     return true;
   } catch (const std::runtime_error& error) {
     return wrong(error.what());
   }
+}
+
+bool Conversation::greet() {
+  return ask(messages::hello(program_), {program_.start_s, kWords}, [&](std::string_view answer) {
+    const messages::Hello hello = messages::read_hello(answer, program_);
+    doubles_ = hello.doubles, has_changes_ = hello.change, has_episodes_ = hello.reset;
+  });
 }
 
 bool Conversation::change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
@@ -127,32 +127,22 @@ bool Conversation::change_in_doubles(const ConstMatrixView& X, const ConstMatrix
 bool Conversation::change_in_json(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi,
                                   MatrixView dX) {
   const std::size_t numbers = 64 * static_cast<std::size_t>(dX.size());  // bytes, generously
-  const auto answer = answer_line(messages::change(X, U, phi), {program_.answer_s, kWords + numbers});
-  if (!answer) return false;
-  try {
-    messages::read_change(*answer, dX);
-    return true;
-  } catch (const std::runtime_error& error) {
-    return wrong(error.what());
-  }
+  return ask(messages::change(X, U, phi), {program_.answer_s, kWords + numbers},
+             [&](std::string_view answer) { messages::read_change(answer, dX); });
 }
 
-std::optional<Conversation::Measured> Conversation::measured(const std::string& message) {
-  const auto answer = answer_line(message, {program_.answer_s, kWords});
-  if (!answer) return {};
-  try {
-    const messages::State state = messages::read_state(*answer, static_cast<Index>(program_.states.size()));
-    return Measured{state.measured, state.truth};
-  } catch (const std::runtime_error& error) {
-    wrong(error.what());
-    return {};
-  }
+std::optional<messages::State> Conversation::state_after(const std::string& message) {
+  std::optional<messages::State> state;
+  ask(message, {program_.answer_s, kWords}, [&](std::string_view answer) {
+    state = messages::read_state(answer, static_cast<Index>(program_.states.size()));
+  });
+  return state;
 }
 
-std::optional<Conversation::Measured> Conversation::reset(const Vector& start, const Vector& phi, std::uint64_t seed) {
-  return measured(messages::reset(start, phi, seed));
+std::optional<messages::State> Conversation::reset(const Vector& start, const Vector& phi, std::uint64_t seed) {
+  return state_after(messages::reset(start, phi, seed));
 }
 
-std::optional<Conversation::Measured> Conversation::step(const Vector& u) { return measured(messages::step(u)); }
+std::optional<messages::State> Conversation::step(const Vector& u) { return state_after(messages::step(u)); }
 
 }  // namespace rehearse::system

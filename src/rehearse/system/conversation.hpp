@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "rehearse/core/types.hpp"
+#include "rehearse/system/messages.hpp"
 #include "rehearse/system/process.hpp"
 #include "rehearse/system/program.hpp"
 
@@ -24,19 +25,16 @@ class Conversation {
   bool change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX);
   static constexpr Index kMostRows = 1024;
 
-  /// What a robot that keeps its own state answers.
-  struct Measured {
-    Vector state;
-    Vector truth;  // empty: it does not know
-  };
-  std::optional<Measured> reset(const Vector& start, const Vector& phi, std::uint64_t seed);
-  std::optional<Measured> step(const Vector& u);
+  /// The state of a robot that keeps its own. Empty: see `problem`.
+  std::optional<messages::State> reset(const Vector& start, const Vector& phi, std::uint64_t seed);
+  std::optional<messages::State> step(const Vector& u);
 
  private:
   bool hear(std::string_view message, const Process::Complete& complete, Process::Limits limits);
   bool greet();
-  std::optional<std::string> answer_line(std::string_view message, Process::Limits limits);
-  std::optional<Measured> measured(const std::string& message);
+  template <class Read>
+  bool ask(std::string_view message, Process::Limits limits, Read read);
+  std::optional<messages::State> state_after(const std::string& message);
   bool change_in_doubles(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX);
   bool change_in_json(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX);
   bool wrong(const std::string& why);

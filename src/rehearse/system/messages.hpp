@@ -13,7 +13,7 @@ namespace rehearse::system::messages {
 
 inline constexpr int kVersion = 1;
 
-/// What a program says of itself.
+/// A program's answer to the first message.
 struct Hello {
   bool doubles = false;                             // its changes come as raw numbers
   bool change = true, reset = false, step = false;  // the messages that it understands
@@ -28,7 +28,8 @@ std::string step(const Vector& u);
 Hello read_hello(std::string_view text, const Program& program);
 void read_change(std::string_view text, MatrixView dX);  // rows that are null, or have one, are NaN
 struct State {
-  Vector measured, truth;
+  Vector measured;
+  Vector truth;  // empty: the program does not know
 };
 State read_state(std::string_view text, Index size);
 

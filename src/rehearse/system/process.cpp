@@ -53,7 +53,7 @@ struct Streams {
   static bool pipe_of(std::array<int, 2>& ends) { return pipe2(ends.data(), O_CLOEXEC) == 0; }
 };
 
-/// What the new process is to be like.
+/// The attributes of a new process: streams, folder, signals, a group of its own.
 class Spawning {
  public:
   Spawning(const Streams& streams, const std::string& folder) {

@@ -38,7 +38,7 @@ class Process {
   Outcome exchange(std::string_view message, const Complete& complete, Limits limits);
   std::string_view answer() const { return answer_; }
 
-  /// What it wrote that was not used: the beginning, for messages.
+  /// The beginning of what it wrote and nobody used, for messages.
   std::string unused() const;
 
   /// The last lines that it wrote to standard error, perhaps cut; and how it ended, or nothing while it runs.

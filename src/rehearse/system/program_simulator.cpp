@@ -57,30 +57,31 @@ class FiniteRows {
 /// A robot that keeps its own state, as a program does that can reset and step.
 class EpisodePlant final : public Plant {
  public:
-  EpisodePlant(const Program& program, Vector phi, StartAndSensors around)
-      : program_(program), phi_(std::move(phi)), around_(std::move(around)) {}
+  /// conversation: with the program, which is started once.
+  EpisodePlant(const Program& program, std::unique_ptr<Conversation> conversation, Vector phi, StartAndSensors around)
+      : program_(program), phi_(std::move(phi)), around_(std::move(around)), conversation_(std::move(conversation)) {}
 
   Vector reset(Rng& rng) override {
     const Vector start = around_.start(rng);
     const auto seed = static_cast<std::uint64_t>(rng.uniform() * 0x1p53);
     rng_ = rng;
-    if (!conversation_) conversation_.emplace(program_);
+    if (!conversation_) conversation_ = std::make_unique<Conversation>(program_);
     if (!conversation_->problem().empty()) fail();
     return seen(conversation_->reset(start, phi_, seed));
   }
 
   Vector step(const Vector& u) override {
-    if (!conversation_) throw std::logic_error("the plant makes a step before it was reset");
+    if (!rng_ || !conversation_) throw std::logic_error("the plant makes a step before it was reset");
     return seen(conversation_->step(u));
   }
 
   Vector truth() const override { return truth_; }
 
  private:
-  Vector seen(const std::optional<Conversation::Measured>& answer) {
+  Vector seen(const std::optional<messages::State>& answer) {
     if (!answer) fail();
     truth_ = answer->truth;
-    return around_.measured(answer->state, *rng_);
+    return around_.measured(answer->measured, *rng_);
   }
 
   [[noreturn]] void fail() {
@@ -92,16 +93,16 @@ class EpisodePlant final : public Plant {
   Program program_;
   Vector phi_;
   StartAndSensors around_;
-  std::optional<Conversation> conversation_;
+  std::unique_ptr<Conversation> conversation_;  // null: the last one failed
   std::optional<Rng> rng_;
   Vector truth_;
 };
 
-/// Throws InvalidInput where it cannot be spoken with. Whether it can reset and step.
-bool has_episodes(const Program& program) {
-  const Conversation conversation(program);
-  if (!conversation.problem().empty()) throw InvalidInput(conversation.problem());
-  return conversation.has_episodes();
+/// Throws InvalidInput where the program cannot be spoken with.
+std::unique_ptr<Conversation> begun(const Program& program) {
+  auto conversation = std::make_unique<Conversation>(program);
+  if (!conversation->problem().empty()) throw InvalidInput(conversation->problem());
+  return conversation;
 }
 
 }  // namespace
@@ -124,7 +125,8 @@ void ProgramSimulator::change(const ConstMatrixView& X, const ConstMatrixView& U
 
 std::unique_ptr<Plant> make_program_plant(const Program& program, const ParameterSpace& phi,
                                           const StartAndSensors& around) {
-  if (has_episodes(program)) return std::make_unique<EpisodePlant>(program, phi.values(), around);
+  if (auto conversation = begun(program); conversation->has_episodes())
+    return std::make_unique<EpisodePlant>(program, std::move(conversation), phi.values(), around);
   const auto simulator = std::make_shared<ProgramSimulator>(program, phi);
   const auto motion = [simulator, phi = phi.values()](const Vector& x, const Vector& u) -> Vector {
     Matrix dX(1, x.size());
@@ -135,6 +137,6 @@ std::unique_ptr<Plant> make_program_plant(const Program& program, const Paramete
   return make_simulated_plant(motion, around);
 }
 
-void require_program(const Program& program) { has_episodes(program); }
+void require_program(const Program& program) { begun(program); }
 
 }  // namespace rehearse::system

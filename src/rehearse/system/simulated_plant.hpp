@@ -9,7 +9,7 @@
 
 namespace rehearse::system {
 
-/// Where an episode starts and how it is measured, with Gaussian noise.
+/// The Gaussian start of an episode, and the Gaussian noise of its measurements.
 struct StartAndSensors {
   Vector start_mean, start_std;  // dx
   Vector measurement_std;        // dx; empty: none

@@ -44,7 +44,7 @@ class Progress {
 }  // namespace
 
 void Workers::change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const {
-  std::unique_ptr<Worker> worker = take();
+  std::unique_ptr<Worker> worker = idle_.take();
   Index faults_in_a_row = 0;
   for (Progress rows(X.rows(), options_.row_by_row); !rows.done();) {
     if (!worker) worker = options_.start();
@@ -69,26 +69,12 @@ void Workers::change(const ConstMatrixView& X, const ConstMatrixView& U, const V
     dX.row(rows.first()).setConstant(kNan);
     rows.answered(1);
   }
-  give_back(std::move(worker));
+  idle_.give_back(std::move(worker));
 }
 
 Faults Workers::faults() const {
   const std::lock_guard lock(mutex_);
   return faults_;
-}
-
-std::unique_ptr<Worker> Workers::take() const {
-  const std::lock_guard lock(mutex_);
-  if (idle_.empty()) return nullptr;
-  std::unique_ptr<Worker> worker = std::move(idle_.back());
-  idle_.pop_back();
-  return worker;
-}
-
-void Workers::give_back(std::unique_ptr<Worker> worker) const {
-  if (!worker) return;
-  const std::lock_guard lock(mutex_);
-  idle_.push_back(std::move(worker));
 }
 
 Workers::KnownRows Workers::some_of(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) {
@@ -123,7 +109,7 @@ void Workers::require_one_that_answers(const ConstMatrixView& X, const ConstMatr
     Matrix dX(1, known->X.cols());
     if (worker->change(known->X.row(i), known->U.row(i), known->phi, dX) == 1) {
       remember(known->X.row(i), known->U.row(i), known->phi);
-      return give_back(std::move(worker));
+      return idle_.give_back(std::move(worker));
     }
     problem = worker->problem();
   }

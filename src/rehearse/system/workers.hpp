@@ -6,14 +6,14 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "rehearse/core/pool.hpp"
 #include "rehearse/core/types.hpp"
 #include "rehearse/system/simulator.hpp"
 
 namespace rehearse::system {
 
-/// What went wrong outside so far.
+/// The faults of workers so far.
 struct Faults {
   Index count = 0;
   std::string last;  // for people
@@ -60,15 +60,13 @@ class Workers {
   };
 
   static KnownRows some_of(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi);
-  std::unique_ptr<Worker> take() const;
-  void give_back(std::unique_ptr<Worker> worker) const;
   void remember(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const;
   void note(const Worker& worker) const;
   void require_one_that_answers(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const;
 
   Options options_;
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<Worker>> idle_;
+  mutable Pool<Worker> idle_;
+  mutable std::mutex mutex_;  // of what follows
   mutable std::optional<KnownRows> known_;
   mutable Faults faults_;
 };

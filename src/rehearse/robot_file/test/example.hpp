@@ -65,9 +65,9 @@ inline std::string with(const std::string& part, const std::string& by) {
 }
 
 /// The violations of a file, a line each; empty: there is none.
-inline std::string complaint_of(const std::string& text) {
+inline std::string complaint_of(const std::string& text, const scenario::ReadFile& folder = no_files) {
   try {
-    builder(text, "swing.toml", no_files);
+    builder(text, "swing.toml", folder);
   } catch (const InvalidInput& error) {
     return error.what();
   }

@@ -7,7 +7,7 @@ namespace {
 
 TEST(KeptFiles, AreReadOnceAndStayInTheirFolder) {
   int reads = 0;
-  const ReadFile folder = [&](const std::string& path) -> std::optional<std::string> {
+  const scenario::ReadFile folder = [&](const std::string& path) -> std::optional<std::string> {
     ++reads;
     if (path == "a.py") return "text";
     return std::nullopt;

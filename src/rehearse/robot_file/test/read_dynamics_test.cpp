@@ -19,12 +19,7 @@ std::optional<std::string> folder(const std::string& path) {
 }
 
 std::string complaint_of_program(const std::string& lines) {
-  try {
-    read(with_program(lines), "swing.toml", folder);
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "";
+  return example::complaint_of(with_program(lines), folder);
 }
 
 TEST(ReadDynamics, AProgramHasItsFilesAndItsTimes) {

@@ -33,14 +33,7 @@ std::string with_model(const std::string& lines) {
 const std::string kRod =
     "state.angle = \"hinge\"\naction.u = \"motor\"\nparameters.m = { value = 1.5, sets = \"body rod mass\" }";
 
-std::string complaint_of_model(const std::string& lines) {
-  try {
-    builder(with_model(lines), "swing.toml", with_rod);
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "";
-}
+std::string complaint_of_model(const std::string& lines) { return example::complaint_of(with_model(lines), with_rod); }
 
 TEST(ReadModel, StatesActionsAndParametersAreThoseOfTheModel) {
   const Robot robot = read(with_model(kRod + "\nsubsteps = 5\nkeyframe = \"up\""), "swing.toml", with_rod);

@@ -3,7 +3,7 @@
 //   hostile_program ENCODING [MARK]      with a file MARK, harm is done until the file exists, which the first harm
 //   makes
 //
-// What it does for a row follows from the row's action (Harm in test/programs.hpp).
+// A row's action says what it does for it (test/harm.hpp).
 
 #include <csignal>
 #include <cstdint>
@@ -41,7 +41,7 @@ void answer_wrongly(const std::string& json, std::int64_t number) {
     raw(&number, sizeof number);
 }
 
-/// What is done before an answer, or instead of it.
+/// Does harm before an answer, or instead of it.
 void harm(Harm kind) {
   if (!mark.empty()) {
     if (std::filesystem::exists(mark)) return;
