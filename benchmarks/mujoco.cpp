@@ -1,4 +1,4 @@
-// What a model of MuJoCo costs as a simulator, and how much of that is the engine's own work: an acrobot, 256 rows.
+// The cost of a model of MuJoCo as a simulator, and the share of the engine's own work: an acrobot, 256 rows.
 #include <cmath>
 #include <map>
 

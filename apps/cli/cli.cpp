@@ -37,7 +37,7 @@ int run(const experiment::Catalogue& catalogue, const Typed& typed, const Proces
   return replay(typed.replay, share);
 }
 
-/// Where standard streams are closed the next files would take their place, and get what is printed.
+/// Opens standard streams that are closed: the next files would take their place, and get what is printed.
 void keep_standard_descriptors() {
   for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
@@ -65,7 +65,7 @@ End end_of(Command command) {
   }
 }
 
-/// What was printed must have got where it was to go.
+/// The end of a program whose output is written: a full disk is a failure.
 End after_output(End end) {
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.flush().good();
   if (!written && end.code == kSuccess) return {kFailed, "cannot write to standard output"};

@@ -7,7 +7,7 @@
 
 namespace rehearse::apps {
 
-/// What was typed: a command, and the arguments of that one.
+/// The command that was typed, with its arguments.
 struct Typed {
   std::string command;
   ListArguments list;

@@ -17,7 +17,7 @@ void equation(const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt)
   dxdt << (u(0) - phi(1) * x(0)) / phi(0), x(0);
 }
 
-/// What is to be done: from rest at 1 m to the origin within 2 s.
+/// The task: from rest at 1 m to the origin within 2 s.
 Task task() {
   Task task;
   task.states = {{"velocity", "m/s"}, {.name = "position", .unit = "m", .rate = "velocity"}};

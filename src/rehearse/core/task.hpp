@@ -43,7 +43,8 @@ struct Steps {
   double time_s = 0;                // since the start, when the step begins
 };
 
-/// What each step costs, for what a reward cannot know: changes of actions, time. As a reward must be.
+/// Costs of a batch of steps, one a row: of what a reward cannot know, changes of actions and time. Must be callable
+/// from several threads and depend on its row alone.
 using StepCost = std::function<void(const Steps& steps, VectorView costs)>;
 
 /// What every room may know of a problem. A plain value.

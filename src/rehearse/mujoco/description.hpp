@@ -30,7 +30,7 @@ struct State {
   double offset = 0;
 };
 
-/// What an action is put into.
+/// The number of the model that an action sets.
 struct Action {
   enum class Kind {
     actuator,  // the actuator's control

@@ -89,7 +89,7 @@ scenario::Pose pose(const mjData& data, const Piece& piece) {
   return {origin + turn * piece.middle, Eigen::Quaterniond(turn).normalized()};
 }
 
-/// Where everything is in a state: an instance of its own for every call at a time.
+/// Places of bodies in a state. Every call at a time has an instance of its own.
 class Kinematics {
  public:
   explicit Kinematics(const std::shared_ptr<const CompiledModel>& compiled)

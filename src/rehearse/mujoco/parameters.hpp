@@ -7,7 +7,7 @@
 
 namespace rehearse::mujoco {
 
-/// What a description's parameters do to a model and its copies.
+/// The parameters of a description, as what they do to a model and its copies.
 class Parameters {
  public:
   Parameters() = default;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Where φ has each of the description's parameters.
+/// The place in φ of each of the description's parameters.
 std::vector<Index> order_of(const std::vector<ModelParameter>& described, const ParameterSpace& parameters) {
   std::vector<std::string> names;
   std::vector<Index> order;

@@ -9,7 +9,7 @@
 
 namespace rehearse::mujoco {
 
-/// Where states are read, and how positions and velocities of joints are set from them.
+/// The numbers that states are read from, and how positions and velocities of joints are set from them.
 class States {
  public:
   States() = default;

@@ -80,7 +80,7 @@ inline Vector by_model(const ModelDescription& model, const Vector& x, const Vec
 
 inline bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// What make(…) complains of, "" if of nothing.
+/// The complaint of make(…), "" if there is none.
 template <class Make>
 std::string complaint_of(Make make) {
   try {

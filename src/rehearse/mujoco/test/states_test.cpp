@@ -7,7 +7,7 @@
 namespace rehearse::mujoco {
 namespace {
 
-/// What is wrong with these states of the acrobot.
+/// The complaints about these states of the acrobot.
 std::string states_complaint(std::vector<State> states, const char* file = "acrobot.xml") {
   return complaint_of([&] {
     ModelDescription model = acrobot_model(file);
