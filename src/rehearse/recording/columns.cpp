@@ -1,0 +1,183 @@
+#include "rehearse/recording/columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rehearse/core/names.hpp"
+#include "rehearse/core/options.hpp"
+#include "rehearse/recording/units.hpp"
+
+namespace rehearse::recording {
+namespace {
+
+constexpr double kLargest = 1e12;  // of any number: beyond are codes of errors, and sums that overflow
+constexpr double kLatest = 1e19;   // of a time: nanoseconds since 1970
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+/// "q1 [rad]" or "q1 (rad)".
+struct Title {
+  std::string name, unit;
+};
+
+Title title_of(const std::string& cell) {
+  const std::string text = trimmed(cell);
+  for (const auto& [opening, closing] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
+    const auto begin = text.find_last_of(opening);
+    if (begin != std::string::npos && begin > 0 && text.back() == closing)
+      return {trimmed(text.substr(0, begin)), trimmed(text.substr(begin + 1, text.size() - begin - 2))};
+  }
+  return {text, ""};
+}
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+class Finder {
+ public:
+  Finder(const statistics::Table& table, const Task& task, Problems& problems, std::vector<std::string>& notes)
+      : table_(table), problems_(problems), notes_(notes) {
+    for (const std::string& cell : table.header) titles_.push_back(title_of(cell));
+    for (const StateVariable& state : task.states) wanted_.insert(state.name);
+    for (const ActionVariable& action : task.actions) wanted_.insert(action.name);
+  }
+
+  /// "time" as anyone spells it, or "t" if the task has no such name.
+  void find_times() {
+    std::string name = "time";
+    for (const Title& title : titles_)
+      if (lower(title.name) == "time" || (lower(title.name) == "t" && !wanted_.contains(title.name))) name = title.name;
+    const int column = require(name);
+    const double scale = column < 0 ? 1 : scale_of(column, "time", "s");
+    for (std::size_t row = 0; column >= 0 && row < table_.rows.size(); ++row) {
+      const auto value = number(row, column, name, kLatest);
+      if (!value) problems_.add(in_file(row), "no time", "there is no time");
+      const double time_s = value.value_or(0) * scale;
+      if (row > 0) check_order(row, time_s);
+      times_.push_back(time_s);
+    }
+  }
+
+  Channel channel(const std::string& name, const std::string& unit) {
+    Channel channel{name, unit, {}};
+    const int column = require(name);
+    if (column < 0) return channel;
+    const double scale = scale_of(column, name, unit);
+    for (std::size_t row = 0; row < times_.size(); ++row) {
+      const auto value = number(row, column, name);
+      if (value && times_[row] >= 0) channel.samples.push_back({times_[row], *value * scale, in_file(row)});
+    }
+    if (channel.samples.empty() && !times_.empty())
+      problems_.add(0, "none of " + name, fmt::format("{} has no number at a time ≥ 0", name));
+    return channel;
+  }
+
+  bool has(const std::string& name) const { return std::ranges::find(titles_, name, &Title::name) != titles_.end(); }
+
+  void note_others() {
+    const auto before = std::ranges::count_if(times_, [](double t) { return t < 0; });
+    if (before > 0) notes_.push_back(fmt::format("{} rows before time 0 are left out", before));
+    std::vector<std::string> others;
+    for (const Title& title : titles_)
+      if (!wanted_.contains(title.name) && title.name != "reward" && !title.name.starts_with("true "))
+        others.push_back(title.name);
+    if (!others.empty()) notes_.push_back(fmt::format("columns that are not used: {}", fmt::join(others, ", ")));
+  }
+
+ private:
+  static Index in_file(std::size_t row) { return static_cast<Index>(row) + 2; }
+
+  /// −1: it is not there, which is a problem.
+  int require(const std::string& name) {
+    wanted_.insert(name);
+    const auto count = std::ranges::count(titles_, name, &Title::name);
+    const auto at = std::ranges::find(titles_, name, &Title::name) - titles_.begin();
+    if (count == 1) return static_cast<int>(at);
+    if (count > 1) problems_.add(1, "twice " + name, fmt::format("there are {} columns {}", count, name));
+    std::vector<std::string> names;
+    for (const Title& title : titles_)
+      if (!wanted_.contains(title.name) && !title.name.empty()) names.push_back(title.name);
+    const std::string nearest = names.empty() ? "" : fmt::format("; the nearest is '{}'", closest(name, names));
+    if (count == 0) problems_.add(1, "missing " + name, fmt::format("there is no column {}{}", name, nearest));
+    return -1;
+  }
+
+  double scale_of(int column, const std::string& name, const std::string& unit) {
+    const std::string& given = titles_[static_cast<std::size_t>(column)].unit;
+    if (given.empty()) return 1;
+    if (unit.empty()) {
+      notes_.push_back(
+          fmt::format("{} has no unit in the task, and is taken as the recording has it, in {}", name, given));
+      return 1;
+    }
+    const auto scale = conversion(given, unit);
+    if (!scale)
+      problems_.add(1, "unit of " + name,
+                    fmt::format("{} is in '{}', must be in {} or a unit that is known to be so "
+                                "many of them",
+                                name, given, unit));
+    if (scale && *scale != 1) notes_.push_back(fmt::format("{} is converted from {} to {}", name, given, unit));
+    return scale.value_or(1);
+  }
+
+  std::optional<double> number(std::size_t row, int column, const std::string& name, double largest = kLargest) {
+    const std::string cell = trimmed(table_.rows[row][static_cast<std::size_t>(column)]);
+    if (cell.empty()) return std::nullopt;
+    double value = 0;
+    if (!from_text(cell, value) || !std::isfinite(value)) {
+      problems_.add(in_file(row), "number in " + name,
+                    fmt::format("{} = '{}', must be a finite number", name, cell.substr(0, 40)));
+      return std::nullopt;
+    }
+    if (std::abs(value) > largest) {
+      problems_.add(in_file(row), "size of " + name, fmt::format("{} = {}, must be within ± {}", name, value, largest));
+      return std::nullopt;
+    }
+    return value;
+  }
+
+  void check_order(std::size_t row, double time_s) {
+    if (time_s == times_.back())
+      problems_.add(in_file(row), "time twice", fmt::format("time = {} s is that of the row before", time_s));
+    if (time_s < times_.back())
+      problems_.add(in_file(row), "order of times",
+                    fmt::format("time = {} s, must be after the {} s of the row before", time_s, times_.back()));
+  }
+
+  const statistics::Table& table_;
+  Problems& problems_;
+  std::vector<std::string>& notes_;
+  std::vector<Title> titles_;
+  std::set<std::string> wanted_;  // names of columns
+  std::vector<double> times_;
+};
+
+}  // namespace
+
+Channels find_channels(const statistics::Table& table, const Task& task, Problems& problems,
+                       std::vector<std::string>& notes) {
+  Finder finder(table, task, problems, notes);
+  finder.find_times();
+  Channels channels;
+  for (const StateVariable& state : task.states) channels.states.push_back(finder.channel(state.name, state.unit));
+  for (const ActionVariable& action : task.actions)
+    channels.actions.push_back(finder.channel(action.name, action.unit));
+  const bool known =
+      std::ranges::all_of(task.states, [&](const auto& state) { return finder.has("true " + state.name); });
+  if (known)
+    for (const StateVariable& state : task.states)
+      channels.truths.push_back(finder.channel("true " + state.name, state.unit));
+  finder.note_others();
+  return channels;
+}
+
+}  // namespace rehearse::recording

@@ -1,0 +1,135 @@
+#include "rehearse/recording/plausible.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "rehearse/statistics/quantiles.hpp"
+
+namespace rehearse::recording {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kRounding = 1e-3;  // of an action's range
+constexpr double kOutlier = 10;     // times what is usual
+constexpr std::ptrdiff_t kAround = 4;
+
+std::vector<double> values_of(const Channel& channel) {
+  std::vector<double> values;
+  for (const Sample& sample : channel.samples) values.push_back(sample.value);
+  return values;
+}
+
+/// Where nine of ten values are.
+double spread(const Channel& channel) {
+  const std::vector<double> values = values_of(channel);
+  return statistics::quantile(values, 0.95) - statistics::quantile(values, 0.05);
+}
+
+/// The third largest of those around i: a sample that is wrong makes two large changes, in and out.
+double usual_around(const std::vector<double>& sizes, std::ptrdiff_t i) {
+  const auto begin = sizes.begin() + std::max<std::ptrdiff_t>(0, i - kAround);
+  const auto end = sizes.begin() + std::min<std::ptrdiff_t>(std::ssize(sizes), i + kAround + 1);
+  std::vector<double> around(begin, end);
+  if (around.size() < 3) return INFINITY;
+  std::nth_element(around.begin(), around.begin() + 2, around.end(), std::greater<>());
+  return around[2];
+}
+
+/// The rate at a time, held from its last sample.
+double held(const Channel& rate, double time_s) {
+  const auto after = std::ranges::upper_bound(rate.samples, time_s, {}, &Sample::time_s);
+  return after == rate.samples.begin() ? after->value : std::prev(after)->value;
+}
+
+/// What neighbouring samples change beyond what the rate says, and the most that it ever allows.
+struct Changes {
+  std::vector<double> beyond, allowed;
+};
+
+Changes changes_of(const Channel& state, const Channel* rate) {
+  Changes changes;
+  const double range = spread(state);
+  double fastest = 0;
+  if (rate)
+    for (const Sample& sample : rate->samples) fastest = std::max(fastest, std::abs(sample.value));
+  for (std::size_t i = 1; i < state.samples.size(); ++i) {
+    const Sample &a = state.samples[i - 1], &b = state.samples[i];
+    const double dt = b.time_s - a.time_s;
+    const double expected = rate ? 0.5 * dt * (held(*rate, a.time_s) + held(*rate, b.time_s)) : 0;
+    changes.beyond.push_back(std::abs(b.value - a.value - expected));
+    changes.allowed.push_back(rate ? std::max(2 * fastest * dt, 0.05 * range) : range);
+  }
+  return changes;
+}
+
+}  // namespace
+
+Index unwrap(Channel& angle) {
+  const std::vector<double> values = values_of(angle);
+  const auto [low, high] = std::ranges::minmax(values);
+  Index turned = 0;
+  if (high - low > kTurn * (1 + 1e-6)) return 0;
+  double turns = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double change = values[i] - values[i - 1];
+    if (std::abs(change) > kTurn / 2) turns -= std::copysign(1, change), ++turned;
+    if (turns != 0) angle.samples[i].value += turns * kTurn;
+  }
+  return turned;
+}
+
+void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::vector<std::string>& notes) {
+  const double rounding = kRounding * (bounds.high - bounds.low);
+  Index clipped = 0;
+  for (Sample& sample : action.samples) {
+    const double inside = std::clamp(sample.value, bounds.low, bounds.high);
+    if (inside == sample.value) continue;
+    if (std::abs(sample.value - inside) > rounding)
+      problems.add(sample.row, "bounds of " + action.name,
+                   fmt::format("{} = {} {}, must be in {} to {}", action.name, sample.value, action.unit, bounds.low,
+                               bounds.high));
+    sample.value = inside;
+    ++clipped;
+  }
+  if (clipped > 0)
+    notes.push_back(
+        fmt::format("{} is clipped to its bounds in {} rows, from less than a thousandth of their range "
+                    "beyond",
+                    action.name, clipped));
+}
+
+void check_jumps(const Channel& state, const Channel* rate, Problems& problems) {
+  const auto [beyond, allowed] = changes_of(state, rate);
+  if (beyond.size() < 8) return;
+  const double usual = statistics::quantile(beyond, 0.9);
+  for (std::size_t i = 0; i < beyond.size(); ++i) {
+    const double around = usual_around(beyond, static_cast<std::ptrdiff_t>(i));
+    const double bound = std::max({allowed[i], kOutlier * usual, kOutlier * around});
+    if (beyond[i] <= bound) continue;
+    const Sample &before = state.samples[i], &after = state.samples[i + 1];
+    problems.add(
+        after.row, "jump of " + state.name,
+        fmt::format("{} jumps from {:.6g} to {:.6g} {} in {:.6g} s, by more than the {:.3g} that are plausible",
+                    state.name, before.value, after.value, state.unit, after.time_s - before.time_s, bound));
+  }
+}
+
+void compare_with_rate(const Channel& state, const Channel& rate, std::vector<std::string>& notes) {
+  double xx = 0, xy = 0, yy = 0;
+  for (std::size_t i = 1; i < state.samples.size(); ++i) {
+    const Sample &a = state.samples[i - 1], &b = state.samples[i];
+    const double x = 0.5 * (b.time_s - a.time_s) * (held(rate, a.time_s) + held(rate, b.time_s));
+    const double y = b.value - a.value;
+    xx += x * x, xy += x * y, yy += y * y;
+  }
+  const bool related = xy * xy > 0.5 * xx * yy;
+  if (!related || (xy > 0.5 * xx && xy < 2 * xx)) return;
+  notes.push_back(fmt::format("{} changes {:.3g} times as fast as {} says: is one in another unit, or of another sign?",
+                              state.name, xy / xx, rate.name));
+}
+
+}  // namespace rehearse::recording

@@ -1,0 +1,28 @@
+#pragma once
+// Whether the numbers of a recording are those of a robot. For the sources of this room.
+
+#include <string>
+#include <vector>
+
+#include "rehearse/core/task.hpp"
+#include "rehearse/recording/channel.hpp"
+#include "rehearse/recording/problems.hpp"
+
+namespace rehearse::recording {
+
+/// Adds whole turns (rad) where a channel that keeps within one turn jumps by more than half of one. Returns how often.
+Index unwrap(Channel& angle);
+
+/// Clips actions that are beyond their bounds by no more than rounding (a thousandth of the range); others are
+/// problems.
+void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::vector<std::string>& notes);
+
+/// A problem for every jump that no robot makes: a change between neighbouring samples that is ten times as large as
+/// those around it and nine of ten of all, and larger than the spread of the state, or, of a state with a rate, twice
+/// as large as the rate ever allows. rate: null, or the channel of the rate.
+void check_jumps(const Channel& state, const Channel* rate, Problems& problems);
+
+/// A note if a state does not change as its rate says: a wrong unit, or a wrong sign.
+void compare_with_rate(const Channel& state, const Channel& rate, std::vector<std::string>& notes);
+
+}  // namespace rehearse::recording

@@ -1,0 +1,31 @@
+#include "rehearse/recording/problems.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::recording {
+
+void Problems::add(Index row, const std::string& kind, const std::string& message) {
+  const auto [known, is_new] = found_.try_emplace(kind, First{row, message});
+  if (!is_new) ++known->second.more;
+}
+
+void Problems::throw_if_any() const {
+  if (empty()) return;
+  std::vector<First> in_order;
+  for (const auto& [kind, first] : found_) in_order.push_back(first);
+  std::ranges::stable_sort(in_order, {}, &First::row);
+  std::vector<std::string> lines;
+  for (const First& first : in_order) {
+    const std::string where = first.row > 0 ? fmt::format("{}: row {}", source_, first.row) : source_;
+    const std::string others = first.more > 0 ? fmt::format(" (and so in {} more rows)", first.more) : "";
+    lines.push_back(fmt::format("{}: {}{}", where, first.message, others));
+  }
+  throw InvalidInput(lines);
+}
+
+}  // namespace rehearse::recording

@@ -1,0 +1,34 @@
+#pragma once
+// What is wrong with a recording, row by row. For the sources of this room.
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::recording {
+
+/// Keeps the first row of each kind of violation and counts the others: a column in a wrong unit has thousands.
+class Problems {
+ public:
+  explicit Problems(std::string source) : source_(std::move(source)) {}
+
+  /// row: the header is 1; 0: it is about no row.
+  void add(Index row, const std::string& kind, const std::string& message);
+  bool empty() const { return found_.empty(); }
+
+  /// InvalidInput, in the order of the rows.
+  void throw_if_any() const;
+
+ private:
+  struct First {
+    Index row;
+    std::string message;
+    Index more = 0;
+  };
+  std::string source_;
+  std::map<std::string, First> found_;  // by kind
+};
+
+}  // namespace rehearse::recording

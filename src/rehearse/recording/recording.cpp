@@ -1,0 +1,117 @@
+#include "rehearse/recording/recording.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/files/regular_file.hpp"
+#include "rehearse/recording/columns.hpp"
+#include "rehearse/recording/plausible.hpp"
+#include "rehearse/recording/resample.hpp"
+#include "rehearse/statistics/table.hpp"
+
+namespace rehearse::recording {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+/// The text without what editors and robots leave at its ends. Throws InvalidInput where it is no comma-separated text.
+std::string_view cleaned(std::string_view text, std::vector<std::string>& notes) {
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const auto control = [](unsigned char c) { return c < ' ' && c != '\n' && c != '\r' && c != '\t'; };
+  if (std::ranges::any_of(text, control)) throw InvalidInput("it is no text: there are control characters in it");
+  const auto last_end = text.find_last_of('\n');
+  if (last_end == std::string_view::npos) throw InvalidInput("there is no row: no line of it has an end");
+  if (text.substr(last_end + 1).find_first_not_of(" \t") != std::string_view::npos)
+    notes.emplace_back("the last row is left out: it has no end, so that it may be cut short");
+  text = text.substr(0, last_end + 1);
+  while (text.ends_with("\n\n") || text.ends_with("\n\r\n")) text.remove_suffix(text.ends_with("\n\n") ? 1 : 2);
+  const std::string_view header = text.substr(0, text.find('\n'));
+  if (header.find(',') == std::string_view::npos)
+    for (const auto& [separator, name] : {std::pair{';', "';'"}, std::pair{'\t', "tabs"}})
+      if (header.find(separator) != std::string_view::npos)
+        throw InvalidInput(fmt::format("columns are separated by {}, must be by ','", name));
+  return text;
+}
+
+statistics::Table table_of(std::string_view text, const std::string& source, std::vector<std::string>& notes) {
+  try {
+    return statistics::read_csv(cleaned(text, notes));
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(fmt::format("{}: {}", source, error.what()));
+  }
+}
+
+void unwrap_angles(std::vector<Channel>& channels, const Task& task, std::vector<std::string>& notes) {
+  for (std::size_t s = 0; s < channels.size(); ++s) {
+    if (task.states[s].kind != StateKind::angle) continue;
+    const Index turned = unwrap(channels[s]);
+    if (turned > 0)
+      notes.push_back(fmt::format("{} was wrapped, and is unwrapped at {} rows", channels[s].name, turned));
+  }
+}
+
+void check_channels(Channels& channels, const Task& task, Problems& problems, std::vector<std::string>& notes) {
+  unwrap_angles(channels.states, task, notes);
+  unwrap_angles(channels.truths, task, notes);
+  std::vector<const Channel*> rates(channels.states.size(), nullptr);
+  for (const Kinematics::Pair& pair : task.kinematics().pairs)
+    rates[static_cast<std::size_t>(pair.position)] = &channels.states[static_cast<std::size_t>(pair.rate)];
+  for (std::size_t s = 0; s < rates.size(); ++s) {
+    check_jumps(channels.states[s], rates[s], problems);
+    if (rates[s]) compare_with_rate(channels.states[s], *rates[s], notes);
+  }
+  for (std::size_t a = 0; a < channels.actions.size(); ++a)
+    keep_in_bounds(channels.actions[a], task.actions[a].bounds, problems, notes);
+}
+
+void note_resampling(const Channels& channels, const Grid& grid, Index changed, std::vector<std::string>& notes) {
+  if (grid.start_s > 0)
+    notes.push_back(fmt::format("it begins at {:.6g} s, from where all columns have numbers", grid.start_s));
+  if (changed == 0) return;
+  const auto& samples = channels.states.front().samples;
+  const double usual_s = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
+  notes.push_back(
+      fmt::format("{} of {} control steps of {} s lie between rows, which are {:.3g} s apart on average: "
+                  "states are interpolated linearly, actions are means of what rows hold until the next",
+                  changed, grid.steps, grid.dt_s, usual_s));
+}
+
+void check_size(double bytes, const std::string& source, const ReadOptions& options) {
+  if (bytes > options.max_bytes)
+    throw InvalidInput(fmt::format("{}: it has {:.0f} bytes, must have at most {:.0f}: cut it, or leave out rows",
+                                   source, bytes, options.max_bytes));
+}
+
+}  // namespace
+
+Recording read_recording(const std::string& csv_text, const std::string& source, const Task& task,
+                         const ReadOptions& options) {
+  check_size(static_cast<double>(csv_text.size()), source, options);
+  Recording recording;
+  Problems problems(source);
+  const statistics::Table table = table_of(csv_text, source, recording.notes);
+  if (table.rows.empty()) problems.add(0, "rows", "there is no row below the header");
+  Channels channels = find_channels(table, task, problems, recording.notes);
+  problems.throw_if_any();
+  check_channels(channels, task, problems, recording.notes);
+  Grid grid = grid_of(channels, task.dt_s, options.max_gap_steps * task.dt_s * (1 + 1e-9), problems);
+  problems.throw_if_any();
+  if (grid.steps > options.max_steps) {
+    recording.notes.push_back(fmt::format("the first {} of {} control steps are read", options.max_steps, grid.steps));
+    grid.steps = options.max_steps;
+  }
+  note_resampling(channels, grid, resample(channels, grid, recording.episode), recording.notes);
+  return recording;
+}
+
+Recording read_file(const std::filesystem::path& path, const Task& task, const ReadOptions& options) {
+  std::error_code ignored;
+  const auto bytes = std::filesystem::file_size(path, ignored);
+  if (!ignored) check_size(static_cast<double>(bytes), path.string(), options);
+  return read_recording(files::read_file(path, files::Links::follow), path.string(), task, options);
+}
+
+}  // namespace rehearse::recording

@@ -1,0 +1,119 @@
+#include "rehearse/recording/resample.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace rehearse::recording {
+namespace {
+
+constexpr double kNear = 1e-4;  // of dt: a row so near to the begin of a step is taken as it is
+constexpr double kEnd = 0.01;   // of dt: so much may be missing at the end of the last step
+
+using Samples = std::vector<Sample>;
+
+Samples::const_iterator from(const Samples& samples, double time_s) {
+  return std::ranges::lower_bound(samples, time_s, {}, &Sample::time_s);
+}
+
+void check_gaps(const Channel& channel, const Grid& grid, double max_gap_s, Problems& problems) {
+  const double end_s = grid.time(grid.steps);
+  for (std::size_t i = 1; i < channel.samples.size(); ++i) {
+    const Sample &before = channel.samples[i - 1], &after = channel.samples[i];
+    const double gap_s = after.time_s - before.time_s;
+    if (gap_s <= max_gap_s || after.time_s <= grid.start_s || before.time_s >= end_s) continue;
+    problems.add(after.row, "gap",
+                 fmt::format("{} was not measured for {:.6g} s, must be for {:.6g} s at most ({:.3g} control steps)",
+                             channel.name, gap_s, max_gap_s, max_gap_s / grid.dt_s));
+  }
+}
+
+/// exact: becomes false unless the value is that of a row.
+double state_at(const Samples& samples, double time_s, double near_s, bool& exact) {
+  const auto after = from(samples, time_s - near_s);
+  if (after == samples.end()) return samples.back().value;
+  if (after->time_s <= time_s + near_s || after == samples.begin()) return after->value;
+  exact = false;
+  const Sample& before = *std::prev(after);
+  const double part = (time_s - before.time_s) / (after->time_s - before.time_s);
+  return before.value + part * (after->value - before.value);
+}
+
+/// The mean from begin to end of what each sample holds until the next.
+double mean_action(const Samples& samples, double begin_s, double end_s, double near_s, bool& exact) {
+  auto next = from(samples, begin_s + near_s);
+  double held = next == samples.begin() ? next->value : std::prev(next)->value;
+  const bool at_begin = next != samples.begin() && std::prev(next)->time_s >= begin_s - near_s;
+  if (next == samples.end() || next->time_s >= end_s - near_s) {  // one holds for the whole step
+    exact = exact && at_begin;
+    return held;
+  }
+  exact = false;
+  double sum = 0, since_s = begin_s;
+  for (; next != samples.end() && next->time_s < end_s; ++next) {
+    sum += held * (next->time_s - since_s);
+    since_s = next->time_s;
+    held = next->value;
+  }
+  return (sum + held * (end_s - since_s)) / (end_s - begin_s);
+}
+
+Matrix states_on(const std::vector<Channel>& channels, const Grid& grid, std::vector<char>& exact) {
+  Matrix states(grid.steps + 1, static_cast<Index>(channels.size()));
+  for (Index s = 0; s < states.cols(); ++s)
+    for (Index k = 0; k <= grid.steps; ++k) {
+      bool as_it_is = true;
+      states(k, s) = state_at(channels[static_cast<std::size_t>(s)].samples, grid.time(k), kNear * grid.dt_s, as_it_is);
+      exact[static_cast<std::size_t>(k)] &= static_cast<char>(as_it_is);
+    }
+  return states;
+}
+
+Matrix actions_on(const std::vector<Channel>& channels, const Grid& grid, std::vector<char>& exact) {
+  Matrix actions(grid.steps, static_cast<Index>(channels.size()));
+  for (Index a = 0; a < actions.cols(); ++a)
+    for (Index k = 0; k < grid.steps; ++k) {
+      bool as_it_is = true;
+      actions(k, a) = mean_action(channels[static_cast<std::size_t>(a)].samples, grid.time(k), grid.time(k + 1),
+                                  kNear * grid.dt_s, as_it_is);
+      exact[static_cast<std::size_t>(k)] &= static_cast<char>(as_it_is);
+    }
+  return actions;
+}
+
+template <class Visit>
+void for_each_channel(const Channels& channels, Visit visit) {
+  for (const auto* group : {&channels.states, &channels.truths, &channels.actions})
+    for (const Channel& channel : *group) visit(channel);
+}
+
+}  // namespace
+
+Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& problems) {
+  double begin_s = 0, end_s = std::numeric_limits<double>::infinity();
+  for_each_channel(channels, [&](const Channel& c) { begin_s = std::max(begin_s, c.samples.front().time_s); });
+  for (const Channel& state : channels.states) end_s = std::min(end_s, state.samples.back().time_s);
+  for (const Channel& truth : channels.truths) end_s = std::min(end_s, truth.samples.back().time_s);
+  for (const Channel& action : channels.actions) end_s = std::min(end_s, action.samples.back().time_s + dt_s);
+  const double steps = std::floor((end_s - begin_s) / dt_s + kEnd);
+  if (!(steps >= 1))
+    problems.add(0, "length",
+                 fmt::format("all columns together cover {:.6g} s, must cover a control step of {} s",
+                             std::max(0.0, end_s - begin_s), dt_s));
+  const Grid grid{begin_s, dt_s, static_cast<Index>(std::clamp(steps, 0.0, 1e12))};
+  for_each_channel(channels, [&](const Channel& c) { check_gaps(c, grid, max_gap_s, problems); });
+  return grid;
+}
+
+Index resample(const Channels& channels, const Grid& grid, Episode& episode) {
+  std::vector<char> exact(static_cast<std::size_t>(grid.steps) + 1, 1);
+  episode.states = states_on(channels.states, grid, exact);
+  episode.true_states = channels.truths.empty() ? episode.states : states_on(channels.truths, grid, exact);
+  episode.actions = actions_on(channels.actions, grid, exact);
+  episode.rewards = Vector::Zero(grid.steps);
+  return std::min(grid.steps, static_cast<Index>(std::ranges::count(exact, char{0})));
+}
+
+}  // namespace rehearse::recording

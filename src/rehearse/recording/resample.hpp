@@ -1,0 +1,28 @@
+#pragma once
+// Channels with times of their own → control steps. For the sources of this room.
+
+#include <string>
+#include <vector>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/recording/channel.hpp"
+#include "rehearse/recording/problems.hpp"
+
+namespace rehearse::recording {
+
+/// Where control steps begin: start_s + k·dt_s, k = 0..steps.
+struct Grid {
+  double start_s = 0, dt_s = 0;
+  Index steps = 0;
+
+  double time(Index k) const { return start_s + static_cast<double>(k) * dt_s; }
+};
+
+/// From where all channels have begun to where a state, or the last action held for a step, ends. A problem if that is
+/// less than a step, or if neighbouring samples are more than `max_gap_s` apart.
+Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& problems);
+
+/// The episode on the grid (recording.hpp says how). Returns how many steps are not rows of the file as they are.
+Index resample(const Channels& channels, const Grid& grid, Episode& episode);
+
+}  // namespace rehearse::recording

@@ -1,0 +1,30 @@
+#include "rehearse/recording/columns.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rehearse/recording/test/swing.hpp"
+
+namespace rehearse::recording {
+namespace {
+
+TEST(Columns, AreFoundInAnyOrderAndConverted) {
+  const auto table =
+      statistics::read_csv("note,q (deg),torque,T [ms],dq [rpm]\na,180,1,-5,60\nb,90,-1,0,30\nc,,2,50,\n");
+  Problems problems("f");
+  std::vector<std::string> notes;
+  const Channels found = find_channels(table, swing_task(), problems, notes);
+  EXPECT_NO_THROW(problems.throw_if_any());
+  ASSERT_EQ(found.states[1].samples.size(), 1U);  // one row is before the start, one has no angle
+  EXPECT_DOUBLE_EQ(found.states[1].samples[0].value, std::acos(0.0));
+  EXPECT_DOUBLE_EQ(found.states[0].samples[0].value, std::acos(-1.0));
+  EXPECT_EQ(found.states[0].samples[0].row, 3);
+  ASSERT_EQ(found.actions[0].samples.size(), 2U);
+  EXPECT_DOUBLE_EQ(found.actions[0].samples[1].time_s, 0.05);
+  EXPECT_TRUE(found.truths.empty());
+  EXPECT_EQ(notes, (std::vector<std::string>{"time is converted from ms to s", "dq is converted from rpm to rad/s",
+                                             "q is converted from deg to rad", "1 rows before time 0 are left out",
+                                             "columns that are not used: note"}));
+}
+
+}  // namespace
+}  // namespace rehearse::recording

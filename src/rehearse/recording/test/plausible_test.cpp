@@ -1,0 +1,89 @@
+#include "rehearse/recording/plausible.hpp"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/random.hpp"
+
+namespace rehearse::recording {
+namespace {
+
+Channel channel_of(const std::string& name, double dt_s, Index count, const std::function<double(double)>& value) {
+  Channel channel{name, "rad", {}};
+  for (Index i = 0; i < count; ++i) {
+    const double t = static_cast<double>(i) * dt_s;
+    channel.samples.push_back({t, value(t), i + 2});
+  }
+  return channel;
+}
+
+TEST(Unwrap, AnglesThatKeepWithinATurnGoOn) {
+  const auto wrapped = [](double t) { return std::remainder(3 * t, 2 * std::numbers::pi); };
+  Channel angle = channel_of("q", 0.1, 100, wrapped);
+  EXPECT_EQ(unwrap(angle), 5);  // 3 · 9.9 rad are 4.7 turns, of which the first ends at half
+  for (const Sample& sample : angle.samples) EXPECT_NEAR(sample.value, 3 * sample.time_s, 1e-12);
+  EXPECT_EQ(unwrap(angle), 0);
+}
+
+TEST(Bounds, RoundingIsClippedAndMoreIsAProblem) {
+  Channel action{"u", "N", {{0, 2.0001, 2}, {1, -2, 3}, {2, 3, 4}, {3, 0.5, 5}}};
+  Problems problems("f");
+  std::vector<std::string> notes;
+  keep_in_bounds(action, {-2, 2}, problems, notes);
+  EXPECT_FALSE(problems.empty());
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(action.samples[0].value, 2);
+  EXPECT_EQ(action.samples[3].value, 0.5);
+}
+
+/// Whether there is a jump, without a rate.
+bool jumps(const Channel& channel) {
+  Problems problems("f");
+  check_jumps(channel, nullptr, problems);
+  return !problems.empty();
+}
+
+TEST(Jumps, MotionsOfRobotsHaveNone) {
+  Rng rng({.seed = 3});
+  const auto bang = [](double t) { return std::fmod(t, 1) < 0.5 ? 5.0 : -5.0; };
+  EXPECT_FALSE(jumps(channel_of("v", 0.05, 100, bang)));
+  const auto at_rest = [&](double t) { return 0.01 * rng.normal() + (t > 29 ? std::sin(9 * (t - 29)) : 0); };
+  EXPECT_FALSE(jumps(channel_of("v", 0.002, 15000, at_rest)));
+  EXPECT_FALSE(jumps(channel_of("v", 0.002, 1000, [](double) { return 0; })));
+  EXPECT_FALSE(jumps(channel_of("v", 0.1, 40, [&](double) { return rng.normal(); })));
+}
+
+TEST(Jumps, SamplesThatAreWrongAreFound) {
+  const auto swing = [](double t) { return std::sin(5 * t); };
+  const Channel rate = channel_of("dq", 0.05, 60, [](double t) { return 5 * std::cos(5 * t); });
+  for (const auto& [at, to] : {std::pair{20, 30.0}, {40, -5.0}, {59, 9.0}}) {
+    Channel wrong = channel_of("q", 0.05, 60, swing);
+    wrong.samples[static_cast<std::size_t>(at)].value = to;
+    EXPECT_TRUE(jumps(wrong)) << to;
+    Problems problems("f");
+    check_jumps(wrong, &rate, problems);
+    EXPECT_FALSE(problems.empty()) << to;
+  }
+  Channel shifted = channel_of("q", 0.05, 60, swing);  // an encoder that loses its zero
+  for (std::size_t i = 30; i < 60; ++i) shifted.samples[i].value += 2;
+  Problems problems("f");
+  check_jumps(shifted, &rate, problems);
+  EXPECT_FALSE(problems.empty());
+}
+
+TEST(Rates, OtherUnitsAndSignsAreNoted) {
+  const Channel state = channel_of("q", 0.05, 60, [](double t) { return std::sin(5 * t); });
+  for (const auto& [factor, notes_expected] : {std::pair{1.0, 0U}, {180 / std::numbers::pi, 1U}, {-1.0, 1U}}) {
+    const double f = factor;
+    const Channel rate = channel_of("dq", 0.05, 60, [f](double t) { return f * 5 * std::cos(5 * t); });
+    std::vector<std::string> notes;
+    compare_with_rate(state, rate, notes);
+    EXPECT_EQ(notes.size(), notes_expected) << factor;
+  }
+}
+
+}  // namespace
+}  // namespace rehearse::recording

@@ -1,0 +1,145 @@
+#include "rehearse/recording/recording.hpp"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/files/temporary_folder.hpp"
+#include "rehearse/recording/test/swing.hpp"
+
+namespace rehearse::recording {
+namespace {
+
+std::string refusal(const std::string& text, const ReadOptions& options = {}) {
+  try {
+    read_recording(text, "log.csv", swing_task(), options);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "it was read";
+}
+
+TEST(Recording, ATrialOfARunIsReadToTheSameBytes) {
+  const std::string text =
+      "time [s],dq [rad/s],q [rad],true dq [rad/s],true q [rad],torque [N m],reward\n"
+      "0,0.201,3.14,0.01,3.141592653589793,0.3,\n"
+      "0.05,0.202,3.15,0.11,3.1500000000000004,-0.7,0.001\n"
+      "0.1,0.203,3.16,0.21,3.25,2,0.002\n"
+      "0.15000000000000002,0.204,3.17,0.31,3.35,,0.003\n";
+  const auto [episode, notes] = read_recording(text, "trial-003.csv", swing_task());
+  EXPECT_EQ(episode.states, (Matrix{{0.201, 3.14}, {0.202, 3.15}, {0.203, 3.16}, {0.204, 3.17}}));
+  EXPECT_EQ(episode.true_states,
+            (Matrix{{0.01, 3.141592653589793}, {0.11, 3.1500000000000004}, {0.21, 3.25}, {0.31, 3.35}}));
+  EXPECT_EQ(episode.actions, (Matrix{{0.3}, {-0.7}, {2}}));
+  EXPECT_EQ(episode.rewards, Vector::Zero(3));
+  EXPECT_FALSE(episode.ended);
+  EXPECT_TRUE(notes.empty());
+}
+
+TEST(Recording, AnotherRateIsResampled) {
+  const auto [episode, notes] = read_recording(swing_csv(500, 0.0033), "log.csv", swing_task());
+  ASSERT_EQ(episode.steps(), 32);
+  for (Index k = 0; k <= episode.steps(); ++k) {
+    const double t = static_cast<double>(k) * 0.05;
+    EXPECT_NEAR(episode.states(k, 1), std::sin(3 * t), 2e-5);
+    if (k == episode.steps()) break;
+    EXPECT_NEAR(episode.actions(k, 0), (std::sin(t + 0.05) - std::sin(t)) / 0.05, 2e-3);
+  }
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0],
+            "32 of 32 control steps of 0.05 s lie between rows, which are 0.0033 s apart on average: states are "
+            "interpolated linearly, actions are means of what rows hold until the next");
+}
+
+TEST(Recording, WhatEditorsAndRobotsLeaveDoesNoHarm) {
+  const Episode plain = read_recording(swing_csv(), "log.csv", swing_task()).episode;
+  std::string windows = "\xEF\xBB\xBF" + swing_csv();
+  for (std::size_t at = 0; (at = windows.find('\n', at)) != std::string::npos; at += 2) windows.replace(at, 1, "\r\n");
+  EXPECT_EQ(read_recording(windows + "\r\n", "log.csv", swing_task()).episode.states, plain.states);
+  EXPECT_EQ(read_recording(with_cell(swing_csv(), 9, 3, " "), "log.csv", swing_task()).episode.steps(), plain.steps());
+  const std::string cut = swing_csv() + "2.05,1.2,0.";
+  const auto [episode, notes] = read_recording(cut, "log.csv", swing_task());
+  EXPECT_EQ(episode.states, plain.states);
+  EXPECT_EQ(notes[0], "the last row is left out: it has no end, so that it may be cut short");
+  EXPECT_EQ(read_recording(swing_csv(), "log.csv", swing_task(), {.max_steps = 7}).episode.steps(), 7);
+}
+
+TEST(Recording, FilesAreReadAndLargeOnesAreNot) {
+  const files::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "log.csv";
+  std::ofstream(path) << swing_csv();
+  EXPECT_EQ(read_file(path, swing_task()).episode.steps(), 40);
+  EXPECT_THROW(read_file(path, swing_task(), {.max_bytes = 100}), InvalidInput);
+  EXPECT_THROW(read_file(folder.path() / "none.csv", swing_task()), InvalidInput);
+  EXPECT_THROW(read_file(folder.path(), swing_task()), InvalidInput);
+}
+
+struct Wrong {
+  std::string text, message;
+};
+
+TEST(Recording, WrongFilesAreRefusedWithWhatIsWrong) {
+  const std::string good = swing_csv(), header = "time [s],dq [rad/s],q [rad],torque [N m]\n";
+  const auto titled = [&](const std::string& titles) { return swing_csv(41, 0.05, titles); };
+  const auto cell = [&](int row, int column, const std::string& text) { return with_cell(good, row, column, text); };
+  const std::vector<Wrong> all = {
+      {"", "log.csv: there is no row: no line of it has an end"},
+      {"time", "log.csv: there is no row: no line of it has an end"},
+      {"\n", "log.csv: row 1: there is no column dq"},
+      {header, "log.csv: there is no row below the header"},
+      {std::string("PK\x03\x04\n", 5), "log.csv: it is no text: there are control characters in it"},
+      {good + std::string(1, '\0') + "\n", "log.csv: it is no text: there are control characters in it"},
+      {"time;dq;q;torque\n0;0;0;0\n", "log.csv: columns are separated by ';', must be by ','"},
+      {"time\tdq\tq\ttorque\n0\t0\t0\t0\n", "log.csv: columns are separated by tabs, must be by ','"},
+      {header + "0,1,2\n", "log.csv: row 2 has 3 cells, the header has 4"},
+      {header + "0,1,2,1,5\n", "log.csv: row 2 has 5 cells, the header has 4"},
+      {good + "\n" + good, "log.csv: row 43 has 1 cells, the header has 4"},
+      {header + "0,\"1,2,3\n", "log.csv: row 2 is cut short"},
+      {titled("time,dq,qq,torque"), "log.csv: row 1: there is no column q; the nearest is 'qq'"},
+      {titled("time,dq,q,force"), "log.csv: row 1: there is no column torque; the nearest is 'force'"},
+      {titled("clock,dq,q,torque"), "log.csv: row 1: there is no column time; the nearest is 'clock'"},
+      {titled("time,q,q,torque"), "log.csv: row 1: there are 2 columns q"},
+      {titled("time,dq,q [m],torque"),
+       "log.csv: row 1: q is in 'm', must be in rad or a unit that is known to be so many of them"},
+      {titled("time,dq [rad],q,torque"),
+       "log.csv: row 1: dq is in 'rad', must be in rad/s or a unit that is known to be so many of them"},
+      {titled("time [weeks],dq,q,torque"),
+       "log.csv: row 1: time is in 'weeks', must be in s or a unit that is known to be so many of them"},
+      {cell(5, 2, "nan"), "log.csv: row 5: dq = 'nan', must be a finite number"},
+      {cell(5, 2, "1,5"), "log.csv: row 5 has 5 cells, the header has 4"},
+      {cell(6, 3, "error"), "log.csv: row 6: q = 'error', must be a finite number"},
+      {cell(6, 4, "inf"), "log.csv: row 6: torque = 'inf', must be a finite number"},
+      {cell(6, 4, "1e300"), "log.csv: row 6: torque = 1e+300, must be within ± 1000000000000"},
+      {cell(6, 1, ""), "log.csv: row 6: there is no time"},
+      {cell(6, 1, "0.15000000000000002"), "log.csv: row 6: time = 0.15000000000000002 s is that of the row before"},
+      {cell(6, 1, "0.12"), "log.csv: row 6: time = 0.12 s, must be after the 0.15000000000000002 s of the row before"},
+      {cell(42, 1, "9"),
+       "log.csv: row 42: dq was not measured for 7.05 s, must be for 0.15 s at most (3 control steps)"},
+      {cell(7, 4, "2.1"), "log.csv: row 7: torque = 2.1 N m, must be in -2 to 2"},
+      {cell(20, 3, "100"), "log.csv: row 20: q jumps from"},
+      {cell(20, 2, "-400"), "log.csv: row 20: dq jumps from"},
+      {titled("time [ms],dq,q,torque"),
+       "log.csv: all columns together cover 0.002 s, must cover a control step of 0.05 s"},
+      {titled("q,dq,time,torque"), "must be after the"},
+      {header + "-2,0,0,0\n-1,0,0,0\n", "log.csv: dq has no number at a time ≥ 0"},
+      {header + "0,,0,0\n0.05,,0,0\n", "log.csv: dq has no number at a time ≥ 0"},
+      {swing_csv(20, 0.5),
+       "log.csv: row 3: dq was not measured for 0.5 s, must be for 0.15 s at most (3 control steps)"},
+  };
+  for (const Wrong& wrong : all) {
+    const std::string said = refusal(wrong.text);
+    EXPECT_NE(said.find(wrong.message), std::string::npos) << said << "\nand not\n" << wrong.message;
+  }
+}
+
+TEST(Recording, AllThatIsWrongIsSaidAtOnce) {
+  std::string text = with_cell(swing_csv(), 5, 2, "x");
+  for (int row = 7; row < 12; ++row) text = with_cell(text, row, 4, "y");
+  EXPECT_EQ(refusal(text),
+            "log.csv: row 5: dq = 'x', must be a finite number\n"
+            "log.csv: row 7: torque = 'y', must be a finite number (and so in 4 more rows)");
+}
+
+}  // namespace
+}  // namespace rehearse::recording

@@ -1,0 +1,53 @@
+#include "rehearse/recording/resample.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rehearse::recording {
+namespace {
+
+Channel with(const std::string& name, const std::vector<std::pair<double, double>>& samples) {
+  Channel channel{name, "", {}};
+  for (const auto& [time_s, value] : samples)
+    channel.samples.push_back({time_s, value, static_cast<Index>(channel.samples.size()) + 2});
+  return channel;
+}
+
+TEST(Resample, RowsAtStepsAreTakenAsTheyAre) {
+  const Channels channels{
+      {with("x", {{0, 0.1}, {0.1, 0.7}, {0.30000000000000004 - 0.1, 0.3}})}, {with("u", {{0, 1.1}, {0.1, 2.3}})}, {}};
+  Problems problems("f");
+  const Grid grid = grid_of(channels, 0.1, 0.3, problems);
+  EXPECT_TRUE(problems.empty());
+  Episode episode;
+  EXPECT_EQ(resample(channels, grid, episode), 0);
+  EXPECT_EQ(episode.states, (Matrix{{0.1}, {0.7}, {0.3}}));
+  EXPECT_EQ(episode.actions, (Matrix{{1.1}, {2.3}}));
+  EXPECT_EQ(episode.true_states, episode.states);
+}
+
+TEST(Resample, BetweenRowsStatesAreInterpolatedAndActionsAreMeans) {
+  const Channels channels{{with("x", {{0.25, 1}, {0.75, 2}, {1.5, 3.5}, {2.5, 5.5}})},
+                          {with("u", {{0.25, 4}, {0.5, 0}, {1.5, 8}, {2.5, 1}})},
+                          {}};
+  Problems problems("f");
+  const Grid grid = grid_of(channels, 1, 3, problems);
+  EXPECT_EQ(grid.start_s, 0.25);
+  EXPECT_EQ(grid.steps, 2);
+  Episode episode;
+  EXPECT_EQ(resample(channels, grid, episode), 2);  // the first begins with a row, which does not hold
+
+  EXPECT_EQ(episode.states, (Matrix{{1}, {3}, {5}}));
+  EXPECT_EQ(episode.actions, (Matrix{{1}, {6}}));  // 4 for 0.25 s, 0 for 0.75 s; 0 for 0.25 s, 8 for 0.75 s
+}
+
+TEST(Resample, LongGapsAreProblemsAndShortOnesAreNot) {
+  const Channels channels{{with("x", {{0, 1}, {1, 2}, {4, 5}, {5, 6}})}, {with("u", {{0, 4}, {5, 0}})}, {}};
+  Problems none("f"), found("f");
+  grid_of(channels, 1, 5, none);
+  EXPECT_TRUE(none.empty());
+  grid_of(channels, 1, 2, found);
+  EXPECT_FALSE(found.empty());
+}
+
+}  // namespace
+}  // namespace rehearse::recording
