@@ -17,6 +17,7 @@
 #include "apps/cli/complain.hpp"
 #include "apps/cli/parser.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/core/processor.hpp"
 
 namespace rehearse::apps {
@@ -25,11 +26,14 @@ namespace {
 int run(const experiment::Catalogue& catalogue, const Typed& typed, const ProcessGroup& processes, const char* share) {
   const std::string& command = typed.command;
   if (command == "campaign") return campaign(catalogue, typed.campaign, processes);
-  if (processes.ranks && (command == "learn" || command == "resume"))
+  if (processes.ranks && is_among(command, std::vector<std::string>{"learn", "resume", "ask", "tell"}))
     throw InvalidInput("one run is the work of one process, which takes --threads; several processes share a campaign");
   if (command == "learn") return learn(catalogue, typed.learn);
   if (command == "resume") return resume(catalogue, typed.resume);
+  if (command == "ask") return ask(catalogue, typed.ask);
+  if (command == "tell") return tell(catalogue, typed.tell);
   if (!processes.leads()) return kSuccess;
+  if (command == "status") return status(catalogue, typed.status);
   if (command == "list") return list(catalogue, typed.list);
   if (command == "new") return make_new(typed.make_new);
   if (command == "check") return check(catalogue, typed.check, share);

@@ -41,6 +41,22 @@ struct ResumeArguments {
   std::optional<std::string> trials, threads;
 };
 
+struct AskArguments {
+  std::string folder;
+  std::optional<std::string> threads;
+};
+
+struct TellArguments {
+  std::string folder;
+  std::vector<std::string> files;
+  std::optional<std::string> stopped, threads;
+  bool no_fault = false;
+};
+
+struct StatusArguments {
+  std::string folder;
+};
+
 struct CampaignArguments {
   std::string file;
   std::optional<std::string> threads, out, share;
@@ -65,6 +81,9 @@ int check(const experiment::Catalogue& catalogue, const CheckArguments& argument
 int make_new(const NewArguments& arguments);
 int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments);
 int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments);
+int ask(const experiment::Catalogue& catalogue, const AskArguments& arguments);
+int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments);
+int status(const experiment::Catalogue& catalogue, const StatusArguments& arguments);
 int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const ProcessGroup& processes);
 
 /// share: the folder of the page, where it is not beside the program.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/cli/program.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/tables.hpp"
 
@@ -22,18 +23,25 @@ void Console::started(const experiment::Resolved& resolved, const std::filesyste
   done_ = done_before_ = done;
   phi_names_ = experiment::tunable_names(resolved.prior);
   begin_ = trial_begin_ = phase_begin_ = Clock::now();
+  if (begins_ == Begin::silent) return;
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
-  line_.print(fmt::format("{} learned by {}{}, seed {}: {}{} trials of {} s in {}", spec.scenario, spec.learner, prior,
-                          spec.seed, spec.until_solved ? "up to " : "", spec.trials, resolved.scenario.task.episode_s(),
-                          folder.string()));
+  const std::string trials =
+      spec.trials == 0 ? "" : fmt::format("{}{} ", spec.until_solved ? "up to " : "", spec.trials);
+  line_.print(fmt::format("{} learned by {}{}, seed {}: {}trials of {} s in {}", spec.scenario, spec.learner, prior,
+                          spec.seed, trials, resolved.scenario.task.episode_s(), folder.string()));
   if (done > 0) line_.print(fmt::format("continuing after trial {}", done));
+}
+
+/// "3/10", or "3" where nobody said how many there are to be.
+std::string Console::number(Index trial) const {
+  return trials_ >= trial ? fmt::format("{:>2}/{}", trial, trials_) : fmt::format("{}", trial);
 }
 
 void Console::progress(Index trial, const Progress& progress) {
   if (progress.phase != phase_) phase_begin_ = Clock::now();
   phase_ = progress.phase;
   if (!line_.is_due()) return;
-  std::string line = fmt::format("trial {}/{}  {} {:.0f} %", trial, trials_, progress.phase, 100 * progress.done);
+  std::string line = fmt::format("trial {}  {} {:.0f} %", number(trial), progress.phase, 100 * progress.done);
   if (progress.rollouts > 0)
     line += fmt::format("  best predicted return {:.3f}  {:.0f} rollouts/s", progress.best, progress.rollouts_per_s);
   line += time_left(progress);
@@ -44,7 +52,7 @@ void Console::progress(Index trial, const Progress& progress) {
 std::string Console::time_left(const Progress& progress) const {
   const auto now = Clock::now();
   const double in_phase = Seconds(now - phase_begin_).count(), in_trial = Seconds(now - trial_begin_).count();
-  if (done_ > done_before_) {
+  if (done_ > done_before_ && trials_ > done_) {
     const double per_trial = Seconds(trial_begin_ - begin_).count() / static_cast<double>(done_ - done_before_);
     const double rest = static_cast<double>(trials_ - done_ - 1) * per_trial + std::max(0.0, per_trial - in_trial);
     return fmt::format("  about {} left", duration_text(rest));
@@ -56,7 +64,7 @@ std::string Console::time_left(const Progress& progress) const {
 void Console::trial_done(const experiment::TrialRecord& record) {
   done_ = record.trial;
   trial_begin_ = phase_begin_ = Clock::now();
-  std::string line = fmt::format("trial {:>2}/{}  return {:8.3f}", record.trial, trials_, record.total_reward);
+  std::string line = fmt::format("trial {}  return {:8.3f}", number(record.trial), record.total_reward);
   if (record.predicted_return) line += fmt::format("  predicted {:8.3f}", *record.predicted_return);
   line += verdict(record.solved);
   for (std::size_t i = 0; i < std::min(phi_names_.size(), record.phi.size()); ++i)
@@ -66,6 +74,10 @@ void Console::trial_done(const experiment::TrialRecord& record) {
 
 void Console::finished(const experiment::RunResult& result) {
   for (const std::string& warning : result.warnings) line_.print(warning);
+  if (result.trials == 0)
+    return line_.print(
+        fmt::format("{0} is ready; the first policy: {1} ask {0}, or logs before it: {1} tell {0} LOG.csv…",
+                    result.folder.string(), program_name()));
   const std::string solved = result.solved_at ? fmt::format("solved at trial {}", *result.solved_at)
                                               : fmt::format("not solved in {} trials", result.trials);
   line_.print(fmt::format("{}, best return {:.3f}, in {}", solved, result.best_return, result.folder.string()));

@@ -14,6 +14,9 @@ namespace rehearse::apps {
 /// Shows a run on standard output: one line a trial, and on a terminal a last line that is rewritten as it goes.
 class Console final : public experiment::RunListener {
  public:
+  enum class Begin { said, silent };  // whether a line says what begins
+  explicit Console(Begin begin = Begin::said) : begins_(begin) {}
+
   void started(const experiment::Resolved& resolved, const std::filesystem::path& folder, Index done) override;
   void progress(Index trial, const Progress& progress) override;
   void trial_done(const experiment::TrialRecord& record) override;
@@ -30,6 +33,9 @@ class Console final : public experiment::RunListener {
 
   std::string time_left(const Progress& progress) const;
 
+  std::string number(Index trial) const;
+
+  Begin begins_;
   StatusLine line_;
   Index trials_ = 0;
   std::atomic<Index> done_ = 0;

@@ -3,12 +3,8 @@
 #include <fmt/format.h>
 
 #include "apps/cli/arguments.hpp"
-#include "apps/cli/cache.hpp"
 #include "apps/cli/commands.hpp"
-#include "apps/cli/complain.hpp"
-#include "apps/cli/console.hpp"
-#include "apps/cli/program.hpp"
-#include "apps/cli/signals.hpp"
+#include "apps/cli/on_console.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/preset_check.hpp"
 #include "rehearse/experiment/resolve.hpp"
@@ -104,41 +100,11 @@ Spec resolved_spec(const Catalogue& catalogue, const Spec& spec, const std::opti
   }
 }
 
-std::string advice_after(const experiment::RunFailed& error, const std::filesystem::path& folder) {
-  if (error.resume_may_help())
-    return fmt::format("what was done is kept; once the cause is gone: {} resume {}", program_name(), folder.string());
-  return fmt::format(
-      "what was done is kept in {}; resumed, it would come to the same: learn with other options or "
-      "another seed",
-      folder.string());
-}
-
-std::string interrupted(const Console& console, const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(folder)) return "interrupted before anything was done";
-  return fmt::format("interrupted after {} trials; to continue: {} resume {}", console.trials_done(), program_name(),
-                     folder.string());
-}
-
-/// Runs with signals caught and the console listening.
-template <class Start>
-int run_on_console(const std::filesystem::path& folder, Index threads, Start start) {
+int run_on_console(const std::filesystem::path& folder, Index threads,
+                   const std::function<experiment::RunResult(const RunOptions&)>& run) {
   Console console;
-  const RunOptions options{.evaluator = make_thread_evaluator(static_cast<int>(threads)),
-                           .listener = &console,
-                           .stop = [] { return caught_signal() != 0; },
-                           .cache = cache_folder};
-  try {
-    const SignalWatch watch([&] { return interrupted(console, folder); });
-    console.finished(start(options));
-    return kSuccess;
-  } catch (const Interrupted&) {
-    console.clear_line();
-    complain(interrupted(console, folder));
-    return exit_code_of_signal();
-  } catch (const experiment::RunFailed& error) {
-    console.clear_line();
-    throw std::runtime_error(fmt::format("{}\n{}", error.what(), advice_after(error, folder)));
-  }
+  return on_console(folder, threads, console, "resume " + folder.string(),
+                    [&](const RunOptions& options) { console.finished(run(options)); });
 }
 
 }  // namespace

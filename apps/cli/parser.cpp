@@ -30,6 +30,13 @@ What there is to learn, and with what:
 A robot of your own:
   {0} new my_robot)";
 
+constexpr const char* kAskExample = R"(A robot that Rehearse does not drive:
+  {0} learn my_robot.toml --learner gp-mi --trials 0 --out runs/robot
+  {0} tell runs/robot old_log.csv        if there are any
+  {0} ask runs/robot                     the policy to try
+  {0} tell runs/robot episode.csv        what it did
+  {0} status runs/robot)";
+
 constexpr const char* kLearnExample = R"(Examples:
   {0} learn pendubot --learner gp-mi --prior misleading --trials 10 --seed 1
   {0} learn pendubot --learner gp-mi --set plant.b1=0.2 --set prior.l2=0.3
@@ -90,7 +97,8 @@ void add_learn(CLI::App& app, LearnArguments& arguments) {
       "Options that go together: a preset that `list` shows, for instance as-published, or a file FILE.toml; --set "
       "comes after it",
       "NAME");
-  add(command, "--trials", arguments.trials, "How often the plant may be used. Default: 10", "N");
+  add(command, "--trials", arguments.trials, "How often the plant may be used; 0: `ask` and `tell` go on. Default: 10",
+      "N");
   command->add_flag("--until-solved", arguments.until_solved, "End before, with a trial that solves the task");
   add(command, "--seed", arguments.seed, "Of all random numbers: the same seed gives the same run. Default: 1", "S");
   add(command, "--threads", arguments.threads,
@@ -112,6 +120,34 @@ void add_resume(CLI::App& app, ResumeArguments& arguments) {
       "asked for",
       "N");
   add(command, "--threads", arguments.threads, "Threads to compute with. Default: all cores", "K");
+}
+
+void add_ask(CLI::App& app, AskArguments& arguments) {
+  CLI::App* command = app.add_subcommand("ask", "Get the next policy, for a robot that Rehearse does not drive");
+  add(command, "DIR", arguments.folder, "The run folder", "")->required();
+  add(command, "--threads", arguments.threads, "Threads to compute with. Default: all cores", "K");
+  command->footer(fmt::format(kAskExample, program_name()));
+}
+
+void add_tell(CLI::App& app, TellArguments& arguments) {
+  CLI::App* command = app.add_subcommand("tell", "Tell what a robot did: the trial that was asked for, or old logs");
+  add(command, "DIR", arguments.folder, "The run folder", "")->required();
+  command
+      ->add_option("FILE.csv", arguments.files,
+                   "The episode of the trial that was asked for; before the first, logs of other controllers")
+      ->option_text(" ")
+      ->required();
+  add(command, "--stopped", arguments.stopped,
+      "Why the operator cut the episode short. The steps that are left out count as failed", "REASON");
+  command->add_flag("--no-fault", arguments.no_fault,
+                    "With --stopped: it was not the policy's fault, so nothing counts as failed");
+  add(command, "--threads", arguments.threads, "Threads to compute with. Default: all cores", "K");
+  command->footer(fmt::format(kAskExample, program_name()));
+}
+
+void add_status(CLI::App& app, StatusArguments& arguments) {
+  CLI::App* command = app.add_subcommand("status", "Say what a run knows, and what comes next");
+  add(command, "DIR", arguments.folder, "The run folder", "")->required();
 }
 
 void add_campaign(CLI::App& app, CampaignArguments& arguments) {
@@ -183,6 +219,9 @@ void add_all(CLI::App& app, Typed& typed) {
   add_check(app, typed.check);
   add_learn(app, typed.learn);
   add_resume(app, typed.resume);
+  add_ask(app, typed.ask);
+  add_tell(app, typed.tell);
+  add_status(app, typed.status);
   add_campaign(app, typed.campaign);
   add_report(app, typed.report);
   add_replay(app, typed.replay);

@@ -15,6 +15,9 @@ struct Typed {
   CheckArguments check;
   LearnArguments learn;
   ResumeArguments resume;
+  AskArguments ask;
+  TellArguments tell;
+  StatusArguments status;
   CampaignArguments campaign;
   ReportArguments report;
   ReplayArguments replay;

@@ -103,15 +103,18 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   print_task(scenario);
   if (scenario.require_ready) scenario.require_ready();
   const robot_file::Tried tried = robot_file::try_out(scenario);
-  fmt::print("priors, on {} steps of the plant under random actions\n", tried.steps);
+  const bool driven = static_cast<bool>(scenario.make_plant);
+  if (!driven) fmt::print("plant\n  none: there is no [plant], so its episodes are told\n");
+  fmt::print("priors, on {} steps of {} under random actions\n", tried.steps, driven ? "the plant" : "the first prior");
   for (std::size_t i = 0; i < tried.priors.size(); ++i)
     print_prior(scenario.priors[i], tried.priors[i], scenario, tried);
   if (scenario.priors.empty()) fmt::print("  none: learners without a prior can be used\n");
   const std::vector<std::string> complaints = complaints_of(tried);
+  if (arguments.out && !driven) throw InvalidInput("--out: there is no [plant] that could show its motion");
   if (arguments.out && tried.end.empty()) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
-  fmt::print("\nall is well; to learn: {} learn {} --learner {}\n", program_name(), arguments.file,
-             scenario.priors.empty() ? "black-drops" : "gp-mi");
+  fmt::print("\nall is well; to learn: {} learn {} --learner {}{}\n", program_name(), arguments.file,
+             scenario.priors.empty() ? "black-drops" : "gp-mi", driven ? "" : " --trials 0");
   return kSuccess;
 }
 

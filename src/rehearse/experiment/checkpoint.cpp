@@ -67,7 +67,8 @@ json from_record(const TrialRecord& r) {
           {"left_out_rows", r.left_out_rows},
           {"notes", r.notes},
           {"model_s", r.model_s},
-          {"search_s", r.search_s}};
+          {"search_s", r.search_s},
+          {"file", r.file}};
 }
 
 TrialRecord to_record(const json& j) {
@@ -91,7 +92,17 @@ TrialRecord to_record(const json& j) {
   j.at("notes").get_to(r.notes);
   j.at("model_s").get_to(r.model_s);
   j.at("search_s").get_to(r.search_s);
+  r.file = j.value("file", "");
   return r;
+}
+
+json from_log(const Log& log) {
+  return {{"name", log.name}, {"file", log.file}, {"episode", to_json(log.episode)}, {"notes", log.notes}};
+}
+
+Log to_log(const json& j) {
+  return {j.at("name").get<std::string>(), j.at("file").get<std::string>(), learners::to_episode(j.at("episode")),
+          j.at("notes").get<std::vector<std::string>>()};
 }
 
 History to_history(const json& j) {
@@ -100,6 +111,8 @@ History to_history(const json& j) {
   for (const json& e : j.at("episodes")) history.episodes.push_back(learners::to_episode(e));
   history.told = j.at("told").get<Index>();
   history.learner = j.at("learner");
+  for (const json& log : j.value("logs", json::array())) history.logs.push_back(to_log(log));
+  if (const json asked = j.value("asked", json()); !asked.is_null()) history.asked = to_record(asked);
   if (history.episodes.size() != history.trials.size() || history.told > history.done() ||
       history.told < history.done() - 1)
     throw InvalidInput("the checkpoint contradicts itself");
@@ -112,11 +125,15 @@ std::string to_checkpoint(const History& history, std::uint64_t spec_fingerprint
   json trials = json::array(), episodes = json::array();
   for (const TrialRecord& record : history.trials) trials.push_back(from_record(record));
   for (const Episode& episode : history.episodes) episodes.push_back(to_json(episode));
+  json logs = json::array();
+  for (const Log& log : history.logs) logs.push_back(from_log(log));
   const json all = {{"spec", spec_fingerprint},
                     {"trials", trials},
                     {"episodes", episodes},
                     {"told", history.told},
-                    {"learner", history.learner}};
+                    {"learner", history.learner},
+                    {"logs", logs},
+                    {"asked", history.asked ? from_record(*history.asked) : json()}};
   std::string body;
   json::to_cbor(all, body);
   return files::seal(kKind, body);

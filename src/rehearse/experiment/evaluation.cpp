@@ -12,16 +12,6 @@
 namespace rehearse::experiment {
 namespace {
 
-/// The policy of which a trial's θ are the parameters.
-std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario) {
-  if (trial.policy == scenario.policy->name()) return scenario.policy;
-  const Task& task = scenario.task;
-  auto schedule = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
-  if (trial.policy == schedule->name()) return schedule;
-  throw InvalidInput(fmt::format("trial {} has the policy '{}', which is neither the scenario's, '{}', nor '{}'",
-                                 trial.trial, trial.policy, scenario.policy->name(), schedule->name()));
-}
-
 double return_of_episode(const Resolved& resolved, system::Plant& plant, const policy::Policy& policy,
                          const TrialRecord& trial, Index episode, const Evaluator& evaluator) {
   const StreamKey key{.seed = static_cast<std::uint64_t>(resolved.spec.seed),
@@ -35,9 +25,18 @@ double return_of_episode(const Resolved& resolved, system::Plant& plant, const p
 
 }  // namespace
 
+std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario) {
+  if (trial.policy == scenario.policy->name()) return scenario.policy;
+  const Task& task = scenario.task;
+  auto schedule = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
+  if (trial.policy == schedule->name()) return schedule;
+  throw InvalidInput(fmt::format("trial {} has the policy '{}', which is neither the scenario's, '{}', nor '{}'",
+                                 trial.trial, trial.policy, scenario.policy->name(), schedule->name()));
+}
+
 std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator) {
   const scenario::Scenario& scenario = resolved.scenario;
-  if (scenario.evaluations == 0) return std::nullopt;
+  if (scenario.evaluations == 0 || !scenario.make_plant) return std::nullopt;
   const auto policy = policy_of(trial, scenario);
   std::unique_ptr<system::Plant> plant;
   Vector returns(scenario.evaluations);

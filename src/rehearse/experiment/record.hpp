@@ -41,14 +41,25 @@ struct TrialRecord {
   std::vector<std::string> notes;
   double model_s = 0;
   double search_s = 0;
+  std::string file;  // checksum of the file that the episode was told by; empty: Rehearse drove the robot
+};
+
+/// An episode of another controller, which was told before the first trial.
+struct Log {
+  std::string name;  // of the file
+  std::string file;  // its checksum
+  Episode episode;
+  std::vector<std::string> notes;  // how the file was read
 };
 
 /// A run so far: enough to continue it as if nothing had happened.
 struct History {
   std::vector<TrialRecord> trials;
-  std::vector<Episode> episodes;  // of these trials
-  Index told = 0;                 // how many of them the learner has been told: all but perhaps the last
-  nlohmann::json learner;         // what it saved after the last it was told
+  std::vector<Episode> episodes;     // of these trials
+  Index told = 0;                    // how many of them the learner has been told: all but perhaps the last
+  nlohmann::json learner;            // what it saved after the last it was told
+  std::vector<Log> logs;             // told before the first trial
+  std::optional<TrialRecord> asked;  // the trial that was asked for and is to come: what is known before it
 
   Index done() const { return static_cast<Index>(trials.size()); }
 };

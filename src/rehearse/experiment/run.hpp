@@ -16,8 +16,8 @@ namespace rehearse::experiment {
 struct RunResult {
   std::filesystem::path folder;
   Index trials = 0;
-  std::optional<Index> solved_at;  // the first trial that solved the task
-  double best_return = 0;
+  std::optional<Index> solved_at;     // the first trial that solved the task
+  double best_return = 0;             // of no trials: 0
   std::vector<std::string> warnings;  // what the trials could not tell of φ, as of the last trial's model; and faults
 };
 

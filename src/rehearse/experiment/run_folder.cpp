@@ -47,15 +47,53 @@ RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comme
   }
 }
 
-RunFolder RunFolder::open(const fs::path& given) {
+namespace {
+
+Spec spec_of(const fs::path& folder) {
+  const fs::path spec = folder / kSpec;
+  return from_toml(files::read_file(spec), spec.string());
+}
+
+History history_of(const fs::path& folder, const Spec& spec) {
+  try {
+    return from_checkpoint(files::read_file(folder / kCheckpoint), fingerprint(spec));
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(fmt::format("{}: {}", folder.string(), error.what()));
+  }
+}
+
+/// Its path, if it has what a run folder has.
+fs::path checked_run_folder(const fs::path& given) {
   const fs::path path = files::without_slash(given);
   if (!fs::is_directory(path)) throw InvalidInput(fmt::format("{} is not a folder", path.string()));
   for (const char* file : {kSpec, kCheckpoint})
     if (!fs::exists(path / file))
       throw InvalidInput(fmt::format("{} is not a run folder: it has no {}", path.string(), file));
+  return path;
+}
+
+bool is_in_use(const fs::path& folder) {
+  try {
+    const files::FolderLock lock(folder, files::FolderLock::Kind::shared);
+    return false;
+  } catch (const InvalidInput&) {
+    return true;
+  }
+}
+
+}  // namespace
+
+RunFolder RunFolder::open(const fs::path& given) {
+  const fs::path path = checked_run_folder(given);
   files::FolderLock lock(path);
-  const fs::path spec = path / kSpec;
-  return {path, from_toml(files::read_file(spec), spec.string()), std::move(lock)};
+  return {path, spec_of(path), std::move(lock)};
+}
+
+RunFolder::Contents RunFolder::read(const fs::path& given) {
+  const fs::path path = checked_run_folder(given);
+  Contents contents{.spec = spec_of(path), .history = {}, .in_use = is_in_use(path)};
+  contents.history = history_of(path, contents.spec);
+  return contents;
 }
 
 void RunFolder::change_end(Until until, const Comments& comments) {
@@ -66,13 +104,7 @@ void RunFolder::change_end(Until until, const Comments& comments) {
   files::write_file(path_ / kSpec, to_toml(spec_, comments), files::Durability::power);
 }
 
-History RunFolder::load() const {
-  try {
-    return from_checkpoint(files::read_file(path_ / kCheckpoint), fingerprint(spec_));
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(fmt::format("{}: {}", path_.string(), error.what()));
-  }
-}
+History RunFolder::load() const { return history_of(path_, spec_); }
 
 void RunFolder::write_checkpoint(const History& history) const {
   files::write_file(path_ / kCheckpoint, to_checkpoint(history, fingerprint(spec_)), files::Durability::power);
@@ -86,6 +118,7 @@ void RunFolder::write_tables(const History& history, const Resolved& resolved) c
   files::write_file(path_ / "identifiability.csv", identifiability_csv(history.trials));
   files::write_file(path_ / "notes.csv", notes_csv(history.trials));
   files::write_file(path_ / "policy.json", policies_json(history.trials, resolved));
+  if (!history.logs.empty()) files::write_file(path_ / "logs.csv", logs_csv(history.logs, resolved.scenario.task));
 }
 
 void RunFolder::write_prediction(Index trial, const std::string& csv) const {
@@ -95,6 +128,18 @@ void RunFolder::write_prediction(Index trial, const std::string& csv) const {
 void RunFolder::write_trajectory(Index trial, const std::string& csv) const {
   files::write_file(trial_file(path_ / "trajectories", trial), csv);
 }
+
+void RunFolder::write_log(Index log, const std::string& csv) const {
+  fs::create_directories(path_ / "logs");
+  files::write_file(path_ / "logs" / fmt::format("log-{:03}.csv", log), csv);
+}
+
+void RunFolder::write_next(const std::string& name, const std::string& text) const {
+  fs::create_directories(path_ / kNextFolder);
+  files::write_file(path_ / kNextFolder / name, text);
+}
+
+void RunFolder::remove_next() const { fs::remove_all(path_ / kNextFolder); }
 
 void RunFolder::write_motion(const char* kind, Index trial, const std::string& json) const {
   fs::create_directories(path_ / "motion");  // a scenario that cannot be drawn has none

@@ -11,6 +11,8 @@
 
 namespace rehearse::experiment {
 
+inline constexpr const char* kNextFolder = "next";  // of the policy that was asked for
+
 /// The folder of one run, locked while this lives. The checkpoint is the truth and each file is replaced in one step:
 /// after a kill at any instant, `load` and `write_tables` bring the rest up to date.
 class RunFolder {
@@ -23,6 +25,14 @@ class RunFolder {
 
   /// Throws InvalidInput if it is no run folder, cannot be read, or is in use.
   static RunFolder open(const std::filesystem::path& path);
+
+  /// A run as its folder has it now, without the lock. Throws as `open` and `load` do.
+  struct Contents {
+    Spec spec;
+    History history;
+    bool in_use = false;  // somebody holds the lock
+  };
+  static Contents read(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
   const Spec& spec() const { return spec_; }
@@ -39,6 +49,13 @@ class RunFolder {
   /// Files about a trial: what the model expected, and what happened.
   void write_prediction(Index trial, const std::string& csv) const;
   void write_trajectory(Index trial, const std::string& csv) const;
+
+  /// A log that was told before the first trial, from 1.
+  void write_log(Index log, const std::string& csv) const;
+
+  /// A file of the policy that was asked for; none is left of a trial that is over.
+  void write_next(const std::string& name, const std::string& text) const;
+  void remove_next() const;
 
   /// How the robot moved, or how the model expects it to. kind: "trial" or "prediction".
   void write_motion(const char* kind, Index trial, const std::string& json) const;

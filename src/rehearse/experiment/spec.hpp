@@ -41,7 +41,7 @@ struct Spec {
   bool ends_with(Index trial, bool solved) const { return trial >= trials || (until_solved && solved); }
 
   void fields(FieldVisitor& v) {
-    v.integer("trials", trials, "how often the plant may be used", between(1, 1e6));
+    v.integer("trials", trials, "how often the plant may be used; 0: never, `ask` and `tell` go on", between(0, 1e6));
     v.boolean("until_solved", until_solved, "end before, with a trial that solves the task");
     v.integer("seed", seed, "seed of all random numbers: the same one gives the same run",
               between(0, 9007199254740992.0));  // 2^53: survives every file format

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "rehearse/experiment/forecast.hpp"
 #include "rehearse/experiment/resolve.hpp"
@@ -134,6 +135,16 @@ std::string identifiability_csv(const std::vector<TrialRecord>& trials) {
   files::Csv csv({"trial", "warning"});
   for (const TrialRecord& t : trials)
     for (const std::string& warning : t.warnings) csv.row({files::Csv::cell(t.trial), warning});
+  return csv.text();
+}
+
+std::string logs_csv(const std::vector<Log>& logs, const Task& task) {
+  files::Csv csv({"log", "file", "steps", "duration_s", "notes"});
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const Index steps = logs[i].episode.steps();
+    csv.row({files::Csv::cell(static_cast<Index>(i) + 1), logs[i].name, files::Csv::cell(steps),
+             files::Csv::cell(seconds(steps, task.dt_s)), fmt::format("{}", fmt::join(logs[i].notes, "; "))});
+  }
   return csv.text();
 }
 

@@ -32,6 +32,9 @@ std::string identifiability_csv(const std::vector<TrialRecord>& trials);
 /// Failures that were survived, one row each.
 std::string notes_csv(const std::vector<TrialRecord>& trials);
 
+/// Episodes of other controllers, one row each.
+std::string logs_csv(const std::vector<Log>& logs, const Task& task);
+
 /// The best observed policy and each trial's.
 std::string policies_json(const std::vector<TrialRecord>& trials, const Resolved& resolved);
 

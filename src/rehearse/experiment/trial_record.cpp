@@ -30,11 +30,8 @@ void add_posterior(TrialRecord& record, const identification::PhiPosterior& post
 
 }  // namespace
 
-TrialRecord record_of(Index trial, const learners::Proposal& proposal, const Episode& episode,
-                      const Resolved& resolved) {
-  const Task& task = resolved.scenario.task;
+TrialRecord record_before(Index trial, const learners::Proposal& proposal, const Resolved& resolved) {
   TrialRecord record{.trial = trial,
-                     .total_reward = episode.total_reward(),
                      .predicted_return = proposal.predicted_return,
                      .rollouts = proposal.rollouts,
                      .failed_rollouts = proposal.failed_rollouts,
@@ -46,12 +43,16 @@ TrialRecord record_of(Index trial, const learners::Proposal& proposal, const Epi
                      .notes = proposal.notes,
                      .model_s = proposal.model_s,
                      .search_s = proposal.search_s};
-  if (!episode.failure.empty()) record.notes.push_back("the episode ended at the reward floor: " + episode.failure);
   if (proposal.posterior && !record.phi.empty())
     add_posterior(record, *proposal.posterior, tunable_names(resolved.prior));
+  return record;
+}
+
+void add_outcome(TrialRecord& record, const learners::Proposal& proposal, const Episode& episode, const Task& task) {
+  record.total_reward = episode.total_reward();
+  if (!episode.failure.empty()) record.notes.push_back("the episode ended at the reward floor: " + episode.failure);
   if (task.solved) record.solved = task.solved(episode);
   if (proposal.model) record.forecast = forecast_errors(*proposal.model, task, episode);
-  return record;
 }
 
 }  // namespace rehearse::experiment

@@ -1,15 +1,17 @@
 #pragma once
 
 #include "rehearse/core/episode.hpp"
+#include "rehearse/core/task.hpp"
 #include "rehearse/experiment/record.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/learners/learner.hpp"
 
 namespace rehearse::experiment {
 
-/// The record of a trial: the proposal that was tried and what came of it. `interaction_s` is left to who knows the
-/// trials before.
-TrialRecord record_of(Index trial, const learners::Proposal& proposal, const Episode& episode,
-                      const Resolved& resolved);
+/// What the record of a trial says before it: the proposal.
+TrialRecord record_before(Index trial, const learners::Proposal& proposal, const Resolved& resolved);
+
+/// Adds what came of the proposal. `interaction_s` is left to who knows the trials before.
+void add_outcome(TrialRecord& record, const learners::Proposal& proposal, const Episode& episode, const Task& task);
 
 }  // namespace rehearse::experiment

@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "rehearse/core/episode.hpp"
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/core/expected_episode.hpp"
@@ -66,19 +67,29 @@ struct Setting {
 /// Proposes policies and learns from the episodes they make.
 ///
 /// Laws (checked by testing::check_learner): `ask` is idempotent: until the next `tell` it returns the same proposal.
+/// A learner that knows θ again, by `ask_again`, goes on as one that found it.
 /// The same setting, options and episodes give the same bytes, whatever the evaluator. A learner that loaded what
 /// another saved, after being told the same episodes, goes on as that one would, its tables too.
 class Learner {
  public:
   virtual ~Learner() = default;
   virtual const Proposal& ask() = 0;
+  /// As `ask`, for who has kept θ of the same proposal. Learners whose search takes long leave it out: policy, θ and
+  /// model of what is returned are those of `ask`, other fields may be empty.
+  virtual const Proposal& ask_again(const Vector& /*theta*/) { return ask(); }
   virtual void tell(const Episode& episode) = 0;  // its true states, rewards: of the plant, or as measured (a run says)
+
+  /// Takes episodes of other controllers for data, like those of trials, before the first `ask` or `load`. Throws
+  /// InvalidInput if this learner learns from its own policies alone.
+  virtual void study(const std::vector<Episode>& logs) {
+    if (!logs.empty()) throw InvalidInput("this learner cannot learn from logs of other controllers");
+  }
 
   /// State that is not in the episodes (warm starts); small. Called between `tell` and `ask`.
   virtual nlohmann::json save() const = 0;
   /// Tables of all it was told, if it has any. Called after `tell`.
   virtual std::vector<Table> tables() const { return {}; }
-  /// The episodes told so far, in order, and what `save` returned after the last of them.
+  /// The episodes told so far, in order, without the logs, and what `save` returned after the last of them.
   virtual void load(const std::vector<Episode>& episodes, const nlohmann::json& state) = 0;
 };
 

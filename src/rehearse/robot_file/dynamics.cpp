@@ -84,7 +84,8 @@ std::function<std::unique_ptr<system::Plant>()> DynamicsMaker::plant(const Varia
 }
 
 std::optional<scenario::Drawing> DynamicsMaker::drawing() const {
-  std::vector<const Variant*> variants = {&robot_.plant};
+  std::vector<const Variant*> variants;
+  if (robot_.has_plant) variants.push_back(&robot_.plant);
   for (const Variant& prior : robot_.priors) variants.push_back(&prior);
   for (const Variant* variant : variants) {
     const Dynamics& dynamics = robot_.dynamics_of(*variant);

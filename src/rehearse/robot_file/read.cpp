@@ -28,9 +28,10 @@ class Reader {
     robot_.definitions = file_.definitions("define");
     read_task();
     read_dynamics(file_, robot_, read_file_, violations_);
-    required(!robot_.dynamics.empty(), "[dynamics.NAME]", "how the states change");
     read_plant();
     read_priors();
+    const bool asked = robot_.has_plant || !robot_.priors.empty();
+    required(!asked || !robot_.dynamics.empty(), "[dynamics.NAME]", "how the states change");
     read_policy();
     read_bodies();
     file_.finish();
@@ -131,9 +132,10 @@ class Reader {
 
   void read_plant() {
     const toml::table* part = file_.reader().take_table("plant");
-    if (!part) return required(false, "[plant]", "the robot, or what plays it");
+    if (!part) return;
     Table table(*part, "[plant]", violations_);
     table.number("measurement_noise", robot_.options.measurement_noise, at_least(0));
+    robot_.has_plant = true;
     robot_.plant = read_variant("plant", table, robot_.dynamics, violations_);
     table.finish();
   }

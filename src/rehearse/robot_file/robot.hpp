@@ -92,6 +92,7 @@ struct Robot {
   Success success;
   Formula ended;
   std::vector<Dynamics> dynamics;
+  bool has_plant = false;  // else it is a real one, whose episodes are told
   Variant plant;
   std::vector<Variant> priors;  // the first is the default
   scenario::OdeOptions options;

@@ -29,12 +29,14 @@ class Builder final : public scenario::ScenarioBuilder {
     const Vector noise = Vector::Constant(task.state_size(), robot_.options.measurement_noise);
     scenario::Scenario scenario{.name = robot_.name,
                                 .task = task,
-                                .make_plant = dynamics.plant(plant, {task.start_mean, task.start_std, noise}),
-                                .oracle = dynamics.simulator(plant, robot_.options.substeps),
                                 .policy = make_policy(robot_.options.policy, task, policy_scale()),
                                 .drawing = robot_.bodies.empty() ? dynamics.drawing() : make_drawing(robot_),
                                 .require_ready = dynamics.require_ready(),
                                 .evaluations = robot_.options.evaluations};
+    if (robot_.has_plant) {
+      scenario.make_plant = dynamics.plant(plant, {task.start_mean, task.start_std, noise});
+      scenario.oracle = dynamics.simulator(plant, robot_.options.substeps);
+    }
     for (const Variant& prior : robot_.priors)
       scenario.priors.push_back({prior.name, dynamics.simulator(prior, robot_.options.substeps), prior.parameters});
     scenario.faults = dynamics.faults();

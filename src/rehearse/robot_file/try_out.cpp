@@ -7,6 +7,7 @@
 
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/stopwatch.hpp"
+#include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::robot_file {
 namespace {
@@ -25,6 +26,18 @@ Vector random_action(const Task& task, Rng& rng) {
   return u;
 }
 
+/// The first prior plays a robot that Rehearse does not drive. Null: there is none either.
+std::unique_ptr<system::Plant> plant_or_prior(const scenario::Scenario& scenario) {
+  if (scenario.make_plant) return scenario.make_plant();
+  if (scenario.priors.empty()) return nullptr;
+  const auto motion = [prior = scenario.priors.front()](const Vector& x, const Vector& u) -> Vector {
+    Matrix change(1, x.size());
+    system::change_contained(*prior.simulator, x.transpose(), u.transpose(), prior.parameters.values(), change);
+    return x + change.transpose();
+  };
+  return system::make_simulated_plant(motion, {scenario.task.start_mean, scenario.task.start_std, {}});
+}
+
 Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) {
   const Task& task = scenario.task;
   Steps steps{Matrix(episodes * task.horizon, task.state_size()),
@@ -32,13 +45,13 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
               Matrix(episodes * task.horizon, task.state_size()),
               {}};
   Index row = 0;
-  const auto plant = scenario.make_plant();
+  const auto plant = plant_or_prior(scenario);
   const auto state_of = [&](const Vector& measured) {
     const Vector truth = plant->truth();
     return truth.size() > 0 ? truth : measured;
   };
   try {
-    for (Index e = 0; e < episodes; ++e) {
+    for (Index e = 0; plant && e < episodes; ++e) {
       Rng rng({.seed = seed, .trial = static_cast<std::uint64_t>(e) + 1, .purpose = Purpose::start_state});
       Vector x = state_of(plant->reset(rng));
       for (Index t = 0; t < task.horizon; ++t, ++row) {

@@ -26,7 +26,8 @@ struct Tried {
 };
 
 /// Use it before anything is learned: tries plant and priors of a scenario on some episodes of random actions. Says
-/// what a learner would stumble over later. The same for the same seed, but for times.
+/// what a learner would stumble over later. The first prior plays the robot where Rehearse does not drive it. The same
+/// for the same seed, but for times.
 Tried try_out(const scenario::Scenario& scenario, Index episodes = 3, std::uint64_t seed = 1);
 
 }  // namespace rehearse::robot_file

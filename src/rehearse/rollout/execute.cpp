@@ -59,6 +59,19 @@ void check(const policy::Policy& policy, const Vector& theta, const Task& task) 
   violations.throw_if_any();
 }
 
+/// What the step to state t+1 earned, and whether the episode ends there.
+bool ends_at(Episode& episode, Index t, const Task& task) {
+  episode.rewards(t) = reward_of(task, episode, t);
+  if (!std::isfinite(episode.rewards(t))) {
+    episode.rewards(t) = task.reward_floor;
+    end(episode, t + 1, task, fmt::format("the reward at step {} is not finite", t + 1));
+    return true;
+  }
+  if (!task.ended || !task.ended(episode.true_states.row(t + 1).transpose())) return false;
+  end(episode, t + 1, task);
+  return true;
+}
+
 /// contained: a state that is not finite is a fall, and the plant's fault otherwise.
 Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng& rng,
             const std::function<void()>& before_step, bool contained) {
@@ -85,16 +98,7 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
       break;
     }
     record_state(episode, t + 1, checked(next, task.state_size(), t + 1), plant);
-    episode.rewards(t) = reward_of(task, episode, t);
-    if (!std::isfinite(episode.rewards(t))) {
-      episode.rewards(t) = task.reward_floor;
-      end(episode, t + 1, task, fmt::format("the reward at step {} is not finite", t + 1));
-      break;
-    }
-    if (task.ended && task.ended(episode.true_states.row(t + 1).transpose())) {
-      end(episode, t + 1, task);
-      break;
-    }
+    if (ends_at(episode, t, task)) break;
   }
   return episode;
 }
@@ -116,6 +120,15 @@ Episode execute(const system::Simulator& simulator, const Vector& phi, const pol
   const auto plant = system::make_simulated_plant(motion, {task.start_mean, task.start_std, {}});
   return run(*plant, policy, theta, task, rng, {}, true);
 }
+
+Episode judged(Episode episode, const Task& task) {
+  episode.rewards.resize(episode.steps());
+  for (Index t = 0, steps = episode.steps(); t < steps; ++t)
+    if (ends_at(episode, t, task)) break;
+  return episode;
+}
+
+void fail(Episode& episode, const Task& task, const std::string& why) { end(episode, episode.steps(), task, why); }
 
 Episode as_measured(Episode episode, const Task& task) {
   episode.true_states = episode.states;

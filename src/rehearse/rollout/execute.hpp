@@ -23,6 +23,13 @@ Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector
 Episode execute(const system::Simulator& simulator, const Vector& phi, const policy::Policy& policy,
                 const Vector& theta, const Task& task, Rng rng);
 
+/// An episode that somebody else ran, by its states and actions: with its rewards, and its end at the first fall, or at
+/// the first reward that is not finite. It has as many steps as were run.
+Episode judged(Episode episode, const Task& task);
+
+/// Ends an episode before its horizon, by the policy's fault: the rest earns the reward floor.
+void fail(Episode& episode, const Task& task, const std::string& why);
+
 /// The episode as one who sees measurements alone knows it: they are its true states, and what it earned follows from
 /// them. That it ended early is known.
 Episode as_measured(Episode episode, const Task& task);

@@ -29,8 +29,8 @@ struct NamedPrior {
 struct Scenario {
   std::string name;
   Task task;
-  std::function<std::unique_ptr<system::Plant>()> make_plant;
-  std::vector<NamedPrior> priors;                   // the first is the default
+  std::function<std::unique_ptr<system::Plant>()> make_plant;  // null: a robot that Rehearse does not drive
+  std::vector<NamedPrior> priors;                              // the first is the default
   std::shared_ptr<const system::Simulator> oracle;  // the plant's own dynamics, for `--prior oracle`; may be null
   std::shared_ptr<const policy::Policy> policy;
   std::optional<Drawing> drawing;       // empty: it cannot be shown

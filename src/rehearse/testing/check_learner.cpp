@@ -71,6 +71,8 @@ class LearnerCheck {
                      fmt::format("trial {}: two threads give other tables", k + 1));
     }
     for (Index told = 0; told < trials_; ++told) check_loaded(one, told);
+    for (Index told = 0; told + 1 < trials_; ++told) check_asked_again(one, told);
+    check_logs(one);
     return found_.list();
   }
 
@@ -128,6 +130,40 @@ class LearnerCheck {
       if (!same_tables(run.tables[k], learner->tables()))
         return found_.add(fmt::format("loaded after {} episodes, other tables after trial {}", told, k + 1));
     }
+  }
+
+  /// Is told the trial whose θ it was given, and asked for the next.
+  void check_asked_again(const Run& run, Index told) {
+    const auto k = static_cast<std::size_t>(told);
+    const auto learner = build(1);
+    learner->load({run.episodes.begin(), run.episodes.begin() + told}, nlohmann::json::parse(run.saved[k]));
+    const Proposal again = learner->ask_again(run.proposals[k].theta);
+    found_.require(name_of(again) == name_of(run.proposals[k]) && same(again.theta, run.proposals[k].theta),
+                   fmt::format("trial {}: with θ given, another policy is proposed", told + 1));
+    learner->tell(run.episodes[k]);
+    found_.require(learner->save().dump() == run.saved[k + 1],
+                   fmt::format("trial {}: with θ given, something else is saved after it", told + 1));
+    const std::string names = difference(run.proposals[k + 1], learner->ask());
+    found_.require(names.empty(),
+                   fmt::format("trial {}: with θ given, trial {} has another {}", told + 1, told + 2, names));
+  }
+
+  /// The first episode is a log for two learners, one of which is told the second and one of which loads it.
+  void check_logs(const Run& run) {
+    if (run.episodes.size() < 2) return;
+    const std::vector<Episode> logs = {run.episodes[0]}, told = {run.episodes[1]};
+    const auto one = build(1), other = build(2);
+    try {
+      one->study(logs);
+    } catch (const InvalidInput&) {
+      return;  // it learns from its own policies alone
+    }
+    other->study(logs);
+    one->ask();
+    one->tell(told[0]);
+    other->load(told, nlohmann::json::parse(one->save().dump()));
+    const std::string names = difference(one->ask(), other->ask());
+    found_.require(names.empty(), fmt::format("loaded after a log and an episode, trial 2 has another {}", names));
   }
 
   const learners::LearnerBuilder& builder_;

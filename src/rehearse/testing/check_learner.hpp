@@ -17,6 +17,8 @@ using RunTrial = std::function<Episode(const learners::Proposal& proposal, std::
 /// - `ask` is idempotent: until the next `tell` it returns the same proposal;
 /// - the same bytes on one and on two threads;
 /// - a learner that loads what was saved after any episode, as text, goes on with the same proposals and tables;
+/// - one that is given θ again goes on in the same way;
+/// - one that takes logs of other controllers goes on with them when it is loaded;
 /// - a table has a name for each of its columns.
 ///
 /// The setting's evaluator is ignored. About trials² / 2 + 2 trials proposals are computed: give it a small budget.

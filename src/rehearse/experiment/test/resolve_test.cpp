@@ -95,7 +95,7 @@ TEST(Spec, NamesAllViolationsAtOnce) {
   Spec spec = spec_of("echo", "", {{"noise", "-1"}, {"search.step", "fast"}, {"colour", "red"}});
   spec.trials = -3;
   EXPECT_EQ(complaint(spec),
-            "trials = -3, must be between 1 and 1000000\n"
+            "trials = -3, must be between 0 and 1000000\n"
             "noise = -1, must be ≥ 0\n"
             "search.step = fast, must be a number\n"
             "unknown option 'colour', did you mean 'noise'?");

@@ -143,7 +143,7 @@ TEST(Run, SpecOfAFolderGivesTheSameRun) {
 
 TEST(Run, WrongInputLeavesNoFolder) {
   const fs::path folder = fake::test_folder();
-  EXPECT_THROW(start_run(fake::catalogue(), line_spec(0), folder / "a/b", {}), InvalidInput);
+  EXPECT_THROW(start_run(fake::catalogue(), line_spec(-1), folder / "a/b", {}), InvalidInput);
   EXPECT_TRUE(fs::is_empty(folder));
 }
 

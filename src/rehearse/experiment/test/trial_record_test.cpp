@@ -25,7 +25,8 @@ TEST(TrialRecord, HasTheTunableParametersAndWhatCameOfTheTrial) {
   episode.rewards = Vector::Constant(12, 0.5);
   episode.charged = -1;
   episode.failure = "it fell";
-  const TrialRecord record = record_of(4, proposal, episode, resolved);
+  TrialRecord record = record_before(4, proposal, resolved);
+  add_outcome(record, proposal, episode, resolved.scenario.task);
   EXPECT_EQ(record.trial, 4);
   EXPECT_EQ(record.total_reward, 5);
   EXPECT_EQ(record.solved, true);

@@ -27,6 +27,12 @@ class BlackDrops final : public TrialLearner {
     history_.random_first = !setting_.prior && options_.first_trial.kind != FirstTrial::Kind::policy;
   }
 
+  void study(const std::vector<Episode>& logs) override {
+    for (const Episode& log : logs) logs_.append(log);
+    data_ = logs_;
+    history_.random_first = history_.random_first && logs.empty();
+  }
+
   json save() const override {
     json kernels = json::array(), policies = json::array();
     for (const auto& kernel : state_.kernels) kernels.push_back(to_json(kernel.flat()));
@@ -44,7 +50,7 @@ class BlackDrops final : public TrialLearner {
   }
 
   void restore(const std::vector<Episode>& episodes, const json& state) override {
-    data_ = {};
+    data_ = logs_;
     history_.returns.clear();
     for (const Episode& episode : episodes) add(episode);
     history_.policies = to_vectors(state.at("policies"));
@@ -61,11 +67,16 @@ class BlackDrops final : public TrialLearner {
     history_.returns.push_back(episode.total_reward());
   }
 
-  bool first() const { return history_.returns.empty(); }
+  /// Nothing was told, no log either.
+  bool without_data() const { return history_.returns.empty() && logs_.size() == 0; }
 
-  Proposal propose() override {
+  Proposal propose() override { return propose(nullptr); }
+  Proposal propose_known(const Vector& theta) override { return propose(&theta); }
+
+  /// known: θ of this trial, where it was found before.
+  Proposal propose(const Vector* known) {
     Proposal proposal{.policy = setting_.policy};
-    if (first() && !setting_.prior) {
+    if (without_data() && !setting_.prior) {
       propose_at_random(proposal);
       return proposal;
     }
@@ -76,7 +87,10 @@ class BlackDrops final : public TrialLearner {
       learn_model(proposal, state);
       if (options_.reward.learned) learn_reward(proposal, task);
     });
-    proposal.search_s = seconds([&] { search(proposal, task); });
+    if (known)
+      proposal.theta = *known;
+    else
+      proposal.search_s = seconds([&] { search(proposal, task); });
     state_ = std::move(state);
     return proposal;
   }
@@ -84,7 +98,8 @@ class BlackDrops final : public TrialLearner {
   void search(Proposal& proposal, const Task& task) const {
     const SearchProblem problem{*proposal.model, *setting_.policy, task, *setting_.evaluator, setting_.progress};
     TrialSearches searches(problem, options_.search, stream());
-    Choice choice = search_trial(searches, {known_policies(history_, *setting_.policy, options_), first()}, options_);
+    Choice choice =
+        search_trial(searches, {known_policies(history_, *setting_.policy, options_), without_data()}, options_);
     proposal.theta = std::move(choice.theta);
     proposal.predicted_return = choice.predicted_return;
     proposal.rollouts = searches.rollouts();
@@ -113,7 +128,7 @@ class BlackDrops final : public TrialLearner {
 
   void learn_model(Proposal& proposal, identification::WarmStart& state) {
     if (setting_.progress) setting_.progress({.phase = "model"});
-    if (first()) return trust_prior(proposal, options_.prior_variance);
+    if (without_data()) return trust_prior(proposal, options_.prior_variance);
     try {
       identification::Learned learned =
           identification::learn({data_, setting_.task.model_features(), setting_.task.kinematics(),
@@ -136,7 +151,7 @@ class BlackDrops final : public TrialLearner {
 
   /// Replaces the task's reward by what is believed of it.
   void learn_reward(Proposal& proposal, Task& task) const {
-    if (first()) {
+    if (without_data()) {
       task.reward = task.initial_reward;
       return;
     }
@@ -154,7 +169,8 @@ class BlackDrops final : public TrialLearner {
   Setting setting_;
   Options options_;
   FeatureMap features_;
-  Dataset data_;
+  Dataset logs_;  // of other controllers
+  Dataset data_;  // logs and trials
   History history_;
   identification::WarmStart state_;
 };

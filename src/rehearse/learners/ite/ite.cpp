@@ -34,6 +34,11 @@ class Ite final : public TrialLearner {
   /// There is an adaptation after `tell`.
   std::vector<Table> tables() const override { return {elites(), tried()}; }
 
+  void study(const std::vector<Episode>& logs) override {
+    if (!logs.empty())
+      throw InvalidInput("ite learns what its own policies earn: logs of other controllers say nothing of that");
+  }
+
   json save() const override {
     return {{"tried", tried_}, {"archive", bytes_ ? files::checksum(*bytes_) : learned_in_}};
   }

@@ -79,7 +79,7 @@ json Trials::save() const {
 }
 
 void Trials::restore(const std::vector<Episode>& episodes, const json& state) {
-  data_ = {};
+  data_ = logs_;
   solved_ = false;
   earned_.reset();
   repeated_ = false;
@@ -95,8 +95,13 @@ void Trials::restore(const std::vector<Episode>& episodes, const json& state) {
   if (!fits) throw InvalidInput("the learner's state does not fit the episodes");
 }
 
-Proposal Trials::propose() {
-  Proposal proposal = trials_ == 0 ? first_proposal() : next_proposal();
+void Trials::study(const std::vector<Episode>& logs) {
+  for (const Episode& log : logs) logs_.append(log);
+  data_ = logs_;
+}
+
+Proposal Trials::propose(const Vector* known) {
+  Proposal proposal = trials_ == 0 && logs_.size() == 0 ? first_proposal() : next_proposal(known);
   if (prior_) proposal.phi = setting_.prior->space.values();
   return proposal;
 }
@@ -104,14 +109,22 @@ Proposal Trials::propose() {
 Proposal Trials::first_proposal() {
   if (!options_.prior) return random_actions(setting_, options_.first_trial_hold_s, stream(Stage::episode));
   const Stopwatch watch;
-  if (!prior_) prior_ = learn_on_prior_(setting_, options_);
+  know_prior();
   Proposal proposal = proposal_of(*prior_, setting_, options_.model);
   proposal.search_s = watch.seconds();
   return proposal;
 }
 
-Proposal Trials::next_proposal() {
+void Trials::know_prior() {
+  if (options_.prior && !prior_) prior_ = learn_on_prior_(setting_, options_);
+}
+
+Proposal Trials::next_proposal(const Vector* known) {
   Proposal proposal{.policy = setting_.policy};
+  if (trials_ == 0) {  // there are logs
+    know_prior();
+    if (prior_) theta_ = prior_->theta;
+  }
   Model model;
   proposal.model_s = seconds([&] { model = learn_model(); });
   proposal.model = model.model;
@@ -120,7 +133,10 @@ Proposal Trials::next_proposal() {
   proposal.theta = theta_.size() > 0 ? theta_
                                      : initial_policy(*setting_.policy, start_state(setting_.task, options_.search),
                                                       stream(Stage::search));
-  if (model.moments) proposal.search_s = seconds([&] { search(model, proposal); });
+  if (known)
+    proposal.theta = *known;
+  else if (model.moments)
+    proposal.search_s = seconds([&] { search(model, proposal); });
   if (model.model)
     proposal.moments =
         moments::expected_episode(setting_.task, setting_.policy, std::move(model.moments_of_all_rows), proposal.theta);

@@ -19,13 +19,16 @@ class Trials final : public TrialLearner {
   Trials(Setting setting, const Options& options, LearnOnPrior learn_on_prior = {})
       : setting_(std::move(setting)), options_(options), learn_on_prior_(std::move(learn_on_prior)) {}
 
+  void study(const std::vector<Episode>& logs) override;
   nlohmann::json save() const override;
 
   /// The GPs behind the proposal of `ask`, summed up by at most so many points; empty: there are none. Without a prior.
   std::vector<moments::MomentTerm> terms(Index inducing, std::vector<std::string>& notes) const;
 
  private:
-  Proposal propose() override;
+  Proposal propose() override { return propose(nullptr); }
+  Proposal propose_known(const Vector& theta) override { return propose(&theta); }
+  Proposal propose(const Vector* known);  // θ of this trial, where it was found before
   void learn(const Proposal& tried, const Episode& episode) override;
   void restore(const std::vector<Episode>& episodes, const nlohmann::json& state) override;
   std::uint64_t trial() const { return trials_ + 1; }
@@ -34,7 +37,8 @@ class Trials final : public TrialLearner {
   }
   void add(const Episode& episode);
   Proposal first_proposal();
-  Proposal next_proposal();
+  Proposal next_proposal(const Vector* known);
+  void know_prior();
   Model learn_model() const;
   void search(const Model& model, Proposal& proposal) const;
 
@@ -42,7 +46,8 @@ class Trials final : public TrialLearner {
   Options options_;
   LearnOnPrior learn_on_prior_;
   std::optional<PriorKnowledge> prior_;  // once it is learned
-  Dataset data_;
+  Dataset logs_;                         // of other controllers
+  Dataset data_;                         // logs and trials
   bool solved_ = false;           // by the last trial, as far as known: by its true states, which are noise-free where
   std::optional<double> earned_;  // the plant knows them, unless the run tells measured ones; so is what it earned
   bool repeated_ = false;         // it earned what the one before did

@@ -94,7 +94,6 @@ const Wrong kWrong[] = {
     {"rate.rate = \"torque / (m * l^2)\"", "", "rate.rate is missing: the derivative of rate by time"},
     {"torque / (m * l^2)", "torque / (m * L^2)", "rate.rate: unknown name 'L', did you mean 'l'?"},
     {"define.torque = \"u +", "define.torque = \"u + +* ", "torque: 'u + +* "},
-    {"[plant]", "", "[plant] is missing: the robot, or what plays it"},
     {"[plant]", "[plant]\ndynamics = \"pendulums\"", "there is no [dynamics.pendulums], did you mean 'pendulum'?"},
     {"[plant]", "[plant]\nmeasurement_noise = -1", "measurement_noise = -1, must be ≥ 0"},
     {"[plant]", "[plant]\nparameters.mass = 1", "unknown parameter 'mass', did you mean 'm'? (known: m, l)"},

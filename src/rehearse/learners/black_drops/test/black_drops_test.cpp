@@ -47,6 +47,19 @@ TEST_P(EachLearner, LearnsTheSlider) {
   }
 }
 
+TEST_P(EachLearner, AreNotAtTheBeginningWithLogs) {
+  const auto alone = builder(GetParam())->build(setting()), with_log = builder(GetParam())->build(setting());
+  const Proposal first = alone->ask();
+  const Episode log = run_trial(first, 7);
+  with_log->study({log});
+  const Proposal& proposal = with_log->ask();
+  ASSERT_TRUE(proposal.model);
+  Matrix mean(1, log.states.cols()), variance(1, log.states.cols());
+  proposal.model->predict(log.states.topRows(1), log.actions.topRows(1), mean, variance);
+  EXPECT_NEAR(mean(0, 0), log.states(1, 0) - log.states(0, 0), 0.05) << "the model has not seen the log";
+  EXPECT_NE(proposal.policy->name(), "schedule");
+}
+
 INSTANTIATE_TEST_SUITE_P(Names, EachLearner, ::testing::ValuesIn(slider::kNames), [](const auto& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '-', '_');

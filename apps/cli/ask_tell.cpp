@@ -1,0 +1,141 @@
+// A robot that Rehearse does not drive: `ask`, `tell` and `status`.
+#include "rehearse/experiment/ask_tell.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/cli/arguments.hpp"
+#include "apps/cli/commands.hpp"
+#include "apps/cli/on_console.hpp"
+#include "apps/cli/program.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/tables.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+using experiment::TrialRecord;
+
+Index threads_or_throw(const std::optional<std::string>& text) {
+  Violations violations;
+  const Index threads = threads_of(text, violations);
+  violations.throw_if_any();
+  return threads;
+}
+
+template <class Variables>
+std::string columns(const Variables& variables) {
+  std::vector<std::string> names;
+  for (const auto& variable : variables)
+    names.push_back(variable.unit.empty() ? variable.name : fmt::format("{} [{}]", variable.name, variable.unit));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void print_parameters(const TrialRecord& trial, const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < std::min(trial.phi.size(), names.size()); ++i) {
+    const auto interval = i < trial.phi_intervals.size() ? trial.phi_intervals[i] : std::nullopt;
+    fmt::print("  {} = {:.4g}{}\n", names[i], trial.phi[i],
+               interval ? fmt::format(", 95 %: {:.4g} to {:.4g}", interval->low, interval->high) : "");
+  }
+  for (const std::string& warning : trial.warnings) fmt::print("  {}\n", warning);
+}
+
+void print_expected_file(const Task& task, const std::string& folder) {
+  fmt::print("then: {} tell {} EPISODE.csv\n  columns: time [s], {}, {}\n", program_name(), folder,
+             columns(task.states), columns(task.actions));
+}
+
+void print_asked(const experiment::Resolved& resolved, const TrialRecord& trial, const std::string& folder,
+                 const std::filesystem::path& files) {
+  const Task& task = resolved.scenario.task;
+  fmt::print("trial {}: run the policy of {} for {} steps of {} s\n", trial.trial, files.string(), task.horizon,
+             task.dt_s);
+  if (trial.predicted_return) fmt::print("  predicted return {:.4g}\n", *trial.predicted_return);
+  print_parameters(trial, experiment::tunable_names(resolved.prior));
+  for (const std::string& note : trial.notes) fmt::print("  {}\n", note);
+  print_expected_file(task, folder);
+}
+
+std::string steps_text(const Episode& episode, double dt_s) {
+  return fmt::format("{} steps, {:.4g} s", episode.steps(), experiment::seconds(episode.steps(), dt_s));
+}
+
+void print_logs(const std::vector<experiment::Log>& logs, const Task& task) {
+  for (const experiment::Log& log : logs) {
+    fmt::print("log {}: {}\n", log.name, steps_text(log.episode, task.dt_s));
+    for (const std::string& note : log.notes) fmt::print("  {}\n", note);
+  }
+}
+
+void print_told(const experiment::Told& told, const std::string& folder) {
+  if (told.known_before) fmt::print("told before, nothing is changed:\n");
+  print_logs(told.logs, told.resolved.scenario.task);
+  if (told.trial && told.known_before)
+    fmt::print("trial {}: return {:.4g}\n", told.trial->trial, told.trial->total_reward);
+  if (told.trial)
+    for (const std::string& note : told.trial->notes) fmt::print("  {}\n", note);
+  fmt::print("next: {} ask {}\n", program_name(), folder);
+}
+
+void print_trials(const std::vector<TrialRecord>& trials) {
+  for (const TrialRecord& trial : trials)
+    fmt::print("trial {}: return {:.4g}{}{}\n", trial.trial, trial.total_reward,
+               trial.predicted_return ? fmt::format(", {:.4g} was predicted", *trial.predicted_return) : "",
+               !trial.solved   ? ""
+               : *trial.solved ? ", solved"
+                               : ", not solved");
+}
+
+}  // namespace
+
+int ask(const experiment::Catalogue& catalogue, const AskArguments& arguments) {
+  Console console(Console::Begin::silent);
+  return on_console(arguments.folder, threads_or_throw(arguments.threads), console, "ask " + arguments.folder,
+                    [&](const experiment::RunOptions& options) {
+                      const experiment::Asked asked = experiment::ask_run(catalogue, arguments.folder, options);
+                      console.clear_line();
+                      print_asked(asked.resolved, asked.trial, arguments.folder, asked.folder);
+                    });
+}
+
+int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments) {
+  if (arguments.no_fault && !arguments.stopped) throw InvalidInput("--no-fault goes with --stopped");
+  if (arguments.stopped && arguments.stopped->empty()) throw InvalidInput("--stopped says no reason");
+  experiment::Tale tale{.files = {arguments.files.begin(), arguments.files.end()}, .stopped = {}};
+  if (arguments.stopped) tale.stopped = {*arguments.stopped, !arguments.no_fault};
+  Console console(Console::Begin::silent);
+  return on_console(arguments.folder, threads_or_throw(arguments.threads), console, "ask " + arguments.folder,
+                    [&](const experiment::RunOptions& options) {
+                      const experiment::Told told = experiment::tell_run(catalogue, arguments.folder, tale, options);
+                      console.clear_line();
+                      print_told(told, arguments.folder);
+                    });
+}
+
+int status(const experiment::Catalogue& catalogue, const StatusArguments& arguments) {
+  const auto [resolved, history, in_use] = experiment::status_of(catalogue, arguments.folder);
+  const experiment::Spec& spec = resolved.spec;
+  const Task& task = resolved.scenario.task;
+  const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
+  fmt::print("{} learned by {}{}, seed {}\n", spec.scenario, spec.learner, prior, spec.seed);
+  print_logs(history.logs, task);
+  print_trials(history.trials);
+  if (history.done() > 0) {
+    const TrialRecord& best = experiment::best_trial(history.trials);
+    fmt::print("best: trial {}, return {:.4g}, after {:.4g} s on the robot in all\n", best.trial, best.total_reward,
+               history.trials.back().interaction_s);
+  }
+  if (in_use) fmt::print("a process is at work on it\n");
+  if (history.asked)
+    print_asked(resolved, *history.asked, arguments.folder, std::filesystem::path(arguments.folder) / "next");
+  else if (spec.trials > history.done())
+    fmt::print("next: {0} resume {1}, which drives the plant, or {0} ask {1}\n", program_name(), arguments.folder);
+  else
+    fmt::print("next: {} ask {}{}\n", program_name(), arguments.folder,
+               history.done() == 0 ? ", or tell it logs of other controllers first" : "");
+  return kSuccess;
+}
+
+}  // namespace rehearse::apps

@@ -1,0 +1,51 @@
+#include "apps/cli/on_console.hpp"
+
+#include <fmt/format.h>
+
+#include "apps/cli/cache.hpp"
+#include "apps/cli/commands.hpp"
+#include "apps/cli/complain.hpp"
+#include "apps/cli/program.hpp"
+#include "apps/cli/signals.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+std::string advice_after(const experiment::RunFailed& error, const std::filesystem::path& folder,
+                         const std::string& again) {
+  if (error.resume_may_help())
+    return fmt::format("what was done is kept; once the cause is gone: {} {}", program_name(), again);
+  return fmt::format(
+      "what was done is kept in {}; resumed, it would come to the same: learn with other options or "
+      "another seed",
+      folder.string());
+}
+
+std::string interrupted(const Console& console, const std::filesystem::path& folder, const std::string& again) {
+  if (!std::filesystem::exists(folder)) return "interrupted before anything was done";
+  return fmt::format("interrupted after {} trials; to continue: {} {}", console.trials_done(), program_name(), again);
+}
+
+}  // namespace
+
+int on_console(const std::filesystem::path& folder, Index threads, Console& console, const std::string& again,
+               const std::function<void(const experiment::RunOptions&)>& work) {
+  const experiment::RunOptions options{.evaluator = make_thread_evaluator(static_cast<int>(threads)),
+                                       .listener = &console,
+                                       .stop = [] { return caught_signal() != 0; },
+                                       .cache = cache_folder};
+  try {
+    const SignalWatch watch([&] { return interrupted(console, folder, again); });
+    work(options);
+    return kSuccess;
+  } catch (const Interrupted&) {
+    console.clear_line();
+    complain(interrupted(console, folder, again));
+    return exit_code_of_signal();
+  } catch (const experiment::RunFailed& error) {
+    console.clear_line();
+    throw std::runtime_error(fmt::format("{}\n{}", error.what(), advice_after(error, folder, again)));
+  }
+}
+
+}  // namespace rehearse::apps

@@ -1,0 +1,60 @@
+#pragma once
+// A robot that Rehearse does not drive: one trial at a time, by policies that are asked for and files that are told.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rehearse/experiment/record.hpp"
+#include "rehearse/experiment/resolve.hpp"
+#include "rehearse/experiment/run_options.hpp"
+
+namespace rehearse::experiment {
+
+/// A trial that is to come.
+struct Asked {
+  Resolved resolved;
+  TrialRecord trial;             // what is known before it
+  std::filesystem::path folder;  // of the policy's files
+};
+
+/// The next policy of the run in a folder, on the disk when this returns. The same until `tell_run` has had its
+/// episode, whatever happens to the process. Throws InvalidInput, RunFailed and Interrupted.
+Asked ask_run(const Catalogue& catalogue, const std::filesystem::path& path, const RunOptions& options);
+
+/// An episode that the operator cut short.
+struct Stop {
+  std::string reason;
+  bool at_fault = true;  // the policy: the steps that are left out are charged the reward floor
+};
+
+/// Files of what a robot did (recording/recording.hpp): the episode of the trial that was asked for, or, before
+/// the first one, logs of other controllers.
+struct Tale {
+  std::vector<std::filesystem::path> files;
+  std::optional<Stop> stopped;  // the trial's episode
+};
+
+struct Told {
+  Resolved resolved;
+  std::optional<TrialRecord> trial;  // the one that the file tells; empty: they are logs
+  std::vector<Log> logs;             // these
+  bool known_before = false;         // the files were told already, and nothing was changed
+};
+
+/// Exactly once: files that were told before change nothing, unless the policy that was asked for says just what they
+/// have (a simulator may repeat itself to the byte). Throws InvalidInput, with nothing changed, where a file
+/// is not what is to come, else RunFailed and Interrupted, which leave the episode told.
+Told tell_run(const Catalogue& catalogue, const std::filesystem::path& path, const Tale& tale,
+              const RunOptions& options);
+
+/// A run as its folder has it, for reading only: another process may be at work there.
+struct RunStatus {
+  Resolved resolved;
+  History history;
+  bool in_use = false;
+};
+RunStatus status_of(const Catalogue& catalogue, const std::filesystem::path& path);
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,175 @@
+#include "rehearse/experiment/open_run.hpp"
+
+#include <fmt/format.h>
+
+#include "rehearse/experiment/evaluation.hpp"
+#include "rehearse/experiment/failures.hpp"
+#include "rehearse/experiment/forecast.hpp"
+#include "rehearse/experiment/motion.hpp"
+#include "rehearse/experiment/tables.hpp"
+#include "rehearse/experiment/trial_record.hpp"
+#include "rehearse/rollout/execute.hpp"
+#include "rehearse/rollout/simulate.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+constexpr Index kPredictionParticles = 100;
+
+/// By step (T+1 × dx), of the particles that are still finite.
+Matrix mean_states(const rollout::Recorded& recorded) {
+  Matrix means(recorded.states.size(), recorded.states.front().cols());
+  for (std::size_t t = 0; t < recorded.states.size(); ++t)
+    means.row(static_cast<Index>(t)) = mean_of_finite(recorded.states[t]);
+  return means;
+}
+
+const learners::Proposal& checked(const learners::Proposal& proposal) {
+  if (!proposal.policy) throw std::runtime_error("it proposed no policy");
+  const Index size = proposal.theta.size(), wanted = proposal.policy->parameters();
+  if (size != wanted || !proposal.theta.allFinite())
+    throw std::runtime_error(fmt::format("it proposed {} parameters, the policy has {} finite ones", size, wanted));
+  return proposal;
+}
+
+}  // namespace
+
+void OpenRun::begin(bool something_to_come) {
+  with_.open_store(path());
+  if (with_.options().listener) with_.options().listener->started(with_.resolved(), path(), history_.done());
+  publish();
+  if (history_.done() > 0) evaluate_last();
+  if (something_to_come || history_.told < history_.done()) catch_up();
+}
+
+/// Brings a new learner to where the history ends.
+void OpenRun::catch_up() {
+  std::vector<Episode> told;
+  with_.learner().study(as_told(history_.logs));
+  for (Index i = 0; i < history_.told; ++i) told.push_back(as_told(history_.episodes[static_cast<std::size_t>(i)]));
+  if (history_.told > 0) named_failure(history_.told, "learner", [&] { with_.learner().load(told, history_.learner); });
+  if (history_.told == history_.done()) return;
+  ask(history_.done(), &history_.trials.back().theta);  // it may learn from what it proposed, too
+  tell_last();
+}
+
+/// known: θ of the proposal, where it was kept.
+const learners::Proposal& OpenRun::ask(Index trial, const Vector* known) {
+  with_.begin_trial(trial);
+  with_.evaluator().stop_if_asked();
+  const auto& proposal = named_failure(trial, "learner", [&]() -> const learners::Proposal& {
+    return checked(known ? with_.learner().ask_again(*known) : with_.learner().ask());
+  });
+  if (known && proposal.theta != *known)
+    throw RunFailed(fmt::format("trial {}: the learner no longer proposes what it did", trial));
+  with_.evaluator().stop_if_asked();
+  return proposal;
+}
+
+Episode OpenRun::as_told(const Episode& episode) const {
+  const bool measured = with_.resolved().spec.told_by == ToldBy::measured;
+  return measured ? rollout::as_measured(episode, with_.task()) : episode;
+}
+
+void OpenRun::tell_last() {
+  named_failure(history_.done(), "learner", [&] {
+    with_.learner().tell(as_told(history_.episodes.back()));
+    history_.learner = with_.learner().save();
+  });
+  ++history_.told;
+  for (const learners::Table& table : with_.learner().tables()) folder_.write_learners_table(table);
+  folder_.write_checkpoint(history_);  // which says that the tables are there
+}
+
+std::vector<Episode> OpenRun::as_told(const std::vector<Log>& logs) const {
+  std::vector<Episode> told;
+  for (const Log& log : logs) told.push_back(as_told(log.episode));
+  return told;
+}
+
+void OpenRun::add_logs(std::vector<Log> logs) {
+  with_.learner().study(as_told(logs));  // which may refuse them
+  for (Log& log : logs) history_.logs.push_back(std::move(log));
+  folder_.write_checkpoint(history_);
+  publish();
+}
+
+const learners::Proposal& OpenRun::propose() {
+  if (proposal_) return *proposal_;
+  const Index trial = history_.done() + 1;
+  const learners::Proposal& proposal = ask(trial, history_.asked ? &history_.asked->theta : nullptr);
+  proposal_ = &proposal;
+  if (history_.asked) return proposal;
+  if (proposal.model) predict(trial, proposal);
+  if (proposal.archive) folder_.write_archive(*proposal.archive);
+  history_.asked = record_before(trial, proposal, with_.resolved());
+  folder_.write_checkpoint(history_);
+  return proposal;
+}
+
+void OpenRun::predict(Index trial, const learners::Proposal& proposal) const {
+  const StreamKey key{.seed = static_cast<std::uint64_t>(with_.resolved().spec.seed),
+                      .trial = static_cast<std::uint64_t>(trial),
+                      .stage = Stage::prediction};
+  const rollout::SimulateOptions unclipped{.noise_clip = 0};
+  const auto recorded = rollout::simulate_recorded({*proposal.model, *proposal.policy, with_.task(), key, unclipped},
+                                                   proposal.theta, kPredictionParticles);
+  std::optional<ExpectedEpisode> moments;
+  if (proposal.moments) moments = proposal.moments();
+  folder_.write_prediction(trial, prediction_csv(with_.task(), recorded, moments ? &*moments : nullptr));
+  draw("prediction", trial, mean_states(recorded));
+}
+
+void OpenRun::draw(const char* kind, Index trial, const Matrix& states) const {
+  const auto& drawing = with_.resolved().scenario.drawing;
+  if (drawing) folder_.write_motion(kind, trial, motion_json(*drawing, states));
+}
+
+double OpenRun::interaction_s(const Episode& last) const {
+  Index steps = last.steps();
+  for (const Episode& before : history_.episodes) steps += before.steps();
+  return seconds(steps, with_.task().dt_s);
+}
+
+/// The episode is on the disk before anything that may take long or fail: a robot does not repeat it.
+void OpenRun::conclude(const Episode& episode, const std::string& file, const std::vector<std::string>& notes) {
+  const learners::Proposal& proposal = propose();
+  TrialRecord record = *history_.asked;
+  record.file = file;
+  add_outcome(record, proposal, episode, with_.task());
+  record.notes.insert(record.notes.end(), notes.begin(), notes.end());
+  record.interaction_s = interaction_s(episode);
+  history_.trials.push_back(std::move(record));
+  history_.episodes.push_back(episode);
+  history_.asked.reset();
+  proposal_ = nullptr;
+  folder_.write_checkpoint(history_);
+  publish();
+  evaluate_last();
+  tell_last();
+  if (with_.options().listener) with_.options().listener->trial_done(history_.trials.back());
+}
+
+/// What follows from the history: the tables, and the last trial's episode.
+void OpenRun::publish() const {
+  folder_.write_tables(history_, with_.resolved());
+  for (std::size_t i = 0; i < history_.logs.size(); ++i)
+    folder_.write_log(static_cast<Index>(i) + 1, trajectory_csv(with_.task(), history_.logs[i].episode));
+  if (history_.done() == 0) return;
+  const Episode& last = history_.episodes.back();
+  folder_.write_trajectory(history_.done(), trajectory_csv(with_.task(), last));
+  draw("trial", history_.done(), last.true_states);
+}
+
+/// Unless that was done before a kill.
+void OpenRun::evaluate_last() {
+  TrialRecord& last = history_.trials.back();
+  if (last.expected_return) return;
+  last.expected_return = named_failure(last.trial, "plant of the evaluations",
+                                       [&] { return expected_return(with_.resolved(), last, with_.evaluator()); });
+  if (!last.expected_return) return;
+  folder_.write_checkpoint(history_);
+  folder_.write_tables(history_, with_.resolved());
+}
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rehearse/experiment/participants.hpp"
+#include "rehearse/experiment/run_folder.hpp"
+
+namespace rehearse::experiment {
+
+/// A run and its folder, a trial at a time: `begin`, then `propose` and `conclude` in turn. All that one of them did is
+/// on the disk when it returns. A kill at any instant costs no more than the step that it interrupts, and changes
+/// nothing of what follows. Throws RunFailed and Interrupted. One thread.
+class OpenRun {
+ public:
+  /// References must outlive it.
+  OpenRun(Participants& participants, const RunFolder& folder, History history)
+      : with_(participants), folder_(folder), history_(std::move(history)) {}
+
+  /// Brings the tables, and the learner, to where the history ends. The learner only if something is to come.
+  void begin(bool something_to_come);
+
+  const History& history() const { return history_; }
+
+  /// What a learner is told before the first trial. None may have been asked for. Throws InvalidInput, with nothing
+  /// kept, where it cannot learn from logs.
+  void add_logs(std::vector<Log> logs);
+
+  /// The next trial's policy. The same until it is concluded, whatever happens to the process.
+  const learners::Proposal& propose();
+
+  /// The next trial is over. file: checksum of the file that says so, if it is one. notes: of how it was read.
+  void conclude(const Episode& episode, const std::string& file = "", const std::vector<std::string>& notes = {});
+
+ private:
+  const std::filesystem::path& path() const { return folder_.path(); }
+  void catch_up();
+  const learners::Proposal& ask(Index trial, const Vector* known);
+  Episode as_told(const Episode& episode) const;
+  std::vector<Episode> as_told(const std::vector<Log>& logs) const;
+  void tell_last();
+  void predict(Index trial, const learners::Proposal& proposal) const;
+  void draw(const char* kind, Index trial, const Matrix& states) const;
+  double interaction_s(const Episode& last) const;
+  void publish() const;
+  void evaluate_last();
+
+  Participants& with_;
+  const RunFolder& folder_;
+  History history_;
+  const learners::Proposal* proposal_ = nullptr;  // of the trial that is asked for, once the learner has it
+};
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,158 @@
+#include "rehearse/experiment/ask_tell.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "line_run.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
+#include "rehearse/experiment/run_folder.hpp"
+#include "rehearse/files/write.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+using fake::line_spec, fake::lines_of, fake::message_of;
+
+fs::path trial_of(const fs::path& run, Index trial) { return run / fmt::format("trajectories/trial-{:03}.csv", trial); }
+
+bool has_note(const Told& told, const std::string& note) { return is_among(note, told.trial->notes); }
+
+/// A run that Rehearse drives, and one that is told its trials.
+class AskTell : public ::testing::Test {
+ protected:
+  AskTell() {
+    start_run(fake::catalogue(), line_spec(kTrials), driven, {});
+    start_run(fake::catalogue(), line_spec(0), told, {});
+  }
+
+  Asked ask(const fs::path& folder) { return ask_run(fake::catalogue(), folder, {}); }
+  Told tell(const fs::path& folder, const std::vector<fs::path>& files, std::optional<Stop> stopped = {}) {
+    return tell_run(fake::catalogue(), folder, {files, std::move(stopped)}, {});
+  }
+  fs::path written(const std::string& name, const std::string& text) {
+    files::write_file(folder / name, text);
+    return folder / name;
+  }
+  /// The first rows of a file, with its header.
+  fs::path beginning(const fs::path& file, std::size_t rows) {
+    const auto lines = lines_of(file);
+    std::string text;
+    for (std::size_t i = 0; i <= rows; ++i) text += lines.at(i) + "\n";
+    return written("beginning.csv", text);
+  }
+  std::string checkpoint() { return files::read_file(told / "checkpoint"); }
+
+  static constexpr Index kTrials = 3;
+  const fs::path folder = fake::test_folder(), driven = folder / "driven", told = folder / "told";
+};
+
+TEST_F(AskTell, TrialsThatAreToldAreThoseThatAreDriven) {
+  EXPECT_FALSE(fs::exists(told / "done"));
+  for (Index trial = 1; trial <= kTrials; ++trial) {
+    EXPECT_EQ(ask(told).trial.trial, trial);
+    EXPECT_EQ(ask(told).trial.trial, trial) << "asked again, it is the same trial";
+    EXPECT_TRUE(fs::exists(told / "next/policy.json"));
+    const Told result = tell(told, {trial_of(driven, trial)});
+    ASSERT_TRUE(result.trial);
+    EXPECT_EQ(result.trial->trial, trial);
+    EXPECT_FALSE(fs::exists(told / "next")) << "nobody runs an old policy again";
+  }
+  for (const char* file : {"trials.csv", "errors.csv", "identifiability.csv", "notes.csv", "policy.json",
+                           "trajectories/trial-002.csv", "predictions/trial-003.csv", "memories.csv"})
+    EXPECT_EQ(files::read_file(told / file), files::read_file(driven / file)) << file;
+}
+
+TEST_F(AskTell, AFileCountsOnce) {
+  ask(told);
+  tell(told, {trial_of(driven, 1)});
+  const std::string before = checkpoint();
+  const Told again = tell(told, {trial_of(driven, 1)});
+  EXPECT_TRUE(again.known_before);
+  ASSERT_TRUE(again.trial);
+  EXPECT_EQ(again.trial->trial, 1);
+  EXPECT_EQ(checkpoint(), before);
+  ask(told);
+  EXPECT_TRUE(tell(told, {trial_of(driven, 1)}).known_before) << "though trial 2 is to come";
+}
+
+TEST_F(AskTell, WhatIsNotToComeIsRefusedAndChangesNothing) {
+  ask(told);
+  const std::string asked = checkpoint();
+  const auto refused = [&](const std::vector<fs::path>& files, std::optional<Stop> stopped = {}) {
+    const std::string message = message_of<InvalidInput>([&] { tell(told, files, stopped); });
+    EXPECT_EQ(checkpoint(), asked) << message;
+    return message;
+  };
+  EXPECT_NE(refused({trial_of(driven, 1), trial_of(driven, 2)}).find("one file tells it, but 2 are named"),
+            std::string::npos);
+  EXPECT_NE(refused({folder / "none.csv"}).find("none.csv"), std::string::npos);
+  EXPECT_NE(refused({beginning(trial_of(driven, 1), 6)}).find("5 of 12 steps"), std::string::npos);
+  EXPECT_NE(refused({trial_of(driven, 1)}, Stop{"a noise"}).find("has all its steps"), std::string::npos);
+  EXPECT_NE(refused({written("bad.csv", "time [s],x [m]\n0,1\n")}).find("bad.csv"), std::string::npos);
+  tell(told, {trial_of(driven, 1)});
+  EXPECT_NE(message_of<InvalidInput>([&] { tell(told, {trial_of(driven, 2)}); }).find("trial 2 was not asked for"),
+            std::string::npos);
+}
+
+TEST_F(AskTell, AnOperatorMayStopAnEpisode) {
+  ask(told);
+  const Told failed = tell(told, {beginning(trial_of(driven, 1), 6)}, Stop{"it hit the wall"});
+  ASSERT_TRUE(failed.trial);
+  EXPECT_EQ(failed.trial->interaction_s, 0.5);
+  EXPECT_EQ(failed.trial->solved, false);
+  EXPECT_TRUE(has_note(failed, "the episode ended at the reward floor: stopped by the operator: it hit the wall"));
+  ask(told);
+  const Told stopped = tell(told, {beginning(trial_of(driven, 2), 6)}, Stop{"the battery", false});
+  EXPECT_TRUE(has_note(stopped, "stopped by the operator after 5 of 12 steps, by no fault of the policy: the battery"));
+}
+
+TEST_F(AskTell, AnotherPolicyThanTheOneAskedForIsNoted) {
+  ask(told);
+  const Told other = tell(told, {trial_of(driven, 2)});
+  ASSERT_TRUE(other.trial);
+  EXPECT_NE(other.trial->notes.back().find("v differs from what the policy says"), std::string::npos)
+      << other.trial->notes.back();
+}
+
+TEST_F(AskTell, LearnersThatCannotUseLogsSaySoBeforeAnythingIsKept) {
+  const std::string before = checkpoint();
+  EXPECT_NE(message_of<InvalidInput>([&] { tell(told, {trial_of(driven, 1)}); }).find("cannot learn from logs"),
+            std::string::npos);
+  EXPECT_EQ(checkpoint(), before);
+}
+
+TEST_F(AskTell, StatusReadsWithoutDisturbing) {
+  EXPECT_EQ(status_of(fake::catalogue(), told).history.done(), 0);
+  ask(told);
+  tell(told, {trial_of(driven, 1)});
+  const Asked asked = ask(told);
+  const RunFolder at_work = RunFolder::open(told);
+  const RunStatus status = status_of(fake::catalogue(), told);
+  EXPECT_TRUE(status.in_use);
+  EXPECT_EQ(status.history.done(), 1);
+  ASSERT_TRUE(status.history.asked);
+  EXPECT_EQ(status.history.asked->theta, asked.trial.theta);
+}
+
+TEST_F(AskTell, ARunThatWasDrivenCanGoOnTold) {
+  const fs::path longer = folder / "longer";
+  start_run(fake::catalogue(), line_spec(kTrials + 1), longer, {});
+  ask(driven);
+  tell(driven, {trial_of(longer, kTrials + 1)});
+  EXPECT_EQ(files::read_file(driven / "trials.csv"), files::read_file(longer / "trials.csv"));
+  EXPECT_EQ(files::read_file(driven / "done"), "4 trials\n");
+  EXPECT_EQ(files::read_file(driven / "spec.toml"), files::read_file(longer / "spec.toml"));
+}
+
+TEST_F(AskTell, ResumeDoesNotDriveARunThatIsTold) {
+  EXPECT_NE(message_of<InvalidInput>([&] { resume_run(fake::catalogue(), told, {}, {}); }).find("`ask` and `tell`"),
+            std::string::npos);
+  ask(told);
+  EXPECT_EQ(resume_run(fake::catalogue(), told, Until(1), {}).trials, 1) << "unless it is told how far";
+}
+
+}  // namespace
+}  // namespace rehearse::experiment

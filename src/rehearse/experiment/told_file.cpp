@@ -1,0 +1,134 @@
+#include "rehearse/experiment/told_file.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/evaluation.hpp"
+#include "rehearse/files/checksum.hpp"
+#include "rehearse/files/regular_file.hpp"
+#include "rehearse/recording/recording.hpp"
+#include "rehearse/rollout/execute.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSameActions = 0.01;  // of the range of an action: motors are not exact
+
+constexpr double kRounding = 1e-9;     // likewise, of numbers in a file
+
+/// Root mean square differences of the actions (du) from those that the policy says of the measured states.
+Vector deviations(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& asked) {
+  const Task& task = scenario.task;
+  const auto policy = policy_of(asked, scenario);
+  Matrix u(1, task.action_size());
+  Vector squared = Vector::Zero(task.action_size());
+  for (Index t = 0; t < episode.steps(); ++t) {
+    policy->act(asked.theta.transpose(), episode.states.middleRows(t, 1), static_cast<double>(t) * task.dt_s, u);
+    squared += (u - episode.actions.row(t)).transpose().cwiseAbs2();
+  }
+  return (squared / static_cast<double>(episode.steps())).cwiseSqrt();
+}
+
+bool is_within(double part, double deviation, const ActionVariable& action) {
+  return deviation <= part * (action.bounds.high - action.bounds.low);
+}
+
+/// A sentence for each action that was not the policy's.
+std::vector<std::string> sentences_on(const Vector& deviations, const Task& task) {
+  std::vector<std::string> sentences;
+  for (Index i = 0; i < deviations.size(); ++i) {
+    const ActionVariable& action = task.actions[static_cast<std::size_t>(i)];
+    if (!is_within(kSameActions, deviations(i), action))
+      sentences.push_back(fmt::format("{} differs from what the policy says of the measured states by {:.3g} {} "
+                                      "(root mean square): another policy, a delay, or a weak motor",
+                                      action.name, deviations(i), action.unit));
+  }
+  return sentences;
+}
+
+std::string cut_short(const ToldFile& file, Index steps, Index horizon) {
+  return fmt::format("{}: {} of {} steps. If the operator cut the episode short, say why: --stopped \"…\"",
+                     file.path.string(), steps, horizon);
+}
+
+}  // namespace
+
+std::vector<ToldFile> read_told_files(const std::vector<fs::path>& paths) {
+  std::vector<ToldFile> files;
+  Violations violations;
+  for (const fs::path& path : paths) {
+    try {
+      std::string bytes = files::read_file(path, files::Links::follow);
+      std::string checksum = fmt::format("{:016x}", files::checksum(bytes));
+      for (const ToldFile& other : files)
+        violations.require(other.checksum != checksum, fmt::format("{} and {} are the same", other.path.string(),
+                                                                   path.string()));
+      files.push_back({path, std::move(bytes), std::move(checksum)});
+    } catch (const InvalidInput& error) {
+      for (const std::string& line : error.violations()) violations.add(line);
+    }
+  }
+  violations.throw_if_any();
+  return files;
+}
+
+std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task) {
+  std::vector<Log> logs;
+  Violations violations;
+  for (const ToldFile& file : files) {
+    try {
+      recording::Recording read = recording::read_recording(file.bytes, file.path.string(), task);
+      read.episode.rewards.resize(read.episode.steps());
+      logs.push_back({file.path.filename().string(), file.checksum,
+                      rollout::as_measured(std::move(read.episode), task), std::move(read.notes)});
+    } catch (const InvalidInput& error) {
+      for (const std::string& line : error.violations()) violations.add(line);
+    }
+  }
+  violations.throw_if_any();
+  return logs;
+}
+
+bool follows_policy(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked) {
+  try {
+    const Task& task = scenario.task;
+    const auto read = recording::read_recording(file.bytes, file.path.string(), task, {.max_steps = task.horizon});
+    const Vector differences = deviations(read.episode, scenario, asked);
+    for (Index i = 0; i < differences.size(); ++i)
+      if (!is_within(kRounding, differences(i), task.actions[static_cast<std::size_t>(i)])) return false;
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
+ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked,
+                       const std::optional<Stop>& stopped) {
+  const Task& task = scenario.task;
+  recording::Recording read =
+      recording::read_recording(file.bytes, file.path.string(), task, {.max_steps = task.horizon});
+  const Index recorded = read.episode.steps();
+  ToldEpisode told{rollout::judged(std::move(read.episode), task), std::move(read.notes)};
+  Episode& episode = told.episode;
+  if (episode.steps() < recorded)
+    told.notes.push_back(fmt::format("the episode ended at step {}: {} steps after it are left out", episode.steps(),
+                                     recorded - episode.steps()));
+  const bool whole = episode.steps() == task.horizon || episode.ended;
+  if (!whole && !stopped) throw InvalidInput(cut_short(file, episode.steps(), task.horizon));
+  if (whole && stopped)
+    throw InvalidInput(fmt::format("{}: --stopped is for an episode that was cut short, but this one {}",
+                                   file.path.string(), episode.ended ? "ended by itself" : "has all its steps"));
+  if (stopped && stopped->at_fault)
+    rollout::fail(episode, task, "stopped by the operator: " + stopped->reason);
+  else if (stopped)
+    told.notes.push_back(fmt::format("stopped by the operator after {} of {} steps, by no fault of the policy: {}",
+                                     episode.steps(), task.horizon, stopped->reason));
+  for (std::string& sentence : sentences_on(deviations(episode, scenario, asked), task)) told.notes.push_back(std::move(sentence));
+  return told;
+}
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# ask_tell.sh PROGRAM: trials that are asked for and told are those that are driven, also when every step is killed on
+# its way; a file counts once; wrong files change nothing; logs come first; status says what is next.
+. "$(dirname "$0")/../prelude.sh"
+
+short=(--set search.race.max_evaluations=600 --set search.race.descents=2 --set search.selection=10 --seed 4)
+results=(trials.csv errors.csv notes.csv policy.json trajectories/trial-002.csv predictions/trial-003.csv)
+
+# killed SECONDS ARGS… : a command that is killed on its way, then done to its end
+killed() {
+  local seconds=$1
+  shift
+  timeout -s KILL "$seconds" "$program" "$@" >/dev/null 2>&1
+  "$program" "$@" >stdout 2>stderr || fail "$*: $(cat stderr)"
+}
+
+# told SCENARIO LEARNER TRIALS : trials that are told from those of a run that is driven
+told() {
+  local scenario=$1 learner=$2 trials=$3 trial
+  "$program" learn "$scenario" --learner "$learner" "${short[@]}" --trials "$trials" --out "$learner-driven" >/dev/null ||
+    fail "$learner"
+  "$program" learn "$scenario" --learner "$learner" "${short[@]}" --trials 0 --out "$learner-told" >/dev/null ||
+    fail "$learner --trials 0"
+  for trial in $(seq -f %03g "$trials"); do
+    killed "0.0$((RANDOM % 90 + 10))" ask "$learner-told"
+    [ -s "$learner-told/next/policy.json" ] || fail "no policy of trial $trial"
+    killed "0.0$((RANDOM % 90 + 10))" tell "$learner-told" "$learner-driven/trajectories/trial-$trial.csv"
+  done
+  same "$learner-driven" "$learner-told" "${results[@]}"
+}
+told pendulum gp-mi 10
+told pendulum black-drops 3
+
+# What is known, what comes next.
+"$program" status gp-mi-told >stdout || fail "status"
+grep -q "next: rehearse ask gp-mi-told" stdout || fail "status does not say what is next: $(cat stdout)"
+"$program" ask gp-mi-told >stdout || fail "ask again"
+grep -q "trial 11: run the policy of gp-mi-told/next" stdout || fail "ask says $(cat stdout)"
+grep -q "columns: time \[s\], " stdout || fail "ask does not say what is expected: $(cat stdout)"
+"$program" status gp-mi-told | grep -q "trial 11: run the policy" || fail "status forgets what was asked"
+
+# refused TEXT ARGS… : exit 2, a line with the text, nothing changed
+refused() {
+  local text=$1
+  shift
+  cp gp-mi-told/checkpoint before
+  "$program" "$@" >stdout 2>stderr
+  [ $? = 2 ] || fail "$*: not refused"
+  grep -q -- "$text" stderr || fail "$*: $(cat stderr)"
+  cmp before gp-mi-told/checkpoint || fail "$*: it changed something"
+}
+episode=gp-mi-driven/trajectories/trial-003.csv
+head -20 $episode >short.csv
+sed '1s/action/actoin/; 1s/torque/torqeu/; 1s/time/tiem/' $episode >misspelt.csv
+sed '5s/[0-9]/x/' $episode >letters.csv
+refused "steps. If the operator cut the episode short" tell gp-mi-told short.csv
+refused "tiem" tell gp-mi-told misspelt.csv
+refused "row 5" tell gp-mi-told letters.csv
+refused "one file tells it, but 2 are named" tell gp-mi-told short.csv letters.csv
+refused "none.csv" tell gp-mi-told none.csv
+refused "no-fault goes with" tell gp-mi-told short.csv --no-fault
+refused "says no reason" tell gp-mi-told short.csv --stopped ""
+refused "is not a folder" ask nowhere
+refused "is not a folder" status nowhere
+refused "goes on by .ask. and .tell." resume gp-mi-told
+"$program" tell gp-mi-told $episode | grep -q "told before, nothing is changed" || fail "a file counts twice"
+"$program" tell gp-mi-told short.csv --stopped "a cable came off" --no-fault >stdout 2>stderr || fail "$(cat stderr)"
+grep -q "a cable came off" gp-mi-told/notes.csv || fail "the reason is lost"
+
+# Logs first: the first policy of a learner without a prior is not random any more.
+"$program" learn pendulum --learner black-drops "${short[@]}" --trials 0 --out logs >/dev/null || fail "logs"
+"$program" tell logs black-drops-driven/trajectories/trial-001.csv black-drops-driven/trajectories/trial-002.csv \
+  >stdout 2>stderr || fail "tell logs: $(cat stderr)"
+grep -q "log trial-001.csv: " stdout || fail "tell says $(cat stdout)"
+[ "$(wc -l <logs/logs.csv)" = 3 ] && [ -s logs/logs/log-002.csv ] || fail "logs are not kept"
+"$program" ask logs >stdout || fail "ask after logs"
+grep -q '"policy": "schedule"' logs/next/policy.json && fail "the first policy is still random"
+grep -q "predicted return" stdout || fail "nothing is predicted after logs"
+killed 0.05 tell logs black-drops-driven/trajectories/trial-003.csv
+killed 0.05 ask logs
+grep -q "^1," logs/trials.csv || fail "the trial after logs is lost"
+finish
