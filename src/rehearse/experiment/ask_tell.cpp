@@ -8,7 +8,6 @@
 #include "rehearse/experiment/failures.hpp"
 #include "rehearse/experiment/next_files.hpp"
 #include "rehearse/experiment/open_run.hpp"
-#include "rehearse/experiment/told_file.hpp"
 
 namespace rehearse::experiment {
 namespace {

@@ -9,6 +9,7 @@
 #include "rehearse/experiment/record.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run_options.hpp"
+#include "rehearse/experiment/told_file.hpp"
 
 namespace rehearse::experiment {
 
@@ -22,12 +23,6 @@ struct Asked {
 /// The next policy of the run in a folder, on the disk when this returns. The same until `tell_run` has had its
 /// episode, whatever happens to the process. Throws InvalidInput, RunFailed and Interrupted.
 Asked ask_run(const Catalogue& catalogue, const std::filesystem::path& path, const RunOptions& options);
-
-/// An episode that the operator cut short.
-struct Stop {
-  std::string reason;
-  bool at_fault = true;  // the policy: the steps that are left out are charged the reward floor
-};
 
 /// Files of what a robot did (recording/recording.hpp): the episode of the trial that was asked for, or, before
 /// the first one, logs of other controllers.

@@ -1,15 +1,21 @@
 #pragma once
-// Files of episodes that were not run by Rehearse, for the sources of this room.
+// Files of episodes that were not run by Rehearse.
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "rehearse/experiment/ask_tell.hpp"
 #include "rehearse/experiment/record.hpp"
+#include "rehearse/scenario/scenario.hpp"
 
 namespace rehearse::experiment {
+
+/// An episode that the operator cut short.
+struct Stop {
+  std::string reason;
+  bool at_fault = true;  // the policy: the steps that are left out are charged the reward floor
+};
 
 struct ToldFile {
   std::filesystem::path path;
