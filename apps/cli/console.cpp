@@ -15,6 +15,21 @@ using Seconds = std::chrono::duration<double>;
 
 std::string verdict(const std::optional<bool>& solved) { return !solved ? "" : *solved ? "  solved" : "  not solved"; }
 
+/// The limits in one word, the one that is nearest to what it allows, and those that the trial broke.
+std::string safety(const std::vector<experiment::LimitRecord>& limits) {
+  if (limits.empty()) return "";
+  const auto nearness = [](const experiment::LimitRecord& l) { return l.predicted.value_or(1) / l.allowed; };
+  const auto& nearest = *std::ranges::max_element(limits, {}, nearness);
+  std::string text = "  risk not known";
+  if (nearest.predicted)
+    text = fmt::format("  {}: {} {:.2g} % ({:.2g} to {:.2g})",
+                       std::ranges::all_of(limits, &experiment::LimitRecord::safe) ? "safe" : "not safe", nearest.limit,
+                       100 * *nearest.predicted, 100 * nearest.interval.low, 100 * nearest.interval.high);
+  for (const experiment::LimitRecord& l : limits)
+    if (l.broken) text += fmt::format("  broke {}", l.limit);
+  return text;
+}
+
 }  // namespace
 
 void Console::started(const experiment::Resolved& resolved, const std::filesystem::path& folder, Index done) {
@@ -66,7 +81,7 @@ void Console::trial_done(const experiment::TrialRecord& record) {
   trial_begin_ = phase_begin_ = Clock::now();
   std::string line = fmt::format("trial {}  return {:8.3f}", number(record.trial), record.total_reward);
   if (record.predicted_return) line += fmt::format("  predicted {:8.3f}", *record.predicted_return);
-  line += verdict(record.solved);
+  line += verdict(record.solved) + safety(record.limits);
   for (std::size_t i = 0; i < std::min(phi_names_.size(), record.phi.size()); ++i)
     line += fmt::format("  {} {:.4g}", phi_names_[i], record.phi[i]);
   line_.print(line);

@@ -42,6 +42,10 @@ void print_task(const scenario::Scenario& scenario) {
                                    ? "saturating distance of features, as moment matching (PILCO) needs it"
                                    : "a formula; PILCO needs distances that are sums of multiples of features");
   fmt::print("success\n  {}\n", task.solved ? "is told" : "is not told: there is no [success]");
+  if (!task.limits.empty()) fmt::print("limits\n");
+  for (const Limit& limit : task.limits)
+    fmt::print("  {}{} at every step, in all but {:g} % of episodes\n",
+               limit.name == limit.text ? "" : limit.name + ": ", limit.text, 100 * limit.risk);
   fmt::print("drawing\n  {}\n", scenario.drawing ? "bodies are drawn in reports" : "none: there is no [[body]]");
 }
 

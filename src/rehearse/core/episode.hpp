@@ -9,13 +9,14 @@ namespace rehearse {
 
 /// The record of one trial of T steps. An episode that ended early has fewer steps than the task's horizon.
 struct Episode {
-  Matrix states;        // (T+1) × dx, measured: what policies and data sets see
-  Matrix true_states;   // (T+1) × dx, noise-free where the plant knows it, else the measured ones
-  Matrix actions;       // T × du
-  Vector rewards;       // T; rewards(t) is that of the state reached, t+1
-  double charged = 0;   // reward floor charged for the steps that an early end left out
-  bool ended = false;   // by a fall, or by what `failure` says
-  std::string failure;  // "the reward at step 5 is nan"; empty: there was none
+  Matrix states;                           // (T+1) × dx, measured: what policies and data sets see
+  Matrix true_states;                      // (T+1) × dx, noise-free where the plant knows it, else the measured ones
+  Matrix actions;                          // T × du
+  Vector rewards;                          // T; rewards(t) is that of the state reached, t+1
+  double charged = 0;                      // reward floor charged for the steps that an early end left out
+  bool ended = false;                      // by a fall, a broken limit, or by what `failure` says
+  std::string failure;                     // "the reward at step 5 is nan"; empty: there was none
+  std::vector<std::string> broken_limits;  // names of those that the last step broke
 
   Index steps() const { return actions.rows(); }
   double total_reward() const { return rewards.sum() + charged; }

@@ -25,6 +25,7 @@ enum class Purpose : std::uint8_t {
   resampling = 10,
   drawn_option = 11,
   test = 12,
+  doubt = 13,  // parameters that a prior may have as well as its own
 };
 
 /// The system that a learner's trials run on.
@@ -43,6 +44,7 @@ enum class Stage : std::uint8_t {
   mean_solving = 5,  // the same in the mean predictions
   prediction = 6,    // what the model expects of the policy that is tried
   evaluation = 7,    // extra episodes on the plant
+  safe_search = 8,   // of a policy, where the search before found none that keeps the limits
 };
 
 /// The name of a stream: a field for every thing that its numbers depend on. Streams whose keys differ in any field are

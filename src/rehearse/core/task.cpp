@@ -133,6 +133,15 @@ std::vector<std::string> Task::violations() const {
   found.require(descriptor_names.empty() || descriptor_names.size() == descriptor_bounds.size(),
                 fmt::format("descriptor_names has {} entries, must have {}, as descriptor_bounds, or none",
                             descriptor_names.size(), descriptor_bounds.size()));
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const Limit& limit = limits[i];
+    found.require(!limit.name.empty(), fmt::format("limit {} has no name", i + 1));
+    found.require(std::ranges::count(limits, limit.name, &Limit::name) == 1,
+                  fmt::format("limit {}: there must be one of this name", limit.name));
+    found.require(static_cast<bool>(limit.holds), fmt::format("limit {} has no condition", limit.name));
+    found.require(limit.risk > 0 && limit.risk < 1,
+                  fmt::format("limit {}: risk = {}, must be above 0 and below 1", limit.name, limit.risk));
+  }
   found.require(std::isfinite(reward_floor), fmt::format("reward_floor = {}, must be finite", reward_floor));
   return found.list();
 }

@@ -47,6 +47,19 @@ struct Steps {
 /// from several threads and depend on its row alone.
 using StepCost = std::function<void(const Steps& steps, VectorView costs)>;
 
+/// Whether the steps of a batch keep to something, one number a row: 0 or NaN where they do not. Arguments and promises
+/// are those of a reward.
+using StepCondition = Reward;
+
+/// What every step of an episode must keep: a track's end, a speed. The first step that does not ends the episode at
+/// the reward floor, on the robot and in models.
+struct Limit {
+  std::string name;
+  std::string text;  // "abs(x) < 0.6 m", for people
+  StepCondition holds;
+  double risk = 0.05;  // the largest probability, in (0, 1), that an episode of a policy breaks it
+};
+
 /// What every room may know of a problem. A plain value.
 struct Task {
   std::vector<StateVariable> states;
@@ -61,6 +74,7 @@ struct Task {
   double reward_floor = 0;  // charged for every step that an early end or a failed simulation leaves out
 
   std::function<bool(const ConstVectorView& state)> ended;  // a fall; empty: never. Any thread.
+  std::vector<Limit> limits;                                // empty: there are none
   std::function<bool(const Episode&)> solved;               // empty: never known
   std::function<Vector(const Episode&)> descriptor;  // how it went, for quality diversity; empty: none. Any thread.
   std::vector<Interval> descriptor_bounds;           // of each number of a descriptor

@@ -46,6 +46,29 @@ std::vector<std::optional<Interval>> to_intervals(const json& j) {
   return intervals;
 }
 
+json from_limits(const std::vector<LimitRecord>& limits) {
+  json all = json::array();
+  for (const LimitRecord& l : limits)
+    all.push_back({{"limit", l.limit},
+                   {"allowed", l.allowed},
+                   {"predicted", from_optional(l.predicted)},
+                   {"interval", {l.interval.low, l.interval.high}},
+                   {"broken", l.broken}});
+  return all;
+}
+
+std::vector<LimitRecord> to_limits(const json& j) {
+  std::vector<LimitRecord> limits;
+  for (const json& l : j) {
+    LimitRecord record{.limit = l.at("limit"), .allowed = l.at("allowed")};
+    to_optional(l.at("predicted"), record.predicted);
+    record.interval = {l.at("interval").at(0), l.at("interval").at(1)};
+    l.at("broken").get_to(record.broken);
+    limits.push_back(std::move(record));
+  }
+  return limits;
+}
+
 json from_record(const TrialRecord& r) {
   json forecast = json::array();
   for (const ForecastError& f : r.forecast) forecast.push_back(from_forecast(f));
@@ -55,6 +78,7 @@ json from_record(const TrialRecord& r) {
           {"expected_return", from_optional(r.expected_return)},
           {"solved", from_optional(r.solved)},
           {"predicted_return", from_optional(r.predicted_return)},
+          {"limits", from_limits(r.limits)},
           {"rollouts", r.rollouts},
           {"failed_rollouts", r.failed_rollouts},
           {"log_evidence", from_optional(r.log_evidence)},
@@ -79,6 +103,7 @@ TrialRecord to_record(const json& j) {
   to_optional(j.value("expected_return", json()), r.expected_return);
   to_optional(j.at("solved"), r.solved);
   to_optional(j.at("predicted_return"), r.predicted_return);
+  r.limits = to_limits(j.value("limits", json::array()));
   j.at("rollouts").get_to(r.rollouts);
   j.at("failed_rollouts").get_to(r.failed_rollouts);
   to_optional(j.at("log_evidence"), r.log_evidence);

@@ -20,6 +20,17 @@ struct ForecastError {
   Vector rms;          // dx, root mean square over the pairs; NaN if there are none
 };
 
+/// A limit of the task in one trial.
+struct LimitRecord {
+  std::string limit;
+  double allowed = 0;               // the largest probability that an episode breaks it
+  std::optional<double> predicted;  // fraction of the simulated episodes that broke it; none: none were simulated
+  Interval interval{0, 1};          // 95 % of the probability that it estimates
+  bool broken = false;              // by the trial's last step
+
+  bool safe() const { return interval.high <= allowed; }
+};
+
 /// The record of one trial beside its episode. A value that does not apply is empty.
 struct TrialRecord {
   Index trial = 0;
@@ -28,6 +39,7 @@ struct TrialRecord {
   std::optional<double> expected_return;  // over extra episodes of the policy that are no interaction
   std::optional<bool> solved;
   std::optional<double> predicted_return;
+  std::vector<LimitRecord> limits;  // one a limit of the task
   Index rollouts = 0;
   Index failed_rollouts = 0;
   std::optional<double> log_evidence;

@@ -117,6 +117,7 @@ void RunFolder::write_tables(const History& history, const Resolved& resolved) c
   files::write_file(path_ / "errors.csv", errors_csv(history.trials, resolved.scenario.task));
   files::write_file(path_ / "identifiability.csv", identifiability_csv(history.trials));
   files::write_file(path_ / "notes.csv", notes_csv(history.trials));
+  if (!resolved.scenario.task.limits.empty()) files::write_file(path_ / "limits.csv", limits_csv(history.trials));
   files::write_file(path_ / "policy.json", policies_json(history.trials, resolved));
   if (!history.logs.empty()) files::write_file(path_ / "logs.csv", logs_csv(history.logs, resolved.scenario.task));
 }

@@ -120,6 +120,17 @@ std::string errors_csv(const std::vector<TrialRecord>& trials, const Task& task)
   return csv.text();
 }
 
+std::string limits_csv(const std::vector<TrialRecord>& trials) {
+  files::Csv csv({"trial", "limit", "allowed_risk", "predicted_risk", "low", "high", "broken"});
+  for (const TrialRecord& t : trials)
+    for (const LimitRecord& l : t.limits) {
+      const auto end = [&](double value) { return l.predicted ? files::Csv::cell(value) : std::string(); };
+      csv.row({files::Csv::cell(t.trial), l.limit, files::Csv::cell(l.allowed), files::Csv::cell(l.predicted),
+               end(l.interval.low), end(l.interval.high), files::Csv::cell(Index{l.broken})});
+    }
+  return csv.text();
+}
+
 std::string notes_csv(const std::vector<TrialRecord>& trials) {
   files::Csv csv({"trial", "note"});
   for (const TrialRecord& t : trials) {

@@ -29,6 +29,9 @@ std::string errors_csv(const std::vector<TrialRecord>& trials, const Task& task)
 /// Identifiability warnings of the trials before, one row each.
 std::string identifiability_csv(const std::vector<TrialRecord>& trials);
 
+/// Limits of the task: one row per trial and limit.
+std::string limits_csv(const std::vector<TrialRecord>& trials);
+
 /// Failures that were survived, one row each.
 std::string notes_csv(const std::vector<TrialRecord>& trials);
 

@@ -1,9 +1,12 @@
 #include "rehearse/experiment/trial_record.hpp"
 
+#include <algorithm>
+
 #include "rehearse/experiment/forecast.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/tables.hpp"
 #include "rehearse/identification/identifiability.hpp"
+#include "rehearse/statistics/intervals.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -28,11 +31,27 @@ void add_posterior(TrialRecord& record, const identification::PhiPosterior& post
   record.warnings = identification::identifiability_warnings(posterior);
 }
 
+std::vector<LimitRecord> limits_of(const Task& task, const learners::Proposal& proposal, const Episode& episode) {
+  std::vector<LimitRecord> records;
+  for (std::size_t l = 0; l < task.limits.size(); ++l) {
+    LimitRecord record{.limit = task.limits[l].name, .allowed = task.limits[l].risk};
+    if (l < proposal.risks.size()) {
+      const auto [broken, episodes] = proposal.risks[l];
+      record.predicted = static_cast<double>(broken) / static_cast<double>(episodes);
+      record.interval = statistics::rate_interval(broken, episodes);
+    }
+    record.broken = std::ranges::count(episode.broken_limits, record.limit) > 0;
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
 }  // namespace
 
 TrialRecord record_before(Index trial, const learners::Proposal& proposal, const Resolved& resolved) {
   TrialRecord record{.trial = trial,
                      .predicted_return = proposal.predicted_return,
+                     .limits = limits_of(task, proposal, episode),
                      .rollouts = proposal.rollouts,
                      .failed_rollouts = proposal.failed_rollouts,
                      .log_evidence = proposal.log_evidence,

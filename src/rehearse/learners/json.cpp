@@ -19,6 +19,7 @@ json to_json(const Episode& e) {
             {"actions", to_json(e.actions)}, {"rewards", to_json(e.rewards)},
             {"charged", e.charged},          {"ended", e.ended}};
   if (!e.failure.empty()) j["failure"] = e.failure;
+  if (!e.broken_limits.empty()) j["broken_limits"] = e.broken_limits;
   return j;
 }
 
@@ -49,6 +50,7 @@ Episode to_episode(const json& j) {
   e.charged = j.at("charged").get<double>();
   e.ended = j.at("ended").get<bool>();
   e.failure = j.value("failure", "");
+  e.broken_limits = j.value("broken_limits", std::vector<std::string>());
   return e;
 }
 

@@ -25,15 +25,22 @@
 
 namespace rehearse::learners {
 
+/// How many simulated episodes of a policy broke a limit.
+struct LimitRisk {
+  Index broken = 0;
+  Index episodes = 0;
+};
+
 /// The policy to try next, and what the learner knew when it chose it. What does not apply is empty.
 struct Proposal {
   std::shared_ptr<const policy::Policy> policy;  // whose parameters theta are: mostly the setting's
   Vector theta;
   std::optional<double> predicted_return;
-  Index rollouts = 0;                                     // simulated to choose this policy
-  Index failed_rollouts = 0;                              // of these, ended by a failed simulation
-  std::optional<double> log_evidence;                     // of the data under the model
-  std::optional<Vector> phi;                              // of the prior, in the order of its space
+  std::vector<LimitRisk> risks;        // of the task's limits, in their order; empty: nothing was simulated for them
+  Index rollouts = 0;                  // simulated to choose this policy
+  Index failed_rollouts = 0;           // of these, ended by a failed simulation
+  std::optional<double> log_evidence;  // of the data under the model
+  std::optional<Vector> phi;           // of the prior, in the order of its space
   std::optional<identification::PhiPosterior> posterior;  // of its continuous parameters, where it was learned
   std::shared_ptr<const dynamics::DynamicsModel> model;   // that predicted the return; null before there is one
   std::function<ExpectedEpisode()> moments;    // what that model expects of the policy from the task's start,

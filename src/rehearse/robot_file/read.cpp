@@ -128,6 +128,21 @@ class Reader {
       table.finish();
     }
     robot_.ended = file_.formula("ended");
+    read_limits();
+  }
+
+  void read_limits() {
+    for (const toml::table* part : file_.list("limit")) {
+      Table table(*part, "[[limit]]", violations_);
+      LimitFormula limit;
+      limit.keep = table.formula("keep");
+      if (limit.keep.empty()) table.wrong("keep", "a limit needs keep = \"…\", a condition that every step must keep");
+      limit.name = limit.keep.text;
+      table.reader().take("name", limit.name);
+      table.number("risk", limit.risk, between(0.001, 0.999));
+      table.finish();
+      robot_.limits.push_back(std::move(limit));
+    }
   }
 
   void read_plant() {

@@ -45,6 +45,13 @@ struct Success {
   double last_s = 0;
 };
 
+/// A condition on states and actions that every step must keep.
+struct LimitFormula {
+  std::string name;
+  Formula keep;
+  double risk = 0.05;  // the largest probability that an episode does not
+};
+
 /// dx/dt as formulas of states, actions and parameters.
 struct Equations {
   Definitions definitions;
@@ -91,6 +98,7 @@ struct Robot {
   RewardFormulas reward;
   Success success;
   Formula ended;
+  std::vector<LimitFormula> limits;
   std::vector<Dynamics> dynamics;
   bool has_plant = false;  // else it is a real one, whose episodes are told
   Variant plant;

@@ -66,6 +66,7 @@ class Checker {
     compile(formulas, "reward.formula", robot_.reward.formula);
     compile(formulas, "success.when", robot_.success.when);
     compile(formulas, "ended", robot_.ended);
+    for (const LimitFormula& limit : robot_.limits) compile(formulas, "limit.keep", limit.keep);
     for (const Body& body : robot_.bodies)
       for (const Formula* formula : {&body.from[0], &body.from[1], &body.to[0], &body.to[1]})
         compile(formulas, fmt::format("body {}", body.name), *formula);
@@ -123,6 +124,13 @@ class Checker {
   bool good_ = true;  // the definitions that formulas use
 };
 
+/// A formula of the state that a step reaches and the action that took it there.
+Reward of_steps(const Robot& robot, const Formula& formula) {
+  return [program = program(robot, {formula})](const ConstMatrixView&, const ConstMatrixView& U,
+                                               const ConstMatrixView& X_next,
+                                               VectorView values) { values = evaluate(program, X_next, U).col(0); };
+}
+
 Reward reward_of(const Robot& robot) {
   if (!robot.reward.distance.empty()) {
     const auto squared = [program = program(robot, robot.reward.distance), actions = robot.actions.size()](
@@ -131,10 +139,7 @@ Reward reward_of(const Robot& robot) {
     };
     return reward::saturating(squared, robot.reward.width, closed_form(robot));
   }
-  return [program = program(robot, {robot.reward.formula})](const ConstMatrixView&, const ConstMatrixView& U,
-                                                            const ConstMatrixView& X_next, VectorView rewards) {
-    rewards = evaluate(program, X_next, U).col(0);
-  };
+  return of_steps(robot, robot.reward.formula);
 }
 
 StepCost cost_of(const Robot& robot) {
@@ -246,6 +251,8 @@ Task make_task(const Robot& robot) {
   if (!robot.success.when.empty())
     task.solved = scenario::holds_at_the_end(task, robot.success.last_s, condition(robot, robot.success.when));
   if (!robot.ended.empty()) task.ended = condition(robot, robot.ended);
+  for (const LimitFormula& limit : robot.limits)
+    task.limits.push_back({limit.name, limit.keep.text, of_steps(robot, limit.keep), limit.risk});
   return task;
 }
 

@@ -37,6 +37,18 @@ double reward_of(const Task& task, const Episode& episode, Index t) {
   return reward(0) - cost(0);
 }
 
+/// Names of the limits that step t breaks.
+std::vector<std::string> limits_broken_by(const Task& task, const Episode& episode, Index t) {
+  std::vector<std::string> broken;
+  Vector holds(1);
+  for (const Limit& limit : task.limits) {
+    limit.holds(episode.true_states.middleRows(t, 1), episode.actions.middleRows(t, 1),
+                episode.true_states.middleRows(t + 1, 1), holds);
+    if (holds(0) == 0 || std::isnan(holds(0))) broken.push_back(limit.name);
+  }
+  return broken;
+}
+
 /// Ends an episode after `steps`: the rest earns the reward floor. failure: why, if that is no fall.
 void end(Episode& episode, Index steps, const Task& task, std::string failure = "") {
   episode.ended = true;
@@ -67,7 +79,9 @@ bool ends_at(Episode& episode, Index t, const Task& task) {
     end(episode, t + 1, task, fmt::format("the reward at step {} is not finite", t + 1));
     return true;
   }
-  if (!task.ended || !task.ended(episode.true_states.row(t + 1).transpose())) return false;
+  episode.broken_limits = limits_broken_by(task, episode, t);
+  const bool fell = task.ended && task.ended(episode.true_states.row(t + 1).transpose());
+  if (episode.broken_limits.empty() && !fell) return false;
   end(episode, t + 1, task);
   return true;
 }

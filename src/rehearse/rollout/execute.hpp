@@ -13,7 +13,8 @@ namespace rehearse::rollout {
 /// One episode on the plant. Rewards and the end use the noise-free state where the plant knows it. If the plant
 /// throws or returns a state that is not finite, that exception (or InvalidInput) reaches the caller: a real robot's
 /// silence is not a fall. An action that is not finite never reaches the plant: it ends the episode at the reward
-/// floor, as a reward that is not finite does, and Episode::failure says so. before_step: called before every step; may
+/// floor, as a reward that is not finite does, and Episode::failure says so. A step that breaks a limit ends it in the
+/// same way, and is the last: Episode::broken_limits. before_step: called before every step; may
 /// throw, to stop. Throws InvalidInput if θ, or the policy's actions, are of another size.
 Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng rng,
                 const std::function<void()>& before_step = {});

@@ -21,6 +21,7 @@ Index rows_of_chunk(Index batch, Index rows_at_once) {
 /// Memory of a chunk, kept by each thread from one to the next: fresh pages cost more than a step of a cheap model.
 struct Buffers {
   Matrix Theta, X, seen, next, noise, U, U_before;
+  Matrix holds, broken;  // rows × limits
   Vector reward, cost, returns, state;
   std::vector<std::uint64_t> candidates, particles;
   std::vector<char> alive;
@@ -44,6 +45,8 @@ class Chunk {
       b_.U_before.setZero(rows, task_.action_size());
       b_.cost.resize(rows);
     }
+    b_.holds.resize(rows, static_cast<Index>(task_.limits.size()));
+    b_.broken.setZero(rows, b_.holds.cols());
     b_.returns.setZero(rows);
     b_.candidates.resize(static_cast<std::size_t>(rows));
     b_.particles.resize(static_cast<std::size_t>(rows));
@@ -83,6 +86,8 @@ class Chunk {
     b_.next += b_.X;
     task_.reward(b_.X, b_.U, b_.next, b_.reward);
     if (task_.cost) charge(t);
+    for (Index l = 0; l < b_.holds.cols(); ++l)
+      task_.limits[static_cast<std::size_t>(l)].holds(b_.X, b_.U, b_.next, b_.holds.col(l));
     if (record) write(t, *record);
     for (Index row = 0; row < b_.X.rows(); ++row) settle(row, t);
     b_.X.swap(b_.next);
@@ -90,6 +95,7 @@ class Chunk {
 
   const Matrix& states() const { return b_.X; }
   const Vector& returns() const { return b_.returns; }
+  const Matrix& broken() const { return b_.broken; }
   bool alive(Index row) const { return b_.alive[static_cast<std::size_t>(row)] != 0; }
   Index failed() const { return failed_; }
 
@@ -124,7 +130,7 @@ class Chunk {
       const auto i = static_cast<std::size_t>(row);
       record.failed[i] = !finite(row);
       record.steps[i] += !record.failed[i];
-      record.ended[i] = !record.failed[i] && ended(row);
+      record.ended[i] = !record.failed[i] && (breaks(row) || ended(row));
     }
   }
 
@@ -145,13 +151,17 @@ class Chunk {
       b_.returns(row) += went_on ? b_.reward(row) : remaining * task_.reward_floor;
       failed_ += !went_on;
       alive = went_on;
-      if (went_on && ended(row)) {
+      if (went_on && (breaks(row) || ended(row))) {
+        const double left = remaining / static_cast<double>(task_.horizon);
+        b_.broken.row(row) = (b_.holds.row(row).array().abs() > 0).select(b_.broken.row(row), left);
         b_.returns(row) += (remaining - 1) * task_.reward_floor;
         alive = false;
       }
     }
     if (!alive) b_.next.row(row) = task_.start_mean.transpose();
   }
+
+  bool breaks(Index row) const { return !(b_.holds.row(row).array().abs() > 0).all(); }
 
   bool ended(Index row) {
     if (!task_.ended) return false;
@@ -167,6 +177,22 @@ class Chunk {
   Buffers& b_;
   Index failed_ = 0;
 };
+
+/// Of the columns of results that chunks have filled.
+Simulated gathered(const Matrix& results, Index limits, Index particles, Index candidates) {
+  const Index total = particles * candidates, most = (results.rows() - 1) / (1 + limits);
+  Simulated simulated{.returns = Matrix(particles, candidates)};
+  simulated.broken.assign(static_cast<std::size_t>(limits), Matrix(particles, candidates));
+  for (Index c = 0; c < results.cols(); ++c) {
+    const Index rows = std::min(most, total - c * most);
+    Vector::Map(simulated.returns.data() + c * most, rows) = results.col(c).head(rows);
+    for (Index l = 0; l < limits; ++l)
+      Vector::Map(simulated.broken[static_cast<std::size_t>(l)].data() + c * most, rows) =
+          results.col(c).segment((1 + l) * most, rows);
+    simulated.failed += static_cast<Index>(results(results.rows() - 1, c));
+  }
+  return simulated;
+}
 
 /// parameters: of one θ.
 void check(const Simulation& simulation, Index parameters, Index particles) {
@@ -188,7 +214,8 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
   check(simulation, Theta.rows(), particles);
   const Index total = Theta.cols() * particles, most = rows_of_chunk(total, simulation.model.rows_at_once());
   const Index chunks = (total + most - 1) / most;
-  Matrix results(most + 1, chunks);  // returns, and how many failed
+  const auto limits = static_cast<Index>(simulation.task.limits.size());
+  Matrix results((1 + limits) * most + 1, chunks);  // returns, limits one by one, and how many failed
   const auto task_of_chunk = [&](Index c) {
     VectorView result = results.col(c);
     const Index first = c * most, rows = std::min(most, total - first);
@@ -204,17 +231,11 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
       chunk.step(t);
     }
     result.head(rows) = chunk.returns();
-    result(most) = static_cast<double>(chunk.failed());
+    for (Index l = 0; l < limits; ++l) result.segment((1 + l) * most, rows) = chunk.broken().col(l);
+    result(result.size() - 1) = static_cast<double>(chunk.failed());
   };
   evaluator.for_each(chunks, task_of_chunk);
-
-  Simulated simulated{.returns = Matrix(particles, Theta.cols())};
-  for (Index c = 0; c < chunks; ++c) {
-    const Index rows = std::min(most, total - c * most);
-    Vector::Map(simulated.returns.data() + c * most, rows) = results.col(c).head(rows);
-    simulated.failed += static_cast<Index>(results(most, c));
-  }
-  return simulated;
+  return gathered(results, limits, particles, Theta.cols());
 }
 
 Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, Index particles) {

@@ -44,14 +44,17 @@ struct Candidates {
 
 /// Returns of simulated episodes, one column a candidate.
 struct Simulated {
-  Matrix returns;    // particles × candidates
-  Index failed = 0;  // rollouts that ended because a prediction was not finite
+  Matrix returns;              // particles × candidates
+  std::vector<Matrix> broken;  // one a limit of the task, each particles × candidates: 0 where it was kept, else the
+                               // fraction of the episode that was left when the step began that broke it
+  Index failed = 0;            // rollouts that ended because a prediction was not finite
 };
 
 /// Simulates episodes of each policy (Theta: parameters × candidates), all rollouts in lockstep within chunks of a
 /// fixed size that the evaluator spreads over threads. Rollout (candidate j, particle p) draws from the stream (key,
 /// candidates.first + j, p): its value does not depend on the batch it is evaluated in, nor on threads. A rollout that
-/// falls or fails is charged the reward floor for every remaining step. Throws InvalidInput where sizes are wrong.
+/// falls, breaks a limit or fails is charged the reward floor for every remaining step. Throws InvalidInput where sizes
+/// are wrong.
 Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, const Candidates& candidates,
                    const Evaluator& evaluator);
 
@@ -71,7 +74,7 @@ struct Episodes {
   Matrix rewards;               // rows × T
   Vector returns;               // rows, with what was charged for an early end
   std::vector<Index> steps;     // made before the end
-  std::vector<char> ended;      // by a fall: its state is the last one
+  std::vector<char> ended;      // by a fall or a broken limit: its state is the last one
   std::vector<char> failed;     // by a prediction that was not finite: this one is left out
   double reward_floor = 0;      // the task's
 

@@ -59,6 +59,14 @@ Reward initial_reward(const reward::SquaredDistance& squared_distance, const Ode
                                           : Reward{};
 }
 
+Limit limit_within(const StateVariable& state, Index index, double bound, double risk) {
+  const auto holds = [index, bound](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next,
+                                    VectorView kept) {
+    kept = (X_next.col(index).array().abs() < bound).cast<double>();
+  };
+  return {state.name, "abs(" + state.name + ") < " + to_text(bound) + " " + state.unit, holds, risk};
+}
+
 std::function<bool(const Episode&)> holds_at_the_end(const Task& task, double seconds,
                                                      std::function<bool(const ConstVectorView& state)> holds) {
   const Index horizon = task.horizon;

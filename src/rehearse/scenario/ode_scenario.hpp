@@ -53,6 +53,9 @@ Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options);
 /// For Task::initial_reward: saturating as the reward is, with a width of its own; empty if the options give none.
 Reward initial_reward(const reward::SquaredDistance& squared_distance, const OdeOptions& options);
 
+/// For Task::limits: |state| < bound, of the state of this index; it has the state's name.
+Limit limit_within(const StateVariable& state, Index index, double bound, double risk);
+
 /// For Task::solved: whether the whole horizon was run and every true state of its last `seconds` is as it should be.
 std::function<bool(const Episode&)> holds_at_the_end(const Task& task, double seconds,
                                                      std::function<bool(const ConstVectorView& state)> holds);

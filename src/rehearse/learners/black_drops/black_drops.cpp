@@ -96,12 +96,16 @@ class BlackDrops final : public TrialLearner {
   }
 
   void search(Proposal& proposal, const Task& task) const {
-    const SearchProblem problem{*proposal.model, *setting_.policy, task, *setting_.evaluator, setting_.progress};
+    SearchProblem problem{*proposal.model, *setting_.policy, task, *setting_.evaluator, setting_.progress};
+    if (first() && !task.limits.empty())
+      problem.doubted = doubted(*setting_.prior, options_.search.safety.doubt, stream());
     TrialSearches searches(problem, options_.search, stream());
     Choice choice =
         search_trial(searches, {known_policies(history_, *setting_.policy, options_), without_data()}, options_);
     proposal.theta = std::move(choice.theta);
     proposal.predicted_return = choice.predicted_return;
+    for (std::string& line : warnings(choice.risks, task.limits)) proposal.notes.push_back(std::move(line));
+    proposal.risks = std::move(choice.risks);
     proposal.rollouts = searches.rollouts();
     proposal.failed_rollouts = searches.failed_rollouts();
   }
@@ -124,6 +128,16 @@ class BlackDrops final : public TrialLearner {
     proposal.theta =
         policy::random_schedule(task, extremes ? policy::RandomActions::extremes : policy::RandomActions::uniform,
                                 options_.first_trial.hold_s, episode_stream);
+    if (!task.limits.empty()) keep_near_middle(proposal.theta);
+  }
+
+  void keep_near_middle(Vector& schedule) const {
+    const auto bounds = setting_.task.action_bounds();
+    for (std::size_t a = 0; a < bounds.size(); ++a) {
+      auto actions = schedule.segment(static_cast<Index>(a) * setting_.task.horizon, setting_.task.horizon).array();
+      const double middle = (bounds[a].low + bounds[a].high) / 2;
+      actions = middle + options_.first_trial.cautious * (actions - middle);
+    }
   }
 
   void learn_model(Proposal& proposal, identification::WarmStart& state) {
@@ -216,6 +230,7 @@ std::unique_ptr<Learner> make(Setting setting, Options options) {
   setting = checked(std::move(setting), options, prior_use(options), violations_with);
   if (options.reward.learned) forget_reward(setting.task);
   if (!options.success_test) setting.task.solved = nullptr;
+  if (!setting.task.limits.empty()) options.search.simulate.noise_clip = 0;  // or a model that errs seems to be safe
   return std::make_unique<BlackDrops>(std::move(setting), std::move(options));
 }
 

@@ -8,6 +8,10 @@ namespace {
 
 constexpr double kOften = 0.5;  // of the simulated episodes that a policy solves: enough for a trial
 
+bool is_better(const SearchResult& found, const Choice& choice) {
+  return better(found, {.predicted_return = choice.predicted_return, .excess = choice.excess});
+}
+
 /// Searches until a policy is found that often solves the task, and whose predicted return is within a tolerance of the
 /// highest one, which is the choice. Returns the policy that solves it most often, if one does.
 std::optional<SearchResult> search_for_solving(TrialSearches& searches, SearchResult found, const SearchAgain& again,
@@ -16,18 +20,29 @@ std::optional<SearchResult> search_for_solving(TrialSearches& searches, SearchRe
   if (!searches.can_tell_solved()) return solving;
   for (Index i = 1;; ++i) {
     if (auto judged = searches.best_that_solves(found))
-      if (!solving || judged->solving > solving->solving) solving = std::move(judged);
+      if (judged->excess <= choice.excess && (!solving || judged->solving > solving->solving))
+        solving = std::move(judged);
     if (solving && solving->solving >= kOften &&
         within(limits.tolerance, choice.predicted_return, solving->predicted_return))
       break;
     if (i > limits.searches) break;
     found = again(i);
-    if (found.predicted_return > choice.predicted_return) choice.take(found);
+    if (is_better(found, choice)) choice.take(found);
   }
+  if (solving && solving->excess > choice.excess) solving.reset();  // a later search found a safer one
   return solving;
 }
 
 }  // namespace
+
+void prefer_safe(TrialSearches& searches, const SafetyOptions& safety, SearchResult& found, Choice& choice) {
+  for (Index i = 0; i < safety.searches && choice.excess > 0; ++i) {
+    SearchResult more = searches.search_safe({choice.theta}, i);
+    if (!is_better(more, choice)) continue;
+    choice.take(more);
+    found = std::move(more);
+  }
+}
 
 void prefer_solving_where_sure(TrialSearches& searches, const SearchResult& found, const SearchAgain& again,
                                const Retry& retry, Choice& choice) {
@@ -41,8 +56,9 @@ void prefer_solving_where_uncertain(TrialSearches& searches, const SearchResult&
   if (tolerance == 0) return;
   const auto again = [&](Index i) {
     SearchResult more = searches.search_means({choice.theta}, i);
-    more.predicted_return = searches.judge(more.theta).predicted_return;
-    return more;
+    SearchResult judged = searches.judge(more.theta);
+    judged.runners_up = std::move(more.runners_up);
+    return judged;
   };
   Retry limits = retry;
   limits.tolerance = tolerance;

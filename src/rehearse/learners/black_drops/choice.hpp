@@ -11,15 +11,25 @@ namespace rehearse::learners::black_drops {
 struct Choice {
   Vector theta;
   double predicted_return = 0;
+  std::vector<LimitRisk> risks = {};  // one a limit of the task
+  double excess = 0;                  // of these over what is allowed; 0: it is safe
 
-  void take(const SearchResult& found) { theta = found.theta, predicted_return = found.predicted_return; }
+  void take(const SearchResult& found) {
+    theta = found.theta, predicted_return = found.predicted_return;
+    risks = found.risks, excess = found.excess;
+  }
 };
 
 /// The i-th search more, i = 1, 2, …
 using SearchAgain = std::function<SearchResult(Index i)>;
 
+/// Where the choice keeps the task's limits too rarely: `safety.searches` more searches at most, until one does.
+/// `found` becomes what the search that made the choice has found.
+void prefer_safe(TrialSearches& searches, const SafetyOptions& safety, SearchResult& found, Choice& choice);
+
 /// Where the model is sure: searches are repeated until one finds a policy that is expected to solve the task for about
-/// the highest return, `retry.searches` times at most. A policy that solves it becomes the choice, whatever it costs.
+/// the highest return, `retry.searches` times at most. A policy that solves it becomes the choice, whatever it costs
+/// but a limit kept less often.
 /// `found`: what the search that made the choice has found. Nothing happens where the task cannot say what solves it.
 void prefer_solving_where_sure(TrialSearches& searches, const SearchResult& found, const SearchAgain& again,
                                const Retry& retry, Choice& choice);

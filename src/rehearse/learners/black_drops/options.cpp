@@ -8,6 +8,8 @@ void FirstTrial::fields(FieldVisitor& v) {
   v.choice("kind", kind, "first trial without a prior: random actions, their bounds, or a random policy",
            {"actions", "extremes", "policy"}, published("policy"));
   v.number("hold_s", hold_s, "how long a random action is held [s]; 0: a step", at_least(0), published(0, kAuthors));
+  v.number("cautious", cautious,
+           "of tasks with limits: random actions are in this fraction of their range, about its middle", between(0, 1));
 }
 
 void Retry::fields(FieldVisitor& v) {

@@ -15,7 +15,8 @@ struct FirstTrial {
     policy,    // θ uniform in its box (Chatzilygeroudis 2018, Algorithm 1)
   };
   Kind kind = Kind::actions;
-  double hold_s = 0.2;  // an action is held so long (PILCO, the authors' code: one step)
+  double hold_s = 0.2;    // an action is held so long (PILCO, the authors' code: one step)
+  double cautious = 0.3;  // of a task with limits: random actions are in so much of their range, about its middle
   void fields(FieldVisitor& v);
 };
 

@@ -1,39 +1,13 @@
 #include "rehearse/learners/black_drops/policy_search.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "rehearse/core/stopwatch.hpp"
+#include "rehearse/learners/black_drops/simulated_return.hpp"
 
 namespace rehearse::learners::black_drops {
 namespace {
-
-/// Simulated returns as an objective, and how many rollouts failed.
-class SimulatedReturn {
- public:
-  SimulatedReturn(const SearchProblem& problem, const SearchOptions& options, StreamKey key)
-      : problem_(problem), options_(options), key_(key) {}
-
-  void operator()(const ConstMatrixView& Theta, std::uint64_t first, Index samples, VectorView values) {
-    const rollout::Simulated simulated =
-        rollout::simulate({problem_.model, problem_.policy, problem_.task, key_, options_.simulate}, Theta,
-                          {first, samples * options_.particles}, problem_.evaluator);
-    values = simulated.returns.colwise().mean().transpose();
-    rollouts_ += simulated.returns.size();
-    next_ = std::max(next_, first + static_cast<std::uint64_t>(Theta.cols()));
-    failed_ += simulated.failed;
-  }
-
-  std::uint64_t next() const { return next_; }  // the first candidate that no call has had
-  Index rollouts() const { return rollouts_; }
-  Index failed() const { return failed_; }
-
- private:
-  const SearchProblem& problem_;
-  const SearchOptions& options_;
-  StreamKey key_;
-  std::uint64_t next_ = 0;
-  Index rollouts_ = 0, failed_ = 0;
-};
 
 using Box = std::vector<Interval>;
 
@@ -67,41 +41,40 @@ std::vector<Vector> find(const optim::BatchObjective& objective, const std::vect
   return found;
 }
 
+/// With limits any of the policies found may be the only safe one.
+Index finalists_of(const std::vector<Vector>& found, const SearchProblem& problem, const SearchOptions& options) {
+  const auto all = static_cast<Index>(found.size());
+  return problem.task.limits.empty() ? std::min(options.finalists, all) : all;
+}
+
+SearchResult result_of(const Vector& theta, Measurement measured, const Task& task) {
+  const double too_much = excess(measured.risks, task.limits);
+  return {.theta = theta, .predicted_return = measured.mean, .risks = std::move(measured.risks), .excess = too_much};
+}
+
 /// Compares the finalists and the starts by some rollouts of each; the best is the result, other finds its runners-up.
-void select(std::vector<Vector> found, const std::vector<Vector>& starts, SimulatedReturn& objective,
-            Index most_finalists, Index rollouts, SearchResult& result) {
-  const auto finalists = std::min(most_finalists, static_cast<Index>(found.size()));
+SearchResult select(const std::vector<Vector>& found, const std::vector<Vector>& starts, SimulatedReturn& objective,
+                    const SearchProblem& problem, const SearchOptions& options) {
+  const Index finalists = finalists_of(found, problem, options);
   Matrix Theta(found.front().size(), finalists + static_cast<Index>(starts.size()));
   for (Index i = 0; i < Theta.cols(); ++i)
     Theta.col(i) = i < finalists ? found[static_cast<std::size_t>(i)] : starts[static_cast<std::size_t>(i - finalists)];
-  Vector values(Theta.cols());
-  objective(Theta, objective.next(), rollouts, values);
-  Index best = 0;
-  result.predicted_return = values.maxCoeff(&best);
-  result.theta = Theta.col(best);
-  if (best < finalists) found.erase(found.begin() + best);
-  result.runners_up = std::move(found);
+  const auto measured = objective.measure(Theta, objective.next(), comparisons(problem, options));
+  std::vector<SearchResult> compared;
+  for (Index i = 0; i < Theta.cols(); ++i)
+    compared.push_back(result_of(Theta.col(i), measured[static_cast<std::size_t>(i)], problem.task));
+  const auto best = std::min_element(compared.begin(), compared.end(), better) - compared.begin();
+  SearchResult result = compared[static_cast<std::size_t>(best)];
+  for (Index i = 0; i < static_cast<Index>(found.size()); ++i)
+    if (i >= finalists || (i != best && compared[static_cast<std::size_t>(i)].excess <= result.excess))
+      result.runners_up.push_back(found[static_cast<std::size_t>(i)]);
+  return result;
 }
 
 }  // namespace
 
-void SearchOptions::fields(FieldVisitor& v) {
-  v.choice("method", method, "descents that compete, or one after the other", {"race", "restarts"},
-           published("restarts"));
-  v.number("box", box, "parameters of policies are in [−box, box], unless the policy has a box", between(1e-6, 1e6));
-  v.integer("particles", particles, "rollouts of one evaluation", between(1, 1e6));
-  v.group("simulate", simulate);
-  v.group("race", race);
-  v.group("restarts", restarts, kExpert);
-  v.integer("finalists", finalists, "best policies found that are compared once more", between(1, 1e6), published(1));
-  v.integer("selection", selection, "rollouts of each finalist; their mean is the predicted return", between(1, 1e6),
-            published(1));
-}
-
-Index comparisons(const SearchProblem& problem, const SearchOptions& options) {
-  const bool sure = !options.simulate.sample || problem.model.certain();
-  const bool exact = options.simulate.measurement_noise == 0 || problem.model.measurement_std().isZero(0);
-  return sure && exact && problem.task.start_std.isZero(0) ? 1 : options.selection;
+bool better(const SearchResult& a, const SearchResult& b) {
+  return a.excess != b.excess ? a.excess < b.excess : a.predicted_return > b.predicted_return;
 }
 
 SearchResult search_policy(const SearchProblem& problem, const std::vector<Vector>& starts,
@@ -120,10 +93,9 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
   const Box box(static_cast<std::size_t>(problem.policy.parameters()), interval_of(problem.policy, options));
   StreamKey candidates = key;
   candidates.purpose = Purpose::search;
-  std::vector<Vector> found =
+  const std::vector<Vector> found =
       find(std::ref(objective), starts, box, problem, in_box_of(problem.policy, options), candidates, report);
-  SearchResult result;
-  select(std::move(found), starts, objective, options.finalists, comparisons(problem, options), result);
+  SearchResult result = select(found, starts, objective, problem, options);
   result.rollouts = objective.rollouts();
   result.failed_rollouts = objective.failed();
   return result;
@@ -132,12 +104,11 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
 SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options,
                    const StreamKey& key) {
   SimulatedReturn objective(problem, options, key);
-  Vector value(1);
-  objective(theta, 0, comparisons(problem, options), value);
-  return {.theta = theta,
-          .predicted_return = value(0),
-          .rollouts = objective.rollouts(),
-          .failed_rollouts = objective.failed()};
+  SearchResult result =
+      result_of(theta, objective.measure(theta, 0, comparisons(problem, options)).front(), problem.task);
+  result.rollouts = objective.rollouts();
+  result.failed_rollouts = objective.failed();
+  return result;
 }
 
 Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,

@@ -14,7 +14,8 @@ struct Known {
   bool prior_alone = false;      // no data: the model is the prior, which is taken at its word
 };
 
-/// Chooses the policy of a trial. References must outlive the call.
+/// Chooses the policy of a trial: the best of those that keep the task's limits, the safest where none does. References
+/// must outlive the call.
 Choice search_trial(TrialSearches& searches, const Known& known, const Options& options);
 
 }  // namespace rehearse::learners::black_drops

@@ -1,5 +1,6 @@
 #include "rehearse/learners/black_drops/trial_searches.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +11,17 @@ constexpr double kMeans = 0.1;  // what it counts to solve the task in the means
 
 SearchOptions in_means(SearchOptions options) {
   options.simulate.sample = false;
+  return options;
+}
+
+/// About twice the rollouts of another search.
+SearchOptions for_safety(SearchOptions options) {
+  constexpr Index kRollouts = 8, kFewer = 4;
+  options.particles *= kRollouts;
+  options.race.max_evaluations = std::max(options.race.max_evaluations / kFewer, 2 * options.race.descents);
+  options.restarts.max_evaluations = std::max(options.restarts.max_evaluations / kFewer, Index{1});
+  options.safety.rollouts = std::max(options.safety.rollouts / kRollouts, Index{1});
+  options.selection = std::max(options.selection / kRollouts, Index{1});
   return options;
 }
 
@@ -26,6 +38,10 @@ SearchResult TrialSearches::search_means(const std::vector<Vector>& starts, Inde
   return counted(search_policy(problem_, starts, in_means(options_), key(Stage::mean_search, i)));
 }
 
+SearchResult TrialSearches::search_safe(const std::vector<Vector>& starts, Index i) {
+  return counted(search_policy(problem_, starts, for_safety(options_), key(Stage::safe_search, i)));
+}
+
 SearchResult TrialSearches::judge(const Vector& theta) {
   return counted(black_drops::judge(problem_, theta, options_, key(Stage::judging)));
 }
@@ -36,7 +52,7 @@ std::optional<SearchResult> TrialSearches::best_that_solves(const SearchResult& 
   policies.insert(policies.begin(), found.theta);
   SearchOptions means = in_means(options_);
   means.simulate.measurement_noise = 0;
-  means.selection = 1;
+  means.selection = means.safety.rollouts = 1;
   const Vector rates = solving_rates(problem_, policies, options_, key(Stage::solving)) +
                        kMeans * solving_rates(problem_, policies, means, key(Stage::mean_solving));
   rollouts_ += rates.size() * (comparisons(problem_, options_) + comparisons(problem_, means));

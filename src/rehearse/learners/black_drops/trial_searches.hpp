@@ -19,13 +19,18 @@ class TrialSearches {
   /// The i-th search that follows the mean predictions.
   SearchResult search_means(const std::vector<Vector>& starts, Index i);
 
-  /// A policy's predicted return where the model's uncertainty counts.
+  /// The i-th search for a policy that keeps the task's limits, where another found none: several rollouts are one
+  /// evaluation, which tells how often a limit is broken.
+  SearchResult search_safe(const std::vector<Vector>& starts, Index i);
+
+  /// A policy's predicted return, and risks, where the model's uncertainty counts.
   SearchResult judge(const Vector& theta);
 
   /// The policy of a search that solves the task most often in simulated episodes; among those that never do where
   /// uncertainty counts, one that does in the means. Empty if none does, or if the task cannot say.
   std::optional<SearchResult> best_that_solves(const SearchResult& found);
 
+  bool has_limits() const { return !problem_.task.limits.empty(); }
   bool can_tell_solved() const { return static_cast<bool>(problem_.task.solved); }
   Index rollouts() const { return rollouts_; }
   Index failed_rollouts() const { return failed_rollouts_; }

@@ -225,6 +225,8 @@ std::vector<std::string> violations(const IlluminationOptions& options, const Ta
                      "the scenario says of no trial how it went (its task has no descriptor), which ite needs to tell "
                      "policies apart: give the task a descriptor and descriptor_bounds, or choose the learner gp-mi or "
                      "black-drops-prior");
+  violations.require(task.limits.empty(),
+                     "the task has limits, which ite does not keep: choose the learner gp-mi or black-drops-prior");
   if (task.descriptor)
     for (const std::string& line : qd::bounds_violations(task.descriptor_bounds))
       violations.add("descriptor_bounds of the task, which ite needs: " + line);

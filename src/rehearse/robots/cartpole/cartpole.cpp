@@ -83,6 +83,7 @@ Task make_task(const Options& options) {
   task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
     return std::abs(state(0)) <= kSolvedDistance && -std::cos(state(3)) >= std::cos(kSolvedAngle);
   });
+  if (options.track > 0) task.limits = {scenario::limit_within(task.states[0], 0, options.track, options.risk)};
   return task;
 }
 
@@ -120,6 +121,9 @@ void Options::fields(FieldVisitor& v) {
   v.integer("horizon", horizon, "steps of an episode", between(1, 1e6));
   v.number("shaping", shaping, "share of MC-PILCO's wide reward in the reward; learners by moments need 0",
            between(0, 1));
+  v.number("track", track, "half the length of the track, a limit of the cart's position; 0: it has no ends [m]",
+           at_least(0));
+  v.number("risk", risk, "largest probability that an episode leaves the track", between(0.001, 0.999));
   ode.fields(v);
 }
 

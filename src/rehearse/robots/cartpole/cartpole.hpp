@@ -22,6 +22,8 @@ struct Options {
   double dt_s = 0.1;   // MC-PILCO (Amadio 2022): 0.05
   Index horizon = 40;  // steps; MC-PILCO: 60
   double shaping = 0;  // share of MC-PILCO's wide reward in the reward; then no learner follows its moments
+  double track = 0;    // m, half its length; 0: it has no ends
+  double risk = 0.05;  // the largest probability that an episode leaves it
   scenario::OdeOptions ode{.start_noise = 0.001, .measurement_noise = 0.01};  // MC-PILCO: 0.01, 0.01
   void fields(FieldVisitor& v);
 };

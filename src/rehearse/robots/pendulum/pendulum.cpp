@@ -51,6 +51,8 @@ Task make_task(const Options& options) {
   task.initial_reward = scenario::initial_reward(squared_distance, options.ode);
   task.solved = scenario::holds_at_the_end(
       task, kSolvedTime, [](const ConstVectorView& state) { return -std::cos(state(1)) >= std::cos(kSolvedAngle); });
+  if (options.speed_limit > 0)
+    task.limits = {scenario::limit_within(task.states[0], 0, options.speed_limit, options.risk)};
   return task;
 }
 
@@ -81,6 +83,8 @@ void Physics::fields(FieldVisitor& v) {
 
 void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
+  v.number("speed_limit", speed_limit, "limit of the pendulum's speed; 0: there is none [rad/s]", at_least(0));
+  v.number("risk", risk, "largest probability that an episode exceeds the speed limit", between(0.001, 0.999));
   ode.fields(v);
 }
 

@@ -18,6 +18,8 @@ struct Physics {
 /// Options; defaults are those of the authors' code.
 struct Options {
   Physics plant;
+  double speed_limit = 0;  // rad/s; 0: there is none
+  double risk = 0.05;      // the largest probability that an episode exceeds it
   scenario::OdeOptions ode{.box_low = 0.1, .box_high = 2.4, .substeps = 8};
   void fields(FieldVisitor& v);
 };

@@ -1,0 +1,49 @@
+#pragma once
+// Simulated episodes of policies as what a search maximises.
+
+#include <cstdint>
+#include <vector>
+
+#include "rehearse/learners/black_drops/policy_search.hpp"
+
+namespace rehearse::learners::black_drops {
+
+/// A policy's mean return, and how many of its episodes broke each limit.
+struct Measurement {
+  double mean = 0;
+  std::vector<LimitRisk> risks;
+  double early = 0;  // over all episodes, of 0 for one that kept the limits, from 1/2 for one that broke one in its
+                     // last step to 1 for one that did in its first
+};
+
+/// The objective of a search: the mean return of simulated episodes where limits are kept often enough, and less than
+/// that of any such policy of the batch where they are not, the less the more often and the earlier they are broken
+/// (Deb 2000). It counts rollouts. References must outlive it.
+class SimulatedReturn {
+ public:
+  SimulatedReturn(const SearchProblem& problem, const SearchOptions& options, StreamKey key)
+      : problem_(problem), options_(options), key_(key) {}
+
+  /// As optim::BatchObjective.
+  void operator()(const ConstMatrixView& Theta, std::uint64_t first, Index samples, VectorView values);
+
+  /// Of each policy (parameters × policies), from so many evaluations.
+  std::vector<Measurement> measure(const ConstMatrixView& Theta, std::uint64_t first, Index samples);
+
+  std::uint64_t next() const { return next_; }  // the first candidate that no call has had
+  Index rollouts() const { return rollouts_; }
+  Index failed() const { return failed_; }
+
+ private:
+  rollout::Simulated simulate(const ConstMatrixView& Theta, std::uint64_t first, Index episodes);
+  rollout::Simulated simulate_in_doubt(const ConstMatrixView& Theta, Index episodes) const;
+
+  const SearchProblem& problem_;
+  const SearchOptions& options_;
+  StreamKey key_;
+  std::uint64_t next_ = 0;
+  Index rollouts_ = 0, failed_ = 0;
+  Interval seen_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};  // mean returns
+};
+
+}  // namespace rehearse::learners::black_drops
