@@ -29,6 +29,8 @@ export interface Run {
   notes?: { trial: number[]; note: string[] }
   /** Identifiability warnings; not there in the folders of older versions. */
   identifiability?: { trial: number[]; warning: string[] }
+  /** limits.csv, of a task that has limits. */
+  limits?: { names: string[]; numbers: Columns }
   truth?: Record<string, number>
   /** Of a learner that has one. */
   archive?: Archive

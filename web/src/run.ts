@@ -4,6 +4,7 @@ import { indexOfMax, present, type Cell, type Report, type Run } from './data'
 import { h, type Child } from './dom'
 import { count, duration, number } from './format'
 import { beside, head, problems, sections, tiles, type Tile } from './layout'
+import { limits } from './limits'
 import { gaps, gapSentence } from './moments'
 import { player } from './player'
 import { rollouts, times } from './run_computing'
@@ -20,7 +21,7 @@ export function runPage(report: Report, run: Run): Child[] {
       {},
       tiles(keyFigures(run)),
       ...sections([
-        { id: 'returns', title: 'Returns', content: [returns(run)] },
+        { id: 'returns', title: 'Returns', content: [returns(run), limits(run)] },
         { id: 'replay', title: 'Replay', content: [replay(run)] },
         { id: 'archive', title: 'The archive', content: archiveFigures(run) },
         { id: 'model', title: 'The model', content: [errors(run), gaps(run), beside(parameters(run), evidence(run))] },

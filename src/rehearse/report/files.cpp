@@ -11,7 +11,7 @@
 namespace rehearse::report {
 namespace {
 
-bool has_sentences(const std::string& column) { return column == "note" || column == "warning"; }
+bool has_sentences(const std::string& column) { return column == "note" || column == "warning" || column == "limit"; }
 
 /// no_number(row): the first cell that is neither a number nor empty.
 template <class NoNumber>

@@ -54,8 +54,8 @@ class Problems {
   std::vector<Problem> list_;
 };
 
-/// Column name → cells. All are numbers or empty (null) but those of the columns of sentences, `note` and `warning`;
-/// what should be a number and is none becomes null, and the first one of a column a problem.
+/// Column name → cells. All are numbers or empty (null) but those of the columns of texts, `note`, `warning` and
+/// `limit`; what should be a number and is none becomes null, and the first one of a column a problem.
 Json columns(const statistics::Table& table, const std::filesystem::path& where, Problems& problems);
 
 }  // namespace rehearse::report

@@ -158,6 +158,18 @@ Json episode(const fs::path& folder, Index trial, Problems& problems) {
           {"motion", motion(folder, trial, problems)}};
 }
 
+/// Null of a task without limits.
+Json limits_json(const fs::path& folder, Problems& problems) {
+  const fs::path path = "limits.csv";
+  if (!fs::exists(folder / path)) return {};
+  const auto table = problems.value_or_problem(path, [&] { return read_table(folder / path); });
+  if (!table) return {};
+  Json numbers = columns(*table, path, problems);
+  Json names = numbers.value("limit", Json::array());
+  numbers.erase("limit");
+  return {{"names", std::move(names)}, {"numbers", std::move(numbers)}};
+}
+
 }  // namespace
 
 std::optional<double> RunSpec::truth(const std::string& name) const {
@@ -234,6 +246,7 @@ Json read_run(const fs::path& folder, std::optional<Index> only, const ArchiveRe
     if (const auto table = problems.value_or_problem(path, [&] { return read_table(folder / path); }))
       run[name] = columns(*table, path, problems);
   }
+  if (Json limits = limits_json(folder, problems); !limits.is_null()) run["limits"] = std::move(limits);
   problems.value_or_problem("checkpoint", [&] { return check_checkpoint(folder / "checkpoint"), true; });
   if (!only) {
     Json archive = archive_json(folder, read_archive, problems);

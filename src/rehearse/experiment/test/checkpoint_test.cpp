@@ -17,6 +17,7 @@ History history_of_one() {
                             .interaction_s = 0.1 + 0.2,
                             .total_reward = -0.0,
                             .solved = false,
+                            .limits = {{"track", 0.05, 0.1, {0.01, 0.2}, true}, {.limit = "speed", .allowed = 0.5}},
                             .rollouts = 5,
                             .log_evidence = -std::numeric_limits<double>::infinity(),
                             .phi = {1.0 / 3, std::nan("")},
@@ -58,6 +59,13 @@ TEST(Checkpoint, KeepsEveryBit) {
   EXPECT_EQ(b.phi_intervals[0]->high, 1.0 / 3);
   EXPECT_FALSE(b.phi_intervals[1].has_value());
   EXPECT_EQ(b.warnings, a.warnings);
+  ASSERT_EQ(b.limits.size(), 2u);
+  EXPECT_EQ(b.limits[0].limit, "track");
+  EXPECT_EQ(b.limits[0].allowed, 0.05);
+  EXPECT_EQ(b.limits[0].predicted, 0.1);
+  EXPECT_EQ(b.limits[0].interval.high, 0.2);
+  EXPECT_TRUE(b.limits[0].broken);
+  EXPECT_FALSE(b.limits[1].predicted);
   EXPECT_EQ(b.policy, a.policy);
   EXPECT_EQ(b.theta, a.theta);
   EXPECT_EQ(b.forecast[0].rms, a.forecast[0].rms);

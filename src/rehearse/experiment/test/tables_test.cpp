@@ -35,5 +35,14 @@ TEST(PredictionCsv, HasTheMomentsBesideTheSamples) {
             "0.2,1,3,3,3,3,3,3,,,,2,0,,\n");
 }
 
+TEST(LimitsCsv, HasARowATrialAndLimit) {
+  TrialRecord random{.trial = 1}, second{.trial = 2};
+  random.limits = {{.limit = "track", .allowed = 0.05, .broken = true}};
+  second.limits = {{.limit = "track", .allowed = 0.05, .predicted = 0.01, .interval = {0, 0.03}}};
+  EXPECT_EQ(limits_csv({random, second}),
+            "trial,limit,allowed_risk,predicted_risk,low,high,broken\n"
+            "1,track,0.05,,,,1\n2,track,0.05,0.01,0,0.03,0\n");
+}
+
 }  // namespace
 }  // namespace rehearse::experiment

@@ -40,6 +40,31 @@ TEST(TrialRecord, HasTheTunableParametersAndWhatCameOfTheTrial) {
   EXPECT_TRUE(record.forecast.empty()) << "there is no model";
 }
 
+TEST(TrialRecord, SaysOfEachLimitWhatWasExpectedAndWhatHappened) {
+  Resolved resolved = resolve(fake::catalogue(), line_spec(1));
+  resolved.scenario.task.limits = {{.name = "end", .risk = 0.05}, {.name = "speed", .risk = 0.01}};
+  learners::Proposal proposal;
+  proposal.policy = resolved.scenario.policy;
+  Episode episode{.states = Matrix::Zero(13, 1), .true_states = Matrix::Zero(13, 1), .actions = Matrix::Zero(12, 1)};
+  episode.rewards = Vector::Zero(12);
+  episode.broken_limits = {"speed"};
+  for (const LimitRecord& unknown : record_of(1, proposal, episode, resolved).limits) {
+    EXPECT_FALSE(unknown.predicted);
+    EXPECT_FALSE(unknown.safe());
+  }
+  proposal.risks = {{4, 400}, {4, 400}};
+  const auto limits = record_of(1, proposal, episode, resolved).limits;
+  ASSERT_EQ(limits.size(), 2u);
+  EXPECT_EQ(limits[0].limit, "end");
+  EXPECT_EQ(limits[0].predicted, 0.01);
+  EXPECT_LT(limits[0].interval.low, 0.01);
+  EXPECT_GT(limits[0].interval.high, 0.01);
+  EXPECT_TRUE(limits[0].safe());
+  EXPECT_FALSE(limits[1].safe());
+  EXPECT_FALSE(limits[0].broken);
+  EXPECT_TRUE(limits[1].broken);
+}
+
 TEST(TrialRecord, OfALearnerWithoutPriorHasNoModelColumns) {
   const fs::path folder = fake::test_folder() / "run";
   start_run(fake::catalogue(), line_spec(2, "echo-alone"), folder, {});

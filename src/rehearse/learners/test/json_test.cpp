@@ -34,6 +34,8 @@ TEST(Json, AnEpisodeComesBackAsItWas) {
   e.charged = -1.5;
   e.ended = true;
   EXPECT_FALSE(to_json(e).contains("failure"));
+  EXPECT_FALSE(to_json(e).contains("broken_limits"));
+  e.broken_limits = {"track"};
   e.failure = "it fell";
   const Episode back = to_episode(through_bytes(to_json(e)));
   EXPECT_EQ(back.states, e.states);
@@ -43,6 +45,7 @@ TEST(Json, AnEpisodeComesBackAsItWas) {
   EXPECT_EQ(back.charged, -1.5);
   EXPECT_TRUE(back.ended);
   EXPECT_EQ(back.failure, "it fell");
+  EXPECT_EQ(back.broken_limits, e.broken_limits);
 }
 
 TEST(Json, WhatIsNoMatrixIsRefused) {

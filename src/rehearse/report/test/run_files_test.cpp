@@ -47,6 +47,20 @@ TEST_F(RunFiles, ARunHasItsTablesAsColumns) {
   EXPECT_EQ(run["episodes"][1]["motion"]["predicted"], json::parse("[[null]]"));
 }
 
+TEST_F(RunFiles, LimitsAreThereWhereTheTaskHasThem) {
+  write_run(folder_);
+  EXPECT_FALSE(json::parse(read_folder(folder_).json)["run"].contains("limits"));
+  write(folder_ / "limits.csv",
+        "trial,limit,allowed_risk,predicted_risk,low,high,broken\n1,track,0.05,,,,1\n2,track,0.05,0.01,0,0.03,0\n");
+  const Report report = read_folder(folder_);
+  EXPECT_EQ(problems_of(report), Lines{});
+  const json limits = json::parse(report.json)["run"]["limits"];
+  EXPECT_EQ(limits["names"], json::parse(R"(["track", "track"])"));
+  EXPECT_EQ(limits["numbers"]["predicted_risk"], json::parse("[null, 0.01]"));
+  EXPECT_EQ(limits["numbers"]["broken"], json::parse("[1, 0]"));
+  EXPECT_FALSE(limits["numbers"].contains("limit"));
+}
+
 TEST_F(RunFiles, ARunOfAnOlderVersionHasNoIdentifiabilityWarnings) {
   write_run(folder_);
   fs::remove(folder_ / "identifiability.csv");

@@ -34,6 +34,9 @@ std::string with_unknown_keys() {
 zzz = 1
 [policy]
 zzz = 1
+[[limit]]
+keep = "u < 3"
+zzz = 1
 [[body]]
 name = "b"
 from = [0, 0]
@@ -83,9 +86,9 @@ TEST(Schema, HasTheKeysThatAreRead) {
   const Json schema = robot_file::schema();
   const Json& parts = schema.at("properties");
   const Keys known = known_keys();
-  ASSERT_EQ(known.size(), 14u);
+  ASSERT_EQ(known.size(), 15u);
   EXPECT_EQ(properties(schema), known.at(""));
-  for (const char* list : {"state", "action", "body"})
+  for (const char* list : {"state", "action", "limit", "body"})
     EXPECT_EQ(properties(parts.at(list).at("items")), known.at(std::string("[[") + list + "]]")) << list;
   for (const char* table : {"reward", "success", "plant", "policy"})
     EXPECT_EQ(properties(parts.at(table)), known.at(std::string("[") + table + "]")) << table;

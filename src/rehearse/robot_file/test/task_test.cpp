@@ -61,6 +61,28 @@ TEST(RobotTask, EndsWhereAConditionHolds) {
   EXPECT_TRUE(task.ended(Vector{{-6, 0}}));
 }
 
+TEST(RobotTask, LimitsAreConditionsOnStatesAndActions) {
+  const Task task = make_task(read(kSwing + R"toml(
+[[limit]]
+keep = "abs(rate) < 5 && abs(u) <= 1.5"
+[[limit]]
+name = "height"
+keep = "height > -2"
+risk = 0.2
+)toml",
+                                   "swing.toml", example::no_files));
+  ASSERT_EQ(task.limits.size(), 2u);
+  EXPECT_EQ(task.limits[0].name, "abs(rate) < 5 && abs(u) <= 1.5") << "without a name it has that of its condition";
+  EXPECT_EQ(task.limits[0].risk, 0.05);
+  EXPECT_EQ(task.limits[1].name, "height");
+  EXPECT_EQ(task.limits[1].risk, 0.2);
+  const Matrix X_next{{4, 0}, {5, 0}, {4, 0}, {std::nan(""), 0}};
+  Vector kept(4);
+  task.limits[0].holds(X_next, Matrix{{1.5}, {0}, {1.6}, {0}}, X_next, kept);
+  EXPECT_EQ(kept, (Vector{{1, 0, 0, 0}}));
+  EXPECT_TRUE(task.violations().empty());
+}
+
 TEST(RobotTask, DistancesOfFeaturesHaveAClosedForm) {
   const auto form = closed_form(read(kSwing, "swing.toml", example::no_files));
   ASSERT_TRUE(form);

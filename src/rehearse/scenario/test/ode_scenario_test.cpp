@@ -62,6 +62,17 @@ TEST(OdeScenario, OptionsReachTheirParts) {
   EXPECT_NEAR(U(0, 0), -0.5 + 1.5 * std::tanh(0.6), 1e-14);
 }
 
+TEST(LimitWithin, HoldsWhereAStateIsNearerToZero) {
+  const Limit limit = limit_within({"v", "m/s"}, 1, 0.5, 0.1);
+  EXPECT_EQ(limit.name, "v");
+  EXPECT_EQ(limit.text, "abs(v) < 0.5 m/s");
+  EXPECT_EQ(limit.risk, 0.1);
+  const Matrix X{{9, 0.4}, {9, -0.4}, {9, 0.5}, {9, -0.6}, {9, std::nan("")}};
+  Vector kept(5);
+  limit.holds(X, Matrix::Zero(5, 1), X, kept);
+  EXPECT_EQ(kept, (Vector{{1, 1, 0, 0, 0}}));
+}
+
 TEST(HoldsAtTheEnd, LooksAtEveryStateOfTheLastSeconds) {
   const Task task = oscillator::task({.horizon = 10});
   const auto solved = holds_at_the_end(task, 0.3, [](const ConstVectorView& x) { return x(0) > 0; });

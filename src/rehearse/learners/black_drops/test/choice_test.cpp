@@ -69,5 +69,41 @@ TEST(Choice, PrefersThemWithinAToleranceWhereTheModelIsUncertain) {
   EXPECT_LT(*lenient.predicted_return, *careless.predicted_return);
 }
 
+/// A slider that may not come nearer to its goal than to a position: the reward asks for what is forbidden.
+Setting limited(double low) {
+  Setting limited = setting(slider::prior(1.5));
+  const auto holds = [low](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next,
+                           VectorView kept) { kept = (X_next.col(0).array() > low).cast<double>(); };
+  limited.task.limits = {{"end", "position > low", holds, 0.05}};
+  return limited;
+}
+
+TEST(Choice, KeepsLimitsWhateverTheReward) {
+  for (const char* name : slider::kWithPrior)
+    for (const bool told : {false, true}) {
+      Setting task = limited(0.3);
+      if (told) task.task.solved = [](const Episode& e) { return e.steps() == 12 && e.true_states(12, 0) < 0.35; };
+      const auto learner = builder(name)->build(task);
+      for (std::uint64_t trial : {1, 2}) {
+        const Proposal& proposal = learner->ask();
+        ASSERT_EQ(proposal.risks.size(), 1u);
+        EXPECT_LE(proposal.risks[0].broken, proposal.risks[0].episodes / 20) << name << " " << trial;
+        EXPECT_GE(proposal.risks[0].episodes, 400);
+        EXPECT_TRUE(proposal.notes.empty()) << proposal.notes.front();
+        const Episode episode = run_trial(proposal, trial);
+        EXPECT_GT(episode.true_states.col(0).minCoeff(), 0.3) << name << " " << trial;
+        learner->tell(episode);
+      }
+    }
+}
+
+TEST(Choice, SaysWhereNothingIsSafe) {
+  const auto learner = builder("gp-mi", "100")->build(limited(2));
+  const Proposal proposal = learner->ask();
+  EXPECT_EQ(proposal.risks[0].broken, proposal.risks[0].episodes);
+  ASSERT_FALSE(proposal.notes.empty());
+  EXPECT_NE(proposal.notes.front().find("no policy was found that is safe enough"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rehearse::learners::black_drops

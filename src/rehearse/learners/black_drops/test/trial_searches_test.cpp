@@ -60,6 +60,16 @@ TEST_F(TrialSearchesTest, OfThePoliciesFoundTheOneThatSolvesMostOftenIsTaken) {
   EXPECT_FALSE(searches().best_that_solves(found));
 }
 
+TEST_F(TrialSearchesTest, ASafeSearchEvaluatesPoliciesByEightRollouts) {
+  task.limits = {{"end", "", [](const auto&, const auto&, const auto&, VectorView kept) { kept.setOnes(); }}};
+  options.safety.rollouts = 80;
+  TrialSearches trial = searches();
+  const Index rollouts = trial.search_safe({}, 0).rollouts;
+  EXPECT_EQ(rollouts % 8, 0);
+  EXPECT_GT(rollouts, trial.search({}, 0).rollouts / 2);
+  EXPECT_EQ(trial.judge(Vector{{-5, 0}}).risks.front().episodes, 80);
+}
+
 TEST(Within, IsAFractionOfWhatWasExpectedWhateverItsSign) {
   EXPECT_TRUE(within(0.1, 10, 9));
   EXPECT_FALSE(within(0.1, 10, 8.9));

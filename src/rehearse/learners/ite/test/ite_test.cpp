@@ -193,6 +193,9 @@ TEST(Ite, RefusesATaskThatDoesNotSayHowItWent) {
   mute.task.descriptor = {};
   EXPECT_NE(refusal(mute).find("its task has no descriptor"), std::string::npos) << refusal(mute);
   EXPECT_EQ(builder()->violations(mute.task, *mute.policy).size(), 1U);
+  Setting limited = setting();
+  limited.task.limits = {{"end", "", limited.task.reward}};
+  EXPECT_NE(refusal(limited).find("the task has limits, which ite does not keep"), std::string::npos);
   Setting unbounded = setting();
   unbounded.task.descriptor_bounds.clear();
   EXPECT_NE(refusal(unbounded).find("descriptor_bounds"), std::string::npos) << refusal(unbounded);

@@ -55,10 +55,19 @@ TEST(Cartpole, SimulatorIsWithin2e6OfTheAdaptiveIntegratorEverywhere) {
   EXPECT_LT(worst_error({.dt_s = 0.05, .horizon = 60}), 2e-6);
 }
 
+TEST(Cartpole, ATrackIsALimitOfThePosition) {
+  EXPECT_TRUE(make({}).task.limits.empty());
+  const Task task = make({.track = 0.6, .risk = 0.1}).task;
+  ASSERT_EQ(task.limits.size(), 1u);
+  EXPECT_EQ(task.limits[0].text, "abs(x) < 0.6 m");
+  EXPECT_EQ(task.limits[0].risk, 0.1);
+  EXPECT_TRUE(task.violations().empty());
+}
+
 TEST(Cartpole, KeepsTheLaws) {
   Options rbf;
   rbf.ode.policy.policy = scenario::PolicyOptions::Kind::rbf;
-  for (const Options& options : {Options{}, Options{.dt_s = 0.05, .horizon = 60, .shaping = 0.5}, rbf})
+  for (const Options& options : {Options{}, Options{.dt_s = 0.05, .horizon = 60, .shaping = 0.5}, rbf, Options{.track = 0.6}})
     EXPECT_EQ(testing::check_scenario(make(options)), std::vector<std::string>{});
 }
 

@@ -35,6 +35,14 @@ TEST(Pendulum, SimulatorIsWithin2e6OfTheAdaptiveIntegratorEverywhere) {
   EXPECT_LT(worst, 2e-6);
 }
 
+TEST(Pendulum, MayHaveALimitOfItsSpeed) {
+  EXPECT_TRUE(make({}).task.limits.empty());
+  const Task task = make({.speed_limit = 6}).task;
+  ASSERT_EQ(task.limits.size(), 1u);
+  EXPECT_EQ(task.limits[0].text, "abs(dtheta) < 6 rad/s");
+  EXPECT_TRUE(task.violations().empty());
+}
+
 TEST(Pendulum, KeepsTheLaws) {
   Options noisy, rbf, linear;
   noisy.ode.start_noise = 0.1, noisy.ode.measurement_noise = 0.01;
