@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr double kSameActions = 0.01;  // of the range of an action: motors are not exact
 
-constexpr double kRounding = 1e-9;     // likewise, of numbers in a file
+constexpr double kRounding = 1e-9;  // likewise, of numbers in a file
 
 /// Root mean square differences of the actions (du) from those that the policy says of the measured states.
 Vector deviations(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& asked) {
@@ -43,9 +43,10 @@ std::vector<std::string> sentences_on(const Vector& deviations, const Task& task
   for (Index i = 0; i < deviations.size(); ++i) {
     const ActionVariable& action = task.actions[static_cast<std::size_t>(i)];
     if (!is_within(kSameActions, deviations(i), action))
-      sentences.push_back(fmt::format("{} differs from what the policy says of the measured states by {:.3g} {} "
-                                      "(root mean square): another policy, a delay, or a weak motor",
-                                      action.name, deviations(i), action.unit));
+      sentences.push_back(
+          fmt::format("{} differs from what the policy says of the measured states by {:.3g} {} "
+                      "(root mean square): another policy, a delay, or a weak motor",
+                      action.name, deviations(i), action.unit));
   }
   return sentences;
 }
@@ -65,8 +66,8 @@ std::vector<ToldFile> read_told_files(const std::vector<fs::path>& paths) {
       std::string bytes = files::read_file(path, files::Links::follow);
       std::string checksum = fmt::format("{:016x}", files::checksum(bytes));
       for (const ToldFile& other : files)
-        violations.require(other.checksum != checksum, fmt::format("{} and {} are the same", other.path.string(),
-                                                                   path.string()));
+        violations.require(other.checksum != checksum,
+                           fmt::format("{} and {} are the same", other.path.string(), path.string()));
       files.push_back({path, std::move(bytes), std::move(checksum)});
     } catch (const InvalidInput& error) {
       for (const std::string& line : error.violations()) violations.add(line);
@@ -83,8 +84,8 @@ std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task) {
     try {
       recording::Recording read = recording::read_recording(file.bytes, file.path.string(), task);
       read.episode.rewards.resize(read.episode.steps());
-      logs.push_back({file.path.filename().string(), file.checksum,
-                      rollout::as_measured(std::move(read.episode), task), std::move(read.notes)});
+      logs.push_back({file.path.filename().string(), file.checksum, rollout::as_measured(std::move(read.episode), task),
+                      std::move(read.notes)});
     } catch (const InvalidInput& error) {
       for (const std::string& line : error.violations()) violations.add(line);
     }
@@ -127,7 +128,8 @@ ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario,
   else if (stopped)
     told.notes.push_back(fmt::format("stopped by the operator after {} of {} steps, by no fault of the policy: {}",
                                      episode.steps(), task.horizon, stopped->reason));
-  for (std::string& sentence : sentences_on(deviations(episode, scenario, asked), task)) told.notes.push_back(std::move(sentence));
+  for (std::string& sentence : sentences_on(deviations(episode, scenario, asked), task))
+    told.notes.push_back(std::move(sentence));
   return told;
 }
 

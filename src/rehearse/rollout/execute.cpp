@@ -37,18 +37,6 @@ double reward_of(const Task& task, const Episode& episode, Index t) {
   return reward(0) - cost(0);
 }
 
-/// Names of the limits that step t breaks.
-std::vector<std::string> limits_broken_by(const Task& task, const Episode& episode, Index t) {
-  std::vector<std::string> broken;
-  Vector holds(1);
-  for (const Limit& limit : task.limits) {
-    limit.holds(episode.true_states.middleRows(t, 1), episode.actions.middleRows(t, 1),
-                episode.true_states.middleRows(t + 1, 1), holds);
-    if (holds(0) == 0 || std::isnan(holds(0))) broken.push_back(limit.name);
-  }
-  return broken;
-}
-
 /// Ends an episode after `steps`: the rest earns the reward floor. failure: why, if that is no fall.
 void end(Episode& episode, Index steps, const Task& task, std::string failure = "") {
   episode.ended = true;
@@ -143,6 +131,17 @@ Episode judged(Episode episode, const Task& task) {
 }
 
 void fail(Episode& episode, const Task& task, const std::string& why) { end(episode, episode.steps(), task, why); }
+
+std::vector<std::string> limits_broken_by(const Task& task, const Episode& episode, Index t) {
+  std::vector<std::string> broken;
+  Vector holds(1);
+  for (const Limit& limit : task.limits) {
+    limit.holds(episode.true_states.middleRows(t, 1), episode.actions.middleRows(t, 1),
+                episode.true_states.middleRows(t + 1, 1), holds);
+    if (holds(0) == 0 || std::isnan(holds(0))) broken.push_back(limit.name);
+  }
+  return broken;
+}
 
 Episode as_measured(Episode episode, const Task& task) {
   episode.true_states = episode.states;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
@@ -30,6 +32,9 @@ Episode judged(Episode episode, const Task& task);
 
 /// Ends an episode before its horizon, by the policy's fault: the rest earns the reward floor.
 void fail(Episode& episode, const Task& task, const std::string& why);
+
+/// Names of the limits that step t of an episode breaks, by its true states.
+std::vector<std::string> limits_broken_by(const Task& task, const Episode& episode, Index t);
 
 /// The episode as one who sees measurements alone knows it: they are its true states, and what it earned follows from
 /// them. That it ended early is known.

@@ -40,10 +40,7 @@ TEST(Task, LimitsHaveNamesOfTheirOwnConditionsAndRisks) {
   using Lines = std::vector<std::string>;
   const Limit good{"speed", "v < 1", task().reward, 0.1};
   EXPECT_EQ(after([&](Task& t) { t.limits = {good}; }), Lines{});
-  EXPECT_EQ(after([&](Task& t) {
-              t.limits = {good, good};
-            }),
-            Lines(2, "limit speed: there must be one of this name"));
+  EXPECT_EQ(after([&](Task& t) { t.limits = {good, good}; }), Lines(2, "limit speed: there must be one of this name"));
   EXPECT_EQ(after([](Task& t) { t.limits = {{.name = "speed", .risk = 0}}; }),
             (Lines{"limit speed has no condition", "limit speed: risk = 0, must be above 0 and below 1"}));
   EXPECT_EQ(after([&](Task& t) {

@@ -13,7 +13,7 @@ Measurement measured(const rollout::Simulated& simulated, Index candidate) {
     result.risks.push_back({(broken.col(candidate).array() > 0).count(), episodes});
     left = left.cwiseMax(broken.col(candidate));
   }
-  result.early = (left.array() > 0).select((1 + left.array()) / 2, 0).mean();
+  result.early = (left.array() > 0).select((1 + left.array()) / 2, 0.0).mean();
   return result;
 }
 

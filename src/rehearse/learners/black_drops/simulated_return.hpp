@@ -2,6 +2,7 @@
 // Simulated episodes of policies as what a search maximises.
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "rehearse/learners/black_drops/policy_search.hpp"

@@ -41,15 +41,15 @@ TEST(Limits, EndSimulatedEpisodesAtTheFloor) {
   for (Index j = 0; j < Theta.cols(); ++j)
     for (Index p = 0; p < 2; ++p) {
       const Noise noise = noise_of(task, static_cast<std::uint64_t>(j), static_cast<std::uint64_t>(p));
-      const auto hand =
-          cart::by_hand(task, Theta.col(j), start_of(task, noise), noise.steps, std::sqrt(0.001));
+      const auto hand = cart::by_hand(task, Theta.col(j), start_of(task, noise), noise.steps, std::sqrt(0.001));
       const Index t = first_break(hand.states), T = task.horizon;
       double expected = 0;
       for (Index s = 1; s <= std::min(t + 1, T); ++s) expected += std::exp(-hand.states(s, 1) * hand.states(s, 1));
       expected += static_cast<double>(std::max<Index>(0, T - 1 - t)) * task.reward_floor;
       EXPECT_NEAR(simulated.returns(p, j), expected, 1e-12);
       const double left = static_cast<double>(T - t) / static_cast<double>(T);
-      const bool at_place = t < T && !(hand.states(t + 1, 1) > 0.9), at_speed = t < T && !(hand.states(t + 1, 0) > -0.4);
+      const bool at_place = t < T && !(hand.states(t + 1, 1) > 0.9),
+                 at_speed = t < T && !(hand.states(t + 1, 0) > -0.4);
       EXPECT_EQ(simulated.broken[0](p, j), at_place ? left : 0);
       EXPECT_EQ(simulated.broken[1](p, j), at_speed ? left : 0);
       place += at_place, speed += at_speed, kept += t == T;
@@ -77,9 +77,7 @@ TEST(Limits, ThatAreKeptChangeNothing) {
 
 TEST(Limits, EndEpisodesOnThePlant) {
   const Task task = limited_cart();
-  const auto motion = [](const Vector& x, const Vector& u) -> Vector {
-    return x + Vector{{0.1 * u(0), 0.1 * x(0)}};
-  };
+  const auto motion = [](const Vector& x, const Vector& u) -> Vector { return x + Vector{{0.1 * u(0), 0.1 * x(0)}}; };
   const auto plant = system::make_simulated_plant(motion, {task.start_mean, Vector::Zero(2), {}});
   const Matrix Theta = cart::candidates(50);
   bool broke = false;

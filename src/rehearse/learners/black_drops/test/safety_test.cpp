@@ -49,8 +49,8 @@ TEST(Safety, DoubtsWhatIsTunable) {
 }
 
 TEST(Safety, DoubtsWhichOfSeveralValuesItIs) {
-  const prior::Prior prior = learners::slider::prior_in(ParameterSpace(
-      {Parameter::discrete("gain", 1, {1, 2}), Parameter::fixed("drag", 0.5)}));
+  const prior::Prior prior = learners::slider::prior_in(
+      ParameterSpace({Parameter::discrete("gain", 1, {1, 2}), Parameter::fixed("drag", 0.5)}));
   std::set<double> changes;
   Matrix change(1, 1);
   for (const auto& model : doubted(prior, 0.1, {.seed = 1})) {

@@ -15,7 +15,8 @@ TEST(Comparisons, AreOneWhereNothingCanDiffer) {
   const auto policy = slider::policy();
   const ProgressSink nobody;
   const auto number = [&](const dynamics::DynamicsModel& model) {
-    return comparisons({model, *policy, task, serial_evaluator(), nobody}, {.selection = 30, .safety = {.rollouts = 50}});
+    return comparisons({model, *policy, task, serial_evaluator(), nobody},
+                       {.selection = 30, .safety = {.rollouts = 50}});
   };
   EXPECT_EQ(number(sure), 30) << "starts differ";
   task.start_std.setZero();

@@ -29,8 +29,8 @@ TEST_F(SimulatedReturnTest, IsTheMeanReturnWithoutLimits) {
   SimulatedReturn objective(problem, options, key);
   Vector values(4);
   objective(pulls, 0, 10, values);
-  const auto expected = rollout::simulate({model, *policy, task, key, options.simulate}, pulls, {0, 10},
-                                          serial_evaluator());
+  const auto expected =
+      rollout::simulate({model, *policy, task, key, options.simulate}, pulls, {0, 10}, serial_evaluator());
   EXPECT_EQ(values, expected.returns.colwise().mean().transpose());
   EXPECT_EQ(objective.rollouts(), 40);
   EXPECT_EQ(objective.next(), 4u);

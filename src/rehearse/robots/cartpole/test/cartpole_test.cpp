@@ -67,7 +67,8 @@ TEST(Cartpole, ATrackIsALimitOfThePosition) {
 TEST(Cartpole, KeepsTheLaws) {
   Options rbf;
   rbf.ode.policy.policy = scenario::PolicyOptions::Kind::rbf;
-  for (const Options& options : {Options{}, Options{.dt_s = 0.05, .horizon = 60, .shaping = 0.5}, rbf, Options{.track = 0.6}})
+  for (const Options& options :
+       {Options{}, Options{.dt_s = 0.05, .horizon = 60, .shaping = 0.5}, rbf, Options{.track = 0.6}})
     EXPECT_EQ(testing::check_scenario(make(options)), std::vector<std::string>{});
 }
 
