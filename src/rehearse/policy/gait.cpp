@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/policy/description.hpp"
 
 namespace rehearse::policy {
 namespace {
@@ -36,7 +37,7 @@ double weight_between(int begin, int end) {
 
 int samples(double fraction) { return static_cast<int>(kSamples * std::clamp(fraction, 0.0, 1.0)); }
 
-class Gait final : public Policy {
+class Gait final : public Policy, public Describable {
  public:
   explicit Gait(Index legs) : legs_(legs) {}
   std::string name() const override { return "gait"; }
@@ -64,6 +65,15 @@ class Gait final : public Policy {
       }
     for (Index i = 0; i < X.rows(); ++i)
       if (X.row(i).hasNaN()) U.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  /// One period.
+  Description describe(const ConstVectorView& theta) const override {
+    Table table{.actions = Matrix(kSamples, actions()), .per_s = kSamples, .periodic = true};
+    const Matrix Theta = theta.transpose(), X = Matrix::Zero(1, 1);
+    for (Index i = 0; i < kSamples; ++i)
+      act(Theta, X, static_cast<double>(i) / kSamples, table.actions.middleRows(i, 1));
+    return table;
   }
 
  private:

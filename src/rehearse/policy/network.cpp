@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/policy/description.hpp"
 #include "rehearse/policy/layer_kernel.hpp"
 
 namespace rehearse::policy {
@@ -20,11 +21,12 @@ void check(const FeatureMap& features, const Vector& scale, const Squash& squash
 
 /// `hidden` = 0: no hidden layer.
 template <class Base>
-class Network : public Base {
+class Network : public Base, public Describable {
  public:
   Network(std::string name, FeatureMap features, const Vector& scale, Index hidden, Squash squash)
       : name_(std::move(name)),
         features_(std::move(features)),
+        scale_(scale),
         inverse_scale_(scale.cwiseInverse()),
         hidden_(hidden),
         squash_(std::move(squash)) {}
@@ -55,10 +57,21 @@ class Network : public Base {
     squash_.apply(U);
   }
 
+  Description describe(const ConstVectorView& theta) const override {
+    const Index inputs = features_.features(), of_hidden = hidden_ * (inputs + 1);
+    const auto layer_of = [&](Index first, Index outputs, Index columns) -> Matrix {
+      return theta.segment(first, outputs * columns).reshaped(columns, outputs).transpose();
+    };
+    return Layers{.inputs = inputs_of(features_, scale_),
+                  .hidden = layer_of(0, hidden_, inputs + 1),
+                  .output = layer_of(of_hidden, actions(), (hidden_ == 0 ? inputs : hidden_) + 1),
+                  .squash = squash_};
+  }
+
  private:
   std::string name_;
   FeatureMap features_;
-  Vector inverse_scale_;
+  Vector scale_, inverse_scale_;
   Index hidden_;
   Squash squash_;
 };

@@ -1,8 +1,13 @@
 #include "rehearse/policy/rbf.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/policy/description.hpp"
 #include "rehearse/policy/rbf_kernel.hpp"
 #include "rehearse/policy/squash.hpp"
 
@@ -20,7 +25,21 @@ void check(const RbfOptions& options) {
   violations.throw_if_any();
 }
 
-class RbfNetwork final : public Rbf {
+/// (K + σ_n² I)⁻¹ y. In extended precision: where centres are close together weights are large and nearly cancel.
+Vector solved_weights(const Matrix& centres, const Vector& lengths, double noise, const Vector& targets) {
+  using Extended = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  const Matrix points = centres * lengths.cwiseInverse().asDiagonal();
+  Extended K(points.rows(), points.rows());
+  for (Index i = 0; i < points.rows(); ++i)
+    for (Index j = 0; j < points.rows(); ++j) {
+      const Vector apart = points.row(i) - points.row(j);
+      K(i, j) = std::exp(-0.5L * apart.squaredNorm()) + (i == j ? noise * noise : 0);
+    }
+  const Extended y = targets.cast<long double>();
+  return K.llt().solve(y).cast<double>();
+}
+
+class RbfNetwork final : public Rbf, public Describable {
  public:
   explicit RbfNetwork(RbfOptions options)
       : Rbf(std::move(options)),
@@ -42,6 +61,22 @@ class RbfNetwork final : public Rbf {
     for (Index i = 0; i < shape_.inputs; ++i) inputs.col(i) *= inverse_scale_(i);
     rbf(shape_, Theta.data(), Theta.outerStride(), inputs.data(), rows, U.data(), U.outerStride(), rows);
     squash_.apply(U);
+  }
+
+  Description describe(const ConstVectorView& theta) const override {
+    const auto [inputs, centres, actions, noise] = shape_;
+    Radial radial{.inputs = inputs_of(options_.features, options_.scale),
+                  .centres = theta.segment(actions * inputs, centres * inputs).reshaped(inputs, centres).transpose(),
+                  .lengths = Matrix(actions, inputs),
+                  .weights = Matrix(actions, centres),
+                  .squash = squash_};
+    for (Index a = 0; a < actions; ++a) {
+      const Vector targets = theta.segment((actions + centres) * inputs + a * centres, centres);
+      for (Index i = 0; i < inputs; ++i)
+        radial.lengths(a, i) = std::exp(std::clamp(theta(a * inputs + i), -kLargestLogLength, kLargestLogLength));
+      radial.weights.row(a) = solved_weights(radial.centres, radial.lengths.row(a), noise, targets).transpose();
+    }
+    return radial;
   }
 
  private:

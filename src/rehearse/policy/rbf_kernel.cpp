@@ -18,8 +18,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<double>;
 using V = hn::Vec<D>;
 
-constexpr double kLargestLogLength = 20;  // beyond it a kernel is as good as constant, or nothing
-
 /// Columns of vectors, one lane a row of the batch.
 struct Lanes {
   Lanes(double* memory, Index count) : data(memory), lanes(count) {}

@@ -4,6 +4,8 @@
 
 namespace rehearse::policy {
 
+inline constexpr double kLargestLogLength = 20;  // beyond it a kernel is as good as constant, or nothing
+
 struct RbfShape {
   Index inputs, centres, actions;
   double noise;  // σ_n

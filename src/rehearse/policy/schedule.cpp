@@ -8,11 +8,12 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
+#include "rehearse/policy/description.hpp"
 
 namespace rehearse::policy {
 namespace {
 
-class Schedule final : public Policy {
+class Schedule final : public Policy, public Describable {
  public:
   Schedule(std::vector<Interval> bounds, double dt_s, Index steps)
       : bounds_(std::move(bounds)), dt_s_(dt_s), steps_(steps) {}
@@ -32,6 +33,15 @@ class Schedule final : public Policy {
             lost ? std::numeric_limits<double>::quiet_NaN() : std::clamp(Theta(row, a * steps_ + step), low, high);
       }
     }
+  }
+
+  Description describe(const ConstVectorView& theta) const override {
+    Table table{.actions = theta.reshaped(steps_, actions()), .per_s = 1 / dt_s_};
+    for (Index a = 0; a < actions(); ++a) {
+      const auto [low, high] = bounds_[static_cast<std::size_t>(a)];
+      table.actions.col(a) = table.actions.col(a).cwiseMax(low).cwiseMin(high).eval();
+    }
+    return table;
   }
 
  private:

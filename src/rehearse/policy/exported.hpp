@@ -1,0 +1,61 @@
+#pragma once
+// A policy to take along: as C, as JSON, and as a Python module, all from one description.
+
+#include <string>
+#include <string_view>
+
+#include "rehearse/core/task.hpp"
+#include "rehearse/policy/description.hpp"
+
+namespace rehearse::policy {
+
+/// Where a policy comes from.
+struct Origin {
+  std::string robot, learner;
+  std::string prior;  // empty: none
+  Index seed = 1, trial = 1;
+  double total_reward = 0;  // of that trial
+};
+
+/// What the original does in some states: what is exported is tested with it.
+struct Answers {
+  Matrix states;   // n × dx
+  Vector times_s;  // n
+  Matrix actions;  // n × du
+};
+
+/// Everything that its texts say. A value.
+struct Exported {
+  Origin origin;
+  std::vector<StateVariable> states;
+  std::vector<ActionVariable> actions;  // with their bounds
+  double dt_s = 0;
+  std::string kind;  // the policy's name: "mlp"
+  Vector theta;
+  Description description;
+  Answers answers;
+};
+
+/// states: n × dx, which the policy is asked about at `times_s` (n). Throws InvalidInput as `describe` does.
+Exported make_exported(const Origin& origin, const Task& task, const Policy& policy, const Vector& theta,
+                       const Answers& asked);
+
+/// A state or a time that is not finite is answered with NaN for every action, in all three.
+///
+/// C99, and C++: a header with a function NAME_act, which needs <math.h> alone and allocates nothing. name: a word for
+/// identifiers (`identifier` makes one); functions are static, so policies of two names live in one program.
+std::string to_c(const Exported& exported, const std::string& name);
+
+/// All of `Exported`. docs/export.md has the fields.
+std::string to_json(const Exported& exported);
+
+/// A Python module with a function act(states, t), on NumPy.
+std::string to_numpy(const Exported& exported);
+
+/// Whether a text is one of these.
+bool is_exported(std::string_view text);
+
+/// The text with everything replaced that no identifier may have; "policy_" before a digit.
+std::string identifier(const std::string& text);
+
+}  // namespace rehearse::policy

@@ -1,0 +1,84 @@
+#include <nlohmann/json.hpp>
+
+#include "rehearse/policy/exported_text.hpp"
+
+namespace rehearse::policy {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json list(const Vector& values) { return std::vector<double>(values.begin(), values.end()); }
+
+Json lists(const Matrix& values) {
+  Json all = Json::array();
+  for (Index i = 0; i < values.rows(); ++i) all.push_back(list(values.row(i)));
+  return all;
+}
+
+Json inputs(const std::vector<Input>& inputs) {
+  constexpr const char* kNames[] = {"identity", "cos", "sin"};
+  Json all = Json::array();
+  for (const Input& input : inputs)
+    all.push_back({{"state", input.state},
+                   {"function", kNames[static_cast<std::size_t>(input.function)]},
+                   {"scale", input.scale}});
+  return all;
+}
+
+void add_squash(Json& form, const Squash& squash) {
+  form["gain"] = squash.gain;
+  form["squash"] = squash.shape == Squash::Shape::tanh ? "tanh" : "sine";
+}
+
+Json to_form(const Layers& layers) {
+  Json form = {{"form", "layers"}, {"inputs", inputs(layers.inputs)}};
+  form["hidden"] = lists(layers.hidden);
+  form["output"] = lists(layers.output);
+  add_squash(form, layers.squash);
+  return form;
+}
+
+Json to_form(const Radial& radial) {
+  Json form = {{"form", "radial"}, {"inputs", inputs(radial.inputs)}};
+  form["centres"] = lists(radial.centres);
+  form["lengths"] = lists(radial.lengths);
+  form["weights"] = lists(radial.weights);
+  add_squash(form, radial.squash);
+  return form;
+}
+
+Json to_form(const Table& table) {
+  return {{"form", "table"}, {"actions", lists(table.actions)}, {"per_s", table.per_s}, {"periodic", table.periodic}};
+}
+
+}  // namespace
+
+std::string to_json(const Exported& exported) {
+  const Origin& from = exported.origin;
+  Json states = Json::array(), actions = Json::array();
+  for (const StateVariable& state : exported.states) states.push_back({{"name", state.name}, {"unit", state.unit}});
+  for (const ActionVariable& action : exported.actions)
+    actions.push_back(
+        {{"name", action.name}, {"unit", action.unit}, {"low", action.bounds.low}, {"high", action.bounds.high}});
+  const Json all = {{"about", std::string("a ") + kExportedMark},
+                    {"format", 1},
+                    {"robot", from.robot},
+                    {"learner", from.learner},
+                    {"prior", from.prior},
+                    {"seed", from.seed},
+                    {"trial", from.trial},
+                    {"return", from.total_reward},
+                    {"dt_s", exported.dt_s},
+                    {"states", states},
+                    {"actions", actions},
+                    {"policy", exported.kind},
+                    {"theta", list(exported.theta)},
+                    {"computes", std::visit([](const auto& form) { return to_form(form); }, exported.description)},
+                    {"test",
+                     {{"states", lists(exported.answers.states)},
+                      {"times_s", list(exported.answers.times_s)},
+                      {"actions", lists(exported.answers.actions)}}}};
+  return all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rehearse::policy

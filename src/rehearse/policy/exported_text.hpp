@@ -1,0 +1,46 @@
+#pragma once
+// What the texts of an exported policy have in common.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rehearse/policy/exported.hpp"
+
+namespace rehearse::policy {
+
+/// A number that reads back as the same double.
+std::string number(double value);
+
+/// "{1.0, 2.0}", of C, or "[1.0, 2.0]", of Python: in lines of at most 120 characters, all but the first indented.
+struct Brackets {
+  char open, close;
+  std::string indent;
+};
+std::string numbers(const Vector& values, const Brackets& brackets);
+std::string rows(const Matrix& values, const Brackets& brackets);
+
+/// The text with each @WORD@ replaced. Every word must have a value.
+std::string filled(std::string_view text, const std::map<std::string, std::string>& values);
+
+/// "angle [rad]", as a comment may have it: without what ends one, or a line.
+std::string labelled(const std::string& name, const std::string& unit);
+
+/// Lines that say where the policy comes from, what it sees and what it does: of a comment.
+std::vector<std::string> explanation(const Exported& exported);
+
+/// Bounds of all actions, low or high.
+Vector lows(const Exported& exported);
+Vector highs(const Exported& exported);
+
+/// Among the first characters of every text.
+inline constexpr const char* kExportedMark = "policy that was learned on a robot, written by Rehearse";
+
+/// Features of plain states are kept within ± this, where every policy is saturated: nothing overflows.
+inline constexpr const char* kLargestInput = "1e100";
+
+/// Seconds beyond this one are no longer told apart.
+inline constexpr const char* kLargestTime = "1e12";
+
+}  // namespace rehearse::policy
