@@ -14,6 +14,28 @@ void set_text(const Fields& fields, const std::string& name, const std::optional
   }
 }
 
+std::optional<Index> trial_of(const std::optional<std::string>& text) {
+  Index trial = 0;
+  Violations violations;
+  set_text([&](FieldVisitor& v) { v.integer("trial", trial, "which trial, from 1", at_least(1)); }, "trial", text,
+           violations);
+  violations.throw_if_any();
+  return text ? std::optional<Index>(trial) : std::nullopt;
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<std::string>& set,
+                                                             Violations& violations) {
+  std::vector<std::pair<std::string, std::string>> settings;
+  for (const std::string& setting : set) {
+    const std::size_t equals = setting.find('=');
+    if (equals == 0 || equals == std::string::npos)
+      violations.add(fmt::format("--set {}: must be KEY=VALUE", setting));
+    else
+      settings.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  return settings;
+}
+
 Index threads_of(const std::optional<std::string>& text, Violations& violations) {
   Index threads = 0;
   set_text([&](FieldVisitor& v) { v.integer("threads", threads, "threads to compute with", between(1, 1024)); },

@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
@@ -12,6 +14,13 @@ namespace rehearse::apps {
 /// Sets a field from --NAME.
 void set_text(const Fields& fields, const std::string& name, const std::optional<std::string>& text,
               Violations& violations);
+
+/// Of --trial, from 1; none if it is not given. Throws InvalidInput.
+std::optional<Index> trial_of(const std::optional<std::string>& text);
+
+/// Key and value of each --set.
+std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<std::string>& set,
+                                                             Violations& violations);
 
 /// Of --threads; 0, all cores, if it is not given.
 Index threads_of(const std::optional<std::string>& text, Violations& violations);

@@ -37,6 +37,8 @@ int run(const experiment::Catalogue& catalogue, const Typed& typed, const Proces
   if (command == "list") return list(catalogue, typed.list);
   if (command == "new") return make_new(typed.make_new);
   if (command == "check") return check(catalogue, typed.check, share);
+  if (command == "evaluate") return evaluate(catalogue, typed.evaluate);
+  if (command == "export") return export_policy(catalogue, typed.export_policy);
   if (command == "report") return report(typed.report, share);
   return replay(typed.replay, share);
 }

@@ -74,6 +74,19 @@ struct ReplayArguments {
   std::optional<std::string> trial, out;
 };
 
+struct ExportArguments {
+  std::string folder;
+  std::optional<std::string> trial;
+  std::string out;
+};
+
+struct EvaluateArguments {
+  std::string folder;
+  std::optional<std::string> trial, policy, episodes, seconds, seed, threads, out;
+  bool robustness = false;
+  std::vector<std::string> set;
+};
+
 // With processes, every process calls the same command; only the first prints.
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);
@@ -85,6 +98,9 @@ int ask(const experiment::Catalogue& catalogue, const AskArguments& arguments);
 int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments);
 int status(const experiment::Catalogue& catalogue, const StatusArguments& arguments);
 int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const ProcessGroup& processes);
+
+int evaluate(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments);
+int export_policy(const experiment::Catalogue& catalogue, const ExportArguments& arguments);
 
 /// share: the folder of the page, where it is not beside the program.
 int report(const ReportArguments& arguments, const std::string& share);

@@ -26,16 +26,6 @@ void set_numbers(Spec& spec, const std::optional<std::string>& trials, const std
   set_text(fields, "seed", seed, violations);
 }
 
-void add_options(Spec& spec, const std::vector<std::string>& settings, Violations& violations) {
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == 0 || equals == std::string::npos)
-      violations.add(fmt::format("--set {}: must be KEY=VALUE", setting));
-    else
-      spec.options.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
-  }
-}
-
 /// Unchanged, with violations, where a preset cannot be had.
 Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string& name, Violations& violations) {
   try {
@@ -119,7 +109,7 @@ int learn(const Catalogue& built_in, const LearnArguments& arguments) {
   const Index threads = threads_of(arguments.threads, violations);
   spec.until_solved |= arguments.until_solved;
   if (arguments.preset) spec = with_preset(catalogue, spec, *arguments.preset, violations);
-  add_options(spec, arguments.set, violations);
+  for (auto& setting : settings_of(arguments.set, violations)) spec.options.push_back(std::move(setting));
   violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
   spec = resolved_spec(catalogue, spec, file, violations);
   violations.throw_if_any();

@@ -25,6 +25,8 @@ Do many runs and compare them:
   {0} campaign campaigns/pendubot-short.toml --out runs/short
 See what happened, in a browser:
   {0} report runs/demo
+Take the best policy along:
+  {0} export runs/demo --out policy.h
 What there is to learn, and with what:
   {0} list
 A robot of your own:
@@ -181,6 +183,36 @@ void add_replay(CLI::App& app, ReplayArguments& arguments) {
   add(command, "--out", arguments.out, "The page. Default: for instance replay-003.html in the folder", "FILE.html");
 }
 
+void add_export(CLI::App& app, ExportArguments& arguments) {
+  CLI::App* command = app.add_subcommand("export", "Write a learned policy as C, as JSON, or as a module for NumPy");
+  add(command, "DIR", arguments.folder, "The run folder", "")->required();
+  add(command, "--trial", arguments.trial, "The trial whose policy it is. Default: the one with the highest return",
+      "N");
+  add(command, "--out", arguments.out, "The file: .h is C, .json JSON, .py Python", "FILE")->required();
+}
+
+void add_evaluate(CLI::App& app, EvaluateArguments& arguments) {
+  CLI::App* command = app.add_subcommand("evaluate", "Try a learned policy in more, longer or other episodes");
+  add(command, "DIR", arguments.folder, "The run folder", "")->required();
+  add(command, "--trial", arguments.trial, "The trial whose policy it is. Default: the one with the highest return",
+      "N");
+  add(command, "--policy", arguments.policy, "A policy that `export` wrote as JSON, instead", "FILE.json");
+  add(command, "--episodes", arguments.episodes, "Episodes on the scenario's plant. Default: 100", "M");
+  add(command, "--seconds", arguments.seconds, "Length of an episode. Default: as the task says", "S");
+  add(command, "--seed", arguments.seed, "Of starts and noise. Default: the run's", "S");
+  add(command, "--set", arguments.set,
+      "Set an option that `list SCENARIO` shows, for instance plant.m1=0.6; may be repeated", "KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_flag("--robustness", arguments.robustness,
+                    "Change one parameter of the plant at a time by up to a quarter; `report` shows the result");
+  add(command, "--threads", arguments.threads,
+      "Threads to compute with, each with a plant of its own; results do not depend on it. Default: all cores", "K");
+  add(command, "--out", arguments.out,
+      "The table. Default: evaluation.csv in the folder, or robustness.csv; an older one is kept under another name",
+      "FILE.csv");
+}
+
 /// CLI11 speaks of what it did not expect; we know what was meant.
 void check_command_name(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> known;
@@ -225,6 +257,8 @@ void add_all(CLI::App& app, Typed& typed) {
   add_campaign(app, typed.campaign);
   add_report(app, typed.report);
   add_replay(app, typed.replay);
+  add_export(app, typed.export_policy);
+  add_evaluate(app, typed.evaluate);
 }
 
 }  // namespace

@@ -21,6 +21,8 @@ struct Typed {
   CampaignArguments campaign;
   ReportArguments report;
   ReplayArguments replay;
+  ExportArguments export_policy;
+  EvaluateArguments evaluate;
 };
 
 /// Throws InvalidInput. Empty: help or the version was asked for, and is printed unless `silent`.

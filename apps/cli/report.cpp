@@ -7,8 +7,9 @@
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
+#include "apps/cli/output_file.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/files/write.hpp"
+#include "rehearse/files/regular_file.hpp"
 #include "rehearse/qd/archive_bytes.hpp"
 
 namespace rehearse::apps {
@@ -37,29 +38,13 @@ std::string page_template(const std::string& share) {
   refuse_without_page(program, share);
 }
 
-/// Whatever is there under this name and is no page of ours may be the work of hours.
-void check_is_ours(const fs::path& path) {
-  if (path.empty()) throw InvalidInput("--out needs the name of a file");
-  std::error_code ignored;
-  if (!fs::exists(path, ignored)) return;
-  const bool page = fs::is_regular_file(path, ignored) && files::read_file(path).starts_with(kPageBegins);
-  if (!page)
-    throw InvalidInput(fmt::format("{} is no page of Rehearse and is left as it is; --out FILE.html names another file",
-                                   path.string()));
-}
-
-void write(const fs::path& path, const std::string& page) {
-  check_is_ours(path);
-  try {
-    files::write_file(path, page);
-  } catch (const std::runtime_error& error) {
-    throw InvalidInput(fmt::format("{}; --out FILE.html names another file", error.what()));
-  }
-}
-
 int write_page(const fs::path& folder, const report::Report& report, const std::string& share, const fs::path& out) {
   const std::string page = to_html(report, page_template(share));
-  write(out, page);
+  write_output({.path = out,
+                .kind = "page of Rehearse",
+                .option = "--out FILE.html",
+                .is_ours = [](std::string_view text) { return text.starts_with(kPageBegins); }},
+               page);
   for (const report::Problem& problem : report.problems)
     complain(fmt::format("{}: {}", (folder / problem.where).string(), problem.what));
   fmt::print("{} ({:.1f} MB) opens in a browser\n", printable(out.string()), 1e-6 * static_cast<double>(page.size()));
@@ -72,15 +57,6 @@ report::ArchiveSpace archive_space(std::string_view bytes) {
   return {archive.size(), niches.size(), niches.bounds(), niches.bins()};
 }
 
-Index trial_of(const ReplayArguments& arguments) {
-  Index trial = 0;
-  Violations violations;
-  set_text([&](FieldVisitor& v) { v.integer("trial", trial, "which trial, from 1", at_least(1)); }, "trial",
-           arguments.trial, violations);
-  violations.throw_if_any();
-  return trial;
-}
-
 }  // namespace
 
 int report(const ReportArguments& arguments, const std::string& share) {
@@ -91,7 +67,7 @@ int report(const ReportArguments& arguments, const std::string& share) {
 
 int replay(const ReplayArguments& arguments, const std::string& share) {
   const fs::path folder = arguments.folder;
-  const Index trial = trial_of(arguments);
+  const Index trial = *trial_of(arguments.trial);
   const fs::path beside = folder / fmt::format("replay-{:03}.html", trial);
   return write_page(folder, report::read_trial(folder, trial), share, arguments.out.value_or(beside.string()));
 }

@@ -26,6 +26,7 @@ refused() {
 
 quick=(search.race.max_evaluations=100 search.race.descents=1 search.selection=2)
 "$program" learn pendubot --learner gp-mi --trials 2 "${quick[@]/#/--set=}" --out run >/dev/null
+"$program" evaluate run --episodes 6 --set measurement_noise=0.01 --robustness >/dev/null
 
 mkdir bare
 cp "$program" bare/rehearse

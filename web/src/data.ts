@@ -34,6 +34,8 @@ export interface Run {
   truth?: Record<string, number>
   /** Of a learner that has one. */
   archive?: Archive
+  /** Of a run whose policy was evaluated with other parameters of the robot. */
+  robustness?: { parameter: string; columns: Columns }[]
   episodes: Episode[]
 }
 

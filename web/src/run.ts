@@ -10,6 +10,7 @@ import { player } from './player'
 import { rollouts, times } from './run_computing'
 import { errors, evidence, parameters } from './run_model'
 import { returns } from './run_returns'
+import { robustness } from './run_robustness'
 import { notes, options } from './run_tables'
 
 export function runPage(report: Report, run: Run): Child[] {
@@ -24,6 +25,7 @@ export function runPage(report: Report, run: Run): Child[] {
         { id: 'returns', title: 'Returns', content: [returns(run), limits(run)] },
         { id: 'replay', title: 'Replay', content: [replay(run)] },
         { id: 'archive', title: 'The archive', content: archiveFigures(run) },
+        { id: 'robustness', title: 'Robustness', content: [robustness(run)] },
         { id: 'model', title: 'The model', content: [errors(run), gaps(run), beside(parameters(run), evidence(run))] },
         { id: 'computing', title: 'Computing', content: [beside(times(run), rollouts(run)), notes(run)] },
         { id: 'options', title: 'Options', content: [options(run)] },

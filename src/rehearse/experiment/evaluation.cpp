@@ -2,11 +2,8 @@
 
 #include <memory>
 
-#include <fmt/format.h>
-
-#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/past_run.hpp"
 #include "rehearse/experiment/resolve.hpp"
-#include "rehearse/policy/schedule.hpp"
 #include "rehearse/rollout/execute.hpp"
 
 namespace rehearse::experiment {

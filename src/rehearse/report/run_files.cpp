@@ -14,6 +14,7 @@
 #include "rehearse/files/toml_reader.hpp"
 #include "rehearse/report/archive_files.hpp"
 #include "rehearse/report/prediction_gap.hpp"
+#include "rehearse/report/robustness_files.hpp"
 
 namespace rehearse::report {
 namespace {
@@ -251,6 +252,8 @@ Json read_run(const fs::path& folder, std::optional<Index> only, const ArchiveRe
   if (!only) {
     Json archive = archive_json(folder, read_archive, problems);
     if (!archive.is_null()) run["archive"] = std::move(archive);
+    Json robustness = robustness_json(folder, problems);
+    if (!robustness.is_null()) run["robustness"] = std::move(robustness);
   }
   run["episodes"] = Json::array();
   for (Index trial = only.value_or(1); trial <= only.value_or(trials); ++trial)

@@ -1,0 +1,147 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/cli/arguments.hpp"
+#include "apps/cli/commands.hpp"
+#include "apps/cli/complain.hpp"
+#include "apps/cli/output_file.hpp"
+#include "apps/cli/signals.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/events.hpp"
+#include "rehearse/experiment/given_policy.hpp"
+#include "rehearse/experiment/robustness.hpp"
+#include "rehearse/files/regular_file.hpp"
+#include "rehearse/statistics/quantiles.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+using experiment::PastRun, experiment::Rate, experiment::Summary, experiment::TrialRecord;
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// The arguments as what they mean.
+struct Wanted {
+  std::optional<Index> trial;
+  experiment::EvaluationPlan plan;
+  std::optional<Index> seed;
+  Settings settings;
+  Index threads = 0;
+};
+
+Wanted wanted(const EvaluateArguments& arguments) {
+  Violations violations;
+  Wanted wanted;
+  wanted.trial = trial_of(arguments.trial);
+  Index seed = 1;
+  const Fields fields = [&](FieldVisitor& v) {
+    v.integer("episodes", wanted.plan.episodes, "episodes on the plant", between(1, 1e6));
+    v.number("seconds", wanted.plan.seconds, "length of an episode [s]", above(0));
+    v.integer("seed", seed, "of starts and noise", between(0, 9007199254740992.0));
+  };
+  set_text(fields, "episodes", arguments.episodes, violations);
+  set_text(fields, "seconds", arguments.seconds, violations);
+  set_text(fields, "seed", arguments.seed, violations);
+  wanted.threads = threads_of(arguments.threads, violations);
+  wanted.settings = settings_of(arguments.set, violations);
+  violations.require(!arguments.policy || !arguments.trial, "--trial and --policy name two policies");
+  violations.throw_if_any();
+  if (arguments.seed) wanted.seed = seed;
+  return wanted;
+}
+
+std::string settings_text(const Settings& settings) {
+  std::vector<std::string> parts;
+  for (const auto& [key, value] : settings) parts.push_back(key + "=" + value);
+  return fmt::format("{}", fmt::join(parts, " "));
+}
+
+TrialRecord policy_wanted(const EvaluateArguments& arguments, const Wanted& wanted, const PastRun& run) {
+  if (!arguments.policy) return run.trial(wanted.trial);
+  return experiment::given_policy(files::read_file(*arguments.policy, files::Links::follow), *arguments.policy,
+                                  run.resolved.scenario);
+}
+
+std::string rate_text(const Rate& rate) {
+  return fmt::format("{} of {} episodes, {:.3g} % (95 % interval {:.3g} to {:.3g} %)", rate.count, rate.of,
+                     100 * rate.value(), 100 * rate.interval.low, 100 * rate.interval.high);
+}
+
+void print_summary(const Summary& summary, double task_s, double episode_s) {
+  if (!summary.solved) fmt::print("solved         the task does not say what that is\n");
+  if (summary.solved) fmt::print("solved at {:g} s  {}\n", task_s, rate_text(*summary.solved));
+  if (summary.solved && episode_s > task_s)
+    fmt::print("solved at {:g} s  {}\n", episode_s, rate_text(*summary.solved_at_end));
+  fmt::print("ended early    {}\n", rate_text(summary.ended));
+  const auto [min, low, median, high, max] = statistics::five_numbers(summary.returns);
+  fmt::print("return         median {:.4g}, quartiles {:.4g} and {:.4g}, all from {:.4g} to {:.4g}\n", median, low,
+             high, min, max);
+  if (min == max && summary.returns.size() > 1)
+    fmt::print("all episodes are alike: this plant has no random start and no noise, so one tells as much\n");
+}
+
+/// What a changed parameter does to the rate that is asked for: at the end of the episode, else to the median return.
+void print_robustness(const std::vector<experiment::Changed>& all) {
+  const bool can_say = all.front().summary.solved_at_end.has_value();
+  fmt::print("{} by the factor of one parameter at a time\n{:12}",
+             can_say ? "solved at the end, in %," : "median return", "");
+  for (const double factor : experiment::kFactors) fmt::print("{:>9g}", factor);
+  for (const experiment::Changed& each : all) {
+    if (each.factor == experiment::kFactors.front()) fmt::print("\n{:12}", printable(each.parameter));
+    const double value = can_say ? 100 * each.summary.solved_at_end->value() : statistics::median(each.summary.returns);
+    fmt::print("{:>9.4g}", value);
+  }
+  fmt::print("\n");
+}
+
+/// An older file of this name is kept under another one.
+void write_table(const fs::path& path, const std::string& text) {
+  if (const auto older = keep_older(path)) fmt::print("{} is kept as {}\n", path.string(), older->string());
+  write_output({.path = path, .kind = "", .option = "--out FILE.csv", .is_ours = {}}, text);
+  fmt::print("{} has the numbers\n", printable(path.string()));
+}
+
+}  // namespace
+
+int evaluate(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments) try {
+  Wanted wanted = apps::wanted(arguments);
+  const fs::path folder = arguments.folder;
+  const PastRun run = experiment::read_run(catalogue, folder, wanted.settings);
+  const TrialRecord policy = policy_wanted(arguments, wanted, run);
+  const scenario::Scenario& scenario = run.resolved.scenario;
+  if (scenario.require_ready) scenario.require_ready();
+  wanted.plan.seed = static_cast<std::uint64_t>(wanted.seed.value_or(run.resolved.spec.seed));
+  const double episode_s = experiment::seconds(wanted.plan.steps(scenario.task), scenario.task.dt_s);
+  fmt::print("the policy of {} (return {:.4g}): {} episodes of {:g} s, seed {}{}{}\n",
+             arguments.policy ? printable(*arguments.policy) : fmt::format("trial {}", policy.trial),
+             policy.total_reward, wanted.plan.episodes, episode_s, wanted.plan.seed,
+             wanted.settings.empty() ? "" : ", ", printable(settings_text(wanted.settings)));
+  const auto threads = std::shared_ptr<const Evaluator>(make_thread_evaluator(static_cast<int>(wanted.threads)));
+  const auto evaluator = make_stoppable(threads, [] { return caught_signal() != 0; });
+  const SignalWatch watch([] { return std::string("interrupted; nothing is written"); });
+  if (arguments.robustness) {
+    const auto with = [&](const std::string& key, const std::string& value) {
+      Settings settings = wanted.settings;
+      settings.emplace_back(key, value);
+      return experiment::read_run(catalogue, folder, settings).resolved;
+    };
+    const auto all = experiment::robustness(with, run.resolved, policy, wanted.plan, *evaluator);
+    print_robustness(all);
+    write_table(arguments.out.value_or((folder / "robustness.csv").string()), experiment::robustness_csv(all));
+    return kSuccess;
+  }
+  const auto outcomes = experiment::evaluate(run.resolved, policy, wanted.plan, *evaluator);
+  print_summary(experiment::summary_of(outcomes), scenario.task.episode_s(), episode_s);
+  write_table(
+      arguments.out.value_or((folder / "evaluation.csv").string()),
+      experiment::evaluation_csv(outcomes, wanted.plan, scenario.task, {policy.trial, settings_text(wanted.settings)}));
+  return kSuccess;
+} catch (const Interrupted&) {
+  complain("interrupted; nothing is written");
+  return exit_code_of_signal();
+}
+
+}  // namespace rehearse::apps

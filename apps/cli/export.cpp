@@ -1,0 +1,54 @@
+#include <array>
+
+#include <fmt/format.h>
+
+#include "apps/cli/arguments.hpp"
+#include "apps/cli/commands.hpp"
+#include "apps/cli/complain.hpp"
+#include "apps/cli/output_file.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/exported_policy.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How a policy is written, by the ending of the file.
+struct Format {
+  const char* ending;
+  std::string (*text)(const policy::Exported& exported, const fs::path& path);
+};
+
+constexpr std::array<Format, 3> kFormats = {{
+    {".h", [](const policy::Exported& exported,
+              const fs::path& path) { return policy::to_c(exported, policy::identifier(path.stem().string())); }},
+    {".json", [](const policy::Exported& exported, const fs::path&) { return policy::to_json(exported); }},
+    {".py", [](const policy::Exported& exported, const fs::path&) { return policy::to_numpy(exported); }},
+}};
+
+const Format& format_of(const fs::path& path) {
+  for (const Format& format : kFormats)
+    if (path.extension() == format.ending) return format;
+  throw InvalidInput(fmt::format("--out {}: must end in .h (C), .json or .py (NumPy)", path.string()));
+}
+
+}  // namespace
+
+int export_policy(const experiment::Catalogue& catalogue, const ExportArguments& arguments) {
+  const fs::path path = arguments.out;
+  const Format& format = format_of(path);
+  const auto trial = trial_of(arguments.trial);
+  const policy::Exported exported =
+      experiment::exported_policy(experiment::read_run(catalogue, arguments.folder), trial);
+  const OutputFile file{.path = path,
+                        .kind = "policy of Rehearse",
+                        .option = fmt::format("--out FILE{}", format.ending),
+                        .is_ours = policy::is_exported};
+  const bool replaced = write_output(file, format.text(exported, path));
+  fmt::print("{}{}: the policy of trial {} (return {:.3f})\n", printable(path.string()),
+             replaced ? ", which was there, is replaced" : "", exported.origin.trial, exported.origin.total_reward);
+  return kSuccess;
+}
+
+}  // namespace rehearse::apps

@@ -1,0 +1,71 @@
+#include "rehearse/experiment/given_policy.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/past_run.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kTolerance = 1e-9;
+
+template <class Variables>
+std::vector<std::string> names_of(const Variables& variables) {
+  std::vector<std::string> names;
+  for (const auto& variable : variables) names.push_back(variable.name);
+  return names;
+}
+
+std::vector<std::string> names_of(const json& variables) {
+  std::vector<std::string> names;
+  for (const json& variable : variables) names.push_back(variable.at("name"));
+  return names;
+}
+
+Vector to_vector(const json& numbers) {
+  const auto values = numbers.get<std::vector<double>>();
+  return Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size()));
+}
+
+/// Whether the policy answers as the file says.
+bool answers_alike(const policy::Policy& policy, const Vector& theta, const json& test) {
+  Matrix U(1, policy.actions());
+  for (std::size_t i = 0; i < test.at("states").size(); ++i) {
+    const Matrix X = to_vector(test.at("states").at(i)).transpose();
+    policy.act(theta.transpose(), X, test.at("times_s").at(i).get<double>(), U);
+    const Vector said = to_vector(test.at("actions").at(i));
+    if (said.size() != U.cols() ||
+        !((said.transpose() - U).cwiseAbs().maxCoeff() <= kTolerance * (1 + said.cwiseAbs().maxCoeff())))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TrialRecord given_policy(const std::string& text, const std::string& source, const scenario::Scenario& scenario) try {
+  const json file = json::parse(text);
+  if (file.at("format") != 1) throw InvalidInput(fmt::format("{}: another version of Rehearse wrote it", source));
+  TrialRecord record{.trial = file.at("trial"), .total_reward = file.at("return"), .policy = file.at("policy")};
+  record.theta = to_vector(file.at("theta"));
+  const Task& task = scenario.task;
+  const auto wrong = [&](const std::string& why) {
+    throw InvalidInput(fmt::format("{} is no policy of scenario {}: {}", source, scenario.name, why));
+  };
+  if (names_of(file.at("states")) != names_of(task.states)) wrong("its states are others");
+  if (names_of(file.at("actions")) != names_of(task.actions)) wrong("its actions are others");
+  const auto policy = policy_of(record, scenario);
+  if (record.theta.size() != policy->parameters() || !record.theta.allFinite())
+    wrong(fmt::format("theta has {} numbers, must have {} finite ones", record.theta.size(), policy->parameters()));
+  if (!answers_alike(*policy, record.theta, file.at("test")))
+    wrong("the run's options make another policy of its theta");
+  return record;
+} catch (const json::exception&) {
+  throw InvalidInput(fmt::format("{} is no policy that `export` wrote as JSON", source));
+}
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "rehearse/experiment/record.hpp"
+#include "rehearse/scenario/scenario.hpp"
+
+namespace rehearse::experiment {
+
+/// A policy of a file that `export` wrote as JSON (policy::to_json), as if it were a trial's. source: the file's name.
+/// Throws InvalidInput if it is no such file, or is a policy of another scenario: other states, actions or kind, or one
+/// that does not do what the file says.
+TrialRecord given_policy(const std::string& text, const std::string& source, const scenario::Scenario& scenario);
+
+}  // namespace rehearse::experiment

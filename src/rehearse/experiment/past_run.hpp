@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rehearse/experiment/record.hpp"
+#include "rehearse/experiment/resolve.hpp"
+#include "rehearse/policy/policy.hpp"
+
+namespace rehearse::experiment {
+
+/// A run as its folder has it. Use it to do something with what was learned; `resume_run` continues a run.
+struct PastRun {
+  Resolved resolved;
+  History history;  // at least one trial
+
+  /// A trial, or the one with the highest return if none is named. Throws InvalidInput if it is not done.
+  const TrialRecord& trial(std::optional<Index> number) const;
+};
+
+/// Reads a folder. It changes nothing and locks nothing, so the run may be going on. settings: options that differ from
+/// the run's, key and value, as in a Spec. Throws InvalidInput if it is no run folder, no trial is done, or an option
+/// is wrong.
+PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder,
+                 const std::vector<std::pair<std::string, std::string>>& settings = {});
+
+/// The policy of which a trial's θ are the parameters. Throws InvalidInput if the scenario has none of that name.
+std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario);
+
+}  // namespace rehearse::experiment

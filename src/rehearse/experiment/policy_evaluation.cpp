@@ -1,0 +1,114 @@
+#include "rehearse/experiment/policy_evaluation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/failures.hpp"
+#include "rehearse/experiment/past_run.hpp"
+#include "rehearse/files/csv.hpp"
+#include "rehearse/rollout/execute.hpp"
+#include "rehearse/statistics/intervals.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+constexpr Index kEpisodesOfAPlant = 10;  // fixed: what a plant remembers from one to the next decides results
+constexpr double kLongest = 1e6;         // steps
+
+/// Steps first to first + steps of an episode that ran so far.
+Episode part(const Episode& episode, Index first, Index steps) {
+  return {.states = episode.states.middleRows(first, steps + 1),
+          .true_states = episode.true_states.middleRows(first, steps + 1),
+          .actions = episode.actions.middleRows(first, steps),
+          .rewards = episode.rewards.segment(first, steps)};
+}
+
+Outcome outcome_of(const Episode& episode, const Task& task) {
+  Outcome outcome{.total_reward = episode.total_reward()};
+  if (episode.ended) outcome.ended_s = seconds(episode.steps(), task.dt_s);
+  if (!task.solved) return outcome;
+  const Index T = task.horizon;
+  const bool lasted = episode.steps() >= T && !(episode.ended && episode.steps() == T);
+  outcome.solved = task.solved(lasted ? part(episode, 0, T) : episode);
+  outcome.solved_at_end = !episode.ended && task.solved(part(episode, episode.steps() - T, T));
+  return outcome;
+}
+
+StreamKey stream_of(const EvaluationPlan& plan, const TrialRecord& policy, Index episode) {
+  return {.seed = plan.seed,
+          .trial = static_cast<std::uint64_t>(policy.trial),
+          .stage = Stage::evaluation,
+          .search = 1,  // 0 is that of expected_return
+          .purpose = Purpose::start_state,
+          .candidate = static_cast<std::uint64_t>(episode)};
+}
+
+Rate rate_of(Index count, Index of) { return {count, of, statistics::rate_interval(count, of)}; }
+
+std::optional<Rate> rate_of(const std::vector<Outcome>& outcomes, std::optional<bool> Outcome::*what) {
+  if (std::ranges::any_of(outcomes, [&](const Outcome& each) { return !(each.*what); })) return {};
+  return rate_of(std::ranges::count_if(outcomes, [&](const Outcome& each) { return *(each.*what); }),
+                 static_cast<Index>(outcomes.size()));
+}
+
+std::string cell(const std::optional<bool>& flag) { return !flag ? "" : *flag ? "1" : "0"; }
+
+}  // namespace
+
+Index EvaluationPlan::steps(const Task& task) const {
+  const double wanted = seconds == 0 ? static_cast<double>(task.horizon) : std::round(seconds / task.dt_s);
+  Violations violations;
+  violations.require(wanted >= static_cast<double>(task.horizon) && wanted <= kLongest,
+                     fmt::format("seconds = {}, must be between {} (an episode of the task) and {}", seconds,
+                                 task.episode_s(), kLongest * task.dt_s));
+  violations.require(episodes >= 1, fmt::format("episodes = {}, must be ≥ 1", episodes));
+  violations.throw_if_any();
+  return static_cast<Index>(wanted);
+}
+
+std::vector<Outcome> evaluate(const Resolved& resolved, const TrialRecord& policy, const EvaluationPlan& plan,
+                              const Evaluator& evaluator) {
+  const scenario::Scenario& scenario = resolved.scenario;
+  Task longer = scenario.task;
+  longer.horizon = plan.steps(scenario.task);
+  const auto acting = policy_of(policy, scenario);
+  std::vector<Outcome> outcomes(static_cast<std::size_t>(plan.episodes));
+  const Index parts = (plan.episodes + kEpisodesOfAPlant - 1) / kEpisodesOfAPlant;
+  const auto ask = [&] { evaluator.stop_if_asked(); };
+  evaluator.for_each(parts, [&](Index of) {
+    const auto plant = scenario.make_plant();
+    const Index first = of * kEpisodesOfAPlant, end = std::min(first + kEpisodesOfAPlant, plan.episodes);
+    for (Index i = first; i < end; ++i)
+      outcomes[static_cast<std::size_t>(i)] = named_failure(policy.trial, "plant of the evaluation", [&] {
+        const Rng rng(stream_of(plan, policy, i));
+        return outcome_of(rollout::execute(*plant, *acting, policy.theta, longer, rng, ask), scenario.task);
+      });
+  });
+  return outcomes;
+}
+
+Summary summary_of(const std::vector<Outcome>& outcomes) {
+  Summary summary{.solved = rate_of(outcomes, &Outcome::solved),
+                  .solved_at_end = rate_of(outcomes, &Outcome::solved_at_end)};
+  const auto fell = [](const Outcome& each) { return each.ended_s.has_value(); };
+  summary.ended = rate_of(std::ranges::count_if(outcomes, fell), static_cast<Index>(outcomes.size()));
+  for (const Outcome& each : outcomes) summary.returns.push_back(each.total_reward);
+  return summary;
+}
+
+std::string evaluation_csv(const std::vector<Outcome>& outcomes, const EvaluationPlan& plan, const Task& task,
+                           const EvaluationAbout& about) {
+  files::Csv csv({"trial", "settings", "seed", "seconds", "episode", "return", "solved", "solved_at_end", "ended_s"});
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    csv.row({files::Csv::cell(about.trial), about.settings, files::Csv::cell(static_cast<Index>(plan.seed)),
+             files::Csv::cell(seconds(plan.steps(task), task.dt_s)), files::Csv::cell(static_cast<Index>(i + 1)),
+             files::Csv::cell(outcomes[i].total_reward), cell(outcomes[i].solved), cell(outcomes[i].solved_at_end),
+             files::Csv::cell(outcomes[i].ended_s)});
+  return csv.text();
+}
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rehearse/core/evaluator.hpp"
+#include "rehearse/experiment/record.hpp"
+#include "rehearse/experiment/resolve.hpp"
+
+namespace rehearse::experiment {
+
+/// How a policy is evaluated: episodes on the scenario's plant that are no interaction.
+struct EvaluationPlan {
+  Index episodes = 100;
+  double seconds = 0;      // of an episode, at least the task's; 0: the task's
+  std::uint64_t seed = 1;  // of starts and noise
+
+  /// Steps of an episode. Throws InvalidInput.
+  Index steps(const Task& task) const;
+};
+
+/// How an episode went.
+struct Outcome {
+  double total_reward = 0;            // of all its steps
+  std::optional<bool> solved;         // by its first task.horizon steps, as a trial is; empty: the task cannot say
+  std::optional<bool> solved_at_end;  // by its last task.horizon steps, as if a trial were made of them
+  std::optional<double> ended_s;      // when it ended early: a fall
+};
+
+/// Episodes of a trial's policy, each from random numbers of its own. They are spread over threads in parts that have a
+/// plant each: the same outcomes for any number of threads. Throws InvalidInput where plan and policy do not fit the
+/// scenario, RunFailed where the plant fails.
+std::vector<Outcome> evaluate(const Resolved& resolved, const TrialRecord& policy, const EvaluationPlan& plan,
+                              const Evaluator& evaluator);
+
+/// A count of episodes as a rate with its exact 95 % interval.
+struct Rate {
+  Index count = 0, of = 0;
+  Interval interval;
+  double value() const { return static_cast<double>(count) / static_cast<double>(of); }
+};
+
+struct Summary {
+  std::optional<Rate> solved, solved_at_end;  // empty: the task cannot say
+  Rate ended;                                 // early
+  std::vector<double> returns;
+};
+Summary summary_of(const std::vector<Outcome>& outcomes);
+
+/// evaluation.csv: a row an episode. about: the trial, and what was set.
+struct EvaluationAbout {
+  Index trial = 1;
+  std::string settings;  // "plant.m1=0.6"
+};
+std::string evaluation_csv(const std::vector<Outcome>& outcomes, const EvaluationPlan& plan, const Task& task,
+                           const EvaluationAbout& about);
+
+}  // namespace rehearse::experiment

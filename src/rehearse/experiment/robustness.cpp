@@ -1,0 +1,73 @@
+#include "rehearse/experiment/robustness.hpp"
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/options.hpp"
+#include "rehearse/files/csv.hpp"
+#include "rehearse/statistics/quantiles.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+constexpr std::string_view kPlant = "scenario.plant.";
+
+struct Value {
+  std::string parameter;
+  double value;
+};
+
+/// Those that a factor changes.
+std::vector<Value> parameters_of(const Spec& complete) {
+  std::vector<Value> all;
+  for (const auto& [key, text] : complete.options) {
+    double value = 0;
+    if (key.starts_with(kPlant) && from_text(text, value) && value != 0)
+      all.push_back({key.substr(kPlant.size()), value});
+  }
+  if (all.empty())
+    throw InvalidInput(fmt::format("scenario {} has no plant.NAME that could be changed", complete.scenario));
+  return all;
+}
+
+void add_rate(std::vector<std::string>& row, const std::optional<Rate>& rate) {
+  using files::Csv;
+  if (!rate) return row.resize(row.size() + 3);
+  row.insert(row.end(), {Csv::cell(rate->value()), Csv::cell(rate->interval.low), Csv::cell(rate->interval.high)});
+}
+
+}  // namespace
+
+std::vector<Changed> robustness(const std::function<Resolved(const std::string& key, const std::string& value)>& make,
+                                const Resolved& run, const TrialRecord& policy, const EvaluationPlan& plan,
+                                const Evaluator& evaluator) {
+  const std::vector<Value> parameters = parameters_of(run.spec);
+  const Summary unchanged = summary_of(evaluate(run, policy, plan, evaluator));
+  std::vector<Changed> all;
+  for (const auto& [parameter, value] : parameters)
+    for (const double factor : kFactors) {
+      const double changed = factor * value;
+      all.push_back({parameter, factor, changed, unchanged});
+      if (factor == 1) continue;
+      const Resolved other = make(std::string(kPlant) + parameter, fmt::format("{}", changed));
+      all.back().summary = summary_of(evaluate(other, policy, plan, evaluator));
+    }
+  return all;
+}
+
+std::string robustness_csv(const std::vector<Changed>& all) {
+  using files::Csv;
+  Csv csv({"parameter", "factor", "value", "episodes", "solved", "solved_low", "solved_high", "solved_at_end",
+           "solved_at_end_low", "solved_at_end_high", "ended", "return_25", "return_50", "return_75"});
+  for (const auto& [parameter, factor, value, summary] : all) {
+    std::vector<std::string> row = {parameter, Csv::cell(factor), Csv::cell(value), Csv::cell(summary.ended.of)};
+    add_rate(row, summary.solved);
+    add_rate(row, summary.solved_at_end);
+    const auto [min, low, median, high, max] = statistics::five_numbers(summary.returns);
+    for (const double number : {summary.ended.value(), low, median, high}) row.push_back(Csv::cell(number));
+    csv.row(row);
+  }
+  return csv.text();
+}
+
+}  // namespace rehearse::experiment

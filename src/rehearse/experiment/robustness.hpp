@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rehearse/experiment/past_run.hpp"
+#include "rehearse/experiment/policy_evaluation.hpp"
+
+namespace rehearse::experiment {
+
+/// How a policy does where a parameter of the plant is another one.
+struct Changed {
+  std::string parameter;  // "m1" of the option plant.m1
+  double factor = 1;      // times the run's value
+  double value = 0;
+  Summary summary;
+};
+
+/// What a parameter may be multiplied with: ± 25 %.
+inline const std::vector<double> kFactors = {0.75, 0.875, 1, 1.125, 1.25};
+
+/// Evaluates the policy with one parameter of the plant changed at a time, each of the options plant.NAME that is not
+/// 0, by every factor, always in the same random numbers. make: the run with one more option (`read_run`). Throws
+/// InvalidInput if the scenario has no such option, and what `evaluate` throws.
+std::vector<Changed> robustness(const std::function<Resolved(const std::string& key, const std::string& value)>& make,
+                                const Resolved& run, const TrialRecord& policy, const EvaluationPlan& plan,
+                                const Evaluator& evaluator);
+
+/// robustness.csv: a row a parameter and factor.
+std::string robustness_csv(const std::vector<Changed>& all);
+
+}  // namespace rehearse::experiment

@@ -1,0 +1,51 @@
+#include "rehearse/experiment/given_policy.hpp"
+
+#include <gtest/gtest.h>
+
+#include "line_run.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/exported_policy.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+using fake::message_of;
+
+scenario::Scenario the_line() { return fake::LineBuilder().build(); }
+
+/// The first trial of a learner without a prior: a schedule.
+std::string schedule_file() {
+  const std::filesystem::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), fake::line_spec(1, "echo-alone"), folder, {});
+  return policy::to_json(exported_policy(read_run(fake::catalogue(), folder)));
+}
+
+TEST(GivenPolicy, IsWhatWasExported) {
+  const TrialRecord record = given_policy(schedule_file(), "it.json", the_line());
+  EXPECT_EQ(record.policy, "schedule");
+  EXPECT_EQ(record.trial, 1);
+  EXPECT_EQ(record.theta, Vector(Vector::LinSpaced(12, -1, 0.5)));
+}
+
+TEST(GivenPolicy, SaysWhatIsWrong) {
+  const std::string file = schedule_file();
+  const auto said = [&](const std::string& text) {
+    return message_of<InvalidInput>([&] { given_policy(text, "it.json", the_line()); });
+  };
+  for (const char* text : {"", "{}", "[1]", "{\"format\": 1}"})
+    EXPECT_EQ(said(text), "it.json is no policy that `export` wrote as JSON") << text;
+  const auto changed = [&](const std::string& what, const std::string& by) {
+    std::string text = file;
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    return text.replace(at, what.size(), by);
+  };
+  EXPECT_NE(said(changed("\"format\": 1", "\"format\": 2")).find("another version"), std::string::npos);
+  EXPECT_NE(said(changed("\"name\": \"x\"", "\"name\": \"y\"")).find("its states are others"), std::string::npos);
+  EXPECT_NE(said(changed("\"theta\": [\n", "\"theta\": [\n 0.5,\n")).find("theta has 13 numbers"), std::string::npos);
+  EXPECT_NE(said(changed("\"theta\": [\n  -1.0", "\"theta\": [\n  0.7")).find("another policy"), std::string::npos);
+  EXPECT_NE(said(changed("\"schedule\"", "\"mlp\"")).find("has the policy 'mlp'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rehearse::experiment

@@ -1,0 +1,64 @@
+#include "rehearse/experiment/past_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include "line_run.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/run_folder.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+using fake::line_spec, fake::message_of;
+
+TEST(PastRun, HasTheTrialsOfItsFolder) {
+  const fs::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(3), folder, {});
+  const RunFolder at_work = RunFolder::open(folder);  // which has the lock
+  const PastRun run = read_run(fake::catalogue(), folder);
+  EXPECT_EQ(run.history.done(), 3);
+  EXPECT_EQ(run.resolved.spec.learner, "echo");
+  EXPECT_EQ(run.trial(2).trial, 2);
+  for (const TrialRecord& trial : run.history.trials) EXPECT_GE(run.trial({}).total_reward, trial.total_reward);
+  EXPECT_EQ(message_of<InvalidInput>([&] { run.trial(4); }),
+            "trial = 4, must be between 1 and 3, the trials that are done");
+  EXPECT_THROW(run.trial(0), InvalidInput);
+}
+
+TEST(PastRun, TakesOtherSettings) {
+  const fs::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(2), folder, {});
+  const PastRun run = read_run(fake::catalogue(), folder, {{"noise", "0.5"}});
+  EXPECT_NE(std::find(run.resolved.spec.options.begin(), run.resolved.spec.options.end(),
+                      std::pair<std::string, std::string>("scenario.noise", "0.5")),
+            run.resolved.spec.options.end());
+  EXPECT_THROW(read_run(fake::catalogue(), folder, {{"nois", "0.5"}}), InvalidInput);
+}
+
+TEST(PastRun, PoliciesAreThoseOfTheirTrials) {
+  const fs::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(2, "echo-alone"), folder, {});
+  const PastRun run = read_run(fake::catalogue(), folder);
+  EXPECT_EQ(policy_of(run.trial(1), run.resolved.scenario)->name(), "schedule");
+  EXPECT_EQ(policy_of(run.trial(2), run.resolved.scenario)->name(), "line");
+  TrialRecord unknown = run.trial(1);
+  unknown.policy = "mlp";
+  EXPECT_THROW(policy_of(unknown, run.resolved.scenario), InvalidInput);
+}
+
+TEST(PastRun, SaysWhatIsWrongWithAFolder) {
+  const fs::path folder = fake::test_folder();
+  const auto wrong = [&] { return message_of<InvalidInput>([&] { read_run(fake::catalogue(), folder / "run"); }); };
+  EXPECT_NE(wrong().find("is not a folder"), std::string::npos) << wrong();
+  fs::create_directory(folder / "run");
+  EXPECT_NE(wrong().find("it has no spec.toml"), std::string::npos) << wrong();
+  fs::remove(folder / "run");
+  start_run(fake::catalogue(), line_spec(1), folder / "run", {});
+  files::write_file(folder / "run/checkpoint", "damaged");
+  EXPECT_NE(wrong().find("truncated"), std::string::npos) << wrong();
+}
+
+}  // namespace
+}  // namespace rehearse::experiment

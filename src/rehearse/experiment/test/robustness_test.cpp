@@ -1,0 +1,45 @@
+#include "rehearse/experiment/robustness.hpp"
+
+#include <gtest/gtest.h>
+
+#include "line_run.hpp"
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+Resolved line_with(const std::string& key, const std::string& value) {
+  Spec spec = fake::line_spec(1);
+  spec.options = {{key, value}};
+  return resolve(fake::catalogue(), spec);
+}
+
+TEST(Robustness, ChangesOneParameterAtATime) {
+  const TrialRecord policy{.trial = 1, .policy = "line", .theta = Vector{{-2, 0}}};
+  const auto all = robustness(line_with, line_with("noise", "0.01"), policy, {.episodes = 10}, serial_evaluator());
+  ASSERT_EQ(all.size(), kFactors.size()) << "the gain alone";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].parameter, "gain");
+    EXPECT_EQ(all[i].value, kFactors[i]);
+    EXPECT_EQ(all[i].summary.returns.size(), 10u);
+    if (i > 0) EXPECT_GT(all[i].summary.returns[0], all[i - 1].summary.returns[0]) << "a faster cart earns more";
+  }
+  const auto same = evaluate(line_with("noise", "0.01"), policy, {.episodes = 10}, serial_evaluator());
+  EXPECT_EQ(all[2].summary.returns, summary_of(same).returns);
+}
+
+TEST(Robustness, IsATable) {
+  Summary summary{.ended = {1, 4, {0, 1}}, .returns = {1, 2, 3, 4, 5}};
+  EXPECT_EQ(robustness_csv({{"m", 0.75, 1.5, summary}}),
+            "parameter,factor,value,episodes,solved,solved_low,solved_high,solved_at_end,solved_at_end_low,"
+            "solved_at_end_high,ended,return_25,return_50,return_75\nm,0.75,1.5,4,,,,,,,0.25,2,3,4\n");
+}
+
+TEST(Robustness, NeedsAParameter) {
+  Resolved none = line_with("noise", "0.01");
+  none.spec.options.clear();
+  EXPECT_THROW(robustness(line_with, none, TrialRecord{}, EvaluationPlan{}, serial_evaluator()), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rehearse::experiment

@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# evaluate.sh PROGRAM: policies of runs in more, longer and other episodes, and what is refused.
+source "$(dirname "$0")/../prelude.sh"
+
+# expect CODE PATTERN ARGS…: the exit code, and what is said
+expect() {
+  local code=$1 pattern=$2
+  shift 2
+  "$program" "$@" >said 2>&1
+  local got=$?
+  [ $got = "$code" ] || fail "'$*' exits with $got, must be $code: $(cat said)"
+  grep -qF -- "$pattern" said || fail "'$*' does not say '$pattern' but: $(cat said)"
+}
+
+quick=(--set search.race.max_evaluations=300 --set search.race.descents=1 --set search.selection=2)
+expect 0 "best return" learn pendulum --learner gp-mi --trials 2 "${quick[@]}" --out run
+cp -r run kept
+
+expect 0 "run/evaluation.csv has the numbers" evaluate run --episodes 20 --threads 1
+grep -qE '^solved at [0-9.]+ s +[0-9]+ of 20 episodes, ' said || fail "no rate: $(cat said)"
+header=trial,settings,seed,seconds,episode,return,solved,solved_at_end,ended_s
+[ "$(head -1 run/evaluation.csv)" = $header ] || fail "evaluation.csv begins with $(head -1 run/evaluation.csv)"
+[ "$(wc -l <run/evaluation.csv)" = 21 ] || fail "evaluation.csv has $(wc -l <run/evaluation.csv) lines"
+cp run/evaluation.csv one
+expect 0 "run/evaluation.csv is kept as run/evaluation-001.csv" evaluate run --episodes 20 --threads 2
+cmp one run/evaluation.csv || fail "two threads give other bytes than one"
+cmp one run/evaluation-001.csv || fail "an older evaluation is lost"
+
+expect 0 "solved at 10 s" evaluate run --episodes 5 --seconds 10 --set plant.m=1.1 --seed 7 --out long.csv
+grep -q '^[12],plant.m=1.1,7,10,5,' long.csv || fail "long.csv has $(cat long.csv)"
+expect 0 "trial 1 (" evaluate run --trial 1 --episodes 5 --out first.csv
+expect 0 "policy.json: the policy" export run --trial 1 --out policy.json
+expect 0 "policy.json (" evaluate run --policy policy.json --episodes 5 --out given.csv
+cmp first.csv given.csv || fail "a policy of a file does other than that of its trial"
+
+expect 0 "run/robustness.csv has the numbers" evaluate run --robustness --episodes 5
+[ "$(cut -d, -f1 run/robustness.csv | sort | uniq -c | grep -c '^ *5 ')" -ge 1 ] || fail "robustness.csv has $(cat run/robustness.csv)"
+for file in trials.csv checkpoint spec.toml policy.json; do cmp kept/$file run/$file || fail "evaluations change $file"; done
+
+expect 2 "trial = 3, must be between 1 and 2" evaluate run --trial 3
+expect 2 "--trial and --policy name two policies" evaluate run --trial 1 --policy policy.json
+expect 2 "seconds = 0.5, must be between" evaluate run --seconds 0.5
+expect 2 "--episodes = 0, must be between" evaluate run --episodes 0
+expect 2 "unknown option 'plant.q'" evaluate run --set plant.q=1
+expect 2 "--set plant.m: must be KEY=VALUE" evaluate run --set plant.m
+expect 2 "nothing is not a folder" evaluate nothing
+expect 2 "is no policy that" evaluate run --policy run/spec.toml
+expect 0 "best return" learn cartpole --learner gp-mi --trials 1 "${quick[@]}" --out other
+expect 2 "its states are others" evaluate other --policy policy.json
+
+# A robot of a file.
+"$program" new own >/dev/null
+expect 0 "best return" learn own.toml --learner gp-mi --trials 1 "${quick[@]}" --out own
+rm own.toml
+expect 0 "own/evaluation.csv has the numbers" evaluate own --episodes 5
+expect 0 "own/robustness.csv has the numbers" evaluate own --episodes 5 --robustness
+finish

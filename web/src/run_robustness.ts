@@ -1,0 +1,60 @@
+// How the policy does where one parameter of the robot is another one: robustness.csv.
+import { chart, fit, heights, type Point } from './chart'
+import { REAL } from './colours'
+import { present, type Columns, type Run } from './data'
+import type { Child } from './dom'
+import { figure, type Panel } from './figure'
+import { number, percent } from './format'
+
+/** The rate at the end of the episodes; where the task cannot say it, the return. */
+export function robustness({ robustness: parameters }: Run): Child {
+  if (!parameters?.length) return null
+  const known = parameters.some(({ columns }) => (columns['solved_at_end'] ?? []).some(present))
+  const of = (columns: Columns) => (known ? rates(columns) : returns(columns))
+  const domain = known ? { domain: [0, 1] as [number, number] } : fit(parameters.flatMap(({ columns }) => heights({ points: of(columns) })))
+  const panel = ({ parameter, columns }: { parameter: string; columns: Columns }): Panel => ({
+    title: parameter,
+    draw: (width) =>
+      chart({
+        width,
+        height: 200,
+        x: { label: 'times the robot’s value', domain: [0.72, 1.28] },
+        y: { label: known ? 'solved at the end' : 'return', percent: known, ...domain },
+        series: [{ label: parameter, colour: REAL, points: of(columns), symbol: 'circle' }],
+      }),
+  })
+  return figure({
+    name: 'robustness-by-parameter',
+    title: 'Robustness: one parameter of the robot at a time',
+    about: known
+      ? 'How often the policy solves the task, at the end of its episodes, with 95 % intervals (Clopper and Pearson 1934).'
+      : 'The median return of the policy, and its quartiles.',
+    panels: () => parameters.map(panel),
+    table: () =>
+      parameters.flatMap(({ parameter, columns }) =>
+        (columns['factor'] ?? []).map((_, i) => ({
+          parameter,
+          ...Object.fromEntries(Object.entries(columns).map(([name, cells]) => [name, cells[i] ?? null])),
+        })),
+      ),
+    minWidth: 220,
+  }).element
+}
+
+function rates(columns: Columns): Point[] {
+  return pointsBy(columns, 'solved_at_end', 'solved_at_end_low', 'solved_at_end_high', percent)
+}
+
+function returns(columns: Columns): Point[] {
+  return pointsBy(columns, 'return_50', 'return_25', 'return_75', number)
+}
+
+function pointsBy(columns: Columns, name: string, low: string, high: string, text: (value: number) => string): Point[] {
+  return (columns['factor'] ?? []).flatMap((x, i) => {
+    const at = (column: string) => columns[column]?.[i]
+    const [y, least, most] = [at(name), at(low), at(high)]
+    if (!present(x) || !present(y)) return []
+    const tip = `${number(at('value'))}, ${number(x)} of the robot’s\n${text(y)}`
+    return [{ x, y, tip, ...(present(least) && present(most) ? { interval: [least, most] as [number, number] } : {}) }]
+  })
+}
