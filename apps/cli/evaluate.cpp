@@ -1,4 +1,6 @@
 #include <filesystem>
+#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -104,40 +106,77 @@ void write_table(const fs::path& path, const std::string& text) {
   fmt::print("{} has the numbers\n", printable(path.string()));
 }
 
+/// A policy, what is set, and how it is evaluated.
+struct Work {
+  const experiment::Catalogue& catalogue;
+  fs::path folder;
+  Wanted wanted;
+  TrialRecord policy;
+  experiment::Learned learned;
+  experiment::Resolved resolved;
+  std::shared_ptr<const Evaluator> evaluator;
+
+  const Task& task() const { return resolved.scenario.task; }
+  double episode_s() const { return experiment::seconds(wanted.plan.steps(task()), task().dt_s); }
+  fs::path out(const std::optional<std::string>& given, const char* name) const {
+    return given ? fs::path(*given) : folder / name;
+  }
+};
+
+Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments) {
+  Wanted wanted = apps::wanted(arguments);
+  const fs::path folder = arguments.folder;
+  const PastRun run = experiment::read_run(catalogue, folder);
+  TrialRecord policy = policy_wanted(arguments, wanted, run);
+  experiment::Learned learned = {policy_of(policy, run.resolved.scenario), policy.theta, policy.trial};
+  experiment::Resolved resolved = experiment::read_run(catalogue, folder, wanted.settings).resolved;
+  wanted.plan.seed = static_cast<std::uint64_t>(wanted.seed.value_or(resolved.spec.seed));
+  const std::shared_ptr<const Evaluator> threads = make_thread_evaluator(static_cast<int>(wanted.threads));
+  return {catalogue,
+          folder,
+          std::move(wanted),
+          std::move(policy),
+          std::move(learned),
+          std::move(resolved),
+          make_stoppable(threads, [] { return caught_signal() != 0; })};
+}
+
+void announce(const Work& work, const EvaluateArguments& arguments) {
+  const std::string settings = settings_text(work.wanted.settings);
+  const std::string whose =
+      arguments.policy ? printable(*arguments.policy) : fmt::format("trial {}", work.policy.trial);
+  fmt::print("the policy of {} (return {:.4g}): {} episodes of {:g} s, seed {}{}{}\n", whose, work.policy.total_reward,
+             work.wanted.plan.episodes, work.episode_s(), work.wanted.plan.seed, settings.empty() ? "" : ", ",
+             printable(settings));
+}
+
+void evaluate_episodes(const Work& work, const std::optional<std::string>& out) {
+  const experiment::EvaluationPlan& plan = work.wanted.plan;
+  const auto outcomes = experiment::evaluate(work.resolved, work.learned, plan, *work.evaluator);
+  print_summary(experiment::summary_of(outcomes), work.task().episode_s(), work.episode_s());
+  const experiment::EvaluationAbout about{work.policy.trial, settings_text(work.wanted.settings)};
+  write_table(work.out(out, "evaluation.csv"), experiment::evaluation_csv(outcomes, plan, work.task(), about));
+}
+
+void evaluate_robustness(const Work& work, const std::optional<std::string>& out) {
+  const auto changed = [&](const std::string& key, const std::string& value) {
+    Settings settings = work.wanted.settings;
+    settings.emplace_back(key, value);
+    return experiment::read_run(work.catalogue, work.folder, settings).resolved;
+  };
+  const auto all = experiment::robustness(changed, work.resolved, work.learned, work.wanted.plan, *work.evaluator);
+  print_robustness(all);
+  write_table(work.out(out, "robustness.csv"), experiment::robustness_csv(all));
+}
+
 }  // namespace
 
 int evaluate(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments) try {
-  Wanted wanted = apps::wanted(arguments);
-  const fs::path folder = arguments.folder;
-  const PastRun run = experiment::read_run(catalogue, folder, wanted.settings);
-  const TrialRecord policy = policy_wanted(arguments, wanted, run);
-  const scenario::Scenario& scenario = run.resolved.scenario;
-  if (scenario.require_ready) scenario.require_ready();
-  wanted.plan.seed = static_cast<std::uint64_t>(wanted.seed.value_or(run.resolved.spec.seed));
-  const double episode_s = experiment::seconds(wanted.plan.steps(scenario.task), scenario.task.dt_s);
-  fmt::print("the policy of {} (return {:.4g}): {} episodes of {:g} s, seed {}{}{}\n",
-             arguments.policy ? printable(*arguments.policy) : fmt::format("trial {}", policy.trial),
-             policy.total_reward, wanted.plan.episodes, episode_s, wanted.plan.seed,
-             wanted.settings.empty() ? "" : ", ", printable(settings_text(wanted.settings)));
-  const auto threads = std::shared_ptr<const Evaluator>(make_thread_evaluator(static_cast<int>(wanted.threads)));
-  const auto evaluator = make_stoppable(threads, [] { return caught_signal() != 0; });
+  const Work work = prepared(catalogue, arguments);
+  if (work.resolved.scenario.require_ready) work.resolved.scenario.require_ready();
+  announce(work, arguments);
   const SignalWatch watch([] { return std::string("interrupted; nothing is written"); });
-  if (arguments.robustness) {
-    const auto with = [&](const std::string& key, const std::string& value) {
-      Settings settings = wanted.settings;
-      settings.emplace_back(key, value);
-      return experiment::read_run(catalogue, folder, settings).resolved;
-    };
-    const auto all = experiment::robustness(with, run.resolved, policy, wanted.plan, *evaluator);
-    print_robustness(all);
-    write_table(arguments.out.value_or((folder / "robustness.csv").string()), experiment::robustness_csv(all));
-    return kSuccess;
-  }
-  const auto outcomes = experiment::evaluate(run.resolved, policy, wanted.plan, *evaluator);
-  print_summary(experiment::summary_of(outcomes), scenario.task.episode_s(), episode_s);
-  write_table(
-      arguments.out.value_or((folder / "evaluation.csv").string()),
-      experiment::evaluation_csv(outcomes, wanted.plan, scenario.task, {policy.trial, settings_text(wanted.settings)}));
+  (arguments.robustness ? evaluate_robustness : evaluate_episodes)(work, arguments.out);
   return kSuccess;
 } catch (const Interrupted&) {
   complain("interrupted; nothing is written");

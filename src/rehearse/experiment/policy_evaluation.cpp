@@ -8,7 +8,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/failures.hpp"
-#include "rehearse/experiment/past_run.hpp"
+#include "rehearse/experiment/record.hpp"
 #include "rehearse/files/csv.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/statistics/intervals.hpp"
@@ -38,9 +38,9 @@ Outcome outcome_of(const Episode& episode, const Task& task) {
   return outcome;
 }
 
-StreamKey stream_of(const EvaluationPlan& plan, const TrialRecord& policy, Index episode) {
+StreamKey stream_of(const EvaluationPlan& plan, const Learned& learned, Index episode) {
   return {.seed = plan.seed,
-          .trial = static_cast<std::uint64_t>(policy.trial),
+          .trial = static_cast<std::uint64_t>(learned.trial),
           .stage = Stage::evaluation,
           .search = 1,  // 0 is that of expected_return
           .purpose = Purpose::start_state,
@@ -70,12 +70,14 @@ Index EvaluationPlan::steps(const Task& task) const {
   return static_cast<Index>(wanted);
 }
 
-std::vector<Outcome> evaluate(const Resolved& resolved, const TrialRecord& policy, const EvaluationPlan& plan,
+std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, const EvaluationPlan& plan,
                               const Evaluator& evaluator) {
   const scenario::Scenario& scenario = resolved.scenario;
   Task longer = scenario.task;
   longer.horizon = plan.steps(scenario.task);
-  const auto acting = policy_of(policy, scenario);
+  if (learned.theta.size() != learned.policy->parameters())
+    throw InvalidInput(fmt::format("theta has {} numbers, must have the {} of the policy", learned.theta.size(),
+                                   learned.policy->parameters()));
   std::vector<Outcome> outcomes(static_cast<std::size_t>(plan.episodes));
   const Index parts = (plan.episodes + kEpisodesOfAPlant - 1) / kEpisodesOfAPlant;
   const auto ask = [&] { evaluator.stop_if_asked(); };
@@ -83,9 +85,9 @@ std::vector<Outcome> evaluate(const Resolved& resolved, const TrialRecord& polic
     const auto plant = scenario.make_plant();
     const Index first = of * kEpisodesOfAPlant, end = std::min(first + kEpisodesOfAPlant, plan.episodes);
     for (Index i = first; i < end; ++i)
-      outcomes[static_cast<std::size_t>(i)] = named_failure(policy.trial, "plant of the evaluation", [&] {
-        const Rng rng(stream_of(plan, policy, i));
-        return outcome_of(rollout::execute(*plant, *acting, policy.theta, longer, rng, ask), scenario.task);
+      outcomes[static_cast<std::size_t>(i)] = named_failure(learned.trial, "plant of the evaluation", [&] {
+        const Rng rng(stream_of(plan, learned, i));
+        return outcome_of(rollout::execute(*plant, *learned.policy, learned.theta, longer, rng, ask), scenario.task);
       });
   });
   return outcomes;

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "rehearse/core/evaluator.hpp"
-#include "rehearse/experiment/record.hpp"
 #include "rehearse/experiment/resolve.hpp"
+#include "rehearse/policy/policy.hpp"
 
 namespace rehearse::experiment {
 
@@ -20,6 +21,13 @@ struct EvaluationPlan {
   Index steps(const Task& task) const;
 };
 
+/// A policy as it was learned, whatever options are set since.
+struct Learned {
+  std::shared_ptr<const policy::Policy> policy;
+  Vector theta;
+  Index trial = 1;
+};
+
 /// How an episode went.
 struct Outcome {
   double total_reward = 0;            // of all its steps
@@ -28,10 +36,10 @@ struct Outcome {
   std::optional<double> ended_s;      // when it ended early: a fall
 };
 
-/// Episodes of a trial's policy, each from random numbers of its own. They are spread over threads in parts that have a
-/// plant each: the same outcomes for any number of threads. Throws InvalidInput where plan and policy do not fit the
-/// scenario, RunFailed where the plant fails.
-std::vector<Outcome> evaluate(const Resolved& resolved, const TrialRecord& policy, const EvaluationPlan& plan,
+/// Episodes of a policy on the scenario's plant, each from random numbers of its own. They are spread over threads in
+/// parts that have a plant each: the same outcomes for any number of threads. Throws InvalidInput where plan and policy
+/// do not fit the scenario, RunFailed where the plant fails.
+std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, const EvaluationPlan& plan,
                               const Evaluator& evaluator);
 
 /// A count of episodes as a rate with its exact 95 % interval.

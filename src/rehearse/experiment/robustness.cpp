@@ -39,10 +39,10 @@ void add_rate(std::vector<std::string>& row, const std::optional<Rate>& rate) {
 }  // namespace
 
 std::vector<Changed> robustness(const std::function<Resolved(const std::string& key, const std::string& value)>& make,
-                                const Resolved& run, const TrialRecord& policy, const EvaluationPlan& plan,
+                                const Resolved& run, const Learned& learned, const EvaluationPlan& plan,
                                 const Evaluator& evaluator) {
   const std::vector<Value> parameters = parameters_of(run.spec);
-  const Summary unchanged = summary_of(evaluate(run, policy, plan, evaluator));
+  const Summary unchanged = summary_of(evaluate(run, learned, plan, evaluator));
   std::vector<Changed> all;
   for (const auto& [parameter, value] : parameters)
     for (const double factor : kFactors) {
@@ -50,7 +50,7 @@ std::vector<Changed> robustness(const std::function<Resolved(const std::string& 
       all.push_back({parameter, factor, changed, unchanged});
       if (factor == 1) continue;
       const Resolved other = make(std::string(kPlant) + parameter, fmt::format("{}", changed));
-      all.back().summary = summary_of(evaluate(other, policy, plan, evaluator));
+      all.back().summary = summary_of(evaluate(other, learned, plan, evaluator));
     }
   return all;
 }

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "rehearse/experiment/past_run.hpp"
 #include "rehearse/experiment/policy_evaluation.hpp"
 
 namespace rehearse::experiment {
@@ -24,7 +23,7 @@ inline const std::vector<double> kFactors = {0.75, 0.875, 1, 1.125, 1.25};
 /// 0, by every factor, always in the same random numbers. make: the run with one more option (`read_run`). Throws
 /// InvalidInput if the scenario has no such option, and what `evaluate` throws.
 std::vector<Changed> robustness(const std::function<Resolved(const std::string& key, const std::string& value)>& make,
-                                const Resolved& run, const TrialRecord& policy, const EvaluationPlan& plan,
+                                const Resolved& run, const Learned& learned, const EvaluationPlan& plan,
                                 const Evaluator& evaluator);
 
 /// robustness.csv: a row a parameter and factor.

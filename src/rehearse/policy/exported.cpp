@@ -2,8 +2,6 @@
 
 #include <cctype>
 
-#include "rehearse/policy/exported_text.hpp"
-
 namespace rehearse::policy {
 
 Exported make_exported(const Origin& origin, const Task& task, const Policy& policy, const Vector& theta,

@@ -52,6 +52,9 @@ std::string to_json(const Exported& exported);
 /// A Python module with a function act(states, t), on NumPy.
 std::string to_numpy(const Exported& exported);
 
+/// Among the first characters of every text.
+inline constexpr const char* kExportedMark = "policy that was learned on a robot, written by Rehearse";
+
 /// Whether a text is one of these.
 bool is_exported(std::string_view text);
 

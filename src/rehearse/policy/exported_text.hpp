@@ -34,9 +34,6 @@ std::vector<std::string> explanation(const Exported& exported);
 Vector lows(const Exported& exported);
 Vector highs(const Exported& exported);
 
-/// Among the first characters of every text.
-inline constexpr const char* kExportedMark = "policy that was learned on a robot, written by Rehearse";
-
 /// Features of plain states are kept within ± this, where every policy is saturated: nothing overflows.
 inline constexpr const char* kLargestInput = "1e100";
 

@@ -11,7 +11,7 @@ namespace {
 
 using fake::message_of;
 
-scenario::Scenario the_line() { return fake::LineBuilder().build(); }
+scenario::Scenario whole_line() { return fake::LineBuilder().build(); }
 
 /// The first trial of a learner without a prior: a schedule.
 std::string schedule_file() {
@@ -21,7 +21,7 @@ std::string schedule_file() {
 }
 
 TEST(GivenPolicy, IsWhatWasExported) {
-  const TrialRecord record = given_policy(schedule_file(), "it.json", the_line());
+  const TrialRecord record = given_policy(schedule_file(), "it.json", whole_line());
   EXPECT_EQ(record.policy, "schedule");
   EXPECT_EQ(record.trial, 1);
   EXPECT_EQ(record.theta, Vector(Vector::LinSpaced(12, -1, 0.5)));
@@ -30,7 +30,7 @@ TEST(GivenPolicy, IsWhatWasExported) {
 TEST(GivenPolicy, SaysWhatIsWrong) {
   const std::string file = schedule_file();
   const auto said = [&](const std::string& text) {
-    return message_of<InvalidInput>([&] { given_policy(text, "it.json", the_line()); });
+    return message_of<InvalidInput>([&] { given_policy(text, "it.json", whole_line()); });
   };
   for (const char* text : {"", "{}", "[1]", "{\"format\": 1}"})
     EXPECT_EQ(said(text), "it.json is no policy that `export` wrote as JSON") << text;

@@ -4,7 +4,6 @@
 
 #include "line_run.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/past_run.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -12,21 +11,21 @@ namespace {
 using fake::line_spec, fake::message_of;
 
 /// The line, and u = −x, which is near zero after 5 s, not after 1.2 s.
-Resolved line(const std::vector<std::pair<std::string, std::string>>& options = {}) {
+Resolved line_where(const std::vector<std::pair<std::string, std::string>>& options = {}) {
   Spec spec = line_spec(1);
   spec.options = options;
   return resolve(fake::catalogue(), spec);
 }
 
-TrialRecord slow() { return {.trial = 2, .policy = "line", .theta = Vector{{-1, 0}}}; }
+Learned slow_policy() { return {std::make_shared<fake::LinePolicy>(), Vector{{-1, 0}}, 2}; }
 
-std::string bytes(const std::vector<Outcome>& outcomes, const EvaluationPlan& plan) {
+std::string table_of(const std::vector<Outcome>& outcomes, const EvaluationPlan& plan) {
   return evaluation_csv(outcomes, plan, fake::line_task(), {2, "noise=0.1"});
 }
 
 TEST(PolicyEvaluation, LooksAtTheEndOfLongerEpisodes) {
   const EvaluationPlan plan{.episodes = 20, .seconds = 5, .seed = 3};
-  const auto outcomes = evaluate(line(), slow(), plan, serial_evaluator());
+  const auto outcomes = evaluate(line_where(), slow_policy(), plan, serial_evaluator());
   ASSERT_EQ(outcomes.size(), 20u);
   for (const Outcome& each : outcomes) {
     EXPECT_FALSE(*each.solved);
@@ -34,7 +33,7 @@ TEST(PolicyEvaluation, LooksAtTheEndOfLongerEpisodes) {
     EXPECT_FALSE(each.ended_s);
     EXPECT_GT(each.total_reward, 40);
   }
-  const auto short_ones = evaluate(line(), slow(), {.episodes = 20, .seed = 3}, serial_evaluator());
+  const auto short_ones = evaluate(line_where(), slow_policy(), {.episodes = 20, .seed = 3}, serial_evaluator());
   for (std::size_t i = 0; i < 20; ++i) {
     EXPECT_EQ(short_ones[i].solved, outcomes[i].solved);
     EXPECT_EQ(short_ones[i].solved_at_end, outcomes[i].solved) << "the task's own end";
@@ -43,27 +42,27 @@ TEST(PolicyEvaluation, LooksAtTheEndOfLongerEpisodes) {
 
 TEST(PolicyEvaluation, IsTheSameOnAnyNumberOfThreads) {
   const EvaluationPlan plan{.episodes = 37, .seconds = 2, .seed = 5};
-  const Resolved noisy = line({{"noise", "0.1"}});
-  const std::string one = bytes(evaluate(noisy, slow(), plan, serial_evaluator()), plan);
-  EXPECT_EQ(bytes(evaluate(noisy, slow(), plan, *make_thread_evaluator(3)), plan), one);
+  const Resolved noisy = line_where({{"noise", "0.1"}});
+  const std::string one = table_of(evaluate(noisy, slow_policy(), plan, serial_evaluator()), plan);
+  EXPECT_EQ(table_of(evaluate(noisy, slow_policy(), plan, *make_thread_evaluator(3)), plan), one);
   EvaluationPlan other = plan;
   other.seed = 6;
-  EXPECT_NE(bytes(evaluate(noisy, slow(), other, serial_evaluator()), plan), one);
+  EXPECT_NE(table_of(evaluate(noisy, slow_policy(), other, serial_evaluator()), plan), one);
 }
 
 TEST(PolicyEvaluation, AMoreOfEpisodesBeginsWithTheSame) {
-  const auto few = evaluate(line(), slow(), {.episodes = 13}, serial_evaluator());
-  const auto many = evaluate(line(), slow(), {.episodes = 40}, serial_evaluator());
+  const auto few = evaluate(line_where(), slow_policy(), {.episodes = 13}, serial_evaluator());
+  const auto many = evaluate(line_where(), slow_policy(), {.episodes = 40}, serial_evaluator());
   for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(few[i].total_reward, many[i].total_reward);
 }
 
 TEST(PolicyEvaluation, CountsFalls) {
-  Resolved falls = line();
+  Resolved falls = line_where();
   falls.scenario.task.ended = [](const ConstVectorView& x) { return x(0) < 0.5; };
   falls.scenario.task.solved = [](const Episode& episode) { return !episode.ended; };
   falls.scenario.task.reward_floor = -1;
   const EvaluationPlan plan{.episodes = 12, .seconds = 5};
-  const auto outcomes = evaluate(falls, slow(), plan, serial_evaluator());
+  const auto outcomes = evaluate(falls, slow_policy(), plan, serial_evaluator());
   const Summary summary = summary_of(outcomes);
   EXPECT_EQ(summary.ended.count, 12);
   EXPECT_EQ(summary.solved_at_end->count, 0);
@@ -72,17 +71,17 @@ TEST(PolicyEvaluation, CountsFalls) {
 }
 
 TEST(PolicyEvaluation, ATaskMayNotSayWhatIsSolved) {
-  Resolved silent = line();
+  Resolved silent = line_where();
   silent.scenario.task.solved = {};
-  const auto outcomes = evaluate(silent, slow(), {.episodes = 2}, serial_evaluator());
+  const auto outcomes = evaluate(silent, slow_policy(), {.episodes = 2}, serial_evaluator());
   EXPECT_FALSE(summary_of(outcomes).solved);
-  EXPECT_NE(bytes(outcomes, {.episodes = 2}).find(",,,\n"), std::string::npos);
+  EXPECT_NE(table_of(outcomes, {.episodes = 2}).find(",,,\n"), std::string::npos);
 }
 
 TEST(PolicyEvaluation, IsATableOfItsEpisodes) {
   const EvaluationPlan plan{.episodes = 2, .seconds = 2.4, .seed = 9};
   const std::vector<Outcome> outcomes = {{1.5, true, false, {}}, {-2, false, false, 0.7}};
-  EXPECT_EQ(bytes(outcomes, plan),
+  EXPECT_EQ(table_of(outcomes, plan),
             "trial,settings,seed,seconds,episode,return,solved,solved_at_end,ended_s\n"
             "2,noise=0.1,9,2.4,1,1.5,1,0,\n2,noise=0.1,9,2.4,2,-2,0,0,0.7\n");
 }
@@ -99,14 +98,14 @@ TEST(PolicyEvaluation, RatesHaveExactIntervals) {
 
 TEST(PolicyEvaluation, SaysWhatIsWrong) {
   const auto said = [](const EvaluationPlan& plan) {
-    return message_of<InvalidInput>([&] { evaluate(line(), slow(), plan, serial_evaluator()); });
+    return message_of<InvalidInput>([&] { evaluate(line_where(), slow_policy(), plan, serial_evaluator()); });
   };
   EXPECT_NE(said({.seconds = 0.5}).find("seconds = 0.5, must be between 1.2"), std::string::npos)
       << said({.seconds = 0.5});
   EXPECT_NE(said({.episodes = 0}), "");
-  TrialRecord wrong = slow();
+  Learned wrong = slow_policy();
   wrong.theta = Vector::Zero(3);
-  EXPECT_THROW(evaluate(line(), wrong, EvaluationPlan{}, serial_evaluator()), RunFailed);
+  EXPECT_THROW(evaluate(line_where(), wrong, EvaluationPlan{}, serial_evaluator()), InvalidInput);
 }
 
 }  // namespace

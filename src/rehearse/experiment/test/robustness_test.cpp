@@ -15,7 +15,7 @@ Resolved line_with(const std::string& key, const std::string& value) {
 }
 
 TEST(Robustness, ChangesOneParameterAtATime) {
-  const TrialRecord policy{.trial = 1, .policy = "line", .theta = Vector{{-2, 0}}};
+  const Learned policy{std::make_shared<fake::LinePolicy>(), Vector{{-2, 0}}};
   const auto all = robustness(line_with, line_with("noise", "0.01"), policy, {.episodes = 10}, serial_evaluator());
   ASSERT_EQ(all.size(), kFactors.size()) << "the gain alone";
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -38,7 +38,7 @@ TEST(Robustness, IsATable) {
 TEST(Robustness, NeedsAParameter) {
   Resolved none = line_with("noise", "0.01");
   none.spec.options.clear();
-  EXPECT_THROW(robustness(line_with, none, TrialRecord{}, EvaluationPlan{}, serial_evaluator()), InvalidInput);
+  EXPECT_THROW(robustness(line_with, none, Learned{}, EvaluationPlan{}, serial_evaluator()), InvalidInput);
 }
 
 }  // namespace
