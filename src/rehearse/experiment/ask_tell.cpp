@@ -29,7 +29,7 @@ class Reopened {
     with_causes(catalogue_, resolved().spec, [&] {
       run_.begin(something_to_come);
       use(run_);
-      update_next_files(folder_, resolved(), run_.history().asked);
+      update_next_files(folder_, resolved(), run_.history());
       return 0;
     });
   }
@@ -129,8 +129,8 @@ Told tell_run(const Catalogue& catalogue, const fs::path& path, const Tale& tale
 }
 
 RunStatus status_of(const Catalogue& built_in, const fs::path& path) {
-  auto [spec, history, in_use] = RunFolder::read(path);
-  return {resolve(with_robot_of_run(built_in, path), spec), std::move(history), in_use};
+  auto [spec, history] = RunFolder::read(path);
+  return {resolve(with_robot_of_run(built_in, path), spec), std::move(history), RunFolder::is_in_use(path)};
 }
 
 }  // namespace rehearse::experiment

@@ -22,15 +22,6 @@ double return_of_episode(const Resolved& resolved, system::Plant& plant, const p
 
 }  // namespace
 
-std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario) {
-  if (trial.policy == scenario.policy->name()) return scenario.policy;
-  const Task& task = scenario.task;
-  auto schedule = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
-  if (trial.policy == schedule->name()) return schedule;
-  throw InvalidInput(fmt::format("trial {} has the policy '{}', which is neither the scenario's, '{}', nor '{}'",
-                                 trial.trial, trial.policy, scenario.policy->name(), schedule->name()));
-}
-
 std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator) {
   const scenario::Scenario& scenario = resolved.scenario;
   if (scenario.evaluations == 0 || !scenario.make_plant) return std::nullopt;

@@ -8,9 +8,6 @@
 
 namespace rehearse::experiment {
 
-/// The policy of which a trial's θ are the parameters. Throws InvalidInput if it is of another scenario.
-std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario);
-
 /// Mean return of the trial's policy over the scenario's `evaluations` episodes, on a plant made for them and from
 /// random streams of their own: the trial, and whatever follows it, never notices. Empty if the scenario asks for none.
 /// Asks the evaluator before every step whether to stop. Throws what the

@@ -8,7 +8,7 @@ namespace {
 constexpr Index kAnswers = 16;
 
 /// States that were measured, spread evenly over the episode.
-policy::Answers asked(const Episode& episode, double dt_s) {
+policy::Answers in_states_of(const Episode& episode, double dt_s) {
   const Index states = episode.states.rows(), count = std::min(kAnswers, states);
   policy::Answers asked{.states = Matrix(count, episode.states.cols()), .times_s = Vector(count), .actions = {}};
   for (Index i = 0; i < count; ++i) {
@@ -23,17 +23,24 @@ policy::Answers asked(const Episode& episode, double dt_s) {
 
 policy::Exported exported_policy(const PastRun& run, std::optional<Index> trial) {
   const TrialRecord& record = run.trial(trial);
-  const scenario::Scenario& scenario = run.resolved.scenario;
-  const Spec& spec = run.resolved.spec;
+  const Episode& episode = run.history.episodes[static_cast<std::size_t>(record.trial - 1)];
+  policy::Exported exported = exported_policy(run.resolved, record, &episode);
+  exported.origin.total_reward = record.total_reward;
+  return exported;
+}
+
+policy::Exported exported_policy(const Resolved& resolved, const TrialRecord& record, const Episode* like) {
+  const scenario::Scenario& scenario = resolved.scenario;
+  const Spec& spec = resolved.spec;
   const policy::Origin origin{.robot = spec.scenario,
                               .learner = spec.learner,
                               .prior = spec.prior,
                               .seed = spec.seed,
                               .trial = record.trial,
-                              .total_reward = record.total_reward};
-  const Episode& episode = run.history.episodes[static_cast<std::size_t>(record.trial - 1)];
+                              .total_reward = {}};
+  const Episode start{.states = scenario.task.start_mean.transpose()};
   return policy::make_exported(origin, scenario.task, *policy_of(record, scenario), record.theta,
-                               asked(episode, scenario.task.dt_s));
+                               in_states_of(like ? *like : start, scenario.task.dt_s));
 }
 
 }  // namespace rehearse::experiment

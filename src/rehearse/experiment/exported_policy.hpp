@@ -11,4 +11,7 @@ namespace rehearse::experiment {
 /// was in during that trial. Throws InvalidInput if there is no such trial, or its policy cannot be described.
 policy::Exported exported_policy(const PastRun& run, std::optional<Index> trial = {});
 
+/// The same of a trial that was asked for. like: an episode in whose states it is asked; null: the start is all.
+policy::Exported exported_policy(const Resolved& resolved, const TrialRecord& asked, const Episode* like);
+
 }  // namespace rehearse::experiment

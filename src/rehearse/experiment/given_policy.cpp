@@ -50,7 +50,8 @@ bool answers_alike(const policy::Policy& policy, const Vector& theta, const json
 TrialRecord given_policy(const std::string& text, const std::string& source, const scenario::Scenario& scenario) try {
   const json file = json::parse(text);
   if (file.at("format") != 1) throw InvalidInput(fmt::format("{}: another version of Rehearse wrote it", source));
-  TrialRecord record{.trial = file.at("trial"), .total_reward = file.at("return"), .policy = file.at("policy")};
+  TrialRecord record{.trial = file.at("trial"), .policy = file.at("policy")};
+  if (!file.at("return").is_null()) file.at("return").get_to(record.total_reward);
   record.theta = to_vector(file.at("theta"));
   const Task& task = scenario.task;
   const auto wrong = [&](const std::string& why) {

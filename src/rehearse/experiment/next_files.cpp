@@ -2,16 +2,38 @@
 
 #include <nlohmann/json.hpp>
 
-namespace rehearse::experiment {
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/exported_policy.hpp"
 
-void update_next_files(const RunFolder& folder, const Resolved& resolved, const std::optional<TrialRecord>& asked) {
-  if (!asked) return folder.remove_next();
-  nlohmann::ordered_json policy = {{"format", 1},
-                                   {"scenario", resolved.spec.scenario},
-                                   {"trial", asked->trial},
-                                   {"policy", asked->policy},
-                                   {"theta", std::vector<double>(asked->theta.begin(), asked->theta.end())}};
-  folder.write_next("policy.json", policy.dump(1) + "\n");
+namespace rehearse::experiment {
+namespace {
+
+/// A policy of one's own, which nobody can describe, is known by its name and θ.
+std::string name_and_theta(const TrialRecord& asked) {
+  const nlohmann::ordered_json policy = {{"format", 1},
+                                         {"trial", asked.trial},
+                                         {"policy", asked.policy},
+                                         {"theta", std::vector<double>(asked.theta.begin(), asked.theta.end())}};
+  return policy.dump(1) + "\n";
+}
+
+const Episode* an_episode(const History& history) {
+  if (!history.episodes.empty()) return &history.episodes.back();
+  return history.logs.empty() ? nullptr : &history.logs.front().episode;
+}
+
+}  // namespace
+
+void update_next_files(const RunFolder& folder, const Resolved& resolved, const History& history) {
+  if (!history.asked) return folder.remove_next();
+  try {
+    const policy::Exported exported = exported_policy(resolved, *history.asked, an_episode(history));
+    folder.write_next("policy.h", policy::to_c(exported, "policy"));
+    folder.write_next("policy.json", policy::to_json(exported));
+    folder.write_next("policy.py", policy::to_numpy(exported));
+  } catch (const InvalidInput&) {
+    folder.write_next("policy.json", name_and_theta(*history.asked));
+  }
 }
 
 }  // namespace rehearse::experiment

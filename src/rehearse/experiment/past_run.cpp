@@ -3,27 +3,11 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/checkpoint.hpp"
 #include "rehearse/experiment/kept_robot.hpp"
-#include "rehearse/experiment/spec_file.hpp"
-#include "rehearse/files/regular_file.hpp"
+#include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/policy/schedule.hpp"
 
 namespace rehearse::experiment {
-namespace {
-
-namespace fs = std::filesystem;
-
-constexpr const char *kSpec = "spec.toml", *kCheckpoint = "checkpoint";
-
-void require_run_folder(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw InvalidInput(fmt::format("{} is not a folder", folder.string()));
-  for (const char* file : {kSpec, kCheckpoint})
-    if (!fs::exists(folder / file))
-      throw InvalidInput(fmt::format("{} is not a run folder: it has no {}", folder.string(), file));
-}
-
-}  // namespace
 
 const TrialRecord& PastRun::trial(std::optional<Index> number) const {
   if (!number) return best_trial(history.trials);
@@ -33,18 +17,9 @@ const TrialRecord& PastRun::trial(std::optional<Index> number) const {
   return history.trials[static_cast<std::size_t>(*number - 1)];
 }
 
-PastRun read_run(const Catalogue& catalogue, const fs::path& folder,
+PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder,
                  const std::vector<std::pair<std::string, std::string>>& settings) {
-  require_run_folder(folder);
-  const fs::path file = folder / kSpec;
-  Spec spec = from_toml(files::read_file(file), file.string());
-  const std::uint64_t kept = fingerprint(spec);
-  History history;
-  try {
-    history = from_checkpoint(files::read_file(folder / kCheckpoint), kept);
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(fmt::format("{}: {}", folder.string(), error.what()));
-  }
+  auto [spec, history] = RunFolder::read(folder);
   if (history.done() == 0) throw InvalidInput(fmt::format("no trial of {} is done yet", folder.string()));
   spec.options.insert(spec.options.end(), settings.begin(), settings.end());
   return {resolve(with_robot_of_run(catalogue, folder), spec), std::move(history)};

@@ -72,15 +72,6 @@ fs::path checked_run_folder(const fs::path& given) {
   return path;
 }
 
-bool is_in_use(const fs::path& folder) {
-  try {
-    const files::FolderLock lock(folder, files::FolderLock::Kind::shared);
-    return false;
-  } catch (const InvalidInput&) {
-    return true;
-  }
-}
-
 }  // namespace
 
 RunFolder RunFolder::open(const fs::path& given) {
@@ -91,9 +82,18 @@ RunFolder RunFolder::open(const fs::path& given) {
 
 RunFolder::Contents RunFolder::read(const fs::path& given) {
   const fs::path path = checked_run_folder(given);
-  Contents contents{.spec = spec_of(path), .history = {}, .in_use = is_in_use(path)};
+  Contents contents{.spec = spec_of(path), .history = {}};
   contents.history = history_of(path, contents.spec);
   return contents;
+}
+
+bool RunFolder::is_in_use(const fs::path& folder) {
+  try {
+    const files::FolderLock lock(folder, files::FolderLock::Kind::shared);
+    return false;
+  } catch (const InvalidInput&) {
+    return true;
+  }
 }
 
 void RunFolder::change_end(Until until, const Comments& comments) {

@@ -30,9 +30,9 @@ class RunFolder {
   struct Contents {
     Spec spec;
     History history;
-    bool in_use = false;  // somebody holds the lock
   };
   static Contents read(const std::filesystem::path& path);
+  static bool is_in_use(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
   const Spec& spec() const { return spec_; }

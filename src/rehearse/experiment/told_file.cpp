@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/experiment/evaluation.hpp"
+#include "rehearse/experiment/past_run.hpp"
 #include "rehearse/files/checksum.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/recording/recording.hpp"

@@ -31,7 +31,8 @@ void add_posterior(TrialRecord& record, const identification::PhiPosterior& post
   record.warnings = identification::identifiability_warnings(posterior);
 }
 
-std::vector<LimitRecord> limits_of(const Task& task, const learners::Proposal& proposal, const Episode& episode) {
+/// Before the trial.
+std::vector<LimitRecord> limits_of(const Task& task, const learners::Proposal& proposal) {
   std::vector<LimitRecord> records;
   for (std::size_t l = 0; l < task.limits.size(); ++l) {
     LimitRecord record{.limit = task.limits[l].name, .allowed = task.limits[l].risk};
@@ -40,7 +41,6 @@ std::vector<LimitRecord> limits_of(const Task& task, const learners::Proposal& p
       record.predicted = static_cast<double>(broken) / static_cast<double>(episodes);
       record.interval = statistics::rate_interval(broken, episodes);
     }
-    record.broken = std::ranges::count(episode.broken_limits, record.limit) > 0;
     records.push_back(std::move(record));
   }
   return records;
@@ -51,7 +51,7 @@ std::vector<LimitRecord> limits_of(const Task& task, const learners::Proposal& p
 TrialRecord record_before(Index trial, const learners::Proposal& proposal, const Resolved& resolved) {
   TrialRecord record{.trial = trial,
                      .predicted_return = proposal.predicted_return,
-                     .limits = limits_of(task, proposal, episode),
+                     .limits = limits_of(resolved.scenario.task, proposal),
                      .rollouts = proposal.rollouts,
                      .failed_rollouts = proposal.failed_rollouts,
                      .log_evidence = proposal.log_evidence,
@@ -69,6 +69,7 @@ TrialRecord record_before(Index trial, const learners::Proposal& proposal, const
 
 void add_outcome(TrialRecord& record, const learners::Proposal& proposal, const Episode& episode, const Task& task) {
   record.total_reward = episode.total_reward();
+  for (LimitRecord& limit : record.limits) limit.broken = std::ranges::count(episode.broken_limits, limit.limit) > 0;
   if (!episode.failure.empty()) record.notes.push_back("the episode ended at the reward floor: " + episode.failure);
   if (task.solved) record.solved = task.solved(episode);
   if (proposal.model) record.forecast = forecast_errors(*proposal.model, task, episode);

@@ -1,6 +1,7 @@
 #pragma once
 // A policy to take along: as C, as JSON, and as a Python module, all from one description.
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,7 +15,7 @@ struct Origin {
   std::string robot, learner;
   std::string prior;  // empty: none
   Index seed = 1, trial = 1;
-  double total_reward = 0;  // of that trial
+  std::optional<double> total_reward;  // of that trial; empty: it is to come
 };
 
 /// What the original does in some states: what is exported is tested with it.

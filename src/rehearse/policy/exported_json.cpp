@@ -67,7 +67,7 @@ std::string to_json(const Exported& exported) {
                     {"prior", from.prior},
                     {"seed", from.seed},
                     {"trial", from.trial},
-                    {"return", from.total_reward},
+                    {"return", from.total_reward ? Json(*from.total_reward) : Json()},
                     {"dt_s", exported.dt_s},
                     {"states", states},
                     {"actions", actions},

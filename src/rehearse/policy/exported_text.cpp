@@ -84,7 +84,8 @@ std::vector<std::string> explanation(const Exported& exported) {
   std::vector<std::string> lines = {
       harmless(fmt::format("robot      {}", from.robot)),
       harmless(fmt::format("learner    {}{}, seed {}", from.learner, prior, from.seed)),
-      fmt::format("trial      {}, return {}", from.trial, from.total_reward),
+      fmt::format("trial      {}, {}", from.trial,
+                  from.total_reward ? fmt::format("return {}", *from.total_reward) : "which is to come"),
       harmless(fmt::format("policy     {}", exported.kind)),
       fmt::format("time step  {} s: act once each step, and hold the actions until the next", exported.dt_s)};
   for (std::size_t i = 0; i < exported.states.size(); ++i)
