@@ -13,6 +13,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/experiment/given_policy.hpp"
+#include "rehearse/experiment/past_run.hpp"
 #include "rehearse/experiment/robustness.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/statistics/quantiles.hpp"
