@@ -10,7 +10,7 @@ namespace {
 using learners::to_json, learners::to_vector;
 using nlohmann::json;
 
-constexpr const char* kKind = "checkpoint";
+constexpr const char* kCheckpointKind = "checkpoint";
 
 template <class T>
 json from_optional(const std::optional<T>& value) {
@@ -161,11 +161,11 @@ std::string to_checkpoint(const History& history, std::uint64_t spec_fingerprint
                     {"asked", history.asked ? from_record(*history.asked) : json()}};
   std::string body;
   json::to_cbor(all, body);
-  return files::seal(kKind, body);
+  return files::seal(kCheckpointKind, body);
 }
 
 History from_checkpoint(std::string_view bytes, std::uint64_t spec_fingerprint) {
-  const std::string_view body = files::unseal(kKind, bytes);
+  const std::string_view body = files::unseal(kCheckpointKind, bytes);
   try {
     const json all = json::from_cbor(body);
     if (all.at("spec").get<std::uint64_t>() != spec_fingerprint)

@@ -14,13 +14,13 @@ using nlohmann::json;
 constexpr double kTolerance = 1e-9;
 
 template <class Variables>
-std::vector<std::string> names_of(const Variables& variables) {
+std::vector<std::string> variable_names(const Variables& variables) {
   std::vector<std::string> names;
   for (const auto& variable : variables) names.push_back(variable.name);
   return names;
 }
 
-std::vector<std::string> names_of(const json& variables) {
+std::vector<std::string> variable_names(const json& variables) {
   std::vector<std::string> names;
   for (const json& variable : variables) names.push_back(variable.at("name"));
   return names;
@@ -57,8 +57,8 @@ TrialRecord given_policy(const std::string& text, const std::string& source, con
   const auto wrong = [&](const std::string& why) {
     throw InvalidInput(fmt::format("{} is no policy of scenario {}: {}", source, scenario.name, why));
   };
-  if (names_of(file.at("states")) != names_of(task.states)) wrong("its states are others");
-  if (names_of(file.at("actions")) != names_of(task.actions)) wrong("its actions are others");
+  if (variable_names(file.at("states")) != variable_names(task.states)) wrong("its states are others");
+  if (variable_names(file.at("actions")) != variable_names(task.actions)) wrong("its actions are others");
   const auto policy = policy_of(record, scenario);
   if (record.theta.size() != policy->parameters() || !record.theta.allFinite())
     wrong(fmt::format("theta has {} numbers, must have {} finite ones", record.theta.size(), policy->parameters()));

@@ -12,7 +12,7 @@
 namespace rehearse::experiment {
 namespace {
 
-constexpr std::int64_t kFormat = 1;
+constexpr std::int64_t kPresetFormat = 1;
 
 std::vector<FileOption> options_in(const toml::table* table, files::FileViolations& violations) {
   std::vector<FileOption> options;
@@ -40,8 +40,8 @@ Preset::Preset(std::string_view text, std::string source) : source_(std::move(so
   files::FileViolations violations(source_);
   files::TomlReader reader(file, "", violations);
   const toml::node* format = reader.take("format");
-  if (!format || format->value<std::int64_t>() != kFormat)
-    violations.add(format ? files::line_of(*format) : 0, fmt::format("a preset begins with format = {}", kFormat));
+  if (!format || format->value<std::int64_t>() != kPresetFormat)
+    violations.add(format ? files::line_of(*format) : 0, fmt::format("a preset begins with format = {}", kPresetFormat));
   reader.take("title", title_);
   parts_.push_back({.options = options_in(reader.take_table("set"), violations)});
   const toml::node* parts = reader.take("for");

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kKind = "kept";
+constexpr const char* kStoreKind = "kept";
 
 /// The spec without its number of trials, which a run may change on the way.
 std::string owner_of(Spec spec) {
@@ -27,7 +27,7 @@ std::optional<std::string> read_kept(const fs::path& path, const std::string& ow
   if (path.empty() || !fs::exists(path)) return {};
   try {
     const std::string bytes = files::read_file(path);
-    const std::string_view body = files::unseal(kKind, bytes);
+    const std::string_view body = files::unseal(kStoreKind, bytes);
     if (!body.starts_with(owner + '\0')) return {};
     return std::string(body.substr(owner.size() + 1));
   } catch (const InvalidInput&) {  // a damaged one
@@ -64,7 +64,7 @@ std::optional<std::string> RunStore::read(const std::string& name) {
 }
 
 void RunStore::write(const std::string& name, const std::string& bytes) {
-  const std::string sealed = files::seal(kKind, owner_ + '\0' + bytes);
+  const std::string sealed = files::seal(kStoreKind, owner_ + '\0' + bytes);
   if (const fs::path path = kept(name); !path.empty()) {
     fs::create_directories(path.parent_path());
     files::write_file(path, sealed, files::Durability::power);

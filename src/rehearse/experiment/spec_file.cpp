@@ -13,7 +13,7 @@
 namespace rehearse::experiment {
 namespace {
 
-constexpr std::int64_t kFormat = 1;
+constexpr std::int64_t kSpecFormat = 1;
 constexpr std::array<std::string_view, 3> kSections = {"scenario", "learner", "prior"};
 
 std::string in_quotes(std::string_view text) {
@@ -74,9 +74,9 @@ void check_format(const toml::table& file, const std::string& source) {
   if (!file.contains("format") || !file["run"].is_table())
     throw InvalidInput(fmt::format("{}: not a spec: it needs `format` and [run]", source));
   const std::int64_t format = file["format"].value_or(std::int64_t{0});
-  if (format != kFormat)
+  if (format != kSpecFormat)
     throw InvalidInput(fmt::format("{}: format {} is that of another version of Rehearse, this one reads {}", source,
-                                   format, kFormat));
+                                   format, kSpecFormat));
 }
 
 void read_run(files::TomlReader run, Spec& spec) {
@@ -111,7 +111,7 @@ std::string to_toml(const Spec& spec, const Comments& comments) {
   std::string text = fmt::format(
       "# A run of Rehearse, complete: `rehearse learn` of this file gives the same trials.csv.\n"
       "format = {}\n\n[run]\nscenario = {}\n",
-      kFormat, in_quotes(spec.scenario));
+      kSpecFormat, in_quotes(spec.scenario));
   if (!spec.robot.empty()) text += option_line("robot = " + in_quotes(spec.robot), "robot", comments);
   text += fmt::format("learner = {}\n", in_quotes(spec.learner));
   if (!spec.prior.empty()) text += fmt::format("prior = {}\n", in_quotes(spec.prior));
