@@ -1,12 +1,15 @@
 #include "rehearse/learners/black_drops/choice.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 namespace rehearse::learners::black_drops {
 namespace {
 
-constexpr double kOften = 0.5;  // of the simulated episodes that a policy solves: enough for a trial
+constexpr double kNearlyAll = 0.05;     // of a return that nothing safe has yet: what it may lack
+constexpr std::size_t kSafeStarts = 8;  // policies near which a safe one is looked for
+constexpr double kOften = 0.5;          // of the simulated episodes that a policy solves: enough for a trial
 
 bool is_better(const SearchResult& found, const Choice& choice) {
   return better(found, {.predicted_return = choice.predicted_return, .excess = choice.excess});
@@ -36,8 +39,15 @@ std::optional<SearchResult> search_for_solving(TrialSearches& searches, SearchRe
 }  // namespace
 
 void prefer_safe(TrialSearches& searches, const SafetyOptions& safety, SearchResult& found, Choice& choice) {
-  for (Index i = 0; i < safety.searches && choice.excess > 0; ++i) {
-    SearchResult more = searches.search_safe({choice.theta}, i);
+  if (!searches.has_limits()) return;
+  double promised = found.highest_return;
+  for (Index i = 0; i < safety.searches; ++i) {
+    if (choice.excess == 0 && within(kNearlyAll, promised, choice.predicted_return)) return;
+    std::vector<Vector> starts = {choice.theta};
+    for (const Vector& other : found.runners_up)
+      if (starts.size() < kSafeStarts) starts.push_back(other);
+    SearchResult more = searches.search_safe(starts, i);
+    promised = std::max(promised, more.highest_return);
     if (!is_better(more, choice)) continue;
     choice.take(more);
     found = std::move(more);

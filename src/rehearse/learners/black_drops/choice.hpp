@@ -23,8 +23,9 @@ struct Choice {
 /// The i-th search more, i = 1, 2, …
 using SearchAgain = std::function<SearchResult(Index i)>;
 
-/// Where the choice keeps the task's limits too rarely: `safety.searches` more searches at most, until one does.
-/// `found` becomes what the search that made the choice has found.
+/// Where the choice keeps the task's limits too rarely, or less safe policies promise more: `safety.searches` searches
+/// near the best of all that `found` has, for policies that keep the limits. `found` becomes what the search that made
+/// the choice has found. Nothing happens without limits.
 void prefer_safe(TrialSearches& searches, const SafetyOptions& safety, SearchResult& found, Choice& choice);
 
 /// Where the model is sure: searches are repeated until one finds a policy that is expected to solve the task for about

@@ -65,9 +65,11 @@ SearchResult select(const std::vector<Vector>& found, const std::vector<Vector>&
     compared.push_back(result_of(Theta.col(i), measured[static_cast<std::size_t>(i)], problem.task));
   const auto best = std::min_element(compared.begin(), compared.end(), better) - compared.begin();
   SearchResult result = compared[static_cast<std::size_t>(best)];
+  result.highest_return = result.predicted_return;
+  for (const SearchResult& other : compared)
+    result.highest_return = std::max(result.highest_return, other.predicted_return);
   for (Index i = 0; i < static_cast<Index>(found.size()); ++i)
-    if (i >= finalists || (i != best && compared[static_cast<std::size_t>(i)].excess <= result.excess))
-      result.runners_up.push_back(found[static_cast<std::size_t>(i)]);
+    if (i >= finalists || i != best) result.runners_up.push_back(found[static_cast<std::size_t>(i)]);
   return result;
 }
 

@@ -13,7 +13,8 @@ struct SearchResult {
   double solving = 0;              // how surely it solves the task, where that was asked
   std::vector<LimitRisk> risks;    // one a limit of the task
   double excess = 0;               // of these over what the limits allow (safety.hpp); 0: it is safe
-  std::vector<Vector> runners_up;  // other good policies, best first; with limits those alone that are no less safe
+  double highest_return = 0;       // of all that were compared, safe or not
+  std::vector<Vector> runners_up;  // other good policies, best first, safe or not
   Index rollouts = 0;
   Index failed_rollouts = 0;
 };

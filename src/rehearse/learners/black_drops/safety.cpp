@@ -28,7 +28,8 @@ Vector drawn(const ParameterSpace& space, double doubt, Rng& rng) {
 
 void SafetyOptions::fields(FieldVisitor& v) {
   v.integer("rollouts", rollouts, "of tasks with limits: rollouts of each policy that is compared", between(1, 1e6));
-  v.integer("searches", searches, "more searches at most, while no policy keeps the task's limits", between(0, 1000));
+  v.integer("searches", searches, "of tasks with limits: more searches at most, near good policies for safe ones",
+            between(0, 1000));
   v.number("doubt", doubt,
            "of tasks with limits, before there are data: how far towards anywhere in its box a parameter of the prior "
            "may be, as a fraction",

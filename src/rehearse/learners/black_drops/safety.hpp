@@ -17,7 +17,7 @@ namespace rehearse::learners::black_drops {
 /// Of tasks that have limits; no other notices.
 struct SafetyOptions {
   Index rollouts = 400;  // of each policy that is compared: 0.05 is told from 0.02. At least `selection`
-  Index searches = 1;    // more, at most, each of several rollouts an evaluation, while no policy is safe
+  Index searches = 1;    // more, at most, near good policies for safe ones, each evaluation of several rollouts
   double doubt = 0.5;    // before there are data: how far towards anywhere in its box a parameter of the prior may be
   void fields(FieldVisitor& v);
 };

@@ -32,6 +32,7 @@ struct SearchOptions {
   Index finalists = 4;    // best policies found that are compared once more, together with those it started from
   Index selection = 100;  // rollouts of each of them, if they can differ; their mean is the predicted return
   SafetyOptions safety;
+  bool constrained = false;  // not an option: descents, too, put policies that keep the task's limits above all others
   void fields(FieldVisitor& v);
 };
 

@@ -28,7 +28,7 @@ bool allowed(const std::vector<LimitRisk>& risks, const std::vector<Limit>& limi
 void SimulatedReturn::operator()(const ConstMatrixView& Theta, std::uint64_t first, Index samples, VectorView values) {
   const rollout::Simulated simulated = simulate(Theta, first, samples * options_.particles);
   values = simulated.returns.colwise().mean().transpose();
-  if (simulated.broken.empty()) return;
+  if (!options_.constrained) return;
   seen_ = {std::min(seen_.low, values.minCoeff()), std::max(seen_.high, values.maxCoeff())};
   const double range = seen_.high > seen_.low ? seen_.high - seen_.low : 1;
   for (Index j = 0; j < values.size(); ++j) {

@@ -17,9 +17,10 @@ struct Measurement {
                      // last step to 1 for one that did in its first
 };
 
-/// The objective of a search: the mean return of simulated episodes where limits are kept often enough, and less than
-/// that of any such policy of the batch where they are not, the less the more often and the earlier they are broken
-/// (Deb 2000). It counts rollouts. References must outlive it.
+/// The objective of a search: the mean return of simulated episodes, which end where they break a limit. Of a
+/// constrained search that is so where limits are kept often enough; where they are not, it is less than that of any
+/// policy of the batch that does, the less the more often and the earlier they are broken (Deb 2000). It counts
+/// rollouts. References must outlive it.
 class SimulatedReturn {
  public:
   SimulatedReturn(const SearchProblem& problem, const SearchOptions& options, StreamKey key)

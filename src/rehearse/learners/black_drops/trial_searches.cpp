@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace rehearse::learners::black_drops {
@@ -14,10 +15,12 @@ SearchOptions in_means(SearchOptions options) {
   return options;
 }
 
-/// About twice the rollouts of another search.
-SearchOptions for_safety(SearchOptions options) {
+/// Twice the rollouts of another search, for descents that begin at the starts alone.
+SearchOptions for_safety(SearchOptions options, std::size_t starts) {
   constexpr Index kRollouts = 8, kFewer = 4;
+  options.constrained = true;
   options.particles *= kRollouts;
+  options.race.descents = std::max(static_cast<Index>(starts), Index{1});
   options.race.max_evaluations = std::max(options.race.max_evaluations / kFewer, 2 * options.race.descents);
   options.restarts.max_evaluations = std::max(options.restarts.max_evaluations / kFewer, Index{1});
   options.safety.rollouts = std::max(options.safety.rollouts / kRollouts, Index{1});
@@ -39,7 +42,7 @@ SearchResult TrialSearches::search_means(const std::vector<Vector>& starts, Inde
 }
 
 SearchResult TrialSearches::search_safe(const std::vector<Vector>& starts, Index i) {
-  return counted(search_policy(problem_, starts, for_safety(options_), key(Stage::safe_search, i)));
+  return counted(search_policy(problem_, starts, for_safety(options_, starts.size()), key(Stage::safe_search, i)));
 }
 
 SearchResult TrialSearches::judge(const Vector& theta) {
@@ -56,12 +59,17 @@ std::optional<SearchResult> TrialSearches::best_that_solves(const SearchResult& 
   const Vector rates = solving_rates(problem_, policies, options_, key(Stage::solving)) +
                        kMeans * solving_rates(problem_, policies, means, key(Stage::mean_solving));
   rollouts_ += rates.size() * (comparisons(problem_, options_) + comparisons(problem_, means));
-  Index best = 0;
-  const double solving = rates.maxCoeff(&best);
-  if (solving == 0) return std::nullopt;
-  SearchResult judged = judge(policies[static_cast<std::size_t>(best)]);
-  judged.solving = solving;
-  return judged;
+  std::vector<Index> order(policies.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::ranges::stable_sort(order, [&](Index a, Index b) { return rates(a) > rates(b); });
+  for (const Index i : order) {
+    if (rates(i) == 0) break;
+    SearchResult judged = judge(policies[static_cast<std::size_t>(i)]);
+    if (judged.excess > found.excess) continue;
+    judged.solving = rates(i);
+    return judged;
+  }
+  return std::nullopt;
 }
 
 StreamKey TrialSearches::key(Stage stage, Index search) const {

@@ -19,14 +19,15 @@ class TrialSearches {
   /// The i-th search that follows the mean predictions.
   SearchResult search_means(const std::vector<Vector>& starts, Index i);
 
-  /// The i-th search for a policy that keeps the task's limits, where another found none: several rollouts are one
-  /// evaluation, which tells how often a limit is broken.
+  /// The i-th search near some policies for one that keeps the task's limits: each descent begins at one of them, and
+  /// several rollouts are one evaluation, which tells how often a limit is broken.
   SearchResult search_safe(const std::vector<Vector>& starts, Index i);
 
   /// A policy's predicted return, and risks, where the model's uncertainty counts.
   SearchResult judge(const Vector& theta);
 
-  /// The policy of a search that solves the task most often in simulated episodes; among those that never do where
+  /// The policy of a search that solves the task most often in simulated episodes, of those that are no less safe than
+  /// what it found; among those that never do where
   /// uncertainty counts, one that does in the means. Empty if none does, or if the task cannot say.
   std::optional<SearchResult> best_that_solves(const SearchResult& found);
 

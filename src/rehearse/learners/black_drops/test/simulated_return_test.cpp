@@ -42,12 +42,23 @@ TEST_F(SimulatedReturnTest, IsLessThanThatOfAnyPolicyThatKeepsTheLimits) {
   free(pulls, 0, 10, unlimited);
   EXPECT_GT(unlimited(0), unlimited(2) + 1) << "it is the better one";
   limit(0.5);
+  options.constrained = true;
   SimulatedReturn objective(problem, options, key);
   objective(pulls, 0, 10, values);
   EXPECT_LT(values(0), values(2));
   EXPECT_LT(values(0), values(3));
   EXPECT_LT(values(0), values(1)) << "broken later";
   EXPECT_EQ(values(2), unlimited(2));
+}
+
+TEST_F(SimulatedReturnTest, OfASearchThatIsNotConstrainedEndsWhereALimitIsBroken) {
+  limit(0.5);
+  SimulatedReturn objective(problem, options, key);
+  Vector values(4);
+  objective(pulls, 0, 10, values);
+  const auto expected =
+      rollout::simulate({model, *policy, task, key, options.simulate}, pulls, {0, 10}, serial_evaluator());
+  EXPECT_EQ(values, expected.returns.colwise().mean().transpose());
 }
 
 TEST_F(SimulatedReturnTest, MeasuresHowOftenLimitsAreBroken) {

@@ -64,10 +64,25 @@ TEST_F(TrialSearchesTest, ASafeSearchEvaluatesPoliciesByEightRollouts) {
   task.limits = {{"end", "", [](const auto&, const auto&, const auto&, VectorView kept) { kept.setOnes(); }}};
   options.safety.rollouts = 80;
   TrialSearches trial = searches();
-  const Index rollouts = trial.search_safe({}, 0).rollouts;
+  const Index rollouts = trial.search_safe({Vector{{-5, 0}}, Vector{{-1, 0}}}, 0).rollouts;
   EXPECT_EQ(rollouts % 8, 0);
   EXPECT_GT(rollouts, trial.search({}, 0).rollouts / 2);
   EXPECT_EQ(trial.judge(Vector{{-5, 0}}).risks.front().episodes, 80);
+}
+
+TEST_F(TrialSearchesTest, OfThoseThatSolveTheSafeOneIsTaken) {
+  task.limits = {{"end", "position > 0.02",
+                  [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next, VectorView kept) {
+                    kept = (X_next.col(0).array() > 0.02).cast<double>();
+                  }}};
+  task.solved = [](const Episode& e) { return e.true_states(e.steps(), 0) < 0.6; };
+  const Vector to_zero{{-5, 0}}, near{{-1, 0}};
+  options.simulate.sample = false;
+  const SearchResult found{.theta = to_zero, .runners_up = {near}};
+  const auto safe = searches().best_that_solves(found);
+  ASSERT_TRUE(safe);
+  EXPECT_EQ(safe->theta, near);
+  EXPECT_EQ(safe->excess, 0);
 }
 
 TEST(Within, IsAFractionOfWhatWasExpectedWhateverItsSign) {
