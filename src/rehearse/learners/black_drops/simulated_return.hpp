@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "rehearse/learners/black_drops/policy_search.hpp"
+#include "rehearse/learners/black_drops/search_problem.hpp"
 
 namespace rehearse::learners::black_drops {
 

@@ -9,6 +9,8 @@
 namespace rehearse::rollout {
 namespace {
 
+using cart::kKey, cart::kUnclipped, cart::Noise, cart::noise_of, cart::simulate_cart, cart::start_of;
+
 Limit above(Index state, double low, const char* name) {
   const auto holds = [=](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next,
                          VectorView kept) { kept = (X_next.col(state).array() > low).cast<double>(); };
@@ -42,7 +44,7 @@ TEST(Limits, EndSimulatedEpisodesAtTheFloor) {
     for (Index p = 0; p < 2; ++p) {
       const Noise noise = noise_of(task, static_cast<std::uint64_t>(j), static_cast<std::uint64_t>(p));
       const auto hand = cart::by_hand(task, Theta.col(j), start_of(task, noise), noise.steps, std::sqrt(0.001));
-      const Index t = first_break(hand.states), T = task.horizon;
+      const Index T = task.horizon, t = first_break(hand.states);
       double expected = 0;
       for (Index s = 1; s <= std::min(t + 1, T); ++s) expected += std::exp(-hand.states(s, 1) * hand.states(s, 1));
       expected += static_cast<double>(std::max<Index>(0, T - 1 - t)) * task.reward_floor;
@@ -100,7 +102,8 @@ TEST(Limits, EndRecordedEpisodes) {
   Task task = cart::task();
   task.limits = {above(0, 1e9, "speed")};
   Episodes episodes;
-  simulate_episodes({cart::Model(), *cart::policy(), task, kKey}, cart::candidates(1).transpose(), 0, episodes);
+  const cart::Model model;
+  simulate_episodes({model, *cart::policy(), task, kKey}, cart::candidates(1).transpose(), 0, episodes);
   EXPECT_EQ(episodes.steps, std::vector<Index>{1});
   EXPECT_TRUE(episodes.ended[0]);
 }
