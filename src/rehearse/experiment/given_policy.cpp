@@ -5,11 +5,12 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/past_run.hpp"
+#include "rehearse/learners/json.hpp"
 
 namespace rehearse::experiment {
 namespace {
 
-using nlohmann::json;
+using learners::to_vector, nlohmann::json;
 
 constexpr double kTolerance = 1e-9;
 
@@ -24,11 +25,6 @@ std::vector<std::string> variable_names(const json& variables) {
   std::vector<std::string> names;
   for (const json& variable : variables) names.push_back(variable.at("name"));
   return names;
-}
-
-Vector to_vector(const json& numbers) {
-  const auto values = numbers.get<std::vector<double>>();
-  return Eigen::Map<const Vector>(values.data(), static_cast<Index>(values.size()));
 }
 
 /// Whether the policy answers as the file says.

@@ -7,7 +7,8 @@
 
 namespace rehearse::experiment {
 
-/// Writes them, as C, JSON and a NumPy module, or, if no trial is asked for, removes those of the last one: nobody may run them again by mistake.
+/// Writes them, as C, JSON and a NumPy module, or, if no trial is asked for, removes those of the last one: nobody may
+/// run them again by mistake.
 void update_next_files(const RunFolder& folder, const Resolved& resolved, const History& history);
 
 }  // namespace rehearse::experiment

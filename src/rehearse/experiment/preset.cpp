@@ -41,7 +41,8 @@ Preset::Preset(std::string_view text, std::string source) : source_(std::move(so
   files::TomlReader reader(file, "", violations);
   const toml::node* format = reader.take("format");
   if (!format || format->value<std::int64_t>() != kPresetFormat)
-    violations.add(format ? files::line_of(*format) : 0, fmt::format("a preset begins with format = {}", kPresetFormat));
+    violations.add(format ? files::line_of(*format) : 0,
+                   fmt::format("a preset begins with format = {}", kPresetFormat));
   reader.take("title", title_);
   parts_.push_back({.options = options_in(reader.take_table("set"), violations)});
   const toml::node* parts = reader.take("for");

@@ -15,7 +15,7 @@ struct Unit {
   double in_si;
 };
 
-constexpr double kDegree = std::numbers::pi / 180, kTurn = 2 * std::numbers::pi;
+constexpr double kDegree = std::numbers::pi / 180;
 constexpr Unit kUnits[] = {
     {"s", Quantity::time, 1},
     {"ms", Quantity::time, 1e-3},
@@ -27,7 +27,7 @@ constexpr Unit kUnits[] = {
     {"rad/s", Quantity::angular_speed, 1},
     {"deg/s", Quantity::angular_speed, kDegree},
     {"°/s", Quantity::angular_speed, kDegree},
-    {"rpm", Quantity::angular_speed, kTurn / 60},
+    {"rpm", Quantity::angular_speed, 2 * std::numbers::pi / 60},
     {"m", Quantity::length, 1},
     {"cm", Quantity::length, 1e-2},
     {"mm", Quantity::length, 1e-3},

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kFormat = 1;  // of spec.toml and of the checkpoint
+constexpr std::int64_t kRunFormat = 1;  // of spec.toml and of the checkpoint
 
 fs::path trial_file(const char* kind, Index trial) { return fs::path(kind) / fmt::format("trial-{:03}.csv", trial); }
 
@@ -52,7 +52,7 @@ void check_checkpoint(const fs::path& path) {
   if (line == std::string::npos ||
       std::sscanf(bytes.c_str(), "rehearse-checkpoint %ld %zu %llx", &format, &size, &sum) < 2)
     throw InvalidInput("it is truncated or none of Rehearse");
-  if (format != kFormat) throw InvalidInput(fmt::format("format {} is that of another version of Rehearse", format));
+  if (format != kRunFormat) throw InvalidInput(fmt::format("format {} is that of another version of Rehearse", format));
   const std::string_view body = std::string_view(bytes).substr(line + 1);
   if (size != body.size() || sum != files::checksum(body)) throw InvalidInput("it is truncated or damaged");
 }
@@ -186,9 +186,9 @@ RunSpec read_spec(const fs::path& folder) {
   const toml::table file = parse(read_text(folder / "spec.toml"));
   const std::int64_t format = file["format"].value_or(std::int64_t{0});
   if (format == 0 || !file["run"].is_table()) throw InvalidInput("it is no spec: it needs `format` and [run]");
-  if (format != kFormat)
+  if (format != kRunFormat)
     throw InvalidInput(
-        fmt::format("format {} is that of another version of Rehearse, this one reads {}", format, kFormat));
+        fmt::format("format {} is that of another version of Rehearse, this one reads {}", format, kRunFormat));
   const auto run = file["run"];
   return {.scenario = run["scenario"].value_or(std::string{}),
           .learner = run["learner"].value_or(std::string{}),

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/preset_check.hpp"
+#include "rehearse/experiment/preset_check.hpp"
 #include "specs.hpp"
 
 namespace rehearse::experiment {

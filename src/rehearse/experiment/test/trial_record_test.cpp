@@ -14,6 +14,13 @@ namespace fs = std::filesystem;
 
 using fake::line_spec, fake::lines_of;
 
+TrialRecord record_of(Index trial, const learners::Proposal& proposal, const Episode& episode,
+                      const Resolved& resolved) {
+  TrialRecord record = record_before(trial, proposal, resolved);
+  add_outcome(record, proposal, episode, resolved.scenario.task);
+  return record;
+}
+
 TEST(TrialRecord, HasTheTunableParametersAndWhatCameOfTheTrial) {
   const Resolved resolved = resolve(fake::catalogue(), line_spec(1));
   learners::Proposal proposal;
@@ -25,8 +32,7 @@ TEST(TrialRecord, HasTheTunableParametersAndWhatCameOfTheTrial) {
   episode.rewards = Vector::Constant(12, 0.5);
   episode.charged = -1;
   episode.failure = "it fell";
-  TrialRecord record = record_before(4, proposal, resolved);
-  add_outcome(record, proposal, episode, resolved.scenario.task);
+  const TrialRecord record = record_of(4, proposal, episode, resolved);
   EXPECT_EQ(record.trial, 4);
   EXPECT_EQ(record.total_reward, 5);
   EXPECT_EQ(record.solved, true);
@@ -48,7 +54,7 @@ TEST(TrialRecord, SaysOfEachLimitWhatWasExpectedAndWhatHappened) {
   Episode episode{.states = Matrix::Zero(13, 1), .true_states = Matrix::Zero(13, 1), .actions = Matrix::Zero(12, 1)};
   episode.rewards = Vector::Zero(12);
   episode.broken_limits = {"speed"};
-  for (const LimitRecord& unknown : record_of(1, proposal, episode, resolved).limits) {
+  for (const LimitRecord& unknown : record_before(1, proposal, resolved).limits) {
     EXPECT_FALSE(unknown.predicted);
     EXPECT_FALSE(unknown.safe());
   }

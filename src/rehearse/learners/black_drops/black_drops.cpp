@@ -97,7 +97,7 @@ class BlackDrops final : public TrialLearner {
 
   void search(Proposal& proposal, const Task& task) const {
     SearchProblem problem{*proposal.model, *setting_.policy, task, *setting_.evaluator, setting_.progress};
-    if (first() && !task.limits.empty())
+    if (without_data() && !task.limits.empty())
       problem.doubted = doubted(*setting_.prior, options_.search.safety.doubt, stream());
     TrialSearches searches(problem, options_.search, stream());
     Choice choice =
