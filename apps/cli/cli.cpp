@@ -39,6 +39,7 @@ int run(const experiment::Catalogue& catalogue, const Typed& typed, const Proces
   if (command == "check") return check(catalogue, typed.check, share);
   if (command == "evaluate") return evaluate(catalogue, typed.evaluate);
   if (command == "export") return export_policy(catalogue, typed.export_policy);
+  if (command == "identify") return identify(catalogue, typed.identify);
   if (command == "report") return report(typed.report, share);
   return replay(typed.replay, share);
 }

@@ -64,6 +64,12 @@ struct CampaignArguments {
   bool dry_run = false;
 };
 
+struct IdentifyArguments {
+  std::string robot;  // a scenario's name or a robot's file
+  std::vector<std::string> logs, held_out, set;
+  std::optional<std::string> prior, threads, out;
+};
+
 struct ReportArguments {
   std::string folder;
   std::optional<std::string> out;
@@ -97,6 +103,7 @@ int resume(const experiment::Catalogue& catalogue, const ResumeArguments& argume
 int ask(const experiment::Catalogue& catalogue, const AskArguments& arguments);
 int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments);
 int status(const experiment::Catalogue& catalogue, const StatusArguments& arguments);
+int identify(const experiment::Catalogue& catalogue, const IdentifyArguments& arguments);
 int campaign(const experiment::Catalogue& catalogue, const CampaignArguments& arguments, const ProcessGroup& processes);
 
 int evaluate(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments);

@@ -170,6 +170,26 @@ void add_campaign(CLI::App& app, CampaignArguments& arguments) {
   command->footer(fmt::format(kCampaignExample, program_name()));
 }
 
+void add_identify(CLI::App& app, IdentifyArguments& arguments) {
+  CLI::App* command =
+      app.add_subcommand("identify", "Learn a robot's parameters, and what no parameter explains, from logs");
+  add(command, "ROBOT", arguments.robot, "The file of a robot of your own, or a scenario that `list` shows", "")
+      ->required();
+  add(command, "LOG.csv", arguments.logs, "What the robot did: CSV files with columns of time, states and actions", "")
+      ->required();
+  add(command, "--prior", arguments.prior, "The guess to start from. Default: the robot's first", "NAME");
+  add(command, "--held-out", arguments.held_out, "Logs to forecast, of which nothing is learned", "LOG.csv")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add(command, "--threads", arguments.threads,
+      "Threads to compute with; results do not depend on it. Default: all cores", "K");
+  add(command, "--out", arguments.out,
+      "The folder of tables and a page, which must not exist. Default: none is written", "DIR");
+  add(command, "--set", arguments.set, "Set an option of docs/identify.md, or of the robot; may be repeated",
+      "KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 void add_report(CLI::App& app, ReportArguments& arguments) {
   CLI::App* command = app.add_subcommand("report", "Show a run or a campaign as a page for the browser");
   add(command, "DIR", arguments.folder, "The folder of the run or the campaign", "")->required();
@@ -255,6 +275,7 @@ void add_all(CLI::App& app, Typed& typed) {
   add_tell(app, typed.tell);
   add_status(app, typed.status);
   add_campaign(app, typed.campaign);
+  add_identify(app, typed.identify);
   add_report(app, typed.report);
   add_replay(app, typed.replay);
   add_export(app, typed.export_policy);

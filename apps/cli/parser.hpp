@@ -19,6 +19,7 @@ struct Typed {
   TellArguments tell;
   StatusArguments status;
   CampaignArguments campaign;
+  IdentifyArguments identify;
   ReportArguments report;
   ReplayArguments replay;
   ExportArguments export_policy;

@@ -67,7 +67,8 @@ void check_channels(Channels& channels, const Task& task, Problems& problems, st
     keep_in_bounds(channels.actions[a], task.actions[a].bounds, problems, notes);
 }
 
-void note_resampling(const Channels& channels, const Grid& grid, Index changed, std::vector<std::string>& notes) {
+void note_resampling(const Channels& channels, const Grid& grid, Index changed, bool average,
+                     std::vector<std::string>& notes) {
   if (grid.start_s > 0)
     notes.push_back(fmt::format("it begins at {:.6g} s, from where all columns have numbers", grid.start_s));
   if (changed == 0) return;
@@ -75,8 +76,9 @@ void note_resampling(const Channels& channels, const Grid& grid, Index changed, 
   const double usual_s = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
   notes.push_back(
       fmt::format("{} of {} control steps of {} s lie between rows, which are {:.3g} s apart on average: "
-                  "states are interpolated linearly, actions are means of what rows hold until the next",
-                  changed, grid.steps, grid.dt_s, usual_s));
+                  "states are {}, actions are means of what rows hold until the next",
+                  changed, grid.steps, grid.dt_s, usual_s,
+                  average ? "on lines through the rows around them" : "interpolated linearly"));
 }
 
 void check_size(double bytes, const std::string& source, const ReadOptions& options) {
@@ -96,6 +98,8 @@ Recording read_recording(const std::string& csv_text, const std::string& source,
   if (table.rows.empty()) problems.add(0, "rows", "there is no row below the header");
   Channels channels = find_channels(table, task, problems, recording.notes);
   problems.throw_if_any();
+  for (Channel& action : channels.actions)
+    for (Sample& sample : action.samples) sample.time_s += options.action_delay_s;
   check_channels(channels, task, problems, recording.notes);
   Grid grid = grid_of(channels, task.dt_s, options.max_gap_steps * task.dt_s * (1 + 1e-9), problems);
   problems.throw_if_any();
@@ -103,7 +107,8 @@ Recording read_recording(const std::string& csv_text, const std::string& source,
     recording.notes.push_back(fmt::format("the first {} of {} control steps are read", options.max_steps, grid.steps));
     grid.steps = options.max_steps;
   }
-  note_resampling(channels, grid, resample(channels, grid, recording.episode), recording.notes);
+  note_resampling(channels, grid, resample(channels, grid, options.average, recording.episode), options.average,
+                  recording.notes);
   return recording;
 }
 

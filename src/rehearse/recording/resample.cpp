@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -41,6 +42,18 @@ double state_at(const Samples& samples, double time_s, double near_s, bool& exac
   return before.value + part * (after->value - before.value);
 }
 
+/// The value there of the line through the samples within half a step; empty if they are fewer than four.
+std::optional<double> averaged(const Samples& samples, double time_s, double dt_s) {
+  const auto begin = from(samples, time_s - dt_s / 2), end = from(samples, time_s + dt_s / 2);
+  if (end - begin < 4) return std::nullopt;
+  double n = 0, t = 0, x = 0, tt = 0, tx = 0;
+  for (auto sample = begin; sample != end; ++sample) {
+    const double since_s = sample->time_s - time_s;
+    n += 1, t += since_s, x += sample->value, tt += since_s * since_s, tx += since_s * sample->value;
+  }
+  return (tt * x - t * tx) / (n * tt - t * t);
+}
+
 /// The mean from begin to end of what each sample holds until the next.
 double mean_action(const Samples& samples, double begin_s, double end_s, double near_s, bool& exact) {
   auto next = from(samples, begin_s + near_s);
@@ -60,12 +73,14 @@ double mean_action(const Samples& samples, double begin_s, double end_s, double 
   return (sum + held * (end_s - since_s)) / (end_s - begin_s);
 }
 
-Matrix states_on(const std::vector<Channel>& channels, const Grid& grid, std::vector<char>& exact) {
+Matrix states_on(const std::vector<Channel>& channels, const Grid& grid, bool average, std::vector<char>& exact) {
   Matrix states(grid.steps + 1, static_cast<Index>(channels.size()));
   for (Index s = 0; s < states.cols(); ++s)
     for (Index k = 0; k <= grid.steps; ++k) {
-      bool as_it_is = true;
-      states(k, s) = state_at(channels[static_cast<std::size_t>(s)].samples, grid.time(k), kNear * grid.dt_s, as_it_is);
+      const Samples& samples = channels[static_cast<std::size_t>(s)].samples;
+      const auto mean = average ? averaged(samples, grid.time(k), grid.dt_s) : std::nullopt;
+      bool as_it_is = !mean;
+      states(k, s) = mean ? *mean : state_at(samples, grid.time(k), kNear * grid.dt_s, as_it_is);
       exact[static_cast<std::size_t>(k)] &= static_cast<char>(as_it_is);
     }
   return states;
@@ -107,10 +122,10 @@ Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& 
   return grid;
 }
 
-Index resample(const Channels& channels, const Grid& grid, Episode& episode) {
+Index resample(const Channels& channels, const Grid& grid, bool average, Episode& episode) {
   std::vector<char> exact(static_cast<std::size_t>(grid.steps) + 1, 1);
-  episode.states = states_on(channels.states, grid, exact);
-  episode.true_states = channels.truths.empty() ? episode.states : states_on(channels.truths, grid, exact);
+  episode.states = states_on(channels.states, grid, average, exact);
+  episode.true_states = channels.truths.empty() ? episode.states : states_on(channels.truths, grid, average, exact);
   episode.actions = actions_on(channels.actions, grid, exact);
   episode.rewards = Vector::Zero(grid.steps);
   return std::min(grid.steps, static_cast<Index>(std::ranges::count(exact, char{0})));

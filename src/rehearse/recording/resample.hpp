@@ -23,6 +23,6 @@ struct Grid {
 Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& problems);
 
 /// The episode on the grid (recording.hpp says how). Returns how many steps are not rows of the file as they are.
-Index resample(const Channels& channels, const Grid& grid, Episode& episode);
+Index resample(const Channels& channels, const Grid& grid, bool average, Episode& episode);
 
 }  // namespace rehearse::recording

@@ -19,7 +19,7 @@ TEST(Resample, RowsAtStepsAreTakenAsTheyAre) {
   const Grid grid = grid_of(channels, 0.1, 0.3, problems);
   EXPECT_TRUE(problems.empty());
   Episode episode;
-  EXPECT_EQ(resample(channels, grid, episode), 0);
+  EXPECT_EQ(resample(channels, grid, false, episode), 0);
   EXPECT_EQ(episode.states, (Matrix{{0.1}, {0.7}, {0.3}}));
   EXPECT_EQ(episode.actions, (Matrix{{1.1}, {2.3}}));
   EXPECT_EQ(episode.true_states, episode.states);
@@ -34,10 +34,20 @@ TEST(Resample, BetweenRowsStatesAreInterpolatedAndActionsAreMeans) {
   EXPECT_EQ(grid.start_s, 0.25);
   EXPECT_EQ(grid.steps, 2);
   Episode episode;
-  EXPECT_EQ(resample(channels, grid, episode), 2);  // the first begins with a row, which does not hold
+  EXPECT_EQ(resample(channels, grid, false, episode), 2);  // the first begins with a row, which does not hold
 
   EXPECT_EQ(episode.states, (Matrix{{1}, {3}, {5}}));
   EXPECT_EQ(episode.actions, (Matrix{{1}, {6}}));  // 4 for 0.25 s, 0 for 0.75 s; 0 for 0.25 s, 8 for 0.75 s
+}
+
+TEST(Resample, FastRecordingsAreAveraged) {
+  Channel fast{"x", "", {}};
+  for (int i = 0; i <= 40; ++i) fast.samples.push_back({0.05 * i, 3 * 0.05 * i + (i % 2 == 0 ? 0.1 : -0.1), i + 2});
+  const Channels channels{{fast}, {with("u", {{0, 4}, {1, 0}})}, {}};
+  Problems problems("f");
+  Episode episode;
+  EXPECT_EQ(resample(channels, grid_of(channels, 1, 3, problems), true, episode), 2);
+  for (Index k = 0; k < 3; ++k) EXPECT_NEAR(episode.states(k, 0), 3 * static_cast<double>(k), 0.03);
 }
 
 TEST(Resample, LongGapsAreProblemsAndShortOnesAreNot) {

@@ -1,0 +1,104 @@
+#include "rehearse/study/bands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rehearse/identification/phi_posterior.hpp"
+#include "rehearse/rollout/particles.hpp"
+#include "rehearse/statistics/quantiles.hpp"
+
+namespace rehearse::study {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLeast = 1e-9;  // deviation: that of a model that is certain is 0
+
+/// Mean and deviation of particles in each column, in the rows of a start; NaN if fewer than half are left.
+void summarise(const Matrix& particles, Index start, Forecasts::At& at) {
+  for (Index s = 0; s < particles.cols(); ++s) {
+    double n = 0, sum = 0, squares = 0;
+    for (const double x : particles.col(s))
+      if (std::isfinite(x)) n += 1, sum += x;
+    const double mean = sum / n;
+    for (const double x : particles.col(s))
+      if (std::isfinite(x)) squares += (x - mean) * (x - mean);
+    const bool enough = 2 * n >= static_cast<double>(particles.rows());
+    at.predicted(start, s) = enough ? mean : kNone;
+    at.deviation(start, s) = enough ? std::sqrt(squares / std::max(n - 1, 1.0)) : kNone;
+  }
+}
+
+template <class Visit>
+void for_each_compared(const std::vector<Forecasts>& all, std::size_t horizon, Index state, Visit visit) {
+  for (const Forecasts& forecasts : all) {
+    const Forecasts::At& at = forecasts.at[horizon];
+    for (Index i = 0; i < at.predicted.rows(); ++i)
+      if (std::isfinite(at.predicted(i, state)) && std::isfinite(at.measured(i, state))) visit(at, i);
+  }
+}
+
+}  // namespace
+
+Forecasts make_forecasts(const dynamics::DynamicsModel& model, const Episode& log, const Matrix& measured,
+                         const ForecastPlan& plan, const Draws& draws) {
+  Forecasts result{.horizons = plan.horizons};
+  for (Index t = plan.first; t < log.steps(); t += plan.every) result.starts.push_back(t);
+  const Vector& noise = model.measurement_std();
+  const Index particles = model.certain() ? 1 : plan.particles, dx = log.states.cols();
+  const std::vector<Matrix> arrived = rollout::forecast_particles(
+      model, log, {result.starts, plan.horizons, particles, noise}, draws.key, draws.evaluator);
+  const auto starts = static_cast<Index>(result.starts.size());
+  for (std::size_t h = 0; h < plan.horizons.size(); ++h) {
+    Forecasts::At at{Matrix(starts, dx), Matrix(starts, dx), Matrix::Constant(starts, dx, kNone)};
+    for (Index i = 0; i < starts; ++i) {
+      const Index end = result.starts[static_cast<std::size_t>(i)] + plan.horizons[h];
+      if (end <= log.steps()) at.measured.row(i) = measured.row(end);
+      summarise(arrived[h].middleRows(i * particles, particles), i, at);
+    }
+    if (noise.size() > 0)
+      at.deviation = (at.deviation.array().square().rowwise() + noise.array().square().transpose()).sqrt();
+    at.deviation = at.deviation.cwiseMax(kLeast);
+    result.at.push_back(std::move(at));
+  }
+  return result;
+}
+
+Matrix calibration(const std::vector<Forecasts>& forecasts) {
+  if (forecasts.empty()) return {};
+  const std::size_t horizons = forecasts.front().horizons.size();
+  const Index dx = forecasts.front().at.empty() ? 0 : forecasts.front().at.front().predicted.cols();
+  Matrix factors = Matrix::Ones(static_cast<Index>(horizons), dx);
+  for (std::size_t h = 0; h < horizons; ++h)
+    for (Index s = 0; s < dx; ++s) {
+      std::vector<double> ratios;
+      for_each_compared(forecasts, h, s, [&](const Forecasts::At& at, Index i) {
+        ratios.push_back(std::abs(at.measured(i, s) - at.predicted(i, s)) /
+                         (identification::kNormal * at.deviation(i, s)));
+      });
+      if (!ratios.empty()) factors(static_cast<Index>(h), s) = statistics::quantile(ratios, 0.95);
+    }
+  return factors;
+}
+
+Accuracy accuracy(const std::vector<Forecasts>& forecasts, const Matrix& calibration) {
+  const Index horizons = calibration.rows(), dx = calibration.cols();
+  Accuracy result{Matrix::Constant(horizons, dx, kNone), Matrix::Constant(horizons, dx, kNone), {}};
+  for (Index h = 0; h < horizons; ++h) {
+    double n = 0;
+    for (Index s = 0; s < dx; ++s) {
+      double squares = 0, inside = 0;
+      n = 0;
+      for_each_compared(forecasts, static_cast<std::size_t>(h), s, [&](const Forecasts::At& at, Index i) {
+        const double error = at.measured(i, s) - at.predicted(i, s);
+        n += 1, squares += error * error;
+        inside += std::abs(error) <= identification::kNormal * calibration(h, s) * at.deviation(i, s);
+      });
+      if (n > 0) result.rms(h, s) = std::sqrt(squares / n), result.covered(h, s) = inside / n;
+    }
+    result.compared.push_back(static_cast<Index>(n));
+  }
+  return result;
+}
+
+}  // namespace rehearse::study

@@ -1,0 +1,52 @@
+#pragma once
+// Forecasts of a log with bands, and how far they hold.
+
+#include <vector>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/core/evaluator.hpp"
+#include "rehearse/core/random.hpp"
+#include "rehearse/dynamics/dynamics_model.hpp"
+
+namespace rehearse::study {
+
+/// Predictions of the measured states of a log from earlier ones, a row a start; NaN beyond its end or where a
+/// prediction failed.
+struct Forecasts {
+  std::vector<Index> starts, horizons;  // control steps
+  struct At {
+    Matrix predicted, deviation, measured;  // starts × dx
+  };
+  std::vector<At> at;  // by horizon
+};
+
+/// What is forecast: from step `first` on, every `every` steps.
+struct ForecastPlan {
+  Index first = 0, every = 1;
+  std::vector<Index> horizons;
+  Index particles = 50;
+};
+
+/// Means and deviations of particles that start from the measured states, with an error of measurement, and carry the
+/// model's uncertainty; what is measured in the end (T+1 × dx) has an error, too.
+struct Draws {
+  StreamKey key;
+  const Evaluator& evaluator;
+};
+Forecasts make_forecasts(const dynamics::DynamicsModel& model, const Episode& log, const Matrix& measured,
+                         const ForecastPlan& plan, const Draws& draws);
+
+/// By how much deviations have to be multiplied (horizons × dx) so that 95 % bands, ± 1.96 of them, hold 95 % of what
+/// was measured in these forecasts, none of which the model may have learned from (Lei 2018: conformal prediction). 1
+/// where there is nothing to compare.
+Matrix calibration(const std::vector<Forecasts>& forecasts);
+
+/// Of forecasts of one log or several, horizons × dx.
+struct Accuracy {
+  Matrix rms;                   // of the errors
+  Matrix covered;               // fraction inside the bands
+  std::vector<Index> compared;  // by horizon
+};
+Accuracy accuracy(const std::vector<Forecasts>& forecasts, const Matrix& calibration);
+
+}  // namespace rehearse::study

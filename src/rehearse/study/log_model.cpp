@@ -1,0 +1,94 @@
+#include "rehearse/study/log_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::study {
+namespace {
+
+constexpr double kStretchS = 1;
+
+Index steps_of(double time_s, const Task& task) {
+  return std::max<Index>(1, static_cast<Index>(std::llround(time_s / task.dt_s)));
+}
+
+Episode part(const Episode& log, Index first, Index steps) {
+  return {.states = log.states.middleRows(first, steps + 1),
+          .true_states = log.true_states.middleRows(first, steps + 1),
+          .actions = log.actions.middleRows(first, steps),
+          .rewards = log.rewards.segment(first, steps)};
+}
+
+ZeroProblem zero_problem(const prior::Prior& prior, const Task& task, const Options& options) {
+  return {prior, states_named(options.zeros, task), options.zero_range, steps_of(options.fit_horizon_s, task)};
+}
+
+}  // namespace
+
+std::vector<Index> states_named(const std::string& names, const Task& task) {
+  std::vector<Index> states;
+  const std::vector<std::string> known = task.state_names();
+  std::istringstream all(names);
+  for (std::string name; std::getline(all, name, ',');) {
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end())
+      throw InvalidInput(fmt::format("zeros: there is no state '{}', did you mean '{}'?", name, closest(name, known)));
+    states.push_back(found - known.begin());
+  }
+  return states;
+}
+
+Dataset spread_rows(const std::vector<Episode>& logs, Index rows, Index length) {
+  Index all = 0;
+  for (const Episode& log : logs) all += log.steps();
+  Dataset data;
+  for (const Episode& log : logs) {
+    const double share = std::min(1.0, static_cast<double>(rows) / static_cast<double>(all));
+    const double wanted = share * static_cast<double>(log.steps());
+    const auto stretches = std::max<Index>(1, std::llround(wanted / static_cast<double>(length)));
+    if (share == 1 || stretches * length >= log.steps()) {
+      data.append(log);
+      continue;
+    }
+    const Index room = log.steps() - length;
+    for (Index i = 0; i < stretches; ++i)
+      data.append(part(log, stretches == 1 ? room / 2 : i * room / (stretches - 1), length));
+  }
+  return data;
+}
+
+LogModel learn_logs(const std::vector<Episode>& logs, const Task& task, const prior::Prior& prior,
+                    const Options& options, const Evaluator& evaluator) {
+  LogModel model{.zeros = find_zeros(logs, zero_problem(prior, task, options), evaluator)};
+  std::vector<Episode> right;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    right.push_back(moved(logs[i], model.zeros.offsets.row(static_cast<Index>(i)).transpose()));
+    model.all_rows += logs[i].steps();
+  }
+  model.data = spread_rows(right, options.rows, steps_of(kStretchS, task));
+  model.learned = identification::learn({model.data, task.model_features(), task.kinematics(), &prior}, options.model,
+                                        {{}, model.zeros.phi}, evaluator);
+  return model;
+}
+
+PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task, const prior::Prior& prior,
+                    const Options& options) {
+  const Vector none = Vector::Zero(log.states.cols());
+  const Index first = steps_of(options.zero_s, task);
+  if (states_named(options.zeros, task).empty()) return {log, none, 0};
+  if (first >= log.steps())
+    throw InvalidInput(fmt::format("zero_s = {}, must be less than the {} s of a held-out log", options.zero_s,
+                                   static_cast<double>(log.steps()) * task.dt_s));
+  prior::Prior learned = prior;
+  learned.space = prior.space.fixed_at(*model.learned.state.phi);
+  const Zeros zeros = find_zeros({part(log, 0, first)}, zero_problem(learned, task, options), serial_evaluator());
+  const Vector offset = zeros.offsets.row(0).transpose();
+  return {moved(log, offset), offset, first};
+}
+
+}  // namespace rehearse::study

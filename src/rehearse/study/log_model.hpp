@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "rehearse/core/task.hpp"
+#include "rehearse/identification/learn.hpp"
+#include "rehearse/study/options.hpp"
+#include "rehearse/study/zeros.hpp"
+
+namespace rehearse::study {
+
+/// The states that `zeros` names. Throws InvalidInput if there is no such state.
+std::vector<Index> states_named(const std::string& names, const Task& task);
+
+/// A model learned from logs.
+struct LogModel {
+  Zeros zeros;
+  identification::Learned learned;  // of the states with their zeros moved
+  Dataset data;                     // what it was learned from
+  Index all_rows = 0;               // that the logs have
+};
+
+/// Zeros and φ over some steps first, and from there GP-MI (identification::learn) on stretches of a second, evenly
+/// spread over the logs.
+LogModel learn_logs(const std::vector<Episode>& logs, const Task& task, const prior::Prior& prior,
+                    const Options& options, const Evaluator& evaluator);
+
+/// A log that a model did not learn from, as the model means its states. Its zeros follow from its first `zero_s`.
+struct PreparedLog {
+  Episode log;
+  Vector offset;    // dx
+  Index first = 0;  // step from which on nothing of the log is used
+};
+PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task, const prior::Prior& prior,
+                    const Options& options);
+
+/// Evenly spread stretches of `length` rows, about `rows` of them all in all.
+Dataset spread_rows(const std::vector<Episode>& logs, Index rows, Index length);
+
+}  // namespace rehearse::study

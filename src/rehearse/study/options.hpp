@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/identification/kinds.hpp"
+
+namespace rehearse::study {
+
+/// How a robot is learned from logs alone.
+struct Options {
+  std::string zeros;           // states, "q1,q2"
+  double zero_range = 0.3;     // of their units
+  double zero_s = 3;           // of a held-out log
+  double fit_horizon_s = 0.3;  // long enough that errors of the start's speeds do not count for most
+  Index rows = 500;            // of the GPs; their time grows with its cube
+  double every_s = 0.1;
+  Index particles = 50;
+  std::uint64_t seed = 1;
+  identification::GpMi model;
+  void fields(FieldVisitor& v) {
+    v.text("zeros", zeros, "states whose zero is another in each log, with commas: encoders that count from power-on");
+    v.number("zero_range", zero_range, "how far such a zero may be off, in the state's unit", above(0));
+    v.number("zero_s", zero_s, "so much of a held-out log tells its zeros; forecasts begin after it [s]", above(0));
+    v.number("fit_horizon_s", fit_horizon_s, expert("how far zeros and first parameters are made to predict [s]"),
+             above(0));
+    v.integer("rows", rows, "control steps that the GPs learn from, evenly spread stretches of the logs", at_least(20));
+    v.number("every_s", every_s, "time between starts of forecasts [s]", above(0));
+    v.integer("particles", particles, "particles of a forecast", between(2, 10000));
+    v.group("model", model);
+  }
+};
+
+}  // namespace rehearse::study

@@ -1,0 +1,139 @@
+#include "rehearse/study/page.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "rehearse/study/summary.hpp"
+
+namespace rehearse::study {
+namespace {
+
+constexpr const char* kHead = R"(<!doctype html><meta charset="utf-8"><title>{0}</title><style>
+body{{font:15px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}}
+svg{{display:block;margin:.3rem 0 1rem}}h2{{font-size:1.15rem;margin-top:2rem}}text{{font-size:12px;fill:#444}}
+.band{{fill:#9cc3e6}}.predicted{{stroke:#1f5f99;fill:none}}.measured{{stroke:#222;fill:none}}.axis{{stroke:#999}}
+</style><h1>{0}</h1>
+)";
+constexpr double kWidth = 860, kHeight = 150, kLeft = 60, kBottom = 22;
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '>' ? "&gt;" : std::string(1, c);
+  return out;
+}
+
+/// Numbers to places in a figure.
+struct Axes {
+  Interval x, y;
+  std::string at(double a, double b) const {
+    const double px = kLeft + (a - x.low) / std::max(x.high - x.low, 1e-12) * (kWidth - kLeft);
+    const double py = (kHeight - kBottom) * (1 - (b - y.low) / std::max(y.high - y.low, 1e-12));
+    return fmt::format("{:.1f},{:.1f} ", px, py);
+  }
+};
+
+struct Curves {
+  std::vector<double> t, measured, predicted, low, high;
+};
+
+std::string figure(const Curves& c, const std::string& title) {
+  if (c.t.empty()) return "";
+  const auto [low, high] = std::minmax({*std::ranges::min_element(c.low), *std::ranges::max_element(c.high),
+                                        *std::ranges::min_element(c.measured), *std::ranges::max_element(c.measured)});
+  const Axes axes{{c.t.front(), c.t.back()}, {low, high}};
+  const auto line = [&](const std::vector<double>& y) {
+    std::string points;
+    for (std::size_t i = 0; i < y.size(); ++i) points += axes.at(c.t[i], y[i]);
+    return points;
+  };
+  std::string band = line(c.high);
+  for (std::size_t i = c.t.size(); i-- > 0;) band += axes.at(c.t[i], c.low[i]);
+  return fmt::format(
+      "<div>{}</div><svg width=\"{}\" height=\"{}\"><polygon class=\"band\" points=\"{}\"/><polyline "
+      "class=\"predicted\" "
+      "points=\"{}\"/><polyline class=\"measured\" points=\"{}\"/><line class=\"axis\" x1=\"{}\" y1=\"0\" x2=\"{}\" "
+      "y2=\"{}\"/><text x=\"0\" y=\"12\">{:.3g}</text><text x=\"0\" y=\"{}\">{:.3g}</text><text x=\"{}\" "
+      "y=\"{}\">{:.3g} s</text><text x=\"{}\" y=\"{}\">{:.3g} s</text></svg>\n",
+      escaped(title), kWidth, kHeight, band, line(c.predicted), line(c.measured), kLeft, kLeft, kHeight - kBottom, high,
+      kHeight - kBottom, low, kLeft, kHeight - 6, c.t.front(), kWidth - 50, kHeight - 6, c.t.back());
+}
+
+Curves curves(const Study& study, const Task& task, const Tested& tested, std::size_t log, std::size_t h, Index s) {
+  Curves c;
+  const Forecasts& forecasts = tested.model[log];
+  const Forecasts::At& at = forecasts.at[h];
+  for (Index i = 0; i < at.predicted.rows(); ++i) {
+    if (!std::isfinite(at.measured(i, s)) || !std::isfinite(at.predicted(i, s))) continue;
+    const double offset = tested.offsets[log](s), mean = at.predicted(i, s) - offset;
+    const double half = identification::kNormal * study.calibration(static_cast<Index>(h), s) * at.deviation(i, s);
+    c.t.push_back(static_cast<double>(forecasts.starts[static_cast<std::size_t>(i)] + forecasts.horizons[h]) *
+                  task.dt_s);
+    c.measured.push_back(at.measured(i, s) - offset);
+    c.predicted.push_back(mean), c.low.push_back(mean - half), c.high.push_back(mean + half);
+  }
+  return c;
+}
+
+/// A bar in its box for each continuous parameter: the interval of all logs, and thin ones of those without one.
+std::string parameter_bars(const Study& study) {
+  const auto& posterior = study.model.learned.posterior;
+  if (!posterior) return "";
+  std::string svg;
+  const double row = 26;
+  for (std::size_t i = 0; i < posterior->parameters.size(); ++i) {
+    const Parameter& parameter = posterior->parameters[i];
+    const double y = row * static_cast<double>(i);
+    const auto x = [&](double value) {
+      return 150 + 600 * (value - parameter.box.low) / (parameter.box.high - parameter.box.low);
+    };
+    const auto bar = [&](const Interval& interval, double top, double height) {
+      svg += fmt::format("<rect class=\"band\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\"/>",
+                         x(interval.low), top, std::max(1.0, x(interval.high) - x(interval.low)), height);
+    };
+    svg += fmt::format(
+        "<text x=\"0\" y=\"{}\">{} {}</text><text x=\"100\" y=\"{}\">{:.3g}</text><text x=\"760\" "
+        "y=\"{}\">{:.3g}</text><line class=\"axis\" x1=\"150\" x2=\"750\" y1=\"{}\" y2=\"{}\"/>",
+        y + 14, escaped(parameter.name), escaped(parameter.unit), y + 14, parameter.box.low, y + 14, parameter.box.high,
+        y + 18, y + 18);
+    bar(posterior->intervals()[i], y + 2, 8);
+    for (std::size_t m = 0; m < study.without.size(); ++m)
+      if (const auto& other = study.without[m].learned.posterior)
+        bar(other->intervals()[i], y + 11 + 3 * static_cast<double>(m), 2);
+    const double mean = x(posterior->mean(static_cast<Index>(i)));
+    svg +=
+        fmt::format("<line class=\"measured\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>", mean, y, y + 12);
+  }
+  return fmt::format(
+      "<h2>Parameters in their boxes</h2><div>Thick: 95 % from all logs; thin: without one of them.</div>"
+      "<svg width=\"{}\" height=\"{}\">{}</svg>\n",
+      kWidth, row * static_cast<double>(posterior->parameters.size()), svg);
+}
+
+}  // namespace
+
+std::string page(const Study& study, const Problem& problem, const std::string& robot) {
+  std::string html = fmt::format(kHead, escaped(robot + ", from logs"));
+  for (const auto& [title, lines] : summary(study, problem)) {
+    html += fmt::format("<h2>{}</h2><ul>\n", escaped(title));
+    for (const std::string& line : lines) html += fmt::format("<li>{}</li>\n", escaped(line));
+    html += "</ul>\n";
+  }
+  html += parameter_bars(study);
+  const Tested& tested = study.held_out.logs.empty() ? study.left_out_logs : study.held_out;
+  for (std::size_t log = 0; log < tested.logs.size(); ++log) {
+    html += fmt::format(
+        "<h2>Forecasts of {}</h2><div>Black: measured; blue: predicted from a state so long before, with "
+        "its 95 % band.</div>\n",
+        escaped(tested.logs[log]));
+    for (std::size_t h = 0; h < study.horizons_s.size(); ++h)
+      for (std::size_t s = 0; s < problem.task.states.size(); ++s)
+        html += figure(curves(study, problem.task, tested, log, h, static_cast<Index>(s)),
+                       fmt::format("{} [{}], {:.3g} s ahead", problem.task.states[s].name, problem.task.states[s].unit,
+                                   study.horizons_s[h]));
+  }
+  return html;
+}
+
+}  // namespace rehearse::study

@@ -1,0 +1,133 @@
+#include "rehearse/study/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/dynamics/simulator_model.hpp"
+
+namespace rehearse::study {
+namespace {
+
+constexpr double kHorizonsS[] = {0.1, 0.5, 2};
+constexpr std::size_t kMostLeftOut = 4;
+
+class Student {
+ public:
+  Student(const Problem& problem, const Options& options, const Evaluator& evaluator, const ProgressSink& progress)
+      : problem_(problem), options_(options), evaluator_(evaluator), progress_(progress) {
+    plan_.every = std::max<Index>(1, std::llround(options.every_s / problem.task.dt_s));
+    plan_.particles = options.particles;
+    for (const double horizon_s : kHorizonsS) {
+      const auto steps = std::max<Index>(1, std::llround(horizon_s / problem.task.dt_s));
+      if (!plan_.horizons.empty() && plan_.horizons.back() == steps) continue;
+      plan_.horizons.push_back(steps);
+      study_.horizons_s.push_back(static_cast<double>(steps) * problem.task.dt_s);
+    }
+  }
+
+  Study run() {
+    const std::vector<Log> logs = problem_.logs.size() == 1 ? halves(problem_.logs.front()) : problem_.logs;
+    const std::size_t folds = std::min(logs.size(), kMostLeftOut);
+    const double all = static_cast<double>(folds) + 1;
+    for (std::size_t out = 0; out < folds; ++out) {
+      say(fmt::format("without {}", logs[out].name), static_cast<double>(out) / all);
+      study_.left_out.push_back(logs[out].name);
+      study_.without.push_back(learned_from(logs, static_cast<Index>(out)));
+      test(logs[out], study_.without.back(), out, study_.left_out_logs);
+    }
+    study_.calibration = calibration(study_.left_out_logs.model);
+    say("all logs", static_cast<double>(folds) / all);
+    study_.model = learned_from(problem_.logs, -1);
+    for (std::size_t i = 0; i < problem_.held_out.size(); ++i)
+      test(problem_.held_out[i], study_.model, folds + i, study_.held_out);
+    for (Tested* tested : {&study_.left_out_logs, &study_.held_out}) {
+      tested->of_model = accuracy(tested->model, study_.calibration);
+      tested->of_prior = accuracy(tested->prior_as_given, study_.calibration);
+    }
+    study_.steps = step_errors();
+    return std::move(study_);
+  }
+
+ private:
+  void say(const std::string& phase, double done) const {
+    if (progress_) progress_({.phase = phase, .done = done});
+    evaluator_.stop_if_asked();
+  }
+
+  static std::vector<Log> halves(const Log& log) {
+    const Index half = log.episode.steps() / 2;
+    const auto part = [&](const std::string& name, Index first, Index steps) {
+      Episode episode;
+      episode.states = log.episode.states.middleRows(first, steps + 1);
+      episode.true_states = log.episode.true_states.middleRows(first, steps + 1);
+      episode.actions = log.episode.actions.middleRows(first, steps);
+      episode.rewards = log.episode.rewards.segment(first, steps);
+      return Log{log.name + name, episode, log.measured.middleRows(first, steps + 1)};
+    };
+    return {part(" (first half)", 0, half), part(" (second half)", half, log.episode.steps() - half)};
+  }
+
+  /// out: −1: none is left out.
+  LogModel learned_from(const std::vector<Log>& logs, Index out) const {
+    std::vector<Episode> episodes;
+    for (std::size_t i = 0; i < logs.size(); ++i)
+      if (static_cast<Index>(i) != out) episodes.push_back(logs[i].episode);
+    return learn_logs(episodes, problem_.task, problem_.prior, options_, evaluator_);
+  }
+
+  void test(const Log& log, const LogModel& model, std::size_t number, Tested& tested) const {
+    const PreparedLog prepared = prepare(log.episode, model, problem_.task, problem_.prior, options_);
+    const StreamKey key{.seed = options_.seed, .trial = number, .stage = Stage::prediction};
+    ForecastPlan plan = plan_;
+    plan.first = prepared.first;
+    const dynamics::SimulatorModel given(problem_.prior, problem_.prior.space.values());
+    tested.logs.push_back(log.name);
+    tested.offsets.push_back(prepared.offset);
+    tested.model.push_back(make_forecasts(*model.learned.model, prepared.log,
+                                          log.measured.rowwise() + prepared.offset.transpose(), plan,
+                                          {key, evaluator_}));
+    tested.prior_as_given.push_back(make_forecasts(given, log.episode, log.measured, plan, {key, evaluator_}));
+  }
+
+  StepErrors step_errors() const {
+    const Dataset& data = study_.model.data;
+    const auto rms = [](const Matrix& errors) -> Vector {
+      Vector result(errors.cols());
+      for (Index s = 0; s < errors.cols(); ++s) {
+        double n = 0, squares = 0;
+        for (const double error : errors.col(s))
+          if (std::isfinite(error)) n += 1, squares += error * error;
+        result(s) = std::sqrt(squares / n);
+      }
+      return result;
+    };
+    const auto left = [&](const dynamics::DynamicsModel& model) -> Vector {
+      Matrix mean(data.states.rows(), data.states.cols());
+      model.predict_mean(data.states, data.actions, mean);
+      return rms(data.changes - mean);
+    };
+    const prior::Prior& prior = problem_.prior;
+    return {rms(data.changes), left(dynamics::SimulatorModel(prior, prior.space.values())),
+            left(dynamics::SimulatorModel(prior, *study_.model.learned.state.phi)), left(*study_.model.learned.model)};
+  }
+
+  const Problem& problem_;
+  const Options& options_;
+  const Evaluator& evaluator_;
+  const ProgressSink& progress_;
+  ForecastPlan plan_;
+  Study study_;
+};
+
+}  // namespace
+
+Study study_logs(const Problem& problem, const Options& options, const Evaluator& evaluator,
+                 const ProgressSink& progress) {
+  if (problem.logs.empty()) throw InvalidInput("there is no log to learn from");
+  return Student(problem, options, evaluator, progress).run();
+}
+
+}  // namespace rehearse::study

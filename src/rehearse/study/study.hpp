@@ -1,0 +1,55 @@
+#pragma once
+// What logs tell of a robot: the front door.
+
+#include <string>
+#include <vector>
+
+#include "rehearse/core/events.hpp"
+#include "rehearse/study/bands.hpp"
+#include "rehearse/study/log_model.hpp"
+
+namespace rehearse::study {
+
+struct Log {
+  std::string name;
+  Episode episode;
+  Matrix measured;  // T+1 × dx, what forecasts are compared with: the episode's states, or those before averaging
+};
+
+struct Problem {
+  const Task& task;
+  const prior::Prior& prior;
+  const std::vector<Log>& logs;
+  const std::vector<Log>& held_out;
+};
+
+/// Logs that were forecast without having been learned from.
+struct Tested {
+  std::vector<std::string> logs;
+  std::vector<Vector> offsets;                   // of each log, dx
+  std::vector<Forecasts> model, prior_as_given;  // of each log
+  Accuracy of_model, of_prior;
+};
+
+/// How a state changes in a step, root mean squares over the rows learned from.
+struct StepErrors {
+  Vector change, prior_as_given, prior, model;  // dx; of the last three what they leave
+};
+
+struct Study {
+  LogModel model;                     // of all logs
+  std::vector<std::string> left_out;  // the log that each of these did not learn from
+  std::vector<LogModel> without;
+  std::vector<double> horizons_s;
+  Matrix calibration;  // horizons × dx, from the logs left out
+  Tested left_out_logs, held_out;
+  StepErrors steps;
+};
+
+/// Learns from all logs, and from all but one of them (at most four times; of a single log, from either half): the logs
+/// left out calibrate the bands and say whether parameters agree. Then forecasts the held-out logs. The same bytes for
+/// any number of threads. Throws InvalidInput where logs are too short.
+Study study_logs(const Problem& problem, const Options& options, const Evaluator& evaluator,
+                 const ProgressSink& progress = {});
+
+}  // namespace rehearse::study

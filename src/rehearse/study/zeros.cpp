@@ -1,0 +1,133 @@
+#include "rehearse/study/zeros.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/identification/coordinates.hpp"
+#include "rehearse/optim/least_squares.hpp"
+#include "rehearse/rollout/particles.hpp"
+#include "rehearse/statistics/quantiles.hpp"
+
+namespace rehearse::study {
+namespace {
+
+constexpr Index kStarts = 150;  // of a log
+constexpr double kUsual = 3;    // times the usual error: beyond, errors count by their logarithm
+constexpr double kMedianOfNormal = 0.6745;
+constexpr double kFailed = 10;  // usual errors, of what cannot be predicted
+
+/// A sum of squares of these grows like the logarithm of the errors far away (Cauchy).
+double robust(double error) {
+  return std::copysign(kUsual * std::sqrt(std::log1p(error * error / (kUsual * kUsual))), error);
+}
+
+class Errors {
+ public:
+  Errors(const std::vector<Episode>& logs, const ZeroProblem& problem, const Evaluator& evaluator)
+      : logs_(logs),
+        problem_(problem),
+        evaluator_(evaluator),
+        coordinates_(problem.prior.space, problem.prior.space.values()) {
+    for (const Episode& log : logs) {
+      const Index last = log.steps() - problem.horizon, every = std::max<Index>(1, log.steps() / kStarts);
+      starts_.emplace_back();
+      for (Index t = 0; t <= last && last >= 0; t += every) starts_.back().push_back(t);
+      rows_ += std::ssize(starts_.back());
+    }
+    if (rows_ == 0) throw InvalidInput(fmt::format("no log is longer than {} control steps", problem.horizon));
+    scale_ = usual(raw(start())) / kMedianOfNormal;
+    scale_ = scale_.cwiseMax(1e-9);
+  }
+
+  /// z: φ's coordinates, then an offset of each state and log, both fractions of their boxes.
+  Index size() const { return coordinates_.size() + std::ssize(problem_.states) * std::ssize(logs_); }
+  Vector start() const {
+    Vector z = Vector::Constant(size(), 0.5);
+    z.head(coordinates_.size()) = coordinates_.start();
+    return z;
+  }
+  Vector phi(const Vector& z) const { return coordinates_.phi(z.head(coordinates_.size())); }
+  Matrix offsets(const Vector& z) const {
+    Matrix offsets = Matrix::Zero(std::ssize(logs_), logs_.front().states.cols());
+    Index i = coordinates_.size();
+    for (Index log = 0; log < offsets.rows(); ++log)
+      for (const Index state : problem_.states) offsets(log, state) = (2 * z(i++) - 1) * problem_.range;
+    return offsets;
+  }
+
+  /// All errors over the horizon (starts of all logs × dx).
+  Matrix raw(const Vector& z) const {
+    const dynamics::SimulatorModel model(problem_.prior, phi(z));
+    const Matrix offset = offsets(z);
+    Matrix errors(rows_, offset.cols());
+    Index row = 0;
+    for (std::size_t i = 0; i < logs_.size(); ++i) {
+      const Episode log = moved(logs_[i], offset.row(static_cast<Index>(i)).transpose());
+      const Matrix arrived =
+          rollout::forecast_particles(model, log, {starts_[i], {problem_.horizon}, 1, {}}, {}, evaluator_).front();
+      for (Index s = 0; s < arrived.rows(); ++s)
+        errors.row(row++) = arrived.row(s) - log.states.row(starts_[i][static_cast<std::size_t>(s)] + problem_.horizon);
+    }
+    return errors;
+  }
+
+  Vector at(const Vector& z) const {
+    Matrix errors = raw(z);
+    for (Index s = 0; s < errors.cols(); ++s)
+      for (double& error : errors.col(s)) error = robust(std::isfinite(error) ? error / scale_(s) : kFailed);
+    return errors.reshaped();
+  }
+
+  Matrix derivatives(const Vector& z, const Vector& r) const {
+    const std::vector<Matrix> columns =
+        identification::slopes([this](const Vector& other) -> Matrix { return at(other); }, z, r);
+    Matrix J(r.size(), z.size());
+    for (Index i = 0; i < z.size(); ++i) J.col(i) = columns[static_cast<std::size_t>(i)];
+    return J;
+  }
+
+  /// The median magnitude of each state's errors.
+  static Vector usual(const Matrix& errors) {
+    Vector medians(errors.cols());
+    for (Index s = 0; s < errors.cols(); ++s) {
+      std::vector<double> sizes;
+      for (const double error : errors.col(s)) sizes.push_back(std::isfinite(error) ? std::abs(error) : INFINITY);
+      medians(s) = statistics::median(sizes);
+    }
+    return medians.array().isFinite().select(medians, 1.0);
+  }
+
+ private:
+  const std::vector<Episode>& logs_;
+  const ZeroProblem& problem_;
+  const Evaluator& evaluator_;
+  identification::Coordinates coordinates_;
+  std::vector<std::vector<Index>> starts_;
+  Index rows_ = 0;
+  Vector scale_;
+};
+
+}  // namespace
+
+Zeros find_zeros(const std::vector<Episode>& logs, const ZeroProblem& problem, const Evaluator& evaluator) {
+  const Errors errors(logs, problem, evaluator);
+  const Index n = errors.size();
+  const optim::SquaresProblem squares{[&](const Vector& z) { return errors.at(z); },
+                                      [&](const Vector& z, const Vector& r) { return errors.derivatives(z, r); },
+                                      Vector::Zero(n), Vector::Ones(n)};
+  const Vector start = errors.start();
+  const Vector z = n > 0 ? optim::minimise_squares(squares, start, {.max_steps = 30, .tolerance = 1e-4}).x : start;
+  return {errors.phi(z), errors.offsets(z), Errors::usual(errors.raw(start)), Errors::usual(errors.raw(z))};
+}
+
+Episode moved(Episode log, const Vector& offset) {
+  log.states.rowwise() += offset.transpose();
+  log.true_states.rowwise() += offset.transpose();
+  return log;
+}
+
+}  // namespace rehearse::study

@@ -1,0 +1,34 @@
+#pragma once
+// Zeros of states that are others in each log: an encoder that counts from where it was switched on. And the φ that
+// belongs to them. A wrong zero looks like a force to a model of one step, and ruins what it learns.
+
+#include <vector>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/core/evaluator.hpp"
+#include "rehearse/prior/prior.hpp"
+
+namespace rehearse::study {
+
+struct ZeroProblem {
+  const prior::Prior& prior;
+  std::vector<Index> states;  // whose zeros are unknown; others are right
+  double range = 0;           // how far off they may be
+  Index horizon = 1;          // control steps, over which predictions are compared with what was measured
+};
+
+struct Zeros {
+  Vector phi;
+  Matrix offsets;                    // logs × dx: measured + offset is the state that the prior means
+  Vector error_before, error_after;  // dx, median magnitude of the errors over the horizon, at the prior's φ and after
+};
+
+/// The offsets, and the prior's continuous parameters, of the least errors over the horizon, from some 150 states of
+/// each log; errors beyond three usual ones count by their logarithm. Gauss and Newton's method from the prior's
+/// values. Throws InvalidInput if no log is longer than the horizon.
+Zeros find_zeros(const std::vector<Episode>& logs, const ZeroProblem& problem, const Evaluator& evaluator);
+
+/// The log with its states moved by an offset (dx).
+Episode moved(Episode log, const Vector& offset);
+
+}  // namespace rehearse::study
