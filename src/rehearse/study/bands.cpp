@@ -44,10 +44,13 @@ Forecasts make_forecasts(const dynamics::DynamicsModel& model, const Episode& lo
                          const ForecastPlan& plan, const Draws& draws) {
   Forecasts result{.horizons = plan.horizons};
   for (Index t = plan.first; t < log.steps(); t += plan.every) result.starts.push_back(t);
+  const Index dx = log.states.cols();
   const Vector& noise = model.measurement_std();
-  const Index particles = model.certain() ? 1 : plan.particles, dx = log.states.cols();
+  Vector start = plan.start_std.size() > 0 ? plan.start_std : Vector::Zero(dx);
+  if (noise.size() > 0) start = (start.array().square() + noise.array().square()).sqrt();
+  const Index particles = model.certain() && start.isZero(0) ? 1 : plan.particles;
   const std::vector<Matrix> arrived = rollout::forecast_particles(
-      model, log, {result.starts, plan.horizons, particles, noise}, draws.key, draws.evaluator);
+      model, log, {result.starts, plan.horizons, particles, start}, draws.key, draws.evaluator);
   const auto starts = static_cast<Index>(result.starts.size());
   for (std::size_t h = 0; h < plan.horizons.size(); ++h) {
     Forecasts::At at{Matrix(starts, dx), Matrix(starts, dx), Matrix::Constant(starts, dx, kNone)};
@@ -79,6 +82,17 @@ Matrix calibration(const std::vector<Forecasts>& forecasts) {
       if (!ratios.empty()) factors(static_cast<Index>(h), s) = statistics::quantile(ratios, 0.95);
     }
   return factors;
+}
+
+void widen(std::vector<Forecasts>& forecasts, const Matrix& deviations) {
+  for (Forecasts& of : forecasts)
+    for (std::size_t h = 0; h < of.at.size(); ++h) {
+      Forecasts::At& at = of.at[h];
+      const auto row = static_cast<Index>(h);
+      for (Index s = 0; s < at.deviation.cols(); ++s)
+        if (std::isfinite(deviations(row, s)))
+          at.deviation.col(s) = (at.deviation.col(s).array().square() + deviations(row, s) * deviations(row, s)).sqrt();
+    }
 }
 
 Accuracy accuracy(const std::vector<Forecasts>& forecasts, const Matrix& calibration) {

@@ -25,6 +25,7 @@ struct ForecastPlan {
   Index first = 0, every = 1;
   std::vector<Index> horizons;
   Index particles = 50;
+  Vector start_std;  // dx, of what is not known of the states but of their measurements' noise; empty: nothing
 };
 
 /// Means and deviations of particles that start from the measured states, with an error of measurement, and carry the
@@ -40,6 +41,9 @@ Forecasts make_forecasts(const dynamics::DynamicsModel& model, const Episode& lo
 /// was measured in these forecasts, none of which the model may have learned from (Lei 2018: conformal prediction). 1
 /// where there is nothing to compare.
 Matrix calibration(const std::vector<Forecasts>& forecasts);
+
+/// Adds to the deviations what the model does not know that it does not know: these (horizons × dx).
+void widen(std::vector<Forecasts>& forecasts, const Matrix& deviations);
 
 /// Of forecasts of one log or several, horizons × dx.
 struct Accuracy {

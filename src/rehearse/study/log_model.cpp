@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/dynamics/simulator_model.hpp"
 
 namespace rehearse::study {
 namespace {
@@ -26,6 +27,26 @@ Episode part(const Episode& log, Index first, Index steps) {
 
 ZeroProblem zero_problem(const prior::Prior& prior, const Task& task, const Options& options) {
   return {prior, states_named(options.zeros, task), options.zero_range, steps_of(options.fit_horizon_s, task)};
+}
+
+/// Around the prior at the φ of the zeros, but for GP-MI, which moves it.
+identification::Learned learned_beyond(const LogModel& model, const Task& task, const prior::Prior& prior,
+                                       const Options& options, const Evaluator& evaluator) {
+  const auto learn = [&](const prior::Prior& of, const identification::Kind& kind) {
+    const identification::LearningProblem problem{model.data, task.model_features(), task.kinematics(), &of};
+    return identification::learn(problem, kind, {{}, model.zeros.phi}, evaluator);
+  };
+  if (options.beyond == Beyond::gp_mi) return learn(prior, options.model);
+  prior::Prior at_phi = prior;
+  at_phi.space = prior.space.fixed_at(model.zeros.phi);
+  identification::Learned learned;
+  if (options.beyond == Beyond::nothing)
+    learned.model = std::make_shared<dynamics::SimulatorModel>(at_phi, model.zeros.phi);
+  else
+    learned = learn(at_phi, identification::FixedPrior{options.model.gp});
+  learned.state.phi = model.zeros.phi;
+  learned.posterior = model.zeros.posterior;
+  return learned;
 }
 
 }  // namespace
@@ -71,8 +92,7 @@ LogModel learn_logs(const std::vector<Episode>& logs, const Task& task, const pr
     model.all_rows += logs[i].steps();
   }
   model.data = spread_rows(right, options.rows, steps_of(kStretchS, task));
-  model.learned = identification::learn({model.data, task.model_features(), task.kinematics(), &prior}, options.model,
-                                        {{}, model.zeros.phi}, evaluator);
+  model.learned = learned_beyond(model, task, prior, options, evaluator);
   return model;
 }
 
@@ -80,7 +100,7 @@ PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task,
                     const Options& options) {
   const Vector none = Vector::Zero(log.states.cols());
   const Index first = steps_of(options.zero_s, task);
-  if (states_named(options.zeros, task).empty()) return {log, none, 0};
+  if (states_named(options.zeros, task).empty()) return {log, none, none, 0};
   if (first >= log.steps())
     throw InvalidInput(fmt::format("zero_s = {}, must be less than the {} s of a held-out log", options.zero_s,
                                    static_cast<double>(log.steps()) * task.dt_s));
@@ -88,7 +108,7 @@ PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task,
   learned.space = prior.space.fixed_at(*model.learned.state.phi);
   const Zeros zeros = find_zeros({part(log, 0, first)}, zero_problem(learned, task, options), serial_evaluator());
   const Vector offset = zeros.offsets.row(0).transpose();
-  return {moved(log, offset), offset, first};
+  return {moved(log, offset), offset, zeros.deviations.row(0).transpose(), first};
 }
 
 }  // namespace rehearse::study

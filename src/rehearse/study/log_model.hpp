@@ -28,8 +28,9 @@ LogModel learn_logs(const std::vector<Episode>& logs, const Task& task, const pr
 /// A log that a model did not learn from, as the model means its states. Its zeros follow from its first `zero_s`.
 struct PreparedLog {
   Episode log;
-  Vector offset;    // dx
-  Index first = 0;  // step from which on nothing of the log is used
+  Vector offset;      // dx
+  Vector offset_std;  // dx, how sure it is
+  Index first = 0;    // step from which on nothing of the log is used
 };
 PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task, const prior::Prior& prior,
                     const Options& options);

@@ -7,6 +7,13 @@
 
 namespace rehearse::study {
 
+/// What is learned beyond the parameters that predict the logs best over `fit_horizon_s`.
+enum class Beyond {
+  nothing,  // the prior at these parameters
+  gp,       // GPs around it
+  gp_mi,    // GPs and the parameters anew, by steps (Chatzilygeroudis 2018)
+};
+
 /// How a robot is learned from logs alone.
 struct Options {
   std::string zeros;           // states, "q1,q2"
@@ -17,6 +24,7 @@ struct Options {
   double every_s = 0.1;
   Index particles = 50;
   std::uint64_t seed = 1;
+  Beyond beyond = Beyond::gp;
   identification::GpMi model;
   void fields(FieldVisitor& v) {
     v.text("zeros", zeros, "states whose zero is another in each log, with commas: encoders that count from power-on");
@@ -27,6 +35,8 @@ struct Options {
     v.integer("rows", rows, "control steps that the GPs learn from, evenly spread stretches of the logs", at_least(20));
     v.number("every_s", every_s, "time between starts of forecasts [s]", above(0));
     v.integer("particles", particles, "particles of a forecast", between(2, 10000));
+    v.choice("beyond", beyond, "what is learned beyond the parameters that predict best over some steps",
+             {"nothing", "gp", "gp-mi"});
     v.group("model", model);
   }
 };

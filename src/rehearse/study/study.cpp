@@ -38,11 +38,15 @@ class Student {
       study_.without.push_back(learned_from(logs, static_cast<Index>(out)));
       test(logs[out], study_.without.back(), out, study_.left_out_logs);
     }
+    const Matrix ones = Matrix::Ones(std::ssize(plan_.horizons), problem_.task.state_size());
+    const Matrix unknown = accuracy(study_.left_out_logs.model, ones).rms;
+    widen(study_.left_out_logs.model, unknown);
     study_.calibration = calibration(study_.left_out_logs.model);
     say("all logs", static_cast<double>(folds) / all);
     study_.model = learned_from(problem_.logs, -1);
     for (std::size_t i = 0; i < problem_.held_out.size(); ++i)
       test(problem_.held_out[i], study_.model, folds + i, study_.held_out);
+    widen(study_.held_out.model, unknown);
     for (Tested* tested : {&study_.left_out_logs, &study_.held_out}) {
       tested->of_model = accuracy(tested->model, study_.calibration);
       tested->of_prior = accuracy(tested->prior_as_given, study_.calibration);
@@ -83,13 +87,15 @@ class Student {
     const StreamKey key{.seed = options_.seed, .trial = number, .stage = Stage::prediction};
     ForecastPlan plan = plan_;
     plan.first = prepared.first;
+    ForecastPlan plan_of_prior = plan;
+    plan.start_std = prepared.offset_std;
     const dynamics::SimulatorModel given(problem_.prior, problem_.prior.space.values());
     tested.logs.push_back(log.name);
     tested.offsets.push_back(prepared.offset);
     tested.model.push_back(make_forecasts(*model.learned.model, prepared.log,
                                           log.measured.rowwise() + prepared.offset.transpose(), plan,
                                           {key, evaluator_}));
-    tested.prior_as_given.push_back(make_forecasts(given, log.episode, log.measured, plan, {key, evaluator_}));
+    tested.prior_as_given.push_back(make_forecasts(given, log.episode, log.measured, plan_of_prior, {key, evaluator_}));
   }
 
   StepErrors step_errors() const {

@@ -11,6 +11,7 @@
 #include "rehearse/optim/least_squares.hpp"
 #include "rehearse/rollout/particles.hpp"
 #include "rehearse/statistics/quantiles.hpp"
+#include "rehearse/study/certainty.hpp"
 
 namespace rehearse::study {
 namespace {
@@ -79,7 +80,21 @@ class Errors {
     Matrix errors = raw(z);
     for (Index s = 0; s < errors.cols(); ++s)
       for (double& error : errors.col(s)) error = robust(std::isfinite(error) ? error / scale_(s) : kFailed);
-    return errors.reshaped();
+    Vector all(errors.size() + (weight_ > 0 ? z.size() : 0));
+    all.head(errors.size()) = errors.reshaped();
+    all.tail(all.size() - errors.size()) = weight_ * (z - start()).head(all.size() - errors.size());
+    return all;
+  }
+
+  /// Errors go on with how far z is from where it starts, in units of the boxes' deviations, as errors of this
+  /// inflation count it: what they do not tell stays there.
+  void trust_start(double inflation) { weight_ = std::sqrt(kBoxPrecision * inflation); }
+
+  /// The errors of predictions alone.
+  FittedSquares fitted(const Vector& z) const {
+    const Vector r = at(z);
+    const Index count = rows_ * scale_.size();
+    return {r.head(count), derivatives(z, r).topRows(count), blocks()};
   }
 
   Matrix derivatives(const Vector& z, const Vector& r) const {
@@ -88,6 +103,18 @@ class Errors {
     Matrix J(r.size(), z.size());
     for (Index i = 0; i < z.size(); ++i) J.col(i) = columns[static_cast<std::size_t>(i)];
     return J;
+  }
+
+  /// Of each error: stretches of a log, three horizons long.
+  std::vector<Index> blocks() const {
+    std::vector<Index> of_rows, all;
+    Index first = 0;
+    for (const std::vector<Index>& starts : starts_) {
+      for (const Index start : starts) of_rows.push_back(first + start / (3 * problem_.horizon));
+      if (!of_rows.empty()) first = of_rows.back() + 1;
+    }
+    for (Index s = 0; s < scale_.size(); ++s) all.insert(all.end(), of_rows.begin(), of_rows.end());
+    return all;
   }
 
   /// The median magnitude of each state's errors.
@@ -108,20 +135,27 @@ class Errors {
   identification::Coordinates coordinates_;
   std::vector<std::vector<Index>> starts_;
   Index rows_ = 0;
+  double weight_ = 0;
   Vector scale_;
 };
 
 }  // namespace
 
 Zeros find_zeros(const std::vector<Episode>& logs, const ZeroProblem& problem, const Evaluator& evaluator) {
-  const Errors errors(logs, problem, evaluator);
+  Errors errors(logs, problem, evaluator);
   const Index n = errors.size();
   const optim::SquaresProblem squares{[&](const Vector& z) { return errors.at(z); },
                                       [&](const Vector& z, const Vector& r) { return errors.derivatives(z, r); },
                                       Vector::Zero(n), Vector::Ones(n)};
-  const Vector start = errors.start();
-  const Vector z = n > 0 ? optim::minimise_squares(squares, start, {.max_steps = 30, .tolerance = 1e-4}).x : start;
-  return {errors.phi(z), errors.offsets(z), Errors::usual(errors.raw(start)), Errors::usual(errors.raw(z))};
+  Vector z = errors.start();
+  for (int pass = 0; pass < 2 && n > 0; ++pass) {  // how much errors count is known after the first
+    z = optim::minimise_squares(squares, z, {.max_steps = 30, .tolerance = 1e-4}).x;
+    errors.trust_start(inflation(errors.fitted(z)));
+  }
+  const Vector phi = errors.phi(z);
+  const Matrix left = n > 0 ? covariance(errors.fitted(z)) : Matrix();
+  const Vector upwards = Vector::Constant(n, 0.5) + left.diagonal().cwiseSqrt();
+  return {phi, errors.offsets(z), errors.offsets(upwards), posterior_of(left, problem.prior.space, phi)};
 }
 
 Episode moved(Episode log, const Vector& offset) {

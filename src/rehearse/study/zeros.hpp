@@ -2,10 +2,12 @@
 // Zeros of states that are others in each log: an encoder that counts from where it was switched on. And the φ that
 // belongs to them. A wrong zero looks like a force to a model of one step, and ruins what it learns.
 
+#include <optional>
 #include <vector>
 
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/evaluator.hpp"
+#include "rehearse/identification/phi_posterior.hpp"
 #include "rehearse/prior/prior.hpp"
 
 namespace rehearse::study {
@@ -19,12 +21,14 @@ struct ZeroProblem {
 
 struct Zeros {
   Vector phi;
-  Matrix offsets;                    // logs × dx: measured + offset is the state that the prior means
-  Vector error_before, error_after;  // dx, median magnitude of the errors over the horizon, at the prior's φ and after
+  Matrix offsets;     // logs × dx: measured + offset is the state that the prior means
+  Matrix deviations;  // logs × dx, how sure the offsets are
+  std::optional<identification::PhiPosterior> posterior = {};  // of φ
 };
 
 /// The offsets, and the prior's continuous parameters, of the least errors over the horizon, from some 150 states of
-/// each log; errors beyond three usual ones count by their logarithm. Gauss and Newton's method from the prior's
+/// each log; errors beyond three usual ones count by their logarithm. What the logs do not tell stays at the prior's
+/// values, and zeros where they are. Gauss and Newton's method from the prior's
 /// values. Throws InvalidInput if no log is longer than the horizon.
 Zeros find_zeros(const std::vector<Episode>& logs, const ZeroProblem& problem, const Evaluator& evaluator);
 

@@ -1,0 +1,55 @@
+#include "rehearse/study/certainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace rehearse::study {
+namespace {
+
+constexpr double kFewBlocks = 2;
+constexpr double kUnknown = 1e-9;  // of the largest: a direction that the errors tell nothing of
+
+}  // namespace
+
+double inflation(const FittedSquares& fitted) {
+  const Matrix H = fitted.derivatives.transpose() * fitted.derivatives;
+  const Index blocks = fitted.blocks.empty() ? 0 : *std::ranges::max_element(fitted.blocks) + 1;
+  Matrix sums = Matrix::Zero(H.rows(), blocks);
+  for (Index i = 0; i < fitted.errors.size(); ++i)
+    sums.col(fitted.blocks[static_cast<std::size_t>(i)]) += fitted.errors(i) * fitted.derivatives.row(i).transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(H);
+  const Vector& values = solver.eigenvalues();
+  double ratio = 0, directions = 0;
+  for (Index i = 0; i < values.size(); ++i) {
+    if (values(i) < kUnknown * values.maxCoeff()) continue;
+    ratio += (solver.eigenvectors().col(i).transpose() * sums).squaredNorm() / values(i);
+    directions += 1;
+  }
+  const double one = fitted.errors.squaredNorm() / static_cast<double>(fitted.errors.size());
+  return kFewBlocks * std::max(ratio / std::max(directions, 1.0), one);
+}
+
+Matrix covariance(const FittedSquares& fitted) {
+  const Matrix H = fitted.derivatives.transpose() * fitted.derivatives, one = Matrix::Identity(H.rows(), H.cols());
+  return (H / inflation(fitted) + kBoxPrecision * one).llt().solve(one);
+}
+
+std::optional<identification::PhiPosterior> posterior_of(const Matrix& covariance, const ParameterSpace& space,
+                                                         const Vector& phi) {
+  const std::vector<Index> continuous = space.of_kind(Parameter::Kind::continuous);
+  const auto q = static_cast<Index>(continuous.size());
+  if (q == 0 || !covariance.allFinite()) return std::nullopt;
+  identification::PhiPosterior posterior{.mean = phi(continuous)};
+  Vector widths(q);
+  for (Index i = 0; i < q; ++i) {
+    posterior.parameters.push_back(space[continuous[static_cast<std::size_t>(i)]]);
+    widths(i) = posterior.parameters.back().box.high - posterior.parameters.back().box.low;
+  }
+  posterior.covariance = widths.asDiagonal() * covariance.topLeftCorner(q, q) * widths.asDiagonal();
+  return posterior;
+}
+
+}  // namespace rehearse::study

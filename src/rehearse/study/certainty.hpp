@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "rehearse/core/parameters.hpp"
+#include "rehearse/identification/phi_posterior.hpp"
+
+namespace rehearse::study {
+
+/// A least-squares fit at its minimum; coordinates are fractions of boxes, the first ones of `parameters`.
+struct FittedSquares {
+  Vector errors;              // N, of a usual size of 1
+  Matrix derivatives;         // N × coordinates
+  std::vector<Index> blocks;  // N: errors of different blocks know nothing of one another
+};
+
+/// How many times more the sums over blocks vary than they would if all errors were independent (Liang 1986): of all
+/// directions together, and doubled, since blocks are few.
+double inflation(const FittedSquares& fitted);
+
+inline constexpr double kBoxPrecision = 12;  // of a uniform distribution, in units of its box
+
+/// The covariance of all coordinates that errors of which neighbours are alike leave: the precision is JᵀJ / inflation,
+/// and that of the boxes.
+Matrix covariance(const FittedSquares& fitted);
+
+/// Of its first coordinates as what is known of the continuous parameters of a space; empty if it has none, or a number
+/// is not finite.
+std::optional<identification::PhiPosterior> posterior_of(const Matrix& covariance, const ParameterSpace& space,
+                                                         const Vector& phi);
+
+}  // namespace rehearse::study
