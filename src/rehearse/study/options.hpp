@@ -19,8 +19,8 @@ struct Options {
   std::string zeros;           // states, "q1,q2"
   double zero_range = 0.3;     // of their units
   double zero_s = 3;           // of a held-out log
-  double fit_horizon_s = 0.3;  // long enough that errors of the start's speeds do not count for most
-  Index rows = 500;            // of the GPs; their time grows with its cube
+  double fit_horizon_s = 0.2;  // long enough that errors of the start's speeds do not count for most
+  Index rows = 300;            // of the GPs; their time grows with its cube
   double every_s = 0.1;
   Index particles = 50;
   std::uint64_t seed = 1;

@@ -1,0 +1,67 @@
+#include "rehearse/study/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/study/page.hpp"
+#include "rehearse/study/summary.hpp"
+#include "rehearse/study/tables.hpp"
+#include "rehearse/study/test/swings.hpp"
+
+namespace rehearse::study {
+namespace {
+
+struct Case {
+  Task task = swinging_task();
+  prior::Prior prior = swinging_prior();
+  std::vector<Log> logs = {swinging_log(1, 0.1), swinging_log(2, -0.08), swinging_log(3, 0.02)};
+  std::vector<Log> held_out = {swinging_log(4, -0.04)};
+  Options options;
+  Case() { options.zeros = "q", options.rows = 150, options.particles = 20; }
+  Problem problem() const { return {task, prior, logs, held_out}; }
+  Study run() const { return study_logs(problem(), options, serial_evaluator()); }
+};
+
+TEST(Study, PredictsHeldOutLogsInsideItsBands) {
+  const Case swings;
+  const Study study = swings.run();
+  ASSERT_EQ(study.held_out.model.size(), 1U);
+  for (Index h = 0; h < 3; ++h) {
+    EXPECT_LT(study.held_out.of_model.rms(h, 1), 0.5 * study.held_out.of_prior.rms(h, 1));
+    EXPECT_GT(study.held_out.of_model.covered(h, 1), 0.8);
+  }
+  EXPECT_NEAR(study.held_out.offsets[0](1), -0.04, 0.02);
+  EXPECT_EQ(study.without.size(), 3U);
+  const Problem problem = swings.problem();
+  const auto files = csv_files(study, problem);
+  EXPECT_EQ(files.size(), 5U + 3U);
+  EXPECT_EQ(summary(study, problem).size(), 5U);
+  const std::string html = page(study, problem, "a <swing>");
+  EXPECT_EQ(html.find("<swing>"), std::string::npos);
+  EXPECT_EQ(html.find("nan"), std::string::npos);
+}
+
+TEST(Study, OfOneLogEitherHalfIsLeftOut) {
+  Case swings;
+  swings.logs.resize(1);
+  swings.held_out.clear();
+  swings.options.beyond = Beyond::nothing;
+  swings.options.zero_s = 1;
+  const Study study = swings.run();
+  EXPECT_EQ(study.left_out, (std::vector<std::string>{"log 1 (first half)", "log 1 (second half)"}));
+  EXPECT_EQ(summary(study, swings.problem()).size(), 4U);
+}
+
+TEST(Study, WrongInputIsRefused) {
+  Case swings;
+  swings.options.zeros = "qq";
+  EXPECT_THROW(swings.run(), InvalidInput);
+  swings.options.zeros = "q";
+  swings.options.zero_s = 100;
+  EXPECT_THROW(swings.run(), InvalidInput);
+  swings.logs.clear();
+  EXPECT_THROW(swings.run(), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rehearse::study

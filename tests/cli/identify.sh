@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# identify.sh PROGRAM: learns a robot from trials of a run as logs, and does what goes wrong.
+source "$(dirname "$0")/../prelude.sh"
+
+"$program" new my_robot >/dev/null
+for seed in 1 2 3; do
+  "$program" learn my_robot.toml --learner black-drops --trials 1 --seed $seed --out run$seed >/dev/null || fail "learn $seed"
+done
+log() { echo "run$1/trajectories/trial-001.csv"; }
+few=(--set beyond=nothing --set particles=5 --set every_s=0.2)
+
+"$program" identify my_robot.toml "$(log 1)" "$(log 2)" --held-out "$(log 3)" "${few[@]}" --threads 1 --out one >output 2>&1 ||
+  fail "identify: $(cat output)"
+grep -q "^Held-out logs" output || fail "the held-out log is not forecast: $(cat output)"
+"$program" identify my_robot.toml "$(log 1)" "$(log 2)" --held-out "$(log 3)" "${few[@]}" --threads 2 --out two >/dev/null 2>&1
+same one two parameters.csv zeros.csv accuracy.csv steps.csv warnings.csv forecasts-1-0.5s.csv identify.html
+
+# refused PATTERN ARGUMENTS… : exit 2, the pattern, and nothing is written
+refused() {
+  local pattern=$1
+  shift
+  "$program" identify "$@" --out never >output 2>&1
+  [ $? = 2 ] && grep -q "$pattern" output && [ ! -e never ] || fail "'$pattern' is not what it says: $(cat output)"
+}
+sed 's/\[rad\/s\]/[furlong]/' "$(log 1)" >units.csv
+refused "units.csv: row 1: .* is in 'furlong'" my_robot.toml units.csv
+refused "cannot read none.csv: it is not there" my_robot.toml none.csv
+refused "unknown option 'rowz', did you mean 'rows'" my_robot.toml "$(log 1)" --set rowz=3
+refused "zeros: there is no state 'thet'" my_robot.toml "$(log 1)" --set zeros=thet
+refused "unknown scenario 'my_robo'" my_robo "$(log 1)"
+mkdir never && "$program" identify my_robot.toml "$(log 1)" --out never >output 2>&1
+[ $? = 2 ] && grep -q "never exists already" output || fail "an existing folder: $(cat output)"
+finish
