@@ -71,6 +71,7 @@ Matrix calibration(const std::vector<Forecasts>& forecasts) {
   if (forecasts.empty()) return {};
   const std::size_t horizons = forecasts.front().horizons.size();
   const Index dx = forecasts.front().at.empty() ? 0 : forecasts.front().at.front().predicted.cols();
+  const double another = std::sqrt(1 + 1 / static_cast<double>(forecasts.size()));
   Matrix factors = Matrix::Ones(static_cast<Index>(horizons), dx);
   for (std::size_t h = 0; h < horizons; ++h)
     for (Index s = 0; s < dx; ++s) {
@@ -79,7 +80,7 @@ Matrix calibration(const std::vector<Forecasts>& forecasts) {
         ratios.push_back(std::abs(at.measured(i, s) - at.predicted(i, s)) /
                          (identification::kNormal * at.deviation(i, s)));
       });
-      if (!ratios.empty()) factors(static_cast<Index>(h), s) = statistics::quantile(ratios, 0.95);
+      if (!ratios.empty()) factors(static_cast<Index>(h), s) = another * statistics::quantile(ratios, 0.95);
     }
   return factors;
 }

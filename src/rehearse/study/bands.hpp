@@ -38,8 +38,8 @@ Forecasts make_forecasts(const dynamics::DynamicsModel& model, const Episode& lo
                          const ForecastPlan& plan, const Draws& draws);
 
 /// By how much deviations have to be multiplied (horizons × dx) so that 95 % bands, ± 1.96 of them, hold 95 % of what
-/// was measured in these forecasts, none of which the model may have learned from (Lei 2018: conformal prediction). 1
-/// where there is nothing to compare.
+/// was measured in these forecasts, none of which the model may have learned from (Lei 2018: conformal prediction), and
+/// √(1 + 1/k) times as much, since k logs say only so much of another one. 1 where there is nothing to compare.
 Matrix calibration(const std::vector<Forecasts>& forecasts);
 
 /// Adds to the deviations what the model does not know that it does not know: these (horizons × dx).

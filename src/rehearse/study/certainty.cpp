@@ -9,7 +9,8 @@
 namespace rehearse::study {
 namespace {
 
-constexpr double kFewBlocks = 2;
+constexpr double kFewBlocks =
+    4;  // so that intervals of recordings of the same arm overlap (docs/results/double-pendulum.md)
 constexpr double kUnknown = 1e-9;  // of the largest: a direction that the errors tell nothing of
 
 }  // namespace

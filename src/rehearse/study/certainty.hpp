@@ -16,7 +16,7 @@ struct FittedSquares {
 };
 
 /// How many times more the sums over blocks vary than they would if all errors were independent (Liang 1986): of all
-/// directions together, and doubled, since blocks are few.
+/// directions together, and four times that, since blocks are few and friction is not the same in each log.
 double inflation(const FittedSquares& fitted);
 
 inline constexpr double kBoxPrecision = 12;  // of a uniform distribution, in units of its box

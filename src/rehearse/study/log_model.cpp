@@ -40,7 +40,7 @@ identification::Learned learned_beyond(const LogModel& model, const Task& task, 
   prior::Prior at_phi = prior;
   at_phi.space = prior.space.fixed_at(model.zeros.phi);
   identification::Learned learned;
-  if (options.beyond == Beyond::nothing)
+  if (options.beyond == Beyond::nothing || options.beyond == Beyond::chosen)
     learned.model = std::make_shared<dynamics::SimulatorModel>(at_phi, model.zeros.phi);
   else
     learned = learn(at_phi, identification::FixedPrior{options.model.gp});

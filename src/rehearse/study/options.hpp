@@ -9,6 +9,7 @@ namespace rehearse::study {
 
 /// What is learned beyond the parameters that predict the logs best over `fit_horizon_s`.
 enum class Beyond {
+  chosen,   // nothing or GPs, whichever forecasts logs left out better
   nothing,  // the prior at these parameters
   gp,       // GPs around it
   gp_mi,    // GPs and the parameters anew, by steps (Chatzilygeroudis 2018)
@@ -24,7 +25,7 @@ struct Options {
   double every_s = 0.1;
   Index particles = 50;
   std::uint64_t seed = 1;
-  Beyond beyond = Beyond::gp;
+  Beyond beyond = Beyond::chosen;
   identification::GpMi model;
   void fields(FieldVisitor& v) {
     v.text("zeros", zeros, "states whose zero is another in each log, with commas: encoders that count from power-on");
@@ -36,7 +37,7 @@ struct Options {
     v.number("every_s", every_s, "time between starts of forecasts [s]", above(0));
     v.integer("particles", particles, "particles of a forecast", between(2, 10000));
     v.choice("beyond", beyond, "what is learned beyond the parameters that predict best over some steps",
-             {"nothing", "gp", "gp-mi"});
+             {"chosen", "nothing", "gp", "gp-mi"});
     v.group("model", model);
   }
 };

@@ -29,23 +29,16 @@ class Student {
   }
 
   Study run() {
-    const std::vector<Log> logs = problem_.logs.size() == 1 ? halves(problem_.logs.front()) : problem_.logs;
-    const std::size_t folds = std::min(logs.size(), kMostLeftOut);
-    const double all = static_cast<double>(folds) + 1;
-    for (std::size_t out = 0; out < folds; ++out) {
-      say(fmt::format("without {}", logs[out].name), static_cast<double>(out) / all);
-      study_.left_out.push_back(logs[out].name);
-      study_.without.push_back(learned_from(logs, static_cast<Index>(out)));
-      test(logs[out], study_.without.back(), out, study_.left_out_logs);
-    }
+    logs_ = problem_.logs.size() == 1 ? halves(problem_.logs.front()) : problem_.logs;
+    leave_out();
     const Matrix ones = Matrix::Ones(std::ssize(plan_.horizons), problem_.task.state_size());
     const Matrix unknown = accuracy(study_.left_out_logs.model, ones).rms;
     widen(study_.left_out_logs.model, unknown);
     study_.calibration = calibration(study_.left_out_logs.model);
-    say("all logs", static_cast<double>(folds) / all);
-    study_.model = learned_from(problem_.logs, -1);
+    say("all logs");
+    study_.model = learned_from(problem_.logs, -1, study_.beyond);
     for (std::size_t i = 0; i < problem_.held_out.size(); ++i)
-      test(problem_.held_out[i], study_.model, folds + i, study_.held_out);
+      test(problem_.held_out[i], study_.model, kMostLeftOut + i, study_.held_out);
     widen(study_.held_out.model, unknown);
     for (Tested* tested : {&study_.left_out_logs, &study_.held_out}) {
       tested->of_model = accuracy(tested->model, study_.calibration);
@@ -56,8 +49,8 @@ class Student {
   }
 
  private:
-  void say(const std::string& phase, double done) const {
-    if (progress_) progress_({.phase = phase, .done = done});
+  void say(const std::string& phase) const {
+    if (progress_) progress_({.phase = phase});
     evaluator_.stop_if_asked();
   }
 
@@ -74,12 +67,56 @@ class Student {
     return {part(" (first half)", 0, half), part(" (second half)", half, log.episode.steps() - half)};
   }
 
+  /// Logs forecast by models that did not learn from them.
+  struct LeftOut {
+    std::vector<LogModel> models;
+    Tested tested;
+    Matrix rms;
+  };
+
+  LeftOut leave_out(Beyond beyond) const {
+    LeftOut left;
+    for (std::size_t out = 0; out < std::min(logs_.size(), kMostLeftOut); ++out) {
+      say(fmt::format("all but {}{}", logs_[out].name, beyond == Beyond::nothing ? "" : ", with GPs"));
+      left.models.push_back(learned_from(logs_, static_cast<Index>(out), beyond));
+      test(logs_[out], left.models.back(), out, left.tested);
+    }
+    const Matrix ones = Matrix::Ones(std::ssize(plan_.horizons), problem_.task.state_size());
+    left.rms = accuracy(left.tested.model, ones).rms;
+    return left;
+  }
+
+  /// Chooses what is learned beyond the parameters, too.
+  void leave_out() {
+    const bool choose = options_.beyond == Beyond::chosen;
+    study_.beyond = choose ? Beyond::nothing : options_.beyond;
+    LeftOut left = leave_out(study_.beyond);
+    if (choose) {
+      LeftOut with = leave_out(Beyond::gp);
+      study_.gps_worsen = ratio(with.rms, left.rms);
+      if (*study_.gps_worsen < 1) study_.beyond = Beyond::gp, left = std::move(with);
+    }
+    study_.without = std::move(left.models);
+    study_.left_out_logs = std::move(left.tested);
+    for (const std::string& name : study_.left_out_logs.logs) study_.left_out.push_back(name);
+  }
+
+  /// The geometric mean of the ratios of those that are finite.
+  static double ratio(const Matrix& a, const Matrix& b) {
+    double sum = 0, n = 0;
+    for (Index i = 0; i < a.size(); ++i)
+      if (std::isfinite(b(i)) && b(i) > 0) sum += std::isfinite(a(i)) ? std::log(a(i) / b(i)) : 10, n += 1;
+    return std::exp(sum / std::max(n, 1.0));
+  }
+
   /// out: −1: none is left out.
-  LogModel learned_from(const std::vector<Log>& logs, Index out) const {
+  LogModel learned_from(const std::vector<Log>& logs, Index out, Beyond beyond) const {
     std::vector<Episode> episodes;
     for (std::size_t i = 0; i < logs.size(); ++i)
       if (static_cast<Index>(i) != out) episodes.push_back(logs[i].episode);
-    return learn_logs(episodes, problem_.task, problem_.prior, options_, evaluator_);
+    Options options = options_;
+    options.beyond = beyond;
+    return learn_logs(episodes, problem_.task, problem_.prior, options, evaluator_);
   }
 
   void test(const Log& log, const LogModel& model, std::size_t number, Tested& tested) const {
@@ -96,6 +133,12 @@ class Student {
                                           log.measured.rowwise() + prepared.offset.transpose(), plan,
                                           {key, evaluator_}));
     tested.prior_as_given.push_back(make_forecasts(given, log.episode, log.measured, plan_of_prior, {key, evaluator_}));
+  }
+
+  /// The model of all logs, with GPs even where forecasts are better without.
+  LogModel with_gps() const {
+    if (study_.beyond != Beyond::nothing || options_.beyond != Beyond::chosen) return study_.model;
+    return learned_from(problem_.logs, -1, Beyond::gp);
   }
 
   StepErrors step_errors() const {
@@ -117,7 +160,7 @@ class Student {
     };
     const prior::Prior& prior = problem_.prior;
     return {rms(data.changes), left(dynamics::SimulatorModel(prior, prior.space.values())),
-            left(dynamics::SimulatorModel(prior, *study_.model.learned.state.phi)), left(*study_.model.learned.model)};
+            left(dynamics::SimulatorModel(prior, *study_.model.learned.state.phi)), left(*with_gps().learned.model)};
   }
 
   const Problem& problem_;
@@ -125,6 +168,7 @@ class Student {
   const Evaluator& evaluator_;
   const ProgressSink& progress_;
   ForecastPlan plan_;
+  std::vector<Log> logs_;
   Study study_;
 };
 

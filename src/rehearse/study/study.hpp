@@ -1,6 +1,7 @@
 #pragma once
 // What logs tell of a robot: the front door.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,12 +44,14 @@ struct Study {
   std::vector<double> horizons_s;
   Matrix calibration;  // horizons × dx, from the logs left out
   Tested left_out_logs, held_out;
+  Beyond beyond = Beyond::nothing;   // what was learned beyond the prior's parameters
+  std::optional<double> gps_worsen;  // where that was chosen: errors with GPs over those without (geometric mean)
   StepErrors steps;
 };
 
 /// Learns from all logs, and from all but one of them (at most four times; of a single log, from either half): the logs
-/// left out calibrate the bands and say whether parameters agree. Then forecasts the held-out logs. The same bytes for
-/// any number of threads. Throws InvalidInput where logs are too short.
+/// left out calibrate the bands, choose whether GPs are used, and say whether parameters agree. Then forecasts the
+/// held-out logs. The same bytes for any number of threads. Throws InvalidInput where logs are too short.
 Study study_logs(const Problem& problem, const Options& options, const Evaluator& evaluator,
                  const ProgressSink& progress = {});
 

@@ -94,6 +94,11 @@ Lines steps(const Study& study, const Problem& problem) {
     if (s < noise.size()) line += fmt::format("; errors of measurements: {:.3g}", noise(s));
     lines.push_back(line);
   }
+  if (study.gps_worsen)
+    lines.push_back(
+        fmt::format("forecasts of logs left out have {:.2f} times the errors with GPs, which are {}used for "
+                    "forecasts",
+                    *study.gps_worsen, study.beyond == Beyond::gp ? "" : "not "));
   return lines;
 }
 

@@ -20,8 +20,8 @@ FittedSquares fitted_line(bool alike) {
 }
 
 TEST(Certainty, ErrorsThatAreAlikeTellLess) {
-  EXPECT_NEAR(inflation(fitted_line(false)), 2, 0.8);  // twice what independent errors make, of 100 blocks
-  EXPECT_NEAR(inflation(fitted_line(true)), 20, 8);
+  EXPECT_NEAR(inflation(fitted_line(false)), 4, 1.6);  // four times what independent errors make, of 100 blocks
+  EXPECT_NEAR(inflation(fitted_line(true)), 40, 16);
   EXPECT_GT(covariance(fitted_line(true))(0, 0), 4 * covariance(fitted_line(false))(0, 0));
 }
 
