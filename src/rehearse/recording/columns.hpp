@@ -12,7 +12,7 @@
 namespace rehearse::recording {
 
 /// Finds, converts and checks: columns, cells that are no numbers, the order of times. Rows before time 0 are left out.
-/// What is wrong becomes problems, and then the channels are of no use.
+/// Wrong input becomes problems, and then the channels are of no use.
 Channels find_channels(const statistics::Table& table, const Task& task, Problems& problems,
                        std::vector<std::string>& notes);
 

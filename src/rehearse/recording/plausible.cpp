@@ -23,7 +23,7 @@ std::vector<double> values_of(const Channel& channel) {
   return values;
 }
 
-/// Where nine of ten values are.
+/// The width in which nine of ten values are.
 double spread(const Channel& channel) {
   const std::vector<double> values = values_of(channel);
   return statistics::quantile(values, 0.95) - statistics::quantile(values, 0.05);
@@ -45,7 +45,7 @@ double held(const Channel& rate, double time_s) {
   return after == rate.samples.begin() ? after->value : std::prev(after)->value;
 }
 
-/// What neighbouring samples change beyond what the rate says, and the most that it ever allows.
+/// Changes between neighbouring samples beyond those of the rate, and the most that it ever allows.
 struct Changes {
   std::vector<double> beyond, allowed;
 };

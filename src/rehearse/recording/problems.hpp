@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with a recording, row by row. For the sources of this room.
+// Violations found in a recording, row by row. For the sources of this room.
 
 #include <map>
 #include <string>

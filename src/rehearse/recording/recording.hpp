@@ -1,5 +1,5 @@
 #pragma once
-// What a robot did, as a CSV file has it, → an episode of a task (docs/recordings.md).
+// CSV files of what a robot did → an episode of a task (docs/recordings.md).
 
 #include <filesystem>
 #include <string>

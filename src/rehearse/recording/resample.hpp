@@ -10,7 +10,7 @@
 
 namespace rehearse::recording {
 
-/// Where control steps begin: start_s + k·dt_s, k = 0..steps.
+/// The times at which control steps begin: start_s + k·dt_s, k = 0..steps.
 struct Grid {
   double start_s = 0, dt_s = 0;
   Index steps = 0;

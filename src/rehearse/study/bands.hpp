@@ -20,7 +20,7 @@ struct Forecasts {
   std::vector<At> at;  // by horizon
 };
 
-/// What is forecast: from step `first` on, every `every` steps.
+/// The starts and horizons of forecasts: from step `first` on, every `every` steps.
 struct ForecastPlan {
   Index first = 0, every = 1;
   std::vector<Index> horizons;
@@ -45,7 +45,7 @@ Matrix calibration(const std::vector<Forecasts>& forecasts);
 /// Adds to the deviations what the model does not know that it does not know: these (horizons × dx).
 void widen(std::vector<Forecasts>& forecasts, const Matrix& deviations);
 
-/// Of forecasts of one log or several, horizons × dx.
+/// How good forecasts of one log or several are, horizons × dx.
 struct Accuracy {
   Matrix rms;                   // of the errors
   Matrix covered;               // fraction inside the bands

@@ -7,7 +7,7 @@
 
 namespace rehearse::study {
 
-/// What is learned beyond the parameters that predict the logs best over `fit_horizon_s`.
+/// The part that is learned beyond the parameters that predict the logs best over `fit_horizon_s`.
 enum class Beyond {
   chosen,   // nothing or GPs, whichever forecasts logs left out better
   nothing,  // the prior at these parameters

@@ -1,5 +1,5 @@
 #pragma once
-// What logs tell of a robot: the front door.
+// The front door: from logs to what they tell of a robot.
 
 #include <optional>
 #include <string>

@@ -105,7 +105,7 @@ class Errors {
     return J;
   }
 
-  /// Of each error: stretches of a log, three horizons long.
+  /// The block of each error: stretches of a log, three horizons long.
   std::vector<Index> blocks() const {
     std::vector<Index> of_rows, all;
     Index first = 0;
