@@ -104,6 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Case{"black-drops", "pendulum", kSmallSearch},
                       Case{"black-drops-prior", "pendubot", kSmallSearch}, Case{"gp-mi", "pendubot", kSmallSearch},
                       Case{"mi", "pendubot", kSmallSearch}, Case{"gp-mi", "pendubot", kSmallRestarts},
+                      Case{"gp-mi", "cartpole",
+                           with(kSmallSearch, {{"track", "0.3"}, {"search.safety.rollouts", "40"}})},
                       Case{"pilco", "pendulum", kSmallPilco},
                       Case{"pilco-prior", "pendulum", with(kSmallPilco, {{"pilco.prior_episodes", "3"}})},
                       Case{"ite", "pendubot", kSmallArchive}),

@@ -49,8 +49,8 @@ std::vector<std::string> warnings(const std::vector<LimitRisk>& risks, const std
     const auto [low, high] = statistics::rate_interval(risks[l].broken, risks[l].episodes);
     if (high <= limits[l].risk) continue;
     lines.push_back(
-        fmt::format("no policy was found that is safe enough, and the safest is proposed: {:.3g} to {:.3g} % of its "
-                    "episodes are expected to break the limit {}, which allows {:.3g} %",
+        fmt::format("the safest policy found may not be safe enough: {:.3g} to {:.3g} % of its episodes are expected "
+                    "to break the limit {}, which allows {:.3g} %",
                     100 * low, 100 * high, limits[l].name, 100 * limits[l].risk));
   }
   return lines;
