@@ -31,8 +31,7 @@ void SafetyOptions::fields(FieldVisitor& v) {
   v.integer("searches", searches, "of tasks with limits: more searches at most, near good policies for safe ones",
             between(0, 1000));
   v.number("doubt", doubt,
-           "of tasks with limits, before there are data: how far towards anywhere in its box a parameter of the prior "
-           "may be, as a fraction",
+           "with limits, before data: how far to anywhere in its box a prior's parameter may be, a fraction",
            between(0, 1));
 }
 
