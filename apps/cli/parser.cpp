@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "apps/cli/help.hpp"
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
@@ -11,51 +12,6 @@
 
 namespace rehearse::apps {
 namespace {
-
-constexpr const char* kAbout = R"(Learn a robot's policy in a handful of trials.
-
-A learner optimises a policy on a guess of the robot's dynamics (the prior), tries
-it on the robot once, corrects its model from what happened, and repeats.)";
-
-constexpr const char* kExample = R"(Example: swing up the pendubot in 10 trials, starting from a wrong simulator:
-  {0} learn pendubot --learner gp-mi --prior misleading --out runs/demo
-Then continue it to 15 trials:
-  {0} resume runs/demo --trials 15
-Do many runs and compare them:
-  {0} campaign campaigns/pendubot-short.toml --out runs/short
-See what happened, in a browser:
-  {0} report runs/demo
-Take the best policy along:
-  {0} export runs/demo --out policy.h
-What there is to learn, and with what:
-  {0} list
-A robot of your own:
-  {0} new my_robot)";
-
-constexpr const char* kAskExample = R"(A robot that Rehearse does not drive:
-  {0} learn my_robot.toml --learner gp-mi --trials 0 --out runs/robot
-  {0} tell runs/robot old_log.csv        if there are any
-  {0} ask runs/robot                     the policy to try
-  {0} tell runs/robot episode.csv        what it did
-  {0} status runs/robot)";
-
-constexpr const char* kLearnExample = R"(Examples:
-  {0} learn pendubot --learner gp-mi --prior misleading --trials 10 --seed 1
-  {0} learn pendubot --learner gp-mi --set plant.b1=0.2 --set prior.l2=0.3
-  {0} learn pendubot --learner gp-mi --preset as-published
-  {0} learn my_robot.toml --learner gp-mi
-  {0} learn runs/demo/spec.toml --out runs/again
-
-The folder holds one row a trial in trials.csv, the trajectories, the model's predictions,
-the policies, and spec.toml, which gives the same trials.csv when it is run again.
-Ctrl-C stops the run; `{0} resume` continues it.)";
-
-constexpr const char* kCampaignExample = R"(Example:
-  {0} campaign campaigns/pendubot-short.toml --out runs/short
-
-The same command continues what was interrupted. The folder holds the run folders in runs,
-a row for every trial in campaign.csv, and statistics and claims in summary.json.
-docs/campaigns.md describes the file.)";
 
 template <class Command, class T>
 CLI::Option* add(Command* command, const std::string& name, T& value, const std::string& help, const char* type) {

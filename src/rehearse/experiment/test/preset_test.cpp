@@ -6,7 +6,6 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/preset_check.hpp"
-#include "rehearse/experiment/preset_check.hpp"
 #include "specs.hpp"
 
 namespace rehearse::experiment {
