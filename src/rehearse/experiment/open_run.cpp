@@ -49,18 +49,18 @@ void OpenRun::catch_up() {
   for (Index i = 0; i < history_.told; ++i) told.push_back(as_told(history_.episodes[static_cast<std::size_t>(i)]));
   if (history_.told > 0) named_failure(history_.told, "learner", [&] { with_.learner().load(told, history_.learner); });
   if (history_.told == history_.done()) return;
-  ask(history_.done(), &history_.trials.back().theta);  // it may learn from what it proposed, too
+  ask(history_.done(), &history_.trials.back());  // it may learn from what it proposed, too
   tell_last();
 }
 
-/// known: θ of the proposal, where it was kept.
-const learners::Proposal& OpenRun::ask(Index trial, const Vector* known) {
+/// known: the record of the trial, where one was kept.
+const learners::Proposal& OpenRun::ask(Index trial, const TrialRecord* known) {
   with_.begin_trial(trial);
   with_.evaluator().stop_if_asked();
   const auto& proposal = named_failure(trial, "learner", [&]() -> const learners::Proposal& {
-    return checked(known ? with_.learner().ask_again(*known) : with_.learner().ask());
+    return checked(known ? with_.learner().ask_again({known->policy, known->theta}) : with_.learner().ask());
   });
-  if (known && proposal.theta != *known)
+  if (known && (proposal.policy->name() != known->policy || proposal.theta != known->theta))
     throw RunFailed(fmt::format("trial {}: the learner no longer proposes what it did", trial));
   with_.evaluator().stop_if_asked();
   return proposal;
@@ -97,7 +97,7 @@ void OpenRun::add_logs(std::vector<Log> logs) {
 const learners::Proposal& OpenRun::propose() {
   if (proposal_) return *proposal_;
   const Index trial = history_.done() + 1;
-  const learners::Proposal& proposal = ask(trial, history_.asked ? &history_.asked->theta : nullptr);
+  const learners::Proposal& proposal = ask(trial, history_.asked ? &*history_.asked : nullptr);
   proposal_ = &proposal;
   if (history_.asked) return proposal;
   if (proposal.model) predict(trial, proposal);

@@ -35,7 +35,7 @@ class OpenRun {
  private:
   const std::filesystem::path& path() const { return folder_.path(); }
   void catch_up();
-  const learners::Proposal& ask(Index trial, const Vector* known);
+  const learners::Proposal& ask(Index trial, const TrialRecord* known);
   Episode as_told(const Episode& episode) const;
   std::vector<Episode> as_told(const std::vector<Log>& logs) const;
   void tell_last();

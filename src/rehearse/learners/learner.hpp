@@ -52,6 +52,12 @@ struct Proposal {
   double search_s = 0;                         // and searching the policy
 };
 
+/// A proposal as a run keeps it.
+struct KnownProposal {
+  std::string policy;  // its name
+  Vector theta;
+};
+
 /// A table that a learner makes of its trials, for whoever looks into the run folder: NAME.csv there.
 struct Table {
   std::string name;                  // "elites"
@@ -74,16 +80,16 @@ struct Setting {
 /// Proposes policies and learns from the episodes they make.
 ///
 /// Laws (checked by testing::check_learner): `ask` is idempotent: until the next `tell` it returns the same proposal.
-/// A learner that knows θ again, by `ask_again`, goes on as one that found it.
+/// A learner that is reminded of its proposal, by `ask_again`, goes on as one that found it.
 /// The same setting, options and episodes give the same bytes, whatever the evaluator. A learner that loaded what
 /// another saved, after being told the same episodes, goes on as that one would, its tables too.
 class Learner {
  public:
   virtual ~Learner() = default;
   virtual const Proposal& ask() = 0;
-  /// As `ask`, for who has kept θ of the same proposal. Learners whose search takes long leave it out: policy, θ and
-  /// model of what is returned are those of `ask`, other fields may be empty.
-  virtual const Proposal& ask_again(const Vector& /*theta*/) { return ask(); }
+  /// As `ask`, for who has kept the same proposal. Learners whose search takes long leave it out: policy, θ and model
+  /// of what is returned are those of `ask`, other fields may be empty.
+  virtual const Proposal& ask_again(const KnownProposal& /*known*/) { return ask(); }
   virtual void tell(const Episode& episode) = 0;  // its true states, rewards: of the plant, or as measured (a run says)
 
   /// Takes episodes of other controllers for data, like those of trials, before the first `ask` or `load`. Throws

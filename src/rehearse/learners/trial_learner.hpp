@@ -15,8 +15,8 @@ class TrialLearner : public Learner {
     if (!proposal_) proposal_ = propose();
     return *proposal_;
   }
-  const Proposal& ask_again(const Vector& theta) final {
-    if (!proposal_) proposal_ = propose_known(theta);
+  const Proposal& ask_again(const KnownProposal& known) final {
+    if (!proposal_) proposal_ = propose_again(known);
     return *proposal_;
   }
   void tell(const Episode& episode) final {
@@ -31,8 +31,8 @@ class TrialLearner : public Learner {
  protected:
   /// An interruption, which throws, must leave everything as it was.
   virtual Proposal propose() = 0;
-  /// The same where θ is known: a search that takes long is left out.
-  virtual Proposal propose_known(const Vector& /*theta*/) { return propose(); }
+  /// The same where policy and θ are known: a search that takes long is left out.
+  virtual Proposal propose_again(const KnownProposal& /*known*/) { return propose(); }
   virtual void learn(const Proposal& tried, const Episode& episode) = 0;
   /// Replaces all that was learned by these episodes and what `save` returned after the last of them.
   virtual void restore(const std::vector<Episode>& episodes, const nlohmann::json& state) = 0;

@@ -137,7 +137,7 @@ class LearnerCheck {
     const auto k = static_cast<std::size_t>(told);
     const auto learner = build(1);
     learner->load({run.episodes.begin(), run.episodes.begin() + told}, nlohmann::json::parse(run.saved[k]));
-    const Proposal again = learner->ask_again(run.proposals[k].theta);
+    const Proposal again = learner->ask_again({name_of(run.proposals[k]), run.proposals[k].theta});
     found_.require(name_of(again) == name_of(run.proposals[k]) && same(again.theta, run.proposals[k].theta),
                    fmt::format("trial {}: with θ given, another policy is proposed", told + 1));
     learner->tell(run.episodes[k]);

@@ -1,5 +1,7 @@
 #include "rehearse/learners/black_drops/black_drops.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -8,6 +10,7 @@
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/identification/learn.hpp"
+#include "rehearse/learners/black_drops/exploration.hpp"
 #include "rehearse/learners/black_drops/known_policies.hpp"
 #include "rehearse/learners/black_drops/trial_search.hpp"
 #include "rehearse/learners/builder.hpp"
@@ -19,6 +22,8 @@ namespace rehearse::learners::black_drops {
 namespace {
 
 using nlohmann::json;
+
+constexpr double kMore = 0.05;  // of what was earned: a policy that promises less more teaches nothing
 
 class BlackDrops final : public TrialLearner {
  public:
@@ -45,7 +50,8 @@ class BlackDrops final : public TrialLearner {
 
  private:
   void learn(const Proposal& tried, const Episode& episode) override {
-    history_.policies.push_back(tried.theta);
+    const bool explored = tried.policy != setting_.policy && !history_.policies.empty();
+    history_.policies.push_back(explored ? Vector() : tried.theta);
     add(episode);
   }
 
@@ -71,10 +77,10 @@ class BlackDrops final : public TrialLearner {
   bool without_data() const { return history_.returns.empty() && logs_.size() == 0; }
 
   Proposal propose() override { return propose(nullptr); }
-  Proposal propose_known(const Vector& theta) override { return propose(&theta); }
+  Proposal propose_again(const KnownProposal& known) override { return propose(&known); }
 
-  /// known: θ of this trial, where it was found before.
-  Proposal propose(const Vector* known) {
+  /// known: what was found before for this trial.
+  Proposal propose(const KnownProposal* known) {
     Proposal proposal{.policy = setting_.policy};
     if (without_data() && !setting_.prior) {
       propose_at_random(proposal);
@@ -87,8 +93,9 @@ class BlackDrops final : public TrialLearner {
       learn_model(proposal, state);
       if (options_.reward.learned) learn_reward(proposal, task);
     });
+    if (known && known->policy != setting_.policy->name()) proposal.policy = schedule();  // it explored
     if (known)
-      proposal.theta = *known;
+      proposal.theta = known->theta;
     else
       proposal.search_s = seconds([&] { search(proposal, task); });
     state_ = std::move(state);
@@ -100,14 +107,15 @@ class BlackDrops final : public TrialLearner {
     if (without_data() && !task.limits.empty())
       problem.doubted = doubted(*setting_.prior, options_.search.safety.doubt, stream());
     TrialSearches searches(problem, options_.search, stream());
-    Choice choice =
+    const Choice choice =
         search_trial(searches, {known_policies(history_, *setting_.policy, options_), without_data()}, options_);
-    proposal.theta = std::move(choice.theta);
+    proposal.theta = choice.theta;
     proposal.predicted_return = choice.predicted_return;
     for (std::string& line : warnings(choice.risks, task.limits)) proposal.notes.push_back(std::move(line));
-    proposal.risks = std::move(choice.risks);
+    proposal.risks = choice.risks;
     proposal.rollouts = searches.rollouts();
     proposal.failed_rollouts = searches.failed_rollouts();
+    if (worth_exploring(choice)) explore(problem, proposal);
   }
 
   /// The random numbers of this trial.
@@ -123,21 +131,34 @@ class BlackDrops final : public TrialLearner {
       return;
     }
     const Task& task = setting_.task;
-    proposal.policy = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
-    const bool extremes = options_.first_trial.kind == FirstTrial::Kind::extremes;
-    proposal.theta =
-        policy::random_schedule(task, extremes ? policy::RandomActions::extremes : policy::RandomActions::uniform,
-                                options_.first_trial.hold_s, episode_stream);
-    if (!task.limits.empty()) keep_near_middle(proposal.theta);
+    proposal.policy = schedule();
+    const double fraction = task.limits.empty() ? 1 : options_.first_trial.cautious;
+    proposal.theta = random_actions(task, options_.first_trial, fraction, episode_stream);
   }
 
-  void keep_near_middle(Vector& schedule) const {
-    const auto bounds = setting_.task.action_bounds();
-    for (std::size_t a = 0; a < bounds.size(); ++a) {
-      auto actions = schedule.segment(static_cast<Index>(a) * setting_.task.horizon, setting_.task.horizon).array();
-      const double middle = (bounds[a].low + bounds[a].high) / 2;
-      actions = middle + options_.first_trial.cautious * (actions - middle);
-    }
+  std::shared_ptr<const policy::Policy> schedule() const {
+    const Task& task = setting_.task;
+    return policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
+  }
+
+  /// A policy that teaches nothing new would be proposed for ever.
+  bool worth_exploring(const Choice& choice) const {
+    if (setting_.task.limits.empty() || !options_.search.safety.explore || history_.returns.empty() || !setting_.task.solved)
+      return false;
+    const double earned = *std::ranges::max_element(history_.returns);
+    return choice.excess == 0 && !often_solves(choice) && choice.predicted_return <= earned + kMore * std::abs(earned);
+  }
+
+  void explore(const SearchProblem& problem, Proposal& proposal) const {
+    const auto random = schedule();
+    const SearchProblem of_actions{problem.model, *random, problem.task, problem.evaluator, problem.progress};
+    auto found = safe_random_actions(of_actions, options_, stream());
+    if (!found) return;
+    proposal.policy = random;
+    proposal.theta = std::move(found->theta);
+    proposal.predicted_return = found->predicted_return;
+    proposal.risks = std::move(found->risks);
+    proposal.notes.emplace_back("no policy that is safe promises more than was earned: safe random actions are tried");
   }
 
   void learn_model(Proposal& proposal, identification::WarmStart& state) {

@@ -38,6 +38,8 @@ std::optional<SearchResult> search_for_solving(TrialSearches& searches, SearchRe
 
 }  // namespace
 
+bool often_solves(const Choice& choice) { return choice.solving >= kOften; }
+
 void prefer_safe(TrialSearches& searches, const SafetyOptions& safety, SearchResult& found, Choice& choice) {
   if (!searches.has_limits()) return;
   double promised = found.highest_return;

@@ -13,12 +13,16 @@ struct Choice {
   double predicted_return = 0;
   std::vector<LimitRisk> risks = {};  // one a limit of the task
   double excess = 0;                  // of these over what is allowed; 0: it is safe
+  double solving = 0;                 // how surely it solves the task, where that decided
 
   void take(const SearchResult& found) {
     theta = found.theta, predicted_return = found.predicted_return;
-    risks = found.risks, excess = found.excess;
+    risks = found.risks, excess = found.excess, solving = found.solving;
   }
 };
+
+/// In simulated episodes it is solved as often as is enough for a trial.
+bool often_solves(const Choice& choice);
 
 /// The i-th search more, i = 1, 2, …
 using SearchAgain = std::function<SearchResult(Index i)>;

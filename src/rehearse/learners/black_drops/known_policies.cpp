@@ -1,13 +1,14 @@
 #include "rehearse/learners/black_drops/known_policies.hpp"
 
-#include <algorithm>
-
 namespace rehearse::learners::black_drops {
 
 std::optional<std::size_t> History::best() const {
-  const auto first = returns.begin() + (random_first && !returns.empty());
-  if (first == returns.end()) return std::nullopt;
-  return static_cast<std::size_t>(std::max_element(first, returns.end()) - returns.begin());
+  std::optional<std::size_t> best;
+  for (std::size_t i = random_first; i < returns.size(); ++i) {
+    const bool random = i < policies.size() && policies[i].size() == 0;
+    if (!random && (!best || returns[i] > returns[*best])) best = i;
+  }
+  return best;
 }
 
 std::vector<Vector> known_policies(const History& history, const policy::Policy& policy, const Options& options) {

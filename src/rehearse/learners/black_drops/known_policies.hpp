@@ -9,7 +9,7 @@ namespace rehearse::learners::black_drops {
 
 /// The policies tried so far and what they earned.
 struct History {
-  std::vector<Vector> policies;  // one a trial
+  std::vector<Vector> policies;  // one a trial; empty: random actions
   std::vector<double> returns;
   bool random_first = false;  // trial 1 was random actions, not a policy
 

@@ -33,6 +33,7 @@ void SafetyOptions::fields(FieldVisitor& v) {
   v.number("doubt", doubt,
            "with limits, before data: how far to anywhere in its box a prior's parameter may be, a fraction",
            between(0, 1));
+  v.boolean("explore", explore, "with limits: safe random actions where nothing safe promises more than was earned");
 }
 
 double excess(const std::vector<LimitRisk>& risks, const std::vector<Limit>& limits) {

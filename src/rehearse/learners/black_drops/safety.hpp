@@ -19,6 +19,8 @@ struct SafetyOptions {
   Index rollouts = 400;  // of each policy that is compared: 0.05 is told from 0.02. At least `selection`
   Index searches = 1;    // more, at most, near good policies for safe ones, each evaluation of several rollouts
   double doubt = 0.5;    // before there are data: how far towards anywhere in its box a parameter of the prior may be
+  bool explore = true;   // random actions where nothing safe promises more than was earned, if the task can say that
+                         // it is not solved
   void fields(FieldVisitor& v);
 };
 

@@ -27,7 +27,7 @@ class Trials final : public TrialLearner {
 
  private:
   Proposal propose() override { return propose(nullptr); }
-  Proposal propose_known(const Vector& theta) override { return propose(&theta); }
+  Proposal propose_again(const KnownProposal& known) override { return propose(&known.theta); }
   Proposal propose(const Vector* known);  // θ of this trial, where it was found before
   void learn(const Proposal& tried, const Episode& episode) override;
   void restore(const std::vector<Episode>& episodes, const nlohmann::json& state) override;

@@ -1,5 +1,6 @@
 #include "rehearse/learners/black_drops/choice.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -95,6 +96,26 @@ TEST(Choice, KeepsLimitsWhateverTheReward) {
         learner->tell(episode);
       }
     }
+}
+
+TEST(Choice, WhereNothingSafePromisesMoreRandomActionsAreTried) {
+  const auto trials = [](const char* explore) {
+    const auto with = builder("gp-mi");
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "search.safety.explore", explore));
+    Setting task = limited(0.3);
+    task.task.solved = [](const Episode&) { return false; };
+    task.task.reward = [](const auto&, const auto&, const auto&, VectorView rewards) { rewards.setZero(); };
+    const auto learner = with->build(task);
+    return slider::learn(*learner, 3).proposals;
+  };
+  const auto is_random = [](const Proposal& p) { return p.policy->name() == "schedule"; };
+  EXPECT_EQ(std::ranges::count_if(trials("false"), is_random), 0);
+  const auto exploring = trials("true");
+  const auto random = std::ranges::find_if(exploring, is_random);
+  ASSERT_NE(random, exploring.end());
+  EXPECT_LE(random->risks.front().broken, 11);
+  ASSERT_FALSE(random->notes.empty());
+  EXPECT_NE(random->notes.back().find("safe random actions are tried"), std::string::npos);
 }
 
 TEST(Choice, SaysWhereNothingIsSafe) {

@@ -1,0 +1,35 @@
+#include "rehearse/learners/black_drops/exploration.hpp"
+
+#include "rehearse/policy/schedule.hpp"
+
+namespace rehearse::learners::black_drops {
+
+Vector random_actions(const Task& task, const FirstTrial& options, double fraction, const StreamKey& key) {
+  const bool extremes = options.kind == FirstTrial::Kind::extremes;
+  Vector schedule = policy::random_schedule(
+      task, extremes ? policy::RandomActions::extremes : policy::RandomActions::uniform, options.hold_s, key);
+  if (fraction == 1) return schedule;
+  for (Index a = 0; a < task.action_size(); ++a) {
+    const Interval bounds = task.actions[static_cast<std::size_t>(a)].bounds;
+    const double middle = (bounds.low + bounds.high) / 2;
+    auto actions = schedule.segment(a * task.horizon, task.horizon).array();
+    actions = middle + fraction * (actions - middle);
+  }
+  return schedule;
+}
+
+std::optional<SearchResult> safe_random_actions(const SearchProblem& problem, const Options& options,
+                                                const StreamKey& trial) {
+  constexpr double kLeast = 0.05, kNext = 0.7;  // fractions of the actions' ranges
+  StreamKey actions = trial, judging = trial;
+  actions.stage = Stage::episode;
+  judging.stage = Stage::judging;
+  for (double fraction = 1; fraction > kLeast; fraction *= kNext) {
+    const Vector theta = random_actions(problem.task, options.first_trial, fraction, actions);
+    SearchResult judged = judge(problem, theta, options.search, judging);
+    if (judged.excess == 0) return judged;
+  }
+  return std::nullopt;
+}
+
+}  // namespace rehearse::learners::black_drops
