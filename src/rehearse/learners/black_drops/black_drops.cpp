@@ -143,7 +143,8 @@ class BlackDrops final : public TrialLearner {
 
   /// A policy that teaches nothing new would be proposed for ever.
   bool worth_exploring(const Choice& choice) const {
-    if (setting_.task.limits.empty() || !options_.search.safety.explore || history_.returns.empty() || !setting_.task.solved)
+    if (setting_.task.limits.empty() || !options_.search.safety.explore || history_.returns.empty() ||
+        !setting_.task.solved)
       return false;
     const double earned = *std::ranges::max_element(history_.returns);
     return choice.excess == 0 && !often_solves(choice) && choice.predicted_return <= earned + kMore * std::abs(earned);
