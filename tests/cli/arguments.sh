@@ -56,8 +56,7 @@ expect 2 "takes no prior, but 'useful' is given" 1 learn pendubot --learner blac
 expect 2 "takes one prior, but 'useful,partial' names 2" 1 learn pendubot --learner black-drops-prior --prior useful,partial
 expect 2 "prior 'useful' is named twice" 1 learn pendubot --learner gp-mi --prior useful,useful
 expect 2 "unknown prior ''" 1 learn pendubot --learner gp-mi --prior useful,
-expect 2 "--trials = -3, must be between 1 and" 1 learn pendubot --learner gp-mi --trials -3
-expect 2 "--trials = 0, must be between 1 and" 1 learn pendubot --learner gp-mi --trials 0
+expect 2 "--trials = -3, must be between 0 and" 1 learn pendubot --learner gp-mi --trials -3
 expect 2 "--trials = ten, must be a whole number" 1 learn pendubot --learner gp-mi --trials ten
 expect 2 "--trials = 2.5, must be a whole number" 1 learn pendubot --learner gp-mi --trials=2.5
 expect 2 "--seed = -1, must be between 0 and" 1 learn pendubot --learner gp-mi --seed -1

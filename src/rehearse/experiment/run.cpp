@@ -76,6 +76,7 @@ Spec extended_spec(Spec spec, const std::filesystem::path& path, std::optional<U
   spec.until_solved = until->solved;
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { spec.fields(v); })) violations.add(line);
+  violations.require(spec.trials > 0, "trials = 0, must be ≥ 1 where Rehearse drives the plant");
   violations.require(spec.trials >= done,
                      fmt::format("trials = {}, but {} trials of {} are done", spec.trials, done, path.string()));
   violations.throw_if_any();
