@@ -2,6 +2,7 @@
 #include "rehearse/experiment/ask_tell.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -42,6 +43,20 @@ void print_parameters(const TrialRecord& trial, const std::vector<std::string>& 
   for (const std::string& warning : trial.warnings) fmt::print("  {}\n", warning);
 }
 
+/// Before the trial; the first is the one that is nearest to what it allows.
+void print_risks(std::vector<experiment::LimitRecord> limits) {
+  std::ranges::stable_sort(limits, std::greater(), [](const auto& l) { return l.predicted.value_or(1) / l.allowed; });
+  for (const experiment::LimitRecord& limit : limits) {
+    if (!limit.predicted) {
+      fmt::print("  limit {}: its risk is not known\n", limit.limit);
+      continue;
+    }
+    fmt::print("  limit {}: risk {:.2g} % (95 %: {:.2g} to {:.2g}), {:.2g} % is allowed: {}\n", limit.limit,
+               100 * *limit.predicted, 100 * limit.interval.low, 100 * limit.interval.high, 100 * limit.allowed,
+               limit.safe() ? "safe" : "not safe");
+  }
+}
+
 void print_expected_file(const Task& task, const std::string& folder) {
   fmt::print("then: {} tell {} EPISODE.csv\n  columns: time [s], {}, {}\n", program_name(), folder,
              columns(task.states), columns(task.actions));
@@ -53,6 +68,7 @@ void print_asked(const experiment::Resolved& resolved, const TrialRecord& trial,
   fmt::print("trial {}: run the policy of {} for {} steps of {} s\n", trial.trial, files.string(), task.horizon,
              task.dt_s);
   if (trial.predicted_return) fmt::print("  predicted return {:.4g}\n", *trial.predicted_return);
+  print_risks(trial.limits);
   print_parameters(trial, experiment::tunable_names(resolved.prior));
   for (const std::string& note : trial.notes) fmt::print("  {}\n", note);
   print_expected_file(task, folder);
