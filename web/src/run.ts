@@ -49,7 +49,9 @@ function title(run: Run): string {
 
 function subtitle(run: Run): string {
   const done = run.trials?.['trial']?.length ?? run.episodes.length
-  const state = run.done ? count(done, 'trial') : `${done} of ${count(run.planned, 'trial')}, not complete`
+  const told = run.planned === 0 // one at a time: nobody said how many there will be
+  const open = told ? `${count(done, 'trial')} so far` : `${done} of ${count(run.planned, 'trial')}, not complete`
+  const state = run.done ? count(done, 'trial') : open
   return [run.prior ? `prior ${run.prior}` : 'no prior', `seed ${run.seed}`, state].join(' · ')
 }
 
