@@ -18,6 +18,16 @@ finish() {
   exit $((failures > 0))
 }
 
+# expect CODE PATTERN ARGS… : the exit code of the program, and what it says, which is in `said`
+expect() {
+  local code=$1 pattern=$2
+  shift 2
+  "$program" "$@" >said 2>&1
+  local got=$?
+  [ $got = "$code" ] || fail "'$*' exits with $got, must be $code: $(cat said)"
+  grep -qF -- "$pattern" said || fail "'$*' does not say '$pattern' but: $(cat said)"
+}
+
 # same A B FILES… : the same bytes in both folders
 same() {
   local a=$1 b=$2 file

@@ -15,7 +15,7 @@ namespace rehearse::apps {
 void set_text(const Fields& fields, const std::string& name, const std::optional<std::string>& text,
               Violations& violations);
 
-/// Of --trial, from 1; none if it is not given. Throws InvalidInput.
+/// The number of --trial, from 1; none if it is not given. Throws InvalidInput.
 std::optional<Index> trial_of(const std::optional<std::string>& text);
 
 /// Key and value of each --set.

@@ -86,7 +86,7 @@ void print_summary(const Summary& summary, double task_s, double episode_s) {
     fmt::print("all episodes are alike: this plant has no random start and no noise, so one tells as much\n");
 }
 
-/// What a changed parameter does to the rate that is asked for: at the end of the episode, else to the median return.
+/// The rate that is asked for by changed parameter: at the end of the episode, else the median return.
 void print_robustness(const std::vector<experiment::Changed>& all) {
   const bool can_say = all.front().summary.solved_at_end.has_value();
   fmt::print("{} by the factor of one parameter at a time\n{:12}",

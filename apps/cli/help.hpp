@@ -1,5 +1,5 @@
 #pragma once
-// What --help says beside the options. {0}: the name of the program.
+// Texts of --help beside the options. {0}: the name of the program.
 
 namespace rehearse::apps {
 
@@ -18,7 +18,7 @@ See what happened, in a browser:
   {0} report runs/demo
 Take the best policy along:
   {0} export runs/demo --out policy.h
-What there is to learn, and with what:
+All scenarios and learners:
   {0} list
 A robot of your own:
   {0} new my_robot)";

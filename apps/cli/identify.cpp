@@ -64,13 +64,8 @@ Setup set_up(const experiment::Catalogue& catalogue, const IdentifyArguments& ar
   const Fields own = [&](FieldVisitor& v) { setup.options.fields(v); };
   const Fields of_robot = [&](FieldVisitor& v) { builder->fields(v); };
   std::vector<std::pair<std::string, std::string>> of_prior;
-  for (const std::string& setting : arguments.set) {
-    const std::size_t equals = setting.find('=');
-    const std::string key = setting.substr(0, equals);
-    const std::string text = equals == std::string::npos ? "" : setting.substr(equals + 1);
-    if (equals == 0 || equals == std::string::npos)
-      violations.add(fmt::format("--set {}: must be KEY=VALUE", setting));
-    else if (key.starts_with("prior."))
+  for (const auto& [key, text] : settings_of(arguments.set, violations)) {
+    if (key.starts_with("prior."))
       of_prior.emplace_back(key.substr(6), text);
     else if (!set_one(own, key, text, violations) && !set_one(of_robot, key, text, violations))
       violations.add(experiment::unknown_option(key, known_keys(own, of_robot)));

@@ -8,7 +8,7 @@
 
 namespace rehearse::apps {
 
-/// What a command writes under the name that the user gave it.
+/// A file that a command writes under the name that the user gave it.
 struct OutputFile {
   std::filesystem::path path;
   std::string kind;    // "page of Rehearse"

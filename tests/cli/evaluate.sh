@@ -2,16 +2,6 @@
 # evaluate.sh PROGRAM: policies of runs in more, longer and other episodes, and what is refused.
 source "$(dirname "$0")/../prelude.sh"
 
-# expect CODE PATTERN ARGS…: the exit code, and what is said
-expect() {
-  local code=$1 pattern=$2
-  shift 2
-  "$program" "$@" >said 2>&1
-  local got=$?
-  [ $got = "$code" ] || fail "'$*' exits with $got, must be $code: $(cat said)"
-  grep -qF -- "$pattern" said || fail "'$*' does not say '$pattern' but: $(cat said)"
-}
-
 quick=(--set search.race.max_evaluations=300 --set search.race.descents=1 --set search.selection=2)
 expect 0 "best return" learn pendulum --learner gp-mi --trials 2 "${quick[@]}" --out run
 cp -r run kept

@@ -51,8 +51,8 @@ using StepCost = std::function<void(const Steps& steps, VectorView costs)>;
 /// are those of a reward.
 using StepCondition = Reward;
 
-/// What every step of an episode must keep: a track's end, a speed. The first step that does not ends the episode at
-/// the reward floor, on the robot and in models.
+/// A condition that every step of an episode must keep: a track's end, a speed. The first step that does not ends the
+/// episode at the reward floor, on the robot and in models.
 struct Limit {
   std::string name;
   std::string text;  // "abs(x) < 0.6 m", for people

@@ -150,7 +150,7 @@ void OpenRun::conclude(const Episode& episode, const std::string& file, const st
   if (with_.options().listener) with_.options().listener->trial_done(history_.trials.back());
 }
 
-/// What follows from the history: the tables, and the last trial's episode.
+/// The tables that follow from the history, and the last trial's episode.
 void OpenRun::publish() const {
   folder_.write_tables(history_, with_.resolved());
   for (std::size_t i = 0; i < history_.logs.size(); ++i)

@@ -22,7 +22,7 @@ class OpenRun {
 
   const History& history() const { return history_; }
 
-  /// What a learner is told before the first trial. None may have been asked for. Throws InvalidInput, with nothing
+  /// Logs for the learner, before the first trial. None may have been asked for. Throws InvalidInput, with nothing
   /// kept, where it cannot learn from logs.
   void add_logs(std::vector<Log> logs);
 

@@ -16,7 +16,7 @@ struct Changed {
   Summary summary;
 };
 
-/// What a parameter may be multiplied with: ± 25 %.
+/// Factors of a parameter: ± 25 %.
 inline const std::vector<double> kFactors = {0.75, 0.875, 1, 1.125, 1.25};
 
 /// Evaluates the policy with one parameter of the plant changed at a time, each of the options plant.NAME that is not

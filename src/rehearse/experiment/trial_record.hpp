@@ -8,7 +8,7 @@
 
 namespace rehearse::experiment {
 
-/// What the record of a trial says before it: the proposal.
+/// The record of a trial before it: the proposal.
 TrialRecord record_before(Index trial, const learners::Proposal& proposal, const Resolved& resolved);
 
 /// Adds what came of the proposal. `interaction_s` is left to who knows the trials before.

@@ -59,7 +59,7 @@ void check(const policy::Policy& policy, const Vector& theta, const Task& task) 
   violations.throw_if_any();
 }
 
-/// What the step to state t+1 earned, and whether the episode ends there.
+/// The reward of the step to state t+1, and whether the episode ends there.
 bool ends_at(Episode& episode, Index t, const Task& task) {
   episode.rewards(t) = reward_of(task, episode, t);
   if (!std::isfinite(episode.rewards(t))) {

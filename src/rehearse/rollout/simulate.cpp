@@ -178,7 +178,7 @@ class Chunk {
   Index failed_ = 0;
 };
 
-/// Of the columns of results that chunks have filled.
+/// The result of all chunks, each of which has filled a column.
 Simulated gathered(const Matrix& results, Index limits, Index particles, Index candidates) {
   const Index total = particles * candidates, most = (results.rows() - 1) / (1 + limits);
   Simulated simulated{.returns = Matrix(particles, candidates)};

@@ -14,7 +14,7 @@
 
 namespace rehearse::learners::black_drops {
 
-/// Of tasks that have limits; no other notices.
+/// Options for tasks that have limits; no other notices.
 struct SafetyOptions {
   Index rollouts = 400;  // of each policy that is compared: 0.05 is told from 0.02. At least `selection`
   Index searches = 1;    // more, at most, near good policies for safe ones, each evaluation of several rollouts
@@ -28,7 +28,7 @@ struct SafetyOptions {
 /// its limit allows; 0: it is safe.
 double excess(const std::vector<LimitRisk>& risks, const std::vector<Limit>& limits);
 
-/// What a proposal that is not safe says: a line for each limit that it may break too often.
+/// Warnings of a proposal that is not safe: a line for each limit that it may break too often.
 std::vector<std::string> warnings(const std::vector<LimitRisk>& risks, const std::vector<Limit>& limits);
 
 /// The prior as it may be before there are data: each continuous parameter `doubt` of the way from its value to one

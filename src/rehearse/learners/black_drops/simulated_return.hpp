@@ -29,7 +29,7 @@ class SimulatedReturn {
   /// As optim::BatchObjective.
   void operator()(const ConstMatrixView& Theta, std::uint64_t first, Index samples, VectorView values);
 
-  /// Of each policy (parameters × policies), from so many evaluations.
+  /// Values of each policy (parameters × policies), from so many evaluations.
   std::vector<Measurement> measure(const ConstMatrixView& Theta, std::uint64_t first, Index samples);
 
   std::uint64_t next() const { return next_; }  // the first candidate that no call has had
