@@ -14,23 +14,28 @@ if(REHEARSE_TESTS)
   target_precompile_headers(rehearse_test_headers PRIVATE <Eigen/Core> <gtest/gtest.h>)
 endif()
 
-# Compiles the sources of a target several at once, and optimises them little: what takes the compiler long
-# in them are headers and templates, which they share. Names of helpers are unique in the target.
-function(rehearse_cold target)
+# Compiles the sources of a target several at once: what takes the compiler long in them are headers and templates, which
+# they share. Names of helpers are unique in the target.
+function(rehearse_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+endfunction()
+
+# The same, and optimises them little.
+function(rehearse_cold target)
+  rehearse_together(${target})
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# rehearse_room(NAME [SOURCES file...] [USES room...] [FOLDERS folder...] [LINKS target...] [PRIVATE_LINKS target...] [TEST_USES room...]
+# rehearse_room(NAME [SOURCES file...] [ALONE file...] [USES room...] [FOLDERS folder...] [LINKS target...] [PRIVATE_LINKS target...] [TEST_USES room...]
 #               [TEST_LINKS target...] [COLD])
 #
 # Makes the folder it is called from a room: one static library rehearse_NAME (rehearse::NAME when installed) of its
 # *.cpp, those of FOLDERS included, and one test program of its test/*.cpp; with SOURCES of those alone, and no test. USES is the room's row in the table of
-# docs/architecture.md, TEST_USES what its tests use beside that: a file that includes a header of another room is an
+# docs/architecture.md, ALONE what is not compiled together with others, TEST_USES what its tests use beside that: a file that includes a header of another room is an
 # error at configure time, so the build enforces the direction. COLD: nothing in it takes long, so compiling it must not
 # either (rehearse_cold).
 function(rehearse_room name)
-  cmake_parse_arguments(ROOM "COLD" "" "SOURCES;USES;FOLDERS;LINKS;PRIVATE_LINKS;TEST_USES;TEST_LINKS" ${ARGN})
+  cmake_parse_arguments(ROOM "COLD" "" "SOURCES;ALONE;USES;FOLDERS;LINKS;PRIVATE_LINKS;TEST_USES;TEST_LINKS" ${ARGN})
   string(REPLACE "/" "_" target ${name})
 
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
@@ -56,6 +61,14 @@ function(rehearse_room name)
     # Multiply-adds are fused where the source says so and nowhere else, so that every instruction set rounds alike.
     target_compile_options(rehearse_${target} PRIVATE ${REHEARSE_WARNINGS} -ffp-contract=off)
     target_link_libraries(rehearse_${target} PUBLIC ${uses} ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
+    rehearse_together(rehearse_${target})
+    foreach(source IN LISTS sources)  # a kernel includes itself once for each instruction set
+      file(STRINGS ${source} kernel REGEX "HWY_TARGET_INCLUDE|REHEARSE_EQUATION" LIMIT_COUNT 1)
+      if(kernel)
+        list(APPEND ROOM_ALONE ${source})
+      endif()
+    endforeach()
+    set_source_files_properties(${ROOM_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     if(ROOM_COLD)
       rehearse_cold(rehearse_${target})
     endif()

@@ -27,7 +27,8 @@ Task task() {
   task.dt_s = 0.1;
   task.horizon = 20;
   task.reward = reward::saturating([](const ConstMatrixView& X, VectorView d2) { d2 = X.col(1).cwiseAbs2(); }, 0.2);
-  task.solved = scenario::holds_at_the_end(task, 0.5, [](const ConstVectorView& x) { return std::abs(x(1)) < 0.1; });
+  task.solved =
+      scenario::holds_at_the_end(task, 0.5, each_state([](const ConstVectorView& x) { return std::abs(x(1)) < 0.1; }));
   return task;
 }
 

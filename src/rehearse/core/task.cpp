@@ -40,6 +40,23 @@ std::vector<std::string> ambiguous_names(const Task& task) {
 
 }  // namespace
 
+StateCondition each_state(std::function<bool(const ConstVectorView& state)> is) {
+  return [is = std::move(is)](const ConstMatrixView& X, VectorView holds) {
+    thread_local Vector state;  // this is asked in every step of a batch
+    for (Index row = 0; row < X.rows(); ++row) {
+      state = X.row(row).transpose();
+      holds(row) = is(state) ? 1 : 0;
+    }
+  };
+}
+
+bool holds(const StateCondition& condition, const ConstVectorView& state) {
+  const Matrix X = state.transpose();
+  Vector value(1);
+  condition(X, value);
+  return is_true(value(0));
+}
+
 FeatureMap Task::feature_map() const {
   std::vector<StateKind> kinds;
   for (const StateVariable& state : states) kinds.push_back(state.kind);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -51,6 +52,18 @@ using StepCost = std::function<void(const Steps& steps, VectorView costs)>;
 /// are those of a reward.
 using StepCondition = Reward;
 
+/// Whether states of a batch (rows × dx) are so, one number a row: 0 or NaN where they are not. Promises as a reward's.
+using StateCondition = std::function<void(const ConstMatrixView& X, VectorView holds)>;
+
+/// The condition of states one by one.
+StateCondition each_state(std::function<bool(const ConstVectorView& state)> is);
+
+/// What a condition says of one state.
+bool holds(const StateCondition& condition, const ConstVectorView& state);
+
+/// The truth of a number that a condition wrote.
+inline bool is_true(double value) { return std::abs(value) > 0; }
+
 /// A condition that every step of an episode must keep: a track's end, a speed. The first step that does not ends the
 /// episode at the reward floor, on the robot and in models.
 struct Limit {
@@ -71,11 +84,12 @@ struct Task {
   Reward reward;
   StepCost cost;            // is subtracted from the reward of each step; empty: nothing is
   Reward initial_reward;    // a guess that stands in while the reward is still to be learned; empty: none
+  Index rows_at_once = 0;   // that a call of its functions should have to be worth its cost; 0: any number
   double reward_floor = 0;  // charged for every step that an early end or a failed simulation leaves out
 
-  std::function<bool(const ConstVectorView& state)> ended;  // a fall; empty: never. Any thread.
-  std::vector<Limit> limits;                                // empty: there are none
-  std::function<bool(const Episode&)> solved;               // empty: never known
+  StateCondition ended;                              // a fall; empty: never
+  std::vector<Limit> limits;                         // empty: there are none
+  std::function<bool(const Episode&)> solved;        // empty: never known
   std::function<Vector(const Episode&)> descriptor;  // how it went, for quality diversity; empty: none. Any thread.
   std::vector<Interval> descriptor_bounds;           // of each number of a descriptor
   std::vector<std::string> descriptor_names;         // what each is, with its unit: "tip x at 2.5 s [m]"; or empty

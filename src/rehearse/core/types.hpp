@@ -1,6 +1,8 @@
 #pragma once
 // The matrices of Rehearse. core's names live in namespace rehearse itself, those of another room in its own.
 
+#include <limits>
+
 #include <Eigen/Core>
 
 namespace rehearse {
@@ -16,6 +18,9 @@ using MatrixView = Eigen::Ref<Matrix, 0, Eigen::OuterStride<>>;
 using ConstMatrixView = Eigen::Ref<const Matrix, 0, Eigen::OuterStride<>>;
 using VectorView = Eigen::Ref<Vector>;
 using ConstVectorView = Eigen::Ref<const Vector>;
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// A closed interval.
 struct Interval {

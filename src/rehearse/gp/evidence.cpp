@@ -10,7 +10,6 @@
 namespace rehearse::gp {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kWallPower = 30;
 
 Evidence failure(Vector* gradient) {

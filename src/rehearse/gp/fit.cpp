@@ -13,7 +13,6 @@
 namespace rehearse::gp {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSame = 0.5;          // nats: one optimum, though lengths that hardly matter may differ
 constexpr std::size_t kFinalists = 2;  // that climb on all rows for kShortClimb evaluations, before the best goes on
 constexpr Index kShortClimb = 12;

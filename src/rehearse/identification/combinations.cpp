@@ -9,18 +9,18 @@
 namespace rehearse::identification {
 namespace {
 
-constexpr double kSame = 0.01;    // of a parameter's deviation over the points: as much may a combination vary
-constexpr double kLittle = 0.02;  // of it: a term that varies less is left out, a factor that is nearer to 1 is 1
+constexpr double kSameSum = 0.01;  // of a parameter's deviation over the points: as much may a combination vary
+constexpr double kLittle = 0.02;   // of it: a term that varies less is left out, a factor that is nearer to 1 is 1
 
 double deviation(const Vector& values) { return std::sqrt((values.array() - values.mean()).square().mean()); }
 
 /// values ≈ offset + factorsᵀ others, row by row of the points.
-struct Fit {
+struct Expressed {
   double misfit;  // as a fraction of the deviation of the values
   Vector factors;
 };
 
-Fit fit(const Matrix& others, const Vector& values) {
+Expressed fit(const Matrix& others, const Vector& values) {
   const Matrix centred = (others.colwise() - others.rowwise().mean()).transpose();
   const Vector changes = values.array() - values.mean();
   const Vector factors = centred.colPivHouseholderQr().solve(changes);
@@ -55,11 +55,11 @@ std::string product(const std::string& name, const std::vector<std::string>& oth
 std::optional<std::string> combination(const std::string& name, const Vector& values,
                                        const std::vector<std::string>& others, const Matrix& other_values) {
   const bool positive = values.minCoeff() > 0 && other_values.minCoeff() > 0;
-  Fit linear = fit(other_values, values);
-  Fit logarithmic = positive ? fit(other_values.array().log(), values.array().log()) : Fit{1, {}};
+  Expressed linear = fit(other_values, values);
+  Expressed logarithmic = positive ? fit(other_values.array().log(), values.array().log()) : Expressed{1, {}};
   const bool as_sum = linear.misfit <= logarithmic.misfit;
-  Fit& best = as_sum ? linear : logarithmic;
-  if (!(best.misfit <= kSame)) return {};
+  Expressed& best = as_sum ? linear : logarithmic;
+  if (!(best.misfit <= kSameSum)) return {};
   const auto scaled = [&](const Vector& of) { return as_sum ? of : Vector(of.array().log()); };
   double known = as_sum ? values.mean() : values.array().log().mean();
   for (Index k = 0; k < best.factors.size(); ++k) {

@@ -17,8 +17,6 @@
 namespace rehearse::moments {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// What the dynamics are of: joint angles too where they have as many inputs.

@@ -13,8 +13,6 @@
 namespace rehearse::moments {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 /// L⁻¹ B and L⁻ᵀ B.
 Matrix solve(const Matrix& L, Matrix B) {
   solve_lower(L, B);

@@ -12,8 +12,6 @@
 namespace rehearse::mujoco {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 /// The place in φ of each of the description's parameters.
 std::vector<Index> order_of(const std::vector<ModelParameter>& described, const ParameterSpace& parameters) {
   std::vector<std::string> names;
@@ -52,7 +50,7 @@ class ModelSimulator final : public system::Simulator {
       if (instance->step(u))
         instance->read(x);
       else
-        x.setConstant(kNan);
+        x.setConstant(kNaN);
       dX.row(i) = x.transpose() - X.row(i);
     }
     instances_.give_back(std::move(instance));

@@ -58,7 +58,7 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
         const Vector u = random_action(task, rng), next = state_of(plant->step(u));
         steps.X.row(row) = x, steps.U.row(row) = u, steps.dX.row(row) = next - x;
         x = next;
-        if (task.ended && task.ended(x) && ++row) break;
+        if (task.ended && holds(task.ended, x) && ++row) break;
       }
     }
   } catch (const std::exception& error) {

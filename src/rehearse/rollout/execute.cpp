@@ -68,7 +68,7 @@ bool ends_at(Episode& episode, Index t, const Task& task) {
     return true;
   }
   episode.broken_limits = limits_broken_by(task, episode, t);
-  const bool fell = task.ended && task.ended(episode.true_states.row(t + 1).transpose());
+  const bool fell = task.ended && holds(task.ended, episode.true_states.row(t + 1).transpose());
   if (episode.broken_limits.empty() && !fell) return false;
   end(episode, t + 1, task);
   return true;
@@ -101,6 +101,10 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
     }
     record_state(episode, t + 1, checked(next, task.state_size(), t + 1), plant);
     if (ends_at(episode, t, task)) break;
+    if (plant.ended()) {
+      end(episode, t + 1, task);
+      break;
+    }
   }
   return episode;
 }
@@ -134,11 +138,11 @@ void fail(Episode& episode, const Task& task, const std::string& why) { end(epis
 
 std::vector<std::string> limits_broken_by(const Task& task, const Episode& episode, Index t) {
   std::vector<std::string> broken;
-  Vector holds(1);
+  Vector kept(1);
   for (const Limit& limit : task.limits) {
     limit.holds(episode.true_states.middleRows(t, 1), episode.actions.middleRows(t, 1),
-                episode.true_states.middleRows(t + 1, 1), holds);
-    if (holds(0) == 0 || std::isnan(holds(0))) broken.push_back(limit.name);
+                episode.true_states.middleRows(t + 1, 1), kept);
+    if (!is_true(kept(0))) broken.push_back(limit.name);
   }
   return broken;
 }

@@ -12,17 +12,18 @@ namespace {
 
 /// Rows of a chunk, by the size of the batch alone: each chunk reads the whole model at every step, which on a busy
 /// machine costs more than using it, so many; but so few that a late generation's candidates still occupy several
-/// threads. A model that asks somebody for whom a call is dear is called twice a step at least, for two threads.
+/// threads. Whoever is dear to call is called twice a step, for two threads, unless a quarter of the rows that make up
+/// for a call are all there are.
 Index rows_of_chunk(Index batch, Index rows_at_once) {
   const Index usual = batch >= 512 ? 64 : 32;
-  return std::max(usual, std::min(rows_at_once, (batch + 1) / 2));
+  return std::min(batch, std::max(usual, std::min(rows_at_once, std::max((batch + 1) / 2, rows_at_once / 4))));
 }
 
 /// Memory of a chunk, kept by each thread from one to the next: fresh pages cost more than a step of a cheap model.
 struct Buffers {
   Matrix Theta, X, seen, next, noise, U, U_before;
   Matrix holds, broken;  // rows × limits
-  Vector reward, cost, returns, state;
+  Vector reward, cost, returns, ended;
   std::vector<std::uint64_t> candidates, particles;
   std::vector<char> alive;
 };
@@ -47,6 +48,7 @@ class Chunk {
     }
     b_.holds.resize(rows, static_cast<Index>(task_.limits.size()));
     b_.broken.setZero(rows, b_.holds.cols());
+    b_.ended.setZero(rows);
     b_.returns.setZero(rows);
     b_.candidates.resize(static_cast<std::size_t>(rows));
     b_.particles.resize(static_cast<std::size_t>(rows));
@@ -88,6 +90,7 @@ class Chunk {
     if (task_.cost) charge(t);
     for (Index l = 0; l < b_.holds.cols(); ++l)
       task_.limits[static_cast<std::size_t>(l)].holds(b_.X, b_.U, b_.next, b_.holds.col(l));
+    if (task_.ended) task_.ended(b_.next, b_.ended);
     if (record) write(t, *record);
     for (Index row = 0; row < b_.X.rows(); ++row) settle(row, t);
     b_.X.swap(b_.next);
@@ -162,12 +165,7 @@ class Chunk {
   }
 
   bool breaks(Index row) const { return !(b_.holds.row(row).array().abs() > 0).all(); }
-
-  bool ended(Index row) {
-    if (!task_.ended) return false;
-    b_.state = b_.next.row(row).transpose();
-    return task_.ended(b_.state);
-  }
+  bool ended(Index row) const { return is_true(b_.ended(row)); }
 
   const dynamics::DynamicsModel& model_;
   const policy::Policy& policy_;
@@ -212,7 +210,8 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
   const auto& [first_candidate, particles] = candidates;
   const Index horizon = simulation.task.horizon;
   check(simulation, Theta.rows(), particles);
-  const Index total = Theta.cols() * particles, most = rows_of_chunk(total, simulation.model.rows_at_once());
+  const Index total = Theta.cols() * particles;
+  const Index most = rows_of_chunk(total, std::max(simulation.model.rows_at_once(), simulation.task.rows_at_once));
   const Index chunks = (total + most - 1) / most;
   const auto limits = static_cast<Index>(simulation.task.limits.size());
   Matrix results((1 + limits) * most + 1, chunks);  // returns, limits one by one, and how many failed

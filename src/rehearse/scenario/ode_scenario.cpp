@@ -67,15 +67,14 @@ Limit limit_within(const StateVariable& state, Index index, double bound, double
   return {state.name, "abs(" + state.name + ") < " + to_text(bound) + " " + state.unit, holds, risk};
 }
 
-std::function<bool(const Episode&)> holds_at_the_end(const Task& task, double seconds,
-                                                     std::function<bool(const ConstVectorView& state)> holds) {
+std::function<bool(const Episode&)> holds_at_the_end(const Task& task, double seconds, StateCondition holds) {
   const Index horizon = task.horizon;
   const Index first = std::max<Index>(0, horizon - std::lround(seconds / task.dt_s));
   return [=, holds = std::move(holds)](const Episode& episode) {
     if (episode.steps() < horizon || episode.ended) return false;
-    for (Index t = first; t <= horizon; ++t)
-      if (!holds(episode.true_states.row(t).transpose())) return false;
-    return true;
+    Vector values(horizon + 1 - first);
+    holds(episode.true_states.bottomRows(values.size()), values);
+    return (values.array().abs() > 0).all();
   };
 }
 

@@ -57,7 +57,6 @@ Reward initial_reward(const reward::SquaredDistance& squared_distance, const Ode
 Limit limit_within(const StateVariable& state, Index index, double bound, double risk);
 
 /// For Task::solved: whether the whole horizon was run and every true state of its last `seconds` is as it should be.
-std::function<bool(const Episode&)> holds_at_the_end(const Task& task, double seconds,
-                                                     std::function<bool(const ConstVectorView& state)> holds);
+std::function<bool(const Episode&)> holds_at_the_end(const Task& task, double seconds, StateCondition holds);
 
 }  // namespace rehearse::scenario

@@ -14,8 +14,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 template <class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> format, Args&&... args) {
   throw std::runtime_error(fmt::format(format, std::forward<Args>(args)...));
@@ -66,7 +64,7 @@ const Json& member(const Json& object, const char* key, std::string_view text) {
   return *found;
 }
 
-double number_of(const Json& json) { return json.is_number() ? json.get<double>() : kNan; }
+double number_of(const Json& json) { return json.is_number() ? json.get<double>() : kNaN; }
 
 Vector vector_of(const Json& json, const char* key, Index size) {
   if (!json.is_array() || static_cast<Index>(json.size()) != size)
@@ -168,7 +166,7 @@ void read_change(std::string_view text, MatrixView dX) {
   for (Index i = 0; i < dX.rows(); ++i) {
     const Json& row = rows[static_cast<std::size_t>(i)];
     if (row.is_null())
-      dX.row(i).setConstant(kNan);
+      dX.row(i).setConstant(kNaN);
     else
       dX.row(i) = vector_of(row, "change", dX.cols()).transpose();
   }

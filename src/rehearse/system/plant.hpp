@@ -18,6 +18,9 @@ class Plant {
   /// std::exception if the robot does not answer.
   virtual Vector step(const Vector& u) = 0;
 
+  /// Whether the last step ended the episode: a fall that only the robot itself knows of.
+  virtual bool ended() const { return false; }
+
   /// The noise-free state where it is known, else an empty vector.
   virtual Vector truth() const { return {}; }
 };

@@ -27,18 +27,20 @@ Index blank_failed_rows(MatrixView dX) {
 
 class FunctionSimulator final : public Simulator {
  public:
-  FunctionSimulator(ParameterSpace parameters, Change change)
-      : parameters_(std::move(parameters)), change_(std::move(change)) {}
+  FunctionSimulator(ParameterSpace parameters, Change change, Index rows_at_once)
+      : parameters_(std::move(parameters)), change_(std::move(change)), rows_at_once_(rows_at_once) {}
 
   const ParameterSpace& parameters() const override { return parameters_; }
   void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
     check_sizes(*this, X, U, phi, dX);
     change_(X, U, phi, dX);
   }
+  Index rows_at_once() const override { return rows_at_once_; }
 
  private:
   ParameterSpace parameters_;
   Change change_;
+  Index rows_at_once_;
 };
 
 }  // namespace
@@ -53,8 +55,8 @@ void check_sizes(const Simulator& simulator, const ConstMatrixView& X, const Con
       parameters, X.rows(), X.cols(), U.rows(), U.cols(), phi.size(), dX.rows(), dX.cols()));
 }
 
-std::shared_ptr<const Simulator> make_simulator(ParameterSpace parameters, Change change) {
-  return std::make_shared<FunctionSimulator>(std::move(parameters), std::move(change));
+std::shared_ptr<const Simulator> make_simulator(ParameterSpace parameters, Change change, Index rows_at_once) {
+  return std::make_shared<FunctionSimulator>(std::move(parameters), std::move(change), rows_at_once);
 }
 
 Index change_contained(const Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U,

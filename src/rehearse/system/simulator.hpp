@@ -44,7 +44,7 @@ void check_sizes(const Simulator& simulator, const ConstMatrixView& X, const Con
                  const ConstMatrixView& dX);
 
 /// A simulator that is no more than a function.
-std::shared_ptr<const Simulator> make_simulator(ParameterSpace parameters, Change change);
+std::shared_ptr<const Simulator> make_simulator(ParameterSpace parameters, Change change, Index rows_at_once = 0);
 
 /// Contains a hostile simulator: if the batch, of the right sizes, throws it is retried row by row, and rows that throw
 /// again, or are not finite, come back as NaN. Returns how many rows failed.

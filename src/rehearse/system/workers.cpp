@@ -7,7 +7,6 @@
 namespace rehearse::system {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Index kCostly = 8;  // faults that one is counted for which takes long
 
 /// Which rows are asked for next.
@@ -66,7 +65,7 @@ void Workers::change(const ConstMatrixView& X, const ConstMatrixView& U, const V
     }
     worker.reset();
     if (!rows.gives_up(costly)) continue;
-    dX.row(rows.first()).setConstant(kNan);
+    dX.row(rows.first()).setConstant(kNaN);
     rows.answered(1);
   }
   idle_.give_back(std::move(worker));

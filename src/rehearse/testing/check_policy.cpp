@@ -12,7 +12,6 @@
 namespace rehearse::testing {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
 constexpr Index kRows = 37;  // no multiple of a vector's length
 
 class PolicyCheck {
@@ -30,7 +29,7 @@ class PolicyCheck {
       check_bounds(whole_, "ordinary θ and states");
       check_rows(t_s);
       check_padding(t_s);
-      for (const double bad : {kNan, kInf, -kInf, 1e300, -1e300}) check_hostile(bad, t_s);
+      for (const double bad : {kNaN, kInf, -kInf, 1e300, -1e300}) check_hostile(bad, t_s);
     }
     for (const double size : {0.0, 1e-300, 1e3, 1e6})
       check_bounds(act(size * Theta_, X_, 0), fmt::format("θ × {}", size));
@@ -45,7 +44,7 @@ class PolicyCheck {
   }
 
   Matrix act(const ConstMatrixView& Theta, const ConstMatrixView& X, double t_s) const {
-    Matrix U = Matrix::Constant(X.rows(), policy_.actions(), kNan);
+    Matrix U = Matrix::Constant(X.rows(), policy_.actions(), kNaN);
     policy_.act(Theta, X, t_s, U);
     return U;
   }
@@ -70,8 +69,8 @@ class PolicyCheck {
 
   /// θ and states as blocks of larger matrices, with NaN around them.
   void check_padding(double t_s) {
-    Matrix Theta = Matrix::Constant(kRows + 2, Theta_.cols() + 2, kNan),
-           X = Matrix::Constant(kRows + 2, X_.cols() + 2, kNan);
+    Matrix Theta = Matrix::Constant(kRows + 2, Theta_.cols() + 2, kNaN),
+           X = Matrix::Constant(kRows + 2, X_.cols() + 2, kNaN);
     Theta.block(1, 1, kRows, Theta_.cols()) = Theta_;
     X.block(1, 1, kRows, X_.cols()) = X_;
     const Matrix U = act(Theta.block(1, 1, kRows, Theta_.cols()), X.block(1, 1, kRows, X_.cols()), t_s);

@@ -11,8 +11,6 @@
 namespace rehearse::testing {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
-
 class SimulatorCheck {
  public:
   SimulatorCheck(const system::Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U,
@@ -25,7 +23,7 @@ class SimulatorCheck {
     check_repetition();
     check_parts();
     check_threads();
-    for (const double value : {kNan, kInf, -kInf, 1e300, -1e300}) check_hostile(value);
+    for (const double value : {kNaN, kInf, -kInf, 1e300, -1e300}) check_hostile(value);
     return found_.list();
   }
 

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "not_finite.hpp"
 #include "rehearse/core/random.hpp"
 
 namespace rehearse {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "matrix_tools.hpp"
-#include "not_finite.hpp"
 
 namespace rehearse {
 namespace {
@@ -15,7 +14,7 @@ Matrix lower_triangle(Index n) { return positive_definite(n).llt().matrixL(); }
 
 /// As `A`, with NaN above the diagonal: nobody may look there.
 Matrix hidden_above(Matrix A) {
-  A.triangularView<Eigen::StrictlyUpper>().setConstant(kNan);
+  A.triangularView<Eigen::StrictlyUpper>().setConstant(kNaN);
   return A;
 }
 
@@ -49,7 +48,7 @@ TEST(LinearAlgebra, CholeskyOfABlock) {
 
 TEST(LinearAlgebra, CholeskySaysWhenThereIsNone) {
   for (const Index n : {3, 40, 97})
-    for (const double bad : {0.0, -1.0, kNan}) {
+    for (const double bad : {0.0, -1.0, kNaN}) {
       Matrix A = positive_definite(n);
       A(n - 1, n - 1) = bad;
       EXPECT_FALSE(cholesky(A)) << n << " " << bad;

@@ -142,6 +142,17 @@ TEST(Task, DescriptorsHaveANameEachOrNone) {
             std::vector<std::string>{"descriptor_names has 1 entries, must have 2, as descriptor_bounds, or none"});
 }
 
+TEST(Task, ConditionsOfStatesGoByRow) {
+  const StateCondition high = each_state([](const ConstVectorView& x) { return x(1) > 2; });
+  Vector values(3);
+  high(Matrix{{0, 1}, {0, 3}, {0, kNaN}}, values);
+  EXPECT_EQ(values, (Vector{{0, 1, 0}}));
+  EXPECT_TRUE(holds(high, Vector{{0, 3}}));
+  EXPECT_FALSE(holds(high, Vector{{3, 0}}));
+  EXPECT_FALSE(is_true(kNaN));
+  EXPECT_TRUE(is_true(-0.5));
+}
+
 TEST(Task, AnEmptyOneLacksEverything) {
   EXPECT_EQ(Task().violations().size(), 5u) << "states, actions, dt_s, horizon, reward";
 }

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "matrix_tools.hpp"
-#include "not_finite.hpp"
 #include "tile_tools.hpp"
 
 namespace rehearse {
@@ -47,7 +46,7 @@ TEST(Tiles, CholeskyOfAnIllConditionedMatrixIsBackwardStable) {
 
 TEST(Tiles, CholeskySaysWhenThereIsNone) {
   for (const Index n : {3, 40, 97}) {
-    for (const double bad : {0.0, -1.0, kNan}) {
+    for (const double bad : {0.0, -1.0, kNaN}) {
       Matrix A = positive_definite(n);
       A(n - 1, n - 1) = bad;
       EXPECT_FALSE(tiles_cholesky(n, to_tiles(A).data())) << n << " " << bad;

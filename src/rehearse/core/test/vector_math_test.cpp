@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "not_finite.hpp"
 #include "rehearse/core/random.hpp"
 
 namespace rehearse {
@@ -55,7 +54,7 @@ TEST(VectorMath, SineAndCosineAgreeWithTheLibrary) {
 
 TEST(VectorMath, AFarAngleDisturbsNoOther) {
   const Vector x = uniforms(41, -5, 5);
-  for (const double far : {39000.0, -1e300, kInf, -kInf, kNan}) {
+  for (const double far : {39000.0, -1e300, kInf, -kInf, kNaN}) {
     for (Index place = 0; place < 41; ++place) {
       Vector with = x, sine(41), cosine(41), other_sine(41), other_cosine(41);
       with(place) = far;
@@ -74,7 +73,7 @@ TEST(VectorMath, NanIsKeptAndDisturbsNoOther) {
   for (Index n = 1; n <= 19; ++n) {
     for (Index bad = 0; bad < n; ++bad) {
       Vector x = uniforms(n, -1, 1);
-      x(bad) = kNan;
+      x(bad) = kNaN;
       Vector exponentials(n), tangents(n);
       vector_exp(x.data(), exponentials.data(), n);
       vector_tanh(x.data(), tangents.data(), n);

@@ -58,7 +58,7 @@ TEST(PolicyEvaluation, AMoreOfEpisodesBeginsWithTheSame) {
 
 TEST(PolicyEvaluation, CountsFalls) {
   Resolved falls = line_where();
-  falls.scenario.task.ended = [](const ConstVectorView& x) { return x(0) < 0.5; };
+  falls.scenario.task.ended = each_state([](const ConstVectorView& x) { return x(0) < 0.5; });
   falls.scenario.task.solved = [](const Episode& episode) { return !episode.ended; };
   falls.scenario.task.reward_floor = -1;
   const EvaluationPlan plan{.episodes = 12, .seconds = 5};

@@ -7,8 +7,6 @@
 namespace rehearse::experiment {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 // Two samples, of which one ends; moments that are lost after the first step.
 TEST(PredictionCsv, HasTheMomentsBesideTheSamples) {
   Task task = fake::line_task();

@@ -7,8 +7,6 @@
 namespace rehearse::expression {
 namespace {
 
-constexpr double kNaN = NAN;
-
 TEST(Scalar, OperationsAreThoseOfTheCLibrary) {
   EXPECT_EQ(evaluate(Op::subtract, 3, 5, 0), -2);
   EXPECT_EQ(evaluate(Op::arctangent2, 1, -1, 0), std::atan2(1, -1));

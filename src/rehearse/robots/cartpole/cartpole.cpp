@@ -80,9 +80,10 @@ Task make_task(const Options& options) {
   task.reward = reward::saturating(squared_tip_distance, kRewardWidth, closed_form());
   if (options.shaping > 0) task.reward = shaped(std::move(task.reward), options.shaping);
   task.initial_reward = scenario::initial_reward(squared_tip_distance, options.ode);
-  task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
-    return std::abs(state(0)) <= kSolvedDistance && -std::cos(state(3)) >= std::cos(kSolvedAngle);
-  });
+  task.solved = scenario::holds_at_the_end(task, kSolvedTime, each_state([](const ConstVectorView& state) {
+                                             return std::abs(state(0)) <= kSolvedDistance &&
+                                                    -std::cos(state(3)) >= std::cos(kSolvedAngle);
+                                           }));
   if (options.track > 0) task.limits = {scenario::limit_within(task.states[0], 0, options.track, options.risk)};
   return task;
 }

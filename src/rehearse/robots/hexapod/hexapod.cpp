@@ -53,7 +53,7 @@ Task make_task(const Options& options) {
   task.horizon = options.horizon;
   task.reward = reward(options.drift_m, options.integral);
   task.reward_floor = options.fall_reward;
-  task.ended = [](const ConstVectorView& state) { return uprightness(state) < kFallen; };
+  task.ended = each_state([](const ConstVectorView& state) { return uprightness(state) < kFallen; });
   task.solved = [seconds = task.episode_s(), steps = task.horizon](const Episode& e) {
     return !e.ended && e.steps() == steps &&
            e.true_states(steps, kPosition) - e.true_states(0, kPosition) >= kSolvedSpeed * seconds;

@@ -86,9 +86,9 @@ Task make_task(const Options& options) {
   task.horizon = kHorizon;
   task.reward = reward::saturating(squared_tip_distance, kRewardWidth, closed_form());
   task.initial_reward = scenario::initial_reward(squared_tip_distance, options.ode);
-  task.solved = scenario::holds_at_the_end(task, kSolvedTime, [](const ConstVectorView& state) {
-    return (tip(state) - Eigen::Vector2d{0, 1}).norm() <= kSolvedDistance;
-  });
+  task.solved = scenario::holds_at_the_end(task, kSolvedTime, each_state([](const ConstVectorView& state) {
+                                             return (tip(state) - Eigen::Vector2d{0, 1}).norm() <= kSolvedDistance;
+                                           }));
   task.descriptor = tip_descriptor;
   task.descriptor_bounds = std::vector<Interval>(2 * kDescribedTimes, {-2 * kRewardLength, 2 * kRewardLength});
   task.descriptor_names = descriptor_names();

@@ -49,8 +49,9 @@ Task make_task(const Options& options) {
   task.horizon = kHorizon;
   task.reward = reward::saturating(squared_distance, kRewardWidth, closed_form());
   task.initial_reward = scenario::initial_reward(squared_distance, options.ode);
-  task.solved = scenario::holds_at_the_end(
-      task, kSolvedTime, [](const ConstVectorView& state) { return -std::cos(state(1)) >= std::cos(kSolvedAngle); });
+  task.solved = scenario::holds_at_the_end(task, kSolvedTime, each_state([](const ConstVectorView& state) {
+                                             return -std::cos(state(1)) >= std::cos(kSolvedAngle);
+                                           }));
   if (options.speed_limit > 0)
     task.limits = {scenario::limit_within(task.states[0], 0, options.speed_limit, options.risk)};
   return task;

@@ -35,7 +35,7 @@ TEST(Allocations, NoneInTheTimeLoop) { expect_none_in_time_loop(cart::Model(0.01
 
 TEST(Allocations, NoneWhereRolloutsMayEndEarly) {
   Task task = cart::task();
-  task.ended = [](const ConstVectorView& x) { return std::abs(x(1)) > 1e3; };
+  task.ended = each_state([](const ConstVectorView& x) { return std::abs(x(1)) > 1e3; });
   expect_none_in_time_loop(cart::Model(0.01), *cart::policy(), task);
 }
 

@@ -108,7 +108,7 @@ TEST(Execute, WithoutTruthTheMeasuredStateStandsForIt) {
 TEST(Execute, AFallEndsTheEpisodeAndIsChargedTheFloor) {
   Task task = cart::task();
   int asked = 0;
-  task.ended = [&](const ConstVectorView&) { return ++asked == 7; };
+  task.ended = each_state([&](const ConstVectorView&) { return ++asked == 7; });
   CartPlant plant;
   const Episode episode = execute(plant, *cart::policy(), cart::candidates(1), task, kRng);
   EXPECT_TRUE(episode.ended);
@@ -124,12 +124,34 @@ TEST(Execute, AFallEndsTheEpisodeAndIsChargedTheFloor) {
 TEST(Execute, AFallAtTheLastStepIsChargedNothing) {
   Task task = cart::task();
   int asked = 0;
-  task.ended = [&](const ConstVectorView&) { return ++asked == 20; };
+  task.ended = each_state([&](const ConstVectorView&) { return ++asked == 20; });
   CartPlant plant;
   const Episode episode = execute(plant, *cart::policy(), cart::candidates(1), task, kRng);
   EXPECT_TRUE(episode.ended);
   EXPECT_EQ(episode.steps(), 20);
   EXPECT_EQ(episode.charged, 0);
+}
+
+/// Ends its episodes by itself.
+class EndingPlant final : public system::Plant {
+ public:
+  Vector reset(Rng& rng) override { return steps_ = 0, plant_.reset(rng); }
+  Vector step(const Vector& u) override { return ++steps_, plant_.step(u); }
+  bool ended() const override { return steps_ == 4; }
+
+ private:
+  CartPlant plant_;
+  int steps_ = 0;
+};
+
+TEST(Execute, APlantMayEndTheEpisode) {
+  EndingPlant plant;
+  const Task task = cart::task();
+  const Episode episode = execute(plant, *cart::policy(), cart::candidates(1), task, kRng);
+  EXPECT_TRUE(episode.ended);
+  EXPECT_EQ(episode.failure, "");
+  EXPECT_EQ(episode.steps(), 4);
+  EXPECT_DOUBLE_EQ(episode.charged, 16 * task.reward_floor);
 }
 
 TEST(Execute, APlantThatThrowsReachesTheCaller) {

@@ -28,7 +28,7 @@ TEST(SimulateRecorded, HasTheReturnsAndTheStatesOfSimulate) {
 
 TEST(SimulateRecorded, AfterAnEarlyEndARowIsNan) {
   Task task = cart::task(0);
-  task.ended = [](const ConstVectorView& x) { return x(1) < 0.9; };
+  task.ended = each_state([](const ConstVectorView& x) { return x(1) < 0.9; });
   Vector left = Vector::Zero(13);
   left(12) = -5;  // the bias of the output: full force to the left
   const Recorded recorded = simulate_recorded({cart::Model(), *cart::policy(), task, kKey}, left, 2);
@@ -47,7 +47,7 @@ TEST(SimulateEpisodes, RecordsWhatTheReturnsAreMadeOf) {
   const cart::Model model(0.01, [](double v, double) { return v > 0.5; });
   const Matrix Theta = cart::candidates(40);
   for (const bool falls : {false, true}) {
-    if (falls) task.ended = [](const ConstVectorView& x) { return x(1) < 0.8; };
+    if (falls) task.ended = each_state([](const ConstVectorView& x) { return x(1) < 0.8; });
     const Simulated simulated = simulate_cart(task, Theta, 1, {}, model, 5);
     Episodes episodes;
     simulate_episodes({model, *cart::policy(), task, kKey}, Theta.transpose(), 5, episodes);

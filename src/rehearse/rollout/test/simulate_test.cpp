@@ -136,7 +136,7 @@ double reward_before(const Matrix& states, Index steps) {
 TEST(Simulate, AFallIsChargedTheFloorForTheRemainingSteps) {
   Task task = cart::task();
   const auto fallen = [](double, double position) { return position > 1.15; };
-  task.ended = [&](const ConstVectorView& x) { return fallen(x(0), x(1)); };
+  task.ended = each_state([&](const ConstVectorView& x) { return fallen(x(0), x(1)); });
   const Matrix Theta = cart::candidates(40);
   const Simulated simulated = simulate_cart(task, Theta, 1);
   Index falls = 0;

@@ -75,7 +75,7 @@ TEST(LimitWithin, HoldsWhereAStateIsNearerToZero) {
 
 TEST(HoldsAtTheEnd, LooksAtEveryStateOfTheLastSeconds) {
   const Task task = oscillator::task({.horizon = 10});
-  const auto solved = holds_at_the_end(task, 0.3, [](const ConstVectorView& x) { return x(0) > 0; });
+  const auto solved = holds_at_the_end(task, 0.3, each_state([](const ConstVectorView& x) { return x(0) > 0; }));
   Episode episode{.true_states = Matrix::Constant(11, 2, -1), .actions = Matrix::Zero(10, 1)};
   episode.true_states.col(0).tail(4).setOnes();  // x_7..x_10
   EXPECT_TRUE(solved(episode));
@@ -101,7 +101,8 @@ TEST(InitialReward, HasTheWidthThatIsAskedFor) {
 }
 
 TEST(HoldsAtTheEnd, OfAShortEpisodeLooksAtAll) {
-  const auto solved = holds_at_the_end(oscillator::task({.horizon = 2}), 1, [](const auto& x) { return x(0) > 0; });
+  const auto solved =
+      holds_at_the_end(oscillator::task({.horizon = 2}), 1, each_state([](const auto& x) { return x(0) > 0; }));
   Episode episode{.true_states = Matrix::Ones(3, 2), .actions = Matrix::Zero(2, 1)};
   EXPECT_TRUE(solved(episode));
   episode.true_states(0, 0) = -1;

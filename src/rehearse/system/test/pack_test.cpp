@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "rehearse/core/test/not_finite.hpp"
-
 #define REHEARSE_EQUATION "rehearse/system/test/functions.hpp"
 #include "rehearse/system/equation_kernel.hpp"
 
@@ -27,7 +25,7 @@ void expect_near(const Vector& ours, const Vector& theirs, const char* what) {
 }
 
 TEST(Pack, HasTheFunctionsOfANumber) {
-  const Vector U{{-3, -1, -0.4, 0, 0.3, 1, 2, 8, 50, -700, kNan}};
+  const Vector U{{-3, -1, -0.4, 0, 0.3, 1, 2, 8, 50, -700, kNaN}};
   Matrix dX(U.size(), 10);
   equation_kernel().change(Matrix::Zero(U.size(), 10), U, kOffset.data(), 1, 1, dX);
   for (Index i = 0; i < U.size(); ++i) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/core/test/not_finite.hpp"
 
 namespace rehearse::system {
 namespace {
@@ -39,7 +38,7 @@ TEST(PlainKernel, ARowThatIsNoNumberLeavesTheOthersAlone) {
   const OdeKernel kernel = plain_kernel(pushed_mass, kSizes);
   Matrix alone(1, 2), both(2, 2);
   kernel.change(Matrix{{2, 1}}, Matrix{{5}}, kMassAndFriction.data(), 0.1, 4, alone);
-  kernel.change(Matrix{{kNan, 1}, {2, 1}}, Matrix{{5}, {5}}, kMassAndFriction.data(), 0.1, 4, both);
+  kernel.change(Matrix{{kNaN, 1}, {2, 1}}, Matrix{{5}, {5}}, kMassAndFriction.data(), 0.1, 4, both);
   EXPECT_TRUE(std::isnan(both(0, 0)));
   EXPECT_EQ(both.row(1), alone.row(0));
 }

@@ -30,7 +30,7 @@ Dataset walk_in_dart(const Vector& theta, double missing, Index steps = 40) {
     walk.actions.row(t) = U;
     walk.changes.row(t) = dX;
     X += dX;
-    if (s.task.ended(X.row(0).transpose().eval())) {
+    if (holds(s.task.ended, X.row(0).transpose().eval())) {
       for (Matrix* m : {&walk.states, &walk.actions, &walk.changes}) m->conservativeResize(t + 1, Eigen::NoChange);
       break;
     }
@@ -47,7 +47,7 @@ Vector walk_in_mujoco(const Options& options, const Vector& theta, Index& steps)
   plant->reset(rng);
   const Matrix Theta = theta.transpose();
   Matrix U(1, kJoints);
-  for (steps = 0; steps < 40 && !s.task.ended(plant->truth()); ++steps) {
+  for (steps = 0; steps < 40 && !holds(s.task.ended, plant->truth()); ++steps) {
     s.policy->act(Theta, plant->truth().transpose(), 0.1 * static_cast<double>(steps), U);
     plant->step(U.row(0).transpose());
   }
