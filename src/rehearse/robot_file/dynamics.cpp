@@ -62,6 +62,8 @@ std::shared_ptr<const system::Simulator> DynamicsMaker::simulator(const Variant&
     return kept_with(folder_, programs_.back().second);
   }
   if (std::holds_alternative<ModelSource>(dynamics.source)) return mujoco::make_simulator(model(dynamics), fixed);
+  if (const auto* function = std::get_if<FunctionSource>(&dynamics.source))
+    return system::make_simulator(fixed, robot_.functions.dynamics.at(function->name), robot_.functions.rows_at_once);
   return system::make_ode_simulator(system::formula_kernel(robot_.equation(dynamics)), fixed, robot_.dt_s, substeps);
 }
 
@@ -76,6 +78,15 @@ std::function<std::unique_ptr<system::Plant>()> DynamicsMaker::plant(const Varia
     return [options = mujoco::PlantOptions{model(dynamics), variant.parameters.values(), around}, folder = folder_] {
       return mujoco::make_plant(options);
     };
+  if (const auto* function = std::get_if<FunctionSource>(&dynamics.source))
+    return [change = robot_.functions.dynamics.at(function->name), phi = variant.parameters.values(), around] {
+      const auto motion = [change, phi](const Vector& x, const Vector& u) -> Vector {
+        Matrix moved(1, x.size());
+        change(x.transpose(), u.transpose(), phi, moved);
+        return x + moved.transpose();
+      };
+      return system::make_simulated_plant(motion, around);
+    };
   const system::OdePlantOptions options{.ode = system::formula_kernel(robot_.equation(dynamics)).ode(),
                                         .phi = variant.parameters.values(),
                                         .dt_s = robot_.dt_s,
@@ -85,7 +96,7 @@ std::function<std::unique_ptr<system::Plant>()> DynamicsMaker::plant(const Varia
 
 std::optional<scenario::Drawing> DynamicsMaker::drawing() const {
   std::vector<const Variant*> variants;
-  if (robot_.has_plant) variants.push_back(&robot_.plant);
+  if (robot_.has_plant && robot_.plant_function.empty()) variants.push_back(&robot_.plant);
   for (const Variant& prior : robot_.priors) variants.push_back(&prior);
   for (const Variant* variant : variants) {
     const Dynamics& dynamics = robot_.dynamics_of(*variant);

@@ -18,8 +18,11 @@ constexpr std::int64_t kFormat = 1;
 
 class Reader {
  public:
-  Reader(const toml::table& file, const std::string& source, const scenario::ReadFile& read_file)
-      : read_file_(read_file), violations_(source), file_(file, "", violations_) {}
+  Reader(const toml::table& file, const std::string& source, const scenario::ReadFile& read_file,
+         const Functions& functions)
+      : read_file_(read_file), violations_(source), file_(file, "", violations_) {
+    robot_.functions = functions;
+  }
 
   Robot read() {
     read_head();
@@ -30,7 +33,7 @@ class Reader {
     read_dynamics(file_, robot_, read_file_, violations_);
     read_plant();
     read_priors();
-    const bool asked = robot_.has_plant || !robot_.priors.empty();
+    const bool asked = (robot_.has_plant && robot_.plant_function.empty()) || !robot_.priors.empty();
     required(!asked || !robot_.dynamics.empty(), "[dynamics.NAME]", "how the states change");
     read_policy();
     read_bodies();
@@ -151,7 +154,13 @@ class Reader {
     Table table(*part, "[plant]", violations_);
     table.number("measurement_noise", robot_.options.measurement_noise, at_least(0));
     robot_.has_plant = true;
-    robot_.plant = read_variant("plant", table, robot_.dynamics, violations_);
+    if (table.reader().take("function", robot_.plant_function)) {
+      require_function(robot_.functions.plants, robot_.plant_function, files::line_of(*part), violations_);
+      if (robot_.options.measurement_noise > 0)
+        table.wrong("measurement_noise", "a plant that is a function measures by itself, noise included");
+    } else {
+      robot_.plant = read_variant("plant", table, robot_.dynamics, violations_);
+    }
     table.finish();
   }
 
@@ -198,9 +207,10 @@ class Reader {
 
 }  // namespace
 
-Robot read(std::string_view text, const std::string& source, const scenario::ReadFile& read_file) {
+Robot read(std::string_view text, const std::string& source, const scenario::ReadFile& read_file,
+           const Functions& functions) {
   const toml::table file = files::parse_toml(text, source);
-  return Reader(file, source, read_file).read();
+  return Reader(file, source, read_file, functions).read();
 }
 
 }  // namespace rehearse::robot_file

@@ -41,13 +41,17 @@ class DynamicsReader {
  private:
   void read_source(Table& table, Dynamics& dynamics) {
     std::vector<std::string> command;
-    std::string model;
-    if (table.reader().take("program", command))
+    std::string model, function;
+    if (table.reader().take("function", function)) {
+      require_function(robot_.functions.dynamics, function, dynamics.line, violations_);
+      dynamics.source = FunctionSource{function};
+    } else if (table.reader().take("program", command)) {
       dynamics.source = read_program(table, std::move(command));
-    else if (table.reader().take("model", model))
+    } else if (table.reader().take("model", model)) {
       dynamics.source = read_model(table, model);
-    else
+    } else {
       dynamics.source = read_equations(table, dynamics.line);
+    }
   }
 
   ModelSource read_model(Table& table, const std::string& path) {

@@ -10,17 +10,20 @@
 #include "rehearse/core/parameters.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/mujoco/description.hpp"
+#include "rehearse/robot_file/functions.hpp"
 #include "rehearse/scenario/ode_scenario.hpp"
 #include "rehearse/system/formula_ode.hpp"
 
 namespace rehearse::robot_file {
 
-/// A formula and where it stands.
+/// A formula and where it stands; or "@NAME", a function of the program (functions.hpp).
 struct Formula {
   std::string text;
   Index line = 0;
 
   bool empty() const { return text.empty(); }
+  bool is_function() const { return text.starts_with('@'); }
+  std::string function() const { return text.substr(1); }
 };
 using Definitions = std::vector<std::pair<std::string, Formula>>;  // in the order of the file
 
@@ -67,12 +70,17 @@ struct ProgramSource {
 /// A model of MuJoCo. Path, control step and values of parameters come later.
 using ModelSource = mujoco::ModelDescription;
 
+/// A function of the program.
+struct FunctionSource {
+  std::string name;
+};
+
 /// How states change, and what computes it.
 struct Dynamics {
   std::string name;
   Index line = 0;
   std::vector<Parameter> parameters;  // all fixed, at their usual values
-  std::variant<Equations, ProgramSource, ModelSource> source;
+  std::variant<Equations, ProgramSource, ModelSource, FunctionSource> source;
 };
 
 /// Dynamics with values of their own, and which of them may be tuned.
@@ -100,12 +108,14 @@ struct Robot {
   Formula ended;
   std::vector<LimitFormula> limits;
   std::vector<Dynamics> dynamics;
-  bool has_plant = false;  // else it is a real one, whose episodes are told
+  bool has_plant = false;      // else it is a real one, whose episodes are told
+  std::string plant_function;  // plays the robot instead of `plant`; empty: none does
   Variant plant;
   std::vector<Variant> priors;  // the first is the default
   scenario::OdeOptions options;
   std::vector<Body> bodies;
   std::vector<scenario::NamedFile> files;  // of programs and models
+  Functions functions;
 
   std::vector<std::string> state_names() const;
   std::vector<std::string> action_names() const;

@@ -33,7 +33,9 @@ class Builder final : public scenario::ScenarioBuilder {
                                 .drawing = robot_.bodies.empty() ? dynamics.drawing() : make_drawing(robot_),
                                 .require_ready = dynamics.require_ready(),
                                 .evaluations = robot_.options.evaluations};
-    if (robot_.has_plant) {
+    if (!robot_.plant_function.empty()) {
+      scenario.make_plant = robot_.functions.plants.at(robot_.plant_function);
+    } else if (robot_.has_plant) {
       scenario.make_plant = dynamics.plant(plant, {task.start_mean, task.start_std, noise});
       scenario.oracle = dynamics.simulator(plant, robot_.options.substeps);
     }
@@ -62,8 +64,8 @@ class Builder final : public scenario::ScenarioBuilder {
 }  // namespace
 
 std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const std::string& source,
-                                                   const scenario::ReadFile& read_file) {
-  Robot robot = read(text, source, read_file);
+                                                   const scenario::ReadFile& read_file, const Functions& functions) {
+  Robot robot = read(text, source, read_file, functions);
   files::FileViolations violations(source);
   check_formulas(robot, violations);
   violations.throw_if_any();

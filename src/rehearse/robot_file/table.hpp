@@ -42,6 +42,15 @@ class Table {
   files::TomlReader reader_;
 };
 
+std::string missing_function(const std::string& name);
+
+/// Adds a violation unless the program has a function of that name.
+template <class Function>
+void require_function(const std::map<std::string, Function>& known, const std::string& name, Index line,
+                      files::FileViolations& violations) {
+  if (!known.contains(name)) violations.add(line, missing_function(name));
+}
+
 /// Two numbers, [low, high], in whatever order; empty: the node is something else.
 std::optional<Interval> pair_of(const toml::node& node);
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/expression/program.hpp"
+#include "rehearse/robot_file/table.hpp"
 #include "rehearse/scenario/ode_scenario.hpp"
 
 namespace rehearse::robot_file {
@@ -63,10 +64,11 @@ class Checker {
     for (const std::string& name : robot_.action_names()) formulas.input(name, Pace::always);
     check_definitions(formulas, robot_.definitions);
     for (const Formula& distance : robot_.reward.distance) compile(formulas, "reward.distance", distance);
-    compile(formulas, "reward.formula", robot_.reward.formula);
-    compile(formulas, "success.when", robot_.success.when);
-    compile(formulas, "ended", robot_.ended);
-    for (const LimitFormula& limit : robot_.limits) compile(formulas, "limit.keep", limit.keep);
+    const Functions& functions = robot_.functions;
+    compile(formulas, "reward.formula", robot_.reward.formula, functions.of_steps);
+    compile(formulas, "success.when", robot_.success.when, functions.of_states);
+    compile(formulas, "ended", robot_.ended, functions.of_states);
+    for (const LimitFormula& limit : robot_.limits) compile(formulas, "limit.keep", limit.keep, functions.of_steps);
     for (const Body& body : robot_.bodies)
       for (const Formula* formula : {&body.from[0], &body.from[1], &body.to[0], &body.to[1]})
         compile(formulas, fmt::format("body {}", body.name), *formula);
@@ -93,6 +95,16 @@ class Checker {
     if (!formula.empty() && good_)
       named(
           formula.line, [&] { formulas.compile(formula.text); }, what);
+  }
+
+  /// Or a function of the program.
+  template <class Function>
+  void compile(Formulas& formulas, const std::string& what, const Formula& formula,
+               const std::map<std::string, Function>& functions) {
+    if (formula.is_function())
+      require_function(functions, formula.function(), formula.line, violations_);
+    else
+      compile(formulas, what, formula);
   }
 
   /// Formulas that use a wrong definition are not compiled: the definition is to blame.
@@ -126,6 +138,7 @@ class Checker {
 
 /// A formula of the state that a step reaches and the action that took it there.
 Reward of_steps(const Robot& robot, const Formula& formula) {
+  if (formula.is_function()) return robot.functions.of_steps.at(formula.function());
   return [program = program(robot, {formula})](const ConstMatrixView&, const ConstMatrixView& U,
                                                const ConstMatrixView& X_next,
                                                VectorView values) { values = evaluate(program, X_next, U).col(0); };
@@ -152,12 +165,12 @@ StepCost cost_of(const Robot& robot) {
   };
 }
 
-/// Whether a condition holds in a state: truth is any number but 0, and NaN is none.
-std::function<bool(const ConstVectorView& x)> condition(const Robot& robot, const Formula& formula) {
-  return [program = program(robot, {formula}),
-          actions = static_cast<Index>(robot.actions.size())](const ConstVectorView& x) {
-    const double value = evaluate(program, x, actions)(0);
-    return value != 0 && !std::isnan(value);
+/// A condition on states, where all actions are 0.
+StateCondition of_states(const Robot& robot, const Formula& formula) {
+  if (formula.is_function()) return robot.functions.of_states.at(formula.function());
+  return [program = program(robot, {formula}), actions = static_cast<Index>(robot.actions.size())](
+             const ConstMatrixView& X, VectorView holds) {
+    holds = evaluate(program, X, Matrix::Zero(X.rows(), actions)).col(0);
   };
 }
 
@@ -245,12 +258,14 @@ Task make_task(const Robot& robot) {
   task.actions = robot.actions;
   task.dt_s = robot.dt_s;
   task.horizon = robot.horizon;
+  if (!robot.functions.of_steps.empty() || !robot.functions.of_states.empty())
+    task.rows_at_once = robot.functions.rows_at_once;
   task.reward = reward_of(robot);
   task.reward_floor = robot.reward.floor;
   task.cost = cost_of(robot);
   if (!robot.success.when.empty())
-    task.solved = scenario::holds_at_the_end(task, robot.success.last_s, condition(robot, robot.success.when));
-  if (!robot.ended.empty()) task.ended = condition(robot, robot.ended);
+    task.solved = scenario::holds_at_the_end(task, robot.success.last_s, of_states(robot, robot.success.when));
+  if (!robot.ended.empty()) task.ended = of_states(robot, robot.ended);
   for (const LimitFormula& limit : robot.limits)
     task.limits.push_back({limit.name, limit.keep.text, of_steps(robot, limit.keep), limit.risk});
   return task;

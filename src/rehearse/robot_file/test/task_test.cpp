@@ -57,8 +57,8 @@ TEST(RobotTask, IsSolvedWhereTheConditionHoldsAtTheEnd) {
 TEST(RobotTask, EndsWhereAConditionHolds) {
   const Task task =
       make_task(read(with("dt_s = 0.1", "dt_s = 0.1\nended = \"abs(rate) > 5\""), "swing.toml", example::no_files));
-  EXPECT_FALSE(task.ended(Vector{{4, 0}}));
-  EXPECT_TRUE(task.ended(Vector{{-6, 0}}));
+  EXPECT_FALSE(holds(task.ended, Vector{{4, 0}}));
+  EXPECT_TRUE(holds(task.ended, Vector{{-6, 0}}));
 }
 
 TEST(RobotTask, LimitsAreConditionsOnStatesAndActions) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "rehearse/core/task.hpp"
+#include "rehearse/system/plant.hpp"
+#include "rehearse/system/simulator.hpp"
+
+namespace rehearse::robot_file {
+
+/// Functions of a program, by the names that a robot's file has for them: "@NAME" where a formula may stand, and
+/// `function = "NAME"` in [dynamics.NAME] and [plant]. The program alone can use such a file, since no file keeps its
+/// functions. Each keeps the promises of its type.
+struct Functions {
+  std::map<std::string, StepCondition> of_steps;    // reward.formula, limit.keep
+  std::map<std::string, StateCondition> of_states;  // ended, success.when
+  std::map<std::string, system::Change> dynamics;
+  std::map<std::string, std::function<std::unique_ptr<system::Plant>()>> plants;
+  Index rows_at_once = 0;  // that a call should have to be worth its cost (system::Simulator)
+};
+
+}  // namespace rehearse::robot_file
