@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include <dlfcn.h>
+
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/cache.hpp"
 #include "rehearse/files/checksum.hpp"
@@ -28,13 +30,21 @@ fs::path root() {
   return {};
 }
 
+/// The file that this code is in: the program, or the module of Python.
+fs::path own_file() {
+  Dl_info info{};
+  const bool found = ::dladdr(reinterpret_cast<const void*>(&cache_folder), &info) != 0 && info.dli_fname;
+  const fs::path file = found ? info.dli_fname : "";
+  return file.extension() == ".so" ? file : fs::path("/proc/self/exe");
+}
+
 /// Another program may give other bits.
 fs::path own_folder() {
   const fs::path folder = root();
   if (folder.empty()) return {};
   try {
     experiment::prune_cache(experiment::cache_folders(folder));
-    const std::string program = files::read_file("/proc/self/exe", files::Links::follow);
+    const std::string program = files::read_file(own_file(), files::Links::follow);
     return experiment::cache_folder_of(folder, files::checksum(program));
   } catch (const InvalidInput&) {
     return {};

@@ -1,0 +1,55 @@
+#include "apps/cli/report_page.hpp"
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/files/regular_file.hpp"
+#include "rehearse/qd/archive_bytes.hpp"
+#include "rehearse/report/report.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPage = "report.html";
+
+/// A program of one's own is told where Rehearse was installed, and has its own build folder.
+[[noreturn]] void refuse_without_page(const fs::path& program, const std::string& share) {
+  const bool in_build = share.empty() && fs::exists(program / "CMakeCache.txt");
+  const std::string command =
+      fmt::format("cmake {0} && cmake --build {0} --target page", in_build ? program.string() : "BUILD_FOLDER");
+  const std::string install = share.empty() ? "" : fmt::format(" && cmake --install BUILD_FOLDER, into {}", share);
+  throw InvalidInput(
+      fmt::format("the page of reports is not built; with nodejs and npm installed: {}{}", command, install));
+}
+
+/// The page without data, in the build folder or where `cmake --install` put it.
+std::string page_template(const std::string& share) {
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
+  for (const fs::path& folder : {program / "share/rehearse", program.parent_path() / "share/rehearse", fs::path(share)})
+    if (fs::exists(folder / kPage)) return files::read_file(folder / kPage, files::Links::follow);
+  refuse_without_page(program, share);
+}
+
+report::ArchiveSpace archive_space(std::string_view bytes) {
+  const qd::Archive archive = qd::from_bytes(bytes, "it is no usable archive").archive;
+  const qd::Niches& niches = archive.niches();
+  return {archive.size(), niches.size(), niches.bounds(), niches.bins()};
+}
+
+Page filled(const report::Report& report, const std::string& share) {
+  return {to_html(report, page_template(share)), report.problems};
+}
+
+}  // namespace
+
+Page report_page(const fs::path& folder, const std::string& share) {
+  return filled(report::read_folder(folder, archive_space), share);
+}
+
+Page replay_page(const fs::path& folder, Index trial, const std::string& share) {
+  return filled(report::read_trial(folder, trial), share);
+}
+
+}  // namespace rehearse::apps

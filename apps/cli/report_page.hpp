@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "rehearse/report/page_data.hpp"
+
+namespace rehearse::apps {
+
+struct Page {
+  std::string html;
+  std::vector<report::Problem> problems;  // what of the folder could not be used
+};
+
+/// The page of a run or of a campaign. share: the folder of the page without data, where it is not beside the program.
+/// Throws InvalidInput.
+Page report_page(const std::filesystem::path& folder, const std::string& share);
+
+/// The page of one trial.
+Page replay_page(const std::filesystem::path& folder, Index trial, const std::string& share);
+
+}  // namespace rehearse::apps

@@ -1,0 +1,73 @@
+#include "apps/cli/study_setup.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "rehearse/experiment/priors.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+bool set_one(const Fields& fields, const std::string& key, const std::string& text, Violations& violations) {
+  try {
+    return set_field(fields, key, text);
+  } catch (const InvalidInput& error) {
+    violations.add(error.what());
+    return true;
+  }
+}
+
+std::vector<std::string> known_keys(const Fields& a, const Fields& b) {
+  std::vector<std::string> keys;
+  for (const Fields* fields : {&a, &b})
+    for (const auto& [name, value] : list_fields(*fields)) keys.push_back(name);
+  return keys;
+}
+
+}  // namespace
+
+StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyRequest& request, Violations& violations) {
+  const std::string name = catalogue.scenario_name(request.robot);
+  const auto builder = catalogue.scenario(name);
+  if (!builder) throw InvalidInput(catalogue.why_missing("scenario", name));
+  StudySetup setup;
+  const Fields own = [&](FieldVisitor& v) { setup.options.fields(v); };
+  const Fields of_robot = [&](FieldVisitor& v) { builder->fields(v); };
+  std::vector<std::pair<std::string, std::string>> of_prior;
+  for (const auto& [key, text] : request.settings) {
+    if (key.starts_with("prior."))
+      of_prior.emplace_back(key.substr(6), text);
+    else if (!set_one(own, key, text, violations) && !set_one(of_robot, key, text, violations))
+      violations.add(experiment::unknown_option(key, known_keys(own, of_robot)));
+  }
+  violations.throw_if_any();
+  setup.scenario = builder->build();
+  std::vector<std::string> names = experiment::split_names(request.prior.value_or(""));
+  if (names.empty() && !setup.scenario.priors.empty()) names = {setup.scenario.priors.front().name};
+  if (names.empty()) throw InvalidInput(fmt::format("{} has no prior, whose parameters could be identified", name));
+  experiment::ChosenPriors priors(setup.scenario, names, violations);
+  for (const auto& [key, text] : of_prior) priors.set(key, text, violations);
+  violations.throw_if_any();
+  setup.prior = priors.prior();
+  return setup;
+}
+
+std::vector<ReadLog> read_logs(const std::vector<std::string>& paths, const StudySetup& setup, Violations& violations) {
+  std::vector<ReadLog> logs;
+  for (const std::string& path : paths) {
+    try {
+      recording::ReadOptions plain = setup.options.read;
+      plain.average = false;
+      recording::Recording recording = recording::read_file(path, setup.scenario.task, setup.options.read);
+      const Matrix measured = recording::read_file(path, setup.scenario.task, plain).episode.states;
+      const std::string name = std::filesystem::path(path).stem().string();
+      logs.push_back({path, {name, std::move(recording.episode), measured}, std::move(recording.notes)});
+    } catch (const InvalidInput& error) {
+      for (const std::string& line : error.violations()) violations.add(line);
+    }
+  }
+  return logs;
+}
+
+}  // namespace rehearse::apps

@@ -1,0 +1,50 @@
+#pragma once
+// What `identify` works on: a robot with a prior, options, and logs.
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/catalogue.hpp"
+#include "rehearse/recording/recording.hpp"
+#include "rehearse/study/study.hpp"
+
+namespace rehearse::apps {
+
+struct IdentifyOptions {
+  study::Options study;
+  recording::ReadOptions read{.average = true};
+  void fields(FieldVisitor& v) {
+    study.fields(v);
+    v.group("read", read);
+  }
+};
+
+/// A robot with a prior, and how it is learned.
+struct StudySetup {
+  scenario::Scenario scenario;
+  std::optional<prior::Prior> prior;
+  IdentifyOptions options;
+};
+
+struct StudyRequest {
+  std::string robot;                 // a scenario, or the source of its file
+  std::optional<std::string> prior;  // its name; empty: the first
+  std::vector<std::pair<std::string, std::string>> settings;
+};
+
+/// Throws InvalidInput with everything that is wrong, violations that were found before included.
+StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyRequest& request, Violations& violations);
+
+struct ReadLog {
+  std::string path;
+  study::Log log;
+  std::vector<std::string> notes;  // how the file was read
+};
+
+/// Files that cannot be read become violations.
+std::vector<ReadLog> read_logs(const std::vector<std::string>& paths, const StudySetup& setup, Violations& violations);
+
+}  // namespace rehearse::apps
