@@ -1,0 +1,102 @@
+#include "python/bindings/calls.hpp"
+
+#include <fmt/format.h>
+
+#include "rehearse/system/simulator.hpp"
+
+namespace rehearse::python {
+namespace {
+
+using FortranArray = py::array_t<double, py::array::f_style | py::array::forcecast>;
+
+std::string shape_of(const py::array& array) {
+  std::string shape;
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) shape += fmt::format("{}{}", i > 0 ? ", " : "", array.shape(i));
+  return fmt::format("({}{})", shape, array.ndim() == 1 ? "," : "");
+}
+
+FortranArray numbers_of(const py::object& result, const std::string& name) {
+  const FortranArray array = FortranArray::ensure(result);
+  if (array) return array;
+  PyErr_Clear();
+  throw py::value_error(fmt::format("{} returned {}, must be an array of numbers", name,
+                                    std::string(py::str(py::type::of(result).attr("__name__")))));
+}
+
+}  // namespace
+
+Shared shared(py::object object) {
+  return {new py::object(std::move(object)), [](py::object* last) {
+            if (!Py_IsInitialized()) return;  // the interpreter is gone, and its objects with it
+            const py::gil_scoped_acquire lock;
+            delete last;
+          }};
+}
+
+void Failure::keep(const py::error_already_set& error, const std::string& where) {
+  const std::lock_guard guard(mutex_);
+  if (first_) return;
+  first_ = error;
+  if (py::hasattr(error.value(), "add_note")) error.value().attr("add_note")("raised in " + where);
+}
+
+bool Failure::any() const {
+  const std::lock_guard guard(mutex_);
+  return first_.has_value();
+}
+
+void Failure::clear() {
+  const std::lock_guard guard(mutex_);
+  first_.reset();
+}
+
+void Failure::raise_if_any() const {
+  const std::lock_guard guard(mutex_);
+  if (first_) throw py::error_already_set(*first_);
+}
+
+py::array_t<double> to_array(const ConstMatrixView& X) {
+  py::array_t<double, py::array::f_style> array({X.rows(), X.cols()});
+  Matrix::Map(array.mutable_data(), X.rows(), X.cols()) = X;
+  return array;
+}
+
+py::array_t<double> to_vector(const ConstVectorView& x) {
+  py::array_t<double> array(x.size());
+  Vector::Map(array.mutable_data(), x.size()) = x;
+  return array;
+}
+
+void call(const Callable& of, const std::function<void(const py::object& function)>& work) {
+  const py::gil_scoped_acquire lock;
+  try {
+    try {
+      work(*of.function);
+    } catch (const py::builtin_exception& wrong) {
+      wrong.set_error();
+      throw py::error_already_set();
+    }
+  } catch (const py::error_already_set& error) {
+    of.failure->keep(error, of.name);
+    throw system::Unavailable(fmt::format("{}: {}", of.name, error.what()));
+  }
+}
+
+void write_result(const py::object& result, const std::string& name, VectorView values) {
+  const FortranArray array = numbers_of(result, name);
+  const bool column = array.ndim() == 2 && array.shape(1) == 1;
+  if (!(array.ndim() == 1 || column) || array.shape(0) != values.size())
+    throw py::value_error(
+        fmt::format("{} returned an array of shape {}, must be ({},)", name, shape_of(array), values.size()));
+  values = Vector::Map(array.data(), values.size());
+}
+
+void write_result(const py::object& result, const std::string& name, MatrixView values) {
+  const FortranArray array = numbers_of(result, name);
+  if (array.ndim() != 2 || array.shape(0) != values.rows() || array.shape(1) != values.cols())
+    throw py::value_error(fmt::format("{} returned an array of shape {}, must be ({}, {})", name, shape_of(array),
+                                      values.rows(), values.cols()));
+  values = Matrix::Map(array.data(), values.rows(), values.cols());
+}
+
+}  // namespace rehearse::python

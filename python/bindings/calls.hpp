@@ -1,0 +1,56 @@
+#pragma once
+// Functions of Python, called from any thread: arrays in, arrays out, exceptions kept.
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include "rehearse/core/types.hpp"
+
+namespace rehearse::python {
+
+namespace py = pybind11;
+
+/// An object that threads without the interpreter's lock may copy and let go.
+using Shared = std::shared_ptr<py::object>;
+Shared shared(py::object object);
+
+/// The first exception that Python code raised while C++ was at work. Any thread.
+class Failure {
+ public:
+  /// where: what was called, for the exception's notes. The interpreter is locked.
+  void keep(const py::error_already_set& error, const std::string& where);
+  bool any() const;
+  void clear();
+
+  /// Raises it as it was, if there is one. The interpreter is locked.
+  void raise_if_any() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<py::error_already_set> first_;
+};
+
+/// A new array, which its receiver may keep.
+py::array_t<double> to_array(const ConstMatrixView& X);
+py::array_t<double> to_vector(const ConstVectorView& x);
+
+/// A function of Python and where its exceptions go.
+struct Callable {
+  Shared function;
+  std::string name;  // "reward"
+  std::shared_ptr<Failure> failure;
+};
+
+/// Calls what Python needs a lock for. An exception is kept, and becomes system::Unavailable, which ends a run.
+void call(const Callable& of, const std::function<void(const py::object& function)>& work);
+
+/// The numbers that a function returned, into a vector or a matrix of the right size. Raises ValueError.
+void write_result(const py::object& result, const std::string& name, VectorView values);
+void write_result(const py::object& result, const std::string& name, MatrixView values);
+
+}  // namespace rehearse::python

@@ -1,0 +1,53 @@
+// The module rehearse._core. python/rehearse has what users see.
+
+#include <cerrno>
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "python/bindings/identify.hpp"
+#include "python/bindings/pieces.hpp"
+#include "python/bindings/policy.hpp"
+#include "python/bindings/robot.hpp"
+#include "python/bindings/runs.hpp"
+#include "rehearse/cli/cli.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/events.hpp"
+#include "rehearse/experiment/run_options.hpp"
+
+namespace rehearse::python {
+namespace {
+
+/// The command line. share: the folder of the page of reports.
+int command_line(std::vector<std::string> arguments, const std::string& share) {
+  std::vector<char*> argv;
+  ::program_invocation_short_name = const_cast<char*>("rehearse");  // messages name it (apps/cli/program.hpp)
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  const py::gil_scoped_release unlocked;
+  return cli(static_cast<int>(arguments.size()), argv.data(), {}, {}, share.c_str());
+}
+
+}  // namespace
+}  // namespace rehearse::python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace rehearse;
+  namespace py = pybind11;
+  py::register_exception<InvalidInput>(module, "InvalidInput", PyExc_ValueError);
+  py::register_exception<experiment::RunFailed>(module, "RunFailed", PyExc_RuntimeError);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Interrupted&) {
+      PyErr_SetNone(PyExc_KeyboardInterrupt);
+    }
+  });
+  python::add_robot(module);
+  python::add_policy(module);
+  python::add_runs(module);
+  python::add_identify(module);
+  python::add_gp(module);
+  python::add_search(module);
+  module.def("command_line", &python::command_line, py::arg("arguments"), py::arg("share"));
+}

@@ -1,0 +1,26 @@
+#include "python/bindings/options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::python {
+
+void set_options(const Fields& fields, const OptionTexts& texts) {
+  Violations violations;
+  for (const auto& [name, text] : texts) {
+    try {
+      if (set_field(fields, name, text)) continue;
+      std::vector<std::string> known;
+      for (const auto& [each, value] : list_fields(fields)) known.push_back(each);
+      violations.add(fmt::format("unknown option '{}', did you mean '{}'? (known: {})", name, closest(name, known),
+                                 fmt::join(known, ", ")));
+    } catch (const InvalidInput& error) {
+      violations.add(error.what());
+    }
+  }
+  violations.throw_if_any();
+}
+
+}  // namespace rehearse::python

@@ -1,0 +1,40 @@
+#include "python/bindings/policy.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/eigen.h>
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::python {
+
+py::array_t<double> Policy::act(const py::array_t<double, py::array::f_style | py::array::forcecast>& states,
+                                double time_s) const {
+  const auto dx = static_cast<Index>(exported_.states.size());
+  const bool one = states.ndim() == 1;
+  if (states.ndim() < 1 || states.ndim() > 2 || states.shape(one ? 0 : 1) != dx)
+    throw InvalidInput(fmt::format("states must be an array of {0} numbers, or n × {0}", dx));
+  const Index rows = one ? 1 : states.shape(0);
+  const ConstMatrixView X = Matrix::Map(states.data(), rows, dx);
+  Matrix U(rows, policy_->actions());
+  {
+    const py::gil_scoped_release unlocked;
+    policy_->act(exported_.theta.transpose().replicate(rows, 1), X, time_s, U);
+  }
+  if (one) return to_vector(U.row(0).transpose());
+  return to_array(U);
+}
+
+void add_policy(py::module_& module) {
+  py::class_<Policy>(module, "Policy")
+      .def("act", &Policy::act, py::arg("states"), py::arg("time_s") = 0.0)
+      .def_property_readonly("theta", [](const Policy& p) { return p.exported().theta; })
+      .def_property_readonly("kind", [](const Policy& p) { return p.exported().kind; })
+      .def_property_readonly("trial", [](const Policy& p) { return p.exported().origin.trial; })
+      .def_property_readonly("dt_s", [](const Policy& p) { return p.exported().dt_s; })
+      .def("to_c",
+           [](const Policy& p, const std::string& name) { return to_c(p.exported(), policy::identifier(name)); })
+      .def("to_json", [](const Policy& p) { return to_json(p.exported()); })
+      .def("to_numpy", [](const Policy& p) { return to_numpy(p.exported()); });
+}
+
+}  // namespace rehearse::python

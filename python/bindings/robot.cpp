@@ -1,0 +1,117 @@
+#include "python/bindings/robot.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "apps/catalogue.hpp"
+#include "rehearse/robot_file/robot_file.hpp"
+
+namespace rehearse::python {
+namespace {
+
+/// A call of NumPy costs some 20 µs whatever its rows are, and threads wait for each other.
+constexpr Index kRowsAtOnce = 16384;
+
+/// The environment that `make` gives, one thread.
+class PythonPlant final : public system::Plant {
+ public:
+  explicit PythonPlant(const Callable& make) : environment_(make) {
+    call(make, [&](const py::object& function) { environment_.function = shared(function()); });
+  }
+
+  Vector reset(Rng& rng) override {
+    Vector state;
+    const auto seed = static_cast<std::uint32_t>(rng() >> 32);
+    ended_ = false;
+    call(environment_, [&](const py::object& it) { state = state_of(it.attr("reset")(seed)); });
+    return state;
+  }
+
+  Vector step(const Vector& u) override {
+    Vector state;
+    call(environment_, [&](const py::object& it) {
+      const py::tuple result = it.attr("step")(to_vector(u));
+      state = state_of(result[0]);
+      ended_ = result[1].cast<bool>();
+    });
+    return state;
+  }
+
+  bool ended() const override { return ended_; }
+
+ private:
+  Vector state_of(const py::object& given) const {
+    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
+    if (!array || array.ndim() != 1) {
+      PyErr_Clear();
+      throw py::value_error(environment_.name + ": a state must be an array of one dimension");
+    }
+    return Vector::Map(array.data(), array.size());
+  }
+
+  Callable environment_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+Robot::Robot(std::string text, std::string source, std::string folder)
+    : text_(std::move(text)), source_(std::move(source)), folder_(std::move(folder)) {
+  functions_.rows_at_once = kRowsAtOnce;
+}
+
+Callable Robot::callable(const std::string& name, py::object function) const {
+  return {shared(std::move(function)), name, failure_};
+}
+
+void Robot::add_step_function(const std::string& name, py::object function) {
+  functions_.of_steps[name] = [of = callable(name, std::move(function))](
+                                  const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& X_next,
+                                  VectorView values) {
+    call(of, [&](const py::object& function) {
+      write_result(function(to_array(X), to_array(U), to_array(X_next)), of.name, values);
+    });
+  };
+}
+
+void Robot::add_state_function(const std::string& name, py::object function) {
+  functions_.of_states[name] = [of = callable(name, std::move(function))](const ConstMatrixView& X, VectorView values) {
+    call(of, [&](const py::object& function) { write_result(function(to_array(X)), of.name, values); });
+  };
+}
+
+void Robot::add_dynamics(const std::string& name, py::object function, const std::vector<std::string>& parameters) {
+  functions_.dynamics[name] = [of = callable(name, std::move(function)), parameters](const ConstMatrixView& X,
+                                                                                     const ConstMatrixView& U,
+                                                                                     const Vector& phi, MatrixView dX) {
+    call(of, [&](const py::object& function) {
+      py::dict values;
+      for (std::size_t i = 0; i < parameters.size(); ++i) values[py::str(parameters[i])] = phi(static_cast<Index>(i));
+      write_result(function(to_array(X), to_array(U), **values), of.name, dX);
+    });
+  };
+}
+
+void Robot::add_plant(const std::string& name, py::object make) {
+  functions_.plants[name] = [of = callable(name, std::move(make))] { return std::make_unique<PythonPlant>(of); };
+}
+
+experiment::Catalogue Robot::catalogue() const {
+  experiment::Catalogue catalogue = apps::catalogue();
+  catalogue.read_robot = [functions = functions_](std::string_view text, const std::string& source,
+                                                  const scenario::ReadFile& read_file) {
+    return robot_file::builder(text, source, read_file, functions);
+  };
+  return text_.empty() ? catalogue : catalogue.with_robot(text_, source_, folder_);
+}
+
+void add_robot(py::module_& module) {
+  py::class_<Robot, std::shared_ptr<Robot>>(module, "Robot")
+      .def(py::init<std::string, std::string, std::string>(), py::arg("text"), py::arg("source"), py::arg("folder"))
+      .def("add_step_function", &Robot::add_step_function)
+      .def("add_state_function", &Robot::add_state_function)
+      .def("add_dynamics", &Robot::add_dynamics)
+      .def("add_plant", &Robot::add_plant);
+}
+
+}  // namespace rehearse::python

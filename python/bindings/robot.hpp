@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "python/bindings/calls.hpp"
+#include "rehearse/experiment/catalogue.hpp"
+#include "rehearse/robot_file/functions.hpp"
+
+namespace rehearse::python {
+
+/// A robot as Python describes it: a built-in one by its name, or the text of a robot's file with the functions that it
+/// names.
+class Robot {
+ public:
+  /// text: of a file (docs/own-robot.md); source: its name, for messages; folder: where the files are that it names.
+  Robot(std::string text, std::string source, std::string folder);
+
+  /// reward, limits: function(states, actions, next_states) → n numbers.
+  void add_step_function(const std::string& name, py::object function);
+  /// ended, success: function(states) → n numbers or truths.
+  void add_state_function(const std::string& name, py::object function);
+  /// function(states, actions, **parameters) → changes of the states, n × dx.
+  void add_dynamics(const std::string& name, py::object function, const std::vector<std::string>& parameters);
+  /// make() → an object with reset(seed) → state and step(action) → (state, ended).
+  void add_plant(const std::string& name, py::object make);
+
+  /// The built-in robots and learners, with this robot; one without text adds its functions alone.
+  experiment::Catalogue catalogue() const;
+
+  const std::shared_ptr<Failure>& failure() const { return failure_; }
+
+ private:
+  Callable callable(const std::string& name, py::object function) const;
+
+  std::string text_, source_;
+  std::filesystem::path folder_;
+  robot_file::Functions functions_;
+  std::shared_ptr<Failure> failure_ = std::make_shared<Failure>();
+};
+
+void add_robot(py::module_& module);
+
+}  // namespace rehearse::python

@@ -1,0 +1,213 @@
+#include "python/bindings/runs.hpp"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "apps/catalogue.hpp"
+#include "apps/cli/report_page.hpp"
+#include "python/bindings/policy.hpp"
+#include "python/bindings/work.hpp"
+#include "rehearse/experiment/ask_tell.hpp"
+#include "rehearse/experiment/exported_policy.hpp"
+#include "rehearse/experiment/past_run.hpp"
+#include "rehearse/experiment/policy_evaluation.hpp"
+#include "rehearse/experiment/preset_check.hpp"
+#include "rehearse/experiment/resolve.hpp"
+#include "rehearse/experiment/run.hpp"
+#include "rehearse/experiment/tables.hpp"
+
+namespace rehearse::python {
+namespace {
+
+using experiment::Spec;
+using Options = std::vector<std::pair<std::string, std::string>>;
+using Strings = std::vector<std::string>;
+
+/// A run that is to begin.
+struct Request {
+  std::string scenario, learner, prior, preset;
+  Index trials = 10, seed = 1;
+  bool until_solved = false;
+  Options options;
+};
+
+Spec spec_of(const experiment::Catalogue& catalogue, const Request& request) {
+  Spec spec{.scenario = request.scenario,
+            .learner = request.learner,
+            .prior = request.prior,
+            .trials = request.trials,
+            .until_solved = request.until_solved,
+            .seed = request.seed};
+  if (!request.preset.empty()) spec = experiment::with_preset(catalogue, spec, request.preset);
+  for (const auto& option : request.options) spec.options.push_back(option);
+  return experiment::resolve(catalogue, spec).spec;
+}
+
+/// Makes the folder, and runs all trials. Returns the folder.
+std::string learn(const Robot& robot, const Request& request, const std::string& out, const Settings& settings) {
+  std::filesystem::path folder = out;
+  work_with(robot, settings, [&](const experiment::RunOptions& options) {
+    const experiment::Catalogue catalogue = robot.catalogue();
+    const Spec spec = spec_of(catalogue, request);
+    if (folder.empty()) folder = "runs/" + run_name(spec);
+    experiment::start_run(catalogue, spec, folder, options);
+  });
+  return folder.string();
+}
+
+void resume(const Robot& robot, const std::string& folder, std::optional<Index> trials, const Settings& settings) {
+  work_with(robot, settings, [&](const experiment::RunOptions& options) {
+    const auto until = trials ? std::optional<experiment::Until>(*trials) : std::nullopt;
+    experiment::resume_run(robot.catalogue(), folder, until, options);
+  });
+}
+
+Policy ask(const Robot& robot, const std::string& folder, const Settings& settings, py::dict& trial) {
+  std::optional<experiment::Asked> asked;
+  std::optional<Policy> policy;
+  work_with(robot, settings, [&](const experiment::RunOptions& options) {
+    asked = experiment::ask_run(robot.catalogue(), folder, options);
+    policy.emplace(policy_of(asked->trial, asked->resolved.scenario),
+                   experiment::exported_policy(asked->resolved, asked->trial, nullptr));
+  });
+  trial = trial_of(asked->trial, experiment::tunable_names(asked->resolved.prior));
+  return *policy;
+}
+
+py::dict tell(const Robot& robot, const std::string& folder, const Strings& files,
+              const std::optional<experiment::Stop>& stopped, const Settings& settings) {
+  std::optional<experiment::Told> told;
+  work_with(robot, settings, [&](const experiment::RunOptions& options) {
+    experiment::Tale tale{.files = {files.begin(), files.end()}, .stopped = stopped};
+    told = experiment::tell_run(robot.catalogue(), folder, tale, options);
+  });
+  Strings logs, notes;
+  for (const experiment::Log& log : told->logs) {
+    logs.push_back(log.name);
+    notes.insert(notes.end(), log.notes.begin(), log.notes.end());
+  }
+  if (told->trial) notes = told->trial->notes;
+  return py::dict(py::arg("trial") = told->trial ? std::optional(told->trial->trial) : std::nullopt,
+                  py::arg("total_reward") = told->trial ? std::optional(told->trial->total_reward) : std::nullopt,
+                  py::arg("logs") = logs, py::arg("known_before") = told->known_before, py::arg("notes") = notes);
+}
+
+/// What a folder says of its run, beside its tables.
+py::dict describe(const Robot& robot, const std::string& folder) {
+  const auto [resolved, history, in_use] = experiment::status_of(robot.catalogue(), folder);
+  const std::vector<std::string> names = experiment::tunable_names(resolved.prior);
+  const Spec& spec = resolved.spec;
+  py::list trials;
+  for (const experiment::TrialRecord& trial : history.trials) trials.append(trial_of(trial, names));
+  py::list states, actions;
+  for (const StateVariable& state : resolved.scenario.task.states)
+    states.append(py::make_tuple(state.name, state.unit));
+  for (const ActionVariable& action : resolved.scenario.task.actions)
+    actions.append(py::make_tuple(action.name, action.unit));
+  return py::dict(py::arg("robot") = spec.scenario, py::arg("learner") = spec.learner, py::arg("prior") = spec.prior,
+                  py::arg("seed") = spec.seed, py::arg("planned") = spec.trials, py::arg("trials") = trials,
+                  py::arg("states") = states, py::arg("actions") = actions,
+                  py::arg("dt_s") = resolved.scenario.task.dt_s, py::arg("horizon") = resolved.scenario.task.horizon,
+                  py::arg("in_use") = in_use, py::arg("asked") = history.asked.has_value());
+}
+
+Policy policy(const Robot& robot, const std::string& folder, std::optional<Index> trial) {
+  const experiment::PastRun run = experiment::read_run(robot.catalogue(), folder);
+  return {policy_of(run.trial(trial), run.resolved.scenario), experiment::exported_policy(run, trial)};
+}
+
+/// How a policy is evaluated, and what is different from the run.
+struct Evaluation {
+  std::optional<Index> trial;
+  experiment::EvaluationPlan plan;
+  Options options;
+};
+
+py::dict evaluate(const Robot& robot, const std::string& folder, const Evaluation& wanted, const Settings& settings) {
+  std::vector<experiment::Outcome> outcomes;
+  work_with(robot, settings, [&](const experiment::RunOptions& options) {
+    const experiment::Catalogue catalogue = robot.catalogue();
+    const experiment::PastRun run = experiment::read_run(catalogue, folder);
+    const experiment::TrialRecord& trial = run.trial(wanted.trial);
+    const experiment::Learned learned{policy_of(trial, run.resolved.scenario), trial.theta, trial.trial};
+    const experiment::Resolved resolved = experiment::read_run(catalogue, folder, wanted.options).resolved;
+    if (resolved.scenario.require_ready) resolved.scenario.require_ready();
+    outcomes = experiment::evaluate(resolved, learned, wanted.plan, *make_stoppable(options.evaluator, options.stop));
+  });
+  std::vector<double> returns;
+  std::vector<std::optional<bool>> solved, solved_at_end;
+  std::vector<std::optional<double>> ended_s;
+  for (const experiment::Outcome& outcome : outcomes) {
+    returns.push_back(outcome.total_reward);
+    solved.push_back(outcome.solved);
+    solved_at_end.push_back(outcome.solved_at_end);
+    ended_s.push_back(outcome.ended_s);
+  }
+  return py::dict(py::arg("total_reward") = returns, py::arg("solved") = solved,
+                  py::arg("solved_at_end") = solved_at_end, py::arg("ended_s") = ended_s);
+}
+
+py::dict known() {
+  const experiment::Catalogue catalogue = apps::catalogue();
+  py::dict robots, learners, missing;
+  for (const auto& robot : catalogue.scenario_builders())
+    robots[py::str(robot->name())] = py::make_tuple(robot->summary(), robot->prior_names());
+  for (const auto& learner : catalogue.learner_builders()) learners[py::str(learner->name())] = learner->summary();
+  for (const experiment::NotBuilt& each : catalogue.not_built) missing[py::str(each.name)] = each.reason;
+  return py::dict(py::arg("robots") = robots, py::arg("learners") = learners, py::arg("missing") = missing);
+}
+
+}  // namespace
+
+void add_runs(py::module_& module) {
+  using namespace py::literals;
+  module.def(
+      "learn",
+      [](const Robot& robot, const std::string& scenario, const std::string& learner, const std::string& prior,
+         const std::string& preset, Index trials, bool until_solved, Index seed, const Options& options,
+         const std::string& out, int threads, py::object listener) {
+        return learn(robot, {scenario, learner, prior, preset, trials, seed, until_solved, options}, out,
+                     {threads, std::move(listener)});
+      },
+      "robot"_a, "scenario"_a, "learner"_a, "prior"_a, "preset"_a, "trials"_a, "until_solved"_a, "seed"_a, "options"_a,
+      "out"_a, "threads"_a, "listener"_a);
+  module.def(
+      "resume",
+      [](const Robot& robot, const std::string& folder, std::optional<Index> trials, int threads, py::object listener) {
+        resume(robot, folder, trials, {threads, std::move(listener)});
+      },
+      "robot"_a, "folder"_a, "trials"_a, "threads"_a, "listener"_a);
+  module.def(
+      "ask",
+      [](const Robot& robot, const std::string& folder, int threads, py::object listener) {
+        py::dict trial;
+        Policy policy = ask(robot, folder, {threads, std::move(listener)}, trial);
+        return py::make_tuple(std::move(policy), trial);
+      },
+      "robot"_a, "folder"_a, "threads"_a, "listener"_a);
+  module.def(
+      "tell",
+      [](const Robot& robot, const std::string& folder, const Strings& files, const std::optional<std::string>& stopped,
+         bool at_fault, int threads) {
+        std::optional<experiment::Stop> stop;
+        if (stopped) stop = {*stopped, at_fault};
+        return tell(robot, folder, files, stop, {threads});
+      },
+      "robot"_a, "folder"_a, "files"_a, "stopped"_a, "at_fault"_a, "threads"_a);
+  module.def("describe", &describe, "robot"_a, "folder"_a);
+  module.def("policy", &policy, "robot"_a, "folder"_a, "trial"_a);
+  module.def(
+      "evaluate",
+      [](const Robot& robot, const std::string& folder, std::optional<Index> trial, Index episodes, double seconds,
+         std::uint64_t seed, const Options& options, int threads) {
+        return evaluate(robot, folder, {trial, {episodes, seconds, seed}, options}, {threads});
+      },
+      "robot"_a, "folder"_a, "trial"_a, "episodes"_a, "seconds"_a, "seed"_a, "options"_a, "threads"_a);
+  module.def(
+      "report",
+      [](const std::string& folder, const std::string& share) { return apps::report_page(folder, share).html; },
+      "folder"_a, "share"_a);
+  module.def("known", &known);
+}
+
+}  // namespace rehearse::python

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace rehearse::python {
+
+/// Functions on run folders: learn, resume, ask, tell, and what reads them.
+void add_runs(pybind11::module_& module);
+
+}  // namespace rehearse::python

@@ -1,0 +1,28 @@
+#pragma once
+// Work of C++ on behalf of Python: without the interpreter's lock, stopped by Ctrl-C, with the exceptions of its
+// functions.
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "python/bindings/interruption.hpp"
+#include "python/bindings/robot.hpp"
+#include "rehearse/experiment/run_options.hpp"
+
+namespace rehearse::python {
+
+/// listener: function(event), a dict; None: nobody listens. threads: 0 are all cores.
+struct Settings {
+  int threads = 0;
+  py::object listener = py::none();
+};
+
+/// Does the work and raises what a function of Python raised, as it was; KeyboardInterrupt where Ctrl-C stopped it.
+void work_with(const Robot& robot, const Settings& settings,
+               const std::function<void(const experiment::RunOptions& options)>& work);
+
+/// A trial as Python has it.
+py::dict trial_of(const experiment::TrialRecord& trial, const std::vector<std::string>& parameters);
+
+}  // namespace rehearse::python

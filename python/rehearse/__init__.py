@@ -1,0 +1,24 @@
+"""Rehearse teaches a robot a policy in a handful of trials.
+
+>>> import rehearse
+>>> run = rehearse.learn("pendubot", learner="gp-mi", prior="misleading", trials=5)
+
+Begin with `Robot` and `learn`. `Run` is what they give, and what `open_run` finds in a folder. The pieces alone are
+`GaussianProcess`, `Cmaes`, `MapElites` and `identify`.
+"""
+
+from ._core import InvalidInput, RunFailed
+from .gp import GaussianProcess
+from .identification import Identification, identify
+from .integrate import rk4
+from .policy import Policy
+from .progress import show
+from .robot import Action, Body, Distance, Limit, Model, Robot, State, Success
+from .run import Evaluation, Run, Trial, learn, learners, open_run, resume, robots
+from .search import Cmaes, MapElites
+
+__all__ = [
+    "Action", "Body", "Cmaes", "Distance", "Evaluation", "GaussianProcess", "Identification", "InvalidInput", "Limit",
+    "MapElites", "Model", "Policy", "Robot", "Run", "RunFailed", "State", "Success", "Trial", "identify", "learn",
+    "learners", "open_run", "resume", "rk4", "robots", "show",
+]

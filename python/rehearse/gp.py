@@ -1,0 +1,116 @@
+"""Gaussian processes alone."""
+
+from __future__ import annotations
+
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .arrays import Array
+
+
+class GaussianProcess:
+    """GP regression with a squared exponential kernel, a length an input, and noise.
+
+    `fit` maximises the evidence (Rasmussen 2006, eq. 5.8), from several starts; several outputs are independent GPs.
+    trend: adds a quadratic trend, which goes on where there are no data. tolerance: predictions from fewer points, with
+    errors up to this fraction of the noise; 0: exact. options: as of `model.gp.fit`, {"starts": 1}.
+    """
+
+    def __init__(self, *, trend: bool = False, tolerance: float = 0.0, threads: int = 0, **options: Any) -> None:
+        self.trend = trend
+        self.tolerance = tolerance
+        self.threads = threads
+        self.options = options
+        self._core: Any = None
+        self._one = True
+
+    def fit(self, X: npt.ArrayLike, y: npt.ArrayLike) -> GaussianProcess:
+        """X: n × D inputs; y: n targets, or n × E."""
+        X, Y = self._arrays(X, y)
+        options = {name: text_of(value) for name, value in self.options.items()}
+        self._core = _core.fit_gp(X, Y, self.trend, self.tolerance, options, self.threads)
+        return self
+
+    def condition(self, X: npt.ArrayLike, y: npt.ArrayLike, log_hyperparameters: npt.ArrayLike) -> GaussianProcess:
+        """The same without a fit: E × (D + 2) logarithms of lengths, σ_f and σ_n."""
+        X, Y = self._arrays(X, y)
+        self._core = _core.condition_gp(X, Y, np.atleast_2d(np.asarray(log_hyperparameters, float)), self.tolerance)
+        return self
+
+    def predict(self, X: npt.ArrayLike, return_std: bool = False) -> Any:
+        """Means (n, or n × E) at X (n × D), and standard deviations of the function, without noise."""
+        inputs = np.asfortranarray(X, dtype=float)
+        if not return_std:
+            return self._shaped(self._fitted.predict_mean(inputs))
+        mean, variance = self._fitted.predict(inputs)
+        return self._shaped(mean), self._shaped(np.sqrt(variance))
+
+    def match_moments(self, mean: npt.ArrayLike, covariance: npt.ArrayLike) -> tuple[Array, Array, Array]:
+        """Of an input N(mean (D), covariance (D × D)): mean (E) and covariance (E × E) of the function's values, and
+        their covariance with the input (D × E), in closed form (Deisenroth 2011). Not with a trend or a tolerance."""
+        m, S = np.asarray(mean, float), np.atleast_2d(np.asarray(covariance, float))
+        if not np.isfinite(S).all() or np.linalg.eigvalsh(S).min() < -1e-9 * np.abs(S).max():
+            raise _core.InvalidInput("covariance must be finite and positive semi-definite")
+        moments: tuple[Array, Array, Array] = self._fitted.match_moments(m, S)
+        return moments
+
+    @property
+    def log_evidence(self) -> Union[float, Array]:
+        """Nats; one an output."""
+        evidence: Array = self._fitted.log_evidence
+        return float(evidence[0]) if self._one else evidence
+
+    @property
+    def log_hyperparameters(self) -> Array:
+        """E × (D + 2): logarithms of lengths, σ_f, σ_n; with a trend E × (2 D + 3)."""
+        logs: Array = self._fitted.log_hyperparameters
+        return logs
+
+    @property
+    def lengths(self) -> Array:
+        """Of the inputs: D, or E × D."""
+        lengths: Array = self._per_output(np.exp(self.log_hyperparameters[:, : self._inputs]))
+        return lengths
+
+    @property
+    def signal(self) -> Any:
+        """Standard deviation of the function, σ_f."""
+        return self._per_output(np.exp(self.log_hyperparameters[:, self._inputs]))
+
+    @property
+    def noise(self) -> Any:
+        """Standard deviation of the noise, σ_n."""
+        return self._per_output(np.exp(self.log_hyperparameters[:, self._inputs + 1]))
+
+    def _arrays(self, X: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array]:
+        inputs, targets = np.asfortranarray(X, dtype=float), np.asarray(y, dtype=float)
+        if inputs.ndim != 2:
+            raise _core.InvalidInput(f"X has {inputs.ndim} dimensions, must be n × D")
+        self._one = targets.ndim == 1
+        self._inputs = inputs.shape[1]
+        return inputs, np.asfortranarray(targets.reshape(len(targets), -1))
+
+    @property
+    def _fitted(self) -> Any:
+        if self._core is None:
+            raise _core.InvalidInput("the GP has no data yet: fit(X, y)")
+        return self._core
+
+    def _shaped(self, values: Array) -> Array:
+        shaped: Array = values[:, 0] if self._one else values
+        return shaped
+
+    def _per_output(self, values: Array) -> Any:
+        return values[0] if self._one else values
+
+
+def text_of(value: Any) -> str:
+    """An option's value as `--set` has it."""
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value))
+    return str(value)

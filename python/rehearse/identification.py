@@ -1,0 +1,83 @@
+"""A robot from logs alone."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+
+from . import _core
+from .arrays import Array
+from .gp import text_of
+from .robot import Robot
+from .run import Robots, robot_of
+from .tables import from_csv, to_csv
+
+
+@dataclass(frozen=True)
+class Identification:
+    """What logs tell of a robot (docs/identify.md).
+
+    parameters: value and 95 % interval of each, with those that leave a log out. accuracy: errors and coverage of
+    forecasts of logs left out, by horizon and state. tables: all, by name. summary: in words. notes: how logs were
+    read. page: HTML.
+    """
+
+    tables: dict[str, Array]
+    summary: str
+    notes: list[str]
+    page: str
+
+    @property
+    def parameters(self) -> Array:
+        return self.tables["parameters"]
+
+    @property
+    def accuracy(self) -> Array:
+        return self.tables["accuracy"]
+
+    def report(self, path: Union[str, os.PathLike[str]]) -> Path:
+        """Writes the page, which opens in a browser."""
+        Path(path).write_text(self.page)
+        return Path(path)
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{self.summary}</pre>"
+
+    def __str__(self) -> str:
+        return self.summary
+
+
+def identify(robot: Robots, logs: Sequence[Any], *, held_out: Sequence[Any] = (), prior: Union[str, None] = None,
+             options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Identification:
+    """Parameters of a prior, and what it cannot explain, from logs of whatever controller (docs/identify.md).
+
+    logs, held_out: CSV files, or structured arrays, DataFrames or dictionaries of columns: time, states, actions.
+    options: as of `rehearse identify --set`. The same result for any number of threads.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        learned_from = _as_files(logs, Path(folder), "log")
+        forecast = _as_files(held_out, Path(folder), "held-out")
+        core, scenario = robot_of(robot)
+        texts = [(name, text_of(value)) for name, value in (options or {}).items()]
+        result = _core.identify(core, scenario, prior, texts, learned_from, forecast, threads)
+    tables = {Path(name).stem: from_csv(text) for name, text in result["tables"]}
+    summary = "\n\n".join("\n  ".join([title, *lines]) for title, lines in result["summary"])
+    return Identification(tables, summary, result["notes"], result["page"])
+
+
+def _as_files(logs: Sequence[Any], folder: Path, name: str) -> list[str]:
+    files = []
+    for number, log in enumerate(logs, 1):
+        if isinstance(log, (str, os.PathLike)):
+            files.append(os.fspath(log))
+            continue
+        path = folder / f"{name}-{number}.csv"
+        path.write_text(to_csv(log))
+        files.append(str(path))
+    return files

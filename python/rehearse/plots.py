@@ -1,0 +1,36 @@
+"""Figures of runs, on Matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Union
+
+if TYPE_CHECKING:
+    from .run import Run
+
+
+def plot_run(run: Run, trial: Union[int, None]) -> Any:
+    import matplotlib.pyplot as plt
+
+    trials = run.trials
+    if len(trials) == 0:
+        raise ValueError(f"{run.folder} has no trial yet")
+    best = run.best
+    number = trial if trial is not None else best.trial if best else 1
+    moved = run.trajectory(number)
+    about = run._describe()
+    figure, axes = plt.subplots(1 + len(about["states"]), 1, figsize=(7, 2.0 * (1 + len(about["states"]))))
+    axes[0].plot(trials["trial"], trials["return"], "o-", label="on the robot")
+    axes[0].plot(trials["trial"], trials["predicted_return"], "x", label="predicted")
+    axes[0].set(xlabel="trial", ylabel="return")
+    axes[0].xaxis.get_major_locator().set_params(integer=True)
+    axes[0].legend()
+    expected = run.prediction(number) if (run.folder / "predictions" / f"trial-{number:03}.csv").exists() else None
+    for axis, (name, unit) in zip(axes[1:], about["states"]):
+        if expected is not None:
+            axis.fill_between(expected["time"], expected[f"{name} 5%"], expected[f"{name} 95%"], alpha=0.3,
+                              label="90 % of simulated episodes")
+        axis.plot(moved["time"], moved[name], label=f"trial {number}")
+        axis.set(xlabel="time [s]", ylabel=f"{name} [{unit}]" if unit else name)
+    axes[1].legend()
+    figure.tight_layout()
+    return figure

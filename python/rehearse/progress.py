@@ -1,0 +1,30 @@
+"""How a run goes, in terminals and notebooks."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+
+def show(event: dict[str, Any]) -> None:
+    """Prints a line a trial; on a terminal or in a notebook, a last line says what is being done.
+
+    Give another function(event) as `progress=`, or None. Its `kind` is "started", "progress" or "trial".
+    """
+    kind = event["kind"]
+    live = sys.stdout.isatty() or "ipykernel" in sys.modules
+    if kind == "progress" and live:
+        best = f", best predicted return {event['best']:.3f}" if event["rollouts"] else ""
+        text = f"trial {event['trial']}: {event['phase']} {100 * event['done']:.0f} %{best}"
+        print(f"\r{text[:100]:100}", end="", flush=True)
+    elif kind == "trial":
+        predicted = event["predicted_return"]
+        text = f"trial {event['trial']}: return {event['total_reward']:.3f}"
+        text += "" if predicted is None else f", predicted {predicted:.3f}"
+        text += {True: ", solved", False: ", not solved", None: ""}[event["solved"]]
+        text += "".join(f", {name} {number:.4g}" for name, number in event["phi"].items())
+        print(f"\r{text:100}" if live else text, flush=True)
+    elif kind == "started":
+        prior = f" from prior {event['prior']}" if event["prior"] else ""
+        print(f"{event['robot']} learned by {event['learner']}{prior}, seed {event['seed']}, in {event['folder']}",
+              flush=True)

@@ -1,0 +1,270 @@
+"""A robot as Python describes it: what it measures, what moves it, the task, and guesses of its dynamics.
+
+The keys are those of a robot's file (docs/own-robot.md). Where a file has a formula, a function may stand.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+
+from . import _core
+from .arrays import Array
+from .environment import environment_maker
+from .toml import table, value
+
+#: function(states, actions, next_states) → n numbers; arrays of n rows
+StepFunction = Callable[[Array, Array, Array], Any]
+#: function(states) → n numbers or truths; states: n × dx
+StateFunction = Callable[[Array], Any]
+
+
+@dataclass(frozen=True)
+class State:
+    """A state that the robot measures.
+
+    unit: for tables and plots. angle: models and policies see its cosine and sine. rate: the state that is its
+    derivative by time. parent: the angle of the link that carries this one. input: False for a position that the
+    dynamics does not depend on. start, start_noise: mean and standard deviation at the start. scale: what the policy's
+    input is divided by.
+    """
+
+    name: str
+    unit: str = ""
+    angle: bool = False
+    rate: str = ""
+    parent: str = ""
+    input: bool = True
+    start: float = 0.0
+    start_noise: float = 0.0
+    scale: float = 1.0
+
+
+@dataclass(frozen=True)
+class Action:
+    """What moves the robot: a number inside its bounds, held for a control step."""
+
+    name: str
+    bounds: tuple[float, float]
+    unit: str = ""
+
+
+@dataclass(frozen=True)
+class Distance:
+    """The reward exp(−Σ (distance / width)² / 2), of formulas that are all 0 at the goal: "1 + cos(angle)".
+
+    All learners can use it; a function as reward is nothing for PILCO, which needs derivatives.
+    """
+
+    of: Union[str, Sequence[str]]
+    width: float = 1.0
+
+
+@dataclass(frozen=True)
+class Success:
+    """A trial is solved where this holds in the last seconds of a complete episode. when: a formula or a function."""
+
+    when: Union[str, StateFunction]
+    last_s: float = 0.0
+
+
+@dataclass(frozen=True)
+class Limit:
+    """What every step must keep: a formula, or a function of states, actions and the states that the steps reach.
+
+    risk: the largest probability that an episode of a policy breaks it.
+    """
+
+    keep: Union[str, StepFunction]
+    name: str = ""
+    risk: float = 0.05
+
+
+@dataclass(frozen=True)
+class Body:
+    """How a part of the robot looks: a line between two points [m], formulas of states."""
+
+    name: str
+    start: tuple[str, str]
+    end: tuple[str, str]
+    width_m: float = 0.05
+
+
+@dataclass(frozen=True)
+class Model:
+    """How states change in a control step: a prior, or a plant that is simulated.
+
+    change: function(states, actions, **parameters) → the changes of the states, n × dx. It is called with thousands of
+    rows, by one thread at a time. A row depends on that row alone; one that cannot be simulated is NaN. rates: instead,
+    a formula for the derivative of each state by time. parameters: the function's, or the formulas', at the values to
+    start from. tune: those that are learned, between bounds (low, high), or among a list of values.
+    """
+
+    change: Union[Callable[..., Any], None] = None
+    rates: Mapping[str, str] = field(default_factory=dict)
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    tune: Mapping[str, Any] = field(default_factory=dict)
+    define: Mapping[str, str] = field(default_factory=dict)
+
+
+class Robot:
+    """A robot, its task, and guesses of its dynamics.
+
+    name: letters, digits, - and _. dt_s: seconds of a control step. horizon: control steps of an episode.
+    reward: what a step earns by the state that it reaches: a `Distance`, a formula, or function(states, actions,
+    next_states) → n numbers. cost: a formula that is subtracted. floor: what every step earns that a fall leaves out.
+    ended: a fall, a formula or function(states) → n truths.
+    plant: what plays the robot: an environment with `reset` and `step` as Gymnasium has them, a function that makes
+    one, a `Model`, or None: the trials are yours (`Run.ask`, `Run.tell`). observe: function(observation) → state, where
+    an environment's observations are no states. measurement_noise: of a `Model`.
+    priors: guesses by name, the first is the default. policy: options of the policy, {"hidden": 20}.
+
+    Raises InvalidInput with a line for everything that is wrong, when it is first used.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        dt_s: float,
+        horizon: int,
+        states: Sequence[State],
+        actions: Sequence[Action],
+        reward: Union[Distance, str, StepFunction],
+        success: Union[Success, None] = None,
+        ended: Union[str, StateFunction, None] = None,
+        limits: Sequence[Limit] = (),
+        plant: Any = None,
+        priors: Union[Mapping[str, Model], None] = None,
+        observe: Union[Callable[[Any], Any], None] = None,
+        measurement_noise: float = 0.0,
+        cost: str = "",
+        floor: float = 0.0,
+        define: Union[Mapping[str, str], None] = None,
+        policy: Union[Mapping[str, Any], None] = None,
+        bodies: Sequence[Body] = (),
+        summary: str = "",
+    ) -> None:
+        self.name = name
+        self._functions: list[tuple[Any, ...]] = []
+        self.has_environment = False  # one object, for one thread
+        parts = [table("", {"format": 1, "name": name, "summary": summary, "dt_s": float(dt_s), "horizon": horizon,
+                            "ended": self._state_formula("ended", ended)})]
+        parts += [_state(state) for state in states]
+        parts += [table("[[action]]", {"name": a.name, "unit": a.unit, "bounds": [float(b) for b in a.bounds]})
+                  for a in actions]
+        parts.append(table("[define]", dict(define or {})))
+        parts.append(table("[reward]", {**self._reward(reward), "cost": cost or None, "floor": float(floor)}))
+        if success is not None:
+            when = self._state_formula("success", success.when)
+            parts.append(table("[success]", {"when": when, "last_s": float(success.last_s)}))
+        for limit in limits:
+            parts.append(table("[[limit]]", self._limit(limit)))
+        for prior, model in (priors or {}).items():
+            parts.append(self._dynamics(prior, model))
+            tune = {n: {"choices": list(t)} if isinstance(t, list) else [float(b) for b in t]
+                    for n, t in model.tune.items()}
+            parts.append(table(f"[prior.{value(prior)}]", {"dynamics": prior, "tune": tune}))
+        parts += self._plant(plant, observe, horizon, measurement_noise)
+        parts.append(table("[policy]", dict(policy or {})))
+        parts += [table("[[body]]", {"name": b.name, "from": list(b.start), "to": list(b.end), "width_m": b.width_m})
+                  for b in bodies]
+        self.text = "\n".join(part for part in parts if part)
+        self._core = self._make(f"robot {name}", "")
+
+    @classmethod
+    def from_file(cls, path: Union[str, os.PathLike[str]], *, plant: Any = None,
+                  observe: Union[Callable[[Any], Any], None] = None) -> Robot:
+        """The robot of a TOML file (docs/own-robot.md). plant: an environment, where the file has no [plant]."""
+        robot = cls.__new__(cls)
+        robot.text = Path(path).read_text()
+        robot._functions = []
+        robot.has_environment = False
+        robot.name = _name_in(robot.text) or Path(path).stem
+        if plant is not None:
+            horizon = _horizon_in(robot.text)
+            robot.text += "\n\n" + "\n".join(robot._plant(plant, observe, horizon, 0.0))
+        robot._core = robot._make(os.fspath(path), os.fspath(Path(path).parent))
+        return robot
+
+    def __repr__(self) -> str:
+        return f"<rehearse.Robot {self.name}>"
+
+    def _make(self, source: str, folder: str) -> Any:
+        core = _core.Robot(self.text, source, folder)
+        for add, *arguments in self._functions:
+            getattr(core, add)(*arguments)
+        return core
+
+    def _state_formula(self, name: str, formula: Any) -> Union[str, None]:
+        if not callable(formula):
+            return None if formula is None else str(formula)
+        self._functions.append(("add_state_function", name, formula))
+        return "@" + name
+
+    def _step_formula(self, name: str, formula: Any) -> str:
+        if not callable(formula):
+            return str(formula)
+        self._functions.append(("add_step_function", name, formula))
+        return "@" + name
+
+    def _reward(self, reward: Any) -> dict[str, Any]:
+        if isinstance(reward, Distance):
+            of = [reward.of] if isinstance(reward.of, str) else list(reward.of)
+            return {"distance": of, "width": float(reward.width)}
+        return {"formula": self._step_formula("reward", reward)}
+
+    def _limit(self, limit: Limit) -> dict[str, Any]:
+        name = limit.name or (limit.keep if isinstance(limit.keep, str) else limit.keep.__name__)
+        return {"name": name, "keep": self._step_formula(name, limit.keep), "risk": float(limit.risk)}
+
+    def _dynamics(self, name: str, model: Model) -> str:
+        if (model.change is None) == (not model.rates):
+            raise _core.InvalidInput(f"{name}: a Model has either change=, a function, or rates=, formulas")
+        how: dict[str, Any] = {"rate": dict(model.rates), "define": dict(model.define)}
+        if model.change is not None:
+            how = {"function": name}
+            self._functions.append(("add_dynamics", name, model.change, list(model.parameters)))
+        parameters = {key: float(number) for key, number in model.parameters.items()}
+        return table(f"[dynamics.{value(name)}]", {**how, "parameters": parameters})
+
+    def _plant(self, plant: Any, observe: Any, horizon: int, noise: float) -> list[str]:
+        if plant is None:
+            return []
+        if isinstance(plant, Model):
+            return [self._dynamics("plant", plant),
+                    table("[plant]", {"dynamics": "plant", "measurement_noise": float(noise)})]
+        self.has_environment = not callable(plant)
+        self._functions.append(("add_plant", "plant", environment_maker(plant, observe, horizon)))
+        return [table("[plant]", {"function": "plant", "measurement_noise": float(noise) or None})]
+
+
+def _state(state: State) -> str:
+    known = State("")
+    given = {key: getattr(state, key) for key in State.__dataclass_fields__}
+    return table("[[state]]", {k: v for k, v in given.items() if k == "name" or v != getattr(known, k)})
+
+
+def _name_in(text: str) -> str:
+    return _first(text, "name").strip("\"'")
+
+
+def _horizon_in(text: str) -> int:
+    horizon = _first(text, "horizon")
+    return int(horizon) if horizon.isdigit() else 0
+
+
+def _first(text: str, key: str) -> str:
+    """The value of a key before the first table of a TOML file."""
+    for line in text.splitlines():
+        if line.startswith("["):
+            break
+        name, _, rest = line.partition("=")
+        if name.strip() == key:
+            return rest.split("#")[0].strip()
+    return ""

@@ -1,0 +1,246 @@
+"""Runs: begun, gone on with, and looked at."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+
+from . import _core
+from .arrays import Array
+from .gp import text_of
+from .policy import Policy
+from .progress import show
+from .robot import Robot
+from .tables import read_csv, to_csv
+
+Robots = Union[Robot, str, os.PathLike[str]]
+PathLike = Union[str, os.PathLike[str]]
+Progress = Union[Callable[[dict[str, Any]], None], None]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One trial: what was predicted before it, and what came of it.
+
+    phi, intervals: parameters of the prior that chose its policy, and their 95 % intervals. limits: risk and outcome of
+    each. warnings: what the trials before cannot tell of the parameters. None: does not apply, or is not known.
+    """
+
+    trial: int
+    total_reward: float
+    predicted_return: Union[float, None]
+    solved: Union[bool, None]
+    phi: dict[str, float]
+    intervals: dict[str, tuple[float, float]]
+    limits: list[dict[str, Any]]
+    warnings: list[str]
+    notes: list[str]
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Episodes of one policy: returns (n), and solved, solved_at_end and ended_s of each; None: does not apply."""
+
+    returns: Array
+    solved: list[Union[bool, None]]
+    solved_at_end: list[Union[bool, None]]
+    ended_s: list[Union[float, None]]
+
+    @property
+    def success_rate(self) -> float:
+        """Of the end of the episodes; NaN where the task cannot say."""
+        known = [solved for solved in self.solved_at_end if solved is not None]
+        return float(np.mean(known)) if known else float("nan")
+
+
+class Run:
+    """A run in its folder. `learn` and `open_run` give one.
+
+    The folder is the truth (docs/run-folder.md): the command line, a campaign and another process see the same.
+    """
+
+    def __init__(self, folder: PathLike, robot: Union[Robot, None] = None) -> None:
+        self.folder = Path(folder)
+        self._robot = robot
+
+    # What there is.
+
+    @property
+    def trials(self) -> Array:
+        """trials.csv as a structured array, a row a trial; pandas.DataFrame takes it."""
+        return self.table("trials")
+
+    def table(self, name: str) -> Array:
+        """A CSV file of the folder by its name: "errors", "notes", "timings", "limits"."""
+        return read_csv(self.folder / f"{name}.csv")
+
+    def trajectory(self, trial: int) -> Array:
+        """What the robot did: time, states measured and true, actions, reward; a row a step."""
+        return read_csv(self.folder / "trajectories" / f"trial-{trial:03}.csv")
+
+    def prediction(self, trial: int) -> Array:
+        """What the model expected: mean and quantiles of each state; a row a step."""
+        return read_csv(self.folder / "predictions" / f"trial-{trial:03}.csv")
+
+    @property
+    def details(self) -> list[Trial]:
+        """All that is known of each trial."""
+        return [Trial(**trial) for trial in self._describe()["trials"]]
+
+    @property
+    def best(self) -> Union[Trial, None]:
+        """The trial of the highest return, of equals the first; None before there is one."""
+        details = self.details
+        return max(details, key=lambda trial: trial.total_reward) if details else None
+
+    @property
+    def solved_at(self) -> Union[int, None]:
+        """The first trial that solved the task."""
+        return next((trial.trial for trial in self.details if trial.solved), None)
+
+    def policy(self, trial: Union[int, None] = None) -> Policy:
+        """The policy of a trial, by default of the best."""
+        return Policy(_core.policy(self._core, str(self.folder), trial))
+
+    # What can be done.
+
+    def resume(self, trials: Union[int, None] = None, *, threads: int = 0, progress: Progress = show) -> Run:
+        """Goes on to the end, or to another number of trials. The same bytes as if it had never stopped."""
+        _core.resume(self._core, str(self.folder), trials, threads, progress)
+        return self
+
+    def ask(self, *, threads: int = 0, progress: Progress = None) -> Policy:
+        """The policy of the next trial, for a robot that you drive. The same until the trial is told."""
+        policy, _ = _core.ask(self._core, str(self.folder), threads, progress)
+        return Policy(policy)
+
+    def tell(self, *episodes: Any, stopped: Union[str, None] = None, at_fault: bool = True,
+             threads: int = 0) -> dict[str, Any]:
+        """The episode of the trial that was asked for; or, before the first, logs of other controllers.
+
+        An episode is a CSV file, or a structured array, a DataFrame or a dictionary of columns: time [s], every state,
+        every action, by name. stopped: why it was cut short; at_fault=False: not because of the policy.
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            files = []
+            for number, episode in enumerate(episodes, 1):
+                if isinstance(episode, (str, os.PathLike)):
+                    files.append(os.fspath(episode))
+                    continue
+                path = Path(folder) / f"episode-{number}.csv"
+                path.write_text(to_csv(episode))
+                files.append(str(path))
+            return dict(_core.tell(self._core, str(self.folder), files, stopped, at_fault, threads))
+
+    def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None, seconds: float = 0.0, seed: int = 1,
+                 options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Evaluation:
+        """Episodes of a policy on the plant that are no trials. seconds: of an episode; 0: the task's. options: what is
+        changed, {"plant.m": 0.6}. An environment that is given as an object, not as a function that makes one, is used
+        by one thread."""
+        texts = [(name, text_of(value)) for name, value in (options or {}).items()]
+        threads = 1 if self._robot is not None and self._robot.has_environment else threads
+        result = _core.evaluate(self._core, str(self.folder), trial, episodes, seconds, seed, texts, threads)
+        return Evaluation(np.array(result["total_reward"]), result["solved"], result["solved_at_end"],
+                          result["ended_s"])
+
+    def report(self, out: Union[PathLike, None] = None) -> Path:
+        """Writes the page of the run, by default report.html in its folder."""
+        from .__main__ import share
+
+        path = Path(out) if out else self.folder / "report.html"
+        path.write_text(_core.report(str(self.folder), str(share())))
+        return path
+
+    def plot(self, trial: Union[int, None] = None) -> Any:
+        """A Matplotlib figure: returns by trial, and the states of one of them as predicted and as they were."""
+        from .plots import plot_run
+
+        return plot_run(self, trial)
+
+    def _repr_html_(self) -> str:
+        about = self._describe()
+        head = f"{about['robot']} learned by {about['learner']}" + (f" from {about['prior']}" if about["prior"] else "")
+        names = list(about["trials"][-1]["phi"]) if about["trials"] else []
+        columns = ["trial", "return", "predicted", "solved", *names]
+        rows = []
+        for trial in about["trials"]:
+            cells = [trial["trial"], _number(trial["total_reward"]), _number(trial["predicted_return"]),
+                     {True: "yes", False: "no", None: ""}[trial["solved"]],
+                     *(_number(trial["phi"].get(name)) for name in names)]
+            rows.append("<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in cells) + "</tr>")
+        titles = "".join(f"<th>{escape(name)}</th>" for name in columns)
+        return (f"<p>{escape(head)}, seed {about['seed']}, in {escape(str(self.folder))}</p>"
+                f"<table><tr>{titles}</tr>{''.join(rows)}</table>")
+
+    def __repr__(self) -> str:
+        return f"<rehearse.Run {self.folder}>"
+
+    @property
+    def _core(self) -> Any:
+        return self._robot._core if self._robot is not None else _core.Robot("", "", "")
+
+    def _describe(self) -> dict[str, Any]:
+        return dict(_core.describe(self._core, str(self.folder)))
+
+
+def learn(robot: Robots, learner: str = "gp-mi", *, prior: Union[str, Sequence[str], None] = None, trials: int = 10,
+          until_solved: bool = False, seed: int = 1, preset: str = "",
+          options: Union[Mapping[str, Any], None] = None, out: Union[PathLike, None] = None, threads: int = 0,
+          progress: Progress = show) -> Run:
+    """Learns a policy in a handful of trials, in a new folder.
+
+    robot: a `Robot`, the name of a built-in one (`robots()`), or a robot's TOML file. learner: see `learners()`.
+    prior: a name, several, or None: the first. trials: 0 makes the folder alone, and `Run.ask` and `Run.tell` go on.
+    options: as of `--set`, {"hidden": 20}. out: by default runs/ROBOT-LEARNER-PRIOR-SEED. threads: 0 are all cores; any
+    number gives the same bytes, which are those of the command line. progress: function(event), see `show`.
+
+    Ctrl-C stops it, and `Run.resume` goes on. An exception of a function of the robot stops it, too, and comes out as
+    it is. Raises InvalidInput with a line for everything that is wrong, RunFailed where plant or learner fail.
+    """
+    core, scenario = robot_of(robot)
+    names = ",".join([prior] if isinstance(prior, str) else list(prior or []))
+    texts = [(name, text_of(value)) for name, value in (options or {}).items()]
+    folder = _core.learn(core, scenario, learner, names, preset, trials, until_solved, seed, texts,
+                         os.fspath(out) if out else "", threads, progress)
+    return Run(folder, robot if isinstance(robot, Robot) else None)
+
+
+def open_run(folder: PathLike, robot: Union[Robot, None] = None) -> Run:
+    """The run in a folder. robot: the `Robot` that it began with, where that has functions of Python."""
+    return Run(folder, robot)
+
+
+def resume(folder: PathLike, robot: Union[Robot, None] = None, trials: Union[int, None] = None, *, threads: int = 0,
+           progress: Progress = show) -> Run:
+    """Goes on with a run; see `Run.resume`."""
+    return Run(folder, robot).resume(trials, threads=threads, progress=progress)
+
+
+def robots() -> dict[str, tuple[str, list[str]]]:
+    """The built-in robots: what each is, and its priors."""
+    return dict(_core.known()["robots"])
+
+
+def learners() -> dict[str, str]:
+    """The learners, and what each is."""
+    return dict(_core.known()["learners"])
+
+
+def robot_of(robot: Robots) -> tuple[Any, str]:
+    """The robot for C++, and the name of its scenario."""
+    if isinstance(robot, Robot):
+        return robot._core, robot.name
+    if os.fspath(robot).endswith(".toml"):
+        return robot_of(Robot.from_file(robot))
+    return _core.Robot("", "", ""), os.fspath(robot)
+
+
+def _number(value: Union[float, None]) -> str:
+    return "" if value is None else f"{value:.4g}"

@@ -1,0 +1,103 @@
+"""Searches without derivatives, to be asked and told."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .arrays import Array
+from .gp import text_of
+
+
+class Cmaes:
+    """CMA-ES (Hansen 2016). It MAXIMISES.
+
+    mean: where it starts, n. sigma: the first step. bounds: (low, high) of each coordinate; None: unbounded. The same
+    seed gives the same candidates. options: as of `search.restarts.cmaes`, population=20.
+
+    >>> search = Cmaes([3.0, 1.0], 0.5)
+    >>> while not search.stop:
+    ...     search.tell(-np.sum(search.ask() ** 2, axis=1))
+    """
+
+    def __init__(self, mean: npt.ArrayLike, sigma: float, bounds: Union[Sequence[tuple[float, float]], None] = None, *,
+                 seed: int = 1, **options: Any) -> None:
+        texts = {name: text_of(value) for name, value in options.items()}
+        self._core = _core.Cmaes(np.asarray(mean, float), sigma, list(bounds or []), seed, texts)
+
+    def ask(self) -> Array:
+        """The candidates of this generation, λ × n; the same until `tell`."""
+        candidates: Array = self._core.ask()
+        return candidates
+
+    def tell(self, values: npt.ArrayLike) -> None:
+        """Their values, λ; what is not finite is the worst."""
+        self._core.tell(np.asarray(values, float))
+
+    @property
+    def stop(self) -> Union[str, None]:
+        """Why it is over; None: it is not."""
+        stop: Union[str, None] = self._core.stop
+        return stop
+
+    @property
+    def best_x(self) -> Array:
+        best: Array = self._core.best_x
+        return best
+
+    @property
+    def best_value(self) -> float:
+        return float(self._core.best_value)
+
+    @property
+    def mean(self) -> Array:
+        mean: Array = self._core.mean
+        return mean
+
+    @property
+    def sigma(self) -> float:
+        return float(self._core.sigma)
+
+    @property
+    def evaluations(self) -> int:
+        return int(self._core.evaluations)
+
+
+class MapElites:
+    """MAP-Elites (Mouret 2015): the best solution of each niche of a space of descriptors. It MAXIMISES.
+
+    bounds: (low, high) of each parameter of a solution. descriptor_bounds: of each descriptor. niches: of a centroidal
+    Voronoi tessellation; bins: instead, of a grid, one number a descriptor. options: batch=512, initial=1024, ….
+    """
+
+    def __init__(self, bounds: Sequence[tuple[float, float]], descriptor_bounds: Sequence[tuple[float, float]], *,
+                 niches: int = 1000, bins: Union[Sequence[int], None] = None, seed: int = 1, **options: Any) -> None:
+        texts = {name: text_of(value) for name, value in options.items()}
+        self._core = _core.MapElites(list(bounds), list(descriptor_bounds), list(bins or []), niches, seed, texts)
+
+    def ask(self) -> Array:
+        """Solutions to evaluate, batch × P; the same until `tell`."""
+        solutions: Array = self._core.ask()
+        return solutions
+
+    def tell(self, performances: npt.ArrayLike, descriptors: npt.ArrayLike) -> None:
+        """What they were worth (batch), and how they did it (batch × D)."""
+        self._core.tell(np.asarray(performances, float), np.asarray(descriptors, float))
+
+    @property
+    def elites(self) -> dict[str, Array]:
+        """solutions (k × P), descriptors (k × D), performances (k), niches (k)."""
+        elites = self._core.elites()
+        return {**elites, "niches": np.asarray(elites["niches"])}
+
+    def statistics(self, floor: float = 0.0) -> dict[str, float]:
+        """filled niches, coverage, qd_score (sum of performances above floor), best, mean."""
+        return dict(self._core.statistics(floor))
+
+    @property
+    def evaluations(self) -> int:
+        return int(self._core.evaluations)

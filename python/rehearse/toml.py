@@ -1,0 +1,39 @@
+"""Text of TOML files."""
+
+from __future__ import annotations
+
+import json
+import math
+import numbers
+from collections.abc import Mapping
+from typing import Any
+
+from ._core import InvalidInput
+
+
+def value(given: Any) -> str:
+    """A value as TOML has it; also a key in quotes."""
+    if isinstance(given, (bool,)):
+        return "true" if given else "false"
+    if isinstance(given, numbers.Integral):
+        return str(int(given))
+    if isinstance(given, numbers.Real):
+        if not math.isfinite(given):
+            raise InvalidInput(f"{given} is no number that a robot can have")
+        return repr(float(given))
+    if isinstance(given, str):
+        return json.dumps(given, ensure_ascii=False)
+    if isinstance(given, Mapping):
+        return "{ " + ", ".join(f"{value(str(k))} = {value(v)}" for k, v in given.items()) + " }"
+    if isinstance(given, (list, tuple)):
+        return "[" + ", ".join(value(each) for each in given) + "]"
+    raise InvalidInput(f"{given!r} must be a text, a number, a truth, or a list or dictionary of them")
+
+
+def table(head: str, entries: Mapping[str, Any]) -> str:
+    """A table with its head; what is None or an empty text or dictionary is left out."""
+    lines = [f"{key} = {value(entry)}" for key, entry in entries.items()
+             if entry is not None and not (isinstance(entry, (str, Mapping)) and not entry)]
+    if head and not lines:
+        return "" if head in ("[define]", "[policy]") else head
+    return "\n".join([head, *lines] if head else lines)

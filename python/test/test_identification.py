@@ -1,0 +1,40 @@
+"""Parameters from arrays."""
+
+import numpy as np
+import pytest
+from robots import cart, change
+
+import rehearse
+
+
+def log(seed, steps=60):
+    rng = np.random.default_rng(seed)
+    x, rows, forces = np.array([[0.0, 1.0]]), [], []
+    for step in range(steps):
+        force = rng.uniform(-3, 3) if step % 5 == 0 else force
+        rows.append(x[0])
+        forces.append(force)
+        x = x + change(x, np.array([[force]]), mass=1.6, friction=0.3)
+    states = np.array(rows) + 1e-3 * rng.normal(size=(steps, 2))
+    return {"time": 0.1 * np.arange(steps), "velocity": states[:, 0], "position": states[:, 1], "force": forces}
+
+
+def test_arrays_tell_the_mass(tmp_path):
+    found = rehearse.identify(cart(plant=None), [log(1), log(2)], held_out=[log(3)], options={"beyond": "nothing"})
+    mass = found.parameters[found.parameters["parameter"] == "mass"][0]
+    assert mass["value"] == pytest.approx(1.6, rel=0.02)
+    assert mass["low"] < 1.6 < mass["high"]
+    assert "mass" in str(found)
+    assert found.report(tmp_path / "page.html").read_text().startswith("<!")
+
+
+def test_logs_that_are_wrong_are_named():
+    wrong = log(1)
+    wrong["velocity"] = wrong["velocity"][:10]
+    with pytest.raises(rehearse.InvalidInput, match="velocity has 10 numbers, the longest 60"):
+        rehearse.identify(cart(plant=None), [wrong])
+    del wrong["velocity"]
+    with pytest.raises(rehearse.InvalidInput, match="log-1.csv.*velocity"):
+        rehearse.identify(cart(plant=None), [wrong])
+    with pytest.raises(TypeError, match="an episode is a path"):
+        rehearse.identify(cart(plant=None), [3])

@@ -1,0 +1,106 @@
+"""The pieces alone, against NumPy."""
+
+import numpy as np
+import pytest
+
+import rehearse
+
+RNG = np.random.default_rng(7)
+
+
+def kernel(a, b, lengths, signal):
+    d = (a[:, None, :] - b[None, :, :]) / lengths
+    return signal**2 * np.exp(-0.5 * (d**2).sum(2))
+
+
+def data(n=60):
+    X = RNG.uniform(-2, 2, (n, 2))
+    return X, np.sin(X[:, 0]) + 0.3 * X[:, 1] ** 2 + 0.05 * RNG.normal(size=n)
+
+
+def test_a_gp_is_that_of_the_textbook():
+    X, y = data()
+    logs = np.log([0.8, 1.5, 1.2, 0.1])
+    gp = rehearse.GaussianProcess().condition(X, y, logs)
+    K = kernel(X, X, np.exp(logs[:2]), 1.2) + 0.01 * np.eye(len(X))
+    new = RNG.uniform(-2, 2, (20, 2))
+    k = kernel(new, X, np.exp(logs[:2]), 1.2)
+    mean, std = gp.predict(new, return_std=True)
+    np.testing.assert_allclose(mean, k @ np.linalg.solve(K, y), atol=1e-9)
+    np.testing.assert_allclose(std**2, 1.44 - np.einsum("ij,ji->i", k, np.linalg.solve(K, k.T)), atol=1e-9)
+    evidence = -0.5 * (y @ np.linalg.solve(K, y) + np.linalg.slogdet(K)[1] + len(y) * np.log(2 * np.pi))
+    assert gp.log_evidence == pytest.approx(evidence, abs=1e-8)
+
+
+def test_a_fit_finds_noise_and_beats_a_guess():
+    X, y = data(150)
+    gp = rehearse.GaussianProcess().fit(X, y)
+    assert gp.noise == pytest.approx(0.05, rel=0.4)
+    assert gp.log_evidence > rehearse.GaussianProcess().condition(X, y, np.log([1, 1, 1, 0.2])).log_evidence
+    both = rehearse.GaussianProcess(starts=1).fit(X, np.column_stack([y, 2 * y]))
+    assert both.predict(X).shape == (150, 2) and both.lengths.shape == (2, 2)
+    with pytest.raises(rehearse.InvalidInput, match="150 rows and y 3"):
+        rehearse.GaussianProcess().fit(X, y[:3])
+    with pytest.raises(rehearse.InvalidInput, match="must have 2"):
+        gp.predict(X[:, :1])
+    with pytest.raises(rehearse.InvalidInput, match="did you mean 'starts'"):
+        rehearse.GaussianProcess(start=1).fit(X, y)
+    with pytest.raises(rehearse.InvalidInput, match="no data yet"):
+        rehearse.GaussianProcess().predict(X)
+
+
+def test_moments_are_those_of_samples():
+    X, y = data()
+    gp = rehearse.GaussianProcess().condition(X, y, np.log([0.8, 1.5, 1.2, 0.1]))
+    m, S = np.array([0.3, -0.5]), np.array([[0.05, 0.01], [0.01, 0.02]])
+    mean, covariance, with_input = gp.match_moments(m, S)
+    x = RNG.multivariate_normal(m, S, 200_000)
+    f, std = gp.predict(x, return_std=True)
+    assert mean[0] == pytest.approx(f.mean(), abs=3e-3)
+    assert covariance[0, 0] == pytest.approx(f.var() + (std**2).mean(), rel=0.02)
+    np.testing.assert_allclose(with_input[:, 0], np.cov(np.column_stack([x, f]).T)[:2, 2], atol=1e-3)
+    with pytest.raises(rehearse.InvalidInput):
+        gp.match_moments(m, -S)
+
+
+def test_cmaes_finds_the_top_of_a_ridge():
+    search = rehearse.Cmaes([3.0, -2.0, 1.0], 0.5, seed=3)
+    while not search.stop:
+        x = search.ask()
+        assert x.shape == (search.ask().shape[0], 3)
+        search.tell(-(100 * (x[:, 1] - x[:, 0] ** 2) ** 2 + (1 - x[:, 0]) ** 2 + x[:, 2] ** 2))
+    np.testing.assert_allclose(search.best_x, [1, 1, 0], atol=1e-4)
+    inside = rehearse.Cmaes([0.5], 0.3, bounds=[(0, 1)], population=8)
+    for _ in range(20):
+        x = inside.ask()
+        assert (x >= 0).all() and (x <= 1).all() and len(x) == 8
+        inside.tell(x[:, 0])
+    assert inside.best_x[0] == pytest.approx(1.0)
+    with pytest.raises(rehearse.InvalidInput, match="one a candidate"):
+        inside.tell([1.0])
+    with pytest.raises(rehearse.InvalidInput, match="did you mean 'population'"):
+        rehearse.Cmaes([0.5], 0.3, populatoin=8)
+
+
+def test_map_elites_fill_their_niches():
+    search = rehearse.MapElites([(-1, 1)] * 3, [(-1, 1)] * 2, bins=[10, 10], batch=64, initial=128, seed=2)
+    for _ in range(60):
+        x = search.ask()
+        search.tell(-(x[:, 2] ** 2), x[:, :2])
+    elites, statistics = search.elites, search.statistics(floor=-1)
+    assert statistics["filled"] == len(elites["performances"]) > 80
+    assert np.unique(elites["niches"]).size == len(elites["niches"])
+    assert elites["performances"].max() > -1e-3
+    np.testing.assert_array_equal(elites["solutions"][:, :2], elites["descriptors"])
+    with pytest.raises(rehearse.InvalidInput, match="must be"):
+        search.tell([0.0], [[0.0, 0.0]])
+    voronoi = rehearse.MapElites([(-1, 1)] * 3, [(-1, 1)] * 2, niches=50, batch=64, initial=64)
+    x = voronoi.ask()
+    voronoi.tell(x[:, 2], x[:, :2])
+    assert voronoi.statistics()["coverage"] > 0.5
+
+
+def test_runge_and_kutta():
+    swing = rehearse.rk4(lambda x, u, w: np.column_stack([x[:, 1], -w**2 * x[:, 0]]), 0.1, substeps=4)
+    moved = swing(np.array([[1.0, 0.0]]), np.zeros((1, 0)), w=2.0)
+    np.testing.assert_allclose(moved, [[np.cos(0.2) - 1, -2 * np.sin(0.2)]], atol=1e-7)

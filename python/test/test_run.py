@@ -1,0 +1,251 @@
+"""Runs from Python: the laws, and what functions of Python may do."""
+
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from robots import QUICK, Environment, cart, change
+
+import rehearse
+
+PROGRAM = pathlib.Path(rehearse.__file__).parents[2] / "rehearse"
+EXAMPLE = pathlib.Path(__file__).parents[2] / "examples/robots/pendulum.toml"
+
+
+def learn(robot, out, **more):
+    arguments = dict(trials=2, seed=1, threads=2, progress=None, options=QUICK)
+    arguments.update(more)
+    return rehearse.learn(robot, out=out, **arguments)
+
+
+def files(run):
+    names = ["trials.csv", "errors.csv", "policy.json", "trajectories/trial-001.csv", "predictions/trial-001.csv"]
+    return [(run.folder / name).read_bytes() for name in names]
+
+
+def test_any_number_of_threads_gives_the_same_bytes(tmp_path):
+    one = learn(cart(), tmp_path / "one", threads=1)
+    two = learn(cart(), tmp_path / "two", threads=2)
+    assert files(one) == files(two)
+    assert len(one.trials) == 2
+    assert one.trials["phi.mass"][1] == pytest.approx(1.6, rel=1e-3)
+
+
+def test_a_file_gives_the_bytes_of_the_command_line(tmp_path):
+    options = [word for name, value in QUICK.items() for word in ("--set", f"{name}={value}")]
+    subprocess.run([PROGRAM, "learn", EXAMPLE, "--learner", "gp-mi", "--trials", "2", "--out", tmp_path / "there",
+                    *options], check=True, capture_output=True)
+    here = learn(EXAMPLE, tmp_path / "here")
+    assert files(here) == files(rehearse.open_run(tmp_path / "there"))
+
+
+def test_formulas_in_python_are_those_of_a_file(tmp_path):
+    formula = cart(reward="exp(-position^2 / (2 * 0.3^2))",
+                   success=rehearse.Success("abs(position) < 0.2", 0.3),
+                   plant=rehearse.Model(rates={"velocity": "(force - friction * velocity) / mass"},
+                                        parameters={"mass": 1.6, "friction": 0.3}))
+    run = learn(formula, tmp_path / "run")
+    assert run.trials["return"][1] == pytest.approx(learn(cart(), tmp_path / "same").trials["return"][1], abs=0.2)
+
+
+def test_tables_know_their_columns(tmp_path):
+    run = learn(cart(), tmp_path / "run")
+    moved = run.trajectory(1)
+    assert moved.dtype.names[:4] == ("time", "velocity", "position", "true velocity")
+    assert len(moved) == 16 and np.isnan(moved["force"][-1])
+    assert run.trials["trial"].dtype == np.int64
+    assert run.best.trial in (1, 2)
+    assert run.best.intervals.get("mass", (0, 2))[0] < 1.7
+    html = run._repr_html_()
+    assert "<td>2</td>" in html and "mass" in html
+    policy = run.policy(1)
+    np.testing.assert_allclose(policy.act([[0.0, 1.0]])[0], [moved["force"][0]], rtol=1e-12)
+    assert policy(np.array([np.nan, 0.0])).shape == (1,) and np.isnan(policy([np.nan, 0.0])[0])
+
+
+def test_data_frames_and_figures(tmp_path):
+    pandas = pytest.importorskip("pandas")
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    run = learn(cart(), tmp_path / "run")
+    assert list(pandas.DataFrame(run.trials)["trial"]) == [1, 2]
+    figure = run.plot()
+    assert len(figure.axes) == 3
+    figure.savefig(tmp_path / "figure.png")
+    assert (tmp_path / "figure.png").stat().st_size > 10000
+
+
+def test_an_environment_is_the_plant(tmp_path):
+    environment = Environment()
+    run = learn(cart(environment), tmp_path / "run")
+    simulated = learn(cart(), tmp_path / "same")
+    assert run.trials["return"][1] == pytest.approx(simulated.trials["return"][1], abs=1e-6)
+    assert environment.seeds[0] != environment.seeds[1]
+    assert {action.shape for action in environment.actions} == {(1,)}
+    assert run.evaluate(3).success_rate in (0.0, 1.0)
+
+
+def test_an_environment_may_end_an_episode(tmp_path):
+    far = cart(Environment, states=[rehearse.State("velocity"), rehearse.State("position", rate="velocity", start=1.0)],
+               reward=lambda states, actions, following: following[:, 1])
+    run = learn(far, tmp_path / "run", trials=1)
+    assert len(run.trajectory(1)) < 16 and run.details[0].solved is False
+
+
+def test_an_environment_with_a_shorter_time_is_refused(tmp_path):
+    with pytest.raises(RuntimeError, match="ended the episode after 10 of 15 steps"):
+        learn(cart(Environment(limit=10)), tmp_path / "run")
+
+
+def test_an_exception_of_a_function_comes_out_and_the_run_goes_on(tmp_path):
+    calls = []
+
+    def failing(states, actions, following):
+        calls.append(len(states))
+        if len(calls) == 200:
+            raise ZeroDivisionError("the two hundredth call")
+        return np.exp(-following[:, 1] ** 2 / (2 * 0.3**2))
+
+    robot = cart(reward=failing)
+    with pytest.raises(ZeroDivisionError, match="two hundredth") as raised:
+        learn(robot, tmp_path / "run")
+    if sys.version_info >= (3, 11):
+        assert "raised in reward" in raised.value.__notes__
+    again = rehearse.resume(tmp_path / "run", robot, progress=None)
+    assert files(again) == files(learn(cart(), tmp_path / "never"))
+
+
+@pytest.mark.parametrize("wrong, message", [
+    (lambda x, u, n: np.zeros(3), r"reward returned an array of shape \(3,\), must be \(\d+,\)"),
+    (lambda x, u, n: "much", "reward returned str, must be an array of numbers"),
+    (lambda x, u: np.zeros(len(x)), "positional arguments"),
+    (lambda x, u, n: None, "reward returned"),
+])
+def test_wrong_results_say_what_they_must_be(tmp_path, wrong, message):
+    with pytest.raises((ValueError, TypeError), match=message):
+        learn(cart(reward=wrong), tmp_path / "run")
+
+
+def test_rows_that_are_nan_end_their_rollouts_alone(tmp_path):
+    def holes(states, actions, mass, friction):
+        moved = change(states, actions, mass=mass, friction=friction)
+        moved[states[:, 0] < -1.5] = np.nan
+        return moved
+
+    prior = rehearse.Model(holes, parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": (0.2, 5)})
+    run = learn(cart(priors={"holes": prior}), tmp_path / "run")
+    assert run.trials["failed_rollouts"].max() > 0
+
+
+def test_arrays_may_be_kept(tmp_path):
+    kept = []
+
+    def keeping(states, actions, following):
+        kept.append((states, states[:, 0], states.copy()))
+        return np.exp(-following[:, 1] ** 2 / (2 * 0.3**2))
+
+    learn(cart(reward=keeping), tmp_path / "run", trials=1)
+    for array, view, copy in kept:
+        assert (array == copy).all() and (view == copy[:, 0]).all()
+
+
+def test_progress_may_stop_a_run(tmp_path):
+    seen = []
+
+    def stop(event):
+        seen.append(event["kind"])
+        if event["kind"] == "trial":
+            raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        learn(cart(), tmp_path / "run", progress=stop)
+    assert seen[0] == "started" and seen[-1] == "trial"
+    rest = rehearse.open_run(tmp_path / "run", cart()).resume(progress=None)
+    assert files(rest) == files(learn(cart(), tmp_path / "whole"))
+
+
+def test_control_c_stops_it_and_resume_goes_on(tmp_path):
+    script = f"""
+import sys; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
+from robots import cart
+import rehearse
+rehearse.learn(cart(), trials=3, out={str(tmp_path / "run")!r}, threads=2, options={{"search.race.max_evaluations": 60000}})
+"""
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    for line in process.stdout:
+        if line.startswith("trial 1"):
+            break
+    time.sleep(0.3)
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=60)
+    assert "KeyboardInterrupt" in error and process.returncode != 0
+    assert len(rehearse.open_run(tmp_path / "run", cart()).trials) in (1, 2)
+    rest = rehearse.resume(tmp_path / "run", cart(), progress=None)
+    whole = learn(cart(), tmp_path / "whole", trials=3, options={"search.race.max_evaluations": 60000})
+    assert files(rest) == files(whole)
+
+
+def test_ask_and_tell_are_learn(tmp_path):
+    whole = learn(cart(), tmp_path / "whole", trials=2)
+    run = learn(cart(plant=None), tmp_path / "told", trials=0)
+    for trial in (1, 2):
+        policy = run.ask()
+        assert policy.trial == trial
+        told = run.tell(whole.trajectory(trial))
+        assert told["trial"] == trial
+    assert (run.folder / "trials.csv").read_bytes() == (whole.folder / "trials.csv").read_bytes()
+    run.ask()
+    with pytest.raises(rehearse.InvalidInput, match="force"):
+        run.tell({"time": [0, 0.1], "position": [1, 1], "velocity": [0, 0]})
+    told = run.tell({"time": [0, 0.1, 0.2], "position": [1, 1, 1], "velocity": [0, 0, 0], "force": [0, 0]}, stopped="wall")
+    assert told["trial"] == 3
+
+
+def test_logs_come_first(tmp_path):
+    log = learn(cart(), tmp_path / "other", trials=1).trajectory(1)
+    run = learn(cart(plant=None), tmp_path / "told", trials=0)
+    assert run.tell(log)["logs"] == ["episode-1.csv"]
+    run.ask()
+
+
+def test_what_is_wrong_is_said_in_lines(tmp_path):
+    with pytest.raises(rehearse.InvalidInput) as raised:
+        learn(cart(horizon=0, states=[rehearse.State("velocity", rate="speed")]), tmp_path / "run")
+    assert "horizon must be a whole number of control steps" in str(raised.value)
+    with pytest.raises(rehearse.InvalidInput, match="did you mean 'gp-mi'"):
+        learn(cart(), tmp_path / "run", learner="gp-m")
+    with pytest.raises(rehearse.InvalidInput, match="did you mean 'hidden'|unknown option"):
+        learn(cart(), tmp_path / "run", options={"hiden": 3})
+    with pytest.raises(rehearse.InvalidInput, match="function of the program"):
+        rehearse.resume(learn(cart(), tmp_path / "run").folder, trials=3, progress=None)
+    with pytest.raises(rehearse.InvalidInput, match="neither|either"):
+        cart(priors={"none": rehearse.Model()})
+    assert not (tmp_path / "none").exists()
+
+
+def test_the_module_is_the_command_line(tmp_path):
+    told = subprocess.run([sys.executable, "-m", "rehearse", "list"], capture_output=True, text=True, check=True)
+    assert "pendubot" in told.stdout and "gp-mi" in told.stdout
+    wrong = subprocess.run([sys.executable, "-m", "rehearse", "learn", "pendubo"], capture_output=True, text=True)
+    assert wrong.returncode == 2 and "did you mean" in wrong.stderr
+    assert set(rehearse.robots()) >= {"pendubot", "cartpole", "pendulum"}
+    assert len(rehearse.learners()) == 7
+
+
+def test_a_policy_can_be_taken_along(tmp_path):
+    run = learn(cart(), tmp_path / "run")
+    policy = run.policy()
+    for name in ("push.h", "push.json", "push.py"):
+        policy.export(tmp_path / name)
+    space = {}
+    exec((tmp_path / "push.py").read_text(), space)
+    states = np.random.default_rng(1).normal(size=(50, 2))
+    np.testing.assert_allclose(space["act"](states, 0.0), policy(states), rtol=1e-12, atol=1e-12)
+    assert re.search(r"push_act", (tmp_path / "push.h").read_text())
+    with pytest.raises(ValueError, match="must end with"):
+        policy.export(tmp_path / "push.txt")
