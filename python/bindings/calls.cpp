@@ -1,5 +1,7 @@
 #include "python/bindings/calls.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "rehearse/system/simulator.hpp"
@@ -50,9 +52,9 @@ void Failure::clear() {
   first_.reset();
 }
 
-void Failure::raise_if_any() const {
+void Failure::raise_if_any() {
   const std::lock_guard guard(mutex_);
-  if (first_) throw py::error_already_set(*first_);
+  if (const auto first = std::exchange(first_, std::nullopt)) throw py::error_already_set(*first);
 }
 
 py::array_t<double> to_array(const ConstMatrixView& X) {

@@ -27,8 +27,8 @@ class Failure {
   bool any() const;
   void clear();
 
-  /// Raises it as it was, if there is one. The interpreter is locked.
-  void raise_if_any() const;
+  /// Raises it as it was, if there is one, and forgets it: its traceback holds whoever called. The interpreter is locked.
+  void raise_if_any();
 
  private:
   mutable std::mutex mutex_;
