@@ -28,7 +28,8 @@ def plot_run(run: Run, trial: Union[int, None]) -> Any:
     for axis, (name, unit) in zip(axes[1:], about["states"]):
         if expected is not None:
             axis.fill_between(expected["time"], expected[f"{name} 5%"], expected[f"{name} 95%"], alpha=0.3,
-                              label="90 % of simulated episodes")
+                              color="C1", label="90 % of simulated episodes")
+            axis.plot(expected["time"], expected[f"{name} mean"], "--", color="C1", label="predicted mean")
         axis.plot(moved["time"], moved[name], label=f"trial {number}")
         axis.set(xlabel="time [s]", ylabel=f"{name} [{unit}]" if unit else name)
     axes[1].legend()

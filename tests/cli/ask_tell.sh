@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# ask_tell.sh PROGRAM: trials that are asked for and told are those that are driven, also when every step is killed on
+# ask_tell.sh PROGRAM TRIALS: trials that are asked for and told are those that are driven, also when every step is killed on
 # its way; a file counts once; wrong files change nothing; logs come first; status says what is next.
 . "$(dirname "$0")/../prelude.sh"
+trials=$2
 
 short=(--set search.race.max_evaluations=600 --set search.race.descents=2 --set search.selection=10 --seed 4)
 results=(trials.csv errors.csv notes.csv policy.json trajectories/trial-002.csv predictions/trial-003.csv)
@@ -28,16 +29,16 @@ told() {
   done
   same "$learner-driven" "$learner-told" "${results[@]}"
 }
-told pendulum gp-mi 10
+told pendulum gp-mi "$trials"
 told pendulum black-drops 3
 
 # What is known, what comes next.
 "$program" status gp-mi-told >stdout || fail "status"
 grep -q "next: rehearse ask gp-mi-told" stdout || fail "status does not say what is next: $(cat stdout)"
 "$program" ask gp-mi-told >stdout || fail "ask again"
-grep -q "trial 11: run the policy of gp-mi-told/next" stdout || fail "ask says $(cat stdout)"
+grep -q "trial $((trials + 1)): run the policy of gp-mi-told/next" stdout || fail "ask says $(cat stdout)"
 grep -q "columns: time \[s\], " stdout || fail "ask does not say what is expected: $(cat stdout)"
-"$program" status gp-mi-told | grep -q "trial 11: run the policy" || fail "status forgets what was asked"
+"$program" status gp-mi-told | grep -q "trial $((trials + 1)): run the policy" || fail "status forgets what was asked"
 
 # refused TEXT ARGS… : exit 2, a line with the text, nothing changed
 refused() {

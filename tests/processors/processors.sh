@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# processors.sh PROGRAM QEMU: short runs of every learner have the same bytes with all vector instructions of this
+# processors.sh PROGRAM QEMU EMULATED: short runs of every learner have the same bytes with all vector instructions of this
 # processor, with kernels kept to AVX2, and, where QEMU's user mode is installed, on an emulated Haswell (2013). A
 # processor without AVX2 is refused.
 source "$(dirname "$0")/../prelude.sh"
-qemu=$2
+qemu=$2 emulated=$3
 
 few=(--set search.race.max_evaluations=600 --set search.race.descents=2 --set search.selection=10)
 short=(--set search.line_searches=3 --set search.restarts=0 --set policy=rbf --set centres=10)
@@ -53,7 +53,7 @@ if [ -z "$qemu" ] || [[ $qemu = *NOTFOUND ]]; then
 fi
 "$qemu" -cpu Nehalem "$program" list >output 2>&1
 [ $? = 2 ] && grep -q "^rehearse: this processor lacks AVX2" output || fail "a processor of 2008: $(cat output)"
-for name in ${REHEARSE_EMULATED:-gp-mi-pendulum mi black-drops pilco}; do
+for name in ${REHEARSE_EMULATED:-$emulated}; do
   begin=$(milliseconds)
   run "haswell-$name" "$name" "$qemu" -cpu Haswell-noTSX 2>>warnings  # of features that QEMU leaves out
   compare "native-$name" "haswell-$name"

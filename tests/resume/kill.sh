@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# kill.sh PROGRAM LEARNER: kills a short run with SIGKILL at ten instants spread over its length, resumes each, and
+# kill.sh PROGRAM LEARNER INSTANTS: kills a short run with SIGKILL at so many instants spread over its length, resumes each, and
 # compares what is left with the run that was never interrupted; then compares numbers of threads and of trials, and runs
 # with a cache.
 source "$(dirname "$0")/../prelude.sh"
-learner=$2
+learner=$2 instants=$3
 
-race=(--set search.race.max_evaluations=6000 --set search.race.descents=2 --set search.selection=20)
+race=(--set search.race.max_evaluations=3000 --set search.race.descents=2 --set search.selection=20)
 files=()
 case $learner in
   black-drops) arguments=(pendubot "${race[@]}") ;;
@@ -27,12 +27,13 @@ learn whole --trials 3 --threads 2 || exit 1
 length=$(($(milliseconds) - begin))
 echo "the whole run takes $length ms"
 
-for instant in 1 2 3 4 5 6 7 8 9 10; do
+for instant in $(seq "$instants"); do
   run=killed-$instant
   "$program" learn "${arguments[@]}" --out $run --trials 3 --threads 2 >/dev/null &  # itself, not a shell around it
   process=$!
   until [ -d $run ] || ! kill -0 $process 2>/dev/null; do sleep 0.002; done
-  sleep "$(printf '%d.%03d' $((length * instant / 12 / 1000)) $((length * instant / 12 % 1000)))"
+  after=$((length * instant / (instants + 2)))
+  sleep "$(printf '%d.%03d' $((after / 1000)) $((after % 1000)))"
   kill -KILL $process 2>/dev/null
   wait $process 2>/dev/null
   finished="and was complete"
