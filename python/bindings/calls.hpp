@@ -27,7 +27,8 @@ class Failure {
   bool any() const;
   void clear();
 
-  /// Raises it as it was, if there is one, and forgets it: its traceback holds whoever called. The interpreter is locked.
+  /// Raises it as it was, if there is one, and forgets it: its traceback holds whoever called. The interpreter is
+  /// locked.
   void raise_if_any();
 
  private:
