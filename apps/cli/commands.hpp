@@ -31,7 +31,7 @@ struct NewArguments {
 
 struct LearnArguments {
   std::string scenario;  // a name, a robot's file, or a spec.toml
-  std::optional<std::string> learner, prior, preset, trials, seed, threads, out;
+  std::optional<std::string> learner, prior, preset, policy, trials, seed, threads, out;
   bool until_solved = false;
   std::vector<std::string> set;
 };

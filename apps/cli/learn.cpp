@@ -6,6 +6,7 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/on_console.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/given_policy.hpp"
 #include "rehearse/experiment/preset_check.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run.hpp"
@@ -113,6 +114,9 @@ int learn(const Catalogue& built_in, const LearnArguments& arguments) {
   violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
   spec = resolved_spec(catalogue, spec, file, violations);
   violations.throw_if_any();
+  if (arguments.policy)
+    spec = experiment::with_start(catalogue, spec, files::read_file(*arguments.policy, files::Links::follow),
+                                  *arguments.policy);
   const std::filesystem::path folder = arguments.out.value_or("runs/" + experiment::run_name(spec));
   return run_on_console(folder, threads, [&](const RunOptions& options) {
     return experiment::start_run(catalogue, spec, folder, options);

@@ -55,6 +55,10 @@ void add_learn(CLI::App& app, LearnArguments& arguments) {
       "Options that go together: a preset that `list` shows, for instance as-published, or a file FILE.toml; --set "
       "comes after it",
       "NAME");
+  add(command, "--policy", arguments.policy,
+      "A policy to begin with, as `export` wrote it: searches start from it, too, and without a prior it is the first "
+      "trial",
+      "FILE.json");
   add(command, "--trials", arguments.trials, "How often the plant may be used; 0: `ask` and `tell` go on. Default: 10",
       "N");
   command->add_flag("--until-solved", arguments.until_solved, "End before, with a trial that solves the task");

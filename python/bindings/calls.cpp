@@ -93,6 +93,12 @@ void write_result(const py::object& result, const std::string& name, VectorView 
   values = Vector::Map(array.data(), values.size());
 }
 
+void write_truths(const py::object& result, const std::string& name, VectorView values) {
+  if (py::array::ensure(result).dtype().kind() != 'b')
+    throw py::value_error(name + " returned numbers, must be truths, one a row: states[:, 0] > 1");
+  write_result(result, name, values);
+}
+
 void write_result(const py::object& result, const std::string& name, MatrixView values) {
   const FortranArray array = numbers_of(result, name);
   if (array.ndim() != 2 || array.shape(0) != values.rows() || array.shape(1) != values.cols())

@@ -52,6 +52,7 @@ void call(const Callable& of, const std::function<void(const py::object& functio
 
 /// The numbers that a function returned, into a vector or a matrix of the right size. Raises ValueError.
 void write_result(const py::object& result, const std::string& name, VectorView values);
+void write_truths(const py::object& result, const std::string& name, VectorView values);  // True and False alone
 void write_result(const py::object& result, const std::string& name, MatrixView values);
 
 }  // namespace rehearse::python

@@ -43,6 +43,7 @@ PYBIND11_MODULE(_core, module) {
       PyErr_SetNone(PyExc_KeyboardInterrupt);
     }
   });
+  module.attr("__version__") = REHEARSE_VERSION;
   python::add_robot(module);
   python::add_policy(module);
   python::add_runs(module);

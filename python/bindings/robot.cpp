@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "apps/catalogue.hpp"
+#include "rehearse/core/errors.hpp"
 #include "rehearse/robot_file/robot_file.hpp"
 
 namespace rehearse::python {
@@ -74,9 +75,35 @@ void Robot::add_step_function(const std::string& name, py::object function) {
   };
 }
 
+void Robot::add_step_condition(const std::string& name, py::object function) {
+  functions_.of_steps[name] = [of = callable(name, std::move(function))](
+                                  const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& X_next,
+                                  VectorView values) {
+    call(of, [&](const py::object& function) {
+      write_truths(function(to_array(X), to_array(U), to_array(X_next)), of.name, values);
+    });
+  };
+}
+
+void Robot::try_out(const scenario::Scenario& scenario) const {
+  constexpr Index kRows = 3;
+  const Task& task = scenario.task;
+  const Matrix X = task.start_mean.transpose().replicate(kRows, 1), U = Matrix::Zero(kRows, task.action_size());
+  Vector values(kRows);
+  for (const auto& [name, function] : functions_.of_steps) function(X, U, X, values);
+  for (const auto& [name, function] : functions_.of_states) function(X, values);
+  for (const scenario::NamedPrior& prior : scenario.priors) {
+    if (!functions_.dynamics.contains(prior.name)) continue;
+    Matrix dX(kRows, task.state_size());
+    prior.simulator->change(X, U, prior.parameters.values(), dX);
+    if (!dX.allFinite())
+      throw InvalidInput(fmt::format("prior {} changes the start by what is not finite", prior.name));
+  }
+}
+
 void Robot::add_state_function(const std::string& name, py::object function) {
   functions_.of_states[name] = [of = callable(name, std::move(function))](const ConstMatrixView& X, VectorView values) {
-    call(of, [&](const py::object& function) { write_result(function(to_array(X)), of.name, values); });
+    call(of, [&](const py::object& function) { write_truths(function(to_array(X)), of.name, values); });
   };
 }
 
@@ -109,6 +136,7 @@ void add_robot(py::module_& module) {
   py::class_<Robot, std::shared_ptr<Robot>>(module, "Robot")
       .def(py::init<std::string, std::string, std::string>(), py::arg("text"), py::arg("source"), py::arg("folder"))
       .def("add_step_function", &Robot::add_step_function)
+      .def("add_step_condition", &Robot::add_step_condition)
       .def("add_state_function", &Robot::add_state_function)
       .def("add_dynamics", &Robot::add_dynamics)
       .def("add_plant", &Robot::add_plant);

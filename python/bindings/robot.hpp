@@ -18,9 +18,11 @@ class Robot {
   /// text: of a file (docs/own-robot.md); source: its name, for messages; folder: where the files are that it names.
   Robot(std::string text, std::string source, std::string folder);
 
-  /// reward, limits: function(states, actions, next_states) → n numbers.
+  /// The reward: function(states, actions, next_states) → n numbers.
   void add_step_function(const std::string& name, py::object function);
-  /// ended, success: function(states) → n numbers or truths.
+  /// A limit: the same → n truths.
+  void add_step_condition(const std::string& name, py::object function);
+  /// ended, success: function(states) → n truths.
   void add_state_function(const std::string& name, py::object function);
   /// function(states, actions, **parameters) → changes of the states, n × dx.
   void add_dynamics(const std::string& name, py::object function, const std::vector<std::string>& parameters);
@@ -29,6 +31,10 @@ class Robot {
 
   /// The built-in robots and learners, with this robot; one without text adds its functions alone.
   experiment::Catalogue catalogue() const;
+
+  /// Calls each function on a few rows at the start, so that one that cannot be called is known before a folder is
+  /// made. Throws what `call` does, and InvalidInput where a prior cannot simulate the start.
+  void try_out(const scenario::Scenario& scenario) const;
 
   const std::shared_ptr<Failure>& failure() const { return failure_; }
 

@@ -9,6 +9,7 @@
 #include "python/bindings/work.hpp"
 #include "rehearse/experiment/ask_tell.hpp"
 #include "rehearse/experiment/exported_policy.hpp"
+#include "rehearse/experiment/given_policy.hpp"
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/experiment/policy_evaluation.hpp"
 #include "rehearse/experiment/preset_check.hpp"
@@ -26,6 +27,7 @@ using Strings = std::vector<std::string>;
 /// A run that is to begin.
 struct Request {
   std::string scenario, learner, prior, preset;
+  std::string policy;  // to begin with, as JSON; empty: none
   Index trials = 10, seed = 1;
   bool until_solved = false;
   Options options;
@@ -40,7 +42,8 @@ Spec spec_of(const experiment::Catalogue& catalogue, const Request& request) {
             .seed = request.seed};
   if (!request.preset.empty()) spec = experiment::with_preset(catalogue, spec, request.preset);
   for (const auto& option : request.options) spec.options.push_back(option);
-  return experiment::resolve(catalogue, spec).spec;
+  spec = experiment::resolve(catalogue, spec).spec;
+  return request.policy.empty() ? spec : experiment::with_start(catalogue, spec, request.policy, "policy");
 }
 
 /// Makes the folder, and runs all trials. Returns the folder.
@@ -49,6 +52,7 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
   work_with(robot, settings, [&](const experiment::RunOptions& options) {
     const experiment::Catalogue catalogue = robot.catalogue();
     const Spec spec = spec_of(catalogue, request);
+    robot.try_out(experiment::resolve(catalogue, spec).scenario);
     if (folder.empty()) folder = "runs/" + run_name(spec);
     experiment::start_run(catalogue, spec, folder, options);
   });
@@ -164,13 +168,13 @@ void add_runs(py::module_& module) {
   module.def(
       "learn",
       [](const Robot& robot, const std::string& scenario, const std::string& learner, const std::string& prior,
-         const std::string& preset, Index trials, bool until_solved, Index seed, const Options& options,
-         const std::string& out, int threads, py::object listener) {
-        return learn(robot, {scenario, learner, prior, preset, trials, seed, until_solved, options}, out,
+         const std::string& preset, const std::string& policy, Index trials, bool until_solved, Index seed,
+         const Options& options, const std::string& out, int threads, py::object listener) {
+        return learn(robot, {scenario, learner, prior, preset, policy, trials, seed, until_solved, options}, out,
                      {threads, std::move(listener)});
       },
-      "robot"_a, "scenario"_a, "learner"_a, "prior"_a, "preset"_a, "trials"_a, "until_solved"_a, "seed"_a, "options"_a,
-      "out"_a, "threads"_a, "listener"_a);
+      "robot"_a, "scenario"_a, "learner"_a, "prior"_a, "preset"_a, "policy"_a, "trials"_a, "until_solved"_a, "seed"_a,
+      "options"_a, "out"_a, "threads"_a, "listener"_a);
   module.def(
       "resume",
       [](const Robot& robot, const std::string& folder, std::optional<Index> trials, int threads, py::object listener) {

@@ -7,7 +7,7 @@ Begin with `Robot` and `learn`. `Run` is what they give, and what `open_run` fin
 `GaussianProcess`, `Cmaes`, `MapElites` and `identify`.
 """
 
-from ._core import InvalidInput, RunFailed
+from ._core import InvalidInput, RunFailed, __version__
 from .gp import GaussianProcess
 from .identification import Identification, identify
 from .integrate import rk4
@@ -20,5 +20,5 @@ from .search import Cmaes, MapElites
 __all__ = [
     "Action", "Body", "Cmaes", "Distance", "Evaluation", "GaussianProcess", "Identification", "InvalidInput", "Limit",
     "MapElites", "Model", "Policy", "Robot", "Run", "RunFailed", "State", "Success", "Trial", "identify", "learn",
-    "learners", "open_run", "resume", "rk4", "robots", "show",
+    "learners", "open_run", "resume", "rk4", "robots", "show", "__version__",
 ]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, Union
 
 import numpy as np
@@ -19,10 +21,13 @@ class Environment:
     must be known for states that nobody has been in.
     """
 
-    def __init__(self, environment: Any, observe: Union[Callable[[Any], Any], None], horizon: int) -> None:
+    def __init__(self, environment: Any, observe: Union[Callable[[Any], Any], None], task: Task) -> None:
+        for method in ("reset", "step"):
+            if not callable(getattr(environment, method, None)):
+                raise InvalidInput(f"the plant, a {type(environment).__name__}, has no method {method}")
         self._environment = environment
         self._observe = observe
-        self._horizon = horizon
+        self._task = task
         self._step = 0
         space = getattr(environment, "action_space", None)
         self._shape = getattr(space, "shape", None)
@@ -39,7 +44,9 @@ class Environment:
                 raise
             result = self._environment.reset()
         two = isinstance(result, tuple) and len(result) == 2 and isinstance(result[1], dict)
-        return self._state(result[0] if two else result)
+        state = self._state(result[0] if two else result)
+        self._task.compare(state)
+        return state
 
     def step(self, action: Array) -> tuple[Array, bool]:
         self._step += 1
@@ -56,22 +63,47 @@ class Environment:
             terminated = done and not truncated
         else:
             raise ValueError(f"step returned {len(result)} things, must be an observation, four or five")
-        if truncated and not terminated and self._step < self._horizon:
+        if truncated and not terminated and self._step < self._task.horizon:
             raise RuntimeError(
-                f"the environment ended the episode after {self._step} of {self._horizon} steps by its own limit of "
+                f"the environment ended the episode after {self._step} of {self._task.horizon} steps by its own limit of "
                 "time: give it a longer one (max_episode_steps), or the robot a shorter horizon")
         return self._state(observation), bool(terminated)
 
     def _state(self, observation: Any) -> Array:
         state = self._observe(observation) if self._observe else observation
-        return np.asarray(state, dtype=float).reshape(-1)
+        try:
+            numbers: Array = np.asarray(state, dtype=float).reshape(-1)
+        except (TypeError, ValueError):
+            raise ValueError(f"an observation is a {type(observation).__name__}: observe=f(observation) must say how it "
+                             "is a state") from None
+        if self._task.states and len(numbers) != len(self._task.states):
+            raise ValueError(f"{'observe' if self._observe else 'the environment'} gives {len(numbers)} numbers, must be "
+                             f"the states {', '.join(self._task.states)}: observe=f(observation) says how")
+        return numbers
 
 
-def environment_maker(plant: Any, observe: Any, horizon: int) -> Callable[[], Environment]:
+@dataclass(frozen=True)
+class Task:
+    """What an environment must keep to. states: names; start, spread: mean and deviation of each; empty: not known."""
+
+    horizon: int
+    states: tuple[str, ...] = ()
+    start: tuple[float, ...] = ()
+    spread: tuple[float, ...] = ()
+
+    def compare(self, state: Array) -> None:
+        """Warns where an episode starts elsewhere than the robot says."""
+        for name, value, mean, spread in zip(self.states, state, self.start, self.spread):
+            if abs(value - mean) > 5 * spread + 1e-3 * (1 + abs(mean)):
+                warnings.warn(f"the environment starts with {name} = {value:.4g}, State('{name}') says start={mean:g}, "
+                              f"start_noise={spread:g}: policies are made for that", stacklevel=2)
+
+
+def environment_maker(plant: Any, observe: Any, task: Task) -> Callable[[], Environment]:
     """Makes what plays the robot: of an environment, or of a function that makes one."""
     if hasattr(plant, "reset") and hasattr(plant, "step") and not isinstance(plant, type):
-        return lambda: Environment(plant, observe, horizon)
+        return lambda: Environment(plant, observe, task)
     if callable(plant):
-        return lambda: Environment(plant(), observe, horizon)
+        return lambda: Environment(plant(), observe, task)
     raise InvalidInput(f"plant is a {type(plant).__name__}, must be an environment with reset and step, a function that "
                        "makes one, or a Model")

@@ -16,7 +16,7 @@ from .arrays import Array
 from .gp import text_of
 from .robot import Robot
 from .run import Robots, robot_of
-from .tables import from_csv, to_csv
+from .tables import as_files, from_csv, without_path
 
 
 @dataclass(frozen=True)
@@ -60,9 +60,10 @@ def identify(robot: Robots, logs: Sequence[Any], *, held_out: Sequence[Any] = ()
     logs, held_out: CSV files, or structured arrays, DataFrames or dictionaries of columns: time, states, actions.
     options: as of `rehearse identify --set`. The same result for any number of threads.
     """
-    with tempfile.TemporaryDirectory() as folder:
-        learned_from = _as_files(logs, Path(folder), "log")
-        forecast = _as_files(held_out, Path(folder), "held-out")
+    logs, held_out = _several(logs), _several(held_out)
+    with tempfile.TemporaryDirectory() as folder, without_path(folder):
+        learned_from = as_files(logs, folder, "log")
+        forecast = as_files(held_out, folder, "held-out")
         core, scenario = robot_of(robot)
         texts = [(name, text_of(value)) for name, value in (options or {}).items()]
         result = _core.identify(core, scenario, prior, texts, learned_from, forecast, threads)
@@ -71,13 +72,6 @@ def identify(robot: Robots, logs: Sequence[Any], *, held_out: Sequence[Any] = ()
     return Identification(tables, summary, result["notes"], result["page"])
 
 
-def _as_files(logs: Sequence[Any], folder: Path, name: str) -> list[str]:
-    files = []
-    for number, log in enumerate(logs, 1):
-        if isinstance(log, (str, os.PathLike)):
-            files.append(os.fspath(log))
-            continue
-        path = folder / f"{name}-{number}.csv"
-        path.write_text(to_csv(log))
-        files.append(str(path))
-    return files
+def _several(logs: Any) -> Sequence[Any]:
+    """A list of logs, of which there may be one alone."""
+    return logs if isinstance(logs, (list, tuple)) else [logs]

@@ -27,4 +27,5 @@ def rk4(rates: Callable[..., Any], dt_s: float, substeps: int = 4) -> Callable[.
             x = x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
         return x - states
 
+    change.dt_s = dt_s  # type: ignore[attr-defined]  # a Robot compares it with its own
     return change

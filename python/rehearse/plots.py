@@ -18,7 +18,8 @@ def plot_run(run: Run, trial: Union[int, None]) -> Any:
     number = trial if trial is not None else best.trial if best else 1
     moved = run.trajectory(number)
     about = run._describe()
-    figure, axes = plt.subplots(1 + len(about["states"]), 1, figsize=(7, 2.0 * (1 + len(about["states"]))))
+    panels = 1 + len(about["states"]) + len(about["actions"])
+    figure, axes = plt.subplots(panels, 1, figsize=(7, 2.0 * panels))
     axes[0].plot(trials["trial"], trials["return"], "o-", label="on the robot")
     axes[0].plot(trials["trial"], trials["predicted_return"], "x", label="predicted")
     axes[0].set(xlabel="trial", ylabel="return")
@@ -31,6 +32,9 @@ def plot_run(run: Run, trial: Union[int, None]) -> Any:
                               color="C1", label="90 % of simulated episodes")
             axis.plot(expected["time"], expected[f"{name} mean"], "--", color="C1", label="predicted mean")
         axis.plot(moved["time"], moved[name], label=f"trial {number}")
+        axis.set(xlabel="time [s]", ylabel=f"{name} [{unit}]" if unit else name)
+    for axis, (name, unit) in zip(axes[1 + len(about["states"]) :], about["actions"]):
+        axis.step(moved["time"], moved[name], where="post")
         axis.set(xlabel="time [s]", ylabel=f"{name} [{unit}]" if unit else name)
     axes[1].legend()
     figure.tight_layout()

@@ -9,7 +9,10 @@ from typing import Any
 def show(event: dict[str, Any]) -> None:
     """Prints a line a trial; on a terminal or in a notebook, a last line says what is being done.
 
-    Give another function(event) as `progress=`, or None. Its `kind` is "started", "progress" or "trial".
+    Give another function(event) as `progress=`, or None. An event is a dictionary whose `kind` is
+    "started" (robot, learner, prior, seed, trials, done, folder),
+    "progress" (trial, phase, done from 0 to 1, best predicted return, rollouts, rollouts_per_s), at most ten a second, or
+    "trial" (what `Trial` has).
     """
     kind = event["kind"]
     live = sys.stdout.isatty() or "ipykernel" in sys.modules
@@ -24,6 +27,8 @@ def show(event: dict[str, Any]) -> None:
         text += {True: ", solved", False: ", not solved", None: ""}[event["solved"]]
         text += "".join(f", {name} {number:.4g}" for name, number in event["phi"].items())
         print(f"\r{text:100}" if live else text, flush=True)
+        for note in event["notes"]:
+            print(f"  {note}", flush=True)
     elif kind == "started":
         prior = f" from prior {event['prior']}" if event["prior"] else ""
         print(f"{event['robot']} learned by {event['learner']}{prior}, seed {event['seed']}, in {event['folder']}",

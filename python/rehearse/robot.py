@@ -15,12 +15,12 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
-from .environment import environment_maker
+from .environment import Task, environment_maker
 from .toml import table, value
 
 #: function(states, actions, next_states) → n numbers; arrays of n rows
 StepFunction = Callable[[Array, Array, Array], Any]
-#: function(states) → n numbers or truths; states: n × dx
+#: function(states) → n truths; states: n × dx
 StateFunction = Callable[[Array], Any]
 
 
@@ -118,10 +118,10 @@ class Robot:
     name: letters, digits, - and _. dt_s: seconds of a control step. horizon: control steps of an episode.
     reward: what a step earns by the state that it reaches: a `Distance`, a formula, or function(states, actions,
     next_states) → n numbers. cost: a formula that is subtracted. floor: what every step earns that a fall leaves out.
-    ended: a fall, a formula or function(states) → n truths.
+    ended: a fall, a formula or function(states) → n truths (True or False).
     plant: what plays the robot: an environment with `reset` and `step` as Gymnasium has them, a function that makes
     one, a `Model`, or None: the trials are yours (`Run.ask`, `Run.tell`). observe: function(observation) → state, where
-    an environment's observations are no states. measurement_noise: of a `Model`.
+    an environment's observations are no states. measurement_noise: of every state, where the plant is a `Model`.
     priors: guesses by name, the first is the default. policy: options of the policy, {"hidden": 20}.
 
     Raises InvalidInput with a line for everything that is wrong, when it is first used.
@@ -150,7 +150,16 @@ class Robot:
         bodies: Sequence[Body] = (),
         summary: str = "",
     ) -> None:
+        _require(states, State, "states", "[State(\"angle\", angle=True), …]")
+        _require(actions, Action, "actions", "[Action(\"torque\", (-1, 1)), …]")
+        _require(limits, Limit, "limits", "[Limit(\"abs(x) < 1\"), …]")
+        _require(bodies, Body, "bodies", "[Body(…), …]")
+        _require([success] if success is not None else [], Success, "success", "Success(when, last_s)")
+        if priors is not None and not isinstance(priors, Mapping):
+            raise TypeError(f"priors is a {type(priors).__name__}, must be a dictionary: {{\"guess\": Model(…)}}")
+        _require(list((priors or {}).values()), Model, "priors", "{\"guess\": Model(…)}")
         self.name = name
+        self._dt_s = float(dt_s)
         self._functions: list[tuple[Any, ...]] = []
         self.has_environment = False  # one object, for one thread
         parts = [table("", {"format": 1, "name": name, "summary": summary, "dt_s": float(dt_s), "horizon": horizon,
@@ -170,7 +179,9 @@ class Robot:
             tune = {n: {"choices": list(t)} if isinstance(t, list) else [float(b) for b in t]
                     for n, t in model.tune.items()}
             parts.append(table(f"[prior.{value(prior)}]", {"dynamics": prior, "tune": tune}))
-        parts += self._plant(plant, observe, horizon, measurement_noise)
+        task = Task(horizon, tuple(s.name for s in states), tuple(s.start for s in states),
+                    tuple(s.start_noise for s in states))
+        parts += self._plant(plant, observe, task, measurement_noise)
         parts.append(table("[policy]", dict(policy or {})))
         parts += [table("[[body]]", {"name": b.name, "from": list(b.start), "to": list(b.end), "width_m": b.width_m})
                   for b in bodies]
@@ -185,10 +196,11 @@ class Robot:
         robot.text = Path(path).read_text()
         robot._functions = []
         robot.has_environment = False
+        robot._dt_s = float(_first(robot.text, "dt_s") or 0)
         robot.name = _name_in(robot.text) or Path(path).stem
         if plant is not None:
-            horizon = _horizon_in(robot.text)
-            robot.text += "\n\n" + "\n".join(robot._plant(plant, observe, horizon, 0.0))
+            task = Task(_horizon_in(robot.text))
+            robot.text += "\n\n" + "\n".join(robot._plant(plant, observe, task, 0.0))
         robot._core = robot._make(os.fspath(path), os.fspath(Path(path).parent))
         return robot
 
@@ -221,11 +233,21 @@ class Robot:
 
     def _limit(self, limit: Limit) -> dict[str, Any]:
         name = limit.name or (limit.keep if isinstance(limit.keep, str) else limit.keep.__name__)
-        return {"name": name, "keep": self._step_formula(name, limit.keep), "risk": float(limit.risk)}
+        keep: Any = limit.keep
+        if callable(keep):
+            self._functions.append(("add_step_condition", name, keep))
+            keep = "@" + name
+        return {"name": name, "keep": keep, "risk": float(limit.risk)}
 
     def _dynamics(self, name: str, model: Model) -> str:
         if (model.change is None) == (not model.rates):
             raise _core.InvalidInput(f"{name}: a Model has either change=, a function, or rates=, formulas")
+        if not isinstance(model.rates, Mapping):
+            raise TypeError(f"{name}: rates is a {type(model.rates).__name__}, must be formulas by state; a function is "
+                            "change=, and change=rk4(f, dt_s) where it returns derivatives")
+        dt_s = getattr(model.change, "dt_s", None)  # of rk4
+        if dt_s is not None and dt_s != self._dt_s:
+            raise _core.InvalidInput(f"{name}: rk4 was given dt_s = {dt_s}, the robot {self._dt_s}")
         how: dict[str, Any] = {"rate": dict(model.rates), "define": dict(model.define)}
         if model.change is not None:
             how = {"function": name}
@@ -233,15 +255,20 @@ class Robot:
         parameters = {key: float(number) for key, number in model.parameters.items()}
         return table(f"[dynamics.{value(name)}]", {**how, "parameters": parameters})
 
-    def _plant(self, plant: Any, observe: Any, horizon: int, noise: float) -> list[str]:
+    def _plant(self, plant: Any, observe: Any, task: Task, noise: float) -> list[str]:
         if plant is None:
             return []
         if isinstance(plant, Model):
             return [self._dynamics("plant", plant),
                     table("[plant]", {"dynamics": "plant", "measurement_noise": float(noise)})]
         self.has_environment = not callable(plant)
-        self._functions.append(("add_plant", "plant", environment_maker(plant, observe, horizon)))
+        self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
         return [table("[plant]", {"function": "plant", "measurement_noise": float(noise) or None})]
+
+
+def _require(given: Any, kind: type, name: str, like: str) -> None:
+    if not isinstance(given, (list, tuple)) or not all(isinstance(each, kind) for each in given):
+        raise TypeError(f"{name} must be like {like}")
 
 
 def _state(state: State) -> str:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import tempfile
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
+from operator import index
 from pathlib import Path
 from typing import Any, Union
 
@@ -18,7 +20,7 @@ from .gp import text_of
 from .policy import Policy
 from .progress import show
 from .robot import Robot
-from .tables import read_csv, to_csv
+from .tables import as_files, read_csv, without_path
 
 Robots = Union[Robot, str, os.PathLike[str]]
 PathLike = Union[str, os.PathLike[str]]
@@ -53,6 +55,10 @@ class Evaluation:
     solved_at_end: list[Union[bool, None]]
     ended_s: list[Union[float, None]]
 
+    def __repr__(self) -> str:
+        return (f"<rehearse.Evaluation of {len(self.returns)} episodes: median return {np.median(self.returns):.4g}, "
+                f"success rate {self.success_rate:.3g}>")
+
     @property
     def success_rate(self) -> float:
         """Of the end of the episodes; NaN where the task cannot say."""
@@ -68,6 +74,10 @@ class Run:
 
     def __init__(self, folder: PathLike, robot: Union[Robot, None] = None) -> None:
         self.folder = Path(folder)
+        if not (self.folder / "spec.toml").exists():
+            raise _core.InvalidInput(f"{folder} is not a run folder")
+        if robot is not None and not isinstance(robot, Robot):
+            raise TypeError(f"robot is {robot!r}, must be the Robot that the run began with")
         self._robot = robot
 
     # What there is.
@@ -79,7 +89,11 @@ class Run:
 
     def table(self, name: str) -> Array:
         """A CSV file of the folder by its name: "errors", "notes", "timings", "limits"."""
-        return read_csv(self.folder / f"{name}.csv")
+        path = self.folder / f"{name}.csv"
+        if not path.exists():
+            known = ", ".join(sorted(file.stem for file in self.folder.glob("*.csv")))
+            raise _core.InvalidInput(f"{self.folder} has no {name}.csv (known: {known})")
+        return read_csv(path)
 
     def trajectory(self, trial: int) -> Array:
         """What the robot did: time, states measured and true, actions, reward; a row a step."""
@@ -126,18 +140,16 @@ class Run:
         """The episode of the trial that was asked for; or, before the first, logs of other controllers.
 
         An episode is a CSV file, or a structured array, a DataFrame or a dictionary of columns: time [s], every state,
-        every action, by name. stopped: why it was cut short; at_fault=False: not because of the policy.
+        every action, by name. A horizon of T steps takes T + 1 rows: the last has the final state, and needs no action.
+        What is unlike the policy or the clock is warned of. stopped: why it was cut short; at_fault=False: not because of the policy.
         """
         with tempfile.TemporaryDirectory() as folder:
-            files = []
-            for number, episode in enumerate(episodes, 1):
-                if isinstance(episode, (str, os.PathLike)):
-                    files.append(os.fspath(episode))
-                    continue
-                path = Path(folder) / f"episode-{number}.csv"
-                path.write_text(to_csv(episode))
-                files.append(str(path))
-            return dict(_core.tell(self._core, str(self.folder), files, stopped, at_fault, threads))
+            files = as_files(episodes, folder, "episode")
+            with without_path(folder):
+                told = dict(_core.tell(self._core, str(self.folder), files, stopped, at_fault, threads))
+        for note in told["notes"]:
+            warnings.warn(note, stacklevel=2)
+        return told
 
     def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None, seconds: float = 0.0, seed: int = 1,
                  options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Evaluation:
@@ -180,7 +192,9 @@ class Run:
                 f"<table><tr>{titles}</tr>{''.join(rows)}</table>")
 
     def __repr__(self) -> str:
-        return f"<rehearse.Run {self.folder}>"
+        returns = self.trials["return"]
+        best = f", best return {np.max(returns):.4g}" if len(returns) else ""
+        return f"<rehearse.Run {self.folder}: {len(returns)} trials{best}>"
 
     @property
     def _core(self) -> Any:
@@ -192,22 +206,27 @@ class Run:
 
 def learn(robot: Robots, learner: str = "gp-mi", *, prior: Union[str, Sequence[str], None] = None, trials: int = 10,
           until_solved: bool = False, seed: int = 1, preset: str = "",
-          options: Union[Mapping[str, Any], None] = None, out: Union[PathLike, None] = None, threads: int = 0,
-          progress: Progress = show) -> Run:
+          policy: Union[Policy, PathLike, None] = None, options: Union[Mapping[str, Any], None] = None,
+          out: Union[PathLike, None] = None, threads: int = 0, progress: Progress = show) -> Run:
     """Learns a policy in a handful of trials, in a new folder.
 
     robot: a `Robot`, the name of a built-in one (`robots()`), or a robot's TOML file. learner: see `learners()`.
     prior: a name, several, or None: the first. trials: 0 makes the folder alone, and `Run.ask` and `Run.tell` go on.
-    options: as of `--set`, {"hidden": 20}. out: by default runs/ROBOT-LEARNER-PRIOR-SEED. threads: 0 are all cores; any
+    policy: one to begin with, a `Policy` or its JSON file: searches start from it, too, and without a prior it is the
+    first trial. options: as of `--set`, {"hidden": 20}. out: by default runs/ROBOT-LEARNER-PRIOR-SEED. threads: 0 are all cores; any
     number gives the same bytes, which are those of the command line. progress: function(event), see `show`.
 
     Ctrl-C stops it, and `Run.resume` goes on. An exception of a function of the robot stops it, too, and comes out as
     it is. Raises InvalidInput with a line for everything that is wrong, RunFailed where plant or learner fail.
     """
+    trials, seed, threads = index(trials), index(seed), index(threads)
+    if threads < 0:
+        raise _core.InvalidInput(f"threads = {threads}, must be ≥ 0")
     core, scenario = robot_of(robot)
     names = ",".join([prior] if isinstance(prior, str) else list(prior or []))
     texts = [(name, text_of(value)) for name, value in (options or {}).items()]
-    folder = _core.learn(core, scenario, learner, names, preset, trials, until_solved, seed, texts,
+    begin = policy._core.to_json() if isinstance(policy, Policy) else Path(policy).read_text() if policy else ""
+    folder = _core.learn(core, scenario, learner, names, preset, begin, trials, until_solved, seed, texts,
                          os.fspath(out) if out else "", threads, progress)
     return Run(folder, robot if isinstance(robot, Robot) else None)
 

@@ -27,7 +27,8 @@ class Cmaes:
     def __init__(self, mean: npt.ArrayLike, sigma: float, bounds: Union[Sequence[tuple[float, float]], None] = None, *,
                  seed: int = 1, **options: Any) -> None:
         texts = {name: text_of(value) for name, value in options.items()}
-        self._core = _core.Cmaes(np.asarray(mean, float), sigma, list(bounds or []), seed, texts)
+        pairs = [(float(low), float(high)) for low, high in bounds] if bounds else []
+        self._core = _core.Cmaes(np.atleast_1d(np.asarray(mean, float)), sigma, pairs, seed, texts)
 
     def ask(self) -> Array:
         """The candidates of this generation, λ × n; the same until `tell`."""

@@ -6,7 +6,8 @@ import csv
 import io
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Union
 
@@ -55,17 +56,52 @@ def to_csv(columns: Any) -> str:
     else:
         raise TypeError(f"{type(columns).__name__}: an episode is a path, a structured array, a DataFrame, or a "
                         "dictionary of columns: time, states and actions by name")
+    named = {name: _numbers(name, column) for name, column in named.items() if _is_numeric(column)}
     rows = max((len(column) for column in named.values()), default=0)
     for name, column in named.items():
         if len(column) < rows - 1:
             raise InvalidInput(f"column {name} has {len(column)} numbers, the longest {rows}")
-    cells = [[name, *(_cell(number) for number in column), *[""] * (rows - len(column))]
+    cells = [[name, *(_cell(number, row == rows - 1) for row, number in enumerate(column)), *[""] * (rows - len(column))]
              for name, column in named.items()]
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows(zip(*cells))
     return out.getvalue()
 
 
-def _cell(number: Any) -> str:
-    number = float(number)
-    return "" if np.isnan(number) else repr(number)
+def as_files(episodes: Iterable[Any], folder: Union[str, os.PathLike[str]], name: str) -> list[str]:
+    """Paths as they are; other episodes as files of the folder, NAME-1.csv, …."""
+    files = []
+    for number, episode in enumerate(episodes, 1):
+        if isinstance(episode, (str, os.PathLike)):
+            files.append(os.fspath(episode))
+            continue
+        path = Path(folder) / f"{name}-{number}.csv"
+        path.write_text(to_csv(episode))
+        files.append(str(path))
+    return files
+
+
+@contextmanager
+def without_path(folder: str) -> Iterator[None]:
+    """What is wrong with a file that was made of arrays is said without the folder that it was in."""
+    try:
+        yield
+    except InvalidInput as error:
+        raise InvalidInput(str(error).replace(folder + os.sep, "")) from None
+
+
+def _is_numeric(column: Any) -> bool:
+    return np.asarray(column).dtype.kind in "biuf"
+
+
+def _numbers(name: str, column: Any) -> Array:
+    numbers: Array = np.asarray(column, dtype=float)
+    if numbers.ndim == 2 and numbers.shape[1] == 1:
+        numbers = numbers[:, 0]
+    if numbers.ndim != 1:
+        raise InvalidInput(f"column {name} is an array of shape {numbers.shape}, must be one number a row")
+    return numbers
+
+
+def _cell(number: float, last: bool) -> str:
+    return "" if last and np.isnan(number) else repr(float(number))  # no action follows the last state

@@ -75,7 +75,7 @@ def test_data_frames_and_figures(tmp_path):
     run = learn(cart(), tmp_path / "run")
     assert list(pandas.DataFrame(run.trials)["trial"]) == [1, 2]
     figure = run.plot()
-    assert len(figure.axes) == 3
+    assert len(figure.axes) == 4
     figure.savefig(tmp_path / "figure.png")
     assert (tmp_path / "figure.png").stat().st_size > 10000
 
@@ -88,6 +88,17 @@ def test_an_environment_is_the_plant(tmp_path):
     assert environment.seeds[0] != environment.seeds[1]
     assert {action.shape for action in environment.actions} == {(1,)}
     assert run.evaluate(3).success_rate in (0.0, 1.0)
+
+
+def test_an_environment_must_fit_the_robot(tmp_path):
+    with pytest.raises(ValueError, match="the environment gives 2 numbers, must be the states velocity"):
+        learn(cart(Environment, states=[rehearse.State("velocity")], reward="velocity", success=None,
+                   priors={"light": rehearse.Model(rates={"velocity": "force"})}), tmp_path / "run")
+    with pytest.warns(UserWarning, match="starts with position = 1, .* says start=0.5"):
+        learn(cart(Environment, states=[rehearse.State("velocity"), rehearse.State("position", start=0.5)]),
+              tmp_path / "other", trials=1)
+    with pytest.raises(ValueError, match="observe=f"):
+        learn(cart(Environment, observe=lambda observation: {"x": 1}), tmp_path / "third")
 
 
 def test_an_environment_may_end_an_episode(tmp_path):
@@ -202,8 +213,37 @@ def test_ask_and_tell_are_learn(tmp_path):
     run.ask()
     with pytest.raises(rehearse.InvalidInput, match="force"):
         run.tell({"time": [0, 0.1], "position": [1, 1], "velocity": [0, 0]})
-    told = run.tell({"time": [0, 0.1, 0.2], "position": [1, 1, 1], "velocity": [0, 0, 0], "force": [0, 0]}, stopped="wall")
-    assert told["trial"] == 3
+    still = {"time": [0, 0.1, 0.2], "position": [1, 1, 1], "velocity": [0, 0, 0], "force": [0, 0]}
+    with pytest.warns(UserWarning, match="stopped by the operator: wall"):
+        assert run.tell(still, stopped="wall")["trial"] == 3
+    with pytest.raises(rehearse.InvalidInput, match="no plant that episodes could run on"):
+        run.evaluate(1)
+
+
+def test_what_is_told_is_checked(tmp_path):
+    whole = learn(cart(), tmp_path / "whole", trials=1).trajectory(1)
+    run = learn(cart(plant=None), tmp_path / "told", trials=0)
+    run.ask()
+    holed = whole.copy()
+    holed["position"][7] = np.nan
+    with pytest.raises(rehearse.InvalidInput, match=r"^episode-1.csv: row 9.*position"):
+        run.tell(holed)
+    with pytest.raises(rehearse.InvalidInput, match="14 of 15 steps, which take 16 rows"):
+        run.tell(whole[:-1])
+    with pytest.raises(rehearse.InvalidInput, match=r"column force is an array of shape \(16, 2\)"):
+        run.tell({"time": whole["time"], "force": np.zeros((16, 2))})
+    other = {name: whole[name] for name in ("time", "velocity", "position")}
+    with pytest.warns(UserWarning, match="force"):
+        run.tell({**other, "force": -whole["force"], "mode": ["automatic"] * 16})
+
+
+def test_a_function_that_cannot_be_called_leaves_no_folder(tmp_path):
+    with pytest.raises(ZeroDivisionError):
+        learn(cart(reward=lambda states, actions, following: 1 / 0), tmp_path / "run")
+    nowhere = rehearse.Model(lambda states, actions: np.full_like(states, np.nan))
+    with pytest.raises(rehearse.InvalidInput, match="prior lost changes the start by what is not finite"):
+        learn(cart(priors={"lost": nowhere}), tmp_path / "run")
+    assert not (tmp_path / "run").exists()
 
 
 def test_logs_come_first(tmp_path):
@@ -225,6 +265,18 @@ def test_what_is_wrong_is_said_in_lines(tmp_path):
         rehearse.resume(learn(cart(), tmp_path / "run").folder, trials=3, progress=None)
     with pytest.raises(rehearse.InvalidInput, match="neither|either"):
         cart(priors={"none": rehearse.Model()})
+    with pytest.raises(TypeError, match="priors is a Model, must be a dictionary"):
+        cart(priors=rehearse.Model(change))
+    with pytest.raises(TypeError, match="success must be like"):
+        cart(success=lambda states: states[:, 0] > 1)
+    with pytest.raises(rehearse.InvalidInput, match="rk4 was given dt_s = 0.5"):
+        cart(plant=rehearse.Model(rehearse.rk4(lambda x, u: x, 0.5)))
+    with pytest.raises(rehearse.InvalidInput, match="last_s = 9 is more than the 1.5 s"):
+        learn(cart(success=rehearse.Success("velocity > 1", 9)), tmp_path / "none")
+    with pytest.raises(ValueError, match="success returned numbers, must be truths"):
+        learn(cart(success=rehearse.Success(lambda states: states[:, 0])), tmp_path / "none")
+    with pytest.raises(rehearse.InvalidInput, match="is not a run folder"):
+        rehearse.open_run(tmp_path / "nowhere")
     assert not (tmp_path / "none").exists()
 
 
@@ -235,6 +287,18 @@ def test_the_module_is_the_command_line(tmp_path):
     assert wrong.returncode == 2 and "did you mean" in wrong.stderr
     assert set(rehearse.robots()) >= {"pendubot", "cartpole", "pendulum"}
     assert len(rehearse.learners()) == 7
+
+
+def test_a_run_may_begin_with_a_policy(tmp_path):
+    policy = learn(cart(), tmp_path / "before").policy(2)
+    alone = learn(cart(priors=None), tmp_path / "alone", learner="black-drops", policy=policy, trials=1)
+    np.testing.assert_array_equal(alone.policy(1).theta, policy.theta)
+    policy.export(tmp_path / "policy.json")
+    again = learn(cart(priors=None), tmp_path / "again", learner="black-drops", policy=tmp_path / "policy.json", trials=1)
+    assert (again.folder / "trials.csv").read_bytes() == (alone.folder / "trials.csv").read_bytes()
+    assert "start = " in (again.folder / "spec.toml").read_text()
+    with pytest.raises(rehearse.InvalidInput, match="no policy that `export` wrote"):
+        learn(cart(), tmp_path / "wrong", policy=alone.folder / "spec.toml")
 
 
 def test_a_policy_can_be_taken_along(tmp_path):

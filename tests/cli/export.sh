@@ -47,4 +47,20 @@ expect 2 "--trial = two, must be a whole number" export mlp --trial two --out po
 expect 2 "nothing is not a folder" export nothing --out policy.h
 expect 2 "is not a run folder" export folder.py --out policy.h
 [ ! -e policy.h ] || fail "what was refused left a file"
+
+# A run begins with a policy that was exported.
+expect 0 "best return" learn pendulum --learner black-drops --trials 2 "${quick[@]}" --policy mlp.json --out begun
+expect 0 "trial 1" export begun --trial 1 --out begun.json
+theta() { tr -d ' \n' <"$1" | grep -o '"theta":\[[^]]*\]'; }
+[ -n "$(theta begun.json)" ] && [ "$(theta begun.json)" = "$(theta mlp.json)" ] || fail "the first trial is another policy"
+expect 0 "best return" learn begun/spec.toml --out repeated
+same begun repeated trials.csv policy.json spec.toml
+expect 2 "learner pilco cannot begin with a policy" learn pendulum --learner pilco --set policy=rbf --policy rbf.json --out refused
+expect 2 "the policy 'linear', which is neither the scenario's" learn pendulum --learner gp-mi --policy linear.json --out refused
+expect 0 "trial 1" export mlp --trial 1 --out random.json
+expect 2 "random.json is a schedule, no mlp to begin with" learn pendulum --learner gp-mi --policy random.json --out refused
+expect 2 "cannot read nothing.json" learn pendulum --learner gp-mi --policy nothing.json --out refused
+sed 's/^start = .*/start = "1 2 x"/' begun/spec.toml >bent.toml
+expect 2 "start must be the" learn bent.toml --out refused
+[ ! -e refused ] || fail "what was refused left a folder"
 finish

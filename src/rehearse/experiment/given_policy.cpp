@@ -5,6 +5,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/past_run.hpp"
+#include "rehearse/experiment/resolve.hpp"
 #include "rehearse/learners/json.hpp"
 
 namespace rehearse::experiment {
@@ -63,6 +64,15 @@ TrialRecord given_policy(const std::string& text, const std::string& source, con
   return record;
 } catch (const json::exception&) {
   throw InvalidInput(fmt::format("{} is no policy that `export` wrote as JSON", source));
+}
+
+Spec with_start(const Catalogue& catalogue, Spec spec, const std::string& text, const std::string& source) {
+  const scenario::Scenario scenario = resolve(catalogue, spec).scenario;
+  const TrialRecord given = given_policy(text, source, scenario);
+  if (given.policy != scenario.policy->name())
+    throw InvalidInput(fmt::format("{} is a {}, no {} to begin with", source, given.policy, scenario.policy->name()));
+  spec.start = start_text(given.theta);
+  return resolve(catalogue, spec).spec;
 }
 
 }  // namespace rehearse::experiment

@@ -2,7 +2,9 @@
 
 #include <string>
 
+#include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/experiment/record.hpp"
+#include "rehearse/experiment/spec.hpp"
 #include "rehearse/scenario/scenario.hpp"
 
 namespace rehearse::experiment {
@@ -11,5 +13,9 @@ namespace rehearse::experiment {
 /// Throws InvalidInput if it is no such file, or is a policy of another scenario: other states, actions or kind, or one
 /// that does not do what the file says.
 TrialRecord given_policy(const std::string& text, const std::string& source, const scenario::Scenario& scenario);
+
+/// The complete spec of a run that begins with such a policy (Spec::start). Throws InvalidInput, too, if the learner
+/// cannot begin with one, or it is random actions.
+Spec with_start(const Catalogue& catalogue, Spec spec, const std::string& text, const std::string& source);
 
 }  // namespace rehearse::experiment

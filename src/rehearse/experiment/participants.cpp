@@ -24,6 +24,7 @@ learners::Setting Participants::setting() {
   return {.task = task(),
           .policy = resolved_.scenario.policy,
           .prior = resolved_.prior,
+          .start = start_of(resolved_.spec.start),
           .seed = static_cast<std::uint64_t>(resolved_.spec.seed),
           .evaluator = evaluator_,
           .progress = [this](const Progress& progress) { report(progress); },

@@ -73,6 +73,8 @@ Index EvaluationPlan::steps(const Task& task) const {
 std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, const EvaluationPlan& plan,
                               const Evaluator& evaluator) {
   const scenario::Scenario& scenario = resolved.scenario;
+  if (!scenario.make_plant)
+    throw InvalidInput(fmt::format("{} has no plant that episodes could run on", scenario.name));
   Task longer = scenario.task;
   longer.horizon = plan.steps(scenario.task);
   if (learned.theta.size() != learned.policy->parameters())

@@ -56,6 +56,7 @@ class Resolver {
       for (const std::string& line : learner_builder_->violations(scenario->task, *scenario->policy))
         violations_.add(line);
 
+    if (!spec_.start.empty() && scenario->policy) check_start(*scenario->policy);
     ChosenPriors priors(*scenario, names, violations_);
     set_prior_values(priors);
     auto prior = contained([&] { return priors.prior(); });
@@ -73,6 +74,15 @@ class Resolver {
     spec_.robot = checksum;
     comments_["robot"] = "checksum of robot.toml, the file that describes the robot, and of the files that it names";
     if (file) robot_ = *file;
+  }
+
+  void check_start(const policy::Policy& policy) {
+    const std::optional<Vector> theta = start_of(spec_.start);
+    violations_.require(learner_builder_->takes_start(),
+                        fmt::format("learner {} cannot begin with a policy", learner_builder_->name()));
+    violations_.require(
+        theta && theta->size() == policy.parameters(),
+        fmt::format("start must be the {} numbers of the policy '{}'", policy.parameters(), policy.name()));
   }
 
   /// What `make` returns, or nothing when it finds its input invalid.

@@ -1,8 +1,26 @@
 #include "rehearse/experiment/spec.hpp"
 
+#include <cmath>
+#include <sstream>
+
 #include <fmt/format.h>
 
 namespace rehearse::experiment {
+
+std::string start_text(const Vector& theta) {
+  std::string text;
+  for (const double number : theta) text += (text.empty() ? "" : " ") + to_text(number);
+  return text;
+}
+
+std::optional<Vector> start_of(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+    if (!from_text(word, numbers.emplace_back()) || !std::isfinite(numbers.back())) return std::nullopt;
+  if (numbers.empty()) return std::nullopt;
+  return Vector::Map(numbers.data(), static_cast<Index>(numbers.size()));
+}
 
 std::string run_name(const Spec& spec) {
   return fmt::format("{}-{}-{}-{}", spec.scenario, spec.learner, spec.prior.empty() ? "none" : spec.prior, spec.seed);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,7 @@ struct Spec {
   Index trials = 10;
   bool until_solved = false;  // ends before, with a trial that solves the task
   Index seed = 1;
+  std::string start;               // θ of the policy that it begins with, numbers with blanks between; empty: none
   ToldBy told_by = ToldBy::truth;  // measured: as a robot without other sensors would
 
   /// Key and value as text. A key is a field of the scenario, else one of the learner (`scenario.KEY` and
@@ -45,6 +47,7 @@ struct Spec {
     v.boolean("until_solved", until_solved, "end before, with a trial that solves the task");
     v.integer("seed", seed, "seed of all random numbers: the same one gives the same run",
               between(0, 9007199254740992.0));  // 2^53: survives every file format
+    v.text("start", start, "parameters of the policy that it begins with");
     settable_fields(v);
   }
   /// Those that --set changes, too.
@@ -55,6 +58,10 @@ struct Spec {
 
 /// Help lines of options, by the names that a complete spec has for them.
 using Comments = std::map<std::string, std::string>;
+
+/// θ as `Spec::start` has it, and back; empty: it holds something else than numbers, or nothing.
+std::string start_text(const Vector& theta);
+std::optional<Vector> start_of(const std::string& text);
 
 /// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec; PRIOR is "none" for a learner that takes none.
 std::string run_name(const Spec& spec);

@@ -118,6 +118,7 @@ std::string to_toml(const Spec& spec, const Comments& comments) {
   text += option_line(fmt::format("trials = {}", spec.trials), "trials", comments);
   text += option_line(fmt::format("until_solved = {}", spec.until_solved), "until_solved", comments);
   text += option_line(fmt::format("seed = {}", spec.seed), "seed", comments);
+  if (!spec.start.empty()) text += option_line("start = " + in_quotes(spec.start), "start", comments);
   if (spec.told_by == ToldBy::measured) text += option_line("told_by = \"measured\"", "told_by", comments);
   for (std::string_view name : kSections) text += section(spec, name, comments);
   return text;

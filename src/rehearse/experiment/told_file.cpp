@@ -52,8 +52,10 @@ std::vector<std::string> sentences_on(const Vector& deviations, const Task& task
 }
 
 std::string cut_short(const ToldFile& file, Index steps, Index horizon) {
-  return fmt::format("{}: {} of {} steps. If the operator cut the episode short, say why: --stopped \"…\"",
-                     file.path.string(), steps, horizon);
+  return fmt::format(
+      "{}: {} of {} steps, which take {} rows: the last has the final state, and needs no action. If the "
+      "operator cut the episode short, say why: --stopped \"…\"",
+      file.path.string(), steps, horizon, horizon + 1);
 }
 
 }  // namespace

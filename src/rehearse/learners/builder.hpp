@@ -19,6 +19,7 @@ struct Entry {
   std::string summary;  // one line for `rehearse list`
   PriorUse prior_use = PriorUse::required;
   bool chooses_priors = false;  // `--prior a,b,c` is allowed
+  bool takes_start = false;     // Setting::start
   std::unique_ptr<Learner> (*make)(Setting, Options) = nullptr;
   Options options = {};
   std::vector<std::string> (*violations)(const Options&, const Task&, const policy::Policy&) = nullptr;  // may be null
@@ -35,6 +36,7 @@ class OptionsBuilder final : public LearnerBuilder {
   std::string summary() const override { return entry_.summary; }
   PriorUse prior_use() const override { return entry_.prior_use; }
   bool chooses_priors() const override { return entry_.chooses_priors; }
+  bool takes_start() const override { return entry_.takes_start; }
   OptionTexts scenario_defaults() const override { return entry_.scenario_defaults; }
   void fields(FieldVisitor& v) override { entry_.options.fields(v); }
   std::vector<std::string> violations(const Task& task, const policy::Policy& policy) const override {

@@ -70,6 +70,7 @@ struct Setting {
   Task task;
   std::shared_ptr<const policy::Policy> policy;
   std::optional<prior::Prior> prior;
+  std::optional<Vector> start;  // θ to begin with, of a learner that takes one; empty: none
   std::uint64_t seed = 1;
   Phase phase = Phase::robot;  // that its trials run on: a field of every random stream
   std::shared_ptr<const Evaluator> evaluator;
@@ -118,7 +119,8 @@ class LearnerBuilder {
   virtual std::string name() const = 0;     // "gp-mi"
   virtual std::string summary() const = 0;  // one line for `rehearse list`
   virtual PriorUse prior_use() const = 0;
-  virtual bool chooses_priors() const = 0;  // `--prior a,b,c` is allowed
+  virtual bool chooses_priors() const = 0;            // `--prior a,b,c` is allowed
+  virtual bool takes_start() const { return false; }  // it may begin with a policy (Setting::start)
   virtual void fields(FieldVisitor& v) = 0;
   /// Options of the scenario that suit this learner, where neither a preset nor the user sets them: the policy that it
   /// needs. Those that a scenario does not have, or not with that value, are left as they are.

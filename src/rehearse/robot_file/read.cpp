@@ -128,6 +128,10 @@ class Reader {
       if (robot_.success.when.empty())
         violations_.add(files::line_of(*part), "[success] needs when = \"…\", a condition");
       table.number("last_s", robot_.success.last_s, at_least(0));
+      const double episode_s = robot_.dt_s * static_cast<double>(robot_.horizon);
+      if (robot_.success.last_s > episode_s * (1 + 1e-9) && episode_s > 0)
+        table.wrong("last_s",
+                    fmt::format("last_s = {} is more than the {} s of an episode", robot_.success.last_s, episode_s));
       table.finish();
     }
     robot_.ended = file_.formula("ended");

@@ -30,8 +30,10 @@ std::optional<Interval> pair_of(const toml::node& node) {
 }
 
 std::string missing_function(const std::string& name) {
-  return fmt::format("'{}' is a function of the program that wrote this file, and this one has none of that name",
-                     name);
+  return fmt::format(
+      "'{}' is a function of the program that wrote this file, and this one has none of that name "
+      "(in Python the robot is given again: rehearse.resume(folder, robot))",
+      name);
 }
 
 Formula Table::formula_of(const std::string& key, const toml::node& node) {

@@ -23,6 +23,13 @@ TEST(Spec, NamesItsRun) {
   EXPECT_EQ(run_name(spec), "line-echo-none-7");
 }
 
+TEST(Spec, ThePolicyThatItBeginsWithIsANumberAfterTheOther) {
+  const Vector theta{{0.1, -3, 1e-17}};
+  EXPECT_EQ(start_text(theta), "0.1 -3 1e-17");
+  EXPECT_EQ(start_of(start_text(theta)), theta);
+  for (const char* wrong : {"", " ", "1 two", "1 nan", "inf"}) EXPECT_EQ(start_of(wrong), std::nullopt) << wrong;
+}
+
 TEST(Spec, OptionsOfAFileComeBehindItsOwn) {
   const Spec spec = with_options({.options = {{"a", "1"}}}, {{"b", "2", 5}, {"a", "3", 6}});
   EXPECT_EQ(spec.options, (std::vector<std::pair<std::string, std::string>>{{"a", "1"}, {"b", "2"}, {"a", "3"}}));

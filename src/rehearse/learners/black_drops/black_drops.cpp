@@ -29,7 +29,7 @@ class BlackDrops final : public TrialLearner {
  public:
   BlackDrops(Setting setting, Options options)
       : setting_(std::move(setting)), options_(std::move(options)), features_(setting_.task.feature_map()) {
-    history_.random_first = !setting_.prior && options_.first_trial.kind != FirstTrial::Kind::policy;
+    history_.random_first = !setting_.prior && !setting_.start && options_.first_trial.kind != FirstTrial::Kind::policy;
   }
 
   void study(const std::vector<Episode>& logs) override {
@@ -83,7 +83,7 @@ class BlackDrops final : public TrialLearner {
   Proposal propose(const KnownProposal* known) {
     Proposal proposal{.policy = setting_.policy};
     if (without_data() && !setting_.prior) {
-      propose_at_random(proposal);
+      propose_without_model(proposal);
       return proposal;
     }
     // What an interruption must not leave behind is assigned last.
@@ -107,8 +107,9 @@ class BlackDrops final : public TrialLearner {
     if (without_data() && !task.limits.empty())
       problem.doubted = doubted(*setting_.prior, options_.search.safety.doubt, stream());
     TrialSearches searches(problem, options_.search, stream());
-    const Choice choice =
-        search_trial(searches, {known_policies(history_, *setting_.policy, options_), without_data()}, options_);
+    std::vector<Vector> known = known_policies(history_, *setting_.policy, options_);
+    if (setting_.start) known.insert(known.begin(), *setting_.start);
+    const Choice choice = search_trial(searches, {known, without_data()}, options_);
     proposal.theta = choice.theta;
     proposal.predicted_return = choice.predicted_return;
     for (std::string& line : warnings(choice.risks, task.limits)) proposal.notes.push_back(std::move(line));
@@ -123,7 +124,11 @@ class BlackDrops final : public TrialLearner {
     return {.seed = setting_.seed, .trial = history_.returns.size() + 1, .phase = setting_.phase};
   }
 
-  void propose_at_random(Proposal& proposal) const {
+  void propose_without_model(Proposal& proposal) const {
+    if (setting_.start) {
+      proposal.theta = *setting_.start;
+      return;
+    }
     StreamKey episode_stream = stream();
     episode_stream.stage = Stage::episode;
     if (options_.first_trial.kind == FirstTrial::Kind::policy) {
@@ -234,6 +239,7 @@ Entry<Options> entry(const char* name, const char* summary, identification::Kind
           .summary = summary,
           .prior_use = prior_use(options),
           .chooses_priors = is<identification::GpMi>(options) || is<identification::Mi>(options),
+          .takes_start = true,
           .make = make,
           .options = options,
           .violations = violations_with};

@@ -58,6 +58,8 @@ std::string about(const Setting& setting, IlluminationOptions options) {
   std::string text = fmt::format("ite archive {}\nseed = {}\n", kRevision, setting.seed);
   for (const auto& [name, value] : list_fields([&](FieldVisitor& v) { options.fields(v); }))
     text += fmt::format("{} = {}\n", name, value);
+  if (setting.start)
+    for (const double number : *setting.start) text += to_text(number) + "\n";
   return text;
 }
 
@@ -70,7 +72,7 @@ class Illumination {
     auto kept = read();
     if (kept && !holds(*kept)) kept.reset();
     if (kept && kept->evaluations >= wanted()) return std::move(*kept);
-    qd::MapElites search(empty_archive(), {.box = box(), .examples = setting_.policy->examples()}, options_.search,
+    qd::MapElites search(empty_archive(), {.box = box(), .examples = examples()}, options_.search,
                          {.seed = setting_.seed});
     if (kept && kept->archive.niches() == search.archive().niches())
       search.resume(std::move(kept->archive), kept->evaluations, kept->failed);
@@ -80,6 +82,15 @@ class Illumination {
   }
 
  private:
+  /// Those of the policy, and the policy that the run begins with.
+  Matrix examples() const {
+    Matrix all = setting_.policy->examples();
+    if (!setting_.start) return all;
+    all.conservativeResize(all.rows() + 1, setting_.start->size());
+    all.bottomRows(1) = setting_.start->transpose();
+    return all;
+  }
+
   std::vector<Interval> box() const {
     return std::vector<Interval>(static_cast<std::size_t>(setting_.policy->parameters()),
                                  setting_.policy->box().value_or(Interval{-options_.box, options_.box}));

@@ -188,6 +188,7 @@ std::vector<std::unique_ptr<LearnerBuilder>> builders() {
   return builders_of(Entry<Options>{
       .name = "ite",
       .summary = "an archive of different policies made on the prior, and Bayesian optimisation among them",
+      .takes_start = true,
       .make = make,
       .violations = violations_with});
 }

@@ -124,7 +124,7 @@ TEST(RobotFunctions, ADynamicsMayPlayTheRobot) {
 TEST(RobotFunctions, ThoseOfAnotherProgramAreMissed) {
   const std::string lines = complaint(kFile, {});
   EXPECT_NE(lines.find("'robot' is a function"), std::string::npos) << lines;
-  EXPECT_NE(lines.find("line 25: 'push' is a function of the program that wrote this file, and this one has none"),
+  EXPECT_NE(lines.find("line 24: 'push' is a function of the program that wrote this file, and this one has none"),
             std::string::npos)
       << lines;
   Functions half = functions();

@@ -65,5 +65,28 @@ TEST(KnownPolicies, StartsFromThePolicysExamplesUnlessToldNotTo) {
   EXPECT_GT((first("false") - Vector{{-5, 0}}).norm(), 1e-2);
 }
 
+// As above, from the policy that the run begins with.
+TEST(KnownPolicies, SearchesStartFromThePolicyThatTheRunBeginsWith) {
+  const auto with = builder("mi", "64");
+  for (const auto& [name, value] : std::map<std::string, std::string>{{"search.race.descents", "1"},
+                                                                      {"search.race.start_sigma", "1e-6"},
+                                                                      {"search.race.sigma", "1e-6"},
+                                                                      {"retry.searches", "0"}})
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, name, value));
+  Setting own = setting();
+  own.start = Vector{{-4, 0.5}};
+  EXPECT_TRUE(with->takes_start());
+  EXPECT_LT((with->build(own)->ask().theta - *own.start).norm(), 1e-3);
+}
+
+TEST(KnownPolicies, WithoutAModelThePolicyThatTheRunBeginsWithIsTriedFirst) {
+  Setting own = setting();
+  own.prior.reset();
+  own.start = Vector{{-4, 0.5}};
+  const auto learner = builder("black-drops", "64")->build(own);
+  EXPECT_EQ(learner->ask().theta, *own.start);
+  EXPECT_EQ(learner->ask().policy, own.policy);
+}
+
 }  // namespace
 }  // namespace rehearse::learners::black_drops
