@@ -54,7 +54,7 @@ episode=gp-mi-driven/trajectories/trial-003.csv
 head -20 $episode >short.csv
 sed '1s/action/actoin/; 1s/torque/torqeu/; 1s/time/tiem/' $episode >misspelt.csv
 sed '5s/[0-9]/x/' $episode >letters.csv
-refused "steps. If the operator cut the episode short" tell gp-mi-told short.csv
+refused "18 of 40 steps, which take 41 rows" tell gp-mi-told short.csv
 refused "tiem" tell gp-mi-told misspelt.csv
 refused "row 5" tell gp-mi-told letters.csv
 refused "one file tells it, but 2 are named" tell gp-mi-told short.csv letters.csv
