@@ -24,7 +24,7 @@ class GaussianProcess:
         self.tolerance = tolerance
         self.threads = threads
         self.options = options
-        self._core: Any = None
+        self._core: Union[_core.FittedGp, None] = None
         self._one = True
 
     def fit(self, X: npt.ArrayLike, y: npt.ArrayLike) -> GaussianProcess:
@@ -54,20 +54,18 @@ class GaussianProcess:
         m, S = np.asarray(mean, float), np.atleast_2d(np.asarray(covariance, float))
         if not np.isfinite(S).all() or np.linalg.eigvalsh(S).min() < -1e-9 * np.abs(S).max():
             raise _core.InvalidInput("covariance must be finite and positive semi-definite")
-        moments: tuple[Array, Array, Array] = self._fitted.match_moments(m, S)
-        return moments
+        return self._fitted.match_moments(m, S)
 
     @property
     def log_evidence(self) -> Union[float, Array]:
         """Nats; one an output."""
-        evidence: Array = self._fitted.log_evidence
+        evidence = self._fitted.log_evidence
         return float(evidence[0]) if self._one else evidence
 
     @property
     def log_hyperparameters(self) -> Array:
         """E × (D + 2): logarithms of lengths, σ_f, σ_n; with a trend E × (2 D + 3)."""
-        logs: Array = self._fitted.log_hyperparameters
-        return logs
+        return self._fitted.log_hyperparameters
 
     @property
     def lengths(self) -> Array:
@@ -94,7 +92,7 @@ class GaussianProcess:
         return inputs, np.asfortranarray(targets.reshape(len(targets), -1))
 
     @property
-    def _fitted(self) -> Any:
+    def _fitted(self) -> _core.FittedGp:
         if self._core is None:
             raise _core.InvalidInput("the GP has no data yet: fit(X, y)")
         return self._core

@@ -14,8 +14,7 @@ def plot_run(run: Run, trial: Union[int, None]) -> Any:
     trials = run.trials
     if len(trials) == 0:
         raise ValueError(f"{run.folder} has no trial yet")
-    best = run.best
-    number = trial if trial is not None else best.trial if best else 1
+    number = int(trials["trial"][trials["return"].argmax()]) if trial is None else trial
     moved = run.trajectory(number)
     about = run._describe()
     panels = 1 + len(about["states"]) + len(about["actions"])

@@ -32,8 +32,7 @@ class Cmaes:
 
     def ask(self) -> Array:
         """The candidates of this generation, λ × n; the same until `tell`."""
-        candidates: Array = self._core.ask()
-        return candidates
+        return self._core.ask()
 
     def tell(self, values: npt.ArrayLike) -> None:
         """Their values, λ; what is not finite is the worst."""
@@ -42,30 +41,27 @@ class Cmaes:
     @property
     def stop(self) -> Union[str, None]:
         """Why it is over; None: it is not."""
-        stop: Union[str, None] = self._core.stop
-        return stop
+        return self._core.stop
 
     @property
     def best_x(self) -> Array:
-        best: Array = self._core.best_x
-        return best
+        return self._core.best_x
 
     @property
     def best_value(self) -> float:
-        return float(self._core.best_value)
+        return self._core.best_value
 
     @property
     def mean(self) -> Array:
-        mean: Array = self._core.mean
-        return mean
+        return self._core.mean
 
     @property
     def sigma(self) -> float:
-        return float(self._core.sigma)
+        return self._core.sigma
 
     @property
     def evaluations(self) -> int:
-        return int(self._core.evaluations)
+        return self._core.evaluations
 
 
 class MapElites:
@@ -82,8 +78,7 @@ class MapElites:
 
     def ask(self) -> Array:
         """Solutions to evaluate, batch × P; the same until `tell`."""
-        solutions: Array = self._core.ask()
-        return solutions
+        return self._core.ask()
 
     def tell(self, performances: npt.ArrayLike, descriptors: npt.ArrayLike) -> None:
         """What they were worth (batch), and how they did it (batch × D)."""
@@ -101,4 +96,4 @@ class MapElites:
 
     @property
     def evaluations(self) -> int:
-        return int(self._core.evaluations)
+        return self._core.evaluations
