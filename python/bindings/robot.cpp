@@ -54,6 +54,18 @@ class PythonPlant final : public system::Plant {
   bool ended_ = false;
 };
 
+/// Writes what a function returned.
+using Write = void (*)(const py::object& result, const std::string& name, VectorView values);
+
+StepCondition of_steps(const Callable& of, Write write) {
+  return [of, write](const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& X_next,
+                     VectorView values) {
+    call(of, [&](const py::object& function) {
+      write(function(to_array(X), to_array(U), to_array(X_next)), of.name, values);
+    });
+  };
+}
+
 }  // namespace
 
 Robot::Robot(std::string text, std::string source, std::string folder)
@@ -66,23 +78,11 @@ Callable Robot::callable(const std::string& name, py::object function) const {
 }
 
 void Robot::add_step_function(const std::string& name, py::object function) {
-  functions_.of_steps[name] = [of = callable(name, std::move(function))](
-                                  const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& X_next,
-                                  VectorView values) {
-    call(of, [&](const py::object& function) {
-      write_result(function(to_array(X), to_array(U), to_array(X_next)), of.name, values);
-    });
-  };
+  functions_.of_steps[name] = of_steps(callable(name, std::move(function)), write_result);
 }
 
 void Robot::add_step_condition(const std::string& name, py::object function) {
-  functions_.of_steps[name] = [of = callable(name, std::move(function))](
-                                  const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& X_next,
-                                  VectorView values) {
-    call(of, [&](const py::object& function) {
-      write_truths(function(to_array(X), to_array(U), to_array(X_next)), of.name, values);
-    });
-  };
+  functions_.of_steps[name] = of_steps(callable(name, std::move(function)), write_truths);
 }
 
 void Robot::try_out(const scenario::Scenario& scenario) const {

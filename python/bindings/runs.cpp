@@ -33,7 +33,7 @@ struct Request {
   Options options;
 };
 
-Spec spec_of(const experiment::Catalogue& catalogue, const Request& request) {
+experiment::Resolved resolved(const experiment::Catalogue& catalogue, const Request& request) {
   Spec spec{.scenario = request.scenario,
             .learner = request.learner,
             .prior = request.prior,
@@ -42,8 +42,8 @@ Spec spec_of(const experiment::Catalogue& catalogue, const Request& request) {
             .seed = request.seed};
   if (!request.preset.empty()) spec = experiment::with_preset(catalogue, spec, request.preset);
   for (const auto& option : request.options) spec.options.push_back(option);
-  spec = experiment::resolve(catalogue, spec).spec;
-  return request.policy.empty() ? spec : experiment::with_start(catalogue, spec, request.policy, "policy");
+  if (!request.policy.empty()) spec = experiment::with_start(catalogue, spec, request.policy, "policy");
+  return experiment::resolve(catalogue, spec);
 }
 
 /// Makes the folder, and runs all trials. Returns the folder.
@@ -51,10 +51,10 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
   std::filesystem::path folder = out;
   work_with(robot, settings, [&](const experiment::RunOptions& options) {
     const experiment::Catalogue catalogue = robot.catalogue();
-    const Spec spec = spec_of(catalogue, request);
-    robot.try_out(experiment::resolve(catalogue, spec).scenario);
-    if (folder.empty()) folder = "runs/" + run_name(spec);
-    experiment::start_run(catalogue, spec, folder, options);
+    const experiment::Resolved run = resolved(catalogue, request);
+    robot.try_out(run.scenario);
+    if (folder.empty()) folder = "runs/" + run_name(run.spec);
+    experiment::start_run(catalogue, run.spec, folder, options);
   });
   return folder.string();
 }

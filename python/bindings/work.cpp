@@ -79,10 +79,7 @@ void work_with(const Robot& robot, const Settings& settings,
           .listener = heard ? &listener : nullptr,
           .stop = [interruption] { return interruption->asked(); },
           .cache = apps::cache_folder});
-  } catch (const Interrupted&) {
-    failure.raise_if_any();
-    throw;
-  } catch (const std::exception&) {
+  } catch (...) {
     failure.raise_if_any();
     throw;
   }

@@ -58,7 +58,7 @@ using StateCondition = std::function<void(const ConstMatrixView& X, VectorView h
 /// The condition of states one by one.
 StateCondition each_state(std::function<bool(const ConstVectorView& state)> is);
 
-/// What a condition says of one state.
+/// The truth of a condition in one state (dx).
 bool holds(const StateCondition& condition, const ConstVectorView& state);
 
 /// The truth of a number that a condition wrote.
