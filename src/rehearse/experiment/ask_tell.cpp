@@ -112,7 +112,11 @@ Told tell_run(const Catalogue& catalogue, const fs::path& path, const Tale& tale
   for (const ToldFile& file : files)
     if (!known_as(history, file.checksum).known() || is_of_policy_asked_for(file, resolved.scenario, history))
       news.push_back(file);
-  if (news.empty()) return already_told(resolved, history, files);
+  if (news.empty()) {
+    reopened.go_on(false, [](OpenRun&) {});  // the tables, where a kill came before them
+    reopened.extend_to_done();
+    return already_told(resolved, history, files);
+  }
   check(history, news, tale);
   Told told{.resolved = resolved, .trial = {}, .logs = {}};
   if (!history.asked) {

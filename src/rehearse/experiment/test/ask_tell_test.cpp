@@ -78,6 +78,18 @@ TEST_F(AskTell, AFileCountsOnce) {
   EXPECT_TRUE(tell(told, {trial_of(driven, 1)}).known_before) << "though trial 2 is to come";
 }
 
+TEST_F(AskTell, AFileThatIsToldAgainCompletesWhatAKillLeftUndone) {
+  ask(told);
+  const std::string before = files::read_file(told / "next/policy.json");
+  tell(told, {trial_of(driven, 1)});
+  const std::string policy = files::read_file(told / "policy.json");
+  files::write_file(told / "policy.json", "that of the trial before");
+  files::write_file(told / "next/policy.json", before);
+  EXPECT_TRUE(tell(told, {trial_of(driven, 1)}).known_before);
+  EXPECT_EQ(files::read_file(told / "policy.json"), policy);
+  EXPECT_FALSE(fs::exists(told / "next")) << "nobody runs an old policy again";
+}
+
 TEST_F(AskTell, WhatIsNotToComeIsRefusedAndChangesNothing) {
   ask(told);
   const std::string asked = checkpoint();
