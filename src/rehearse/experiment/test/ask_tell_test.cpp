@@ -84,6 +84,7 @@ TEST_F(AskTell, AFileThatIsToldAgainCompletesWhatAKillLeftUndone) {
   tell(told, {trial_of(driven, 1)});
   const std::string policy = files::read_file(told / "policy.json");
   files::write_file(told / "policy.json", "that of the trial before");
+  fs::create_directories(told / "next");
   files::write_file(told / "next/policy.json", before);
   EXPECT_TRUE(tell(told, {trial_of(driven, 1)}).known_before);
   EXPECT_EQ(files::read_file(told / "policy.json"), policy);
