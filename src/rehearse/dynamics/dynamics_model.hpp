@@ -4,6 +4,14 @@
 
 namespace rehearse::dynamics {
 
+/// Predictions of n rows, and their derivatives by inputs: states first, then actions.
+struct Linearised {
+  Matrix mean, variance;        // n × dx
+  Matrix mean_by, variance_by;  // n × dx·(dx+du): column i·(dx+du) + j holds that of output i by input j
+
+  void resize(Index rows, Index states, Index actions);
+};
+
 /// The learned map (states, actions) → Gaussian over state changes of one control step. Immutable; any thread.
 class DynamicsModel {
  public:
@@ -19,6 +27,10 @@ class DynamicsModel {
     Matrix variance(X.rows(), X.cols());
     predict(X, U, mean, variance);
   }
+
+  /// The predictions and their derivatives, by central differences of `predict` unless a model knows better. A row that
+  /// cannot be predicted, or not beside it, has NaN where that matters. No allocation if `at` had the same size before.
+  virtual void linearise(const ConstMatrixView& X, const ConstMatrixView& U, Linearised& at) const;
 
   /// A draw from the prediction, made of standard normals (n × dx).
   virtual void sample(const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& normals,
