@@ -6,6 +6,7 @@
 #include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/policy/schedule.hpp"
+#include "rehearse/policy/tracking.hpp"
 
 namespace rehearse::experiment {
 
@@ -30,8 +31,11 @@ std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const 
   const Task& task = scenario.task;
   auto schedule = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
   if (trial.policy == schedule->name()) return schedule;
-  throw InvalidInput(fmt::format("trial {} has the policy '{}', which is neither the scenario's, '{}', nor '{}'",
-                                 trial.trial, trial.policy, scenario.policy->name(), schedule->name()));
+  if (trial.policy == policy::kTracking)
+    return policy::make_tracking(task, trial.theta.size() / policy::numbers_of_stage(task));
+  throw InvalidInput(
+      fmt::format("trial {} has the policy '{}', which is neither the scenario's, '{}', nor '{}' or '{}'", trial.trial,
+                  trial.policy, scenario.policy->name(), schedule->name(), policy::kTracking));
 }
 
 }  // namespace rehearse::experiment

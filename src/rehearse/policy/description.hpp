@@ -43,8 +43,18 @@ struct Table {
   bool periodic = false;
 };
 
+/// u = action + gain · (x − state), moved into its bounds, of the row round(t · per_s), counted from 0; the last one is
+/// held. Differences of angles are taken the shorter way round: less 2π · floor(difference / 2π + ½).
+struct Feedback {
+  Matrix actions;  // rows × actions
+  Matrix states;   // rows × states
+  Matrix gains;    // rows × actions · states: the gains of an action one after the other
+  double per_s = 1;
+  std::vector<bool> angles;  // which states are
+};
+
 /// A policy at one θ as plain numbers, for whoever computes it elsewhere (exported.hpp).
-using Description = std::variant<Layers, Radial, Table>;
+using Description = std::variant<Layers, Radial, Table, Feedback>;
 
 /// A policy that can say what it is. A Policy of one's own that is to be exported implements it, too.
 class Describable {

@@ -119,6 +119,21 @@ constexpr const char* kTable = R"(  double row = @NAME@_limit(time_s, 0, @LARGES
   for (int o = 0; o < @ACTIONS@; ++o) action[o] = table[(int)row][o];
 )";
 
+constexpr const char* kFeedback =
+    R"(  const int row = (int)@NAME@_limit(round(@NAME@_limit(time_s, 0, @LARGEST_TIME@) * @PER_S@), 0, @LAST@);
+  const double turn = 6.283185307179586;
+  double apart[@STATES@];
+  for (int i = 0; i < @STATES@; ++i) {
+    apart[i] = @NAME@_limit(state[i], -@LARGEST_INPUT@, @LARGEST_INPUT@) - tracked[row][i];
+    if (angle[i]) apart[i] -= turn * floor(apart[i] / turn + 0.5);
+  }
+  for (int o = 0; o < @ACTIONS@; ++o) {
+    double u = planned[row][o];
+    for (int i = 0; i < @STATES@; ++i) u += gain[row][o * @STATES@ + i] * apart[i];
+    action[o] = @NAME@_limit(u, low[o], high[o]);
+  }
+)";
+
 using Values = std::map<std::string, std::string>;
 
 /// A table of numbers inside the function.
@@ -178,7 +193,27 @@ class Body {
     values_["COMPUTE"] = filled(kTable, values_);
   }
 
+  void operator()(const Feedback& feedback) {
+    std::string angles;
+    for (const bool angle : feedback.angles) angles += fmt::format("{}{:d}", angles.empty() ? "" : ", ", angle);
+    values_["NUMBERS"] = constants("planned", feedback.actions, "the actions, row by row") +
+                         constants("tracked", feedback.states, "where they belong") +
+                         constants("gain", feedback.gains, "what a difference from there adds to each action") +
+                         fmt::format("  static const int angle[{}] = {{{}}};\n", feedback.angles.size(), angles) +
+                         range_lines();
+    values_["PER_S"] = number(feedback.per_s);
+    values_["LARGEST_TIME"] = kLargestTime;
+    values_["LARGEST_INPUT"] = kLargestInput;
+    values_["LAST"] = std::to_string(feedback.actions.rows() - 1);
+    values_["COMPUTE"] = filled(kFeedback, values_);
+  }
+
  private:
+  std::string range_lines() const {
+    return fmt::format("  static const double low[{0}] = {1};\n  static const double high[{0}] = {2};\n",
+                       values_.at("ACTIONS"), list(lows(exported_)), list(highs(exported_)));
+  }
+
   void closed_loop(const std::vector<Input>& inputs, const Squash& squash, const std::string& tables,
                    const std::string& form) {
     values_["INPUTS"] = std::to_string(inputs.size());
@@ -186,9 +221,7 @@ class Body {
     values_["GAIN"] = number(squash.gain);
     values_["SQUASH"] = filled(squash.shape == Squash::Shape::tanh ? kTanh : kSine, values_);
     values_["FORM"] = filled(form, values_);
-    values_["NUMBERS"] =
-        tables + fmt::format("  static const double low[{0}] = {1};\n  static const double high[{0}] = {2};\n",
-                             values_.at("ACTIONS"), list(lows(exported_)), list(highs(exported_)));
+    values_["NUMBERS"] = tables + range_lines();
     values_["COMPUTE"] = filled(kClosedLoop, values_);
   }
 

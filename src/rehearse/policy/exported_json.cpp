@@ -51,6 +51,15 @@ Json to_form(const Table& table) {
   return {{"form", "table"}, {"actions", lists(table.actions)}, {"per_s", table.per_s}, {"periodic", table.periodic}};
 }
 
+Json to_form(const Feedback& feedback) {
+  return {{"form", "feedback"},
+          {"actions", lists(feedback.actions)},
+          {"states", lists(feedback.states)},
+          {"gains", lists(feedback.gains)},
+          {"per_s", feedback.per_s},
+          {"angles", feedback.angles}};
+}
+
 }  // namespace
 
 std::string to_json(const Exported& exported) {

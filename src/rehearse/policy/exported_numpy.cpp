@@ -63,6 +63,14 @@ constexpr const char* kTable = R"PY(    row = np.floor(np.clip(t, 0.0, @LARGEST_
     u = TABLE[@ROW@.astype(int)]
 )PY";
 
+constexpr const char* kFeedback =
+    R"PY(    row = np.minimum(np.floor(np.clip(t, 0.0, @LARGEST_TIME@) * @PER_S@ + 0.5), @LAST@).astype(int)
+    apart = np.clip(x, -@LARGEST_INPUT@, @LARGEST_INPUT@) - TRACKED[row]
+    apart = np.where(ANGLES, apart - 2 * np.pi * np.floor(apart / (2 * np.pi) + 0.5), apart)
+    gains = GAINS[row].reshape(len(x), @ACTIONS@, -1)
+    u = np.clip(PLANNED[row] + (gains * apart[:, None, :]).sum(axis=2), LOW, HIGH)
+)PY";
+
 using Values = std::map<std::string, std::string>;
 
 std::string array(const std::string& name, const Matrix& values) {
@@ -105,6 +113,19 @@ class Body {
     values_["ROW"] = table.periodic ? fmt::format("np.fmod(row, {})", table.actions.rows())
                                     : fmt::format("np.minimum(row, {})", table.actions.rows() - 1);
     values_["COMPUTE"] = filled(kTable, values_);
+  }
+
+  void operator()(const Feedback& feedback) {
+    std::string angles;
+    for (const bool angle : feedback.angles)
+      angles += fmt::format("{}{}", angles.empty() ? "" : ", ", angle ? "True" : "False");
+    values_["NUMBERS"] = array("PLANNED", feedback.actions) + array("TRACKED", feedback.states) +
+                         array("GAINS", feedback.gains) + fmt::format("ANGLES = np.array([{}])\n", angles);
+    values_["PER_S"] = number(feedback.per_s);
+    values_["LARGEST_TIME"] = kLargestTime;
+    values_["LARGEST_INPUT"] = kLargestInput;
+    values_["LAST"] = std::to_string(feedback.actions.rows() - 1);
+    values_["COMPUTE"] = filled(kFeedback, values_);
   }
 
  private:

@@ -8,13 +8,12 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/stopwatch.hpp"
-#include "rehearse/dynamics/simulator_model.hpp"
-#include "rehearse/identification/learn.hpp"
 #include "rehearse/learners/black_drops/exploration.hpp"
 #include "rehearse/learners/black_drops/known_policies.hpp"
 #include "rehearse/learners/black_drops/trial_search.hpp"
 #include "rehearse/learners/builder.hpp"
 #include "rehearse/learners/json.hpp"
+#include "rehearse/learners/model_of_trials.hpp"
 #include "rehearse/learners/trial_learner.hpp"
 #include "rehearse/policy/schedule.hpp"
 
@@ -28,53 +27,44 @@ constexpr double kMore = 0.05;  // of what was earned: a policy that promises le
 class BlackDrops final : public TrialLearner {
  public:
   BlackDrops(Setting setting, Options options)
-      : setting_(std::move(setting)), options_(std::move(options)), features_(setting_.task.feature_map()) {
+      : setting_(std::move(setting)),
+        options_(std::move(options)),
+        features_(setting_.task.feature_map()),
+        model_(setting_, options_.model, options_.prior_variance) {
     history_.random_first = !setting_.prior && !setting_.start && options_.first_trial.kind != FirstTrial::Kind::policy;
   }
 
   void study(const std::vector<Episode>& logs) override {
-    for (const Episode& log : logs) logs_.append(log);
-    data_ = logs_;
+    model_.study(logs);
     history_.random_first = history_.random_first && logs.empty();
   }
 
   json save() const override {
-    json kernels = json::array(), policies = json::array();
-    for (const auto& kernel : state_.kernels) kernels.push_back(to_json(kernel.flat()));
+    json state, policies = json::array();
+    model_.save(state);
     for (const Vector& theta : history_.policies) policies.push_back(to_json(theta));
-    return {{"kernels", kernels},
-            {"kernel_inputs", state_.kernels.empty() ? 0 : state_.kernels.front().inputs()},
-            {"phi", state_.phi ? to_json(*state_.phi) : json()},
-            {"policies", policies}};
+    state["policies"] = policies;
+    return state;
   }
 
  private:
   void learn(const Proposal& tried, const Episode& episode) override {
     const bool explored = tried.policy != setting_.policy && !history_.policies.empty();
     history_.policies.push_back(explored ? Vector() : tried.theta);
-    add(episode);
+    model_.add(episode);
+    history_.returns.push_back(episode.total_reward());
   }
 
   void restore(const std::vector<Episode>& episodes, const json& state) override {
-    data_ = logs_;
+    model_.restore(episodes, state);
     history_.returns.clear();
-    for (const Episode& episode : episodes) add(episode);
+    for (const Episode& episode : episodes) history_.returns.push_back(episode.total_reward());
     history_.policies = to_vectors(state.at("policies"));
-    state_ = {};
-    for (const Vector& flat : to_vectors(state.at("kernels")))
-      state_.kernels.push_back(gp::Hyperparameters::from_flat(flat, state.at("kernel_inputs").get<Index>()));
-    if (!state.at("phi").is_null()) state_.phi = to_vector(state.at("phi"));
     if (history_.policies.size() != episodes.size())
       throw InvalidInput("the learner's state does not fit the episodes");
   }
 
-  void add(const Episode& episode) {
-    data_.append(episode);
-    history_.returns.push_back(episode.total_reward());
-  }
-
-  /// Nothing was told, no log either.
-  bool without_data() const { return history_.returns.empty() && logs_.size() == 0; }
+  bool without_data() const { return model_.without_data(); }
 
   Proposal propose() override { return propose(nullptr); }
   Proposal propose_again(const KnownProposal& known) override { return propose(&known); }
@@ -87,10 +77,10 @@ class BlackDrops final : public TrialLearner {
       return proposal;
     }
     // What an interruption must not leave behind is assigned last.
-    identification::WarmStart state = state_;
+    identification::WarmStart state;
     Task task = setting_.task;
     proposal.model_s = seconds([&] {
-      learn_model(proposal, state);
+      state = model_.learn(proposal);
       if (options_.reward.learned) learn_reward(proposal, task);
     });
     if (known && known->policy != setting_.policy->name()) proposal.policy = schedule();  // it explored
@@ -98,7 +88,7 @@ class BlackDrops final : public TrialLearner {
       proposal.theta = known->theta;
     else
       proposal.search_s = seconds([&] { search(proposal, task); });
-    state_ = std::move(state);
+    model_.keep(std::move(state));
     return proposal;
   }
 
@@ -167,53 +157,23 @@ class BlackDrops final : public TrialLearner {
     proposal.notes.emplace_back("no policy that is safe promises more than was earned: safe random actions are tried");
   }
 
-  void learn_model(Proposal& proposal, identification::WarmStart& state) {
-    if (setting_.progress) setting_.progress({.phase = "model"});
-    if (without_data()) return trust_prior(proposal, options_.prior_variance);
-    try {
-      identification::Learned learned =
-          identification::learn({data_, setting_.task.model_features(), setting_.task.kinematics(),
-                                 setting_.prior ? &*setting_.prior : nullptr},
-                                options_.model, state, *setting_.evaluator);
-      proposal.model = learned.model;
-      proposal.phi = learned.state.phi;
-      proposal.posterior = std::move(learned.posterior);
-      proposal.log_evidence = learned.log_evidence;
-      proposal.left_out_rows = learned.left_out_rows;
-      proposal.notes = std::move(learned.notes);
-      state = std::move(learned.state);
-    } catch (const InvalidInput& nothing_to_learn_from) {
-      if (!setting_.prior) throw;
-      trust_prior(proposal, 0);
-      proposal.left_out_rows = data_.size();
-      proposal.notes.push_back(nothing_to_learn_from.what());
-    }
-  }
-
   /// Replaces the task's reward by what is believed of it.
   void learn_reward(Proposal& proposal, Task& task) const {
     if (without_data()) {
       task.reward = task.initial_reward;
       return;
     }
-    identification::LearnedReward learned = identification::learn_reward(data_, features_, options_.reward);
+    identification::LearnedReward learned = identification::learn_reward(model_.data(), features_, options_.reward);
     task.reward = std::move(learned.reward);
     if (proposal.log_evidence) *proposal.log_evidence += learned.log_evidence;
     for (std::string& note : learned.notes) proposal.notes.push_back(std::move(note));
   }
 
-  void trust_prior(Proposal& proposal, double variance) const {
-    proposal.phi = setting_.prior->space.values();
-    proposal.model = std::make_shared<dynamics::SimulatorModel>(*setting_.prior, *proposal.phi, variance);
-  }
-
   Setting setting_;
   Options options_;
   FeatureMap features_;
-  Dataset logs_;  // of other controllers
-  Dataset data_;  // logs and trials
+  ModelOfTrials model_;
   History history_;
-  identification::WarmStart state_;
 };
 
 template <class Kind>

@@ -15,6 +15,7 @@
 #include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
 #include "rehearse/policy/schedule.hpp"
+#include "rehearse/policy/tracking.hpp"
 
 namespace rehearse::policy::exports {
 
@@ -45,6 +46,7 @@ inline std::vector<Case> cases() {
   add("mlp", make_mlp({features, fixture::kScale, 10, tanh}));
   add("rbf", make_rbf({features, fixture::kScale, 10, 0.01, fixture::kBounds}));
   add("schedule", make_schedule(fixture::kBounds, task.dt_s, task.horizon));
+  add("tracking", make_tracking(task, task.horizon + 1));
   all.push_back({"gait", walker_task(), make_gait(6), tripod_gait()});
   return all;
 }

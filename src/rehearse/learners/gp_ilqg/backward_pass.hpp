@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "rehearse/learners/gp_ilqg/step_costs.hpp"
+
+namespace rehearse::learners::gp_ilqg {
+
+/// A step about its state y and its actions u, in units of half their range: the next state, and its variances.
+struct LinearStep {
+  Matrix by;           // n × (n + du), the next state by y, then u
+  Vector variance;     // n, of the next state
+  Matrix variance_by;  // n × (n + du)
+};
+
+/// A step as the planner sees it.
+struct PlannedStep {
+  LinearStep dynamics;
+  Expansion cost;
+  Vector action;  // du, in units of half the range from its middle: within ±1
+};
+
+/// The cost to go ½ dᵀSd + sᵀd of a state that is d away from the planned one.
+struct Value {
+  Vector s;
+  Matrix S;
+};
+
+/// What a step changes: the actions by `open` + `gain` · d.
+struct Feedback {
+  Vector open;  // du
+  Matrix gain;  // du × n
+};
+
+struct BackwardPass {
+  std::vector<Feedback> feedback;  // of each step
+  std::vector<Value> values;       // of the state before each step, and at the end
+  double gradient_sum = 0;         // of |open|, to see that nothing is left to gain
+};
+
+/// One step of dynamic programming (Lee 2017; Li 2004): the best feedback within bounds of the actions (Tassa 2014), and
+/// the cost to go before it, `before`. damping: added to the curvature by the actions. Where `uncertainty` is 1 states
+/// that the model does not know cost what their variance costs, half tr(S V); 0: nothing.
+/// nullopt where the curvature is not positive.
+struct BackwardStep {
+  Feedback feedback;
+  Value before;
+};
+std::optional<BackwardStep> backward_step(const PlannedStep& step, const Value& after, double damping,
+                                          double uncertainty);
+
+/// All steps from the last to the first.
+std::optional<BackwardPass> backward_pass(const std::vector<PlannedStep>& steps, const Value& end, double damping,
+                                          double uncertainty);
+
+}  // namespace rehearse::learners::gp_ilqg

@@ -1,0 +1,87 @@
+#include "rehearse/learners/gp_ilqg/forward_pass.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "rehearse/core/episode.hpp"
+#include "rehearse/rollout/simulate.hpp"
+
+namespace rehearse::learners::gp_ilqg {
+
+Vector state_difference(const Task& task, const ConstVectorView& a, const ConstVectorView& b) {
+  Vector difference = a - b;
+  for (Index i = 0; i < difference.size(); ++i)
+    if (task.states[static_cast<std::size_t>(i)].kind == StateKind::angle)
+      difference(i) = std::remainder(difference(i), 2 * std::numbers::pi);
+  return difference;
+}
+
+ForwardPass::ForwardPass(const PlanProblem& problem, const StepCosts& costs, const Hold* hold)
+    : problem_(problem), costs_(costs), hold_(hold), from_mean_start_(problem.task) {
+  from_mean_start_.start_std.setZero();
+}
+
+std::vector<Trajectory> ForwardPass::follow(const std::vector<std::vector<policy::FeedbackStage>>& plans) const {
+  const auto stages = static_cast<Index>(plans.front().size());
+  const auto policy = policy::make_tracking(problem_.task, stages);
+  Matrix Theta(static_cast<Index>(plans.size()), policy->parameters());
+  for (std::size_t i = 0; i < plans.size(); ++i) Theta.row(static_cast<Index>(i)) = policy::to_theta(plans[i]).transpose();
+  rollout::Episodes episodes;
+  rollout::simulate_episodes({problem_.model, *policy, from_mean_start_, {}, {.sample = false, .measurement_noise = 0}},
+                             Theta, 0, episodes);
+  std::vector<Trajectory> all(plans.size());
+  Episode episode;
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    const auto row = static_cast<Index>(i);
+    episodes.copy(row, episode);
+    Trajectory& trajectory = all[i];
+    trajectory.steps = std::min(episode.steps(), stages - 1);
+    trajectory.states = episode.states.topRows(trajectory.steps + 1);
+    trajectory.actions = episode.actions.topRows(trajectory.steps);
+    trajectory.total_reward = episodes.returns(row);
+    if (!episodes.failed[i] && trajectory.states.allFinite()) trajectory.cost = cost_of(trajectory, stages - 1);
+  }
+  return all;
+}
+
+Matrix Trajectory::rows(const Columns& columns) const {
+  Matrix W(steps, columns.all());
+  W.leftCols(columns.dx) = states.topRows(steps);
+  if (columns.before > 0 && steps > 0) {
+    W.row(0).segment(columns.dx, columns.before).setZero();
+    W.block(1, columns.dx, steps - 1, columns.before) = actions.topRows(steps - 1);
+  }
+  W.middleCols(columns.action(), columns.du) = actions;
+  W.rightCols(columns.dx) = states.bottomRows(steps);
+  return W;
+}
+
+Vector Trajectory::times(const Task& task) const {
+  return Vector::LinSpaced(steps, 0, static_cast<double>(steps - 1) * task.dt_s);
+}
+
+Vector ForwardPass::beside_hold(const Trajectory& trajectory) const {
+  const Columns& columns = costs_.columns();
+  Vector beside(columns.planner_state());
+  beside.head(columns.dx) =
+      state_difference(problem_.task, trajectory.states.row(trajectory.steps).transpose(), hold_->stage.state);
+  if (columns.before > 0)
+    beside.tail(columns.before) = (trajectory.actions.row(trajectory.steps - 1).transpose() - hold_->stage.action)
+                                      .cwiseQuotient(costs_.half_ranges());
+  return beside;
+}
+
+double ForwardPass::cost_of(const Trajectory& trajectory, Index planned) const {
+  if (trajectory.steps == 0) return kInf;
+  Vector costs(trajectory.steps);
+  costs_.evaluate(trajectory.rows(costs_.columns()), trajectory.times(problem_.task), costs);
+  double sum = costs.sum();
+  if (trajectory.steps < planned) return sum + static_cast<double>(planned - trajectory.steps) * costs_.of_floor();
+  if (hold_) {
+    const Vector beside = beside_hold(trajectory);
+    sum += 0.5 * beside.dot(hold_->value.S * beside);
+  }
+  return sum;
+}
+
+}  // namespace rehearse::learners::gp_ilqg

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "rehearse/learners/gp_ilqg/plan.hpp"
+
+namespace rehearse::learners::gp_ilqg {
+
+/// Where stages lead in the model's mean.
+struct Trajectory {
+  Matrix states, actions;    // steps + 1 × dx, steps × du, of the planned steps
+  Index steps = 0;           // made before an early end
+  double cost = kInf;        // as Plan's
+  double total_reward = -kInf;
+
+  /// The planned steps as rows (steps × columns), and when each begins.
+  Matrix rows(const Columns& columns) const;
+  Vector times(const Task& task) const;
+};
+
+/// Follows plans in the model's mean.
+class ForwardPass {
+ public:
+  /// hold: null: none. References must outlive it.
+  ForwardPass(const PlanProblem& problem, const StepCosts& costs, const Hold* hold);
+
+  /// All in lockstep. Each has as many stages.
+  std::vector<Trajectory> follow(const std::vector<std::vector<policy::FeedbackStage>>& plans) const;
+
+  /// The planner's state at the end less that of the hold.
+  Vector beside_hold(const Trajectory& trajectory) const;
+
+ private:
+  double cost_of(const Trajectory& trajectory, Index planned) const;
+
+  const PlanProblem& problem_;
+  const StepCosts& costs_;
+  const Hold* hold_;
+  Task from_mean_start_;
+};
+
+/// a − b, angles the shorter way round.
+Vector state_difference(const Task& task, const ConstVectorView& a, const ConstVectorView& b);
+
+}  // namespace rehearse::learners::gp_ilqg

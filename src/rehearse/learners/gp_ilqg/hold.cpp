@@ -1,0 +1,101 @@
+#include "rehearse/learners/gp_ilqg/hold.hpp"
+
+#include <algorithm>
+
+#include <Eigen/LU>
+
+#include "rehearse/learners/gp_ilqg/linear_steps.hpp"
+
+namespace rehearse::learners::gp_ilqg {
+namespace {
+
+constexpr int kMostNewtonSteps = 60;
+constexpr double kLargestNewtonStep = 0.3;   // of any number: cost and equation are followed, not jumped over
+constexpr double kStays = 1e-7;              // the largest change of a state that stays
+constexpr double kMostAction = 0.95;         // of its bound: something must be left for the feedback
+constexpr int kMostRiccatiSteps = 20000;
+constexpr double kSettled = 1e-9;            // of the cost to go, relative: a step of the recursion changes no more
+
+/// By (state, actions): the cost of staying there.
+struct Staying {
+  Vector gradient;
+  Matrix hessian;
+};
+
+Staying staying(const PlannedStep& step, const Columns& columns) {
+  const Index dx = columns.dx, du = columns.du;
+  Matrix place = Matrix::Zero(columns.all(), dx + du);  // the columns of a step that stays
+  place.topLeftCorner(dx, dx).setIdentity();
+  place.block(columns.reached(), 0, dx, dx).setIdentity();
+  place.block(columns.action(), dx, du, du).setIdentity();
+  if (columns.before > 0) place.block(dx, dx, du, du).setIdentity();
+  return {place.transpose() * step.cost.gradient, place.transpose() * step.cost.hessian * place};
+}
+
+/// Newton's method for the cheapest point that stays: both change at once.
+bool settle(const PlanProblem& problem, const StepCosts& costs, Vector& state, Vector& action) {
+  const Columns& columns = costs.columns();
+  const Index dx = columns.dx, du = columns.du, z = dx + du;
+  Matrix X(1, dx), U(1, du), change(1, dx);
+  for (int i = 0; i < kMostNewtonSteps; ++i) {
+    const PlannedStep step = step_at(problem, costs, state, action);
+    X = state.transpose(), U = action.transpose();
+    problem.model.predict_mean(X, U, change);
+    const Staying at = staying(step, columns);
+    if (!at.hessian.allFinite() || !step.dynamics.by.allFinite() || !change.allFinite()) return false;
+    Matrix by(dx, z);  // of the change
+    by << step.dynamics.by.topLeftCorner(dx, dx) - Matrix::Identity(dx, dx), step.dynamics.by.topRightCorner(dx, du);
+    Matrix system = Matrix::Zero(z + dx, z + dx);
+    system.topLeftCorner(z, z) = at.hessian + 1e-9 * Matrix::Identity(z, z);
+    system.bottomLeftCorner(dx, z) = by;
+    system.topRightCorner(z, dx) = by.transpose();
+    Vector right(z + dx);
+    right << -at.gradient, -change.row(0).transpose();
+    const Vector solution = system.fullPivLu().solve(right);
+    if (!solution.allFinite()) return false;
+    Vector newton = solution.head(z);
+    const double largest = newton.cwiseAbs().maxCoeff();
+    if (largest > kLargestNewtonStep) newton *= kLargestNewtonStep / largest;
+    state += newton.head(dx);
+    action += costs.half_ranges().cwiseProduct(newton.tail(du));
+    if (largest < kStays && change.cwiseAbs().maxCoeff() < kStays) break;
+  }
+  X = state.transpose(), U = action.transpose();
+  problem.model.predict_mean(X, U, change);
+  return change.cwiseAbs().maxCoeff() < 10 * kStays && costs.in_half_ranges(action).cwiseAbs().maxCoeff() < kMostAction;
+}
+
+}  // namespace
+
+PlannedStep step_at(const PlanProblem& problem, const StepCosts& costs, const Vector& state, const Vector& action) {
+  Trajectory stays;
+  stays.steps = 1;
+  stays.states = state.transpose().replicate(2, 1);
+  stays.actions = action.transpose();
+  dynamics::Linearised at;
+  return planned_steps(problem, costs, stays, at).front();
+}
+
+std::optional<Hold> find_hold(const PlanProblem& problem, const StepCosts& costs, const Vector& state,
+                              const Vector& action) {
+  Vector x = state, u = action;
+  if (!settle(problem, costs, x, u)) return std::nullopt;
+  PlannedStep step = step_at(problem, costs, x, u);
+  step.action.setZero();
+  step.cost.gradient.setZero();  // it is the cheapest point that stays
+  // Feedback far within the bounds: they are as if they were not there.
+  const Index n = costs.columns().planner_state();
+  Value value{Vector::Zero(n), Matrix::Zero(n, n)};
+  for (int i = 0; i < kMostRiccatiSteps; ++i) {
+    const auto before = backward_step(step, value, 0, 0);
+    if (!before) return std::nullopt;
+    const double change = (before->before.S - value.S).cwiseAbs().maxCoeff(), size = value.S.cwiseAbs().maxCoeff();
+    value.S = before->before.S;
+    if (!(size < 1e12)) return std::nullopt;
+    if (i > 0 && change <= kSettled * size)
+      return Hold{{u, x, costs.half_ranges().asDiagonal() * before->feedback.gain.leftCols(costs.columns().dx)}, value};
+  }
+  return std::nullopt;
+}
+
+}  // namespace rehearse::learners::gp_ilqg

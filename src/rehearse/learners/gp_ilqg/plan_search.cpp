@@ -1,0 +1,190 @@
+#include "rehearse/learners/gp_ilqg/plan_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "rehearse/learners/gp_ilqg/forward_pass.hpp"
+#include "rehearse/learners/gp_ilqg/hold.hpp"
+#include "rehearse/policy/schedule.hpp"
+#include "rehearse/rollout/simulate.hpp"
+
+namespace rehearse::learners::gp_ilqg {
+namespace {
+
+using Stages = std::vector<policy::FeedbackStage>;
+
+/// What a plan does in simulated episodes.
+struct Judged {
+  double mean = -kInf;
+  double solving = 0;  // fraction of the episodes that it solves
+};
+
+class Search {
+ public:
+  Search(const PlanProblem& problem, const PlanSearch& search, StreamKey stream)
+      : problem_(problem), search_(search), stream_(stream) {}
+
+  std::optional<FoundPlan> run(const std::optional<Vector>& last) {
+    std::vector<Stages> from = starts(last);
+    const bool by_logarithm = search_.cost != PlanSearch::Cost::linear && has_logarithm(from);
+    std::vector<Plan> plans = improved(std::move(from), options(by_logarithm, search_.first_iterations));
+    keep_best(plans);
+    if (plans.empty()) return std::nullopt;
+    const bool to_linear = search_.cost != PlanSearch::Cost::logarithmic;
+    const PlanOptions further = options(by_logarithm && !to_linear, search_.iterations);
+    std::vector<Plan> finals = improved(stages_of(plans), further);
+    if (const auto hold = search_.hold ? best_hold(plans, further) : std::nullopt)
+      for (Plan& plan : improved(stages_of(plans), further, &*hold)) finals.push_back(std::move(plan));
+    return chosen(finals);
+  }
+
+ private:
+  PlanOptions options(bool logarithmic, Index iterations) const {
+    return {.scale = logarithmic ? CostScale::logarithmic : CostScale::linear,
+            .action_cost = search_.action_cost,
+            .uncertainty = search_.uncertainty,
+            .iterations = iterations};
+  }
+
+  std::vector<Stages> starts(const std::optional<Vector>& last) const {
+    std::vector<Stages> all;
+    if (last) all.push_back(policy::to_stages(problem_.task, *last));
+    Task planned = problem_.task;
+    planned.horizon = planned_steps(problem_.task, search_);
+    for (Index i = 0; i < search_.starts; ++i) {
+      StreamKey key = stream_;
+      key.descent = static_cast<std::uint64_t>(i);
+      const Vector actions =
+          policy::random_schedule(planned, policy::RandomActions::uniform, search_.start_hold_s, key);
+      all.push_back(open_loop(problem_.task, actions.reshaped(planned.horizon, problem_.task.action_size())));
+    }
+    return all;
+  }
+
+  /// Whether all that is earned from there is positive.
+  bool has_logarithm(const std::vector<Stages>& from) const {
+    if (problem_.task.cost) return false;
+    const StepCosts costs(problem_.task, CostScale::linear, 0);
+    const ForwardPass forward(problem_, costs, nullptr);
+    double least = kInf;
+    for (const Trajectory& trajectory : forward.follow(from)) {
+      Vector lost(trajectory.steps);
+      costs.evaluate(trajectory.rows(costs.columns()), trajectory.times(problem_.task), lost);
+      if (trajectory.steps > 0) least = std::min(least, -lost.maxCoeff());
+    }
+    return least > 0 && least < kInf;
+  }
+
+  std::vector<Plan> improved(std::vector<Stages> from, const PlanOptions& options, const Hold* hold = nullptr) const {
+    std::vector<Plan> plans(from.size());
+    problem_.evaluator.for_each(static_cast<Index>(from.size()), [&](Index i) {
+      const auto k = static_cast<std::size_t>(i);
+      plans[k] = improve(problem_, options, std::move(from[k]), hold);
+    });
+    std::erase_if(plans, [](const Plan& plan) { return !std::isfinite(plan.cost); });
+    return plans;
+  }
+
+  static std::vector<Stages> stages_of(const std::vector<Plan>& plans) {
+    std::vector<Stages> all;
+    for (const Plan& plan : plans) all.push_back(plan.stages);
+    return all;
+  }
+
+  void keep_best(std::vector<Plan>& plans) const {
+    std::stable_sort(plans.begin(), plans.end(),
+                     [](const Plan& a, const Plan& b) { return a.total_reward > b.total_reward; });
+    plans.resize(std::min(plans.size(), static_cast<std::size_t>(search_.finalists)));
+  }
+
+  /// The cheapest of those near the cheapest state of each plan.
+  std::optional<Hold> best_hold(const std::vector<Plan>& plans, const PlanOptions& options) const {
+    const StepCosts costs(problem_.task, options.scale, options.action_cost);
+    std::optional<Hold> best;
+    double lowest = kInf;
+    for (const Plan& plan : plans) {
+      const auto [state, action] = cheapest(plan, costs);
+      auto hold = find_hold(problem_, costs, state, action);
+      if (!hold) continue;
+      const double cost = step_at(problem_, costs, hold->stage.state, hold->stage.action).cost.value;
+      if (cost < lowest) lowest = cost, best = std::move(hold);
+    }
+    return best;
+  }
+
+  std::pair<Vector, Vector> cheapest(const Plan& plan, const StepCosts& costs) const {
+    Index best = 0;
+    double lowest = kInf;
+    for (Index t = 0; t < plan.steps; ++t) {
+      const Vector state = plan.states.row(t).transpose(), &action = plan.stages[static_cast<std::size_t>(t)].action;
+      const double cost = step_at(problem_, costs, state, action).cost.value;
+      if (cost < lowest) lowest = cost, best = t;
+    }
+    return {plan.states.row(best).transpose(), plan.stages[static_cast<std::size_t>(best)].action};
+  }
+
+  std::optional<FoundPlan> chosen(const std::vector<Plan>& plans) {
+    if (plans.empty()) return std::nullopt;
+    std::vector<Judged> judged;
+    for (const Plan& plan : plans) judged.push_back(judge(plan));
+    double highest = -kInf;
+    for (const Judged& plan : judged) highest = std::max(highest, plan.mean);
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < judged.size(); ++i)
+      if (is_better(judged[i], judged[best], highest)) best = i;
+    return FoundPlan{policy::to_theta(plans[best].stages), judged[best].mean, rollouts_, failed_};
+  }
+
+  /// Of those whose return is near the highest, the one that solves the task more often.
+  bool is_better(const Judged& a, const Judged& b, double highest) const {
+    const auto near = [&](const Judged& plan) { return plan.mean >= highest - search_.tolerance * std::abs(highest); };
+    if (near(a) != near(b)) return near(a);
+    if (near(a) && a.solving != b.solving) return a.solving > b.solving;
+    return a.mean > b.mean;
+  }
+
+  Judged judge(const Plan& plan) {
+    const auto policy = policy::make_tracking(problem_.task, static_cast<Index>(plan.stages.size()));
+    StreamKey key = stream_;
+    key.stage = Stage::judging;
+    const Matrix Theta = policy::to_theta(plan.stages).transpose().replicate(search_.selection, 1);
+    rollout::Episodes episodes;
+    rollout::simulate_episodes({problem_.model, *policy, problem_.task, key, {}}, Theta, 0, episodes);
+    rollouts_ += search_.selection;
+    Judged judged{.mean = episodes.returns.mean()};
+    Episode episode;
+    for (Index row = 0; row < search_.selection; ++row) {
+      if (episodes.failed[static_cast<std::size_t>(row)]) {
+        ++failed_;
+        continue;
+      }
+      if (!problem_.task.solved) continue;
+      episodes.copy(row, episode);
+      judged.solving += problem_.task.solved(episode) ? 1.0 / static_cast<double>(search_.selection) : 0;
+    }
+    return judged;
+  }
+
+  const PlanProblem& problem_;
+  const PlanSearch& search_;
+  StreamKey stream_;
+  Index rollouts_ = 0, failed_ = 0;
+};
+
+}  // namespace
+
+std::optional<FoundPlan> search_plan(const PlanProblem& problem, const PlanSearch& search,
+                                     const std::optional<Vector>& last, StreamKey stream,
+                                     const ProgressSink& progress) {
+  if (progress) progress({.phase = "plan"});
+  stream.stage = Stage::search;
+  return Search(problem, search, stream).run(last);
+}
+
+Index planned_steps(const Task& task, const PlanSearch& search) {
+  if (search.plan_s <= 0) return task.horizon;
+  return std::clamp<Index>(std::lround(search.plan_s / task.dt_s), 1, task.horizon);
+}
+
+}  // namespace rehearse::learners::gp_ilqg

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <vector>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/task.hpp"
+
+namespace rehearse::learners::gp_ilqg {
+
+/// What the rewards of a task are to the planner, which minimises a sum of costs.
+enum class CostScale {
+  linear,       // minus the reward
+  logarithmic,  // minus its logarithm: a saturating reward is flat nearly everywhere, its logarithm nowhere
+};
+
+/// Steps of a batch in columns: the state x, the actions u one step before (of a task with a cost of steps alone), the
+/// actions u, and the state reached.
+struct Columns {
+  Index dx = 0, before = 0, du = 0;
+
+  explicit Columns(const Task& task)
+      : dx(task.state_size()), before(task.cost ? task.action_size() : 0), du(task.action_size()) {}
+
+  Index all() const { return 2 * dx + before + du; }
+  Index planner_state() const { return dx + before; }  // what the planner's feedback could depend on
+  Index action() const { return dx + before; }         // the first column of the actions
+  Index reached() const { return dx + before + du; }   // and of the state reached
+};
+
+/// A cost about a step: value, gradient and a Hessian without its negative curvature, by the columns of the step.
+/// Actions are in units of half their range.
+struct Expansion {
+  double value = 0;
+  Vector gradient;
+  Matrix hessian;
+};
+
+/// Costs of single steps. Any thread.
+class StepCosts {
+ public:
+  /// action_cost: of an action at its bound, beside the reward. The task must outlive it.
+  StepCosts(const Task& task, CostScale scale, double action_cost);
+
+  const Columns& columns() const { return columns_; }
+  const Vector& half_ranges() const { return half_; }  // du
+
+  Vector in_half_ranges(const ConstVectorView& actions) const { return (actions - middle_).cwiseQuotient(half_); }
+
+  /// Of each step that an early end leaves out.
+  double of_floor() const;
+
+  /// W: one step a row; times_s: when each begins. A cost that is not finite is infinite.
+  void evaluate(const ConstMatrixView& W, const Vector& times_s, VectorView costs) const;
+
+  /// By finite differences, all steps in one batch.
+  std::vector<Expansion> expand(const ConstMatrixView& W, const Vector& times_s) const;
+
+ private:
+  void add_step_costs(const ConstMatrixView& W, const Vector& times_s, VectorView costs) const;
+
+  const Task& task_;
+  Columns columns_;
+  CostScale scale_;
+  double action_cost_;
+  Vector middle_, half_;
+};
+
+}  // namespace rehearse::learners::gp_ilqg

@@ -1,0 +1,70 @@
+#include "rehearse/learners/gp_ilqg/plan_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "line.hpp"
+#include "rehearse/policy/tracking.hpp"
+
+namespace rehearse::learners::gp_ilqg {
+namespace {
+
+constexpr PlanSearch kSmall{.starts = 4, .first_iterations = 5, .finalists = 2, .iterations = 10, .selection = 20};
+
+std::optional<FoundPlan> search(const Task& task, const PlanSearch& options, const Evaluator& evaluator,
+                                const std::optional<Vector>& last = {}) {
+  const line::Model model(1e-4);
+  return search_plan({model, task, evaluator}, options, last, {.trial = 1}, {});
+}
+
+TEST(PlanSearch, FindsWhatPullsToZero) {
+  const Task task = line::task(2);
+  const auto found = search(task, kSmall, serial_evaluator());
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->predicted_return, -12) << "pulling from the start as hard as it goes earns about −10, nothing −30";
+  EXPECT_EQ(found->theta.size(), 31 * policy::numbers_of_stage(task));
+  EXPECT_EQ(found->rollouts % kSmall.selection, 0);
+}
+
+TEST(PlanSearch, IsTheSameForAnyNumberOfThreads) {
+  const Task task = line::task(2);
+  const auto two = make_thread_evaluator(2);
+  EXPECT_EQ(search(task, kSmall, serial_evaluator())->theta, search(task, kSmall, *two)->theta);
+}
+
+TEST(PlanSearch, BeginsWithTheLastPlan) {
+  const Task task = line::task(2);
+  PlanSearch none = kSmall;
+  none.first_iterations = 1;
+  none.iterations = 0;
+  const auto good = search(task, kSmall, serial_evaluator());
+  const auto again = search(task, none, serial_evaluator(), good->theta);
+  EXPECT_NEAR(again->predicted_return, good->predicted_return, 0.2);
+}
+
+TEST(PlanSearch, PlansForAsLongAsItIsTold) {
+  const Task task = line::task(2);
+  PlanSearch one_second = kSmall;
+  one_second.plan_s = 1;
+  EXPECT_EQ(planned_steps(task, kSmall), 30);
+  EXPECT_EQ(planned_steps(task, one_second), 10);
+  const auto found = search(task, one_second, serial_evaluator());
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->theta.size(), 11 * policy::numbers_of_stage(task));
+}
+
+TEST(PlanSearch, PrefersWhatSolvesTheTask) {
+  Task task = line::task(2);
+  task.solved = [](const Episode& episode) { return episode.states(episode.steps(), 0) < 0.5; };
+  EXPECT_TRUE(search(task, kSmall, serial_evaluator()));
+}
+
+TEST(PlanSearch, SaysWhenNoPlanIsFinite) {
+  Task task = line::task(2);
+  task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView rewards) {
+    rewards.setConstant(kNaN);
+  };
+  EXPECT_FALSE(search(task, kSmall, serial_evaluator()));
+}
+
+}  // namespace
+}  // namespace rehearse::learners::gp_ilqg

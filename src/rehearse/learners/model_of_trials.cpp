@@ -1,0 +1,78 @@
+#include "rehearse/learners/model_of_trials.hpp"
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/identification/learn.hpp"
+#include "rehearse/learners/json.hpp"
+
+namespace rehearse::learners {
+
+using nlohmann::json;
+
+ModelOfTrials::ModelOfTrials(const Setting& setting, identification::Kind kind, double prior_variance)
+    : setting_(setting), kind_(std::move(kind)), prior_variance_(prior_variance) {}
+
+void ModelOfTrials::study(const std::vector<Episode>& logs) {
+  for (const Episode& log : logs) logs_.append(log);
+  data_ = logs_;
+}
+
+void ModelOfTrials::add(const Episode& episode) {
+  data_.append(episode);
+  ++trials_;
+}
+
+identification::WarmStart ModelOfTrials::learn(Proposal& proposal) const {
+  if (setting_.progress) setting_.progress({.phase = "model"});
+  if (without_data()) {
+    trust_prior(proposal, prior_variance_);
+    return start_;
+  }
+  try {
+    identification::Learned learned =
+        identification::learn({data_, setting_.task.model_features(), setting_.task.kinematics(),
+                               setting_.prior ? &*setting_.prior : nullptr},
+                              kind_, start_, *setting_.evaluator);
+    proposal.model = learned.model;
+    proposal.phi = learned.state.phi;
+    proposal.posterior = std::move(learned.posterior);
+    proposal.log_evidence = learned.log_evidence;
+    proposal.left_out_rows = learned.left_out_rows;
+    proposal.notes = std::move(learned.notes);
+    return std::move(learned.state);
+  } catch (const InvalidInput& nothing_to_learn_from) {
+    if (!setting_.prior) throw;
+    trust_prior(proposal, 0);
+    proposal.left_out_rows = data_.size();
+    proposal.notes.push_back(nothing_to_learn_from.what());
+    return start_;
+  }
+}
+
+void ModelOfTrials::trust_prior(Proposal& proposal, double variance) const {
+  proposal.phi = setting_.prior->space.values();
+  proposal.model = std::make_shared<dynamics::SimulatorModel>(*setting_.prior, *proposal.phi, variance);
+}
+
+void ModelOfTrials::save(json& state) const {
+  json kernels = json::array();
+  for (const auto& kernel : start_.kernels) kernels.push_back(to_json(kernel.flat()));
+  state["kernels"] = kernels;
+  state["kernel_inputs"] = start_.kernels.empty() ? 0 : start_.kernels.front().inputs();
+  state["phi"] = start_.phi ? to_json(*start_.phi) : json();
+}
+
+void ModelOfTrials::restore(const std::vector<Episode>& episodes, const json& state) {
+  data_ = logs_;
+  trials_ = 0;
+  for (const Episode& episode : episodes) add(episode);
+  start_ = {};
+  for (const Vector& flat : to_vectors(state.at("kernels")))
+    start_.kernels.push_back(gp::Hyperparameters::from_flat(flat, state.at("kernel_inputs").get<Index>()));
+  if (!state.at("phi").is_null()) start_.phi = to_vector(state.at("phi"));
+}
+
+}  // namespace rehearse::learners
