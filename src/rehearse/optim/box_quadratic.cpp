@@ -29,7 +29,8 @@ std::optional<BoxMinimum> minimise_in_box(const Matrix& H, const Vector& g, cons
   const auto value = [&](const Vector& at) { return at.dot(0.5 * (H * at) + g); };
   for (int step = 0; step < kMostSteps; ++step) {
     const Vector gradient = H * x + g;
-    best.free = !((x.array() <= low.array() && gradient.array() > 0) || (x.array() >= high.array() && gradient.array() < 0));
+    best.free =
+        !((x.array() <= low.array() && gradient.array() > 0) || (x.array() >= high.array() && gradient.array() < 0));
     const std::vector<Index> free = indices_of(best.free);
     if (free.empty()) return best;
     best.factor_free.compute(H(free, free));

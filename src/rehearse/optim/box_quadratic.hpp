@@ -10,9 +10,9 @@ namespace rehearse::optim {
 
 /// The minimum of a quadratic in a box.
 struct BoxMinimum {
-  Vector x;                          // n
-  Eigen::Array<bool, -1, 1> free;    // n, false: x is at a bound that the minimum would leave
-  Eigen::LLT<Matrix> factor_free;    // of H restricted to the free entries; meaningless if there are none
+  Vector x;                        // n
+  Eigen::Array<bool, -1, 1> free;  // n, false: x is at a bound that the minimum would leave
+  Eigen::LLT<Matrix> factor_free;  // of H restricted to the free entries; meaningless if there are none
 };
 
 /// Minimises ½ xᵀHx + gᵀx, low ≤ x ≤ high, by projected Newton steps from `start` (Tassa 2014, section III.B). For a

@@ -43,8 +43,9 @@ struct Table {
   bool periodic = false;
 };
 
-/// u = action + gain · (x − state), moved into its bounds, of the row round(t · per_s), counted from 0; the last one is
-/// held. Differences of angles are taken the shorter way round: less 2π · floor(difference / 2π + ½).
+/// u = action + gain · (x − state), moved into its bounds, of the row t · per_s, counted from 0; between two rows u is
+/// that of both, linearly, and the last one is held. Differences of angles are taken the shorter way round: less 2π ·
+/// floor(difference / 2π + ½).
 struct Feedback {
   Matrix actions;  // rows × actions
   Matrix states;   // rows × states

@@ -120,17 +120,20 @@ constexpr const char* kTable = R"(  double row = @NAME@_limit(time_s, 0, @LARGES
 )";
 
 constexpr const char* kFeedback =
-    R"(  const int row = (int)@NAME@_limit(round(@NAME@_limit(time_s, 0, @LARGEST_TIME@) * @PER_S@), 0, @LAST@);
-  const double turn = 6.283185307179586;
-  double apart[@STATES@];
-  for (int i = 0; i < @STATES@; ++i) {
-    apart[i] = @NAME@_limit(state[i], -@LARGEST_INPUT@, @LARGEST_INPUT@) - tracked[row][i];
-    if (angle[i]) apart[i] -= turn * floor(apart[i] / turn + 0.5);
+    R"(  const double place = @NAME@_limit(@NAME@_limit(time_s, 0, @LARGEST_TIME@) * @PER_S@, 0, @LAST@), turn = 6.283185307179586;
+  const int row = (int)(place + 1e-9), stages = place - row > 1e-9 ? 2 : 1;
+  double u[2][@ACTIONS@];
+  for (int s = 0; s < stages; ++s) {
+    for (int o = 0; o < @ACTIONS@; ++o) u[s][o] = planned[row + s][o];
+    for (int i = 0; i < @STATES@; ++i) {
+      double apart = @NAME@_limit(state[i], -@LARGEST_INPUT@, @LARGEST_INPUT@) - tracked[row + s][i];
+      if (angle[i]) apart -= turn * floor(apart / turn + 0.5);
+      for (int o = 0; o < @ACTIONS@; ++o) u[s][o] += gain[row + s][o * @STATES@ + i] * apart;
+    }
   }
   for (int o = 0; o < @ACTIONS@; ++o) {
-    double u = planned[row][o];
-    for (int i = 0; i < @STATES@; ++i) u += gain[row][o * @STATES@ + i] * apart[i];
-    action[o] = @NAME@_limit(u, low[o], high[o]);
+    if (stages == 2) u[0][o] += (place - row) * (u[1][o] - u[0][o]);
+    action[o] = @NAME@_limit(u[0][o], low[o], high[o]);
   }
 )";
 
@@ -204,7 +207,7 @@ class Body {
     values_["PER_S"] = number(feedback.per_s);
     values_["LARGEST_TIME"] = kLargestTime;
     values_["LARGEST_INPUT"] = kLargestInput;
-    values_["LAST"] = std::to_string(feedback.actions.rows() - 1);
+    values_["LAST"] = number(static_cast<double>(feedback.actions.rows()) - 1);
     values_["COMPUTE"] = filled(kFeedback, values_);
   }
 

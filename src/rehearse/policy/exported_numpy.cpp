@@ -63,12 +63,17 @@ constexpr const char* kTable = R"PY(    row = np.floor(np.clip(t, 0.0, @LARGEST_
     u = TABLE[@ROW@.astype(int)]
 )PY";
 
-constexpr const char* kFeedback =
-    R"PY(    row = np.minimum(np.floor(np.clip(t, 0.0, @LARGEST_TIME@) * @PER_S@ + 0.5), @LAST@).astype(int)
-    apart = np.clip(x, -@LARGEST_INPUT@, @LARGEST_INPUT@) - TRACKED[row]
-    apart = np.where(ANGLES, apart - 2 * np.pi * np.floor(apart / (2 * np.pi) + 0.5), apart)
-    gains = GAINS[row].reshape(len(x), @ACTIONS@, -1)
-    u = np.clip(PLANNED[row] + (gains * apart[:, None, :]).sum(axis=2), LOW, HIGH)
+constexpr const char* kFeedback = R"PY(
+    def of_stage(row):
+        apart = np.clip(x, -@LARGEST_INPUT@, @LARGEST_INPUT@) - TRACKED[row]
+        apart = np.where(ANGLES, apart - 2 * np.pi * np.floor(apart / (2 * np.pi) + 0.5), apart)
+        return PLANNED[row] + (GAINS[row].reshape(len(x), @ACTIONS@, -1) * apart[:, None, :]).sum(axis=2)
+
+    place = np.clip(np.clip(t, 0.0, @LARGEST_TIME@) * @PER_S@, 0.0, @LAST@)
+    row = (place + 1e-9).astype(int)
+    beyond = np.where(place - row > 1e-9, place - row, 0.0)[:, None]
+    u, after = of_stage(row), of_stage(np.minimum(row + 1, @LAST@))
+    u = np.clip(u + beyond * (after - u), LOW, HIGH)
 )PY";
 
 using Values = std::map<std::string, std::string>;

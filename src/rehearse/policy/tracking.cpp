@@ -13,6 +13,7 @@ namespace rehearse::policy {
 namespace {
 
 constexpr double kLargestState = 1e100;  // nothing overflows
+constexpr double kSameStep = 1e-9;       // of a step: times of steps are not exact
 constexpr double kTurn = 2 * std::numbers::pi;
 
 class Tracking final : public Policy, public Describable {
@@ -27,19 +28,19 @@ class Tracking final : public Policy, public Describable {
 
   void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double t_s, MatrixView U) const override {
     check_sizes(*this, states(), Theta, X, U);
-    thread_local Eigen::ArrayXd difference;
-    const Index stage = std::clamp<Index>(std::lround(std::min(t_s / dt_s_, 1e9)), 0, stages_ - 1);
-    const auto of_stage = [&](Index number) { return Theta.col(stage * numbers() + number).array(); };
-    const Index dx = states(), du = actions();
-    for (Index a = 0; a < du; ++a) U.col(a) = of_stage(a).matrix();
-    for (Index i = 0; i < dx; ++i) {
-      difference = X.col(i).array().min(kLargestState).max(-kLargestState) - of_stage(du + i);
-      if (angle_[static_cast<std::size_t>(i)]) difference -= kTurn * (difference / kTurn + 0.5).floor();
-      for (Index a = 0; a < du; ++a) U.col(a).array() += of_stage(du + dx + a * dx + i) * difference;
+    const double place = std::isnan(t_s) ? 0 : std::clamp(t_s / dt_s_, 0.0, static_cast<double>(stages_ - 1));
+    const auto stage = static_cast<Index>(place + kSameStep);
+    const double beyond = place - static_cast<double>(stage);
+    act_in(stage, Theta, X, U);
+    if (beyond > kSameStep) {
+      thread_local Matrix next;
+      next.resize(U.rows(), U.cols());
+      act_in(stage + 1, Theta, X, next);
+      U += beyond * (next - U);
     }
     for (Index row = 0; row < X.rows(); ++row) {
       const bool lost = X.row(row).array().isNaN().any();
-      for (Index a = 0; a < du; ++a) {
+      for (Index a = 0; a < actions(); ++a) {
         const auto [low, high] = bounds_[static_cast<std::size_t>(a)];
         U(row, a) = lost ? kNaN : std::clamp(U(row, a), low, high);
       }
@@ -57,6 +58,19 @@ class Tracking final : public Policy, public Describable {
   }
 
  private:
+  /// Without the bounds.
+  void act_in(Index stage, const ConstMatrixView& Theta, const ConstMatrixView& X, MatrixView U) const {
+    thread_local Eigen::ArrayXd difference;
+    const auto of_stage = [&](Index number) { return Theta.col(stage * numbers() + number).array(); };
+    const Index dx = states(), du = actions();
+    for (Index a = 0; a < du; ++a) U.col(a) = of_stage(a).matrix();
+    for (Index i = 0; i < dx; ++i) {
+      difference = X.col(i).array().min(kLargestState).max(-kLargestState) - of_stage(du + i);
+      if (angle_[static_cast<std::size_t>(i)]) difference -= kTurn * (difference / kTurn + 0.5).floor();
+      for (Index a = 0; a < du; ++a) U.col(a).array() += of_stage(du + dx + a * dx + i) * difference;
+    }
+  }
+
   Index states() const { return static_cast<Index>(angle_.size()); }
   Index numbers() const { return actions() + states() + actions() * states(); }
 

@@ -28,7 +28,8 @@ Quadratic cost_to_go(const PlannedStep& step, const Value& after, double uncerta
     const Vector by = f.variance_by.row(i).transpose();
     const double weight = uncertainty * after.S(i, i);
     q.gradient += 0.5 * weight * by;
-    q.hessian += weight / (4 * f.variance(i)) * by * by.transpose();  // of the standard deviation's square, to first order
+    q.hessian +=
+        weight / (4 * f.variance(i)) * by * by.transpose();  // of the standard deviation's square, to first order
   }
   return q;
 }

@@ -39,10 +39,10 @@ struct BackwardPass {
   double gradient_sum = 0;         // of |open|, to see that nothing is left to gain
 };
 
-/// One step of dynamic programming (Lee 2017; Li 2004): the best feedback within bounds of the actions (Tassa 2014), and
-/// the cost to go before it, `before`. damping: added to the curvature by the actions. Where `uncertainty` is 1 states
-/// that the model does not know cost what their variance costs, half tr(S V); 0: nothing.
-/// nullopt where the curvature is not positive.
+/// One step of dynamic programming (Lee 2017; Li 2004): the best feedback within bounds of the actions (Tassa 2014),
+/// and the cost to go before it, `before`. damping: added to the curvature by the actions. Where `uncertainty` is 1
+/// states that the model does not know cost what their variance costs, half tr(S V); 0: nothing. nullopt where the
+/// curvature is not positive.
 struct BackwardStep {
   Feedback feedback;
   Value before;

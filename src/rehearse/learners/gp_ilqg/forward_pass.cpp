@@ -24,11 +24,14 @@ ForwardPass::ForwardPass(const PlanProblem& problem, const StepCosts& costs, con
 std::vector<Trajectory> ForwardPass::follow(const std::vector<std::vector<policy::FeedbackStage>>& plans) const {
   const auto stages = static_cast<Index>(plans.front().size());
   const auto policy = policy::make_tracking(problem_.task, stages);
+  Task planned = from_mean_start_;
+  planned.horizon = std::min(stages - 1, planned.horizon);
   Matrix Theta(static_cast<Index>(plans.size()), policy->parameters());
-  for (std::size_t i = 0; i < plans.size(); ++i) Theta.row(static_cast<Index>(i)) = policy::to_theta(plans[i]).transpose();
+  for (std::size_t i = 0; i < plans.size(); ++i)
+    Theta.row(static_cast<Index>(i)) = policy::to_theta(plans[i]).transpose();
   rollout::Episodes episodes;
-  rollout::simulate_episodes({problem_.model, *policy, from_mean_start_, {}, {.sample = false, .measurement_noise = 0}},
-                             Theta, 0, episodes);
+  rollout::simulate_episodes({problem_.model, *policy, planned, {}, {.sample = false, .measurement_noise = 0}}, Theta,
+                             0, episodes);
   std::vector<Trajectory> all(plans.size());
   Episode episode;
   for (std::size_t i = 0; i < plans.size(); ++i) {

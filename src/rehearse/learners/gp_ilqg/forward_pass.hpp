@@ -8,9 +8,9 @@ namespace rehearse::learners::gp_ilqg {
 
 /// Where stages lead in the model's mean.
 struct Trajectory {
-  Matrix states, actions;    // steps + 1 × dx, steps × du, of the planned steps
-  Index steps = 0;           // made before an early end
-  double cost = kInf;        // as Plan's
+  Matrix states, actions;  // steps + 1 × dx, steps × du, of the planned steps
+  Index steps = 0;         // made before an early end
+  double cost = kInf;      // as Plan's
   double total_reward = -kInf;
 
   /// The planned steps as rows (steps × columns), and when each begins.

@@ -10,11 +10,11 @@ namespace rehearse::learners::gp_ilqg {
 namespace {
 
 constexpr int kMostNewtonSteps = 60;
-constexpr double kLargestNewtonStep = 0.3;   // of any number: cost and equation are followed, not jumped over
-constexpr double kStays = 1e-7;              // the largest change of a state that stays
-constexpr double kMostAction = 0.95;         // of its bound: something must be left for the feedback
+constexpr double kLargestNewtonStep = 0.3;  // of any number: cost and equation are followed, not jumped over
+constexpr double kStays = 1e-7;             // the largest change of a state that stays
+constexpr double kMostAction = 0.95;        // of its bound: something must be left for the feedback
 constexpr int kMostRiccatiSteps = 20000;
-constexpr double kSettled = 1e-9;            // of the cost to go, relative: a step of the recursion changes no more
+constexpr double kSettled = 1e-9;  // of the cost to go, relative: a step of the recursion changes no more
 
 /// By (state, actions): the cost of staying there.
 struct Staying {

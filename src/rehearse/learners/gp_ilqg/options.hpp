@@ -8,21 +8,24 @@ namespace rehearse::learners::gp_ilqg {
 
 /// How a trial's plan is found.
 struct PlanSearch {
-  /// What is minimised: minus the reward; minus its logarithm; first the latter, which is flat nowhere, then the former.
+  /// What is minimised: minus the reward; minus its logarithm; first the latter, which is flat nowhere, then the
+  /// former.
   enum class Cost { linear, logarithmic, both };
 
-  double plan_s = 0;          // seconds that are planned, what follows is held; 0: the whole episode
+  double plan_s = 0;  // seconds that are planned, what follows is held; 0: the whole episode
   Cost cost = Cost::both;
+  double first_costs = 1;     // fraction of the task's costs that the first iterations know
   double action_cost = 1e-3;  // of an action at its bound, for a step, beside the reward
   double uncertainty = 1;     // weight of what the model's variance costs; 0: plans know the mean alone
   bool hold = true;           // plans end with feedback of an infinite horizon, where that is better
   Index starts = 16;          // random actions that plans begin with, beside the last plan
+  double start_size = 0.3;    // of their range, about its middle, that such actions are in
   double start_hold_s = 0.2;  // how long such an action is held
-  Index first_iterations = 30;
+  Index first_iterations = 60;
   Index finalists = 4;  // plans that are improved further
   Index iterations = 200;
-  Index selection = 100;    // simulated episodes that plans are compared in, with the model's uncertainty
-  double tolerance = 0.2;   // of the highest return: a plan that solves the task more often may have so much less
+  Index selection = 100;   // simulated episodes that plans are compared in, with the model's uncertainty
+  double tolerance = 0.2;  // of the highest return: a plan that solves the task more often may have so much less
   void fields(FieldVisitor& v);
 };
 

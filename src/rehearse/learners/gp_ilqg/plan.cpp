@@ -10,9 +10,9 @@ namespace rehearse::learners::gp_ilqg {
 namespace {
 
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-8, kMostDamping = 1e8, kDampingFactor = 5;
-constexpr int kStepLengths = 10;       // 1, 1/2, 1/4, …
-constexpr double kNegligible = 1e-5;   // of the cost: a gain that is none
-constexpr int kPatience = 3;           // such gains one after the other end the search
+constexpr int kStepLengths = 10;      // 1, 1/2, 1/4, …
+constexpr double kNegligible = 1e-5;  // of the cost: a gain that is none
+constexpr int kPatience = 3;          // such gains one after the other end the search
 
 class Improvement {
  public:
@@ -21,7 +21,7 @@ class Improvement {
       : problem_(problem),
         options_(options),
         hold_(hold),
-        costs_(problem.task, options.scale, options.action_cost),
+        costs_(problem.task, options.cost),
         forward_(problem, costs_, hold),
         stages_(std::move(stages)) {
     if (hold_) stages_.back() = hold_->stage;

@@ -24,8 +24,7 @@ struct PlanProblem {
 };
 
 struct PlanOptions {
-  CostScale scale = CostScale::linear;
-  double action_cost = 1e-3;
+  CostOptions cost;
   double uncertainty = 1;
   Index iterations = 100;
 };
@@ -35,13 +34,13 @@ struct Plan {
   std::vector<policy::FeedbackStage> stages;  // one a planned step, and one that holds
   Matrix states;                              // steps + 1 × dx, that the policy goes through
   double cost = kInf;                         // of its planned steps, and of what follows if there is a hold
-  double total_reward = -kInf;                // of the whole episode
+  double total_reward = -kInf;                // of its planned steps
   Index steps = 0;                            // made before an early end, if it has one
 };
 
 /// Iterative LQG with bounds of the actions: improves a plan until nothing is left to gain (Li 2004; Tassa 2014; with
-/// the model's uncertainty, Lee 2017). The policy is followed in the model's mean with its feedback, ten step lengths at
-/// once. `stages` holds where to begin. hold: null, or where the plan is to end. Deterministic; any thread.
+/// the model's uncertainty, Lee 2017). The policy is followed in the model's mean with its feedback, ten step lengths
+/// at once. `stages` holds where to begin. hold: null, or where the plan is to end. Deterministic; any thread.
 Plan improve(const PlanProblem& problem, const PlanOptions& options, std::vector<policy::FeedbackStage> stages,
              const Hold* hold = nullptr);
 

@@ -28,21 +28,23 @@ class Search {
   std::optional<FoundPlan> run(const std::optional<Vector>& last) {
     std::vector<Stages> from = starts(last);
     const bool by_logarithm = search_.cost != PlanSearch::Cost::linear && has_logarithm(from);
-    std::vector<Plan> plans = improved(std::move(from), options(by_logarithm, search_.first_iterations));
+    std::vector<Plan> plans =
+        improved(std::move(from), options(by_logarithm, search_.first_costs, search_.first_iterations));
     keep_best(plans);
     if (plans.empty()) return std::nullopt;
     const bool to_linear = search_.cost != PlanSearch::Cost::logarithmic;
-    const PlanOptions further = options(by_logarithm && !to_linear, search_.iterations);
+    const PlanOptions further = options(by_logarithm && !to_linear, 1, search_.iterations);
     std::vector<Plan> finals = improved(stages_of(plans), further);
-    if (const auto hold = search_.hold ? best_hold(plans, further) : std::nullopt)
-      for (Plan& plan : improved(stages_of(plans), further, &*hold)) finals.push_back(std::move(plan));
+    if (const auto hold = search_.hold ? best_hold(finals, further) : std::nullopt)
+      for (Plan& plan : improved(stages_of(finals), further, &*hold)) finals.push_back(std::move(plan));
     return chosen(finals);
   }
 
  private:
-  PlanOptions options(bool logarithmic, Index iterations) const {
-    return {.scale = logarithmic ? CostScale::logarithmic : CostScale::linear,
-            .action_cost = search_.action_cost,
+  PlanOptions options(bool logarithmic, double task_costs, Index iterations) const {
+    return {.cost = {.scale = logarithmic ? CostScale::logarithmic : CostScale::linear,
+                     .action_cost = search_.action_cost,
+                     .task_costs = task_costs},
             .uncertainty = search_.uncertainty,
             .iterations = iterations};
   }
@@ -52,6 +54,11 @@ class Search {
     if (last) all.push_back(policy::to_stages(problem_.task, *last));
     Task planned = problem_.task;
     planned.horizon = planned_steps(problem_.task, search_);
+    for (ActionVariable& action : planned.actions) {
+      const double middle = 0.5 * (action.bounds.low + action.bounds.high);
+      action.bounds = {middle + search_.start_size * (action.bounds.low - middle),
+                       middle + search_.start_size * (action.bounds.high - middle)};
+    }
     for (Index i = 0; i < search_.starts; ++i) {
       StreamKey key = stream_;
       key.descent = static_cast<std::uint64_t>(i);
@@ -64,8 +71,7 @@ class Search {
 
   /// Whether all that is earned from there is positive.
   bool has_logarithm(const std::vector<Stages>& from) const {
-    if (problem_.task.cost) return false;
-    const StepCosts costs(problem_.task, CostScale::linear, 0);
+    const StepCosts costs(problem_.task, {.action_cost = 0, .task_costs = 0});
     const ForwardPass forward(problem_, costs, nullptr);
     double least = kInf;
     for (const Trajectory& trajectory : forward.follow(from)) {
@@ -100,7 +106,7 @@ class Search {
 
   /// The cheapest of those near the cheapest state of each plan.
   std::optional<Hold> best_hold(const std::vector<Plan>& plans, const PlanOptions& options) const {
-    const StepCosts costs(problem_.task, options.scale, options.action_cost);
+    const StepCosts costs(problem_.task, options.cost);
     std::optional<Hold> best;
     double lowest = kInf;
     for (const Plan& plan : plans) {

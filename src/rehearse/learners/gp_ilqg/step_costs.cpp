@@ -64,8 +64,8 @@ Matrix without_negative_curvature(const Matrix& hessian) {
 
 }  // namespace
 
-StepCosts::StepCosts(const Task& task, CostScale scale, double action_cost)
-    : task_(task), columns_(task), scale_(scale), action_cost_(action_cost), middle_(columns_.du), half_(columns_.du) {
+StepCosts::StepCosts(const Task& task, const CostOptions& options)
+    : task_(task), columns_(task), options_(options), middle_(columns_.du), half_(columns_.du) {
   for (Index a = 0; a < columns_.du; ++a) {
     const Interval& bounds = task.actions[static_cast<std::size_t>(a)].bounds;
     middle_(a) = 0.5 * (bounds.low + bounds.high);
@@ -74,20 +74,21 @@ StepCosts::StepCosts(const Task& task, CostScale scale, double action_cost)
 }
 
 double StepCosts::of_floor() const {
-  return scale_ == CostScale::linear ? -task_.reward_floor : -std::log(std::max(task_.reward_floor, kSmallestReward));
+  return options_.scale == CostScale::linear ? -task_.reward_floor
+                                             : -std::log(std::max(task_.reward_floor, kSmallestReward));
 }
 
 void StepCosts::evaluate(const ConstMatrixView& W, const Vector& times_s, VectorView costs) const {
   const auto X = W.leftCols(columns_.dx), U = W.middleCols(columns_.action(), columns_.du),
              next = W.middleCols(columns_.reached(), columns_.dx);
   task_.reward(X, U, next, costs);
-  if (scale_ == CostScale::logarithmic)
+  if (options_.scale == CostScale::logarithmic)
     costs = costs.unaryExpr([](double r) { return -std::log(std::max(r, kSmallestReward)); });
   else
     costs = -costs;
   if (task_.cost) add_step_costs(W, times_s, costs);
   for (Index a = 0; a < columns_.du; ++a)
-    costs.array() += action_cost_ * ((U.col(a).array() - middle_(a)) / half_(a)).square();
+    costs.array() += options_.action_cost * ((U.col(a).array() - middle_(a)) / half_(a)).square();
   costs = costs.unaryExpr([](double c) { return std::isfinite(c) ? c : kInf; });
 }
 
@@ -102,7 +103,7 @@ void StepCosts::add_step_costs(const ConstMatrixView& W, const Vector& times_s, 
                 times_s(first)},
                some.segment(first, end - first));
   }
-  costs += some;
+  costs += options_.task_costs * some;
 }
 
 std::vector<Expansion> StepCosts::expand(const ConstMatrixView& W, const Vector& times_s) const {

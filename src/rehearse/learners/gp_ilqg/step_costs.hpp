@@ -13,6 +13,12 @@ enum class CostScale {
   logarithmic,  // minus its logarithm: a saturating reward is flat nearly everywhere, its logarithm nowhere
 };
 
+struct CostOptions {
+  CostScale scale = CostScale::linear;
+  double action_cost = 1e-3;  // of an action at its bound, beside the reward
+  double task_costs = 1;      // weight of the task's costs of steps
+};
+
 /// Steps of a batch in columns: the state x, the actions u one step before (of a task with a cost of steps alone), the
 /// actions u, and the state reached.
 struct Columns {
@@ -38,8 +44,8 @@ struct Expansion {
 /// Costs of single steps. Any thread.
 class StepCosts {
  public:
-  /// action_cost: of an action at its bound, beside the reward. The task must outlive it.
-  StepCosts(const Task& task, CostScale scale, double action_cost);
+  /// The task must outlive it.
+  StepCosts(const Task& task, const CostOptions& options);
 
   const Columns& columns() const { return columns_; }
   const Vector& half_ranges() const { return half_; }  // du
@@ -60,8 +66,7 @@ class StepCosts {
 
   const Task& task_;
   Columns columns_;
-  CostScale scale_;
-  double action_cost_;
+  CostOptions options_;
   Vector middle_, half_;
 };
 

@@ -39,6 +39,19 @@ double squared_distance(const std::vector<double>& x, const std::vector<double>&
   return sum;
 }
 
+/// Of a row of linear feedback, without the bounds.
+double feedback_of(const nlohmann::json& computes, std::size_t row, std::size_t action,
+                   const std::vector<double>& state) {
+  const double turn = 2 * std::numbers::pi;
+  double u = computes.at("actions").at(row).at(action);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    double apart = state[i] - computes.at("states").at(row).at(i).get<double>();
+    if (computes.at("angles").at(i)) apart -= turn * std::floor(apart / turn + 0.5);
+    u += computes.at("gains").at(row).at(action * state.size() + i).get<double>() * apart;
+  }
+  return u;
+}
+
 /// By the description in docs/export.md alone.
 double action_of(const nlohmann::json& policy, std::size_t action, const std::vector<double>& state, double t_s) {
   const auto& computes = policy.at("computes");
@@ -48,6 +61,15 @@ double action_of(const nlohmann::json& policy, std::size_t action, const std::ve
     const auto row = static_cast<std::size_t>(std::round(t_s * computes.at("per_s").get<double>()));
     const std::size_t place = computes.at("periodic") ? row % rows : std::min(row, rows - 1);
     return computes.at("actions").at(place).at(action);
+  }
+  const double low = policy.at("actions").at(action).at("low"), high = policy.at("actions").at(action).at("high");
+  if (computes.at("form") == "feedback") {
+    const std::size_t last = computes.at("actions").size() - 1;
+    const double place = std::min(t_s * computes.at("per_s").get<double>(), static_cast<double>(last));
+    const auto row = static_cast<std::size_t>(place);
+    const double u = feedback_of(computes, row, action, state),
+                 next = feedback_of(computes, std::min(row + 1, last), action, state);
+    return std::clamp(u + (place - static_cast<double>(row)) * (next - u), low, high);
   }
   std::vector<double> v = features(computes, state);
   double a = 0;
@@ -62,7 +84,6 @@ double action_of(const nlohmann::json& policy, std::size_t action, const std::ve
   }
   a *= computes.at("gain").get<double>();
   const double squashed = computes.at("squash") == "tanh" ? std::tanh(a) : (9 * std::sin(a) + std::sin(3 * a)) / 8;
-  const double low = policy.at("actions").at(action).at("low"), high = policy.at("actions").at(action).at("high");
   return std::clamp((low + high) / 2 + (high - low) / 2 * squashed, low, high);
 }
 

@@ -34,6 +34,13 @@ TEST(Tracking, IsFeedbackAboutEachStage) {
   EXPECT_EQ(act(theta, Vector{{9, 9, 6}}, 1e300), act(theta, Vector{{9, 9, 6}}, 0.2)) << "the last stage holds";
 }
 
+TEST(Tracking, IsBetweenTwoStagesBetweenTwoSteps) {
+  const Vector theta = to_theta(stages()), state{{0.5, 3.5, 5.05}};
+  const Vector before = act(theta, state, 0.1), after = act(theta, state, 0.2);
+  EXPECT_TRUE(act(theta, state, 0.125).isApprox(0.75 * before + 0.25 * after));
+  EXPECT_EQ(act(theta, state, 3 * 0.1 - 0.1), after) << "rounding of the time makes no difference";
+}
+
 TEST(Tracking, TakesTheShorterWayRound) {
   const Vector theta = to_theta(stages());
   const double turn = 2 * std::numbers::pi;

@@ -37,7 +37,8 @@ Setting setting(double gain, std::uint64_t seed = 1) {
 
 TEST(GpIlqg, KeepsTheLaws) {
   for (const bool identify : {false, true})
-    EXPECT_EQ(testing::check_learner(*builder(identify), setting(1), run_trial), std::vector<std::string>{}) << identify;
+    EXPECT_EQ(testing::check_learner(*builder(identify), setting(1), run_trial), std::vector<std::string>{})
+        << identify;
 }
 
 // A slider that stops at 0 at once earns about 9, one that is not moved about 0.

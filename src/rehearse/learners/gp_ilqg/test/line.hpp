@@ -26,7 +26,8 @@ inline Task task(double bound = 100) {
 class Model final : public dynamics::DynamicsModel {
  public:
   explicit Model(double variance = 0) : variance_(variance) {}
-  void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override {
+  void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
+               MatrixView variance) const override {
     mean.col(0) = kDt * X.col(1);
     mean.col(1) = kDt * U.col(0);
     for (Index i = 0; i < 2; ++i) variance.col(i) = variance_ * (1 + X.col(0).array().square());

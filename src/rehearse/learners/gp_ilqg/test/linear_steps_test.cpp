@@ -16,7 +16,8 @@ TEST(LinearSteps, AreTheModelInUnitsOfHalfTheActionsRange) {
   trajectory.actions = Matrix{{2}};
   trajectory.steps = 1;
   dynamics::Linearised at;
-  const auto steps = planned_steps(problem, StepCosts(task, CostScale::linear, 0.1), trajectory, at);
+  const auto steps =
+      planned_steps(problem, StepCosts(task, {.scale = CostScale::linear, .action_cost = 0.1}), trajectory, at);
   ASSERT_EQ(steps.size(), 1U);
   EXPECT_TRUE(steps[0].dynamics.by.isApprox(Matrix{{1, 0.1, 0}, {0, 1, 0.4}}, 1e-8)) << steps[0].dynamics.by;
   EXPECT_TRUE(steps[0].dynamics.variance.isApprox(Vector{{1, 1}}));
@@ -33,7 +34,7 @@ TEST(LinearSteps, RememberTheActionWhereACostNeedsIt) {
   trajectory.states = Matrix{{1, 0}, {1, 0.2}, {1, 0.3}};
   trajectory.actions = Matrix{{2}, {1}};
   trajectory.steps = 2;
-  const StepCosts costs(task, CostScale::linear, 0.1);
+  const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 0.1});
   EXPECT_EQ(trajectory.rows(costs.columns()).col(2), (Vector{{0, 2}})) << "the actions before";
   dynamics::Linearised at;
   const auto steps = planned_steps(problem, costs, trajectory, at);

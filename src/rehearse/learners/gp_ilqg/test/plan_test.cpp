@@ -31,7 +31,7 @@ TEST(Plan, OfLinearStepsAndAQuadraticRewardIsTheRegulator) {
   const Task task = line::task();
   const line::Model model;
   const PlanProblem problem{model, task, serial_evaluator()};
-  const Plan plan = improve(problem, {.action_cost = line::kActionCost}, idle(task));
+  const Plan plan = improve(problem, {.cost = {.action_cost = line::kActionCost}}, idle(task));
   const auto gains = riccati(task);
   for (std::size_t t = 0; t < gains.size(); ++t) {
     EXPECT_TRUE(plan.stages[t].gain.isApprox(gains[t], 1e-3)) << t << ": " << plan.stages[t].gain << " " << gains[t];
@@ -42,7 +42,7 @@ TEST(Plan, OfLinearStepsAndAQuadraticRewardIsTheRegulator) {
 TEST(Plan, KeepsTheBoundsOfActions) {
   const Task task = line::task(1);
   const line::Model model;
-  const Plan plan = improve({model, task, serial_evaluator()}, {.action_cost = 1e-3}, idle(task));
+  const Plan plan = improve({model, task, serial_evaluator()}, {.cost = {.action_cost = 1e-3}}, idle(task));
   EXPECT_NEAR(plan.stages.front().action(0), -1, 1e-6) << "full pull first";
   for (const auto& stage : plan.stages) EXPECT_LE(std::abs(stage.action(0)), 1 + 1e-12);
   EXPECT_NEAR(plan.states(plan.steps, 0), 0, 0.02);
@@ -52,8 +52,8 @@ TEST(Plan, AvoidsWhatTheModelDoesNotKnow) {
   const Task task = line::task();
   const line::Model unsure(0.3);
   const PlanProblem problem{unsure, task, serial_evaluator()};
-  const Plan bold = improve(problem, {.action_cost = 0.5, .uncertainty = 0}, idle(task));
-  const Plan careful = improve(problem, {.action_cost = 0.5, .uncertainty = 1}, idle(task));
+  const Plan bold = improve(problem, {.cost = {.action_cost = 0.5}, .uncertainty = 0}, idle(task));
+  const Plan careful = improve(problem, {.cost = {.action_cost = 0.5}, .uncertainty = 1}, idle(task));
   EXPECT_LT(careful.states.col(0).squaredNorm(), bold.states.col(0).squaredNorm())
       << "far from 0 the variance is larger: it goes there sooner";
 }
@@ -62,7 +62,7 @@ TEST(Plan, EndsWithAHold) {
   const Task task = line::task();
   const line::Model model;
   const PlanProblem problem{model, task, serial_evaluator()};
-  const StepCosts costs(task, CostScale::linear, line::kActionCost);
+  const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = line::kActionCost});
   const auto hold = find_hold(problem, costs, Vector{{0.3, -0.2}}, Vector{{1}});
   ASSERT_TRUE(hold);
   EXPECT_NEAR(hold->stage.state.norm(), 0, 1e-5);
@@ -71,7 +71,7 @@ TEST(Plan, EndsWithAHold) {
   EXPECT_TRUE(hold->stage.gain.isApprox(riccati(longer).front(), 1e-3)) << hold->stage.gain;
   std::vector<policy::FeedbackStage> short_plan = idle(task);
   short_plan.resize(6);
-  const Plan plan = improve(problem, {.action_cost = line::kActionCost}, short_plan, &*hold);
+  const Plan plan = improve(problem, {.cost = {.action_cost = line::kActionCost}}, short_plan, &*hold);
   EXPECT_TRUE(plan.stages[2].gain.isApprox(hold->stage.gain, 1e-3)) << "what follows is planned for";
   EXPECT_EQ(plan.stages.back().gain, hold->stage.gain);
 }

@@ -16,16 +16,16 @@ TEST(StepCosts, AreMinusTheRewardOrItsLogarithm) {
   };
   const Matrix W{{0, 0, 2, 1.5, 0}, {0, 0, -4, kNaN, 0}};  // state, action, state reached
   Vector costs(2);
-  StepCosts(task, CostScale::linear, 0.1).evaluate(W, Vector::Zero(2), costs);
+  StepCosts(task, {.scale = CostScale::linear, .action_cost = 0.1}).evaluate(W, Vector::Zero(2), costs);
   EXPECT_NEAR(costs(0), -std::exp(-2.25) + 0.1 * 0.25, 1e-14);
   EXPECT_EQ(costs(1), kInf);
-  StepCosts(task, CostScale::logarithmic, 0.1).evaluate(W, Vector::Zero(2), costs);
+  StepCosts(task, {.scale = CostScale::logarithmic, .action_cost = 0.1}).evaluate(W, Vector::Zero(2), costs);
   EXPECT_NEAR(costs(0), 2.25 + 0.1 * 0.25, 1e-14);
 }
 
 TEST(StepCosts, ExpandQuadraticsExactly) {
   const Task task = line::task(4);
-  const StepCosts costs(task, CostScale::linear, 0.1);
+  const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 0.1});
   const Matrix W{{3, 1, 2, 1.5, -2}, {1, 1, 0, 0, 0}};
   const auto all = costs.expand(W, Vector::Zero(2));
   ASSERT_EQ(all.size(), 2U);
@@ -39,7 +39,9 @@ TEST(StepCosts, LeaveOutNegativeCurvature) {
   task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& next, VectorView rewards) {
     rewards = next.col(0).cwiseProduct(next.col(1));
   };
-  const Matrix hessian = StepCosts(task, CostScale::linear, 0.1).expand(Matrix{{0, 0, 0, 1, 1}}, Vector::Zero(1))[0].hessian;
+  const Matrix hessian = StepCosts(task, {.scale = CostScale::linear, .action_cost = 0.1})
+                             .expand(Matrix{{0, 0, 0, 1, 1}}, Vector::Zero(1))[0]
+                             .hessian;
   EXPECT_TRUE(hessian.bottomRightCorner(2, 2).isApprox(Matrix{{0.5, -0.5}, {-0.5, 0.5}}, 1e-5)) << hessian;
 }
 
@@ -48,7 +50,7 @@ TEST(StepCosts, KnowTheActionBeforeAndTheTime) {
   task.cost = [](const Steps& steps, VectorView costs) {
     costs = steps.time_s * (steps.U - steps.U_before).col(0).cwiseAbs2();
   };
-  const StepCosts costs(task, CostScale::linear, 0.1);
+  const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 0.1});
   ASSERT_EQ(costs.columns().planner_state(), 3);
   const Matrix W{{0, 0, 1, 2, 0, 0}, {0, 0, 0, 2, 0, 0}};  // state, action before, action, state reached
   const auto all = costs.expand(W, Vector{{0.5, 3}});
