@@ -14,6 +14,7 @@ case $learner in
   ite)
     arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=60000)
     files=(archive.bin elites.csv tried.csv) ;;
+  gp-ilqg) arguments=(pendubot --prior useful --set identify=true --set search.starts=6) ;;
   *) arguments=(pendubot --prior misleading --set model.subplex.max_evaluations=15 "${race[@]}") ;;
 esac
 arguments+=(--learner "$learner" --seed 5)

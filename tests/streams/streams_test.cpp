@@ -50,6 +50,10 @@ const Options kSmallArchive = {{"archive.evaluations", "400"}, {"archive.niches"
                                {"archive.search.batch", "64"}, {"archive.search.initial", "64"},
                                {"start_noise", "0.01"},        {"evaluations", "2"}};
 
+const Options kFewPlans = {{"search.starts", "3"},     {"search.first_iterations", "5"}, {"search.finalists", "2"},
+                           {"search.iterations", "5"}, {"search.selection", "10"},       {"start_noise", "0.01"},
+                           {"evaluations", "2"}};
+
 using Use = std::tuple<std::uint64_t, std::uint64_t, Phase, Stage, std::uint64_t, Purpose, std::uint64_t, std::uint64_t,
                        std::uint64_t, std::uint64_t>;
 
@@ -108,11 +112,12 @@ INSTANTIATE_TEST_SUITE_P(
                            with(kSmallSearch, {{"track", "0.3"}, {"search.safety.rollouts", "40"}})},
                       Case{"pilco", "pendulum", kSmallPilco},
                       Case{"pilco-prior", "pendulum", with(kSmallPilco, {{"pilco.prior_episodes", "3"}})},
-                      Case{"ite", "pendubot", kSmallArchive}),
+                      Case{"ite", "pendubot", kSmallArchive}, Case{"gp-ilqg", "pendubot", kFewPlans}),
     name_of);
 
 TEST(StreamsTest, EveryLearnerHasACase) {
-  std::set<std::string> tested = {"black-drops", "black-drops-prior", "gp-mi", "mi", "pilco", "pilco-prior", "ite"};
+  std::set<std::string> tested = {"black-drops", "black-drops-prior", "gp-mi", "mi",
+                                  "pilco",       "pilco-prior",       "ite",   "gp-ilqg"};
   for (const auto& builder : apps::catalogue().learner_builders()) EXPECT_TRUE(tested.contains(builder->name()));
 }
 

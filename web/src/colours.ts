@@ -17,6 +17,7 @@ const LOOKS: Record<string, Look> = {
   'pilco-prior': { colour: 'var(--purple)', symbol: 'star' },
   pilco: { colour: 'var(--sky)', symbol: 'cross' },
   ite: { colour: 'var(--black)', symbol: 'wye' },
+  'gp-ilqg': { colour: 'var(--yellow)', symbol: 'square' },
 }
 
 export const REAL = 'var(--vermillion)'

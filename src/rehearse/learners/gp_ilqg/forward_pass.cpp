@@ -41,7 +41,10 @@ std::vector<Trajectory> ForwardPass::follow(const std::vector<std::vector<policy
     trajectory.steps = std::min(episode.steps(), stages - 1);
     trajectory.states = episode.states.topRows(trajectory.steps + 1);
     trajectory.actions = episode.actions.topRows(trajectory.steps);
-    trajectory.total_reward = episodes.returns(row);
+    trajectory.promise = episodes.returns(row) + static_cast<double>(problem_.task.horizon - planned.horizon) *
+                                                     (episode.steps() == planned.horizon && !episode.ended
+                                                          ? episode.rewards(episode.steps() - 1)
+                                                          : problem_.task.reward_floor);
     if (!episodes.failed[i] && trajectory.states.allFinite()) trajectory.cost = cost_of(trajectory, stages - 1);
   }
   return all;

@@ -11,7 +11,7 @@ struct Trajectory {
   Matrix states, actions;  // steps + 1 × dx, steps × du, of the planned steps
   Index steps = 0;         // made before an early end
   double cost = kInf;      // as Plan's
-  double total_reward = -kInf;
+  double promise = -kInf;  // as Plan's
 
   /// The planned steps as rows (steps × columns), and when each begins.
   Matrix rows(const Columns& columns) const;

@@ -38,7 +38,7 @@ class Improvement {
       negligible = before - now_.cost < kNegligible * (std::abs(before) + kNegligible) ? negligible + 1 : 0;
     }
     if (std::isfinite(now_.cost)) give_gains();
-    return {stages_, now_.states, now_.cost, now_.total_reward, now_.steps};
+    return {stages_, now_.states, now_.cost, now_.promise, now_.steps};
   }
 
  private:

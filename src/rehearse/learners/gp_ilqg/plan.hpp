@@ -34,7 +34,7 @@ struct Plan {
   std::vector<policy::FeedbackStage> stages;  // one a planned step, and one that holds
   Matrix states;                              // steps + 1 × dx, that the policy goes through
   double cost = kInf;                         // of its planned steps, and of what follows if there is a hold
-  double total_reward = -kInf;                // of its planned steps
+  double promise = -kInf;                     // of the whole episode, if its last planned step could be repeated
   Index steps = 0;                            // made before an early end, if it has one
 };
 

@@ -12,6 +12,8 @@
 namespace rehearse::learners::gp_ilqg {
 namespace {
 
+constexpr double kSamePromise = 1e-3;  // relative
+
 using Stages = std::vector<policy::FeedbackStage>;
 
 /// What a plan does in simulated episodes.
@@ -32,6 +34,10 @@ class Search {
         improved(std::move(from), options(by_logarithm, search_.first_costs, search_.first_iterations));
     keep_best(plans);
     if (plans.empty()) return std::nullopt;
+    if (last) {  // as it is, too: what is good need not be found again
+      std::vector<Plan> as_it_is = improved({policy::to_stages(problem_.task, *last)}, options(false, 1, 0));
+      std::move(as_it_is.begin(), as_it_is.end(), std::back_inserter(plans));
+    }
     const bool to_linear = search_.cost != PlanSearch::Cost::logarithmic;
     const PlanOptions further = options(by_logarithm && !to_linear, 1, search_.iterations);
     std::vector<Plan> finals = improved(stages_of(plans), further);
@@ -98,9 +104,13 @@ class Search {
     return all;
   }
 
+  /// Of plans that come to the same, mirrored ones for instance, one.
   void keep_best(std::vector<Plan>& plans) const {
-    std::stable_sort(plans.begin(), plans.end(),
-                     [](const Plan& a, const Plan& b) { return a.total_reward > b.total_reward; });
+    std::stable_sort(plans.begin(), plans.end(), [](const Plan& a, const Plan& b) { return a.promise > b.promise; });
+    const auto same = [](const Plan& a, const Plan& b) {
+      return std::abs(a.promise - b.promise) <= kSamePromise * std::abs(a.promise);
+    };
+    plans.erase(std::unique(plans.begin(), plans.end(), same), plans.end());
     plans.resize(std::min(plans.size(), static_cast<std::size_t>(search_.finalists)));
   }
 

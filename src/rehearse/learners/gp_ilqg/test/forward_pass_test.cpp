@@ -25,7 +25,7 @@ TEST(ForwardPass, FollowsPlansInTheMean) {
   EXPECT_TRUE(both[0].states.isApprox(Matrix{{1, 0}, {1, 0}, {1, 0}, {1, 0}}));
   EXPECT_TRUE(both[1].states.isApprox(Matrix{{1, 0}, {1, 0.2}, {1.02, 0.4}, {1.06, 0.6}}));
   EXPECT_NEAR(both[0].cost, 3, 1e-12) << "of the planned steps";
-  EXPECT_NEAR(both[0].total_reward, -3, 1e-9);
+  EXPECT_NEAR(both[0].promise, -30, 1e-9) << "if it could stay there";
 }
 
 TEST(ForwardPass, ChargesAnEarlyEndAndRefusesWhatIsNotFinite) {
