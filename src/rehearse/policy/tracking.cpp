@@ -92,6 +92,14 @@ Index numbers_of_stage(const Task& task) {
   return du + dx + du * dx;
 }
 
+std::vector<FeedbackStage> open_loop(const Task& task, const ConstMatrixView& actions) {
+  const Matrix no_gain = Matrix::Zero(task.action_size(), task.state_size());
+  std::vector<FeedbackStage> stages;
+  for (Index t = 0; t < actions.rows(); ++t) stages.push_back({actions.row(t).transpose(), task.start_mean, no_gain});
+  stages.push_back(stages.back());
+  return stages;
+}
+
 Vector to_theta(const std::vector<FeedbackStage>& stages) {
   const Index du = stages.front().action.size(), dx = stages.front().state.size(), numbers = du + dx + du * dx;
   Vector theta(numbers * static_cast<Index>(stages.size()));

@@ -28,6 +28,9 @@ inline constexpr const char* kTracking = "tracking";
 /// The numbers of θ that a stage takes.
 Index numbers_of_stage(const Task& task);
 
+/// Stages that take these actions (steps × du) whatever happens; the last ones are held.
+std::vector<FeedbackStage> open_loop(const Task& task, const ConstMatrixView& actions);
+
 /// θ of the policy that has these stages, and the stages of θ.
 Vector to_theta(const std::vector<FeedbackStage>& stages);
 std::vector<FeedbackStage> to_stages(const Task& task, const ConstVectorView& theta);

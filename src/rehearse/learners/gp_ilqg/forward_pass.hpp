@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "rehearse/learners/gp_ilqg/plan.hpp"
+#include "rehearse/learners/gp_ilqg/plan_problem.hpp"
+#include "rehearse/learners/gp_ilqg/step_costs.hpp"
 
 namespace rehearse::learners::gp_ilqg {
 

@@ -152,12 +152,4 @@ Plan improve(const PlanProblem& problem, const PlanOptions& options, std::vector
   return Improvement(problem, options, std::move(stages), hold).run();
 }
 
-std::vector<policy::FeedbackStage> open_loop(const Task& task, const ConstMatrixView& actions) {
-  const Matrix no_gain = Matrix::Zero(task.action_size(), task.state_size());
-  std::vector<policy::FeedbackStage> stages;
-  for (Index t = 0; t < actions.rows(); ++t) stages.push_back({actions.row(t).transpose(), task.start_mean, no_gain});
-  stages.push_back(stages.back());
-  return stages;
-}
-
 }  // namespace rehearse::learners::gp_ilqg

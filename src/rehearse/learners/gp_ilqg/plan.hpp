@@ -1,27 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "rehearse/core/evaluator.hpp"
-#include "rehearse/dynamics/dynamics_model.hpp"
-#include "rehearse/learners/gp_ilqg/backward_pass.hpp"
-#include "rehearse/policy/tracking.hpp"
+#include "rehearse/learners/gp_ilqg/plan_problem.hpp"
+#include "rehearse/learners/gp_ilqg/step_costs.hpp"
 
 namespace rehearse::learners::gp_ilqg {
-
-/// Where a plan ends: linear feedback for ever, and what it costs to come from beside it.
-struct Hold {
-  policy::FeedbackStage stage;
-  Value value;  // by the planner's state less that of the stage
-};
-
-/// What is planned on. References must outlive it.
-struct PlanProblem {
-  const dynamics::DynamicsModel& model;
-  const Task& task;  // its start's spread is not used
-  const Evaluator& evaluator;
-};
 
 struct PlanOptions {
   CostOptions cost;
@@ -43,8 +27,5 @@ struct Plan {
 /// at once. `stages` holds where to begin. hold: null, or where the plan is to end. Deterministic; any thread.
 Plan improve(const PlanProblem& problem, const PlanOptions& options, std::vector<policy::FeedbackStage> stages,
              const Hold* hold = nullptr);
-
-/// Stages that take these actions (steps × du) whatever happens.
-std::vector<policy::FeedbackStage> open_loop(const Task& task, const ConstMatrixView& actions);
 
 }  // namespace rehearse::learners::gp_ilqg

@@ -70,7 +70,7 @@ class Search {
       key.descent = static_cast<std::uint64_t>(i);
       const Vector actions =
           policy::random_schedule(planned, policy::RandomActions::uniform, search_.start_hold_s, key);
-      all.push_back(open_loop(problem_.task, actions.reshaped(planned.horizon, problem_.task.action_size())));
+      all.push_back(policy::open_loop(problem_.task, actions.reshaped(planned.horizon, problem_.task.action_size())));
     }
     return all;
   }

@@ -49,6 +49,12 @@ TEST(Tracking, TakesTheShorterWayRound) {
   EXPECT_NEAR(act(theta, Vector{{0, 0, 5 + turn}}, 0.2)(0), -3.5, 1e-12) << "a place is no angle";
 }
 
+TEST(Tracking, MayBeOpenLoop) {
+  const Vector theta = to_theta(open_loop(fixture::task(), Matrix{{1, 0.2}, {-1, 0.3}}));
+  EXPECT_EQ(act(theta, Vector{{7, 8, 9}}, 0), (Vector{{1, 0.2}}));
+  EXPECT_EQ(act(theta, Vector{{7, 8, 9}}, 5), (Vector{{-1, 0.3}}));
+}
+
 TEST(Tracking, ThetaIsItsStages) {
   const Vector theta = to_theta(stages());
   ASSERT_EQ(theta.size(), 3 * numbers_of_stage(fixture::task()));

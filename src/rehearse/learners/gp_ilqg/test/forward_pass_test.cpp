@@ -11,7 +11,8 @@ namespace {
 
 /// Two plans of three steps that pull by so much.
 std::vector<std::vector<policy::FeedbackStage>> pulls(const Task& task, double first, double second) {
-  return {open_loop(task, Matrix::Constant(3, 1, first)), open_loop(task, Matrix::Constant(3, 1, second))};
+  return {policy::open_loop(task, Matrix::Constant(3, 1, first)),
+          policy::open_loop(task, Matrix::Constant(3, 1, second))};
 }
 
 TEST(ForwardPass, FollowsPlansInTheMean) {

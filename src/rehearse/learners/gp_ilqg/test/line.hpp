@@ -1,7 +1,7 @@
 #pragma once
 // A mass on a line that is pulled to 0: linear steps and a quadratic reward, so that plans have a closed form.
 
-#include "rehearse/learners/gp_ilqg/plan.hpp"
+#include "rehearse/learners/gp_ilqg/plan_problem.hpp"
 
 namespace rehearse::learners::gp_ilqg::line {
 

@@ -9,7 +9,7 @@ namespace rehearse::learners::gp_ilqg {
 namespace {
 
 std::vector<policy::FeedbackStage> idle(const Task& task) {
-  return open_loop(task, Matrix::Zero(task.horizon, task.action_size()));
+  return policy::open_loop(task, Matrix::Zero(task.horizon, task.action_size()));
 }
 
 /// Gains of the line's plan by Riccati's recursion in plain numbers, the first step's first.
