@@ -37,7 +37,13 @@ Buffers& buffers_of_this_thread() {
 class Chunk {
  public:
   Chunk(const Simulation& of, Index rows, Buffers& buffers)
-      : model_(of.model), policy_(of.policy), task_(of.task), key_(of.key), options_(of.options), b_(buffers) {
+      : model_(of.model),
+        policy_(of.policy),
+        task_(of.task),
+        actuators_(of.task.actuators()),
+        key_(of.key),
+        options_(of.options),
+        b_(buffers) {
     b_.Theta.resize(rows, policy_.parameters());
     for (Matrix* states : {&b_.X, &b_.seen, &b_.next, &b_.noise}) states->resize(rows, task_.state_size());
     b_.U.resize(rows, task_.action_size());
@@ -81,6 +87,7 @@ class Chunk {
   /// x_t → x_{t+1} for every row; what happens is recorded, if it is to be.
   void step(Index t, Episodes* record = nullptr) {
     policy_.act(b_.Theta, measured(t), static_cast<double>(t) * task_.dt_s, b_.U);
+    actuators_.command(b_.X, b_.U);
     if (options_.sample && !model_.certain())
       sample(t);
     else
@@ -170,6 +177,7 @@ class Chunk {
   const dynamics::DynamicsModel& model_;
   const policy::Policy& policy_;
   const Task& task_;
+  Actuators actuators_;
   StreamKey key_;
   SimulateOptions options_;
   Buffers& b_;
