@@ -46,7 +46,7 @@ class Builder final : public scenario::ScenarioBuilder {
     scenario::Scenario scenario{.name = robot_.name,
                                 .task = task,
                                 .policy = make_policy(robot_.options.policy, task, policy_scale()),
-                                .drawing = robot_.bodies.empty() ? dynamics.drawing() : make_drawing(robot_),
+                                .drawing = robot_.bodies.empty() ? drawing_of_model(dynamics) : make_drawing(robot_),
                                 .require_ready = dynamics.require_ready(),
                                 .evaluations = robot_.options.evaluations};
     if (!robot_.plant_function.empty()) {
@@ -69,6 +69,17 @@ class Builder final : public scenario::ScenarioBuilder {
   system::StartAndSensors around_robot(const Task& task, Index own) const {
     return {task.start_mean.head(own), task.start_std.head(own),
             Vector::Constant(own, robot_.options.measurement_noise)};
+  }
+
+  /// A model knows the robot's own states alone.
+  std::optional<scenario::Drawing> drawing_of_model(const DynamicsMaker& dynamics) const {
+    std::optional<scenario::Drawing> drawing = dynamics.drawing();
+    auto* solids = drawing ? std::get_if<scenario::SolidDrawing>(&*drawing) : nullptr;
+    if (solids && robot_.actuators().memory() > 0)
+      solids->poses = [poses = solids->poses, own = robot_.actuators().own_states()](const ConstVectorView& state) {
+        return poses(state.head(own));
+      };
+    return drawing;
   }
 
   void put_actuators_in_front(scenario::Scenario& scenario, const Actuators& actuators) const {
