@@ -10,7 +10,7 @@ namespace {
 
 using exports::Case, exports::Ran, exports::run;
 
-constexpr Index kSteps = 300;
+constexpr Index kCommandSteps = 300;
 
 /// Every kind of policy on a task whose actions have everything between them.
 std::vector<Case> remembering_cases() {
@@ -38,30 +38,30 @@ std::vector<Case> remembering_cases() {
 }
 
 /// An episode of a robot that does as it likes: what is measured at each step, and the commands sent.
-Exported episode(const Case& of) {
+Exported commanded_episode(const Case& of) {
   const Actuators actuators = of.task.actuators();
-  Answers asked{.states = Matrix(kSteps, actuators.states()), .times_s = Vector(kSteps), .actions = {}};
-  asked.states.leftCols(actuators.own_states()) = fixture::normals(kSteps, actuators.own_states(), 3);
+  Answers asked{.states = Matrix(kCommandSteps, actuators.states()), .times_s = Vector(kCommandSteps), .actions = {}};
+  asked.states.leftCols(actuators.own_states()) = fixture::normals(kCommandSteps, actuators.own_states(), 3);
   asked.states.row(0).tail(actuators.memory()) = actuators.start().transpose();
   const Matrix Theta = of.theta.transpose();
   Matrix U(1, of.policy->actions());
-  for (Index t = 0; t < kSteps; ++t) {
+  for (Index t = 0; t < kCommandSteps; ++t) {
     asked.times_s(t) = static_cast<double>(t) * of.task.dt_s;
     const Matrix X = asked.states.middleRows(t, 1);
     of.policy->act(Theta, X, asked.times_s(t), U);
     actuators.command(X, U);
-    if (t + 1 < kSteps) actuators.remember(X, U, asked.states.middleRows(t + 1, 1));
+    if (t + 1 < kCommandSteps) actuators.remember(X, U, asked.states.middleRows(t + 1, 1));
   }
   return exports::exported(of, asked);
 }
 
 /// What a program is given: what is measured, and times.
-Answers measured(const Exported& exported, const Case& of) {
+Answers measured_in(const Exported& exported, const Case& of) {
   const Index own = of.task.actuators().own_states();
   return {.states = exported.answers.states.leftCols(own), .times_s = exported.answers.times_s, .actions = {}};
 }
 
-constexpr const char* kProgram = R"(#include <stdio.h>
+constexpr const char* kRememberingProgram = R"(#include <stdio.h>
 #include "one.h"
 int main(void) {
   double in[ONE_STATES + 1], u[ONE_ACTIONS], memory[ONE_MEMORY];
@@ -77,14 +77,14 @@ int main(void) {
 )";
 
 TEST(ExportedCommands, ProgramsInCSendTheCommandsOfTheOriginal) {
-  exports::write(test_folder() / "program.c", kProgram);
+  exports::write(test_folder() / "program.c", kRememberingProgram);
   const std::string folder = test_folder().string();
   if (run("gcc --version").status != 0) GTEST_SKIP() << "there is no compiler";
   for (const Case& each : remembering_cases())
     for (const char* way : {"gcc -std=c99 -O2", "g++ -x c++ -O2"}) {
-      const Exported exported = episode(each);
+      const Exported exported = commanded_episode(each);
       exports::write(test_folder() / "one.h", to_c(exported, "one"));
-      exports::write(test_folder() / "in", exports::bytes_of(measured(exported, each)));
+      exports::write(test_folder() / "in", exports::bytes_of(measured_in(exported, each)));
       const Ran compiled = run(std::string(way) + " -Wall -Wextra -pedantic -Werror " + folder + "/program.c -o " +
                                folder + "/program -lm");
       ASSERT_EQ(compiled.status, 0) << each.name << compiled.output;
@@ -98,7 +98,7 @@ TEST(ExportedCommands, ProgramsInCSendTheCommandsOfTheOriginal) {
     }
 }
 
-constexpr const char* kModuleProgram = R"(
+constexpr const char* kRememberingModule = R"(
 import sys
 import numpy as np
 import policy
@@ -117,11 +117,11 @@ np.array(commands).tofile("out")
 
 TEST(ExportedCommands, ModulesOfNumpySendTheCommandsOfTheOriginal) {
   if (run("python3 -c 'import numpy'").status != 0) GTEST_SKIP() << "there is no NumPy";
-  exports::write(test_folder() / "program.py", kModuleProgram);
+  exports::write(test_folder() / "program.py", kRememberingModule);
   for (const Case& each : remembering_cases()) {
-    const Exported exported = episode(each);
+    const Exported exported = commanded_episode(each);
     exports::write(test_folder() / "policy.py", to_numpy(exported));
-    exports::write(test_folder() / "in", exports::bytes_of(measured(exported, each)));
+    exports::write(test_folder() / "in", exports::bytes_of(measured_in(exported, each)));
     const Ran ran = run("cd " + test_folder().string() + " && python3 -W error program.py 3 && python3 policy.py");
     ASSERT_EQ(ran.status, 0) << each.name << "\n" << ran.output;
     const Matrix sent = exports::from_bytes(exports::read(test_folder() / "out"), 2);
@@ -131,7 +131,7 @@ TEST(ExportedCommands, ModulesOfNumpySendTheCommandsOfTheOriginal) {
 
 TEST(ExportedCommands, JsonSaysHowCommandsFollow) {
   const Case of = remembering_cases().front();
-  const std::string text = to_json(episode(of));
+  const std::string text = to_json(commanded_episode(of));
   EXPECT_NE(text.find("\"commands\""), std::string::npos);
   EXPECT_NE(text.find("\"max_step\": 0.9"), std::string::npos);
 }

@@ -19,7 +19,7 @@ Actuators actuators(const Actuation& actuation, Index own_states) {
 }
 
 /// A mass on a line that is moved by phi · u.
-std::shared_ptr<const Simulator> pushed_mass() {
+std::shared_ptr<const Simulator> mass_on_a_line() {
   return make_simulator(ParameterSpace({Parameter::fixed("gain", 3, "")}),
                         [](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
                           dX.col(0) = kDt * X.col(1);
@@ -35,7 +35,7 @@ std::unique_ptr<Plant> plant_of(const Actuators& task, const Actuators& own) {
 }
 
 TEST(ActuatedSimulator, AsksTheRobotWhatMovesIt) {
-  const auto simulator = with_actuators(pushed_mass(), actuators({.delay_s = 2 * kDt}, 2));
+  const auto simulator = with_actuators(mass_on_a_line(), actuators({.delay_s = 2 * kDt}, 2));
   Matrix X(2, 4), U(2, 1), dX(2, 4);
   X << 1, 2, 0.1, 0.2, 3, 4, -0.3, -0.4;
   U << 1, -1;
@@ -48,7 +48,7 @@ TEST(ActuatedSimulator, AsksTheRobotWhatMovesIt) {
 
 TEST(ActuatedPlant, DoesWhatTheSimulatorDoes) {
   const Actuation actuation{.max_rate = 5, .delay_s = 1.4 * kDt, .lag_s = 0.06};
-  const auto simulator = with_actuators(pushed_mass(), actuators(actuation, 2));
+  const auto simulator = with_actuators(mass_on_a_line(), actuators(actuation, 2));
   const auto plant = plant_of(actuators(actuation, 2), actuators(actuation, 0));
   Rng rng({.seed = 1});
   Vector x = plant->reset(rng);
