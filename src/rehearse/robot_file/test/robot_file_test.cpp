@@ -89,7 +89,9 @@ TEST(RobotFile, PlantsHaveTheDelaysOfTheirActions) {
 /// The change of the rate in the first step of the plant under the largest action.
 double first_push(const std::string& text, const std::string& delay_s = "") {
   const auto made = builder(text, "swing.toml", example::no_files);
-  if (!delay_s.empty()) EXPECT_TRUE(set_field([&](FieldVisitor& v) { made->fields(v); }, "plant.delay_s.u", delay_s));
+  if (!delay_s.empty()) {
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { made->fields(v); }, "plant.delay_s.u", delay_s));
+  }
   const auto plant = made->build().make_plant(), still = made->build().make_plant();
   Rng rng({.seed = 1}), same({.seed = 1});
   plant->reset(rng), still->reset(same);
