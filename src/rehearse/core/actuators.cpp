@@ -47,7 +47,7 @@ Actuators::Actuators(const std::vector<ActionVariable>& actions, double dt_s, In
 std::vector<StateVariable> Actuators::variables() const {
   std::vector<StateVariable> variables;
   for (std::size_t a = 0; a < lines_.size(); ++a) {
-    const auto& [name, unit] = std::tie(actions_[a].name, actions_[a].unit);
+    const std::string &name = actions_[a].name, &unit = actions_[a].unit;
     for (Index k = 1; k <= lines_[a].before; ++k)
       variables.push_back({name + "_last" + (k > 1 ? std::to_string(k) : ""), unit});
     if (lines_[a].reached >= 0) variables.push_back({name + "_reached", unit});
