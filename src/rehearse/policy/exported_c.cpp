@@ -143,18 +143,15 @@ constexpr std::pair<const char*, const char*> kMemory[] = {
     {"MEMORY_PARAMETER", " double memory[@MEMORY@],"},
     {"MEMORY_DEFINE", "#define @UPPER@_MEMORY @MEMORY@\n"},
     {"MEMORY_ABOUT",
-     R"( * memory holds the last commands. Before each episode call @NAME@_start(memory), then @NAME@_act once each time step.
- *
-)"},
-    {"MEMORY_START", R"(static inline void @NAME@_start(double memory[@MEMORY@]) {
-  static const double start[@MEMORY@] = @MEMORY_START_VALUES@;
-  for (int i = 0; i < @MEMORY@; ++i) memory[i] = start[i];
-}
-
-)"},
-    {"JOINED", R"(  double state[@ALL@];
-  for (int i = 0; i < @ALL@; ++i) state[i] = i < @STATES@ ? measured[i] : memory[i - @STATES@];
-)"},
+     " * memory holds the last commands. Before each episode call @NAME@_start(memory), then @NAME@_act once "
+     "each time step.\n *\n"},
+    {"MEMORY_START",
+     "static inline void @NAME@_start(double memory[@MEMORY@]) {\n"
+     "  static const double start[@MEMORY@] = @MEMORY_START_VALUES@;\n"
+     "  for (int i = 0; i < @MEMORY@; ++i) memory[i] = start[i];\n}\n\n"},
+    {"JOINED",
+     "  double state[@ALL@];\n"
+     "  for (int i = 0; i < @ALL@; ++i) state[i] = i < @STATES@ ? measured[i] : memory[i - @STATES@];\n"},
     {"TEST_MEMORY", "  double memory[@MEMORY@];\n  @NAME@_start(memory);\n"},
     {"TEST_REMEMBERS", "    for (int j = 0; j < @MEMORY@; ++j) memory[j] = states[i][@STATES@ + j];\n"}};
 

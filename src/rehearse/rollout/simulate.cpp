@@ -37,13 +37,7 @@ Buffers& buffers_of_this_thread() {
 class Chunk {
  public:
   Chunk(const Simulation& of, Index rows, Buffers& buffers)
-      : model_(of.model),
-        policy_(of.policy),
-        task_(of.task),
-        actuators_(of.task.actuators()),
-        key_(of.key),
-        options_(of.options),
-        b_(buffers) {
+      : model_(of.model), policy_(of.policy), task_(of.task), key_(of.key), options_(of.options), b_(buffers) {
     b_.Theta.resize(rows, policy_.parameters());
     for (Matrix* states : {&b_.X, &b_.seen, &b_.next, &b_.noise}) states->resize(rows, task_.state_size());
     b_.U.resize(rows, task_.action_size());
@@ -177,7 +171,7 @@ class Chunk {
   const dynamics::DynamicsModel& model_;
   const policy::Policy& policy_;
   const Task& task_;
-  Actuators actuators_;
+  Actuators actuators_ = task_.actuators();
   StreamKey key_;
   SimulateOptions options_;
   Buffers& b_;
