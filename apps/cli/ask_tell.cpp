@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -58,8 +59,10 @@ void print_risks(std::vector<experiment::LimitRecord> limits) {
 }
 
 void print_expected_file(const Task& task, const std::string& folder) {
+  const auto own =
+      static_cast<std::size_t>(task.actuators().own_states());  // what is remembered follows from the actions
   fmt::print("then: {} tell {} EPISODE.csv\n  columns: time [s], {}, {}\n", program_name(), folder,
-             columns(task.states), columns(task.actions));
+             columns(std::span(task.states).first(own)), columns(task.actions));
 }
 
 void print_asked(const experiment::Resolved& resolved, const TrialRecord& trial, const std::string& folder,

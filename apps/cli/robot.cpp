@@ -1,5 +1,7 @@
 // A robot of one's own: `new` and `check`.
+#include <cmath>
 #include <filesystem>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,16 +30,35 @@ std::string description(const StateVariable& state) {
   return text;
 }
 
+/// Of an action: ", 0.2 s late".
+std::string description(const Actuation& actuation, const std::string& unit) {
+  std::string text;
+  if (std::isfinite(actuation.max_rate))
+    text += fmt::format(", changes by at most {:g} {}{}s", actuation.max_rate, unit, unit.empty() ? "1/" : "/");
+  if (actuation.filter_s > 0) text += fmt::format(", through a low-pass of {:g} s", actuation.filter_s);
+  if (actuation.delay_s > 0) text += fmt::format(", {:g} s late", actuation.delay_s);
+  if (actuation.lag_s > 0) text += fmt::format(", followed with a lag of {:g} s", actuation.lag_s);
+  return text;
+}
+
+std::span<const StateVariable> own_states(const Task& task) {
+  return std::span(task.states).first(static_cast<std::size_t>(task.actuators().own_states()));
+}
+
 void print_task(const scenario::Scenario& scenario) {
   const Task& task = scenario.task;
   fmt::print("{}: {} steps of {} s, {} s in all\n\nstates\n", scenario.name, task.horizon, task.dt_s, task.episode_s());
-  for (std::size_t i = 0; i < task.states.size(); ++i)
+  for (std::size_t i = 0; i < own_states(task).size(); ++i)
     fmt::print("  {}; starts at {:.4g} ± {:.3g}\n", description(task.states[i]), task.start_mean(static_cast<Index>(i)),
                task.start_std(static_cast<Index>(i)));
   fmt::print("actions\n");
   for (const ActionVariable& action : task.actions)
-    fmt::print("  {}{} from {:g} to {:g}\n", action.name, action.unit.empty() ? "" : fmt::format(" [{}]", action.unit),
-               action.bounds.low, action.bounds.high);
+    fmt::print("  {}{} from {:g} to {:g}{}\n", action.name,
+               action.unit.empty() ? "" : fmt::format(" [{}]", action.unit), action.bounds.low, action.bounds.high,
+               description(action.actuation, action.unit));
+  if (task.memory > 0) fmt::print("what policies see of the last actions\n");
+  for (const StateVariable& memory : std::span(task.states).last(static_cast<std::size_t>(task.memory)))
+    fmt::print("  {}\n", description(memory));
   fmt::print("reward\n  {}\n", reward::closed_form(task.reward)
                                    ? "saturating distance of features, as moment matching (PILCO) needs it"
                                    : "a formula; PILCO needs distances that are sums of multiples of features");
@@ -64,7 +85,7 @@ void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried
   fmt::print("  {}: {:.2g} rows a second on one thread{}\n", prior.name, tried.rows_per_s,
              tried.failed > 0 ? fmt::format(", {} of {} rows failed", tried.failed, all.steps) : "");
   print_parameters(prior.parameters);
-  for (std::size_t i = 0; i < scenario.task.states.size(); ++i) {
+  for (std::size_t i = 0; i < own_states(scenario.task).size(); ++i) {
     const auto s = static_cast<Index>(i);
     fmt::print("    {}: a step changes it by {:.3g}, the prior errs by {:.3g}\n", scenario.task.states[i].name,
                all.change(s), tried.error(s));

@@ -25,6 +25,26 @@ std::vector<std::string> known_keys(const Fields& a, const Fields& b) {
   return keys;
 }
 
+/// Without the memory of actuators. Its functions are not asked.
+Task robot_alone(Task task) {
+  const Index own = task.actuators().own_states();
+  task.states.resize(static_cast<std::size_t>(own));
+  task.start_mean.conservativeResize(own);
+  task.start_std.conservativeResize(own);
+  for (ActionVariable& action : task.actions) action.actuation = {};
+  task.memory = 0;
+  return task;
+}
+
+/// What its own states did under what moved them.
+Episode moved(Episode episode, const Actuators& actuators) {
+  const Matrix commands = episode.actions;
+  actuators.moving(episode.states.topRows(episode.steps()), commands, episode.actions);
+  episode.states.conservativeResize(Eigen::NoChange, actuators.own_states());
+  episode.true_states.conservativeResize(Eigen::NoChange, actuators.own_states());
+  return episode;
+}
+
 }  // namespace
 
 StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyRequest& request, Violations& violations) {
@@ -49,7 +69,8 @@ StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyReque
   experiment::ChosenPriors priors(setup.scenario, names, violations);
   for (const auto& [key, text] : of_prior) priors.set(key, text, violations);
   violations.throw_if_any();
-  setup.prior = priors.prior();
+  setup.prior = priors.prior()->behind_actuators();
+  setup.robot = robot_alone(setup.scenario.task);
   return setup;
 }
 
@@ -60,9 +81,12 @@ std::vector<ReadLog> read_logs(const std::vector<std::string>& paths, const Stud
       recording::ReadOptions plain = setup.options.read;
       plain.average = false;
       recording::Recording recording = recording::read_file(path, setup.scenario.task, setup.options.read);
+      const Actuators actuators = setup.scenario.task.actuators();
       const Matrix measured = recording::read_file(path, setup.scenario.task, plain).episode.states;
       const std::string name = std::filesystem::path(path).stem().string();
-      logs.push_back({path, {name, std::move(recording.episode), measured}, std::move(recording.notes)});
+      logs.push_back({path,
+                      {name, moved(std::move(recording.episode), actuators), measured.leftCols(actuators.own_states())},
+                      std::move(recording.notes)});
     } catch (const InvalidInput& error) {
       for (const std::string& line : error.violations()) violations.add(line);
     }

@@ -25,7 +25,8 @@ struct IdentifyOptions {
 /// A robot with a prior, and how it is learned.
 struct StudySetup {
   scenario::Scenario scenario;
-  std::optional<prior::Prior> prior;
+  Task robot;                         // of its own states, by what moves it: its actuators are known
+  std::optional<prior::Prior> prior;  // likewise
   IdentifyOptions options;
 };
 

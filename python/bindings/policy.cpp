@@ -19,14 +19,24 @@ py::array_t<double> Policy::act(const py::array_t<double, py::array::f_style | p
   {
     const py::gil_scoped_release unlocked;
     policy_->act(exported_.theta.transpose().replicate(rows, 1), X, time_s, U);
+    exported_.actuators.command(X, U);
   }
   if (one) return to_vector(U.row(0).transpose());
   return to_array(U);
 }
 
+Matrix Policy::remember(const Matrix& states, const Matrix& actions) const {
+  const Actuators& actuators = exported_.actuators;
+  Matrix next = states;
+  actuators.remember(states, actions, next);
+  return next.rightCols(actuators.memory());
+}
+
 void add_policy(py::module_& module) {
   py::class_<Policy>(module, "Policy")
       .def("act", &Policy::act, py::arg("states"), py::arg("time_s") = 0.0)
+      .def("start", [](const Policy& p) { return p.exported().actuators.start(); })
+      .def("remember", &Policy::remember, py::arg("states"), py::arg("actions"))
       .def_property_readonly("theta", [](const Policy& p) { return p.exported().theta; })
       .def_property_readonly("kind", [](const Policy& p) { return p.exported().kind; })
       .def_property_readonly("trial", [](const Policy& p) { return p.exported().origin.trial; })

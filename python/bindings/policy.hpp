@@ -15,9 +15,12 @@ class Policy {
   Policy(std::shared_ptr<const policy::Policy> policy, policy::Exported exported)
       : policy_(std::move(policy)), exported_(std::move(exported)) {}
 
-  /// states: dx, or n × dx. Actions: du, or n × du.
+  /// states: dx, or n × dx, with the memory of actuators. Actions: du, or n × du; they are commands.
   py::array_t<double> act(const py::array_t<double, py::array::f_style | py::array::forcecast>& states,
                           double time_s) const;
+
+  /// The memory (n × its size) after steps from states (n × dx) under commands (n × du).
+  Matrix remember(const Matrix& states, const Matrix& actions) const;
 
   const policy::Exported& exported() const { return exported_; }
 

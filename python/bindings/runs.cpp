@@ -1,5 +1,8 @@
 #include "python/bindings/runs.hpp"
 
+#include <filesystem>
+
+#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -46,24 +49,41 @@ experiment::Resolved resolved(const experiment::Catalogue& catalogue, const Requ
   return experiment::resolve(catalogue, spec);
 }
 
+/// Where Ctrl-C stops it, it says what goes on. folder: may become known in the course of the work.
+template <class Work>
+void resumable(const std::filesystem::path& folder, Work work) {
+  try {
+    work();
+  } catch (const py::error_already_set& error) {
+    std::error_code ignored;
+    const bool silent = error.matches(PyExc_KeyboardInterrupt) && py::str(error.value()).cast<std::string>().empty();
+    if (!silent || !std::filesystem::exists(folder, ignored)) throw;
+    PyErr_SetString(PyExc_KeyboardInterrupt,
+                    fmt::format("interrupted: rehearse.resume(\"{}\") goes on", folder.string()).c_str());
+    throw py::error_already_set();
+  }
+}
+
 /// Makes the folder, and runs all trials. Returns the folder.
 std::string learn(const Robot& robot, const Request& request, const std::string& out, const Settings& settings) {
   std::filesystem::path folder = out;
-  work_with(robot, settings, [&](const experiment::RunOptions& options) {
+  const auto run_all = [&](const experiment::RunOptions& options) {
     const experiment::Catalogue catalogue = robot.catalogue();
     const experiment::Resolved run = resolved(catalogue, request);
     robot.try_out(run.scenario);
     if (folder.empty()) folder = "runs/" + run_name(run.spec);
     experiment::start_run(catalogue, run.spec, folder, options);
-  });
+  };
+  resumable(folder, [&] { work_with(robot, settings, run_all); });
   return folder.string();
 }
 
 void resume(const Robot& robot, const std::string& folder, std::optional<Index> trials, const Settings& settings) {
-  work_with(robot, settings, [&](const experiment::RunOptions& options) {
+  const auto go_on = [&](const experiment::RunOptions& options) {
     const auto until = trials ? std::optional<experiment::Until>(*trials) : std::nullopt;
     experiment::resume_run(robot.catalogue(), folder, until, options);
-  });
+  };
+  resumable(folder, [&] { work_with(robot, settings, go_on); });
 }
 
 Policy ask(const Robot& robot, const std::string& folder, const Settings& settings, py::dict& trial) {

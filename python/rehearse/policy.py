@@ -23,12 +23,29 @@ class Policy:
     def __init__(self, core: _core.Policy) -> None:
         self._core = core
 
-    def act(self, states: npt.ArrayLike, time_s: float = 0.0) -> Array:
-        """Actions (du, or n × du) for states (dx, or n × dx) at a time since the start. NaN where a state is."""
-        return self._core.act(np.asarray(states, dtype=float), time_s)
+    def act(self, states: npt.ArrayLike, time_s: float = 0.0, memory: Union[Array, None] = None) -> Array:
+        """Actions (du, or n × du) for states (dx, or n × dx) at a time since the start. NaN where a state is.
 
-    def __call__(self, states: npt.ArrayLike, time_s: float = 0.0) -> Array:
-        return self.act(states, time_s)
+        memory: of a robot whose actions have a rate, a filter, a delay, a lag or are remembered: what `start` gave
+        before the first step. It holds the last commands, and is changed: act once each time step. Without it the
+        states must have its columns, too, as trajectories do.
+        """
+        x = np.asarray(states, dtype=float)
+        if memory is None:
+            return self._core.act(x, time_s)
+        x = np.concatenate([x, memory], axis=-1)
+        actions = self._core.act(x, time_s)
+        after = self._core.remember(np.atleast_2d(x), np.atleast_2d(actions)).reshape(memory.shape)
+        memory[...] = np.where(np.isfinite(actions).all(axis=-1, keepdims=True), after, memory)
+        return actions
+
+    def __call__(self, states: npt.ArrayLike, time_s: float = 0.0, memory: Union[Array, None] = None) -> Array:
+        return self.act(states, time_s, memory)
+
+    def start(self, n: Union[int, None] = None) -> Array:
+        """The memory of n episodes (n rows), or of one, before the first step."""
+        memory = np.array(self._core.start(), dtype=float)
+        return memory if n is None else np.tile(memory, (n, 1))
 
     @property
     def theta(self) -> Array:

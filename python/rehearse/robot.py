@@ -5,6 +5,7 @@ The keys are those of a robot's file (docs/own-robot.md). Where a file has a for
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -47,11 +48,21 @@ class State:
 
 @dataclass(frozen=True)
 class Action:
-    """What moves the robot: a number inside its bounds, held for a control step."""
+    """What moves the robot: a number inside its bounds, held for a control step.
+
+    max_rate: of the command, in units of the action a second. filter_s: time constant of the low-pass that commands go
+    through. delay_s: from the command until the robot gets it. lag_s: time constant with which it then follows. remember:
+    policies see the commands of so many last steps. docs/actuators.md says when to use which.
+    """
 
     name: str
     bounds: tuple[float, float]
     unit: str = ""
+    max_rate: float = math.inf
+    filter_s: float = 0.0
+    delay_s: float = 0.0
+    lag_s: float = 0.0
+    remember: int = 0
 
 
 @dataclass(frozen=True)
@@ -102,7 +113,8 @@ class Model:
     change: function(states, actions, **parameters) → the changes of the states, n × dx. It is called with thousands of
     rows, by one thread at a time. A row depends on that row alone; one that cannot be simulated is NaN. rates: instead,
     a formula for the derivative of each state by time. parameters: the function's, or the formulas', at the values to
-    start from. tune: those that are learned, between bounds (low, high), or among a list of values.
+    start from. tune: those that are learned, between bounds (low, high), or among a list of values. delay_s, lag_s: of a
+    plant's actions by name, where they are others than `Action` says.
     """
 
     change: Union[Callable[..., Any], None] = None
@@ -110,6 +122,8 @@ class Model:
     parameters: Mapping[str, float] = field(default_factory=dict)
     tune: Mapping[str, Any] = field(default_factory=dict)
     define: Mapping[str, str] = field(default_factory=dict)
+    delay_s: Mapping[str, float] = field(default_factory=dict)
+    lag_s: Mapping[str, float] = field(default_factory=dict)
 
 
 class Robot:
@@ -165,8 +179,7 @@ class Robot:
         parts = [table("", {"format": 1, "name": name, "summary": summary, "dt_s": float(dt_s), "horizon": horizon,
                             "ended": self._state_formula("ended", ended)})]
         parts += [_state(state) for state in states]
-        parts += [table("[[action]]", {"name": a.name, "unit": a.unit, "bounds": [float(b) for b in a.bounds]})
-                  for a in actions]
+        parts += [_action(action) for action in actions]
         parts.append(table("[define]", dict(define or {})))
         parts.append(table("[reward]", {**self._reward(reward), "cost": cost or None, "floor": float(floor)}))
         if success is not None:
@@ -260,7 +273,8 @@ class Robot:
             return []
         if isinstance(plant, Model):
             return [self._dynamics("plant", plant),
-                    table("[plant]", {"dynamics": "plant", "measurement_noise": float(noise)})]
+                    table("[plant]", {"dynamics": "plant", "measurement_noise": float(noise),
+                                      "delay_s": dict(plant.delay_s), "lag_s": dict(plant.lag_s)})]
         self.has_environment = not callable(plant)
         self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
         return [table("[plant]", {"function": "plant", "measurement_noise": float(noise) or None})]
@@ -275,6 +289,13 @@ def _state(state: State) -> str:
     known = State("")
     given = {key: getattr(state, key) for key in State.__dataclass_fields__}
     return table("[[state]]", {k: v for k, v in given.items() if k == "name" or v != getattr(known, k)})
+
+
+def _action(action: Action) -> str:
+    known = Action("", (0.0, 0.0))
+    given = {key: getattr(action, key) for key in ("max_rate", "filter_s", "delay_s", "lag_s", "remember")}
+    return table("[[action]]", {"name": action.name, "unit": action.unit, "bounds": [float(b) for b in action.bounds],
+                                **{k: v for k, v in given.items() if v != getattr(known, k)}})
 
 
 def _name_in(text: str) -> str:

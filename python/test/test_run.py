@@ -194,7 +194,7 @@ rehearse.learn(cart(), trials=3, out={str(tmp_path / "run")!r}, threads=2, optio
     time.sleep(0.3)
     process.send_signal(signal.SIGINT)
     _, error = process.communicate(timeout=60)
-    assert "KeyboardInterrupt" in error and process.returncode != 0
+    assert "KeyboardInterrupt: interrupted: rehearse.resume(" in error and process.returncode != 0
     assert len(rehearse.open_run(tmp_path / "run", cart()).trials) in (1, 2)
     rest = rehearse.resume(tmp_path / "run", cart(), progress=None)
     whole = learn(cart(), tmp_path / "whole", trials=3, options={"search.race.max_evaluations": 60000})

@@ -136,6 +136,11 @@ std::vector<std::string> Task::violations() const {
                   fmt::format("action {}: {} must be a state that is no angle, to have it as a target", action.name,
                               action.target_of));
   }
+  for (const ActionVariable& action : actions)
+    for (const std::string& line : Actuators::violations(action, dt_s)) found.add(line);
+  const Index memories = Actuators(actions, dt_s, 0).memory();
+  found.require(memory == memories,
+                fmt::format("memory = {}, must be the {} states that its actuators remember", memory, memories));
   found.require(start_mean.size() == state_size() && start_mean.allFinite(),
                 fmt::format("start_mean has {} entries, must have {} finite ones", start_mean.size(), state_size()));
   found.require(start_std.size() == state_size() && start_std.allFinite() && (start_std.array() >= 0).all(),
@@ -161,6 +166,18 @@ std::vector<std::string> Task::violations() const {
   }
   found.require(std::isfinite(reward_floor), fmt::format("reward_floor = {}, must be finite", reward_floor));
   return found.list();
+}
+
+Task with_memory(Task task) {
+  const Actuators actuators(task.actions, task.dt_s, task.state_size());
+  task.memory = actuators.memory();
+  const std::vector<StateVariable> memory = actuators.variables();
+  task.states.insert(task.states.end(), memory.begin(), memory.end());
+  task.start_mean.conservativeResize(actuators.states());
+  task.start_mean.tail(task.memory) = actuators.start();
+  task.start_std.conservativeResize(actuators.states());
+  task.start_std.tail(task.memory).setZero();
+  return task;
 }
 
 }  // namespace rehearse

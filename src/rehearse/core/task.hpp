@@ -5,30 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/core/actuators.hpp"
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/feature_map.hpp"
 #include "rehearse/core/kinematics.hpp"
 #include "rehearse/core/types.hpp"
+#include "rehearse/core/variables.hpp"
 
 namespace rehearse {
-
-struct StateVariable {
-  std::string name;
-  std::string unit;
-  StateKind kind = StateKind::plain;
-  std::string rate;    // name of the state that is its derivative by time; empty: none is
-  std::string parent;  // of an angle: name of the angle of the link that carries this one, both measured from one
-                       // direction; empty: none does
-};
-
-struct ActionVariable {
-  std::string name;  // of no state
-  std::string unit;
-  Interval bounds;
-  std::string target_of;   // name of the state that it commands (a servo's angle): models are told how far that is from
-                           // it; empty: none
-  std::string servo_type;  // of the servo whose target it is: those of the same type are alike; empty: like no other
-};
 
 /// Immediate rewards of a batch of steps: states X and actions U (rows × dx, rows × du), the states reached, one
 /// reward a row. Must be callable from several threads and depend on its row alone.
@@ -75,8 +59,9 @@ struct Limit {
 
 /// What every room may know of a problem. A plain value.
 struct Task {
-  std::vector<StateVariable> states;
+  std::vector<StateVariable> states;  // the robot's own, then the memory of its actuators
   std::vector<ActionVariable> actions;
+  Index memory = 0;   // how many states that is (with_memory)
   Vector start_mean;  // dx
   Vector start_std;   // dx; an episode starts at N(start_mean, diag(start_std²))
   double dt_s = 0;    // control step
@@ -96,6 +81,7 @@ struct Task {
 
   Index state_size() const { return static_cast<Index>(states.size()); }
   Index action_size() const { return static_cast<Index>(actions.size()); }
+  Actuators actuators() const { return {actions, dt_s, state_size() - memory}; }
   double episode_s() const { return static_cast<double>(horizon) * dt_s; }
   FeatureMap feature_map() const;     // inputs of policies
   FeatureMap model_features() const;  // of models: joint angles too, and targets from where their states are
@@ -107,5 +93,9 @@ struct Task {
   /// A line for everything that is missing or contradicts itself.
   std::vector<std::string> violations() const;
 };
+
+/// A task of the robot's own states, with what its actuators must remember behind them. Its functions are given all
+/// states.
+Task with_memory(Task task);
 
 }  // namespace rehearse

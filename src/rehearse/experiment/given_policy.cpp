@@ -29,11 +29,12 @@ std::vector<std::string> variable_names(const json& variables) {
 }
 
 /// Whether the policy answers as the file says.
-bool answers_alike(const policy::Policy& policy, const Vector& theta, const json& test) {
+bool answers_alike(const policy::Policy& policy, const Vector& theta, const Task& task, const json& test) {
   Matrix U(1, policy.actions());
   for (std::size_t i = 0; i < test.at("states").size(); ++i) {
     const Matrix X = to_vector(test.at("states").at(i)).transpose();
     policy.act(theta.transpose(), X, test.at("times_s").at(i).get<double>(), U);
+    task.actuators().command(X, U);
     const Vector said = to_vector(test.at("actions").at(i));
     if (said.size() != U.cols() ||
         !((said.transpose() - U).cwiseAbs().maxCoeff() <= kTolerance * (1 + said.cwiseAbs().maxCoeff())))
@@ -59,7 +60,7 @@ TrialRecord given_policy(const std::string& text, const std::string& source, con
   const auto policy = policy_of(record, scenario);
   if (record.theta.size() != policy->parameters() || !record.theta.allFinite())
     wrong(fmt::format("theta has {} numbers, must have {} finite ones", record.theta.size(), policy->parameters()));
-  if (!answers_alike(*policy, record.theta, file.at("test")))
+  if (!answers_alike(*policy, record.theta, task, file.at("test")))
     wrong("the run's options make another policy of its theta");
   return record;
 } catch (const json::exception&) {

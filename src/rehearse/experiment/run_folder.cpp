@@ -87,14 +87,7 @@ RunFolder::Contents RunFolder::read(const fs::path& given) {
   return contents;
 }
 
-bool RunFolder::is_in_use(const fs::path& folder) {
-  try {
-    const files::FolderLock lock(folder, files::FolderLock::Kind::shared);
-    return false;
-  } catch (const InvalidInput&) {
-    return true;
-  }
-}
+bool RunFolder::is_in_use(const fs::path& folder) { return files::FolderLock::is_held(folder); }
 
 void RunFolder::change_end(Until until, const Comments& comments) {
   if (until.trials == spec_.trials && until.solved == spec_.until_solved) return;

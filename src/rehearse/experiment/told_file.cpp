@@ -24,10 +24,12 @@ constexpr double kRounding = 1e-9;  // likewise, of numbers in a file
 Vector deviations(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& asked) {
   const Task& task = scenario.task;
   const auto policy = policy_of(asked, scenario);
+  const Actuators actuators = task.actuators();
   Matrix u(1, task.action_size());
   Vector squared = Vector::Zero(task.action_size());
   for (Index t = 0; t < episode.steps(); ++t) {
     policy->act(asked.theta.transpose(), episode.states.middleRows(t, 1), static_cast<double>(t) * task.dt_s, u);
+    actuators.command(episode.states.middleRows(t, 1), u);
     squared += (u - episode.actions.row(t)).transpose().cwiseAbs2();
   }
   return (squared / static_cast<double>(episode.steps())).cwiseSqrt();

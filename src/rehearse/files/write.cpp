@@ -126,6 +126,15 @@ FolderLock::~FolderLock() {
   if (file_ >= 0) ::close(file_);
 }
 
+bool FolderLock::is_held(const std::filesystem::path& folder) {
+  RegularFile lock(folder / "lock");
+  if (!lock.open()) return false;
+  const int file = lock.release();
+  const bool held = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(file);  // which also unlocks it
+  return held;
+}
+
 FolderLock::FolderLock(FolderLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
 
 }  // namespace rehearse::files

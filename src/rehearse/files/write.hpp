@@ -37,6 +37,10 @@ class FolderLock {
   enum class Kind { exclusive, shared };
   explicit FolderLock(const std::filesystem::path& folder, Kind kind = Kind::exclusive);  // InvalidInput: it is in use
   ~FolderLock();
+
+  /// Whether a process has it now. It neither waits nor writes.
+  static bool is_held(const std::filesystem::path& folder);
+
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&&) = delete;
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/dynamics/actuated_model.hpp"
 #include "rehearse/dynamics/residuals.hpp"
 #include "rehearse/dynamics/servos.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
@@ -153,12 +154,28 @@ const ResidualGpOptions* servo_options(const Kind& kind) {
   return std::visit(with_servos, kind);
 }
 
+/// Of the robot behind its actuators. In front of its model they stand as they are known to be.
+Learned learn_behind_actuators(const LearningProblem& problem, const Kind& kind, const WarmStart& start,
+                               const Evaluator& evaluator) {
+  const auto& [data, features, kinematics, prior, actuators] = problem;
+  const auto own_kinds = features.kinds().begin() + actuators.own_states();
+  const FeatureMap own(std::vector<StateKind>(features.kinds().begin(), own_kinds), features.joints(),
+                       features.targets());
+  std::optional<prior::Prior> robot;
+  if (prior) robot = prior->behind_actuators();
+  Learned learned =
+      learn({dynamics::moved(data, actuators), own, kinematics, robot ? &*robot : nullptr}, kind, start, evaluator);
+  learned.model = std::make_shared<dynamics::ActuatedModel>(learned.model, actuators);
+  return learned;
+}
+
 }  // namespace
 
 Learned learn(const LearningProblem& problem, const Kind& kind, const WarmStart& start, const Evaluator& evaluator) {
-  const auto& [data, features, kinematics, prior] = problem;
+  const auto& [data, features, kinematics, prior, actuators] = problem;
   if (!prior && !std::holds_alternative<ZeroMean>(kind)) throw InvalidInput("this dynamics model needs a prior");
   if (data.size() == 0) throw InvalidInput("the data set has no row to learn from");
+  if (actuators.memory() > 0) return learn_behind_actuators(problem, kind, start, evaluator);
   const auto learn_from = [&](const LearningProblem& of) {
     return std::visit([&](const auto& k) { return learn_kind(k, Given{of, start, evaluator}); }, kind);
   };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/core/actuators.hpp"
 #include "rehearse/core/episode.hpp"
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/feature_map.hpp"
@@ -40,6 +41,7 @@ struct LearningProblem {
   FeatureMap features;
   Kinematics kinematics;
   const prior::Prior* prior;  // null: none
+  Actuators actuators = {};   // in front of the robot; the data set has their memory
 };
 
 /// Throws InvalidInput if the kind needs a prior and none is given, or the data set has no usable row.

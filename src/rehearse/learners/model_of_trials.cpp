@@ -34,7 +34,7 @@ identification::WarmStart ModelOfTrials::learn(Proposal& proposal) const {
   try {
     identification::Learned learned =
         identification::learn({data_, setting_.task.model_features(), setting_.task.kinematics(),
-                               setting_.prior ? &*setting_.prior : nullptr},
+                               setting_.prior ? &*setting_.prior : nullptr, setting_.task.actuators()},
                               kind_, start_, *setting_.evaluator);
     proposal.model = learned.model;
     proposal.phi = learned.state.phi;

@@ -24,6 +24,9 @@ std::vector<std::string> without_moments(const Task& task, const policy::Policy&
                      fmt::format("the task has a cost of steps, whose moments are not known: choose {}", otherwise));
   violations.require(task.limits.empty(),
                      fmt::format("the task has limits, which {} does not keep: choose {}", who, otherwise));
+  violations.require(
+      !task.actuators().changes_commands(),
+      fmt::format("the task has max_rate or filter_s of an action, whose moments are not known: choose {}", otherwise));
   violations.require(reward::closed_form(task.reward) != nullptr,
                      fmt::format("the scenario's reward has no analytic moments, which {} needs: give it a closed "
                                  "form (reward::saturating), or choose {}",

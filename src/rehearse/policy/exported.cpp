@@ -9,6 +9,7 @@ Exported make_exported(const Origin& origin, const Task& task, const Policy& pol
   Exported exported{.origin = origin,
                     .states = task.states,
                     .actions = task.actions,
+                    .actuators = task.actuators(),
                     .dt_s = task.dt_s,
                     .kind = policy.name(),
                     .theta = theta,
@@ -18,6 +19,7 @@ Exported make_exported(const Origin& origin, const Task& task, const Policy& pol
   const Matrix Theta = theta.transpose();
   for (Index i = 0; i < asked.states.rows(); ++i)
     policy.act(Theta, asked.states.middleRows(i, 1), asked.times_s(i), exported.answers.actions.middleRows(i, 1));
+  exported.actuators.command(asked.states, exported.answers.actions);
   return exported;
 }
 

@@ -22,7 +22,7 @@ struct Origin {
 struct Answers {
   Matrix states;   // n × dx
   Vector times_s;  // n
-  Matrix actions;  // n × du
+  Matrix actions;  // n × du: commands
 };
 
 /// Everything that its texts say. A value.
@@ -30,6 +30,7 @@ struct Exported {
   Origin origin;
   std::vector<StateVariable> states;
   std::vector<ActionVariable> actions;  // with their bounds
+  Actuators actuators;                  // what becomes of the actions; the last states are their memory
   double dt_s = 0;
   std::string kind;  // the policy's name: "mlp"
   Vector theta;
@@ -41,6 +42,7 @@ struct Exported {
 Exported make_exported(const Origin& origin, const Task& task, const Policy& policy, const Vector& theta,
                        const Answers& asked);
 
+/// Where actuators remember something, each of the three carries that from step to step, and answers with commands.
 /// A state or a time that is not finite is answered with NaN for every action, in all three.
 ///
 /// C99, and C++: a header with a function NAME_act, which needs <math.h> alone and allocates nothing. name: a word for

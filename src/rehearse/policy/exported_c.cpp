@@ -1,7 +1,9 @@
 #include <cctype>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "rehearse/policy/exported_commands.hpp"
 #include "rehearse/policy/exported_text.hpp"
 
 namespace rehearse::policy {
@@ -10,9 +12,9 @@ namespace {
 constexpr const char* kFrame = R"(/* @NAME@: a @MARK@.
  *
 @WHERE_FROM@ *
- *   int @NAME@_act(const double state[@STATES@], double time_s, double action[@ACTIONS@]);
+ *   int @NAME@_act(const double state[@STATES@], double time_s,@MEMORY_PARAMETER@ double action[@ACTIONS@]);
  *
- * time_s is the time since the episode began. Actions are inside their bounds and 1 is returned; where a state or the
+@MEMORY_ABOUT@ * time_s is the time since the episode began. Actions are inside their bounds and 1 is returned; where a state or the
  * time is NaN or infinite, every action is NaN and 0 is returned: stop the robot. No finite state makes the floating-point
  * unit divide by zero, overflow or compute something invalid (clang: -ffp-exception-behavior=strict). Do not compile it
  * with -ffast-math.
@@ -26,20 +28,20 @@ constexpr const char* kFrame = R"(/* @NAME@: a @MARK@.
 
 #define @UPPER@_STATES @STATES@
 #define @UPPER@_ACTIONS @ACTIONS@
-#define @UPPER@_DT_S @DT_S@
+@MEMORY_DEFINE@#define @UPPER@_DT_S @DT_S@
 
 /* Of NaN it is low: a compiler may compute ahead what is used for finite states alone. */
 static inline double @NAME@_limit(double x, double low, double high) { return x > low ? x < high ? x : high : low; }
 
-static inline int @NAME@_act(const double state[@STATES@], double time_s, double action[@ACTIONS@]) {
-@NUMBERS@  int known = isfinite(time_s) ? 1 : 0;
-  for (int i = 0; i < @STATES@; ++i)
+@MEMORY_START@static inline int @NAME@_act(const double @MEASURED@[@STATES@], double time_s,@MEMORY_PARAMETER@ double action[@ACTIONS@]) {
+@JOINED@@NUMBERS@  int known = isfinite(time_s) ? 1 : 0;
+  for (int i = 0; i < @ALL@; ++i)
     if (!isfinite(state[i])) known = 0;
   if (!known) {
     for (int o = 0; o < @ACTIONS@; ++o) action[o] = NAN;
     return 0;
   }
-@COMPUTE@  return 1;
+@COMPUTE@@COMMANDS@  return 1;
 }
 
 #ifdef REHEARSE_POLICY_MAIN
@@ -48,7 +50,7 @@ static inline int @NAME@_act(const double state[@STATES@], double time_s, double
 /* Whether the policy does here what it did there. */
 int main(void) {
   enum { count = @COUNT@ };
-  static const double states[count][@STATES@] =
+  static const double states[count][@ALL@] =
     @TEST_STATES@;
   static const double times_s[count] =
     @TEST_TIMES@;
@@ -56,9 +58,9 @@ int main(void) {
     @TEST_ACTIONS@;
   static const double range[@ACTIONS@] = @RANGES@;
   double state[@STATES@], action[@ACTIONS@], largest = 0;
-  int wrong = 0;
+@TEST_MEMORY@  int wrong = 0;
   for (int i = 0; i < count; ++i) {
-    wrong += @NAME@_act(states[i], times_s[i], action) != 1;
+@TEST_REMEMBERS@    wrong += @NAME@_act(states[i], times_s[i],@MEMORY_ARGUMENT@ action) != 1;
     for (int o = 0; o < @ACTIONS@; ++o) {
       const double apart = fabs(action[o] - actions[i][o]) / range[o];
       if (!(apart <= 1e-11)) ++wrong;
@@ -66,7 +68,7 @@ int main(void) {
     }
   }
   for (int i = 0; i < @STATES@; ++i) state[i] = i == 0 ? (double)NAN : states[0][i];
-  wrong += @NAME@_act(state, 0, action) != 0;
+  wrong += @NAME@_act(state, 0,@MEMORY_ARGUMENT@ action) != 0;
   printf("@NAME@: %d states, actions differ by at most %.2g of their range: %s\n", (int)count, largest,
          wrong ? "WRONG" : "as it should be");
   return wrong ? 1 : 0;
@@ -125,10 +127,10 @@ constexpr const char* kFeedback =
   double u[2][@ACTIONS@];
   for (int s = 0; s < stages; ++s) {
     for (int o = 0; o < @ACTIONS@; ++o) u[s][o] = planned[row + s][o];
-    for (int i = 0; i < @STATES@; ++i) {
+    for (int i = 0; i < @ALL@; ++i) {
       double apart = @NAME@_limit(state[i], -@LARGEST_INPUT@, @LARGEST_INPUT@) - tracked[row + s][i];
       if (angle[i]) apart -= turn * floor(apart / turn + 0.5);
-      for (int o = 0; o < @ACTIONS@; ++o) u[s][o] += gain[row + s][o * @STATES@ + i] * apart;
+      for (int o = 0; o < @ACTIONS@; ++o) u[s][o] += gain[row + s][o * @ALL@ + i] * apart;
     }
   }
   for (int o = 0; o < @ACTIONS@; ++o) {
@@ -136,6 +138,22 @@ constexpr const char* kFeedback =
     action[o] = @NAME@_limit(u[0][o], low[o], high[o]);
   }
 )";
+
+constexpr std::pair<const char*, const char*> kMemory[] = {
+    {"MEMORY_PARAMETER", " double memory[@MEMORY@],"},
+    {"MEMORY_DEFINE", "#define @UPPER@_MEMORY @MEMORY@\n"},
+    {"MEMORY_ABOUT",
+     " * memory holds the last commands. Before each episode call @NAME@_start(memory), then @NAME@_act once "
+     "each time step.\n *\n"},
+    {"MEMORY_START",
+     "static inline void @NAME@_start(double memory[@MEMORY@]) {\n"
+     "  static const double start[@MEMORY@] = @MEMORY_START_VALUES@;\n"
+     "  for (int i = 0; i < @MEMORY@; ++i) memory[i] = start[i];\n}\n\n"},
+    {"JOINED",
+     "  double state[@ALL@];\n"
+     "  for (int i = 0; i < @ALL@; ++i) state[i] = i < @STATES@ ? measured[i] : memory[i - @STATES@];\n"},
+    {"TEST_MEMORY", "  double memory[@MEMORY@];\n  @NAME@_start(memory);\n"},
+    {"TEST_REMEMBERS", "    for (int j = 0; j < @MEMORY@; ++j) memory[j] = states[i][@STATES@ + j];\n"}};
 
 using Values = std::map<std::string, std::string>;
 
@@ -159,6 +177,30 @@ std::string input_lines(const std::vector<Input>& inputs, const std::string& nam
     lines += fmt::format("  input[{}] = {}{};\n", i, feature, scale == 1 ? "" : " / " + number(scale));
   }
   return lines;
+}
+
+/// What the frame says where actuators remember something; nothing where they do not.
+void add_memory(const Exported& exported, const std::string& name, Values& values) {
+  for (const char* part : {"MEMORY_PARAMETER", "MEMORY_ARGUMENT", "MEMORY_ABOUT", "MEMORY_DEFINE", "MEMORY_START",
+                           "JOINED", "COMMANDS", "TEST_MEMORY", "TEST_REMEMBERS"})
+    values[part] = "";
+  values["MEASURED"] = "state";
+  const Index size = memory(exported);
+  if (size == 0) return;
+  values["MEMORY"] = std::to_string(size);
+  values["MEMORY_START_VALUES"] = list(exported.actuators.start());
+  values["MEASURED"] = "measured";
+  values["MEMORY_ARGUMENT"] = " memory,";
+  for (const auto& [part, text] : kMemory) values[part] = filled(text, values);
+  const auto remembered = [own = measured(exported)](Index state) { return fmt::format("memory[{}]", state - own); };
+  const auto action = [](Index a) { return fmt::format("action[{}]", a); };
+  values["COMMANDS"] = "  /* Commands follow from the last ones, and are remembered. */\n" +
+                       command_lines(exported.actuators, {.action = action,
+                                                          .before = remembered,
+                                                          .after = remembered,
+                                                          .limited = name + "_limit({0}, {1}, {2})",
+                                                          .end = ";",
+                                                          .indent = "  "});
 }
 
 /// NUMBERS and COMPUTE of a description.
@@ -238,7 +280,8 @@ std::string to_c(const Exported& exported, const std::string& name) {
   Values values = {{"NAME", name},
                    {"UPPER", name},
                    {"MARK", kExportedMark},
-                   {"STATES", std::to_string(exported.states.size())},
+                   {"STATES", std::to_string(measured(exported))},
+                   {"ALL", std::to_string(exported.states.size())},
                    {"ACTIONS", std::to_string(exported.actions.size())},
                    {"DT_S", number(exported.dt_s)},
                    {"COUNT", std::to_string(exported.answers.states.rows())},
@@ -248,6 +291,7 @@ std::string to_c(const Exported& exported, const std::string& name) {
                    {"RANGES", list(highs(exported) - lows(exported))}};
   for (char& c : values["UPPER"]) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   for (const std::string& line : explanation(exported)) values["WHERE_FROM"] += " * " + line + "\n";
+  add_memory(exported, name, values);
   Body body(exported, values);
   std::visit(body, exported.description);
   return filled(kFrame, values);

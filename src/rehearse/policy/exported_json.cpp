@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "rehearse/policy/exported_text.hpp"
@@ -60,6 +62,22 @@ Json to_form(const Feedback& feedback) {
           {"angles", feedback.angles}};
 }
 
+/// How each action becomes a command, and what is remembered of it: docs/export.md.
+Json commands(const Actuators& actuators) {
+  Json all = Json::array();
+  const auto known = [](bool is, auto value) { return is ? Json(value) : Json(); };
+  for (const Actuators::Line& line : actuators.lines())
+    all.push_back({{"last", known(line.before > 0, line.first)},
+                   {"remembers", line.before},
+                   {"start", line.start},
+                   {"passes", line.passes},
+                   {"max_step", known(std::isfinite(line.max_step), line.max_step)},
+                   {"reached", known(line.reached >= 0, line.reached)},
+                   {"delay", static_cast<double>(line.delay) + line.further},
+                   {"stays", line.stays}});
+  return all;
+}
+
 }  // namespace
 
 std::string to_json(const Exported& exported) {
@@ -69,24 +87,25 @@ std::string to_json(const Exported& exported) {
   for (const ActionVariable& action : exported.actions)
     actions.push_back(
         {{"name", action.name}, {"unit", action.unit}, {"low", action.bounds.low}, {"high", action.bounds.high}});
-  const Json all = {{"about", std::string("a ") + kExportedMark},
-                    {"format", 1},
-                    {"robot", from.robot},
-                    {"learner", from.learner},
-                    {"prior", from.prior},
-                    {"seed", from.seed},
-                    {"trial", from.trial},
-                    {"return", from.total_reward ? Json(*from.total_reward) : Json()},
-                    {"dt_s", exported.dt_s},
-                    {"states", states},
-                    {"actions", actions},
-                    {"policy", exported.kind},
-                    {"theta", list(exported.theta)},
-                    {"computes", std::visit([](const auto& form) { return to_form(form); }, exported.description)},
-                    {"test",
-                     {{"states", lists(exported.answers.states)},
-                      {"times_s", list(exported.answers.times_s)},
-                      {"actions", lists(exported.answers.actions)}}}};
+  Json all = {{"about", std::string("a ") + kExportedMark},
+              {"format", 1},
+              {"robot", from.robot},
+              {"learner", from.learner},
+              {"prior", from.prior},
+              {"seed", from.seed},
+              {"trial", from.trial},
+              {"return", from.total_reward ? Json(*from.total_reward) : Json()},
+              {"dt_s", exported.dt_s},
+              {"states", states},
+              {"actions", actions},
+              {"policy", exported.kind},
+              {"theta", list(exported.theta)},
+              {"computes", std::visit([](const auto& form) { return to_form(form); }, exported.description)},
+              {"test",
+               {{"states", lists(exported.answers.states)},
+                {"times_s", list(exported.answers.times_s)},
+                {"actions", lists(exported.answers.actions)}}}};
+  if (memory(exported) > 0) all["commands"] = commands(exported.actuators);
   return all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

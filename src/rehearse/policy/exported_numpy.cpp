@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "rehearse/policy/exported_commands.hpp"
 #include "rehearse/policy/exported_text.hpp"
 
 namespace rehearse::policy {
@@ -14,15 +15,15 @@ STATES, ACTIONS, DT_S = @STATE_NAMES@, @ACTION_NAMES@, @DT_S@
 LOW, HIGH = np.array(@LOW@), np.array(@HIGH@)
 @NUMBERS@
 
-def act(states, t=0.0):
+@MEMORY_START@def act(states, @T@):
     """Actions (n x @ACTIONS@) in the states (n x @STATES@) at time t [s] since the episode began, one or n of them; of one state
-    alone its actions alone. NaN where a state or the time is not finite, else inside their bounds."""
+    alone its actions alone.@MEMORY_ABOUT@ NaN where a state or the time is not finite, else inside their bounds."""
     given = np.asarray(states, dtype=float)
     x = np.atleast_2d(given)
-    t = np.broadcast_to(np.asarray(t, dtype=float), len(x))
+@JOINED@    t = np.broadcast_to(np.asarray(t, dtype=float), len(x))
     known = np.isfinite(x).all(axis=1) & np.isfinite(t)
     x, t = np.where(known[:, None], x, 0.0), np.where(known, t, 0.0)
-@COMPUTE@    u[~known] = np.nan
+@COMPUTE@@COMMANDS@    u[~known] = np.nan
     return u if given.ndim == 2 else u[0]
 
 
@@ -34,7 +35,7 @@ TEST_ACTIONS = np.array(
     @TEST_ACTIONS@)
 
 if __name__ == "__main__":
-    apart = np.abs(act(TEST_STATES, TEST_TIMES) - TEST_ACTIONS) / (HIGH - LOW)
+    apart = np.abs(act(@TEST_GIVEN@) - TEST_ACTIONS) / (HIGH - LOW)
     print(f"{len(apart)} states, actions differ by at most {apart.max():.2g} of their range")
     raise SystemExit(not (apart <= 1e-11).all())
 )PY";
@@ -76,6 +77,14 @@ constexpr const char* kFeedback = R"PY(
     u = np.clip(u + beyond * (after - u), LOW, HIGH)
 )PY";
 
+constexpr const char* kStart = R"PY(def start(n=None):
+    """The memory of n episodes before their first step (n rows), or of one."""
+    memory = np.array({})
+    return memory if n is None else np.tile(memory, (n, 1))
+
+
+)PY";
+
 using Values = std::map<std::string, std::string>;
 
 std::string array(const std::string& name, const Matrix& values) {
@@ -92,6 +101,31 @@ std::string input_lines(const std::vector<Input>& inputs) {
         fmt::format("        {}{},\n", fmt::format(fmt::runtime(form), state), scale == 1 ? "" : " / " + number(scale));
   }
   return lines;
+}
+
+/// What the frame says where actuators remember something.
+void add_memory(const Exported& exported, Values& values) {
+  for (const char* part : {"MEMORY_START", "MEMORY_ABOUT", "JOINED", "COMMANDS"}) values[part] = "";
+  values["T"] = "t=0.0";
+  values["TEST_GIVEN"] = "TEST_STATES, TEST_TIMES";
+  if (memory(exported) == 0) return;
+  values["T"] = "t, memory";
+  values["TEST_GIVEN"] =
+      fmt::format("TEST_STATES[:, :{0}], TEST_TIMES, TEST_STATES[:, {0}:].copy()", measured(exported));
+  values["MEMORY_ABOUT"] =
+      "\n    memory: what start() gave before the first step, of as many episodes. It holds the last commands, and is\n"
+      "    changed: act once each time step.";
+  values["MEMORY_START"] = fmt::format(kStart, numbers(exported.actuators.start(), {'[', ']', "    "}));
+  values["JOINED"] = "    memory_rows = np.atleast_2d(memory)\n    x = np.hstack([x, memory_rows])\n";
+  const auto after = [own = measured(exported)](Index state) { return fmt::format("new[:, {}]", state - own); };
+  values["COMMANDS"] = "    new = memory_rows.copy()\n" +
+                       command_lines(exported.actuators, {.action = [](Index a) { return fmt::format("u[:, {}]", a); },
+                                                          .before = [](Index s) { return fmt::format("x[:, {}]", s); },
+                                                          .after = after,
+                                                          .limited = "np.clip({0}, {1}, {2})",
+                                                          .end = "",
+                                                          .indent = "    "}) +
+                       "    memory_rows[known] = new[known]\n";
 }
 
 /// NUMBERS and COMPUTE of a description.
@@ -161,18 +195,20 @@ std::string table(const Matrix& values) { return rows(values, {'[', ']', "    "}
 }  // namespace
 
 std::string to_numpy(const Exported& exported) {
-  Values values = {{"MARK", kExportedMark},
-                   {"STATES", std::to_string(exported.states.size())},
-                   {"ACTIONS", std::to_string(exported.actions.size())},
-                   {"STATE_NAMES", names(exported.states)},
-                   {"ACTION_NAMES", names(exported.actions)},
-                   {"DT_S", number(exported.dt_s)},
-                   {"LOW", list(lows(exported))},
-                   {"HIGH", list(highs(exported))},
-                   {"TEST_STATES", table(exported.answers.states)},
-                   {"TEST_TIMES", list(exported.answers.times_s)},
-                   {"TEST_ACTIONS", table(exported.answers.actions)}};
+  Values values = {
+      {"MARK", kExportedMark},
+      {"STATES", std::to_string(measured(exported))},
+      {"ACTIONS", std::to_string(exported.actions.size())},
+      {"STATE_NAMES", names(std::vector(exported.states.begin(), exported.states.end() - memory(exported)))},
+      {"ACTION_NAMES", names(exported.actions)},
+      {"DT_S", number(exported.dt_s)},
+      {"LOW", list(lows(exported))},
+      {"HIGH", list(highs(exported))},
+      {"TEST_STATES", table(exported.answers.states)},
+      {"TEST_TIMES", list(exported.answers.times_s)},
+      {"TEST_ACTIONS", table(exported.answers.actions)}};
   for (const std::string& line : explanation(exported)) values["WHERE_FROM"] += "# " + line + "\n";
+  add_memory(exported, values);
   std::visit(Body(values), exported.description);
   return filled(kFrame, values);
 }

@@ -36,6 +36,13 @@ std::string bracketed(const std::vector<std::string>& parts, const Brackets& bra
   return text + brackets.close;
 }
 
+std::string state_line(const Exported& exported, Index i) {
+  const StateVariable& state = exported.states[static_cast<std::size_t>(i)];
+  const Index own = measured(exported);
+  return fmt::format("{} {}", i < own ? fmt::format("state {:<4}", i) : fmt::format("memory {:<3}", i - own),
+                     labelled(state.name, state.unit));
+}
+
 Vector bounds(const Exported& exported, double Interval::*end) {
   Vector ends(static_cast<Index>(exported.actions.size()));
   for (Index a = 0; a < ends.size(); ++a) ends(a) = exported.actions[static_cast<std::size_t>(a)].bounds.*end;
@@ -88,8 +95,7 @@ std::vector<std::string> explanation(const Exported& exported) {
                   from.total_reward ? fmt::format("return {}", *from.total_reward) : "which is to come"),
       harmless(fmt::format("policy     {}", exported.kind)),
       fmt::format("time step  {} s: act once each step, and hold the actions until the next", exported.dt_s)};
-  for (std::size_t i = 0; i < exported.states.size(); ++i)
-    lines.push_back(fmt::format("state {:<4} {}", i, labelled(exported.states[i].name, exported.states[i].unit)));
+  for (std::size_t i = 0; i < exported.states.size(); ++i) lines.push_back(state_line(exported, static_cast<Index>(i)));
   for (std::size_t i = 0; i < exported.actions.size(); ++i) {
     const ActionVariable& action = exported.actions[i];
     lines.push_back(fmt::format("action {:<3} {}, from {} to {}", i, labelled(action.name, action.unit),
@@ -97,6 +103,11 @@ std::vector<std::string> explanation(const Exported& exported) {
   }
   return lines;
 }
+
+Index measured(const Exported& exported) {
+  return static_cast<Index>(exported.states.size()) - exported.actuators.memory();
+}
+Index memory(const Exported& exported) { return exported.actuators.memory(); }
 
 Vector lows(const Exported& exported) { return bounds(exported, &Interval::low); }
 Vector highs(const Exported& exported) { return bounds(exported, &Interval::high); }

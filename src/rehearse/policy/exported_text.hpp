@@ -30,6 +30,10 @@ std::string labelled(const std::string& name, const std::string& unit);
 /// Lines that say where the policy comes from, what it sees and what it does: of a comment.
 std::vector<std::string> explanation(const Exported& exported);
 
+/// How many states are measured, and how many are the memory behind them.
+Index measured(const Exported& exported);
+Index memory(const Exported& exported);
+
 /// Bounds of all actions, low or high.
 Vector lows(const Exported& exported);
 Vector highs(const Exported& exported);

@@ -60,6 +60,12 @@ class Choice final : public system::Simulator {
     return most;
   }
 
+  std::shared_ptr<const Simulator> behind_actuators() const override {
+    std::vector<Prior> robots;
+    for (const Prior& prior : priors_) robots.push_back(prior.behind_actuators());
+    return std::make_shared<Choice>(robots);
+  }
+
  private:
   /// Where each parameter of a prior is taken from in the joint φ; −1: fixed by the prior.
   std::vector<Index> add_tunable(const Prior& prior, std::vector<Parameter>& joint) const {

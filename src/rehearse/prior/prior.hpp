@@ -20,6 +20,12 @@ struct Prior {
   /// The driven simulator in the place of the simulator.
   Prior behind_servos() const { return {name, driven ? driven : simulator, space}; }
 
+  /// The simulator of the robot's own states, by what moves it.
+  Prior behind_actuators() const {
+    const auto robot = simulator->behind_actuators();
+    return {name, robot ? robot : simulator, space};
+  }
+
   /// Expected state changes (n × dx), contained: rows that fail are NaN. Returns how many failed.
   Index mean(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const {
     return system::change_contained(*simulator, X, U, phi, dX);

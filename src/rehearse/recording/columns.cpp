@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -168,14 +169,13 @@ Channels find_channels(const statistics::Table& table, const Task& task, Problem
   Finder finder(table, task, problems, notes);
   finder.find_times();
   Channels channels;
-  for (const StateVariable& state : task.states) channels.states.push_back(finder.channel(state.name, state.unit));
+  const std::span own(task.states.data(), static_cast<std::size_t>(task.actuators().own_states()));
+  for (const StateVariable& state : own) channels.states.push_back(finder.channel(state.name, state.unit));
   for (const ActionVariable& action : task.actions)
     channels.actions.push_back(finder.channel(action.name, action.unit));
-  const bool known =
-      std::ranges::all_of(task.states, [&](const auto& state) { return finder.has("true " + state.name); });
+  const bool known = std::ranges::all_of(own, [&](const auto& state) { return finder.has("true " + state.name); });
   if (known)
-    for (const StateVariable& state : task.states)
-      channels.truths.push_back(finder.channel("true " + state.name, state.unit));
+    for (const StateVariable& state : own) channels.truths.push_back(finder.channel("true " + state.name, state.unit));
   finder.note_others();
   return channels;
 }

@@ -87,6 +87,16 @@ void check_size(double bytes, const std::string& source, const ReadOptions& opti
                                    source, bytes, options.max_bytes));
 }
 
+/// Behind the states that were measured stands what follows from the actions since the recording began.
+void add_memory(Episode& episode, const Task& task) {
+  if (task.memory == 0) return;
+  const Matrix memory = task.actuators().memory_of(episode.actions);
+  for (Matrix* states : {&episode.states, &episode.true_states}) {
+    states->conservativeResize(Eigen::NoChange, task.state_size());
+    states->rightCols(task.memory) = memory;
+  }
+}
+
 }  // namespace
 
 Recording read_recording(const std::string& csv_text, const std::string& source, const Task& task,
@@ -109,6 +119,7 @@ Recording read_recording(const std::string& csv_text, const std::string& source,
   }
   note_resampling(channels, grid, resample(channels, grid, options.average, recording.episode), options.average,
                   recording.notes);
+  add_memory(recording.episode, task);
   return recording;
 }
 

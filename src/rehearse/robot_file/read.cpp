@@ -101,10 +101,38 @@ class Reader {
       take_name(table, action.name, "an action needs a name");
       table.reader().take("unit", action.unit);
       if (!table.interval("bounds", action.bounds)) table.wrong("bounds", "an action needs bounds = [low, high]");
+      read_actuation(table, action.actuation);
       table.finish();
+      name_memory(action, files::line_of(*part));
       robot_.actions.push_back(action);
     }
     required(!robot_.actions.empty(), "[[action]]", "what moves the robot");
+  }
+
+  void read_actuation(Table& table, Actuation& actuation) {
+    table.reader().take_fields([&](FieldVisitor& v) {
+      v.number("max_rate", actuation.max_rate, "", above(0));
+      v.number("filter_s", actuation.filter_s, "", at_least(0));
+      v.number("delay_s", actuation.delay_s, "", between(0, longest_delay_s()));
+      v.number("lag_s", actuation.lag_s, "", at_least(0));
+      v.integer("remember", actuation.remember, "", between(0, Actuators::kMostSteps));
+    });
+  }
+
+  /// As long as the control step is wrong, any.
+  double longest_delay_s() const { return robot_.dt_s > 0 ? Actuators::kMostSteps * robot_.dt_s : kInf; }
+
+  /// Formulas may use what an action's actuators remember.
+  void name_memory(const ActionVariable& action, Index line) {
+    if (!(robot_.dt_s > 0) || !Actuators::violations(action, robot_.dt_s).empty()) return;
+    for (const StateVariable& memory : Actuators({action}, robot_.dt_s, 0).variables()) {
+      try {
+        names_.input(memory.name, expression::Pace::always);
+      } catch (const InvalidInput& error) {
+        violations_.add(line, fmt::format("{}, which is a state that the actuators of {} add: {}", memory.name,
+                                          action.name, error.what()));
+      }
+    }
   }
 
   void read_task() {
@@ -154,6 +182,7 @@ class Reader {
 
   void read_plant() {
     const toml::table* part = file_.reader().take_table("plant");
+    robot_.plant_actuation.resize(robot_.actions.size());
     if (!part) return;
     Table table(*part, "[plant]", violations_);
     table.number("measurement_noise", robot_.options.measurement_noise, at_least(0));
@@ -164,8 +193,24 @@ class Reader {
         table.wrong("measurement_noise", "a plant that is a function measures by itself, noise included");
     } else {
       robot_.plant = read_variant("plant", table, robot_.dynamics, violations_);
+      for (std::size_t a = 0; a < robot_.actions.size(); ++a) {
+        robot_.plant_actuation[a].delay_s = robot_.actions[a].actuation.delay_s;
+        robot_.plant_actuation[a].lag_s = robot_.actions[a].actuation.lag_s;
+      }
     }
+    read_plant_actuation(table, "delay_s", &Actuation::delay_s, between(0, longest_delay_s()));
+    read_plant_actuation(table, "lag_s", &Actuation::lag_s, at_least(0));
     table.finish();
+  }
+
+  /// NAME = number, of an action.
+  void read_plant_actuation(Table& table, const std::string& key, double Actuation::*field, const Bound& bound) {
+    const toml::table* given = table.reader().take_table(key);
+    if (!given) return;
+    Table entry(*given, "[plant] " + key, violations_);
+    for (std::size_t a = 0; a < robot_.actions.size(); ++a)
+      entry.number(robot_.actions[a].name, robot_.plant_actuation[a].*field, bound);
+    entry.finish();
   }
 
   void read_priors() {

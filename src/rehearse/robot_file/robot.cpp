@@ -10,6 +10,18 @@ std::vector<std::string> Robot::state_names() const {
   return names;
 }
 
+std::vector<std::string> Robot::task_state_names() const {
+  std::vector<std::string> names = state_names();
+  for (const StateVariable& memory : actuators().variables()) names.push_back(memory.name);
+  return names;
+}
+
+Actuators Robot::plant_actuators() const {
+  std::vector<ActionVariable> own = actions;
+  for (std::size_t a = 0; a < own.size(); ++a) own[a].actuation = plant_actuation[a];
+  return {own, dt_s, 0};
+}
+
 std::vector<std::string> Robot::action_names() const {
   std::vector<std::string> names;
   for (const ActionVariable& action : actions) names.push_back(action.name);

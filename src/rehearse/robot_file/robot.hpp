@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "rehearse/core/actuators.hpp"
 #include "rehearse/core/parameters.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/mujoco/description.hpp"
@@ -108,8 +109,9 @@ struct Robot {
   Formula ended;
   std::vector<LimitFormula> limits;
   std::vector<Dynamics> dynamics;
-  bool has_plant = false;      // else it is a real one, whose episodes are told
-  std::string plant_function;  // plays the robot instead of `plant`; empty: none does
+  std::vector<Actuation> plant_actuation;  // what the plant's actions have by themselves, one an action
+  bool has_plant = false;                  // else it is a real one, whose episodes are told
+  std::string plant_function;              // plays the robot instead of `plant`; empty: none does
   Variant plant;
   std::vector<Variant> priors;  // the first is the default
   scenario::OdeOptions options;
@@ -118,6 +120,9 @@ struct Robot {
   Functions functions;
 
   std::vector<std::string> state_names() const;
+  std::vector<std::string> task_state_names() const;  // and of what actuators remember
+  Actuators actuators() const { return {actions, dt_s, static_cast<Index>(states.size())}; }
+  Actuators plant_actuators() const;
   std::vector<std::string> action_names() const;
   const Dynamics& dynamics_of(const Variant& variant) const;
   system::OdeFormulas equation(const Dynamics& dynamics) const;  // whose source are Equations

@@ -3,13 +3,17 @@
 #include "rehearse/robot_file/dynamics.hpp"
 #include "rehearse/robot_file/read.hpp"
 #include "rehearse/robot_file/task.hpp"
+#include "rehearse/system/actuated.hpp"
 
 namespace rehearse::robot_file {
 namespace {
 
 class Builder final : public scenario::ScenarioBuilder {
  public:
-  explicit Builder(Robot robot) : robot_(std::move(robot)), plant_(robot_.plant.parameters.all()) {}
+  explicit Builder(Robot robot)
+      : robot_(std::move(robot)),
+        plant_(robot_.plant.parameters.all()),
+        has_actuators_(robot_.actuators().memory() > 0 || robot_.plant_actuators().memory() > 0) {}
 
   std::string name() const override { return robot_.name; }
   std::string summary() const override { return robot_.summary; }
@@ -20,27 +24,40 @@ class Builder final : public scenario::ScenarioBuilder {
     return names;
   }
 
-  void fields(FieldVisitor& v) override { robot_.options.fields_of_robot(v, plant_); }
+  void fields(FieldVisitor& v) override {
+    robot_.options.fields_of_robot(v, plant_);
+    if (!has_actuators_ || !robot_.has_plant) return;
+    for (std::size_t a = 0; a < robot_.actions.size(); ++a) {
+      Actuation& own = robot_.plant_actuation[a];
+      const std::string& name = robot_.actions[a].name;
+      v.number("plant.delay_s." + name, own.delay_s, "from the command until the robot gets it [s]",
+               between(0, Actuators::kMostSteps * robot_.dt_s));
+      v.number("plant.lag_s." + name, own.lag_s, "time constant with which the robot follows the command [s]",
+               at_least(0));
+    }
+  }
 
   scenario::Scenario build() const override {
     DynamicsMaker dynamics(robot_);
     const Variant plant{robot_.plant.name, robot_.plant.dynamics, ParameterSpace(plant_)};
     const Task task = make_task(robot_);
-    const Vector noise = Vector::Constant(task.state_size(), robot_.options.measurement_noise);
+    const Actuators actuators = robot_.actuators();
+    const system::StartAndSensors around = around_robot(task, actuators.own_states());
     scenario::Scenario scenario{.name = robot_.name,
                                 .task = task,
                                 .policy = make_policy(robot_.options.policy, task, policy_scale()),
-                                .drawing = robot_.bodies.empty() ? dynamics.drawing() : make_drawing(robot_),
+                                .drawing = robot_.bodies.empty() ? drawing_of_model(dynamics) : make_drawing(robot_),
                                 .require_ready = dynamics.require_ready(),
                                 .evaluations = robot_.options.evaluations};
     if (!robot_.plant_function.empty()) {
       scenario.make_plant = robot_.functions.plants.at(robot_.plant_function);
     } else if (robot_.has_plant) {
-      scenario.make_plant = dynamics.plant(plant, {task.start_mean, task.start_std, noise});
+      scenario.make_plant = dynamics.plant(plant, around);
       scenario.oracle = dynamics.simulator(plant, robot_.options.substeps);
     }
     for (const Variant& prior : robot_.priors)
       scenario.priors.push_back({prior.name, dynamics.simulator(prior, robot_.options.substeps), prior.parameters});
+    if (has_actuators_) put_actuators_in_front(scenario, actuators);
     scenario.faults = dynamics.faults();
     return scenario;
   }
@@ -48,17 +65,48 @@ class Builder final : public scenario::ScenarioBuilder {
   std::vector<scenario::NamedFile> files() const override { return robot_.files; }
 
  private:
+  /// Start and noise of the robot's own states.
+  system::StartAndSensors around_robot(const Task& task, Index own) const {
+    return {task.start_mean.head(own), task.start_std.head(own),
+            Vector::Constant(own, robot_.options.measurement_noise)};
+  }
+
+  /// A model knows the robot's own states alone.
+  std::optional<scenario::Drawing> drawing_of_model(const DynamicsMaker& dynamics) const {
+    std::optional<scenario::Drawing> drawing = dynamics.drawing();
+    auto* solids = drawing ? std::get_if<scenario::SolidDrawing>(&*drawing) : nullptr;
+    if (solids && robot_.actuators().memory() > 0)
+      solids->poses = [poses = solids->poses, own = robot_.actuators().own_states()](const ConstVectorView& state) {
+        return poses(state.head(own));
+      };
+    return drawing;
+  }
+
+  void put_actuators_in_front(scenario::Scenario& scenario, const Actuators& actuators) const {
+    if (scenario.make_plant)
+      scenario.make_plant = [make = scenario.make_plant, actuators, own = robot_.plant_actuators()] {
+        return system::with_actuators(make(), actuators, own);
+      };
+    if (actuators.memory() == 0) return;
+    if (scenario.oracle) scenario.oracle = system::with_actuators(scenario.oracle, actuators);
+    for (scenario::NamedPrior& prior : scenario.priors)
+      prior.simulator = system::with_actuators(prior.simulator, actuators);
+  }
+
   Vector policy_scale() const {
     std::vector<double> scale;
     for (const State& state : robot_.states) {
       if (state.variable.kind == StateKind::angle) scale.insert(scale.end(), {1, 1});
       if (state.variable.kind == StateKind::plain) scale.push_back(state.scale);
     }
+    const Vector memory = robot_.actuators().scale();
+    scale.insert(scale.end(), memory.begin(), memory.end());
     return Vector::Map(scale.data(), static_cast<Index>(scale.size()));
   }
 
   Robot robot_;
   std::vector<Parameter> plant_;
+  bool has_actuators_;  // as the file says
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ using expression::Formulas, expression::Node, expression::Pace, expression::Prog
 /// Formulas of the task: their inputs are the states, then the actions.
 Formulas task_formulas(const Robot& robot) {
   Formulas formulas;
-  for (const std::string& name : robot.state_names()) formulas.input(name, Pace::always);
+  for (const std::string& name : robot.task_state_names()) formulas.input(name, Pace::always);
   for (const std::string& name : robot.action_names()) formulas.input(name, Pace::always);
   for (const auto& [name, formula] : robot.definitions) formulas.define(name, formula.text);
   return formulas;
@@ -60,7 +60,7 @@ class Checker {
 
   void check() {
     Formulas formulas;
-    for (const std::string& name : robot_.state_names()) formulas.input(name, Pace::always);
+    for (const std::string& name : robot_.task_state_names()) formulas.input(name, Pace::always);
     for (const std::string& name : robot_.action_names()) formulas.input(name, Pace::always);
     check_definitions(formulas, robot_.definitions);
     for (const Formula& distance : robot_.reward.distance) compile(formulas, "reward.distance", distance);
@@ -190,14 +190,16 @@ Program program_of_features(const Robot& robot) {
 /// Which input of program_of_features each feature is.
 std::vector<Index> inputs_of_features(const Robot& robot) {
   std::vector<Index> inputs;
-  Index state = 0, sine = static_cast<Index>(robot.states.size() + robot.actions.size());
-  for (const State& each : robot.states) {
-    if (each.variable.kind == StateKind::plain) inputs.push_back(state);
-    if (each.variable.kind == StateKind::angle) {
+  const Index states = robot.actuators().states();
+  Index sine = states + static_cast<Index>(robot.actions.size());
+  for (Index state = 0; state < states; ++state) {
+    const auto own = static_cast<std::size_t>(state);
+    const StateKind kind = own < robot.states.size() ? robot.states[own].variable.kind : StateKind::plain;
+    if (kind == StateKind::plain) inputs.push_back(state);
+    if (kind == StateKind::angle) {
       inputs.insert(inputs.end(), {sine + 1, sine});  // features have the cosine first
       sine += 2;
     }
-    ++state;
   }
   return inputs;
 }
@@ -268,7 +270,7 @@ Task make_task(const Robot& robot) {
   if (!robot.ended.empty()) task.ended = of_states(robot, robot.ended);
   for (const LimitFormula& limit : robot.limits)
     task.limits.push_back({limit.name, limit.keep.text, of_steps(robot, limit.keep), limit.risk});
-  return task;
+  return with_memory(std::move(task));
 }
 
 std::optional<scenario::Drawing> make_drawing(const Robot& robot) {

@@ -17,13 +17,15 @@ struct Steps {
   std::string end;
 };
 
-Vector random_action(const Task& task, Rng& rng) {
-  Vector u(task.action_size());
-  for (Index i = 0; i < u.size(); ++i) {
+/// As it may be commanded in state x.
+Vector random_action(const Task& task, const Vector& x, Rng& rng) {
+  Matrix u(1, task.action_size());
+  for (Index i = 0; i < u.cols(); ++i) {
     const Interval bounds = task.actions[static_cast<std::size_t>(i)].bounds;
-    u(i) = rng.uniform(bounds.low, bounds.high);
+    u(0, i) = rng.uniform(bounds.low, bounds.high);
   }
-  return u;
+  task.actuators().command(x.transpose(), u);
+  return u.transpose();
 }
 
 /// The first prior plays a robot that Rehearse does not drive. Null: there is none either.
@@ -55,7 +57,7 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
       Rng rng({.seed = seed, .trial = static_cast<std::uint64_t>(e) + 1, .purpose = Purpose::start_state});
       Vector x = state_of(plant->reset(rng));
       for (Index t = 0; t < task.horizon; ++t, ++row) {
-        const Vector u = random_action(task, rng), next = state_of(plant->step(u));
+        const Vector u = random_action(task, x, rng), next = state_of(plant->step(u));
         steps.X.row(row) = x, steps.U.row(row) = u, steps.dX.row(row) = next - x;
         x = next;
         if (task.ended && holds(task.ended, x) && ++row) break;

@@ -85,10 +85,12 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
                   .rewards = Vector(T)};
   const Matrix Theta = theta.transpose();
   Matrix u(1, task.action_size());
+  const Actuators actuators = task.actuators();
   record_state(episode, 0, checked(plant.reset(rng), task.state_size(), 0), plant);
   for (Index t = 0; t < T; ++t) {
     if (before_step) before_step();
     policy.act(Theta, episode.states.middleRows(t, 1), static_cast<double>(t) * task.dt_s, u);
+    actuators.command(episode.states.middleRows(t, 1), u);
     if (!u.allFinite()) {
       end(episode, t, task, fmt::format("an action at step {} is not finite", t));
       break;

@@ -81,6 +81,7 @@ class Chunk {
   /// x_t → x_{t+1} for every row; what happens is recorded, if it is to be.
   void step(Index t, Episodes* record = nullptr) {
     policy_.act(b_.Theta, measured(t), static_cast<double>(t) * task_.dt_s, b_.U);
+    actuators_.command(b_.X, b_.U);
     if (options_.sample && !model_.certain())
       sample(t);
     else
@@ -170,6 +171,7 @@ class Chunk {
   const dynamics::DynamicsModel& model_;
   const policy::Policy& policy_;
   const Task& task_;
+  Actuators actuators_ = task_.actuators();
   StreamKey key_;
   SimulateOptions options_;
   Buffers& b_;

@@ -33,6 +33,9 @@ class Simulator {
 
   /// How many rows a call should have so that it is worth its cost, if there are so many; 0: it makes no difference.
   virtual Index rows_at_once() const { return 0; }
+
+  /// The simulator of the robot's own states, if this one has actuators in front of it (actuated.hpp); else null.
+  virtual std::shared_ptr<const Simulator> behind_actuators() const { return nullptr; }
 };
 
 /// Writes dX (n × dx) for X (n × dx), U (n × du) and phi; keeps the laws above.

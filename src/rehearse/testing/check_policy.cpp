@@ -52,11 +52,11 @@ class PolicyCheck {
   /// A NaN is inside no bounds, but may answer a state that is not finite.
   void check_bounds(const Matrix& U, const std::string& what) {
     for (Index c = 0; c < U.cols(); ++c) {
-      const auto& [name, unit, bounds, target_of, make] = task_.actions[static_cast<std::size_t>(c)];
+      const ActionVariable& action = task_.actions[static_cast<std::size_t>(c)];
       for (Index r = 0; r < U.rows(); ++r)
-        if (U(r, c) < bounds.low || U(r, c) > bounds.high)
-          return found_.add(fmt::format("action {} = {} is outside its bounds {} to {} ({})", name, U(r, c), bounds.low,
-                                        bounds.high, what));
+        if (U(r, c) < action.bounds.low || U(r, c) > action.bounds.high)
+          return found_.add(fmt::format("action {} = {} is outside its bounds {} to {} ({})", action.name, U(r, c),
+                                        action.bounds.low, action.bounds.high, what));
     }
   }
 

@@ -1,5 +1,6 @@
 #include "rehearse/files/write.hpp"
 
+#include <chrono>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -51,6 +52,19 @@ TEST(ExperimentFiles, ALockIsNoLink) {
   fs::remove(folder / "lock");
   ASSERT_EQ(::mkfifo((folder / "lock").c_str(), 0600), 0);
   EXPECT_EQ(refused(), "cannot write " + (folder / "lock").string() + ": it is no regular file");
+}
+
+TEST(ExperimentFiles, WhoAsksForALockNeitherWaitsNorWrites) {
+  const fs::path folder = test_folder();
+  EXPECT_FALSE(FolderLock::is_held(folder));
+  EXPECT_FALSE(fs::exists(folder / "lock"));
+  {
+    const FolderLock lock(folder);
+    const auto before = std::chrono::steady_clock::now();
+    EXPECT_TRUE(FolderLock::is_held(folder));
+    EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::milliseconds(500));
+  }
+  EXPECT_FALSE(FolderLock::is_held(folder));
 }
 
 }  // namespace

@@ -89,8 +89,13 @@ class GpIlqg final : public TrialLearner {
 };
 
 std::vector<std::string> cannot_do(const Options&, const Task& task, const policy::Policy&) {
-  if (task.limits.empty()) return {};
-  return {"the task has limits, which gp-ilqg does not keep: choose the learner gp-mi"};
+  Violations violations;
+  violations.require(task.limits.empty(), "the task has limits, which gp-ilqg does not keep: choose the learner gp-mi");
+  violations.require(
+      !task.actuators().changes_commands(),
+      "the task has max_rate or filter_s of an action, which gp-ilqg does not plan with: choose the learner "
+      "gp-mi");
+  return violations.list();
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "rehearse/recording/recording.hpp"
 
+#include <cmath>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -35,6 +36,22 @@ TEST(Recording, ATrialOfARunIsReadToTheSameBytes) {
   EXPECT_EQ(episode.rewards, Vector::Zero(3));
   EXPECT_FALSE(episode.ended);
   EXPECT_TRUE(notes.empty());
+}
+
+// What actuators remember follows from the actions, and is never read.
+TEST(Recording, HasTheMemoryOfActuators) {
+  Task task = swing_task();
+  task.actions[0].actuation = {.delay_s = 0.1, .lag_s = 0.03};
+  task = with_memory(task);
+  const std::string text =
+      "time,dq,q,torque_last,torque\n0,0.2,3.14,9,0.3\n0.05,0.2,3.15,9,-0.7\n0.1,0.2,3.16,9,2\n0.15,0.2,3.17,9,\n";
+  const auto [episode, notes] = read_recording(text, "log.csv", task);
+  EXPECT_TRUE(notes.empty());
+  ASSERT_EQ(episode.states.cols(), 5);
+  EXPECT_EQ(episode.states.leftCols(2), (Matrix{{0.2, 3.14}, {0.2, 3.15}, {0.2, 3.16}, {0.2, 3.17}}));
+  EXPECT_EQ(episode.states.middleCols(2, 2), (Matrix{{0, 0}, {0.3, 0}, {-0.7, 0.3}, {2, -0.7}}));
+  EXPECT_NEAR(episode.states(3, 4), 0.3 * (1 - std::exp(-0.05 / 0.03)), 1e-15);
+  EXPECT_EQ(episode.true_states, episode.states);
 }
 
 TEST(Recording, AnotherRateIsResampled) {

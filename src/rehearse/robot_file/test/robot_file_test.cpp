@@ -52,6 +52,77 @@ TEST(RobotFile, OptionsSetThePlant) {
   EXPECT_EQ(made->build().oracle->parameters().values(), (Vector{{2, 0.5}}));
 }
 
+const std::string kDelayed = example::with(
+    "bounds = [-2, 2]", "bounds = [-2, 2]\nmax_rate = 30\nfilter_s = 0.02\ndelay_s = 0.2\nlag_s = 0.05\nremember = 3");
+
+TEST(RobotFile, ActuatorsAddWhatTheyRemember) {
+  const scenario::Scenario scenario = builder(kDelayed, "swing.toml", example::no_files)->build();
+  EXPECT_EQ(scenario.task.state_names(),
+            (std::vector<std::string>{"rate", "angle", "u_last", "u_last2", "u_last3", "u_reached"}));
+  EXPECT_EQ(scenario.task.violations(), std::vector<std::string>{});
+  EXPECT_EQ(scenario.task.memory, 4);
+  Matrix change(1, 6), own(1, 2);
+  const Matrix X{{0.1, 3.0, 0.5, -0.5, 0.7, 0.2}};
+  const double stays = std::exp(-0.1 / 0.05), moving = -0.5 + (1 - stays) * 0.5 * (0.2 - -0.5);
+  scenario.oracle->change(X, Matrix{{1.0}}, scenario.oracle->parameters().values(), change);
+  scenario.oracle->behind_actuators()->change(Matrix{{0.1, 3.0}}, Matrix{{moving}},
+                                              scenario.oracle->parameters().values(), own);
+  EXPECT_TRUE(change.leftCols(2).isApprox(own, 1e-14));
+  EXPECT_TRUE((X + change).rightCols(4).isApprox(Matrix{{1, 0.5, -0.5, -0.5 + stays * 0.7}}, 1e-14));
+}
+
+TEST(RobotFile, PlantsHaveTheDelaysOfTheirActions) {
+  const scenario::Scenario scenario = builder(kDelayed, "swing.toml", example::no_files)->build();
+  EXPECT_EQ(testing::check_plant(scenario.make_plant, scenario.task), std::vector<std::string>{});
+  auto plant = scenario.make_plant();
+  Rng rng({.seed = 1});
+  Vector x = plant->reset(rng);
+  Matrix change(1, 6);
+  for (const double u : {0.5, -1.0, 2.0, 0.3, 0.1}) {
+    scenario.oracle->change(x.transpose(), Matrix{{u}}, scenario.oracle->parameters().values(), change);
+    const Vector next = plant->step(Vector{{u}});
+    EXPECT_LT((x + change.row(0).transpose() - next).norm(), 1e-6);
+    x = next;
+  }
+}
+
+/// The change of the rate in the first step of the plant under the largest action.
+double first_push(const std::string& text, const std::string& delay_s = "") {
+  const auto made = builder(text, "swing.toml", example::no_files);
+  if (!delay_s.empty()) {
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { made->fields(v); }, "plant.delay_s.u", delay_s));
+  }
+  const auto plant = made->build().make_plant(), still = made->build().make_plant();
+  Rng rng({.seed = 1}), same({.seed = 1});
+  plant->reset(rng), still->reset(same);
+  return plant->step(Vector{{2.0}})(0) - still->step(Vector{{0.0}})(0);
+}
+
+TEST(RobotFile, PlantsMayHaveOtherDelaysThanTheirModels) {
+  const double at_once = first_push(kSwing);
+  EXPECT_GT(at_once, 0.5);
+  EXPECT_EQ(first_push(kDelayed), 0);
+  const std::size_t at = kDelayed.find("[plant]") + 8;
+  const auto with_plant = [&](const std::string& keys) { return kDelayed.substr(0, at) + keys + kDelayed.substr(at); };
+  EXPECT_NEAR(first_push(with_plant("delay_s = { u = 0 }\nlag_s = { u = 0 }\n")), at_once, 1e-9);
+  EXPECT_NEAR(first_push(with_plant("lag_s = { u = 0 }\n"), "0.05"), at_once / 2, 0.02 * at_once);
+}
+
+TEST(RobotFile, FormulasMayUseWhatIsRemembered) {
+  const std::string text = kDelayed + "[[limit]]\nkeep = \"abs(u_last - u_last2) < 1\"\n";
+  const Task task = builder(text, "swing.toml", example::no_files)->build().task;
+  const Matrix X = Matrix::Zero(2, 6), U = Matrix::Zero(2, 1);
+  const Matrix reached{{0, 0, 1.0, 0.5, 0, 0}, {0, 0, 1.0, -0.5, 0, 0}};
+  Vector kept(2);
+  task.limits[0].holds(X, U, reached, kept);
+  EXPECT_EQ(kept, (Vector{{1, 0}}));
+}
+
+TEST(RobotFile, WithoutActuatorsHasNoOptionsOfThem) {
+  const auto made = builder(kSwing, "swing.toml", example::no_files);
+  EXPECT_FALSE(set_field([&](FieldVisitor& v) { made->fields(v); }, "plant.delay_s.u", "0.1"));
+}
+
 TEST(RobotFile, KeepsTheLaws) {
   const scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
   const Matrix X = Matrix::Random(70, 2), U = Matrix::Random(70, 1);

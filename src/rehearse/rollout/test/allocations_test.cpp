@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cart.hpp"
+#include "rehearse/dynamics/actuated_model.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/identification/learned_reward.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
@@ -32,6 +33,19 @@ void expect_none_in_time_loop(const dynamics::DynamicsModel& model, const policy
 }
 
 TEST(Allocations, NoneInTheTimeLoop) { expect_none_in_time_loop(cart::Model(0.01), *cart::policy(), cart::task()); }
+
+TEST(Allocations, NoneBehindActuators) {
+  Task task = cart::task();
+  task.actions[0].actuation = {.max_rate = 9, .filter_s = 0.1, .delay_s = 0.25, .lag_s = 0.1};
+  task = with_memory(task);
+  const FeatureMap features = task.feature_map();
+  const auto policy = policy::make_mlp({.features = features,
+                                        .scale = Vector::Ones(features.features()),
+                                        .hidden = 3,
+                                        .squash = {task.action_bounds(), 1}});
+  expect_none_in_time_loop(dynamics::ActuatedModel(std::make_shared<cart::Model>(0.01), task.actuators()), *policy,
+                           task);
+}
 
 TEST(Allocations, NoneWhereRolloutsMayEndEarly) {
   Task task = cart::task();
