@@ -11,6 +11,7 @@ case $learner in
   black-drops) arguments=(pendubot "${race[@]}") ;;
   pilco-prior)  # most instants are in the episodes on the prior
     arguments=(pendulum --set policy=rbf --set pilco.prior_episodes=4 --set search.line_searches=8 --set model.inducing=60) ;;
+  pi-rem) arguments=(pendubot --prior misleading --set centres=10 --set search.line_searches=8 --set model.identify=true) ;;
   ite)
     arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=60000)
     files=(archive.bin elites.csv tried.csv) ;;

@@ -7,8 +7,10 @@ void Options::fields(FieldVisitor& v) {
   v.group("search", search);
   v.boolean("success_test", success_test, "searches begin anew until a trial passes the test of success; false: always",
             published(false));
-  v.number("first_trial.hold_s", first_trial_hold_s, "how long a random action is held [s]; 0: a step", at_least(0));
+  if (!pi_rem)
+    v.number("first_trial.hold_s", first_trial_hold_s, "how long a random action is held [s]; 0: a step", at_least(0));
   if (prior) prior->fields(v);
+  if (pi_rem) v.group("model", *pi_rem);
 }
 
 void PriorPhaseOptions::fields(FieldVisitor& v) {

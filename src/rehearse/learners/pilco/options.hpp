@@ -23,8 +23,10 @@ struct Options {
   SearchOptions search;
   bool success_test = true;  // searches begin anew until the task's test of success, where it gives one, is passed;
                              // false: in every trial
-  double first_trial_hold_s = 0;           // a random action of the first trial is held so long; PILCO: one step
-  std::optional<PriorPhaseOptions> prior;  // PILCO learns on the prior first, and begins with that; empty: without one
+  double first_trial_hold_s = 0;             // a random action of the first trial is held so long; PILCO: one step
+  std::optional<PriorPhaseOptions> prior;    // PILCO learns on the prior first, and begins with that; empty: without
+  std::optional<AroundPriorOptions> pi_rem;  // the prior is the mean of the GPs and what the first policy is made for;
+                                             // at most one of the two
   void fields(FieldVisitor& v);
 };
 

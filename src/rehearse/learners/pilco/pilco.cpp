@@ -10,12 +10,17 @@ namespace {
 
 std::vector<std::string> without_moments(const Options& options, const Task& task, const policy::Policy& policy) {
   const bool joint_angles = options.model.joint_angles;
-  const moments::Need need = options.prior ? moments::Need{"pilco-prior", "the learner black-drops-prior", joint_angles}
-                                           : moments::Need{"pilco", "the learner black-drops", joint_angles};
-  return moments::without_moments(task, policy, need);
+  const auto need = [&]() -> moments::Need {
+    if (options.prior) return {"pilco-prior", "the learner black-drops-prior", joint_angles};
+    if (options.pi_rem) return {"pi-rem", "the learner black-drops-prior", joint_angles};
+    return {"pilco", "the learner black-drops", joint_angles};
+  };
+  return moments::without_moments(task, policy, need());
 }
 
-PriorUse prior_use(const Options& options) { return options.prior ? PriorUse::required : PriorUse::none; }
+PriorUse prior_use(const Options& options) {
+  return options.prior || options.pi_rem ? PriorUse::required : PriorUse::none;
+}
 
 Entry<Options> entry(const char* name, const char* summary, const Options& options) {
   return {.name = name,
@@ -40,7 +45,9 @@ std::vector<std::unique_ptr<LearnerBuilder>> builders() {
       entry("pilco", "GPs from data alone, policies (rbf, or linear with a sine) by moment matching and its gradient",
             {}),
       entry("pilco-prior", "PILCO on the prior first, then GPs around those learned there; the same policies",
-            {.prior = PriorPhaseOptions{}}));
+            {.prior = PriorPhaseOptions{}}),
+      entry("pi-rem", "GPs around the prior itself, a first policy made for the prior alone; the same policies",
+            {.pi_rem = AroundPriorOptions{}}));
 }
 
 }  // namespace rehearse::learners::pilco

@@ -9,7 +9,7 @@
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/moments/gaussian.hpp"
-#include "rehearse/moments/moment_matching.hpp"
+#include "rehearse/moments/step_dynamics.hpp"
 #include "rehearse/optim/cautious_bfgs.hpp"
 #include "rehearse/policy/policy.hpp"
 
@@ -35,7 +35,7 @@ struct SearchResult {
 
 /// References must outlive the search.
 struct SearchProblem {
-  std::shared_ptr<const moments::MomentMatching> dynamics;
+  moments::StepDynamics dynamics;
   const policy::Policy& policy;  // analytic
   const Task& task;              // with a saturating reward
   const Evaluator& evaluator;

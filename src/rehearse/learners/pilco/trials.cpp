@@ -34,7 +34,7 @@ Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting, co
                     .model = std::make_shared<dynamics::SimulatorModel>(model, model.space.values()),
                     .notes = knowledge.notes};
   const auto moments = [network = knowledge.network, outputs = setting.task.state_size()] {
-    return std::make_shared<moments::MomentMatching>(network, outputs);
+    return moments::StepDynamics(std::make_shared<moments::MomentMatching>(network, outputs));
   };
   if (!knowledge.network.empty())
     proposal.moments = moments::expected_episode(setting.task, setting.policy, moments, proposal.theta);
@@ -67,14 +67,15 @@ std::vector<moments::MomentTerm> Trials::terms(Index inducing, std::vector<std::
   if (!asked() || !asked()->model) return {};
   ModelOptions options = options_.model;
   options.inducing = inducing;
-  return terms_of({setting_.task, data_, options, *setting_.evaluator, setting_.progress}, kernels_, notes);
+  return terms_of({setting_.task, data_, options, *setting_.evaluator, setting_.progress}, state_.kernels, notes);
 }
 
 json Trials::save() const {
   json kernels = json::array();
-  for (const auto& kernel : kernels_) kernels.push_back(to_json(kernel.flat()));
+  for (const auto& kernel : state_.kernels) kernels.push_back(to_json(kernel.flat()));
   json state = {{"trials", trials_}, {"kernels", kernels}, {"theta", to_json(theta_)}};
   if (prior_) state["prior"] = to_json(*prior_);
+  if (options_.pi_rem && state_.phi) state["phi"] = to_json(*state_.phi);
   return state;
 }
 
@@ -83,14 +84,15 @@ void Trials::restore(const std::vector<Episode>& episodes, const json& state) {
   solved_ = false;
   earned_.reset();
   repeated_ = false;
-  kernels_.clear();
+  state_ = {};
   prior_.reset();
   for (const Episode& episode : episodes) add(episode);
   for (const Vector& flat : to_vectors(state.at("kernels")))
-    kernels_.push_back(gp::Hyperparameters::from_flat(flat, flat.size() - 2));
+    state_.kernels.push_back(gp::Hyperparameters::from_flat(flat, flat.size() - 2));
   theta_ = to_vector(state.at("theta"));
   trials_ = state.at("trials").get<std::uint64_t>();
   if (state.contains("prior")) prior_ = to_knowledge(state.at("prior"));
+  if (state.contains("phi")) state_.phi = to_vector(state.at("phi"));
   const bool fits = trials_ == episodes.size() && (trials_ == 0 || !options_.prior || prior_);
   if (!fits) throw InvalidInput("the learner's state does not fit the episodes");
 }
@@ -101,7 +103,8 @@ void Trials::study(const std::vector<Episode>& logs) {
 }
 
 Proposal Trials::propose(const Vector* known) {
-  Proposal proposal = trials_ == 0 && logs_.size() == 0 ? first_proposal() : next_proposal(known);
+  const bool knows = data_.size() > 0 || trials_ > 0 || options_.pi_rem;
+  Proposal proposal = knows ? next_proposal(known) : first_proposal();
   if (prior_) proposal.phi = setting_.prior->space.values();
   return proposal;
 }
@@ -121,7 +124,7 @@ void Trials::know_prior() {
 
 Proposal Trials::next_proposal(const Vector* known) {
   Proposal proposal{.policy = setting_.policy};
-  if (trials_ == 0) {  // there are logs
+  if (trials_ == 0) {  // there are logs, or a prior to begin with
     know_prior();
     if (prior_) theta_ = prior_->theta;
   }
@@ -129,6 +132,9 @@ Proposal Trials::next_proposal(const Vector* known) {
   proposal.model_s = seconds([&] { model = learn_model(); });
   proposal.model = model.model;
   proposal.notes = std::move(model.notes);
+  if (options_.pi_rem) proposal.phi = model.state.phi;
+  proposal.posterior = std::move(model.posterior);
+  proposal.left_out_rows = model.left_out_rows;
   if (std::isfinite(model.log_evidence)) proposal.log_evidence = model.log_evidence;
   proposal.theta = theta_.size() > 0 ? theta_
                                      : initial_policy(*setting_.policy, start_state(setting_.task, options_.search),
@@ -140,14 +146,18 @@ Proposal Trials::next_proposal(const Vector* known) {
   if (model.model)
     proposal.moments =
         moments::expected_episode(setting_.task, setting_.policy, std::move(model.moments_of_all_rows), proposal.theta);
-  kernels_ = std::move(model.kernels);  // last: an interruption must not leave it behind
+  state_ = std::move(model.state);  // last: an interruption must not leave it behind
   return proposal;
+}
+
+Mean Trials::mean() const {
+  if (options_.pi_rem) return {.prior = &*setting_.prior, .of_prior = *options_.pi_rem};
+  return {.network = prior_ ? prior_->network : std::vector<moments::MomentTerm>()};
 }
 
 Model Trials::learn_model() const {
   if (setting_.progress) setting_.progress({.phase = "model"});
-  const auto mean = prior_ ? prior_->network : std::vector<moments::MomentTerm>();
-  return pilco::learn({setting_.task, data_, options_.model, *setting_.evaluator, setting_.progress}, kernels_, mean);
+  return pilco::learn({setting_.task, data_, options_.model, *setting_.evaluator, setting_.progress}, state_, mean());
 }
 
 /// From the proposal's θ. A policy that has solved the task is good enough to stay with. One that was tried twice is

@@ -11,8 +11,8 @@ namespace rehearse::learners::pilco {
 /// Returns that differ by less than this part are the same.
 inline constexpr double kSameReturn = 0.02;
 
-/// The trials of PILCO on one system, the robot or, before, the prior. With `Options::prior` they begin with
-/// what those on the prior taught, else with random actions.
+/// The trials of PILCO on one system, the robot or, before, the prior. With `Options::prior` they begin with what those
+/// on the prior taught, with `Options::pi_rem` with a policy made for the prior, else with random actions.
 class Trials final : public TrialLearner {
  public:
   /// learn_on_prior: asked once where `Options::prior` is there.
@@ -39,7 +39,9 @@ class Trials final : public TrialLearner {
   Proposal first_proposal();
   Proposal next_proposal(const Vector* known);
   void know_prior();
+  Mean mean() const;
   Model learn_model() const;
+  SearchOptions search_options() const;
   void search(const Model& model, Proposal& proposal) const;
 
   Setting setting_;
@@ -53,7 +55,7 @@ class Trials final : public TrialLearner {
   bool repeated_ = false;         // it earned what the one before did
   std::uint64_t trials_ = 0;
   Vector theta_;  // of the last trial; empty before there was one of the setting's policy
-  std::vector<gp::Hyperparameters> kernels_;
+  identification::WarmStart state_;
 };
 
 }  // namespace rehearse::learners::pilco
