@@ -21,7 +21,7 @@ void for_each_pair(Index inputs, Visit visit) {
 
 bool LinearisedPrior::place(const Gaussian& input, PriorTape& tape) const {
   const Index n = inputs();
-  tape.directions = prior_steps(input.mean).asDiagonal();
+  tape.directions = input.mean.unaryExpr(&second_step).asDiagonal();
   tape.points.resize(1 + 2 * n, n);
   tape.points.rowwise() = input.mean.transpose();
   for (Index j = 0; j < n; ++j) {

@@ -43,7 +43,7 @@ Matrix factor_adjoint(const Matrix& B, const Matrix& by_factor) {
 bool UnscentedPrior::place(const Gaussian& input, PriorTape& tape) const {
   const Index n = inputs();
   Matrix widened = input.covariance;
-  widened.diagonal() += prior_steps(input.mean).cwiseAbs2();
+  widened.diagonal() += input.mean.unaryExpr(&first_step).cwiseAbs2();
   const Eigen::LLT<Matrix> factor(widened);
   if (factor.info() != Eigen::Success) return false;
   tape.directions = factor.matrixL();
@@ -72,7 +72,7 @@ void UnscentedPrior::place_neighbours(const PriorTape& tape, MatrixView neighbou
   const Index n = inputs();
   for (Index p = 0; p < tape.points.rows(); ++p)
     for (Index j = 0; j < n; ++j) {
-      const double h = prior_step(tape.points(p, j));
+      const double h = first_step(tape.points(p, j));
       neighbours.row(less_of(p, j, n)) = tape.points.row(p);
       neighbours.row(more_of(p, j, n)) = tape.points.row(p);
       neighbours(less_of(p, j, n), j) -= h;

@@ -143,10 +143,13 @@ void ModelOptions::fields(FieldVisitor& v) {
 }
 
 void AroundPriorOptions::fields(FieldVisitor& v) {
-  v.choice("through", through,
+  constexpr const char* kSaveriano = "Saveriano 2017";
+  v.choice("model.through", through,
            "how a Gaussian goes through the prior: by its slopes at the mean, or by points about it",
-           {"linearised", "unscented"});
-  v.boolean("identify", identify, "GP-MI finds the prior's parameters before each trial");
+           {"linearised", "unscented"}, published("linearised", kSaveriano));
+  v.boolean("model.identify", identify, "GP-MI finds the prior's parameters before each trial", published(false, kSaveriano));
+  v.integer("search.prior_restarts", restarts, "other first policies that the search on the prior alone starts from",
+            between(0, 1000));
 }
 
 Model learn(const ModelProblem& problem, const identification::WarmStart& start, const Mean& mean) {

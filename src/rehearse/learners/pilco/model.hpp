@@ -36,6 +36,9 @@ struct ModelOptions {
 struct AroundPriorOptions {
   moments::Through through = moments::Through::linearised;
   bool identify = false;  // GP-MI's parameters of the prior, found anew before each trial; Saveriano: as given
+  // So many first policies are starts of the search on the prior alone, too, which costs little and whose local optima
+  // differ much. Saveriano does not say.
+  Index restarts = 20;
   void fields(FieldVisitor& v);
 };
 

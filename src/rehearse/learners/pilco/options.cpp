@@ -10,7 +10,7 @@ void Options::fields(FieldVisitor& v) {
   if (!pi_rem)
     v.number("first_trial.hold_s", first_trial_hold_s, "how long a random action is held [s]; 0: a step", at_least(0));
   if (prior) prior->fields(v);
-  if (pi_rem) v.group("model", *pi_rem);
+  if (pi_rem) pi_rem->fields(v);
 }
 
 void PriorPhaseOptions::fields(FieldVisitor& v) {

@@ -163,9 +163,11 @@ Model Trials::learn_model() const {
 /// From the proposal's θ. A policy that has solved the task is good enough to stay with. One that was tried twice is
 /// worth what it earned: moment matching may promise more than that forever.
 void Trials::search(const Model& model, Proposal& proposal) const {
+  SearchOptions options = options_.search;
+  if (options_.pi_rem && !model.moments.gps) options.restarts = options_.pi_rem->restarts;
   const SearchProblem problem{model.moments, *setting_.policy, setting_.task, *setting_.evaluator, setting_.progress};
-  SearchResult found = solved_ ? search_policy(problem, proposal.theta, options_.search)
-                               : search_with_restarts(problem, proposal.theta, options_.search, stream(Stage::search),
+  SearchResult found = solved_ ? search_policy(problem, proposal.theta, options)
+                               : search_with_restarts(problem, proposal.theta, options, stream(Stage::search),
                                                       repeated_ ? earned_ : std::nullopt);
   proposal.theta = std::move(found.theta);
   proposal.predicted_return = found.predicted_return;

@@ -41,7 +41,6 @@ class Trials final : public TrialLearner {
   void know_prior();
   Mean mean() const;
   Model learn_model() const;
-  SearchOptions search_options() const;
   void search(const Model& model, Proposal& proposal) const;
 
   Setting setting_;

@@ -40,7 +40,7 @@ TEST(PriorMoments, DifferentiatesAllStepsInOneCall) {
 
 TEST(PriorMoments, HaveNoneWhereThePriorFailsBesideTheMean) {
   const auto edge = [](const Vector& x) {
-    return Vector{{x(0) > 0.0005 ? std::numeric_limits<double>::quiet_NaN() : 0, 0, 0}};
+    return Vector{{x(0) > 0.0001 ? std::numeric_limits<double>::quiet_NaN() : 0, 0, 0}};
   };
   for (const Through through : {Through::linearised, Through::unscented}) {
     const auto prior = priors::moments(edge, through);

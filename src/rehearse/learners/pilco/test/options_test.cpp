@@ -16,7 +16,7 @@ TEST(PilcoOptions, OfThePriorAreThereWhereThereIsOne) {
     EXPECT_FALSE(has({}, name));
     EXPECT_TRUE(has({.prior = PriorPhaseOptions{}}, name));
   }
-  for (const char* name : {"model.through", "model.identify"}) {
+  for (const char* name : {"model.through", "model.identify", "search.prior_restarts"}) {
     EXPECT_FALSE(has({.prior = PriorPhaseOptions{}}, name));
     EXPECT_TRUE(has({.pi_rem = AroundPriorOptions{}}, name));
   }

@@ -23,7 +23,7 @@ Setting setting_with_a_prior(std::uint64_t seed = 1) {
 }
 
 std::unique_ptr<LearnerBuilder> pi_rem(const OptionTexts& more = {}) {
-  OptionTexts options = {{"search.line_searches", "15"}, {"search.restarts", "0"}};
+  OptionTexts options = {{"search.line_searches", "15"}, {"search.restarts", "0"}, {"search.prior_restarts", "0"}};
   for (const auto& [name, text] : more) options[name] = text;
   auto builder = std::move(builders().back());
   EXPECT_EQ(builder->name(), "pi-rem");
@@ -42,7 +42,7 @@ TEST(PiRem, BeginsWithAPolicyForThePriorAlone) {
   Setting known = setting();
   known.prior = learners::slider::prior_in(
       ParameterSpace({Parameter::fixed("gain", 1.5, ""), Parameter::fixed("drag", 0.2, "")}));
-  const auto learner = pi_rem()->build(known);
+  const auto learner = pi_rem({{"search.line_searches", "40"}, {"search.prior_restarts", "2"}})->build(known);
   const Proposal first = learner->ask();
   EXPECT_EQ(first.policy, known.policy);
   ASSERT_TRUE(first.predicted_return && first.phi && first.model && first.moments);

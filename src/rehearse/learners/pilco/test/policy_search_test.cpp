@@ -17,7 +17,7 @@ using slider::asked_after, slider::builder, slider::learn, slider::rbf, slider::
 // No policy has a value on a model that throws the state out of all numbers.
 TEST(PolicySearch, KeepsTheStartWhereNothingHasAValue) {
   moments::MomentTerm wild{.centres = Matrix{{1, 0}}, .log_lengths = Vector{{9, 9}}, .weights = Vector{{1e300}}};
-  const auto dynamics = std::make_shared<moments::MomentMatching>(std::vector{wild}, 1);
+  const auto dynamics = std::make_shared<const moments::MomentMatching>(std::vector{wild}, 1);
   const auto policy = rbf();
   const Task task = slider::task();
   const Vector start = initial_policy(*policy, start_state(task, {}), {.seed = 1, .trial = 2});

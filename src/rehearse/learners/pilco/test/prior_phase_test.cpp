@@ -35,7 +35,7 @@ Options options(Index prior_episodes = 3, Index line_searches = 20) {
 }
 
 std::unique_ptr<LearnerBuilder> builder_with_prior(const char* line_searches) {
-  auto builder = std::move(builders().back());
+  auto builder = std::move(builders().at(1));
   const Fields fields = [&](FieldVisitor& v) { builder->fields(v); };
   EXPECT_TRUE(set_field(fields, "pilco.prior_episodes", "2"));
   EXPECT_TRUE(set_field(fields, "search.line_searches", line_searches));
