@@ -52,7 +52,7 @@ head -c "$(wc -c <fewer/trials.csv)" whole/trials.csv | cmp - fewer/trials.csv |
 "$program" resume fewer --trials 3 >/dev/null || fail "resuming with more trials"
 same whole fewer spec.toml trials.csv
 
-if [ "$learner" = pilco-prior ] || [ "$learner" = ite ]; then
+if [[ $learner =~ ^(pilco-prior|pi-rem|ite)$ ]]; then
   REHEARSE_CACHE=cache learn filling --trials 3 --threads 2
   REHEARSE_CACHE=cache learn cached --trials 3 --threads 2
   same whole cached spec.toml trials.csv errors.csv notes.csv policy.json

@@ -45,7 +45,8 @@ void PriorMoments::adjoint(const Gaussian& input, const PriorTape& tape, const T
                            const Transformed& adjoint, Gaussian& input_adjoint) const {
   const Matrix symmetric = adjoint.covariance + adjoint.covariance.transpose();
   input_adjoint.covariance += change.gain * adjoint.covariance * change.gain.transpose();
-  combine_adjoint(tape, change, {adjoint.mean, symmetric / 2, adjoint.gain + input.covariance * change.gain * symmetric},
+  combine_adjoint(tape, change,
+                  {adjoint.mean, symmetric / 2, adjoint.gain + input.covariance * change.gain * symmetric},
                   input_adjoint);
 }
 

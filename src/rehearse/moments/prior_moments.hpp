@@ -17,9 +17,9 @@ enum class Through {
 /// The part of the forward pass that the adjoint needs. Points are rows of states, then actions. Reused without
 /// allocation; not shared by threads.
 struct PriorTape {
-  Matrix directions;           // n × n, a column each: from the mean to a point on that side
-  Matrix points, changes;      // what the prior was asked, and answered
-  Matrix neighbours, nearby;   // the same of the points that derivatives of the answers need (`differentiate`)
+  Matrix directions;          // n × n, a column each: from the mean to a point on that side
+  Matrix points, changes;     // what the prior was asked, and answered
+  Matrix neighbours, nearby;  // the same of the points that derivatives of the answers need (`differentiate`)
 };
 
 /// The moments of the change that a prior predicts, where states and actions together are Gaussian, n variables; with

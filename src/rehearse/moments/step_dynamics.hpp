@@ -10,7 +10,7 @@ namespace rehearse::moments {
 
 /// The change of the state in a control step: that of GPs, that of a prior, or, around a prior, the sum of both.
 struct StepDynamics {
-  std::shared_ptr<const MomentMatching> gps;   // of (features, actions), the changes of all states; null: there are none
+  std::shared_ptr<const MomentMatching> gps;  // of (features, actions), the changes of all states; null: there are none
   std::shared_ptr<const PriorMoments> prior;  // null: the GPs are around zero, or networks are their means
 
   StepDynamics() = default;

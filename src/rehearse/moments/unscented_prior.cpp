@@ -93,11 +93,13 @@ void UnscentedPrior::combine_adjoint(const PriorTape& tape, const Transformed& c
   Matrix by_directions = -reach * change.gain * by_differences.transpose();
 
   const auto point_adjoint = [&](Index p, const Eigen::RowVectorXd& by_change) {
-    return Vector::NullaryExpr(n, [&](Index j) {
-      const Index less = less_of(p, j, n), more = more_of(p, j, n);
-      const double width = tape.neighbours(more, j) - tape.neighbours(less, j);
-      return by_change.dot(tape.nearby.row(more) - tape.nearby.row(less)) / width;
-    }).eval();
+    return Vector::NullaryExpr(n,
+                               [&](Index j) {
+                                 const Index less = less_of(p, j, n), more = more_of(p, j, n);
+                                 const double width = tape.neighbours(more, j) - tape.neighbours(less, j);
+                                 return by_change.dot(tape.nearby.row(more) - tape.nearby.row(less)) / width;
+                               })
+        .eval();
   };
   for (Index k = 0; k < n; ++k) {
     const Vector of_below = point_adjoint(below(k), (by_sums.row(k) - by_differences.row(k)) / 2);

@@ -5,7 +5,6 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/dynamics/residuals.hpp"
-#include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/gp/posterior.hpp"
 #include "rehearse/moments/fitc.hpp"
 #include "rehearse/moments/network_prior.hpp"
@@ -68,7 +67,7 @@ identification::Kind kind(const ModelOptions& options, const Mean& mean) {
     if constexpr (requires { kind.gp.midpoint; }) kind.gp.midpoint = false;
     return kind;
   };
-  if (mean.prior && mean.of_prior.identify) {
+  if (mean.prior && mean.identify) {
     identification::GpMi gp_mi = adapt(identification::GpMi{});
     gp_mi.gp.fit.starts = 1, gp_mi.gp.fit.part_rows = 0;  // its search tries other kernels itself
     return gp_mi;
@@ -94,17 +93,15 @@ Rows rows_around(const Dataset& data, const FeatureMap& features, const Mean& me
   return {rows.X(finite, Eigen::all), rows.Y(finite, Eigen::all)};
 }
 
-/// The mean of a model and GPs around it, or none.
+/// The mean of a model, and GPs around it.
 class Around {
  public:
   Around(const Task& task, const Mean& mean, const Vector& phi) : network_(mean.network), states_(task.state_size()) {
-    if (mean.prior)
-      prior_ = moments::make_prior_moments(*mean.prior, phi, states_, task.action_size(), mean.of_prior.through);
+    if (mean.prior) prior_ = moments::make_prior_moments(*mean.prior, phi, states_, task.action_size(), mean.through);
   }
 
   moments::StepDynamics operator()(std::vector<moments::MomentTerm> terms) const {
     terms.insert(terms.end(), network_.begin(), network_.end());
-    if (terms.empty()) return {nullptr, prior_};
     return {std::make_shared<moments::MomentMatching>(std::move(terms), states_), prior_};
   }
 
@@ -113,17 +110,6 @@ class Around {
   std::shared_ptr<const moments::PriorMoments> prior_;
   Index states_;
 };
-
-/// Nothing is known yet but the prior.
-Model prior_alone(const ModelProblem& problem, const identification::WarmStart& start, const Mean& mean) {
-  const Vector phi = start.phi.value_or(mean.prior->space.values());
-  const moments::StepDynamics prior = Around(problem.task, mean, phi)({});
-  return {.moments = prior,
-          .model = std::make_shared<dynamics::SimulatorModel>(*mean.prior, phi),
-          .moments_of_all_rows = [prior] { return prior; },
-          .state = {start.kernels, phi},
-          .log_evidence = kNaN};
-}
 
 }  // namespace
 
@@ -142,19 +128,8 @@ void ModelOptions::fields(FieldVisitor& v) {
             at_least(0), published(500, "PILCO"));
 }
 
-void AroundPriorOptions::fields(FieldVisitor& v) {
-  constexpr const char* kSaveriano = "Saveriano 2017";
-  v.choice("model.through", through,
-           "how a Gaussian goes through the prior: by its slopes at the mean, or by points about it",
-           {"linearised", "unscented"}, published("linearised", kSaveriano));
-  v.boolean("model.identify", identify, "GP-MI finds the prior's parameters before each trial", published(false, kSaveriano));
-  v.integer("search.prior_restarts", restarts, "other first policies that the search on the prior alone starts from",
-            between(0, 1000));
-}
-
 Model learn(const ModelProblem& problem, const identification::WarmStart& start, const Mean& mean) {
   const auto& [task, data, options, evaluator, progress] = problem;
-  if (mean.prior && data.size() == 0) return prior_alone(problem, start, mean);
   Model model{.state = start, .log_evidence = kNaN};
   const FeatureMap features = moments::model_features(task, options.joint_angles);
   std::optional<prior::Prior> network;
@@ -178,9 +153,7 @@ Model learn(const ModelProblem& problem, const identification::WarmStart& start,
     model.posterior = std::move(learned.posterior);
     model.left_out_rows = learned.left_out_rows;
   } catch (const InvalidInput& nothing_to_learn_from) {
-    if (mean.prior) model = prior_alone(problem, start, mean);
-    model.notes.push_back(fmt::format("no {}: {}", mean.prior ? "GPs around the prior" : "model, so the policy stays",
-                                      nothing_to_learn_from.what()));
+    model.notes.push_back(fmt::format("no model, so the policy stays: {}", nothing_to_learn_from.what()));
   }
   return model;
 }

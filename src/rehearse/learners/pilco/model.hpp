@@ -32,24 +32,15 @@ struct ModelOptions {
   void fields(FieldVisitor& v);
 };
 
-/// The prior itself as the mean of the GPs (PI-REM, Saveriano 2017).
-struct AroundPriorOptions {
-  moments::Through through = moments::Through::linearised;
-  bool identify = false;  // GP-MI's parameters of the prior, found anew before each trial; Saveriano: as given
-  // So many first policies are starts of the search on the prior alone, too, which costs little and whose local optima
-  // differ much. Saveriano does not say.
-  Index restarts = 20;
-  void fields(FieldVisitor& v);
-};
-
 /// The mean functions of GPs: zero, where both are empty.
 struct Mean {
   std::vector<moments::MomentTerm> network = {};  // GPs learned elsewhere, without uncertainty (Cutler 2015)
-  const prior::Prior* prior = nullptr;            // a simulator, at its own values unless they are identified
-  AroundPriorOptions of_prior = {};
+  const prior::Prior* prior = nullptr;            // a simulator (Saveriano 2017)
+  moments::Through through = moments::Through::linearised;
+  bool identify = false;  // GP-MI finds its parameters; else it is taken at its own
 };
 
-/// GPs for the change of each state. Around a simulator they may be missing, where nothing is to be learned from.
+/// GPs for the change of each state.
 struct Model {
   moments::StepDynamics moments;                          // what policies are searched on; false: it could not be made
   std::shared_ptr<const dynamics::DynamicsModel> model;   // the same GPs of all rows, for forecasts

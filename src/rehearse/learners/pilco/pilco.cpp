@@ -2,6 +2,7 @@
 
 #include "rehearse/learners/builder.hpp"
 #include "rehearse/learners/pilco/prior_phase.hpp"
+#include "rehearse/learners/pilco/prior_search.hpp"
 #include "rehearse/learners/pilco/trials.hpp"
 #include "rehearse/moments/requirements.hpp"
 
@@ -37,7 +38,7 @@ Entry<Options> entry(const char* name, const char* summary, const Options& optio
 std::unique_ptr<Learner> make(Setting setting, Options options) {
   setting = checked(std::move(setting), options, prior_use(options), without_moments);
   if (!options.success_test) setting.task.solved = nullptr;
-  return std::make_unique<Trials>(std::move(setting), options, learn_on_prior);
+  return std::make_unique<Trials>(std::move(setting), options, options.pi_rem ? search_on_prior : learn_on_prior);
 }
 
 std::vector<std::unique_ptr<LearnerBuilder>> builders() {
@@ -47,7 +48,7 @@ std::vector<std::unique_ptr<LearnerBuilder>> builders() {
       entry("pilco-prior", "PILCO on the prior first, then GPs around those learned there; the same policies",
             {.prior = PriorPhaseOptions{}}),
       entry("pi-rem", "GPs around the prior itself, a first policy made for the prior alone; the same policies",
-            {.pi_rem = AroundPriorOptions{}}));
+            {.pi_rem = PiRemOptions{}}));
 }
 
 }  // namespace rehearse::learners::pilco

@@ -21,9 +21,10 @@ using learners::to_json;
 using nlohmann::json;
 
 /// A policy that was learned on the prior, before anything is known of the robot.
-Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting, const ModelOptions& options) {
+Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting, const Options& options) {
   const prior::Prior& given = *setting.prior;
-  const FeatureMap features = moments::model_features(setting.task, options.joint_angles);
+  const Task& task = setting.task;
+  const FeatureMap features = moments::model_features(task, options.model.joint_angles);
   const prior::Prior model =
       knowledge.network.empty() ? given : moments::network_prior(given.name, features, knowledge.network);
   Proposal proposal{.policy = setting.policy,
@@ -33,11 +34,17 @@ Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting, co
                     .failed_rollouts = knowledge.failed,
                     .model = std::make_shared<dynamics::SimulatorModel>(model, model.space.values()),
                     .notes = knowledge.notes};
-  const auto moments = [network = knowledge.network, outputs = setting.task.state_size()] {
-    return moments::StepDynamics(std::make_shared<moments::MomentMatching>(network, outputs));
-  };
-  if (!knowledge.network.empty())
-    proposal.moments = moments::expected_episode(setting.task, setting.policy, moments, proposal.theta);
+  moments::MakeMoments moments;
+  if (options.pi_rem)
+    moments = [given, states = task.state_size(), actions = task.action_size(), through = options.pi_rem->through] {
+      return moments::StepDynamics(nullptr,
+                                   moments::make_prior_moments(given, given.space.values(), states, actions, through));
+    };
+  else if (!knowledge.network.empty())
+    moments = [network = knowledge.network, states = task.state_size()] {
+      return moments::StepDynamics(std::make_shared<moments::MomentMatching>(network, states));
+    };
+  if (moments) proposal.moments = moments::expected_episode(task, setting.policy, moments, proposal.theta);
   return proposal;
 }
 
@@ -93,7 +100,7 @@ void Trials::restore(const std::vector<Episode>& episodes, const json& state) {
   trials_ = state.at("trials").get<std::uint64_t>();
   if (state.contains("prior")) prior_ = to_knowledge(state.at("prior"));
   if (state.contains("phi")) state_.phi = to_vector(state.at("phi"));
-  const bool fits = trials_ == episodes.size() && (trials_ == 0 || !options_.prior || prior_);
+  const bool fits = trials_ == episodes.size() && (trials_ == 0 || !begins_on_prior() || prior_);
   if (!fits) throw InvalidInput("the learner's state does not fit the episodes");
 }
 
@@ -103,28 +110,27 @@ void Trials::study(const std::vector<Episode>& logs) {
 }
 
 Proposal Trials::propose(const Vector* known) {
-  const bool knows = data_.size() > 0 || trials_ > 0 || options_.pi_rem;
-  Proposal proposal = knows ? next_proposal(known) : first_proposal();
-  if (prior_) proposal.phi = setting_.prior->space.values();
+  Proposal proposal = trials_ == 0 && logs_.size() == 0 ? first_proposal() : next_proposal(known);
+  if (prior_ && !proposal.phi) proposal.phi = setting_.prior->space.values();
   return proposal;
 }
 
 Proposal Trials::first_proposal() {
-  if (!options_.prior) return random_actions(setting_, options_.first_trial_hold_s, stream(Stage::episode));
+  if (!begins_on_prior()) return random_actions(setting_, options_.first_trial_hold_s, stream(Stage::episode));
   const Stopwatch watch;
   know_prior();
-  Proposal proposal = proposal_of(*prior_, setting_, options_.model);
+  Proposal proposal = proposal_of(*prior_, setting_, options_);
   proposal.search_s = watch.seconds();
   return proposal;
 }
 
 void Trials::know_prior() {
-  if (options_.prior && !prior_) prior_ = learn_on_prior_(setting_, options_);
+  if (begins_on_prior() && !prior_) prior_ = learn_on_prior_(setting_, options_);
 }
 
 Proposal Trials::next_proposal(const Vector* known) {
   Proposal proposal{.policy = setting_.policy};
-  if (trials_ == 0) {  // there are logs, or a prior to begin with
+  if (trials_ == 0) {  // there are logs
     know_prior();
     if (prior_) theta_ = prior_->theta;
   }
@@ -151,7 +157,8 @@ Proposal Trials::next_proposal(const Vector* known) {
 }
 
 Mean Trials::mean() const {
-  if (options_.pi_rem) return {.prior = &*setting_.prior, .of_prior = *options_.pi_rem};
+  if (options_.pi_rem)
+    return {.prior = &*setting_.prior, .through = options_.pi_rem->through, .identify = options_.pi_rem->identify};
   return {.network = prior_ ? prior_->network : std::vector<moments::MomentTerm>()};
 }
 
@@ -163,11 +170,11 @@ Model Trials::learn_model() const {
 /// From the proposal's θ. A policy that has solved the task is good enough to stay with. One that was tried twice is
 /// worth what it earned: moment matching may promise more than that forever.
 void Trials::search(const Model& model, Proposal& proposal) const {
-  SearchOptions options = options_.search;
-  if (options_.pi_rem && !model.moments.gps) options.restarts = options_.pi_rem->restarts;
+  Restarts restarts{.key = stream(Stage::search)};
+  if (prior_) restarts.policies = prior_->policies;
   const SearchProblem problem{model.moments, *setting_.policy, setting_.task, *setting_.evaluator, setting_.progress};
-  SearchResult found = solved_ ? search_policy(problem, proposal.theta, options)
-                               : search_with_restarts(problem, proposal.theta, options, stream(Stage::search),
+  SearchResult found = solved_ ? search_policy(problem, proposal.theta, options_.search)
+                               : search_with_restarts(problem, proposal.theta, options_.search, restarts,
                                                       repeated_ ? earned_ : std::nullopt);
   proposal.theta = std::move(found.theta);
   proposal.predicted_return = found.predicted_return;

@@ -15,7 +15,7 @@ inline constexpr double kSameReturn = 0.02;
 /// on the prior taught, with `Options::pi_rem` with a policy made for the prior, else with random actions.
 class Trials final : public TrialLearner {
  public:
-  /// learn_on_prior: asked once where `Options::prior` is there.
+  /// learn_on_prior: asked once where `Options::prior` or `pi_rem` is there.
   Trials(Setting setting, const Options& options, LearnOnPrior learn_on_prior = {})
       : setting_(std::move(setting)), options_(options), learn_on_prior_(std::move(learn_on_prior)) {}
 
@@ -38,6 +38,7 @@ class Trials final : public TrialLearner {
   void add(const Episode& episode);
   Proposal first_proposal();
   Proposal next_proposal(const Vector* known);
+  bool begins_on_prior() const { return options_.prior || options_.pi_rem; }
   void know_prior();
   Mean mean() const;
   Model learn_model() const;

@@ -15,8 +15,7 @@ namespace rehearse::moments {
 namespace {
 
 struct Problem {
-  Problem(const scenario::Scenario& made, Index rows, Index centres,
-          StepDynamics dynamics = {})
+  Problem(const scenario::Scenario& made, Index rows, Index centres, StepDynamics dynamics = {})
       : Problem(made, rows, fixture::rbf(made.task, centres), std::move(dynamics)) {}
   Problem(scenario::Scenario made, Index rows, std::shared_ptr<const policy::Policy> of_policy,
           StepDynamics dynamics = {})

@@ -91,9 +91,7 @@ void PropagationTest::expect_adjoint(const StepDynamics& dynamics, const Feature
   tools::expect_slopes(f, state, adjoint, 1e-3, tolerance);
 }
 
-TEST_F(PropagationTest, AdjointAgreesWithDifferences) {
-  expect_adjoint(gps(exact_terms(posterior_)), features_);
-}
+TEST_F(PropagationTest, AdjointAgreesWithDifferences) { expect_adjoint(gps(exact_terms(posterior_)), features_); }
 
 TEST_F(PropagationTest, AdjointWithJointAnglesThatThePolicyDoesNotSeeAgreesWithDifferences) {
   expect_adjoint(fixture::random_dynamics(scenario_, 40, true), FeatureMoments(model_features(scenario_.task, true)));
@@ -125,8 +123,7 @@ TEST_F(PropagationTest, AroundALinearPriorIsTheClosedForm) {
   C << state.covariance * t.gain * t.change.gain, t.inputs.covariance.bottomRows(1) * t.change.gain;
   Matrix A = slopes;
   A.leftCols(4) += Matrix::Identity(4, 4);
-  const Matrix covariance =
-      A * joint.covariance * A.transpose() + t.change.covariance + A * C + (A * C).transpose();
+  const Matrix covariance = A * joint.covariance * A.transpose() + t.change.covariance + A * C + (A * C).transpose();
   for (const Through through : {Through::linearised, Through::unscented}) {
     const prior::Prior linear{"linear", system::make_simulator({}, change), {}};
     const Gaussian next =

@@ -225,7 +225,8 @@ TEST(PriorPhase, ModelsAreAroundTheNetwork) {
   Dataset data;
   const auto random = make(slider::setting(), {});
   data.append(run_trial(random->ask(), 1));
-  const Model model = pilco::learn({task(), data, ModelOptions{}, serial_evaluator()}, {}, {.network = knowledge.network});
+  const Model model =
+      pilco::learn({task(), data, ModelOptions{}, serial_evaluator()}, {}, {.network = knowledge.network});
   ASSERT_TRUE(model.moments.gps && model.model);
   ASSERT_EQ(model.moments.gps->terms().size(), 2U);
   const Matrix X{{0.3}}, U{{0.4}};
