@@ -20,6 +20,7 @@ run() { # run FOLDER RUN LAUNCHER… : the run named RUN
     gp-mi-pendulum) arguments=(pendulum --learner gp-mi "${few[@]}") ;;
     pilco) arguments=(pendulum --learner pilco "${short[@]}") ;;
     pilco-prior) arguments=(pendulum --learner pilco-prior "${short[@]}" --set pilco.prior_episodes=2) ;;
+    pi-rem) arguments=(pendubot --learner pi-rem --prior useful --set centres=10 "${short[@]}") ;;
     ite) arguments=(pendubot --learner ite --prior misleading --set archive.niches=200 --set archive.evaluations=3000) ;;
     gp-ilqg) arguments=(pendubot --learner gp-ilqg --prior useful --set search.starts=4 --set search.iterations=20) ;;
     hexapod) arguments=(hexapod --learner gp-mi --set damage=rear-left --set search.race.max_evaluations=12
@@ -35,7 +36,7 @@ compare() {
   for file in "$1"/predictions/*; do same "$1" "$2" "predictions/${file##*/}"; done
 }
 
-runs=(gp-mi gp-mi-noise gp-mi-pendulum mi black-drops black-drops-prior pilco pilco-prior ite gp-ilqg)
+runs=(gp-mi gp-mi-noise gp-mi-pendulum mi black-drops black-drops-prior pilco pilco-prior pi-rem ite gp-ilqg)
 "$program" list | grep -q '^ *hexapod' && runs+=(hexapod)
 for name in "${runs[@]}"; do
   begin=$(milliseconds)

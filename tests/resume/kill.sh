@@ -11,6 +11,7 @@ case $learner in
   black-drops) arguments=(pendubot "${race[@]}") ;;
   pilco-prior)  # most instants are in the episodes on the prior
     arguments=(pendulum --set policy=rbf --set pilco.prior_episodes=4 --set search.line_searches=8 --set model.inducing=60) ;;
+  pi-rem) arguments=(pendubot --prior misleading --set centres=10 --set search.line_searches=8 --set model.identify=true) ;;
   ite)
     arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=60000)
     files=(archive.bin elites.csv tried.csv) ;;
@@ -52,7 +53,7 @@ head -c "$(wc -c <fewer/trials.csv)" whole/trials.csv | cmp - fewer/trials.csv |
 "$program" resume fewer --trials 3 >/dev/null || fail "resuming with more trials"
 same whole fewer spec.toml trials.csv
 
-if [ "$learner" = pilco-prior ] || [ "$learner" = ite ]; then
+if [[ $learner =~ ^(pilco-prior|pi-rem|ite)$ ]]; then
   REHEARSE_CACHE=cache learn filling --trials 3 --threads 2
   REHEARSE_CACHE=cache learn cached --trials 3 --threads 2
   same whole cached spec.toml trials.csv errors.csv notes.csv policy.json

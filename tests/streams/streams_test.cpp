@@ -112,12 +112,14 @@ INSTANTIATE_TEST_SUITE_P(
                            with(kSmallSearch, {{"track", "0.3"}, {"search.safety.rollouts", "40"}})},
                       Case{"pilco", "pendulum", kSmallPilco},
                       Case{"pilco-prior", "pendulum", with(kSmallPilco, {{"pilco.prior_episodes", "3"}})},
+                      Case{"pi-rem", "pendubot", with(kSmallPilco, {{"model.identify", "true"}})},
                       Case{"ite", "pendubot", kSmallArchive}, Case{"gp-ilqg", "pendubot", kFewPlans}),
     name_of);
 
 TEST(StreamsTest, EveryLearnerHasACase) {
-  std::set<std::string> tested = {"black-drops", "black-drops-prior", "gp-mi", "mi",
-                                  "pilco",       "pilco-prior",       "ite",   "gp-ilqg"};
+  std::set<std::string> tested = {"black-drops", "black-drops-prior", "gp-mi",  "mi",
+                                  "pilco",       "pilco-prior",       "pi-rem", "ite",
+                                  "gp-ilqg"};
   for (const auto& builder : apps::catalogue().learner_builders()) EXPECT_TRUE(tested.contains(builder->name()));
 }
 

@@ -19,11 +19,12 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// What the dynamics are of: joint angles too where they have as many inputs.
-FeatureMap features_of(const Task& task, const MomentMatching* dynamics) {
+/// What GPs are of: joint angles too where they have as many inputs.
+FeatureMap features_of(const Task& task, const StepDynamics& dynamics) {
   if (!dynamics) throw InvalidInput("dynamics: there are none");
   FeatureMap with_joints = model_features(task, true);
-  return dynamics->inputs() == with_joints.features() + task.action_size() ? with_joints : task.feature_map();
+  return dynamics.gps && dynamics.gps->inputs() == with_joints.features() + task.action_size() ? with_joints
+                                                                                               : task.feature_map();
 }
 
 /// The features that policy and reward see.
@@ -31,7 +32,7 @@ Gaussian seen(const Transformed& features, Index count) {
   return {features.mean.head(count), features.covariance.topLeftCorner(count, count)};
 }
 
-void check(const Task& task, const policy::Policy& policy, const MomentMatching& dynamics, const Gaussian& start) {
+void check(const Task& task, const policy::Policy& policy, const StepDynamics& dynamics, const Gaussian& start) {
   Violations violations;
   violations.require(analytic_options(policy).has_value(),
                      fmt::format("policy = {}: its actions have no analytic moments, must be rbf, or linear with a "
@@ -55,10 +56,15 @@ void check(const Task& task, const policy::Policy& policy, const MomentMatching&
   }
   const Index inputs = features + task.action_size();
   const Index with_joints = model_features(task, true).features() + task.action_size();
-  violations.require(
-      (dynamics.inputs() == inputs || dynamics.inputs() == with_joints) && dynamics.outputs() == states,
-      fmt::format("dynamics: {} inputs and {} outputs, must be {}{} and {}", dynamics.inputs(), dynamics.outputs(),
-                  inputs, with_joints > inputs ? fmt::format(" (with joint angles {})", with_joints) : "", states));
+  if (const auto& gps = dynamics.gps)
+    violations.require(
+        (gps->inputs() == inputs || gps->inputs() == with_joints) && gps->outputs() == states,
+        fmt::format("dynamics: {} inputs and {} outputs, must be {}{} and {}", gps->inputs(), gps->outputs(), inputs,
+                    with_joints > inputs ? fmt::format(" (with joint angles {})", with_joints) : "", states));
+  if (const auto& prior = dynamics.prior)
+    violations.require(prior->states() == states && prior->actions() == task.action_size(),
+                       fmt::format("prior: {} states and {} actions, must be {} and {}", prior->states(),
+                                   prior->actions(), states, task.action_size()));
   violations.require(start.size() == states && start.covariance.rows() == states && start.covariance.cols() == states,
                      fmt::format("start: {} states, must be {}", start.size(), states));
   violations.require(task.horizon >= 1, fmt::format("horizon = {}, must be ≥ 1", task.horizon));
@@ -76,20 +82,20 @@ Gaussian start_of(const Task& task) { return {task.start_mean, Matrix(task.start
 
 bool Return::ok() const { return std::isfinite(value); }
 
-ExpectedReturn::ExpectedReturn(const Task& task, const policy::Policy& policy,
-                               std::shared_ptr<const MomentMatching> dynamics, std::optional<Gaussian> start)
+ExpectedReturn::ExpectedReturn(const Task& task, const policy::Policy& policy, StepDynamics dynamics,
+                               std::optional<Gaussian> start)
     : dynamics_(std::move(dynamics)),
-      features_(features_of(task, dynamics_.get())),
+      features_(features_of(task, dynamics_)),
       start_(start ? std::move(*start) : start_of(task)),
       horizon_(task.horizon) {
-  check(task, policy, *dynamics_, start_);
+  check(task, policy, dynamics_, start_);
   policy_ = policy_moments(policy);
   reward_ = *reward::closed_form(task.reward);
 }
 
 bool ExpectedReturn::roll_out(const PolicyMoments& policy, ReturnWorkspace& workspace, Return& result,
                               const Evaluator& evaluator) const {
-  const Propagation propagation(*dynamics_, policy, evaluator);
+  const Propagation propagation(dynamics_, policy, evaluator);
   workspace.states.resize(at(horizon_ + 1)), workspace.features.resize(at(horizon_ + 1));
   workspace.steps.resize(at(horizon_));
   workspace.states[0] = start_;
@@ -108,9 +114,14 @@ bool ExpectedReturn::roll_out(const PolicyMoments& policy, ReturnWorkspace& work
   return true;
 }
 
-Vector ExpectedReturn::differentiate(const PolicyMoments& policy, const ReturnWorkspace& workspace,
+Vector ExpectedReturn::differentiate(const PolicyMoments& policy, ReturnWorkspace& workspace,
                                      const Evaluator& evaluator) const {
-  const Propagation propagation(*dynamics_, policy, evaluator);
+  if (dynamics_.prior) {  // all steps at once
+    std::vector<PriorTape*> tapes;
+    for (StepTape& step : workspace.steps) tapes.push_back(&step.prior);
+    if (!dynamics_.prior->differentiate(tapes)) return {};
+  }
+  const Propagation propagation(dynamics_, policy, evaluator);
   PolicyAdjoint adjoint = policy.zero_adjoints();
   const Index dx = start_.size();
   Gaussian later = Gaussian::zero(dx);  // the adjoint of x_{t+1} by what comes after its reward
@@ -140,8 +151,8 @@ Return ExpectedReturn::operator()(const ConstVectorView& theta, Vector* gradient
   if (!policy->ok() || !roll_out(*policy, workspace, result, evaluator)) return result;
   if (gradient) {
     *gradient = differentiate(*policy, workspace, evaluator);
-    if (!gradient->allFinite()) {
-      gradient->setConstant(kNaN);
+    if (gradient->size() == 0 || !gradient->allFinite()) {
+      gradient->setConstant(theta.size(), kNaN);
       return result;
     }
   }

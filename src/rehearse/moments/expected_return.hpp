@@ -1,5 +1,6 @@
 #pragma once
-// The expected return of a policy on GPs by moment matching, and its gradient (Deisenroth 2011: PILCO's value).
+// The expected return of a policy on GPs, a prior or both by moment matching, and its gradient (Deisenroth 2011:
+// PILCO's value; Saveriano 2017).
 
 #include <functional>
 #include <memory>
@@ -32,9 +33,10 @@ struct Return {
 /// θ ↦ Σ_t E[r(x_t)], x_0 ~ start, under the policy at θ on `dynamics`. Immutable; any thread.
 class ExpectedReturn {
  public:
-  /// dynamics: of `model_features` with joint angles or without, and actions. Throws InvalidInput with what to use
-  /// instead if policy or reward have no analytic moments, and if sizes do not agree. `start`: where not the task's.
-  ExpectedReturn(const Task& task, const policy::Policy& policy, std::shared_ptr<const MomentMatching> dynamics,
+  /// dynamics: GPs are of `model_features` with joint angles or without, and actions. Throws InvalidInput with what to
+  /// use instead if policy or reward have no analytic moments, and if sizes do not agree. `start`: where not the
+  /// task's.
+  ExpectedReturn(const Task& task, const policy::Policy& policy, StepDynamics dynamics,
                  std::optional<Gaussian> start = {});
 
   /// The gradient by θ in reverse mode, unless null; NaN where the value is. The result is the same for any number of
@@ -48,10 +50,11 @@ class ExpectedReturn {
  private:
   bool roll_out(const PolicyMoments& policy, ReturnWorkspace& workspace, Return& result,
                 const Evaluator& evaluator) const;
-  Vector differentiate(const PolicyMoments& policy, const ReturnWorkspace& workspace, const Evaluator& evaluator) const;
+  /// Empty where the prior has no derivatives.
+  Vector differentiate(const PolicyMoments& policy, ReturnWorkspace& workspace, const Evaluator& evaluator) const;
 
-  std::shared_ptr<const MomentMatching> dynamics_;
-  FeatureMoments features_;  // inputs of the dynamics
+  StepDynamics dynamics_;
+  FeatureMoments features_;  // inputs of the GPs
   PolicyMomentsAt policy_;
   reward::ClosedForm reward_;
   Gaussian start_;
@@ -59,7 +62,7 @@ class ExpectedReturn {
 };
 
 /// The dynamics, made when it is called.
-using MakeMoments = std::function<std::shared_ptr<const MomentMatching>()>;
+using MakeMoments = std::function<StepDynamics()>;
 
 /// ExpectedReturn::episode from the task's start, computed when it is called: most proposals, those of episodes on a
 /// prior, are never asked.

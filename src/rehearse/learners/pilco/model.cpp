@@ -1,11 +1,10 @@
 #include "rehearse/learners/pilco/model.hpp"
 
-#include <limits>
-
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/gp_model.hpp"
+#include "rehearse/dynamics/residuals.hpp"
 #include "rehearse/gp/posterior.hpp"
 #include "rehearse/moments/fitc.hpp"
 #include "rehearse/moments/network_prior.hpp"
@@ -59,22 +58,58 @@ std::vector<moments::MomentTerm> terms(const Matrix& X, const Matrix& Y, const M
   return moments::exact_terms(gp::Posterior(inputs, Y, kernels));
 }
 
-std::shared_ptr<const moments::MomentMatching> around(const std::vector<moments::MomentTerm>& mean,
-                                                      std::vector<moments::MomentTerm> terms, Index outputs) {
-  terms.insert(terms.end(), mean.begin(), mean.end());
-  return std::make_shared<moments::MomentMatching>(std::move(terms), outputs);
-}
-
-identification::Kind kind(const ModelOptions& options, bool around_a_mean) {
-  const auto adapt = [&](auto kind) {  // each state has a GP of its own, whose moments are known
+/// GPs are told by `adapt`: each state has one of its own, whose moments are known.
+identification::Kind kind(const ModelOptions& options, const Mean& mean) {
+  const auto adapt = [&](auto kind) {
     static_cast<dynamics::GpOptions&>(kind.gp) = {};
     kind.gp.fit = options.fit;
     kind.gp.smooth = options.smooth;
     if constexpr (requires { kind.gp.midpoint; }) kind.gp.midpoint = false;
-    return identification::Kind(kind);
+    return kind;
   };
-  return around_a_mean ? adapt(identification::FixedPrior{}) : adapt(identification::ZeroMean{});
+  if (mean.prior && mean.identify) {
+    identification::GpMi gp_mi = adapt(identification::GpMi{});
+    gp_mi.gp.fit.starts = 1, gp_mi.gp.fit.part_rows = 0;  // its search tries other kernels itself
+    return gp_mi;
+  }
+  if (mean.prior || !mean.network.empty()) return adapt(identification::FixedPrior{});
+  return adapt(identification::ZeroMean{});
 }
+
+/// The rows that moment matching is told.
+struct Rows {
+  Matrix X, Y;  // inputs, and what the mean leaves of the changes
+};
+
+Rows rows_around(const Dataset& data, const FeatureMap& features, const Mean& mean, const Vector& phi) {
+  Rows rows{dynamics::gp_inputs(features, data.states, data.actions), data.changes};
+  if (!mean.network.empty()) rows.Y -= moments::evaluate_means(mean.network, rows.Y.cols(), rows.X);
+  if (!mean.prior) return rows;
+  Matrix change(rows.Y.rows(), rows.Y.cols());
+  mean.prior->mean(data.states, data.actions, phi, change);
+  rows.Y -= change;
+  const std::vector<Index> finite = dynamics::finite_rows(rows.Y);
+  if (static_cast<Index>(finite.size()) == rows.Y.rows()) return rows;
+  return {rows.X(finite, Eigen::all), rows.Y(finite, Eigen::all)};
+}
+
+/// The mean of a model, and GPs around it.
+class Around {
+ public:
+  Around(const Task& task, const Mean& mean, const Vector& phi) : network_(mean.network), states_(task.state_size()) {
+    if (mean.prior) prior_ = moments::make_prior_moments(*mean.prior, phi, states_, task.action_size(), mean.through);
+  }
+
+  moments::StepDynamics operator()(std::vector<moments::MomentTerm> terms) const {
+    terms.insert(terms.end(), network_.begin(), network_.end());
+    return {std::make_shared<moments::MomentMatching>(std::move(terms), states_), prior_};
+  }
+
+ private:
+  std::vector<moments::MomentTerm> network_;
+  std::shared_ptr<const moments::PriorMoments> prior_;
+  Index states_;
+};
 
 }  // namespace
 
@@ -93,30 +128,30 @@ void ModelOptions::fields(FieldVisitor& v) {
             at_least(0), published(500, "PILCO"));
 }
 
-Model learn(const ModelProblem& problem, const std::vector<gp::Hyperparameters>& start,
-            const std::vector<moments::MomentTerm>& mean) {
+Model learn(const ModelProblem& problem, const identification::WarmStart& start, const Mean& mean) {
   const auto& [task, data, options, evaluator, progress] = problem;
-  Model model{.kernels = start, .log_evidence = std::numeric_limits<double>::quiet_NaN()};
+  Model model{.state = start, .log_evidence = kNaN};
   const FeatureMap features = moments::model_features(task, options.joint_angles);
-  std::optional<prior::Prior> prior;
-  if (!mean.empty()) prior = moments::network_prior("network", features, mean);
+  std::optional<prior::Prior> network;
+  if (!mean.network.empty()) network = moments::network_prior("network", features, mean.network);
   try {
     const Kinematics none{.dt_s = task.dt_s};  // neither integrals of rates nor servos, which have no moments
-    identification::Learned learned = identification::learn({data, features, none, prior ? &*prior : nullptr},
-                                                            kind(options, !mean.empty()), {start, {}}, evaluator);
+    identification::Learned learned = identification::learn({data, features, none, network ? &*network : mean.prior},
+                                                            kind(options, mean), start, evaluator);
     model.notes = std::move(learned.notes);
-    const Dataset& rows = learned.smoothed ? learned.smoothed->data : data;
     const auto& kernels = learned.smoothed ? learned.smoothed->kernels : learned.state.kernels;
-    const Matrix X = dynamics::gp_inputs(features, rows.states, rows.actions);
-    Matrix Y = rows.changes;
-    if (!mean.empty()) Y -= moments::evaluate_means(mean, Y.cols(), X);
-    model.moments = around(mean, terms(X, Y, problem, kernels, model.notes), task.state_size());
-    model.moments_of_all_rows = [X, Y, mean, kernels] {
-      return around(mean, moments::exact_terms(gp::Posterior(gp::Inputs(X), Y, kernels)), Y.cols());
+    const Vector phi = learned.state.phi.value_or(Vector());
+    const Rows rows = rows_around(learned.smoothed ? learned.smoothed->data : data, features, mean, phi);
+    const Around around(task, mean, phi);
+    model.moments = around(terms(rows.X, rows.Y, problem, kernels, model.notes));
+    model.moments_of_all_rows = [rows, around, kernels] {
+      return around(moments::exact_terms(gp::Posterior(gp::Inputs(rows.X), rows.Y, kernels)));
     };
     model.model = std::move(learned.model);
-    model.kernels = std::move(learned.state.kernels);
+    model.state = std::move(learned.state);
     model.log_evidence = *learned.log_evidence;
+    model.posterior = std::move(learned.posterior);
+    model.left_out_rows = learned.left_out_rows;
   } catch (const InvalidInput& nothing_to_learn_from) {
     model.notes.push_back(fmt::format("no model, so the policy stays: {}", nothing_to_learn_from.what()));
   }

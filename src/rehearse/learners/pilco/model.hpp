@@ -12,7 +12,7 @@
 #include "rehearse/gp/fit.hpp"
 #include "rehearse/identification/learn.hpp"
 #include "rehearse/moments/expected_return.hpp"
-#include "rehearse/moments/moment_matching.hpp"
+#include "rehearse/moments/step_dynamics.hpp"
 
 namespace rehearse::learners::pilco {
 
@@ -32,14 +32,24 @@ struct ModelOptions {
   void fields(FieldVisitor& v);
 };
 
-/// GPs for the change of each state, around zero or around those learned elsewhere.
+/// The mean functions of GPs: zero, where both are empty.
+struct Mean {
+  std::vector<moments::MomentTerm> network = {};  // GPs learned elsewhere, without uncertainty (Cutler 2015)
+  const prior::Prior* prior = nullptr;            // a simulator (Saveriano 2017)
+  moments::Through through = moments::Through::linearised;
+  bool identify = false;  // GP-MI finds its parameters; else it is taken at its own
+};
+
+/// GPs for the change of each state.
 struct Model {
-  std::shared_ptr<const moments::MomentMatching> moments;  // what policies are searched on; null: it could not be made
-  std::shared_ptr<const dynamics::DynamicsModel> model;    // the same GPs of all rows, for forecasts
-  moments::MakeMoments moments_of_all_rows;  // of these GPs, made when it is called; empty: there are none
-  std::vector<gp::Hyperparameters> kernels;  // the warm start of the next
-  double log_evidence = 0;                   // of all outputs together, nats; NaN where a fit failed
-  std::vector<std::string> notes;            // numerical failures survived
+  moments::StepDynamics moments;                          // what policies are searched on; false: it could not be made
+  std::shared_ptr<const dynamics::DynamicsModel> model;   // the same GPs of all rows, for forecasts
+  moments::MakeMoments moments_of_all_rows;               // of these GPs, made when it is called; empty: there are none
+  identification::WarmStart state;                        // of the next
+  double log_evidence = 0;                                // of all outputs together, nats; NaN where a fit failed
+  std::optional<identification::PhiPosterior> posterior;  // of the prior's parameters, where they were identified
+  Index left_out_rows = 0;                                // of the data, where the prior's mean was not finite
+  std::vector<std::string> notes;                         // numerical failures survived
 };
 
 /// The data that a model is learned from, and the options. References must outlive the calls.
@@ -51,11 +61,9 @@ struct ModelProblem {
   ProgressSink progress = {};
 };
 
-/// `start`: the kernels of the model before; may be empty. `mean`: the mean functions of the GPs, terms without
-/// uncertainty (Cutler 2015); empty: zero. The same for any number of threads. No data throw; what the progress sink
-/// throws, passes.
-Model learn(const ModelProblem& problem, const std::vector<gp::Hyperparameters>& start,
-            const std::vector<moments::MomentTerm>& mean = {});
+/// `start`: of the model before; may be empty. `mean`: what it points to must outlive the call. The same for any number
+/// of threads. No data throw; what the progress sink throws, passes.
+Model learn(const ModelProblem& problem, const identification::WarmStart& start, const Mean& mean = {});
 
 /// GPs with these kernels and zero mean: all rows, or, beyond `options.inducing` of them, inducing inputs.
 std::vector<moments::MomentTerm> terms_of(const ModelProblem& problem, const std::vector<gp::Hyperparameters>& kernels,

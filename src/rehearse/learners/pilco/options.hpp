@@ -18,6 +18,17 @@ struct PriorPhaseOptions {
   void fields(FieldVisitor& v);
 };
 
+/// The prior itself as the mean of the GPs, and what the first policy is made for (PI-REM, Saveriano 2017).
+struct PiRemOptions {
+  moments::Through through = moments::Through::linearised;
+  bool identify = false;   // GP-MI's parameters of the prior, found anew before each trial; Saveriano: as given
+  Index searches = 20;     // on the prior alone, each from a first policy of its own: they cost little, and end at
+                           // different local optima
+  double start_std = 0.1;  // of each state of the start of these searches, at least: the prior is wrong, and a policy
+                           // that does well from a point alone is lost as soon as the robot is elsewhere
+  void fields(FieldVisitor& v);
+};
+
 struct Options {
   ModelOptions model;
   SearchOptions search;
@@ -25,6 +36,7 @@ struct Options {
                              // false: in every trial
   double first_trial_hold_s = 0;           // a random action of the first trial is held so long; PILCO: one step
   std::optional<PriorPhaseOptions> prior;  // PILCO learns on the prior first, and begins with that; empty: without one
+  std::optional<PiRemOptions> pi_rem;      // GPs are around the prior; at most one of the two
   void fields(FieldVisitor& v);
 };
 

@@ -2,6 +2,7 @@
 
 #include "rehearse/learners/builder.hpp"
 #include "rehearse/learners/pilco/prior_phase.hpp"
+#include "rehearse/learners/pilco/prior_search.hpp"
 #include "rehearse/learners/pilco/trials.hpp"
 #include "rehearse/moments/requirements.hpp"
 
@@ -10,12 +11,17 @@ namespace {
 
 std::vector<std::string> without_moments(const Options& options, const Task& task, const policy::Policy& policy) {
   const bool joint_angles = options.model.joint_angles;
-  const moments::Need need = options.prior ? moments::Need{"pilco-prior", "the learner black-drops-prior", joint_angles}
-                                           : moments::Need{"pilco", "the learner black-drops", joint_angles};
-  return moments::without_moments(task, policy, need);
+  const auto need = [&]() -> moments::Need {
+    if (options.prior) return {"pilco-prior", "the learner black-drops-prior", joint_angles};
+    if (options.pi_rem) return {"pi-rem", "the learner black-drops-prior", joint_angles};
+    return {"pilco", "the learner black-drops", joint_angles};
+  };
+  return moments::without_moments(task, policy, need());
 }
 
-PriorUse prior_use(const Options& options) { return options.prior ? PriorUse::required : PriorUse::none; }
+PriorUse prior_use(const Options& options) {
+  return options.prior || options.pi_rem ? PriorUse::required : PriorUse::none;
+}
 
 Entry<Options> entry(const char* name, const char* summary, const Options& options) {
   return {.name = name,
@@ -32,7 +38,7 @@ Entry<Options> entry(const char* name, const char* summary, const Options& optio
 std::unique_ptr<Learner> make(Setting setting, Options options) {
   setting = checked(std::move(setting), options, prior_use(options), without_moments);
   if (!options.success_test) setting.task.solved = nullptr;
-  return std::make_unique<Trials>(std::move(setting), options, learn_on_prior);
+  return std::make_unique<Trials>(std::move(setting), options, options.pi_rem ? search_on_prior : learn_on_prior);
 }
 
 std::vector<std::unique_ptr<LearnerBuilder>> builders() {
@@ -40,7 +46,9 @@ std::vector<std::unique_ptr<LearnerBuilder>> builders() {
       entry("pilco", "GPs from data alone, policies (rbf, or linear with a sine) by moment matching and its gradient",
             {}),
       entry("pilco-prior", "PILCO on the prior first, then GPs around those learned there; the same policies",
-            {.prior = PriorPhaseOptions{}}));
+            {.prior = PriorPhaseOptions{}}),
+      entry("pi-rem", "GPs around the prior itself, a first policy made for the prior alone; the same policies",
+            {.pi_rem = PiRemOptions{}}));
 }
 
 }  // namespace rehearse::learners::pilco

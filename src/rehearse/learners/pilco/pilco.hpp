@@ -1,6 +1,7 @@
 #pragma once
 // PILCO (Deisenroth 2011): learn GPs of the dynamics, follow a Gaussian through a rollout in them in closed form,
-// search the policy by the gradient of its expected return, try it. docs/pilco.md.
+// search the policy by the gradient of its expected return, try it. With a prior: GPs around those that PILCO learns on
+// the prior (Cutler 2015), or around the prior itself (PI-REM, Saveriano 2017). docs/pilco.md.
 
 #include <memory>
 #include <vector>
@@ -14,7 +15,7 @@ namespace rehearse::learners::pilco {
 /// prior is needed and missing.
 std::unique_ptr<Learner> make(Setting setting, Options options);
 
-/// pilco and pilco-prior.
+/// pilco, pilco-prior and pi-rem.
 std::vector<std::unique_ptr<LearnerBuilder>> builders();
 
 }  // namespace rehearse::learners::pilco

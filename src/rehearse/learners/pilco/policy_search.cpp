@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/learners/pilco/initial_policy.hpp"
@@ -69,6 +71,30 @@ SearchResult search(Objective& objective, const Vector& start, const SearchOptio
   return result;
 }
 
+std::vector<Vector> first_policies(const SearchProblem& problem, const SearchOptions& options, StreamKey key) {
+  std::vector<Vector> first;
+  const moments::Gaussian begin = start_state(problem.task, options);
+  for (Index k = 1; k <= options.restarts; ++k) {
+    key.candidate = static_cast<std::uint64_t>(k);
+    first.push_back(initial_policy(problem.policy, begin, key));
+  }
+  return first;
+}
+
+/// So many of the policies, those of the highest value first.
+std::vector<Vector> best_policies(Objective& objective, const std::vector<Vector>& policies, Index count) {
+  std::vector<std::pair<double, const Vector*>> by_value;
+  for (const Vector& theta : policies) {
+    const double value = objective.at(theta);
+    by_value.emplace_back(std::isfinite(value) ? value : -kInf, &theta);
+  }
+  std::ranges::stable_sort(by_value, std::greater(), &std::pair<double, const Vector*>::first);
+  std::vector<Vector> best;
+  for (const auto& [value, theta] : by_value)
+    if (static_cast<Index>(best.size()) < count) best.push_back(*theta);
+  return best;
+}
+
 }  // namespace
 
 void SearchOptions::fields(FieldVisitor& v) {
@@ -90,15 +116,16 @@ SearchResult search_policy(const SearchProblem& problem, const Vector& start, co
 }
 
 SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
-                                  StreamKey key, std::optional<double> earned) {
+                                  const Restarts& restarts, std::optional<double> earned) {
   Objective objective(problem, options, 1 + options.restarts);
-  const moments::Gaussian begin = start_state(problem.task, options);
   SearchResult best = search(objective, start, options);
   if (earned && best.predicted_return)  // fmax: where the start has no value nothing is known of the model
     *best.predicted_return -= std::fmax(0, objective.at(start) - *earned);
-  for (Index k = 1; k <= options.restarts; ++k) {
-    key.candidate = static_cast<std::uint64_t>(k);
-    SearchResult fresh = search(objective, initial_policy(problem.policy, begin, key), options);
+  const std::vector<Vector> others = restarts.policies.empty()
+                                         ? first_policies(problem, options, restarts.key)
+                                         : best_policies(objective, restarts.policies, options.restarts);
+  for (const Vector& other : others) {
+    SearchResult fresh = search(objective, other, options);
     if (fresh.predicted_return > best.predicted_return) best = std::move(fresh);  // none is less than any
   }
   best.evaluations = objective.evaluations();

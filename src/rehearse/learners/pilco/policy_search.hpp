@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/events.hpp"
@@ -9,7 +10,7 @@
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/moments/gaussian.hpp"
-#include "rehearse/moments/moment_matching.hpp"
+#include "rehearse/moments/step_dynamics.hpp"
 #include "rehearse/optim/cautious_bfgs.hpp"
 #include "rehearse/policy/policy.hpp"
 
@@ -35,7 +36,7 @@ struct SearchResult {
 
 /// References must outlive the search.
 struct SearchProblem {
-  std::shared_ptr<const moments::MomentMatching> dynamics;
+  moments::StepDynamics dynamics;
   const policy::Policy& policy;  // analytic
   const Task& task;              // with a saturating reward
   const Evaluator& evaluator;
@@ -48,10 +49,16 @@ moments::Gaussian start_state(const Task& task, const SearchOptions& options);
 /// Maximises the expected return from `start`. What the progress sink throws, passes.
 SearchResult search_policy(const SearchProblem& problem, const Vector& start, const SearchOptions& options);
 
-/// The best of `search_policy` from `start` and from `SearchOptions::restarts` first policies: those of `key` with the
-/// candidates 1, 2, … `earned`: what `start` earns, where that is known. Where it promises more, the model is wrong
-/// about it, and the search from there promises less by as much.
+/// Other starts of a search.
+struct Restarts {
+  StreamKey key = {};                 // of first policies, those with the candidates 1, 2, …
+  std::vector<Vector> policies = {};  // to be chosen from in their place, the best on the model; empty: first policies
+};
+
+/// The best of `search_policy` from `start` and from `SearchOptions::restarts` others. `earned`: what `start` earns,
+/// where that is known. Where it promises more, the model is wrong about it, and the search from there promises less by
+/// as much.
 SearchResult search_with_restarts(const SearchProblem& problem, const Vector& start, const SearchOptions& options,
-                                  StreamKey key, std::optional<double> earned = {});
+                                  const Restarts& restarts, std::optional<double> earned = {});
 
 }  // namespace rehearse::learners::pilco

@@ -16,13 +16,15 @@ json to_json(const PriorKnowledge& knowledge) {
                      {"log_lengths", learners::to_json(term.log_lengths)},
                      {"weights", learners::to_json(term.weights)}});
   const Matrix centres = knowledge.network.empty() ? Matrix() : knowledge.network.front().centres;
-  return {{"centres", learners::to_json(centres)},
-          {"terms", terms},
-          {"theta", learners::to_json(knowledge.theta)},
-          {"predicted_return", knowledge.predicted_return ? json(*knowledge.predicted_return) : json()},
-          {"evaluations", knowledge.evaluations},
-          {"failed", knowledge.failed},
-          {"notes", knowledge.notes}};
+  json j = {{"centres", learners::to_json(centres)},
+            {"terms", terms},
+            {"theta", learners::to_json(knowledge.theta)},
+            {"predicted_return", knowledge.predicted_return ? json(*knowledge.predicted_return) : json()},
+            {"evaluations", knowledge.evaluations},
+            {"failed", knowledge.failed},
+            {"notes", knowledge.notes}};
+  for (const Vector& policy : knowledge.policies) j["policies"].push_back(learners::to_json(policy));
+  return j;
 }
 
 PriorKnowledge to_knowledge(const json& j) {
@@ -31,6 +33,7 @@ PriorKnowledge to_knowledge(const json& j) {
                            .failed = j.at("failed").get<Index>()};
   j.at("notes").get_to(knowledge.notes);
   if (!j.at("predicted_return").is_null()) knowledge.predicted_return = j.at("predicted_return").get<double>();
+  if (j.contains("policies")) knowledge.policies = to_vectors(j.at("policies"));
   const Matrix centres = to_matrix(j.at("centres"));
   for (const json& term : j.at("terms"))
     knowledge.network.push_back({.output = term.at("output").get<Index>(),

@@ -21,9 +21,10 @@ using learners::to_json;
 using nlohmann::json;
 
 /// A policy that was learned on the prior, before anything is known of the robot.
-Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting, const ModelOptions& options) {
+Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting, const Options& options) {
   const prior::Prior& given = *setting.prior;
-  const FeatureMap features = moments::model_features(setting.task, options.joint_angles);
+  const Task& task = setting.task;
+  const FeatureMap features = moments::model_features(task, options.model.joint_angles);
   const prior::Prior model =
       knowledge.network.empty() ? given : moments::network_prior(given.name, features, knowledge.network);
   Proposal proposal{.policy = setting.policy,
@@ -33,11 +34,17 @@ Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting, co
                     .failed_rollouts = knowledge.failed,
                     .model = std::make_shared<dynamics::SimulatorModel>(model, model.space.values()),
                     .notes = knowledge.notes};
-  const auto moments = [network = knowledge.network, outputs = setting.task.state_size()] {
-    return std::make_shared<moments::MomentMatching>(network, outputs);
-  };
-  if (!knowledge.network.empty())
-    proposal.moments = moments::expected_episode(setting.task, setting.policy, moments, proposal.theta);
+  moments::MakeMoments moments;
+  if (options.pi_rem)
+    moments = [given, states = task.state_size(), actions = task.action_size(), through = options.pi_rem->through] {
+      return moments::StepDynamics(nullptr,
+                                   moments::make_prior_moments(given, given.space.values(), states, actions, through));
+    };
+  else if (!knowledge.network.empty())
+    moments = [network = knowledge.network, states = task.state_size()] {
+      return moments::StepDynamics(std::make_shared<moments::MomentMatching>(network, states));
+    };
+  if (moments) proposal.moments = moments::expected_episode(task, setting.policy, moments, proposal.theta);
   return proposal;
 }
 
@@ -67,14 +74,15 @@ std::vector<moments::MomentTerm> Trials::terms(Index inducing, std::vector<std::
   if (!asked() || !asked()->model) return {};
   ModelOptions options = options_.model;
   options.inducing = inducing;
-  return terms_of({setting_.task, data_, options, *setting_.evaluator, setting_.progress}, kernels_, notes);
+  return terms_of({setting_.task, data_, options, *setting_.evaluator, setting_.progress}, state_.kernels, notes);
 }
 
 json Trials::save() const {
   json kernels = json::array();
-  for (const auto& kernel : kernels_) kernels.push_back(to_json(kernel.flat()));
+  for (const auto& kernel : state_.kernels) kernels.push_back(to_json(kernel.flat()));
   json state = {{"trials", trials_}, {"kernels", kernels}, {"theta", to_json(theta_)}};
   if (prior_) state["prior"] = to_json(*prior_);
+  if (options_.pi_rem && state_.phi) state["phi"] = to_json(*state_.phi);
   return state;
 }
 
@@ -83,15 +91,16 @@ void Trials::restore(const std::vector<Episode>& episodes, const json& state) {
   solved_ = false;
   earned_.reset();
   repeated_ = false;
-  kernels_.clear();
+  state_ = {};
   prior_.reset();
   for (const Episode& episode : episodes) add(episode);
   for (const Vector& flat : to_vectors(state.at("kernels")))
-    kernels_.push_back(gp::Hyperparameters::from_flat(flat, flat.size() - 2));
+    state_.kernels.push_back(gp::Hyperparameters::from_flat(flat, flat.size() - 2));
   theta_ = to_vector(state.at("theta"));
   trials_ = state.at("trials").get<std::uint64_t>();
   if (state.contains("prior")) prior_ = to_knowledge(state.at("prior"));
-  const bool fits = trials_ == episodes.size() && (trials_ == 0 || !options_.prior || prior_);
+  if (state.contains("phi")) state_.phi = to_vector(state.at("phi"));
+  const bool fits = trials_ == episodes.size() && (trials_ == 0 || !begins_on_prior() || prior_);
   if (!fits) throw InvalidInput("the learner's state does not fit the episodes");
 }
 
@@ -102,21 +111,21 @@ void Trials::study(const std::vector<Episode>& logs) {
 
 Proposal Trials::propose(const Vector* known) {
   Proposal proposal = trials_ == 0 && logs_.size() == 0 ? first_proposal() : next_proposal(known);
-  if (prior_) proposal.phi = setting_.prior->space.values();
+  if (prior_ && !proposal.phi) proposal.phi = setting_.prior->space.values();
   return proposal;
 }
 
 Proposal Trials::first_proposal() {
-  if (!options_.prior) return random_actions(setting_, options_.first_trial_hold_s, stream(Stage::episode));
+  if (!begins_on_prior()) return random_actions(setting_, options_.first_trial_hold_s, stream(Stage::episode));
   const Stopwatch watch;
   know_prior();
-  Proposal proposal = proposal_of(*prior_, setting_, options_.model);
+  Proposal proposal = proposal_of(*prior_, setting_, options_);
   proposal.search_s = watch.seconds();
   return proposal;
 }
 
 void Trials::know_prior() {
-  if (options_.prior && !prior_) prior_ = learn_on_prior_(setting_, options_);
+  if (begins_on_prior() && !prior_) prior_ = learn_on_prior_(setting_, options_);
 }
 
 Proposal Trials::next_proposal(const Vector* known) {
@@ -129,6 +138,9 @@ Proposal Trials::next_proposal(const Vector* known) {
   proposal.model_s = seconds([&] { model = learn_model(); });
   proposal.model = model.model;
   proposal.notes = std::move(model.notes);
+  if (options_.pi_rem) proposal.phi = model.state.phi;
+  proposal.posterior = std::move(model.posterior);
+  proposal.left_out_rows = model.left_out_rows;
   if (std::isfinite(model.log_evidence)) proposal.log_evidence = model.log_evidence;
   proposal.theta = theta_.size() > 0 ? theta_
                                      : initial_policy(*setting_.policy, start_state(setting_.task, options_.search),
@@ -140,22 +152,29 @@ Proposal Trials::next_proposal(const Vector* known) {
   if (model.model)
     proposal.moments =
         moments::expected_episode(setting_.task, setting_.policy, std::move(model.moments_of_all_rows), proposal.theta);
-  kernels_ = std::move(model.kernels);  // last: an interruption must not leave it behind
+  state_ = std::move(model.state);  // last: an interruption must not leave it behind
   return proposal;
+}
+
+Mean Trials::mean() const {
+  if (options_.pi_rem)
+    return {.prior = &*setting_.prior, .through = options_.pi_rem->through, .identify = options_.pi_rem->identify};
+  return {.network = prior_ ? prior_->network : std::vector<moments::MomentTerm>()};
 }
 
 Model Trials::learn_model() const {
   if (setting_.progress) setting_.progress({.phase = "model"});
-  const auto mean = prior_ ? prior_->network : std::vector<moments::MomentTerm>();
-  return pilco::learn({setting_.task, data_, options_.model, *setting_.evaluator, setting_.progress}, kernels_, mean);
+  return pilco::learn({setting_.task, data_, options_.model, *setting_.evaluator, setting_.progress}, state_, mean());
 }
 
 /// From the proposal's θ. A policy that has solved the task is good enough to stay with. One that was tried twice is
 /// worth what it earned: moment matching may promise more than that forever.
 void Trials::search(const Model& model, Proposal& proposal) const {
+  Restarts restarts{.key = stream(Stage::search)};
+  if (prior_) restarts.policies = prior_->policies;
   const SearchProblem problem{model.moments, *setting_.policy, setting_.task, *setting_.evaluator, setting_.progress};
   SearchResult found = solved_ ? search_policy(problem, proposal.theta, options_.search)
-                               : search_with_restarts(problem, proposal.theta, options_.search, stream(Stage::search),
+                               : search_with_restarts(problem, proposal.theta, options_.search, restarts,
                                                       repeated_ ? earned_ : std::nullopt);
   proposal.theta = std::move(found.theta);
   proposal.predicted_return = found.predicted_return;

@@ -11,11 +11,11 @@ namespace rehearse::learners::pilco {
 /// Returns that differ by less than this part are the same.
 inline constexpr double kSameReturn = 0.02;
 
-/// The trials of PILCO on one system, the robot or, before, the prior. With `Options::prior` they begin with
-/// what those on the prior taught, else with random actions.
+/// The trials of PILCO on one system, the robot or, before, the prior. With `Options::prior` they begin with what those
+/// on the prior taught, with `Options::pi_rem` with a policy made for the prior, else with random actions.
 class Trials final : public TrialLearner {
  public:
-  /// learn_on_prior: asked once where `Options::prior` is there.
+  /// learn_on_prior: asked once where `Options::prior` or `pi_rem` is there.
   Trials(Setting setting, const Options& options, LearnOnPrior learn_on_prior = {})
       : setting_(std::move(setting)), options_(options), learn_on_prior_(std::move(learn_on_prior)) {}
 
@@ -38,7 +38,9 @@ class Trials final : public TrialLearner {
   void add(const Episode& episode);
   Proposal first_proposal();
   Proposal next_proposal(const Vector* known);
+  bool begins_on_prior() const { return options_.prior || options_.pi_rem; }
   void know_prior();
+  Mean mean() const;
   Model learn_model() const;
   void search(const Model& model, Proposal& proposal) const;
 
@@ -53,7 +55,7 @@ class Trials final : public TrialLearner {
   bool repeated_ = false;         // it earned what the one before did
   std::uint64_t trials_ = 0;
   Vector theta_;  // of the last trial; empty before there was one of the setting's policy
-  std::vector<gp::Hyperparameters> kernels_;
+  identification::WarmStart state_;
 };
 
 }  // namespace rehearse::learners::pilco

@@ -24,7 +24,7 @@ TEST(Model, HasInducingInputsBeyondTheLimitOnly) {
     options.inducing = inducing;
     const Model model = pilco::learn({task(), data, options, serial_evaluator()}, {});
     EXPECT_EQ(model.notes, std::vector<std::string>{});
-    return model.moments->terms().front().size();
+    return model.moments.gps->terms().front().size();
   };
   EXPECT_EQ(points(24), 24);
   EXPECT_EQ(points(23), 23);
@@ -63,8 +63,8 @@ TEST(Model, HasJointAnglesAsInputsWhereTheTaskNamesThem) {
   options.joint_angles = false;
   const Model without = pilco::learn({two_link_task(), data, options, serial_evaluator()}, {});
   ASSERT_TRUE(with.moments && without.moments);
-  EXPECT_EQ(with.moments->inputs(), 8);
-  EXPECT_EQ(without.moments->inputs(), 6);
+  EXPECT_EQ(with.moments.gps->inputs(), 8);
+  EXPECT_EQ(without.moments.gps->inputs(), 6);
   EXPECT_GT(with.log_evidence, without.log_evidence + 10);
 
   const moments::Gaussian known{Vector{{0.1, 0.4, -0.9}}, Matrix::Zero(3, 3)};
@@ -72,7 +72,7 @@ TEST(Model, HasJointAnglesAsInputsWhereTheTaskNamesThem) {
   inputs.mean << moments::FeatureMoments(moments::model_features(two_link_task(), true))(known).mean, 0.2;
   moments::MomentTape tape;
   moments::Transformed change = moments::Transformed::zero(8, 3);
-  ASSERT_TRUE(with.moments->forward(inputs, tape, change));
+  ASSERT_TRUE(with.moments.gps->forward(inputs, tape, change));
   Matrix mean(1, 3), variance(1, 3);
   with.model->predict(known.mean.transpose(), Matrix::Constant(1, 1, 0.2), mean, variance);
   EXPECT_LT((change.mean - mean.transpose()).norm(), 0.02) << "forecasts and searches have the same inputs";
@@ -84,16 +84,16 @@ TEST(Model, SearchesAndForecastsLearnFromTheSameStatesSmoothedOrNot) {
   const FeatureMap features = moments::model_features(two_link_task(), true);
   const Matrix inputs = dynamics::gp_inputs(features, data.states, data.actions);
   const auto learned = [&](const ModelOptions& options, const std::vector<moments::MomentTerm>& around) {
-    Model model = pilco::learn({two_link_task(), data, options, serial_evaluator()}, {}, around);
+    Model model = pilco::learn({two_link_task(), data, options, serial_evaluator()}, {}, {.network = around});
     Matrix of_forecast(data.size(), 3);
     model.model->predict_mean(data.states, data.actions, of_forecast);
-    const Matrix of_search = moments::evaluate_means(model.moments->terms(), 3, inputs);
+    const Matrix of_search = moments::evaluate_means(model.moments.gps->terms(), 3, inputs);
     EXPECT_LT((of_search - of_forecast).cwiseAbs().maxCoeff(), 2e-3);  // forecasts may be off by 0.01 σ_n
     return model;
   };
   ModelOptions options;
   const Model plain = learned(options, {});
-  std::vector<moments::MomentTerm> half = moments::mean_terms(plain.moments->terms());
+  std::vector<moments::MomentTerm> half = moments::mean_terms(plain.moments.gps->terms());
   for (moments::MomentTerm& term : half) term.weights *= 0.5;
   learned(options, half);
   options.smooth = true;

@@ -16,6 +16,11 @@ TEST(PilcoOptions, OfThePriorAreThereWhereThereIsOne) {
     EXPECT_FALSE(has({}, name));
     EXPECT_TRUE(has({.prior = PriorPhaseOptions{}}, name));
   }
+  for (const char* name : {"model.through", "model.identify", "search.prior_searches"}) {
+    EXPECT_FALSE(has({.prior = PriorPhaseOptions{}}, name));
+    EXPECT_TRUE(has({.pi_rem = PiRemOptions{}}, name));
+  }
+  EXPECT_FALSE(has({.pi_rem = PiRemOptions{}}, "first_trial.hold_s")) << "there are no random actions";
   for (const char* name : {"model.inducing", "search.restarts", "success_test", "first_trial.hold_s"})
     EXPECT_TRUE(has({}, name)) << name;
 }

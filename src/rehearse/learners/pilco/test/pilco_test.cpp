@@ -28,13 +28,15 @@ std::string refusal(const Setting& setting) {
   return {};
 }
 
-TEST(Pilco, IsALearnerWithoutAPriorAndOneWith) {
+TEST(Pilco, IsALearnerWithoutAPriorAndTwoWith) {
   const auto all = builders();
-  ASSERT_EQ(all.size(), 2U);
+  ASSERT_EQ(all.size(), 3U);
   EXPECT_EQ(all[0]->name(), "pilco");
   EXPECT_EQ(all[0]->prior_use(), PriorUse::none);
   EXPECT_EQ(all[1]->name(), "pilco-prior");
   EXPECT_EQ(all[1]->prior_use(), PriorUse::required);
+  EXPECT_EQ(all[2]->name(), "pi-rem");
+  EXPECT_EQ(all[2]->prior_use(), PriorUse::required);
   for (const auto& each : all) {
     EXPECT_TRUE(field_violations([&](FieldVisitor& v) { each->fields(v); }).empty());
     const auto options = list_fields([&](FieldVisitor& v) { each->fields(v); });

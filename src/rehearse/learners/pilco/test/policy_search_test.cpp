@@ -17,7 +17,7 @@ using slider::asked_after, slider::builder, slider::learn, slider::rbf, slider::
 // No policy has a value on a model that throws the state out of all numbers.
 TEST(PolicySearch, KeepsTheStartWhereNothingHasAValue) {
   moments::MomentTerm wild{.centres = Matrix{{1, 0}}, .log_lengths = Vector{{9, 9}}, .weights = Vector{{1e300}}};
-  const auto dynamics = std::make_shared<moments::MomentMatching>(std::vector{wild}, 1);
+  const auto dynamics = std::make_shared<const moments::MomentMatching>(std::vector{wild}, 1);
   const auto policy = rbf();
   const Task task = slider::task();
   const Vector start = initial_policy(*policy, start_state(task, {}), {.seed = 1, .trial = 2});
@@ -47,25 +47,59 @@ TEST(PolicySearch, TakesTheBestOfItsRestarts) {
   const auto& best = *std::max_element(all.begin(), all.end(), [](const SearchResult& a, const SearchResult& b) {
     return a.predicted_return < b.predicted_return;
   });
-  const SearchResult found = search_with_restarts(problem, first_policy(0), options, key);
+  const SearchResult found = search_with_restarts(problem, first_policy(0), options, {key});
   EXPECT_EQ(found.theta, best.theta);
   EXPECT_EQ(found.predicted_return, best.predicted_return);
   EXPECT_EQ(found.evaluations, evaluations);
 
   const double promised = *all.front().predicted_return;
-  const SearchResult disappointed = search_with_restarts(problem, first_policy(0), options, key, promised - 1000);
+  const SearchResult disappointed = search_with_restarts(problem, first_policy(0), options, {key}, promised - 1000);
   const auto& other = *std::max_element(all.begin() + 1, all.end(), [](const SearchResult& a, const SearchResult& b) {
     return a.predicted_return < b.predicted_return;
   });
   EXPECT_EQ(disappointed.theta, other.theta);
   EXPECT_EQ(disappointed.predicted_return, other.predicted_return);
-  const SearchResult surprised = search_with_restarts(problem, first_policy(0), options, key, promised + 1000);
+  const SearchResult surprised = search_with_restarts(problem, first_policy(0), options, {key}, promised + 1000);
   EXPECT_EQ(surprised.theta, best.theta);
   EXPECT_EQ(surprised.predicted_return, best.predicted_return);
 
   SearchOptions none = options;
   none.restarts = 0;
-  EXPECT_EQ(search_with_restarts(problem, first_policy(0), none, key).theta, all.front().theta);
+  EXPECT_EQ(search_with_restarts(problem, first_policy(0), none, {key}).theta, all.front().theta);
+}
+
+// Two of four, those of the highest value on the model.
+TEST(PolicySearch, RestartsFromTheBestOfThePoliciesThatAreGiven) {
+  const auto dynamics =
+      pilco::learn({task(), asked_after(2, {{"search.line_searches", "5"}}).data, ModelOptions{}, serial_evaluator()},
+                   {})
+          .moments;
+  const auto policy = rbf();
+  const Task task = slider::task();
+  const SearchProblem problem{dynamics, *policy, task, serial_evaluator(), {}};
+  const SearchOptions options{.bfgs = {.line_searches = 3}, .restarts = 2};
+  const auto value = [&](const Vector& theta) {
+    moments::ReturnWorkspace workspace;
+    return moments::ExpectedReturn(task, *policy, dynamics)(theta, nullptr, workspace).value;
+  };
+  std::vector<Vector> given;
+  for (const std::uint64_t k : {1, 2, 3, 4})
+    given.push_back(initial_policy(*policy, start_state(task, options), {.seed = k}) * (k == 2 ? 5 : 1));
+  std::vector<Vector> sorted = given;
+  std::ranges::sort(sorted, std::greater(), value);
+  ASSERT_GT(value(sorted[0]), value(sorted[3]));
+  const Vector start = given[0];
+  SearchResult best = search_policy(problem, start, options);
+  Index evaluations = best.evaluations + 4;
+  for (const Vector& theta : {sorted[0], sorted[1]}) {
+    SearchResult other = search_policy(problem, theta, options);
+    evaluations += other.evaluations;
+    if (other.predicted_return > best.predicted_return) best = other;
+  }
+  const SearchResult found = search_with_restarts(problem, start, options, {.policies = given});
+  EXPECT_EQ(found.theta, best.theta);
+  EXPECT_EQ(found.predicted_return, best.predicted_return);
+  EXPECT_EQ(found.evaluations, evaluations);
 }
 
 TEST(PolicySearch, ReportsProgressAndPassesInterruptions) {

@@ -35,7 +35,7 @@ Options options(Index prior_episodes = 3, Index line_searches = 20) {
 }
 
 std::unique_ptr<LearnerBuilder> builder_with_prior(const char* line_searches) {
-  auto builder = std::move(builders().back());
+  auto builder = std::move(builders().at(1));
   const Fields fields = [&](FieldVisitor& v) { builder->fields(v); };
   EXPECT_TRUE(set_field(fields, "pilco.prior_episodes", "2"));
   EXPECT_TRUE(set_field(fields, "search.line_searches", line_searches));
@@ -64,7 +64,7 @@ TEST(PriorPhase, TheFirstTrialIsThePolicyOfThePrior) {
   // By moments it is that of the network alone.
   ASSERT_TRUE(first.moments);
   const moments::ExpectedReturn expected(task(), *slider::rbf(),
-                                         std::make_shared<moments::MomentMatching>(knowledge.network, 1));
+                                         std::make_shared<const moments::MomentMatching>(knowledge.network, 1));
   EXPECT_EQ(first.moments().states, expected.episode(first.theta).states);
 
   // On the prior it does as well as was predicted.
@@ -225,15 +225,16 @@ TEST(PriorPhase, ModelsAreAroundTheNetwork) {
   Dataset data;
   const auto random = make(slider::setting(), {});
   data.append(run_trial(random->ask(), 1));
-  const Model model = pilco::learn({task(), data, ModelOptions{}, serial_evaluator()}, {}, knowledge.network);
-  ASSERT_TRUE(model.moments && model.model);
-  ASSERT_EQ(model.moments->terms().size(), 2U);
+  const Model model =
+      pilco::learn({task(), data, ModelOptions{}, serial_evaluator()}, {}, {.network = knowledge.network});
+  ASSERT_TRUE(model.moments.gps && model.model);
+  ASSERT_EQ(model.moments.gps->terms().size(), 2U);
   const Matrix X{{0.3}}, U{{0.4}};
   Matrix mean(1, 1), variance(1, 1);
   model.model->predict(X, U, mean, variance);
   moments::MomentTape tape;
   moments::Transformed moments;
-  ASSERT_TRUE(model.moments->forward({Vector{{0.3, 0.4}}, Matrix::Zero(2, 2)}, tape, moments));
+  ASSERT_TRUE(model.moments.gps->forward({Vector{{0.3, 0.4}}, Matrix::Zero(2, 2)}, tape, moments));
   EXPECT_NEAR(moments.mean(0), mean(0, 0), 1e-4) << "forecasts leave out points that do not matter";
   EXPECT_NEAR(moments.mean(0), 0.2 * (1.5 * 0.4 - 0.2 * 0.3), 0.01);
   const Model around_zero = pilco::learn({task(), data, ModelOptions{}, serial_evaluator()}, {});
