@@ -15,6 +15,7 @@
 #include "rehearse/learners/json.hpp"
 #include "rehearse/learners/model_of_trials.hpp"
 #include "rehearse/learners/trial_learner.hpp"
+#include "rehearse/policy/differentiable.hpp"
 #include "rehearse/policy/schedule.hpp"
 
 namespace rehearse::learners::black_drops {
@@ -185,7 +186,10 @@ PriorUse prior_use(const Options& options) {
   return is<identification::ZeroMean>(options) ? PriorUse::none : PriorUse::required;
 }
 
-std::vector<std::string> violations_with(const Options& options, const Task& task, const policy::Policy&) {
+std::vector<std::string> violations_with(const Options& options, const Task& task, const policy::Policy& policy) {
+  if (options.search.method == Method::gradient && !dynamic_cast<const policy::Differentiable*>(&policy))
+    return {"search.method = gradient, but the policy '" + policy.name() +
+            "' does not know its derivatives: choose another policy, or search.method = race"};
   if (!options.reward.learned || prior_use(options) == PriorUse::none || task.initial_reward) return {};
   return {
       "reward.learned = true, but the scenario gives no initial_reward for the first search, on the prior: give it one "

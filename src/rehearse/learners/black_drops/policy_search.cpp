@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "rehearse/core/stopwatch.hpp"
+#include "rehearse/learners/black_drops/gradient_search.hpp"
 #include "rehearse/learners/black_drops/simulated_return.hpp"
 
 namespace rehearse::learners::black_drops {
@@ -25,17 +26,29 @@ SearchOptions in_box_of(const policy::Policy& policy, SearchOptions options) {
   return options;
 }
 
+/// Where limits are to be kept no gradient tells how.
+bool by_gradient(const SearchProblem& problem, const SearchOptions& options) {
+  return options.method == Method::gradient && !options.constrained && problem.doubted.empty();
+}
+
+Index budget(const SearchProblem& problem, const SearchOptions& options) {
+  if (by_gradient(problem, options)) return options.gradient.steps * options.gradient.particles;
+  return options.method == Method::restarts ? options.restarts.max_evaluations : options.race.max_evaluations;
+}
+
 /// Good policies, best first, by the method asked for.
-std::vector<Vector> find(const optim::BatchObjective& objective, const std::vector<Vector>& starts, const Box& box,
+std::vector<Vector> find(SimulatedReturn& objective, const std::vector<Vector>& starts, const Box& box,
                          const SearchProblem& problem, const SearchOptions& options, const StreamKey& key,
                          const optim::SearchListener& listener) {
   std::vector<Vector> found;
-  if (options.method == Method::race) {
-    auto result = optim::race(objective, {box, starts}, options.race, key, problem.evaluator, listener);
+  if (by_gradient(problem, options))
+    return search_by_gradient(objective, problem.policy, {box.front(), starts}, options.gradient, key, listener);
+  if (options.method != Method::restarts) {
+    auto result = optim::race(std::ref(objective), {box, starts}, options.race, key, problem.evaluator, listener);
     for (optim::Contender& contender : result.contenders) found.push_back(std::move(contender.x));
   } else {
     const Vector start = starts.empty() ? random_policy(problem.policy, options, key) : starts.front();
-    auto result = optim::maximise(objective, start, box, options.restarts, key, listener);
+    auto result = optim::maximise(std::ref(objective), start, box, options.restarts, key, listener);
     for (optim::Candidate& candidate : result.candidates) found.push_back(std::move(candidate.x));
   }
   return found;
@@ -83,11 +96,11 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
                            const SearchOptions& options, const StreamKey& key) {
   SimulatedReturn objective(problem, options, key);
   const Stopwatch watch;
-  const Index budget = options.method == Method::race ? options.race.max_evaluations : options.restarts.max_evaluations;
+  const Index most = budget(problem, options);
   const auto report = [&](Index evaluations, double best) {
     if (!problem.progress) return;
     problem.progress({.phase = "search",
-                      .done = static_cast<double>(evaluations) / static_cast<double>(budget),
+                      .done = static_cast<double>(evaluations) / static_cast<double>(most),
                       .best = best,
                       .rollouts = objective.rollouts(),
                       .rollouts_per_s = watch.per_s(objective.rollouts())});
@@ -96,7 +109,7 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
   StreamKey candidates = key;
   candidates.purpose = Purpose::search;
   const std::vector<Vector> found =
-      find(std::ref(objective), starts, box, problem, in_box_of(problem.policy, options), candidates, report);
+      find(objective, starts, box, problem, in_box_of(problem.policy, options), candidates, report);
   SearchResult result = select(found, starts, objective, problem, options);
   result.rollouts = objective.rollouts();
   result.failed_rollouts = objective.failed();
