@@ -187,8 +187,8 @@ PriorUse prior_use(const Options& options) {
 }
 
 std::vector<std::string> violations_with(const Options& options, const Task& task, const policy::Policy& policy) {
-  if (options.search.method == Method::gradient && !dynamic_cast<const policy::Differentiable*>(&policy))
-    return {"search.method = gradient, but the policy '" + policy.name() +
+  if (needs_derivatives(options.search.method) && !dynamic_cast<const policy::Differentiable*>(&policy))
+    return {"search.method = gradient or polish, but the policy '" + policy.name() +
             "' does not know its derivatives: choose another policy, or search.method = race"};
   if (!options.reward.learned || prior_use(options) == PriorUse::none || task.initial_reward) return {};
   return {

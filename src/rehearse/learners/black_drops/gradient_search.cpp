@@ -46,6 +46,7 @@ class Dropout {
 
 Vector start_of(Index descent, const policy::Policy& policy, const GradientSpace& space, double part, StreamKey key) {
   if (descent < static_cast<Index>(space.starts.size())) return space.starts[static_cast<std::size_t>(descent)];
+  key.purpose = Purpose::random_policy;
   key.descent = static_cast<std::uint64_t>(descent);
   Rng rng(key);
   const double middle = (space.interval.low + space.interval.high) / 2,

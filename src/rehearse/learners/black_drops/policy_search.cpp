@@ -27,13 +27,20 @@ SearchOptions in_box_of(const policy::Policy& policy, SearchOptions options) {
 }
 
 /// Where limits are to be kept no gradient tells how.
-bool by_gradient(const SearchProblem& problem, const SearchOptions& options) {
-  return options.method == Method::gradient && !options.constrained && problem.doubted.empty();
+bool climbs(const SearchProblem& problem, const SearchOptions& options) {
+  return needs_derivatives(options.method) && !options.constrained && problem.doubted.empty();
 }
 
+bool races(const SearchProblem& problem, const SearchOptions& options) {
+  return options.method != Method::restarts && !(options.method == Method::gradient && climbs(problem, options));
+}
+
+/// Evaluations, most of them at most.
 Index budget(const SearchProblem& problem, const SearchOptions& options) {
-  if (by_gradient(problem, options)) return options.gradient.steps * options.gradient.particles;
-  return options.method == Method::restarts ? options.restarts.max_evaluations : options.race.max_evaluations;
+  if (options.method == Method::restarts) return options.restarts.max_evaluations;
+  Index all = races(problem, options) ? options.race.max_evaluations : 0;
+  if (climbs(problem, options)) all += options.gradient.steps * options.gradient.particles;
+  return all;
 }
 
 /// Good policies, best first, by the method asked for.
@@ -41,16 +48,22 @@ std::vector<Vector> find(SimulatedReturn& objective, const std::vector<Vector>& 
                          const SearchProblem& problem, const SearchOptions& options, const StreamKey& key,
                          const optim::SearchListener& listener) {
   std::vector<Vector> found;
-  if (by_gradient(problem, options))
-    return search_by_gradient(objective, problem.policy, {box.front(), starts}, options.gradient, key, listener);
-  if (options.method != Method::restarts) {
-    auto result = optim::race(std::ref(objective), {box, starts}, options.race, key, problem.evaluator, listener);
-    for (optim::Contender& contender : result.contenders) found.push_back(std::move(contender.x));
-  } else {
+  if (options.method == Method::restarts) {
     const Vector start = starts.empty() ? random_policy(problem.policy, options, key) : starts.front();
     auto result = optim::maximise(std::ref(objective), start, box, options.restarts, key, listener);
     for (optim::Candidate& candidate : result.candidates) found.push_back(std::move(candidate.x));
   }
+  if (races(problem, options)) {
+    auto result = optim::race(std::ref(objective), {box, starts}, options.race, key, problem.evaluator, listener);
+    for (optim::Contender& contender : result.contenders) found.push_back(std::move(contender.x));
+  }
+  if (!climbs(problem, options)) return found;
+  const auto count = [&](Index, double best) {
+    if (listener) listener(objective.rollouts(), best);
+  };
+  const std::vector<Vector>& from = found.empty() ? starts : found;
+  auto climbed = search_by_gradient(objective, problem.policy, {box.front(), from}, options.gradient, key, count);
+  found.insert(found.begin(), climbed.begin(), climbed.end());
   return found;
 }
 

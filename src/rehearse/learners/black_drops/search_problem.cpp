@@ -5,8 +5,8 @@
 namespace rehearse::learners::black_drops {
 
 void SearchOptions::fields(FieldVisitor& v) {
-  v.choice("method", method, "descents that compete, or one after the other, or by gradient through the model",
-           {"race", "restarts", "gradient"}, published("restarts"));
+  v.choice("method", method, "descents that compete, or one after the other; by gradient; polish: by it after a race",
+           {"race", "restarts", "gradient", "polish"}, published("restarts"));
   v.number("box", box, "parameters of policies are in [−box, box], unless the policy has a box", between(1e-6, 1e6));
   v.integer("particles", particles, "rollouts of one evaluation", between(1, 1e6));
   v.group("simulate", simulate);

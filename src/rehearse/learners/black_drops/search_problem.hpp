@@ -21,7 +21,11 @@ enum class Method {
   race,      // many descents that compete: on the pendubot's true dynamics it finds a solution with far fewer rollouts
   restarts,  // one after the other, the paper's: BIPOP, with uncertainty handling and elitism if asked for
   gradient,  // by the gradient through the model (Amadio 2022); the race where limits are what is looked for
+  polish,    // the race, from whose best policies descents by gradient begin
 };
+
+/// Whether a method asks the policy for its derivatives (policy::Differentiable).
+inline bool needs_derivatives(Method method) { return method == Method::gradient || method == Method::polish; }
 
 /// Each rollout is one noisy measurement of the expected return, which CMA-ES maximises (Chatzilygeroudis 2017).
 struct SearchOptions {

@@ -171,5 +171,35 @@ TEST(SearchPolicy, ByGradientFindsAPolicyAsGoodAsPredicted) {
   EXPECT_FALSE(found.runners_up.empty());
 }
 
+TEST(SearchPolicy, ARaceIsPolishedByGradient) {
+  const dynamics::SimulatorModel model(slider::prior(), slider::kTruth, 0.0004);
+  const auto policy = slider::policy();
+  const Task task = slider::task();
+  double done = 0;
+  const ProgressSink progress = [&](const Progress& at) {
+    EXPECT_GE(at.done, done);
+    done = at.done;
+  };
+  SearchOptions options;
+  options.race.max_evaluations = 200;
+  options.race.descents = 4;
+  options.race.rounds = 2;
+  options.race.judgements = 4;
+  options.race.cmaes.population = 8;
+  options.selection = 10;
+  const auto found = [&](Method method) {
+    options.method = method;
+    options.gradient = few_steps();
+    options.gradient.adam.step = 0.02;
+    return search_policy({model, *policy, task, serial_evaluator(), progress}, {}, options, {.stage = Stage::search});
+  };
+  const SearchResult raced = found(Method::race);
+  done = 0;
+  const SearchResult polished = found(Method::polish);
+  EXPECT_GT(polished.predicted_return, raced.predicted_return);
+  EXPECT_EQ(polished.rollouts, raced.rollouts + 120 * 8);
+  EXPECT_GT(done, 0.8);
+}
+
 }  // namespace
 }  // namespace rehearse::learners::black_drops
