@@ -20,7 +20,7 @@ struct GradientDescent {
 class Dropout {
  public:
   Dropout(const policy::Policy& policy, double fraction, StreamKey key) : fraction_(fraction), key_(key) {
-    key_.purpose = Purpose{14};
+    key_.purpose = Purpose::dropout;
     if (const auto* known = dynamic_cast<const policy::Differentiable*>(&policy)) weights_ = known->unit_weights();
   }
 
