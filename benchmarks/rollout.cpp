@@ -20,6 +20,7 @@
 #include "rehearse/gp/prediction_kernel.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 #include "rehearse/rollout/execute.hpp"
+#include "rehearse/rollout/gradient.hpp"
 #include "rehearse/rollout/simulate.hpp"
 
 extern "C" {
@@ -85,6 +86,12 @@ struct Setup {
 void simulate(const Setup& s, const Evaluator& evaluator) {
   benchmark::DoNotOptimize(
       rollout::simulate({*s.model, *s.pendubot.policy, s.pendubot.task, kKey}, s.Theta, {0, 1}, evaluator));
+}
+
+/// As many particles of one policy.
+void differentiate(const Setup& s) {
+  benchmark::DoNotOptimize(rollout::return_gradients({*s.model, *s.pendubot.policy, s.pendubot.task, kKey},
+                                                     s.Theta.leftCols(1), {0, kCandidates}, serial_evaluator()));
 }
 
 /// The triangular products of all outputs by gp's kernel, `rows` ≤ gp::kChunk states at a time.
@@ -182,6 +189,7 @@ Part chunked(std::string name, Step step) {
 struct Outputs {
   Matrix mean{kRows, 4}, variance{kRows, 4}, U{kRows, 1}, features{kRows, 6};
   Vector reward{kRows};
+  dynamics::Linearised linearised;
 };
 
 std::vector<Part> parts_of(const Setup& s, Outputs& out) {
@@ -192,10 +200,13 @@ std::vector<Part> parts_of(const Setup& s, Outputs& out) {
   const std::vector<std::uint64_t> names(kRows, 7);
   return {
       {"rollout", [&] { simulate(s, serial_evaluator()); }},
+      {"gradient", [&] { differentiate(s); }},
       {"products", Products(gp, kRows)},
       {"wide_products", Products(gp, gp::kChunk)},
       {"dtrmm", Dtrmm(gp)},
       chunked("gp", [&] { gp.predict(s.inputs, out.mean, out.variance); }),
+      chunked("linearised", [&] { s.model->linearise(s.X, s.U, out.linearised); }),
+      chunked("differences", [&] { s.model->DynamicsModel::linearise(s.X, s.U, out.linearised); }),
       chunked("correlations", Correlations(gp)),
       chunked("exp", Exponentials(gp)),
       chunked("gp_mean", [&] { gp.predict_mean(s.inputs, out.mean); }),
@@ -208,6 +219,7 @@ std::vector<Part> parts_of(const Setup& s, Outputs& out) {
 }
 
 /// Arguments: training points; whether there is a prior. Counters: ns of CPU time a state (`gp` is mean and variance,
+/// `gradient` a rollout there and back, `linearised` the model with its derivatives, `differences` these as by default,
 /// `products` the triangular products of as many rows at a time as a rollout has, `wide_products` of as many as gp
 /// takes), and ratios: over the faster products; prior, policy, reward and normals together over the rollout.
 void parts(benchmark::State& state) {

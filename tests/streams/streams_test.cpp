@@ -40,6 +40,12 @@ const Options kSmallRestarts = with(kSmallSearch, {{"search.method", "restarts"}
                                                    {"search.restarts.max_evaluations", "600"},
                                                    {"search.restarts.uncertainty.enabled", "true"},
                                                    {"search.restarts.cmaes.elitism", "true"}});
+const Options kSmallGradient = with(kSmallSearch, {{"search.method", "gradient"},
+                                                   {"search.gradient.steps", "9"},
+                                                   {"search.gradient.particles", "12"},
+                                                   {"search.gradient.descents", "3"},
+                                                   {"search.gradient.rounds", "2"},
+                                                   {"search.gradient.dropout", "0.2"}});
 const Options kSmallPilco = {{"policy", "rbf"},
                              {"centres", "5"},
                              {"search.line_searches", "2"},
@@ -108,6 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Case{"black-drops", "pendulum", kSmallSearch},
                       Case{"black-drops-prior", "pendubot", kSmallSearch}, Case{"gp-mi", "pendubot", kSmallSearch},
                       Case{"mi", "pendubot", kSmallSearch}, Case{"gp-mi", "pendubot", kSmallRestarts},
+                      Case{"black-drops", "pendulum", kSmallGradient}, Case{"gp-mi", "pendubot", kSmallGradient},
                       Case{"gp-mi", "cartpole",
                            with(kSmallSearch, {{"track", "0.3"}, {"search.safety.rollouts", "40"}})},
                       Case{"pilco", "pendulum", kSmallPilco},

@@ -25,7 +25,8 @@ enum class Purpose : std::uint8_t {
   resampling = 10,
   drawn_option = 11,
   test = 12,
-  doubt = 13,  // parameters that a prior may have as well as its own
+  doubt = 13,    // parameters that a prior may have as well as its own
+  dropout = 14,  // weights that a step of a search by gradient leaves out
 };
 
 /// The system that a learner's trials run on.

@@ -1,5 +1,6 @@
 #include "rehearse/dynamics/gp_model.hpp"
 
+#include "rehearse/core/feature_slopes.hpp"
 #include "rehearse/dynamics/integration.hpp"
 
 namespace rehearse::dynamics {
@@ -53,6 +54,45 @@ void GpModel::predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, M
   const Point& point = look_at(X, U);
   posterior_.predict_mean(point.inputs, mean);
   finish(point, X, mean);
+}
+
+/// Derivatives of one number a row: by inputs of the GPs (n × features + du) → by states, then actions (n × dx + du).
+void GpModel::to_states(const Point& point, const ConstMatrixView& by_inputs, const Matrix& prior_by,
+                        MatrixView by) const {
+  thread_local Matrix by_place;  // where the GPs look
+  const Index features = features_.features(), du = by_inputs.cols() - features, dx = by.cols() - du;
+  auto by_states = by.leftCols(dx);
+  auto by_actions = by.rightCols(du);
+  pull_back_features(features_, point.inputs.leftCols(features), by_inputs.leftCols(features), by_states);
+  pull_back_targets(features_, by_inputs.rightCols(du), by_states);
+  by_actions = by_inputs.rightCols(du);
+  if (prior_by.size() == 0) return;
+  by_place = by_states;
+  for (Index k = 0; k < dx; ++k)  // it is X + ½ prior mean
+    for (Index j = 0; j < by.cols(); ++j)
+      by.col(j).array() += 0.5 * by_place.col(k).array() * prior_by.col(k * by.cols() + j).array();
+}
+
+void GpModel::linearise(const ConstMatrixView& X, const ConstMatrixView& U, Linearised& at) const {
+  thread_local Linearised of_prior;
+  thread_local Matrix mean_by, variance_by;
+  const Index n = X.rows(), dx = X.cols(), inputs = dx + U.cols();
+  const Point& point = look_at(X, U);
+  const Index D = point.inputs.cols();
+  at.resize(n, dx, U.cols());
+  mean_by.resize(n, dx * D), variance_by.resize(n, dx * D);
+  posterior_.linearise(point.inputs, at.mean, at.variance, mean_by, variance_by);
+  if (variance_ == PredictedVariance::noisy) at.variance.rowwise() += posterior_.noise_variances().transpose();
+  add_variances_of_integrals(kinematics_, at.variance);
+  finish(point, X, at.mean);
+  if (mean_) SimulatorModel(mean_->prior, mean_->phi).linearise(X, U, of_prior);
+  const Matrix none, &on_the_way = mean_ && mean_->midpoint ? of_prior.mean_by : none;
+  for (Index i = 0; i < dx; ++i) {
+    to_states(point, mean_by.middleCols(i * D, D), on_the_way, at.mean_by.middleCols(i * inputs, inputs));
+    to_states(point, variance_by.middleCols(i * D, D), on_the_way, at.variance_by.middleCols(i * inputs, inputs));
+  }
+  add_integrals_of_derivatives(kinematics_, mean_.has_value(), at);
+  if (mean_) at.mean_by += of_prior.mean_by;
 }
 
 }  // namespace rehearse::dynamics

@@ -5,6 +5,7 @@
 #include "rehearse/core/feature_map.hpp"
 #include "rehearse/core/kinematics.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/gp/posterior.hpp"
 #include "rehearse/prior/prior.hpp"
 
@@ -40,6 +41,8 @@ class GpModel final : public DynamicsModel {
 
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override;
   void predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const override;
+  /// Analytic but for the prior, whose derivatives are by differences.
+  void linearise(const ConstMatrixView& X, const ConstMatrixView& U, Linearised& at) const override;
 
   Index rows_at_once() const override { return mean_ ? mean_->prior.simulator->rows_at_once() : 0; }
   const Vector& measurement_std() const override { return measurement_std_; }
@@ -51,6 +54,7 @@ class GpModel final : public DynamicsModel {
   struct Point;
   const Point& look_at(const ConstMatrixView& X, const ConstMatrixView& U) const;
   void finish(const Point& point, const ConstMatrixView& X, MatrixView mean) const;
+  void to_states(const Point& point, const ConstMatrixView& by_inputs, const Matrix& prior_by, MatrixView by) const;
 
   FeatureMap features_;
   Kinematics kinematics_;

@@ -23,4 +23,17 @@ void add_variances_of_integrals(const Kinematics& kinematics, MatrixView varianc
   for (const auto& [position, rate] : kinematics.pairs) variance.col(position) += 0.25 * dt * dt * variance.col(rate);
 }
 
+void add_integrals_of_derivatives(const Kinematics& kinematics, bool has_prior, Linearised& at) {
+  const double dt = kinematics.dt_s;
+  const Index inputs = at.mean_by.cols() / at.mean.cols();
+  for (const auto& [position, rate] : kinematics.pairs) {
+    const auto add = [&, position = position, rate = rate](Matrix& by, double factor) {
+      by.middleCols(position * inputs, inputs) += factor * by.middleCols(rate * inputs, inputs);
+    };
+    add(at.mean_by, 0.5 * dt);
+    add(at.variance_by, 0.25 * dt * dt);
+    if (!has_prior) at.mean_by.col(position * inputs + rate).array() += dt;
+  }
+}
+
 }  // namespace rehearse::dynamics

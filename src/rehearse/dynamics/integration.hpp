@@ -2,6 +2,7 @@
 
 #include "rehearse/core/kinematics.hpp"
 #include "rehearse/core/types.hpp"
+#include "rehearse/dynamics/dynamics_model.hpp"
 
 namespace rehearse::dynamics {
 
@@ -17,5 +18,8 @@ void add_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool 
 
 /// Adds to the variances of positions what their rates bring.
 void add_variances_of_integrals(const Kinematics& kinematics, MatrixView variance);
+
+/// Both for the derivatives of means and variances.
+void add_integrals_of_derivatives(const Kinematics& kinematics, bool has_prior, Linearised& at);
 
 }  // namespace rehearse::dynamics

@@ -11,6 +11,7 @@
 #include "rehearse/gp/evidence.hpp"
 #include "rehearse/gp/prediction_chunk.hpp"
 #include "rehearse/gp/sizes.hpp"
+#include "rehearse/gp/slope_chunk.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -91,9 +92,9 @@ Matrix probes(const Inputs& inputs) {
 }  // namespace
 
 /// Calls visit(first row, rows, chunk) for each chunk of F's rows.
-template <class Visit>
+template <class Chunk, class Visit>
 void Posterior::for_each_chunk(const ConstMatrixView& F, Visit visit) const {
-  thread_local PredictionChunk s;
+  thread_local Chunk s;
   s.resize(size(), dimensions());
   for (Index first = 0; first < F.rows(); first += kChunk) {
     const Index rows = std::min<Index>(kChunk, F.rows() - first);
@@ -220,7 +221,7 @@ void Posterior::use_all_for_mean(const Output& exact, std::vector<Index> order, 
 /// The largest difference between the two standard deviations that was met.
 double Posterior::deviation_error(Index e, const Output& exact, const Output& other) const {
   double error = 0;
-  for_each_chunk(probes(inputs_), [&](Index, Index rows, PredictionChunk& s) {
+  for_each_chunk<PredictionChunk>(probes(inputs_), [&](Index, Index rows, PredictionChunk& s) {
     s.scale(factors_.col(e));
     s.expand(inputs_, trend_factors_.col(e));
     s.predict(exact, rows, false);
@@ -235,7 +236,7 @@ double Posterior::deviation_error(Index e, const Output& exact, const Output& ot
 /// Calls write(row, its place in the chunk, output, chunk) for each row of F and each output.
 template <class Write>
 void Posterior::predict(const ConstMatrixView& F, bool only_mean, Write write) const {
-  for_each_chunk(F, [&](Index first, Index rows, PredictionChunk& s) {
+  for_each_chunk<PredictionChunk>(F, [&](Index first, Index rows, PredictionChunk& s) {
     for (Index e = 0; e < outputs(); ++e) {
       s.scale(factors_.col(e));
       if (!only_mean) s.expand(inputs_, trend_factors_.col(e));
@@ -259,6 +260,27 @@ void Posterior::predict_mean(const ConstMatrixView& F, MatrixView mean) const {
   require_shape("inputs", F.rows(), F.cols(), F.rows(), dimensions());
   require_shape("mean", mean.rows(), mean.cols(), F.rows(), outputs());
   predict(F, true, [&](Index row, Index q, Index e, const PredictionChunk& s) { mean(row, e) = s.mean(q); });
+}
+
+void Posterior::linearise(const ConstMatrixView& F, MatrixView mean, MatrixView variance, MatrixView mean_by,
+                          MatrixView variance_by) const {
+  const Index D = dimensions();
+  require_shape("inputs", F.rows(), F.cols(), F.rows(), D);
+  for (const MatrixView* values : {&mean, &variance})
+    require_shape("predictions", values->rows(), values->cols(), F.rows(), outputs());
+  for (const MatrixView* slopes : {&mean_by, &variance_by})
+    require_shape("derivatives", slopes->rows(), slopes->cols(), F.rows(), outputs() * D);
+  for_each_chunk<SlopeChunk>(F, [&](Index first, Index rows, SlopeChunk& s) {
+    for (Index e = 0; e < outputs(); ++e) {
+      s.scale(factors_.col(e));
+      s.expand(inputs_, trend_factors_.col(e));
+      s.linearise(output(e), rows);
+      for (Index q = 0; q < rows; ++q) mean(first + q, e) = s.mean(q);
+      for (Index q = 0; q < rows; ++q) variance(first + q, e) = s.variance(q, output(e));
+      const Scales scales{inputs_, factors_.col(e), trend_factors_.col(e)};
+      s.slopes(output(e), scales, mean_by.block(first, e * D, rows, D), variance_by.block(first, e * D, rows, D));
+    }
+  });
 }
 
 Matrix Posterior::inverse_factor(Index e) const {

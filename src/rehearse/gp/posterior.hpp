@@ -38,6 +38,11 @@ class Posterior {
   /// both grow without bound there, and an infinite input gives NaN.
   void predict(const ConstMatrixView& F, MatrixView mean, MatrixView variance) const;
 
+  /// The same means and variances, of the same bits, and their derivatives by the inputs: column e·D + d holds that of
+  /// output e by input d (rows × E·D). 0 for a variance that rounding has made 0.
+  void linearise(const ConstMatrixView& F, MatrixView mean, MatrixView variance, MatrixView mean_by,
+                 MatrixView variance_by) const;
+
   /// The same means, without the work of the variances.
   void predict_mean(const ConstMatrixView& F, MatrixView mean) const;
 
@@ -68,7 +73,7 @@ class Posterior {
   Vector trend_form(Index e, const Output& output) const;
   static void use_all_for_mean(const Output& exact, std::vector<Index> order, Output& few);
   double deviation_error(Index e, const Output& exact, const Output& other) const;
-  template <class Visit>
+  template <class Chunk, class Visit>
   void for_each_chunk(const ConstMatrixView& F, Visit visit) const;
   template <class Write>
   void predict(const ConstMatrixView& F, bool only_mean, Write write) const;

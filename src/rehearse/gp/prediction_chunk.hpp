@@ -91,7 +91,7 @@ class PredictionChunk {
                       : output.signal_variance * std::max(0.0, priors[q] - norms[q]);
   }
 
- private:
+ protected:
   std::vector<double> unit, scaled, z, columns;  // D × kChunk, D × kChunk, (1 + D) × kChunk, n × kChunk
   Index width = 0;                               // rows of the chunk, and padding, which is finite
   bool missing[kChunk];                          // the row has a NaN

@@ -46,4 +46,24 @@ double packed_entry(const double* packed, Size row, Size column);
 /// norms[q] = ‖L c_q‖² for the first `rows` columns that `correlate` wrote; norms: kChunk.
 void triangular_norms(const double* packed, Size n, const double* columns, Size rows, double* norms);
 
+/// norms as `triangular_norms`, of the same bits, and `solved` = Lᵀ L c, laid out as `columns`.
+void triangular_solutions(const double* packed, Size n, const double* columns, Size rows, double* norms,
+                          double* solved);
+
+/// Numbers of n training points for each query, laid out as `columns`. Scratch: the sums below overwrite them.
+struct PointColumns {
+  double* correlations;      // as `correlate` wrote them, with the trend if there is one
+  double* solved = nullptr;  // v, as `triangular_solutions` wrote it; null: `mean` alone is wanted
+  double* trends = nullptr;  // memory; null without a trend
+};
+
+/// Sums over n training points i for each query q, with c_qi the correlation without the trend.
+struct PointSums {
+  double* mean;      // dimensions × kChunk: Σ_i weights_i c_qi (x_id − x_qd)
+  double* variance;  // the same of Σ_i v_qi c_qi (x_id − x_qd)
+  double* trend;     // (1 + dimensions) × kChunk: Σ_i v_qi (z_i · z_q) z_id
+};
+void sum_slopes(KernelPoints points, Size n, Size dimensions, const double* weights, KernelPoints queries, Size rows,
+                PointColumns columns, PointSums sums);
+
 }  // namespace rehearse::gp

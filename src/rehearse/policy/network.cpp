@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/feature_slopes.hpp"
+#include "rehearse/core/vector_math.hpp"
 #include "rehearse/policy/description.hpp"
+#include "rehearse/policy/differentiable.hpp"
 #include "rehearse/policy/layer_kernel.hpp"
+#include "rehearse/policy/squash_slope.hpp"
 
 namespace rehearse::policy {
 namespace {
@@ -19,9 +23,30 @@ void check(const FeatureMap& features, const Vector& scale, const Squash& squash
   violations.throw_if_any();
 }
 
+/// A layer of rows that share θ: of each output the weights and the bias, from θ(first) on.
+struct Weights {
+  const ConstVectorView& theta;
+  VectorView& by_theta;
+  Index first, inputs, outputs;
+
+  void forward(const Matrix& in, Matrix& out) const {
+    const auto W = theta.segment(first, (inputs + 1) * outputs).reshaped(inputs + 1, outputs);
+    out.noalias() = in.lazyProduct(W.topRows(inputs));
+    out.rowwise() += W.row(inputs);
+  }
+
+  void backward(const Matrix& in, const Matrix& by_out, Matrix& by_in) const {
+    const auto W = theta.segment(first, (inputs + 1) * outputs).reshaped(inputs + 1, outputs);
+    auto by_W = by_theta.segment(first, (inputs + 1) * outputs).reshaped(inputs + 1, outputs);
+    by_W.topRows(inputs) += in.transpose().lazyProduct(by_out);
+    by_W.row(inputs) += by_out.colwise().sum();
+    by_in.noalias() = by_out.lazyProduct(W.topRows(inputs).transpose());
+  }
+};
+
 /// `hidden` = 0: no hidden layer.
 template <class Base>
-class Network : public Base, public Describable {
+class Network : public Base, public Describable, public Differentiable {
  public:
   Network(std::string name, FeatureMap features, const Vector& scale, Index hidden, Squash squash)
       : name_(std::move(name)),
@@ -44,7 +69,7 @@ class Network : public Base, public Describable {
     const Index rows = X.rows(), n = features_.features();
     inputs.resize(rows, n);
     features_.apply(X, inputs);
-    for (Index i = 0; i < n; ++i) inputs.col(i) *= inverse_scale_(i);
+    scale(inputs);
     if (hidden_ == 0) {
       layer(Theta.data(), Theta.outerStride(), inputs.data(), rows, n, U.data(), U.outerStride(), actions(), rows,
             false);
@@ -55,6 +80,43 @@ class Network : public Base, public Describable {
             U.data(), U.outerStride(), actions(), rows, false);
     }
     squash_.apply(U);
+  }
+
+  void pull_back(const ConstVectorView& theta, const ConstMatrixView& X, const ConstMatrixView& by_actions,
+                 MatrixView by_states, VectorView by_theta) const override {
+    thread_local Matrix features, inputs, units, by_outputs, by_units, by_inputs;
+    features.resize(X.rows(), features_.features());
+    features_.apply(X, features);
+    inputs = features;
+    scale(inputs);
+    const Index of_hidden = hidden_ * (inputs.cols() + 1);
+    const auto all = [&](Index first, const Matrix& from, Index outputs) {
+      return Weights{theta, by_theta, first, from.cols(), outputs};
+    };
+    const Weights hidden = all(0, inputs, hidden_);
+    if (hidden_ > 0) {
+      hidden.forward(inputs, units);
+      vector_tanh(units.data(), units.data(), units.size());
+    }
+    const Matrix& last = hidden_ > 0 ? units : inputs;
+    const Weights output = all(of_hidden, last, actions());
+    output.forward(last, by_outputs);
+    squash_slope(squash_, by_outputs);
+    by_outputs.array() *= by_actions.array();
+    output.backward(last, by_outputs, hidden_ > 0 ? by_units : by_inputs);
+    if (hidden_ > 0) {
+      by_units.array() *= 1 - units.array().square();
+      hidden.backward(inputs, by_units, by_inputs);
+    }
+    scale(by_inputs);
+    pull_back_features(features_, features, by_inputs, by_states);
+  }
+
+  std::vector<Index> unit_weights() const override {
+    std::vector<Index> weights;
+    for (Index i = hidden_ * (features_.features() + 1); hidden_ > 0 && i < parameters(); ++i)
+      if ((parameters() - 1 - i) % (hidden_ + 1) != 0) weights.push_back(i);  // no bias, the last of each output
+    return weights;
   }
 
   Description describe(const ConstVectorView& theta) const override {
@@ -69,6 +131,10 @@ class Network : public Base, public Describable {
   }
 
  private:
+  void scale(Matrix& inputs) const {
+    for (Index i = 0; i < inputs.cols(); ++i) inputs.col(i) *= inverse_scale_(i);
+  }
+
   std::string name_;
   FeatureMap features_;
   Vector scale_, inverse_scale_;

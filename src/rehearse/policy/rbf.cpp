@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/feature_slopes.hpp"
 #include "rehearse/policy/description.hpp"
+#include "rehearse/policy/differentiable.hpp"
 #include "rehearse/policy/rbf_kernel.hpp"
 #include "rehearse/policy/squash.hpp"
+#include "rehearse/policy/squash_slope.hpp"
 
 namespace rehearse::policy {
 namespace {
@@ -39,7 +42,55 @@ Vector solved_weights(const Matrix& centres, const Vector& lengths, double noise
   return K.llt().solve(y).cast<double>();
 }
 
-class RbfNetwork final : public Rbf, public Describable {
+/// The mean of one action's GP, before the squash, and its derivatives.
+struct Mean {
+  struct Slopes {
+    Matrix inputs, centres;
+    Vector log_lengths, targets;
+  };
+
+  Mean(const Matrix& of_centres, const Vector& log_lengths, const Vector& targets, double noise)
+      : centres(of_centres),
+        inverse_lengths((-log_lengths.array().max(-kLargestLogLength).min(kLargestLogLength)).exp()) {
+    K = correlations(centres);
+    llt.compute(K + noise * noise * Matrix::Identity(K.rows(), K.rows()));
+    weights = llt.solve(targets);
+  }
+
+  Matrix correlations(const Matrix& X) const {
+    Matrix squared = Matrix::Zero(X.rows(), centres.rows());
+    for (Index d = 0; d < X.cols(); ++d) squared += (apart(X, d) * inverse_lengths(d)).cwiseAbs2();
+    return (-0.5 * squared.array()).exp();
+  }
+
+  /// by_mean: of each row; the mean is kᵀ K⁻¹ y, so that ∂K counts with − K⁻¹ (Σ k) (K⁻¹ y)ᵀ.
+  Slopes pull_back(const Matrix& X, const Matrix& k, const Vector& by_mean) const {
+    const Vector solved = llt.solve(k.transpose() * by_mean);
+    const Matrix by_k = (by_mean * weights.transpose()).cwiseProduct(k);
+    const Matrix by_K = -(solved * weights.transpose()).cwiseProduct(K);
+    Slopes by{Matrix(X.rows(), X.cols()), Matrix(centres.rows(), X.cols()), Vector(X.cols()), solved};
+    for (Index d = 0; d < X.cols(); ++d) {
+      const double factor = inverse_lengths(d) * inverse_lengths(d);
+      const Matrix from_rows = apart(X, d), between = apart(centres, d);
+      const Matrix rows = factor * by_k.cwiseProduct(from_rows), pairs = factor * by_K.cwiseProduct(between);
+      by.inputs.col(d) = -rows.rowwise().sum();
+      by.centres.col(d) = rows.colwise().sum().transpose() + pairs.colwise().sum().transpose() - pairs.rowwise().sum();
+      by.log_lengths(d) = rows.cwiseProduct(from_rows).sum() + pairs.cwiseProduct(between).sum();
+    }
+    return by;
+  }
+
+  /// x_d − c_d of each row and centre.
+  Matrix apart(const Matrix& X, Index d) const {
+    return X.col(d).replicate(1, centres.rows()) - centres.col(d).transpose().replicate(X.rows(), 1);
+  }
+
+  Matrix centres, K;
+  Vector inverse_lengths, weights;
+  Eigen::LLT<Matrix> llt;
+};
+
+class RbfNetwork final : public Rbf, public Describable, public Differentiable {
  public:
   explicit RbfNetwork(RbfOptions options)
       : Rbf(std::move(options)),
@@ -61,6 +112,34 @@ class RbfNetwork final : public Rbf, public Describable {
     for (Index i = 0; i < shape_.inputs; ++i) inputs.col(i) *= inverse_scale_(i);
     rbf(shape_, Theta.data(), Theta.outerStride(), inputs.data(), rows, U.data(), U.outerStride(), rows);
     squash_.apply(U);
+  }
+
+  void pull_back(const ConstVectorView& theta, const ConstMatrixView& X, const ConstMatrixView& by_actions,
+                 MatrixView by_states, VectorView by_theta) const override {
+    const auto [inputs, centres, actions, noise] = shape_;
+    Matrix features(X.rows(), inputs), by_inputs = Matrix::Zero(X.rows(), inputs), squashed(X.rows(), 1);
+    options_.features.apply(X, features);
+    const Matrix scaled = features * inverse_scale_.asDiagonal();
+    const auto places = [&](auto& numbers) {
+      return numbers.segment(actions * inputs, centres * inputs).reshaped(inputs, centres).transpose();
+    };
+    Matrix by_centres = Matrix::Zero(centres, inputs);
+    for (Index a = 0; a < actions; ++a) {
+      const Index targets = (actions + centres) * inputs + a * centres;
+      const Mean mean(places(theta), theta.segment(a * inputs, inputs), theta.segment(targets, centres), noise);
+      const Matrix k = mean.correlations(scaled);
+      squashed = k * mean.weights;
+      squash_slope({.bounds = {options_.bounds[static_cast<std::size_t>(a)]}, .shape = Squash::Shape::sine}, squashed);
+      const Vector by_mean = squashed.cwiseProduct(by_actions.col(a));
+      const Mean::Slopes by = mean.pull_back(scaled, k, by_mean);
+      by_inputs += by.inputs;
+      by_centres += by.centres;
+      by_theta.segment(a * inputs, inputs) += by.log_lengths;
+      by_theta.segment(targets, centres) += by.targets;
+    }
+    by_theta.segment(actions * inputs, centres * inputs) += by_centres.transpose().reshaped();
+    by_inputs *= inverse_scale_.asDiagonal();
+    pull_back_features(options_.features, features, by_inputs, by_states);
   }
 
   Description describe(const ConstVectorView& theta) const override {

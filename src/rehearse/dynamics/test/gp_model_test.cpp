@@ -107,6 +107,36 @@ TEST(GpModel, NoisyVarianceIsLatentPlusNoise) {
   EXPECT_LT((difference.array() - 0.01).abs().maxCoeff(), 1e-12);
 }
 
+/// Those of DynamicsModel, by differences.
+void expect_derivatives(const GpModel& model, const Matrix& X, const Matrix& U) {
+  Linearised own, differences;
+  model.linearise(X, U, own);
+  model.DynamicsModel::linearise(X, U, differences);
+  EXPECT_EQ(own.mean, differences.mean);
+  EXPECT_EQ(own.variance, differences.variance);
+  EXPECT_LT((own.mean_by - differences.mean_by).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((own.variance_by - differences.variance_by).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_GT(own.mean_by.cwiseAbs().maxCoeff(), 0.1);
+}
+
+TEST(GpModel, IsLinearised) {
+  const Dataset data = swing::data(20, 1), at = swing::data(70, 2);
+  const prior::Prior prior = swing::prior_at(Vector{{0.6, 0}});
+  const auto mean = [&](bool midpoint) { return Mean{prior, prior.space.values(), midpoint}; };
+  for (const std::optional<Mean>& around : {std::optional<Mean>(), {mean(false)}, {mean(true)}})
+    for (const Kinematics& kinematics : {Kinematics(), swing::kinematics()})
+      for (const PredictedVariance variance : {PredictedVariance::latent, PredictedVariance::noisy})
+        expect_derivatives(GpModel(swing::features(), kinematics, around, posterior(data, data.changes), variance),
+                           at.states, at.actions);
+}
+
+TEST(GpModel, WithTargetsOfStatesIsLinearised) {
+  const Dataset data = swing::data(20, 1), at = swing::data(70, 2);
+  const FeatureMap features({StateKind::plain, StateKind::angle}, {}, {0});
+  expect_derivatives(GpModel(features, {}, {}, posterior(data, data.changes), PredictedVariance::latent), at.states,
+                     at.actions);
+}
+
 TEST(GpModel, FailedRowsAreNanAndDisturbNoOther) {
   const Dataset data = swing::data(20, 1);
   Dataset at = swing::data(200, 2);

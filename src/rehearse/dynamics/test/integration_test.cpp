@@ -47,5 +47,20 @@ TEST(Integration, VariancesOfPositionsHaveAQuarterOfThatOfTheRates) {
   EXPECT_TRUE(variance.isApprox(Matrix{{4, 1, 0.5 + 0.01}}));
 }
 
+TEST(Integration, DerivativesAreThoseOfItsSums) {
+  const Matrix X = normals(1), mean_slopes = normals(2), variance_slopes = normals(3).cwiseAbs();
+  for (const bool has_prior : {false, true}) {
+    Linearised at;
+    at.resize(6, 3, 0);
+    at.mean_by.setZero(), at.variance_by.setZero();
+    at.mean_by.col(0) = mean_slopes.col(0);  // of the rate by the rate
+    at.variance_by.col(1) = variance_slopes.col(1);
+    add_integrals_of_derivatives(kKinematics, has_prior, at);
+    EXPECT_EQ(at.mean_by.col(6), Vector(0.05 * mean_slopes.col(0).array() + (has_prior ? 0 : 0.1)));
+    EXPECT_TRUE(at.variance_by.col(7).isApprox(0.0025 * variance_slopes.col(1)));
+    EXPECT_EQ(at.mean_by.col(0), mean_slopes.col(0));
+  }
+}
+
 }  // namespace
 }  // namespace rehearse::dynamics

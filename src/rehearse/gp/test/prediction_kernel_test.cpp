@@ -47,6 +47,49 @@ TEST(PredictionKernel, MeansAndNorms) {
   }
 }
 
+TEST(PredictionKernel, SolutionsAndSlopes) {
+  const Index D = 3;
+  for (const bool trend : {false, true}) {
+    for (const Index n : {1, 7, 130}) {
+      for (const Index rows : {1, 9, 64}) {
+        const Matrix X = naive::normals(n, D, 5), Q = naive::normals(rows, D, 6), points = X.transpose();
+        const Matrix Z = naive::normals(n, D + 1, 9), z = Z.transpose(), A = naive::normals(rows, D + 1, 10);
+        const Matrix L = naive::normals(n, n, 7).triangularView<Eigen::Lower>();
+        const Vector w = naive::normals(n, 1, 8);
+        Vector means(kChunk), norms(kChunk), same_norms(kChunk);
+        Matrix columns(n, kChunk), solved(n, kChunk), trends(n, kChunk);
+        Matrix mean(kChunk, D), variance(kChunk, D), trend_sums(kChunk, D + 1);
+        const Matrix queries = padded_queries(Q), of_trend = padded_queries(A), packed = pack(L);
+        const KernelPoints from{points.data(), trend ? z.data() : nullptr};
+        const KernelPoints to{queries.data(), trend ? of_trend.data() : nullptr};
+        correlate(from, n, D, w.data(), to, rows, columns.data(), means.data());
+        triangular_norms(packed.data(), n, columns.data(), rows, same_norms.data());
+        triangular_solutions(packed.data(), n, columns.data(), rows, norms.data(), solved.data());
+        EXPECT_EQ(norms, same_norms);
+        sum_slopes(from, n, D, w.data(), to, rows, {columns.data(), solved.data(), trend ? trends.data() : nullptr},
+                   {mean.data(), variance.data(), trend_sums.data()});
+        const Matrix c = naive::correlations(X, Q), t = Z * A.transpose();
+        const Matrix k = trend ? Matrix(c + t.cwiseAbs2()) : c, v = L.transpose() * L * k;
+        for (Index d = 0; d < D; ++d) {
+          const Matrix apart = X.col(d).replicate(1, rows) - Q.col(d).transpose().replicate(n, 1);
+          const Matrix slope = c.cwiseProduct(apart);
+          EXPECT_LT((mean.col(d).head(rows) - slope.transpose() * w).norm(), 1e-12 * (1 + k.norm() * w.norm()));
+          EXPECT_LT((variance.col(d).head(rows) - slope.cwiseProduct(v).colwise().sum().transpose()).norm(),
+                    1e-12 * (1 + k.norm() * v.norm()));
+        }
+        for (Index d = 0; trend && d <= D; ++d)
+          EXPECT_LT((trend_sums.col(d).head(rows) - v.cwiseProduct(t).transpose() * Z.col(d)).norm(),
+                    1e-12 * (1 + t.norm() * v.norm()));
+        correlate({points.data()}, n, D, w.data(), {queries.data()}, rows, columns.data(), means.data());
+        Matrix alone(kChunk, D);
+        sum_slopes({points.data()}, n, D, w.data(), {queries.data()}, rows, {columns.data()},
+                   {alone.data(), nullptr, nullptr});
+        EXPECT_LT((alone - mean).topRows(rows).norm(), 1e-12 * (1 + k.norm() * w.norm()));
+      }
+    }
+  }
+}
+
 TEST(PredictionKernel, PackedAndBack) {
   for (const Index n : {1, 5, 6, 7, 40}) {
     const Matrix L = naive::normals(n, n, 1), packed = pack(L);

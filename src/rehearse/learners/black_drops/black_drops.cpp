@@ -15,6 +15,7 @@
 #include "rehearse/learners/json.hpp"
 #include "rehearse/learners/model_of_trials.hpp"
 #include "rehearse/learners/trial_learner.hpp"
+#include "rehearse/policy/differentiable.hpp"
 #include "rehearse/policy/schedule.hpp"
 
 namespace rehearse::learners::black_drops {
@@ -185,7 +186,13 @@ PriorUse prior_use(const Options& options) {
   return is<identification::ZeroMean>(options) ? PriorUse::none : PriorUse::required;
 }
 
-std::vector<std::string> violations_with(const Options& options, const Task& task, const policy::Policy&) {
+std::vector<std::string> violations_with(const Options& options, const Task& task, const policy::Policy& policy) {
+  if (needs_derivatives(options.search.method) && !dynamic_cast<const policy::Differentiable*>(&policy))
+    return {"search.method = gradient or polish, but the policy '" + policy.name() +
+            "' does not know its derivatives: choose another policy, or search.method = race"};
+  if (needs_derivatives(options.search.method) && task.actuators().changes_commands())
+    return {"search.method = gradient or polish, but commands are filtered or limited in their rate, whose derivatives "
+            "are not known: choose search.method = race"};
   if (!options.reward.learned || prior_use(options) == PriorUse::none || task.initial_reward) return {};
   return {
       "reward.learned = true, but the scenario gives no initial_reward for the first search, on the prior: give it one "

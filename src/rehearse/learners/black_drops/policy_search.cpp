@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "rehearse/core/stopwatch.hpp"
+#include "rehearse/learners/black_drops/gradient_search.hpp"
 #include "rehearse/learners/black_drops/simulated_return.hpp"
 
 namespace rehearse::learners::black_drops {
@@ -25,19 +26,44 @@ SearchOptions in_box_of(const policy::Policy& policy, SearchOptions options) {
   return options;
 }
 
+/// Where limits are to be kept no gradient tells how.
+bool climbs(const SearchProblem& problem, const SearchOptions& options) {
+  return needs_derivatives(options.method) && !options.constrained && problem.doubted.empty();
+}
+
+bool races(const SearchProblem& problem, const SearchOptions& options) {
+  return options.method != Method::restarts && !(options.method == Method::gradient && climbs(problem, options));
+}
+
+/// Evaluations, most of them at most.
+Index budget(const SearchProblem& problem, const SearchOptions& options) {
+  if (options.method == Method::restarts) return options.restarts.max_evaluations;
+  Index all = races(problem, options) ? options.race.max_evaluations : 0;
+  if (climbs(problem, options)) all += options.gradient.steps * options.gradient.particles;
+  return all;
+}
+
 /// Good policies, best first, by the method asked for.
-std::vector<Vector> find(const optim::BatchObjective& objective, const std::vector<Vector>& starts, const Box& box,
+std::vector<Vector> find(SimulatedReturn& objective, const std::vector<Vector>& starts, const Box& box,
                          const SearchProblem& problem, const SearchOptions& options, const StreamKey& key,
                          const optim::SearchListener& listener) {
   std::vector<Vector> found;
-  if (options.method == Method::race) {
-    auto result = optim::race(objective, {box, starts}, options.race, key, problem.evaluator, listener);
-    for (optim::Contender& contender : result.contenders) found.push_back(std::move(contender.x));
-  } else {
+  if (options.method == Method::restarts) {
     const Vector start = starts.empty() ? random_policy(problem.policy, options, key) : starts.front();
-    auto result = optim::maximise(objective, start, box, options.restarts, key, listener);
+    auto result = optim::maximise(std::ref(objective), start, box, options.restarts, key, listener);
     for (optim::Candidate& candidate : result.candidates) found.push_back(std::move(candidate.x));
   }
+  if (races(problem, options)) {
+    auto result = optim::race(std::ref(objective), {box, starts}, options.race, key, problem.evaluator, listener);
+    for (optim::Contender& contender : result.contenders) found.push_back(std::move(contender.x));
+  }
+  if (!climbs(problem, options)) return found;
+  const auto count = [&](Index, double best) {
+    if (listener) listener(objective.rollouts(), best);
+  };
+  const std::vector<Vector>& from = found.empty() ? starts : found;
+  auto climbed = search_by_gradient(objective, problem.policy, {box.front(), from}, options.gradient, key, count);
+  found.insert(found.begin(), climbed.begin(), climbed.end());
   return found;
 }
 
@@ -83,11 +109,11 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
                            const SearchOptions& options, const StreamKey& key) {
   SimulatedReturn objective(problem, options, key);
   const Stopwatch watch;
-  const Index budget = options.method == Method::race ? options.race.max_evaluations : options.restarts.max_evaluations;
+  const Index most = budget(problem, options);
   const auto report = [&](Index evaluations, double best) {
     if (!problem.progress) return;
     problem.progress({.phase = "search",
-                      .done = static_cast<double>(evaluations) / static_cast<double>(budget),
+                      .done = static_cast<double>(evaluations) / static_cast<double>(most),
                       .best = best,
                       .rollouts = objective.rollouts(),
                       .rollouts_per_s = watch.per_s(objective.rollouts())});
@@ -96,7 +122,7 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
   StreamKey candidates = key;
   candidates.purpose = Purpose::search;
   const std::vector<Vector> found =
-      find(std::ref(objective), starts, box, problem, in_box_of(problem.policy, options), candidates, report);
+      find(objective, starts, box, problem, in_box_of(problem.policy, options), candidates, report);
   SearchResult result = select(found, starts, objective, problem, options);
   result.rollouts = objective.rollouts();
   result.failed_rollouts = objective.failed();

@@ -8,6 +8,7 @@
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/learners/black_drops/gradient_options.hpp"
 #include "rehearse/learners/black_drops/safety.hpp"
 #include "rehearse/optim/race.hpp"
 #include "rehearse/optim/restarts.hpp"
@@ -19,7 +20,12 @@ namespace rehearse::learners::black_drops {
 enum class Method {
   race,      // many descents that compete: on the pendubot's true dynamics it finds a solution with far fewer rollouts
   restarts,  // one after the other, the paper's: BIPOP, with uncertainty handling and elitism if asked for
+  gradient,  // by the gradient through the model (Amadio 2022); the race where limits are what is looked for
+  polish,    // the race, from whose best policies descents by gradient begin
 };
+
+/// Whether a method asks the policy for its derivatives (policy::Differentiable).
+inline bool needs_derivatives(Method method) { return method == Method::gradient || method == Method::polish; }
 
 /// Each rollout is one noisy measurement of the expected return, which CMA-ES maximises (Chatzilygeroudis 2017).
 struct SearchOptions {
@@ -29,6 +35,7 @@ struct SearchOptions {
   rollout::SimulateOptions simulate;
   optim::RaceOptions race;
   optim::SearchOptions restarts{.max_evaluations = 200000};
+  GradientOptions gradient;
   Index finalists = 4;    // best policies found that are compared once more, together with those it started from
   Index selection = 100;  // rollouts of each of them, if they can differ; their mean is the predicted return
   SafetyOptions safety;

@@ -48,6 +48,15 @@ std::vector<Measurement> SimulatedReturn::measure(const ConstMatrixView& Theta, 
   return all;
 }
 
+rollout::ReturnGradients SimulatedReturn::gradients(const ConstMatrixView& Theta, Index particles) {
+  auto found = rollout::return_gradients({problem_.model, problem_.policy, problem_.task, key_, options_.simulate},
+                                         Theta, {next_, particles}, problem_.evaluator);
+  rollouts_ += Theta.cols() * particles;
+  next_ += static_cast<std::uint64_t>(Theta.cols());
+  failed_ += found.failed;
+  return found;
+}
+
 rollout::Simulated SimulatedReturn::simulate(const ConstMatrixView& Theta, std::uint64_t first, Index episodes) {
   const rollout::Simulated simulated =
       problem_.doubted.empty()

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rehearse/learners/black_drops/search_problem.hpp"
+#include "rehearse/rollout/gradient.hpp"
 
 namespace rehearse::learners::black_drops {
 
@@ -31,6 +32,9 @@ class SimulatedReturn {
 
   /// Values of each policy (parameters × policies), from so many evaluations.
   std::vector<Measurement> measure(const ConstMatrixView& Theta, std::uint64_t first, Index samples);
+
+  /// Mean returns of policies (parameters × policies), so many rollouts of each that no call has had, and gradients.
+  rollout::ReturnGradients gradients(const ConstMatrixView& Theta, Index particles);
 
   std::uint64_t next() const { return next_; }  // the first candidate that no call has had
   Index rollouts() const { return rollouts_; }

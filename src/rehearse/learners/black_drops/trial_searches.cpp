@@ -10,8 +10,11 @@ namespace {
 
 constexpr double kMeans = 0.1;  // what it counts to solve the task in the means, beside the rate of simulated episodes
 
+/// Particles of one policy hardly differ there.
 SearchOptions in_means(SearchOptions options) {
+  constexpr Index kFewer = 4;
   options.simulate.sample = false;
+  options.gradient.particles = std::max(options.gradient.particles / kFewer, Index{1});
   return options;
 }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "check_slopes.hpp"
 #include "fixture.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/testing/check_policy.hpp"
@@ -102,6 +103,21 @@ TEST(Network, SaysWhatIsWrong) {
   EXPECT_THROW(make_linear({.features = features(), .scale = Vector::Ones(2), .squash = {kBounds, 1}}), InvalidInput);
   EXPECT_THROW(make_linear({.features = features(), .scale = Vector::Zero(3), .squash = {kBounds, 1}}), InvalidInput);
   EXPECT_THROW(make_linear({.features = features(), .scale = kScale, .squash = {}}), InvalidInput);
+}
+
+TEST(Mlp, KnowsItsDerivatives) {
+  const auto policy = mlp(4, 1.5);
+  check_slopes(*policy, normals(policy->parameters(), 1, 1), normals(9, 3, 2), normals(9, 2, 3));
+  const auto weights = dynamic_cast<const Differentiable&>(*policy).unit_weights();
+  EXPECT_EQ(weights, (std::vector<Index>{16, 17, 18, 19, 21, 22, 23, 24}));
+}
+
+TEST(Linear, KnowsItsDerivatives) {
+  for (const auto shape : {Squash::Shape::tanh, Squash::Shape::sine}) {
+    const auto policy = linear(0.7, shape);
+    check_slopes(*policy, normals(policy->parameters(), 1, 1), normals(9, 3, 2), normals(9, 2, 3));
+    EXPECT_TRUE(dynamic_cast<const Differentiable&>(*policy).unit_weights().empty());
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "check_slopes.hpp"
 #include "fixture.hpp"
 #include "naive_rbf.hpp"
 #include "rehearse/core/errors.hpp"
@@ -97,6 +98,11 @@ TEST(Rbf, SaysWhatIsWrong) {
   EXPECT_THROW(make_rbf({.features = features(), .scale = Vector::Ones(2), .bounds = kBounds}), InvalidInput);
   EXPECT_THROW(make_rbf({.features = features(), .scale = Vector::Zero(3), .bounds = kBounds}), InvalidInput);
   EXPECT_THROW(make_rbf({.features = features(), .scale = kScale, .noise = 0, .bounds = kBounds}), InvalidInput);
+}
+
+TEST(Rbf, KnowsItsDerivatives) {
+  const auto policy = rbf(6);
+  check_slopes(*policy, 0.5 * normals(policy->parameters(), 1, 1), normals(9, 3, 2), normals(9, 2, 3));
 }
 
 }  // namespace

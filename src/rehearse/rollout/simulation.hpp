@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+
+#include "rehearse/core/options.hpp"
+#include "rehearse/core/random.hpp"
+#include "rehearse/core/task.hpp"
+#include "rehearse/dynamics/dynamics_model.hpp"
+#include "rehearse/policy/policy.hpp"
+
+namespace rehearse::rollout {
+
+struct SimulateOptions {
+  double noise_clip = 1;         // samples are clipped to ± so many standard deviations; 0: not clipped
+  bool sample = true;            // false: the mean prediction alone is followed
+  double measurement_noise = 1;  // times what the model takes for noise of measurements, which the policy meets, with
+                                 // samples or without; 0: it sees the true state (the paper)
+  void fields(FieldVisitor& v) {
+    v.number("noise_clip", noise_clip, "samples are clipped to so many standard deviations; 0: not clipped",
+             at_least(0), published(1, kAuthors));
+    v.boolean("sample", sample, "rollouts meet the model's uncertainty; false: they follow its mean");
+    v.number("measurement_noise", measurement_noise,
+             "noise of measurements in rollouts, in units of what the model learned; 0: none", at_least(0),
+             published(0));
+  }
+};
+
+/// The parts of a rollout. References must outlive it.
+struct Simulation {
+  const dynamics::DynamicsModel& model;
+  const policy::Policy& policy;
+  const Task& task;
+  StreamKey key = {};  // the streams of its random numbers: candidate, particle and step are added
+  SimulateOptions options = {};
+};
+
+/// Which rollouts of a stream a batch is: its candidates are numbered from the first on, each with so many particles.
+struct Candidates {
+  std::uint64_t first = 0;
+  Index particles = 1;
+};
+
+/// Throws InvalidInput unless θ of so many numbers, the policy and the task fit together. particles: ≥ 1.
+void check_simulation(const Simulation& simulation, Index parameters, Index particles);
+
+}  // namespace rehearse::rollout
