@@ -124,9 +124,8 @@ INSTANTIATE_TEST_SUITE_P(
     name_of);
 
 TEST(StreamsTest, EveryLearnerHasACase) {
-  std::set<std::string> tested = {"black-drops", "black-drops-prior", "gp-mi",  "mi",
-                                  "pilco",       "pilco-prior",       "pi-rem", "ite",
-                                  "gp-ilqg"};
+  std::set<std::string> tested = {
+      "black-drops", "black-drops-prior", "gp-mi", "mi", "pilco", "pilco-prior", "pi-rem", "ite", "gp-ilqg"};
   for (const auto& builder : apps::catalogue().learner_builders()) EXPECT_TRUE(tested.contains(builder->name()));
 }
 

@@ -191,8 +191,9 @@ std::vector<std::string> violations_with(const Options& options, const Task& tas
     return {"search.method = gradient or polish, but the policy '" + policy.name() +
             "' does not know its derivatives: choose another policy, or search.method = race"};
   if (needs_derivatives(options.search.method) && task.actuators().changes_commands())
-    return {"search.method = gradient or polish, but commands are filtered or limited in their rate, whose derivatives "
-            "are not known: choose search.method = race"};
+    return {
+        "search.method = gradient or polish, but commands are filtered or limited in their rate, whose derivatives "
+        "are not known: choose search.method = race"};
   if (!options.reward.learned || prior_use(options) == PriorUse::none || task.initial_reward) return {};
   return {
       "reward.learned = true, but the scenario gives no initial_reward for the first search, on the prior: give it one "
