@@ -43,6 +43,13 @@ Index budget(const SearchProblem& problem, const SearchOptions& options) {
   return all;
 }
 
+/// The first of each, the second of each, …: a step that is too long may leave a good policy for a worse one.
+std::vector<Vector> in_turn(std::vector<Vector> first, const std::vector<Vector>& second) {
+  for (std::size_t i = 0; i < second.size(); ++i)
+    first.insert(first.begin() + static_cast<std::ptrdiff_t>(std::min(2 * i + 1, first.size())), second[i]);
+  return first;
+}
+
 /// Good policies, best first, by the method asked for.
 std::vector<Vector> find(SimulatedReturn& objective, const std::vector<Vector>& starts, const Box& box,
                          const SearchProblem& problem, const SearchOptions& options, const StreamKey& key,
@@ -63,8 +70,7 @@ std::vector<Vector> find(SimulatedReturn& objective, const std::vector<Vector>& 
   };
   const std::vector<Vector>& from = found.empty() ? starts : found;
   auto climbed = search_by_gradient(objective, problem.policy, {box.front(), from}, options.gradient, key, count);
-  found.insert(found.begin(), climbed.begin(), climbed.end());
-  return found;
+  return in_turn(std::move(climbed), found);
 }
 
 /// With limits any of the policies found may be the only safe one.
