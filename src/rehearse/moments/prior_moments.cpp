@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/moments/linearised_prior.hpp"
-#include "rehearse/moments/unscented_prior.hpp"
 
 namespace rehearse::moments {
 
@@ -48,16 +46,6 @@ void PriorMoments::adjoint(const Gaussian& input, const PriorTape& tape, const T
   combine_adjoint(tape, change,
                   {adjoint.mean, symmetric / 2, adjoint.gain + input.covariance * change.gain * symmetric},
                   input_adjoint);
-}
-
-std::shared_ptr<const PriorMoments> make_prior_moments(prior::Prior prior, Vector phi, Index states, Index actions,
-                                                       Through through) {
-  const Index parameters = prior.simulator->parameters().size();
-  if (phi.size() != parameters)
-    throw InvalidInput(fmt::format("prior: φ has {} numbers, must have {}", phi.size(), parameters));
-  if (through == Through::linearised)
-    return std::make_shared<LinearisedPrior>(std::move(prior), std::move(phi), states, actions);
-  return std::make_shared<UnscentedPrior>(std::move(prior), std::move(phi), states, actions);
 }
 
 }  // namespace rehearse::moments

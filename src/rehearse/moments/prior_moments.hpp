@@ -1,18 +1,11 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "rehearse/moments/gaussian.hpp"
 #include "rehearse/prior/prior.hpp"
 
 namespace rehearse::moments {
-
-/// How a Gaussian goes through a prior, which is a black box and has no moments in closed form.
-enum class Through {
-  linearised,  // the prior's slopes at the mean (Saveriano 2017)
-  unscented,   // 2 n points with the Gaussian's mean and covariance (Julier 1997; of this weight: Arasaratnam 2009)
-};
 
 /// The part of the forward pass that the adjoint needs. Points are rows of states, then actions. Reused without
 /// allocation; not shared by threads.
@@ -69,9 +62,5 @@ class PriorMoments {
   Vector phi_;
   Index states_, actions_;
 };
-
-/// Throws InvalidInput if φ has another size than the prior's parameters.
-std::shared_ptr<const PriorMoments> make_prior_moments(prior::Prior prior, Vector phi, Index states, Index actions,
-                                                       Through through);
 
 }  // namespace rehearse::moments

@@ -12,6 +12,7 @@
 #include "rehearse/gp/fit.hpp"
 #include "rehearse/identification/learn.hpp"
 #include "rehearse/moments/expected_return.hpp"
+#include "rehearse/moments/make_prior_moments.hpp"
 #include "rehearse/moments/step_dynamics.hpp"
 
 namespace rehearse::learners::pilco {

@@ -10,55 +10,12 @@
 #include "rehearse/moments/saturating_moments.hpp"
 #include "rehearse/robots/cartpole/cartpole.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
+#include "returns.hpp"
 
 namespace rehearse::moments {
 namespace {
 
-struct Problem {
-  Problem(const scenario::Scenario& made, Index rows, Index centres, StepDynamics dynamics = {})
-      : Problem(made, rows, fixture::rbf(made.task, centres), std::move(dynamics)) {}
-  Problem(scenario::Scenario made, Index rows, std::shared_ptr<const policy::Policy> of_policy,
-          StepDynamics dynamics = {})
-      : scenario(std::move(made)),
-        policy(std::move(of_policy)),
-        expected(scenario.task, *policy, dynamics ? dynamics : StepDynamics(fixture::random_dynamics(scenario, rows)),
-                 Gaussian{scenario.task.start_mean, 0.01 * Matrix::Identity(4, 4)}) {}
-
-  double value(const Vector& theta) {
-    const Return result = expected(theta, nullptr, workspace);
-    EXPECT_TRUE(result.ok());
-    return result.value;
-  }
-
-  /// Directions as long as their errors are comparable: single coordinates, or all together.
-  void expect_gradient(const Vector& theta, const std::vector<Vector>& directions, double step = 1e-3,
-                       double tolerance = 1e-5) {
-    Vector gradient;
-    ASSERT_TRUE(expected(theta, &gradient, workspace).ok());
-    for (const Vector& direction : directions) {
-      const double slope = tools::slope([&](double h) { return value(theta + h * direction); }, step);
-      EXPECT_NEAR(gradient.dot(direction), slope, tolerance * std::max(std::abs(slope), gradient.norm() * 0.1));
-    }
-  }
-
-  scenario::Scenario scenario;
-  std::shared_ptr<const policy::Policy> policy;
-  ExpectedReturn expected;
-  ReturnWorkspace workspace;
-};
-
-std::vector<Vector> coordinates(Index size, Index every = 1) {
-  std::vector<Vector> list;
-  for (Index k = 0; k < size; k += every) list.push_back(Vector::Unit(size, k));
-  return list;
-}
-
-std::vector<Vector> random_directions(Index size, Index count) {
-  std::vector<Vector> list;
-  for (Index k = 0; k < count; ++k)
-    list.push_back(tools::normals(size, 1, 100 + static_cast<std::uint64_t>(k)).normalized());
-  return list;
-}
+using returns::Problem, returns::coordinates, returns::random_directions;
 
 double largest_difference(const Matrix& a, const Matrix& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
@@ -195,52 +152,6 @@ TEST(ExpectedReturn, GradientAroundTheGpsOfAPriorAgreesWithDifferences) {
     problem.expect_gradient(theta, random_directions(theta.size(), 4));
     problem.expect_gradient(theta, coordinates(theta.size(), theta.size() / 5));
   }
-}
-
-StepDynamics around_the_oracle(const scenario::Scenario& scenario, std::shared_ptr<const MomentMatching> gps,
-                               Through through) {
-  const prior::Prior prior{"oracle", scenario.oracle, scenario.oracle->parameters()};
-  return {std::move(gps), make_prior_moments(prior, prior.space.values(), scenario.task.state_size(),
-                                             scenario.task.action_size(), through)};
-}
-
-// PI-REM: GPs of what a simulator leaves of the changes, and the simulator alone. 50 steps: what the adjoint of a step
-// leaves out, the square of the steps of differences, grows with the state's own instability.
-TEST(ExpectedReturn, GradientAroundASimulatorAgreesWithDifferences) {
-  for (const scenario::Scenario& scenario : {robots::cartpole::make({}), robots::pendubot::make({})}) {
-    fixture::Data data = fixture::random_data(scenario, 25, true);
-    data.changes *= 0.05;
-    const auto gps = std::make_shared<const MomentMatching>(
-        exact_terms(gp::Posterior(gp::Inputs(data.inputs), data.changes, fixture::plain_hyperparameters(data))), 4);
-    for (const Through through : {Through::linearised, Through::unscented})
-      for (const auto& around : {gps, std::shared_ptr<const MomentMatching>()}) {
-        Problem problem(scenario, 0, 12, around_the_oracle(scenario, around, through));
-        const Vector theta = fixture::random_theta(*problem.policy);
-        problem.expect_gradient(theta, random_directions(theta.size(), 4), 1e-4, 1e-3);
-      }
-  }
-}
-
-// The Gaussian of a nearly certain start goes where a single rollout goes.
-TEST(ExpectedReturn, OnASimulatorAloneIsTheReturnOfARollout) {
-  const scenario::Scenario scenario = robots::cartpole::make({});
-  const auto policy = fixture::rbf(scenario.task, 5);
-  const Vector theta = 0.2 * fixture::random_theta(*policy);
-  const ExpectedReturn expected(scenario.task, *policy, around_the_oracle(scenario, nullptr, Through::linearised),
-                                Gaussian{scenario.task.start_mean, Matrix::Zero(4, 4)});
-  ReturnWorkspace workspace;
-  const Return result = expected(theta, nullptr, workspace);
-  Matrix x = scenario.task.start_mean.transpose(), u(1, 1), dx(1, 4);
-  double sum = 0;
-  for (Index t = 0; t < scenario.task.horizon; ++t) {
-    policy->act(theta.transpose(), x, 0, u);
-    scenario.oracle->change(x, u, scenario.oracle->parameters().values(), dx);
-    Vector reward(1);
-    scenario.task.reward(x, u, x + dx, reward);
-    x += dx;
-    sum += reward(0);
-  }
-  EXPECT_NEAR(result.value, sum, 1e-2);
 }
 
 TEST(ExpectedReturn, IsTheSumOfWhatTheStepsGive) {

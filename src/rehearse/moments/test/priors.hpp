@@ -1,7 +1,7 @@
 #pragma once
 // Priors of three states and two actions: a linear one, and one that bends.
 
-#include "rehearse/moments/prior_moments.hpp"
+#include "rehearse/moments/make_prior_moments.hpp"
 #include "rehearse/moments/test/gaussian_tools.hpp"
 
 namespace rehearse::moments::priors {

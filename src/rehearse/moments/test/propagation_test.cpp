@@ -5,6 +5,7 @@
 #include "fixture.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/moments/analytic_policy.hpp"
+#include "rehearse/moments/make_prior_moments.hpp"
 #include "rehearse/moments/rbf_policy.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 
