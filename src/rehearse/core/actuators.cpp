@@ -130,8 +130,9 @@ std::vector<std::string> Actuators::violations(const ActionVariable& action, dou
   };
   require(max_rate > 0, "max_rate", max_rate, "> 0");
   require(filter_s >= 0 && std::isfinite(filter_s), "filter_s", filter_s, "≥ 0");
-  require(delay_s >= 0 && delay_s <= kMostSteps * dt_s * (1 + kRounding), "delay_s", delay_s,
-          fmt::format("in 0 to {} (100 control steps)", kMostSteps * dt_s));
+  if (dt_s > 0)  // else that is what is wrong
+    require(delay_s >= 0 && delay_s <= kMostSteps * dt_s * (1 + kRounding), "delay_s", delay_s,
+            fmt::format("in 0 to {} (100 control steps)", kMostSteps * dt_s));
   require(lag_s >= 0 && std::isfinite(lag_s), "lag_s", lag_s, "≥ 0");
   require(remember >= 0 && static_cast<double>(remember) <= kMostSteps, "remember", static_cast<double>(remember),
           "in 0 to 100");
