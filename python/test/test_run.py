@@ -286,7 +286,7 @@ def test_the_module_is_the_command_line(tmp_path):
     wrong = subprocess.run([sys.executable, "-m", "rehearse", "learn", "pendubo"], capture_output=True, text=True)
     assert wrong.returncode == 2 and "did you mean" in wrong.stderr
     assert set(rehearse.robots()) >= {"pendubot", "cartpole", "pendulum"}
-    assert len(rehearse.learners()) == 7
+    assert set(rehearse.learners()) >= {"gp-mi", "black-drops", "pilco", "ite", "gp-ilqg", "pi-rem"}
 
 
 def test_a_run_may_begin_with_a_policy(tmp_path):
