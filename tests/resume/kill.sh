@@ -11,11 +11,15 @@ case $learner in
   black-drops) arguments=(pendubot "${race[@]}") ;;
   pilco-prior)  # most instants are in the episodes on the prior
     arguments=(pendulum --set policy=rbf --set pilco.prior_episodes=4 --set search.line_searches=8 --set model.inducing=60) ;;
-  pi-rem) arguments=(pendubot --prior misleading --set centres=10 --set search.line_searches=8 --set model.identify=true) ;;
+  pi-rem)
+    arguments=(pendubot --prior misleading --set centres=5 --set search.line_searches=5 --set search.prior_searches=5
+      --set model.identify=true) ;;
   ite)
     arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=60000)
     files=(archive.bin elites.csv tried.csv) ;;
-  gp-ilqg) arguments=(pendubot --prior useful --set identify=true --set search.starts=6) ;;
+  gp-ilqg)
+    arguments=(pendubot --prior useful --set identify=true --set search.starts=3 --set search.first_iterations=15
+      --set search.iterations=20) ;;
   *) arguments=(pendubot --prior misleading --set model.subplex.max_evaluations=15 "${race[@]}") ;;
 esac
 arguments+=(--learner "$learner" --seed 5)
