@@ -6,8 +6,8 @@
 namespace rehearse::dynamics {
 namespace {
 
-/// Of a central difference by v. Rounding is 1e-12 of a prediction then, and what a simulator with errors of 1e-10 adds
-/// is 1e-6.
+/// The step of a central difference by v. Rounding is 1e-12 of a prediction then, and what a simulator with errors of
+/// 1e-10 adds is 1e-6.
 double difference_step(double v) { return 1e-4 * std::max(1.0, std::abs(v)); }
 
 /// The rows, then copies of them with one number less and more, in the order of states and actions.

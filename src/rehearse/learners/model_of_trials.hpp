@@ -8,7 +8,7 @@
 
 namespace rehearse::learners {
 
-/// What a learner was told, and the model that is learned from all of it before each trial. A part of a learner: one
+/// All that a learner was told, and the model that is learned from it before each trial. A part of a learner: one
 /// thread.
 class ModelOfTrials {
  public:

@@ -69,7 +69,6 @@ std::optional<BackwardPass> backward_pass(const std::vector<PlannedStep>& steps,
   for (std::size_t t = steps.size(); t-- > 0;) {
     auto step = backward_step(steps[t], pass.values[t + 1], damping, uncertainty);
     if (!step) return std::nullopt;
-    pass.gradient_sum += step->feedback.open.cwiseAbs().sum();
     pass.feedback[t] = std::move(step->feedback);
     pass.values[t] = std::move(step->before);
   }

@@ -27,7 +27,7 @@ struct Value {
   Matrix S;
 };
 
-/// What a step changes: the actions by `open` + `gain` · d.
+/// A step's feedback changes the actions by `open` + `gain` · d.
 struct Feedback {
   Vector open;  // du
   Matrix gain;  // du × n
@@ -36,7 +36,6 @@ struct Feedback {
 struct BackwardPass {
   std::vector<Feedback> feedback;  // of each step
   std::vector<Value> values;       // of the state before each step, and at the end
-  double gradient_sum = 0;         // of |open|, to see that nothing is left to gain
 };
 
 /// One step of dynamic programming (Lee 2017; Li 2004): the best feedback within bounds of the actions (Tassa 2014),

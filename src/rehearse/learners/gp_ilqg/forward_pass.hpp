@@ -7,7 +7,7 @@
 
 namespace rehearse::learners::gp_ilqg {
 
-/// Where stages lead in the model's mean.
+/// The states that stages lead through in the model's mean.
 struct Trajectory {
   Matrix states, actions;  // steps + 1 × dx, steps × du, of the planned steps
   Index steps = 0;         // made before an early end

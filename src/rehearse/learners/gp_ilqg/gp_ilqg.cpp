@@ -44,7 +44,7 @@ class GpIlqg final : public TrialLearner {
     Proposal proposal;
     identification::WarmStart start;
     proposal.model_s = seconds([&] { start = model_.learn(proposal); });
-    proposal.policy = policy::make_tracking(task, 1 + planned_steps(task, options_.search));
+    proposal.policy = policy::make_tracking(task, 1 + steps_to_plan(task, options_.search));
     if (known)
       proposal.theta = known->theta;
     else

@@ -16,6 +16,22 @@ constexpr double kMostAction = 0.95;        // of its bound: something must be l
 constexpr int kMostRiccatiSteps = 20000;
 constexpr double kSettled = 1e-9;  // of the cost to go, relative: a step of the recursion changes no more
 
+/// A step from a state under an action, about them.
+struct StepThere {
+  PlannedStep step;
+  Vector change;  // dx, in the model's mean
+};
+
+StepThere step_at(const PlanProblem& problem, const StepCosts& costs, const Vector& state, const Vector& action) {
+  Trajectory stays;
+  stays.steps = 1;
+  stays.states = state.transpose().replicate(2, 1);
+  stays.actions = action.transpose();
+  dynamics::Linearised at;
+  PlannedStep step = planned_steps(problem, costs, stays, at).front();
+  return {std::move(step), at.mean.row(0).transpose()};
+}
+
 /// By (state, actions): the cost of staying there.
 struct Staying {
   Vector gradient;
@@ -36,11 +52,8 @@ Staying staying(const PlannedStep& step, const Columns& columns) {
 bool settle(const PlanProblem& problem, const StepCosts& costs, Vector& state, Vector& action) {
   const Columns& columns = costs.columns();
   const Index dx = columns.dx, du = columns.du, z = dx + du;
-  Matrix X(1, dx), U(1, du), change(1, dx);
   for (int i = 0; i < kMostNewtonSteps; ++i) {
-    const PlannedStep step = step_at(problem, costs, state, action);
-    X = state.transpose(), U = action.transpose();
-    problem.model.predict_mean(X, U, change);
+    const auto [step, change] = step_at(problem, costs, state, action);
     const Staying at = staying(step, columns);
     if (!at.hessian.allFinite() || !step.dynamics.by.allFinite() || !change.allFinite()) return false;
     Matrix by(dx, z);  // of the change
@@ -50,7 +63,7 @@ bool settle(const PlanProblem& problem, const StepCosts& costs, Vector& state, V
     system.bottomLeftCorner(dx, z) = by;
     system.topRightCorner(z, dx) = by.transpose();
     Vector right(z + dx);
-    right << -at.gradient, -change.row(0).transpose();
+    right << -at.gradient, -change;
     const Vector solution = system.fullPivLu().solve(right);
     if (!solution.allFinite()) return false;
     Vector newton = solution.head(z);
@@ -60,27 +73,18 @@ bool settle(const PlanProblem& problem, const StepCosts& costs, Vector& state, V
     action += costs.half_ranges().cwiseProduct(newton.tail(du));
     if (largest < kStays && change.cwiseAbs().maxCoeff() < kStays) break;
   }
-  X = state.transpose(), U = action.transpose();
-  problem.model.predict_mean(X, U, change);
+  Matrix change(1, dx);
+  problem.model.predict_mean(state.transpose(), action.transpose(), change);
   return change.cwiseAbs().maxCoeff() < 10 * kStays && costs.in_half_ranges(action).cwiseAbs().maxCoeff() < kMostAction;
 }
 
 }  // namespace
 
-PlannedStep step_at(const PlanProblem& problem, const StepCosts& costs, const Vector& state, const Vector& action) {
-  Trajectory stays;
-  stays.steps = 1;
-  stays.states = state.transpose().replicate(2, 1);
-  stays.actions = action.transpose();
-  dynamics::Linearised at;
-  return planned_steps(problem, costs, stays, at).front();
-}
-
 std::optional<Hold> find_hold(const PlanProblem& problem, const StepCosts& costs, const Vector& state,
                               const Vector& action) {
   Vector x = state, u = action;
   if (!settle(problem, costs, x, u)) return std::nullopt;
-  PlannedStep step = step_at(problem, costs, x, u);
+  PlannedStep step = step_at(problem, costs, x, u).step;
   step.action.setZero();
   step.cost.gradient.setZero();  // it is the cheapest point that stays
   // Feedback far within the bounds: they are as if they were not there.

@@ -13,7 +13,4 @@ namespace rehearse::learners::gp_ilqg {
 std::optional<Hold> find_hold(const PlanProblem& problem, const StepCosts& costs, const Vector& state,
                               const Vector& action);
 
-/// Of the model's mean about a state and an action, as a step that leads back there.
-PlannedStep step_at(const PlanProblem& problem, const StepCosts& costs, const Vector& state, const Vector& action);
-
 }  // namespace rehearse::learners::gp_ilqg

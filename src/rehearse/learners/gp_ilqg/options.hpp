@@ -8,7 +8,7 @@ namespace rehearse::learners::gp_ilqg {
 
 /// How a trial's plan is found.
 struct PlanSearch {
-  /// What is minimised: minus the reward; minus its logarithm; first the latter, which is flat nowhere, then the
+  /// Plans minimise minus the reward; minus its logarithm; or first the latter, which is flat nowhere, then the
   /// former.
   enum class Cost { linear, logarithmic, both };
 

@@ -8,13 +8,13 @@
 
 namespace rehearse::learners::gp_ilqg {
 
-/// Where a plan ends: linear feedback for ever, and what it costs to come from beside it.
+/// The end of a plan: linear feedback for ever, and what it costs to come from beside it.
 struct Hold {
   policy::FeedbackStage stage;
   Value value;  // by the planner's state less that of the stage
 };
 
-/// What is planned on. References must outlive it.
+/// The model and the task that are planned on. References must outlive it.
 struct PlanProblem {
   const dynamics::DynamicsModel& model;
   const Task& task;  // its start's spread is not used

@@ -16,7 +16,7 @@ constexpr double kSamePromise = 1e-3;  // relative
 
 using Stages = std::vector<policy::FeedbackStage>;
 
-/// What a plan does in simulated episodes.
+/// A plan's simulated episodes in two numbers.
 struct Judged {
   double mean = -kInf;
   double solving = 0;  // fraction of the episodes that it solves
@@ -59,7 +59,7 @@ class Search {
     std::vector<Stages> all;
     if (last) all.push_back(policy::to_stages(problem_.task, *last));
     Task planned = problem_.task;
-    planned.horizon = planned_steps(problem_.task, search_);
+    planned.horizon = steps_to_plan(problem_.task, search_);
     for (ActionVariable& action : planned.actions) {
       const double middle = 0.5 * (action.bounds.low + action.bounds.high);
       action.bounds = {middle + search_.start_size * (action.bounds.low - middle),
@@ -104,7 +104,7 @@ class Search {
     return all;
   }
 
-  /// Of plans that come to the same, mirrored ones for instance, one.
+  /// Plans that come to the same, mirrored ones for instance, count as one.
   void keep_best(std::vector<Plan>& plans) const {
     std::stable_sort(plans.begin(), plans.end(), [](const Plan& a, const Plan& b) { return a.promise > b.promise; });
     const auto same = [](const Plan& a, const Plan& b) {
@@ -120,24 +120,22 @@ class Search {
     std::optional<Hold> best;
     double lowest = kInf;
     for (const Plan& plan : plans) {
-      const auto [state, action] = cheapest(plan, costs);
-      auto hold = find_hold(problem_, costs, state, action);
+      if (plan.steps == 0) continue;
+      const Matrix actions = actions_of(plan);
+      Index cheapest = 0;
+      costs.of_staying(plan.states.topRows(plan.steps), actions).minCoeff(&cheapest);
+      auto hold = find_hold(problem_, costs, plan.states.row(cheapest).transpose(), actions.row(cheapest).transpose());
       if (!hold) continue;
-      const double cost = step_at(problem_, costs, hold->stage.state, hold->stage.action).cost.value;
+      const double cost = costs.of_staying(hold->stage.state.transpose(), hold->stage.action.transpose())(0);
       if (cost < lowest) lowest = cost, best = std::move(hold);
     }
     return best;
   }
 
-  std::pair<Vector, Vector> cheapest(const Plan& plan, const StepCosts& costs) const {
-    Index best = 0;
-    double lowest = kInf;
-    for (Index t = 0; t < plan.steps; ++t) {
-      const Vector state = plan.states.row(t).transpose(), &action = plan.stages[static_cast<std::size_t>(t)].action;
-      const double cost = step_at(problem_, costs, state, action).cost.value;
-      if (cost < lowest) lowest = cost, best = t;
-    }
-    return {plan.states.row(best).transpose(), plan.stages[static_cast<std::size_t>(best)].action};
+  Matrix actions_of(const Plan& plan) const {
+    Matrix actions(plan.steps, problem_.task.action_size());
+    for (Index t = 0; t < plan.steps; ++t) actions.row(t) = plan.stages[static_cast<std::size_t>(t)].action.transpose();
+    return actions;
   }
 
   std::optional<FoundPlan> chosen(const std::vector<Plan>& plans) {
@@ -152,7 +150,7 @@ class Search {
     return FoundPlan{policy::to_theta(plans[best].stages), judged[best].mean, rollouts_, failed_};
   }
 
-  /// Of those whose return is near the highest, the one that solves the task more often.
+  /// The better of two is nearer the highest return; where both are near, it solves the task more often.
   bool is_better(const Judged& a, const Judged& b, double highest) const {
     const auto near = [&](const Judged& plan) { return plan.mean >= highest - search_.tolerance * std::abs(highest); };
     if (near(a) != near(b)) return near(a);
@@ -198,7 +196,7 @@ std::optional<FoundPlan> search_plan(const PlanProblem& problem, const PlanSearc
   return Search(problem, search, stream).run(last);
 }
 
-Index planned_steps(const Task& task, const PlanSearch& search) {
+Index steps_to_plan(const Task& task, const PlanSearch& search) {
   if (search.plan_s <= 0) return task.horizon;
   return std::clamp<Index>(std::lround(search.plan_s / task.dt_s), 1, task.horizon);
 }

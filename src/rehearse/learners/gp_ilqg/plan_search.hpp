@@ -23,7 +23,7 @@ struct FoundPlan {
 std::optional<FoundPlan> search_plan(const PlanProblem& problem, const PlanSearch& search,
                                      const std::optional<Vector>& last, StreamKey stream, const ProgressSink& progress);
 
-/// Planned steps of a task.
-Index planned_steps(const Task& task, const PlanSearch& search);
+/// How many steps of a task's episode are planned.
+Index steps_to_plan(const Task& task, const PlanSearch& search);
 
 }  // namespace rehearse::learners::gp_ilqg

@@ -106,6 +106,14 @@ void StepCosts::add_step_costs(const ConstMatrixView& W, const Vector& times_s, 
   costs += options_.task_costs * some;
 }
 
+Vector StepCosts::of_staying(const ConstMatrixView& states, const ConstMatrixView& actions) const {
+  Matrix W(states.rows(), columns_.all());
+  W << states, Matrix::Zero(states.rows(), columns_.before), actions, states;
+  Vector costs(W.rows());
+  evaluate(W, Vector::Zero(W.rows()), costs);
+  return costs;
+}
+
 std::vector<Expansion> StepCosts::expand(const ConstMatrixView& W, const Vector& times_s) const {
   const Differences differences(columns_.all());
   const Index n = W.rows(), rows = differences.rows();

@@ -7,7 +7,7 @@
 
 namespace rehearse::learners::gp_ilqg {
 
-/// What the rewards of a task are to the planner, which minimises a sum of costs.
+/// The cost that the planner, which minimises a sum of them, makes of a reward.
 enum class CostScale {
   linear,       // minus the reward
   logarithmic,  // minus its logarithm: a saturating reward is flat nearly everywhere, its logarithm nowhere
@@ -52,11 +52,15 @@ class StepCosts {
 
   Vector in_half_ranges(const ConstVectorView& actions) const { return (actions - middle_).cwiseQuotient(half_); }
 
-  /// Of each step that an early end leaves out.
+  /// The cost of each step that an early end leaves out.
   double of_floor() const;
 
   /// W: one step a row; times_s: when each begins. A cost that is not finite is infinite.
   void evaluate(const ConstMatrixView& W, const Vector& times_s, VectorView costs) const;
+
+  /// The cost of a first step, with no action before it, that stays in its state (rows × dx) under an action (rows ×
+  /// du).
+  Vector of_staying(const ConstMatrixView& states, const ConstMatrixView& actions) const;
 
   /// By finite differences, all steps in one batch.
   std::vector<Expansion> expand(const ConstMatrixView& W, const Vector& times_s) const;

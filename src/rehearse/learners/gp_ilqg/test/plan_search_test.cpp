@@ -45,8 +45,8 @@ TEST(PlanSearch, PlansForAsLongAsItIsTold) {
   const Task task = line::task(2);
   PlanSearch one_second = kSmall;
   one_second.plan_s = 1;
-  EXPECT_EQ(planned_steps(task, kSmall), 30);
-  EXPECT_EQ(planned_steps(task, one_second), 10);
+  EXPECT_EQ(steps_to_plan(task, kSmall), 30);
+  EXPECT_EQ(steps_to_plan(task, one_second), 10);
   const auto found = search(task, one_second, serial_evaluator());
   ASSERT_TRUE(found);
   EXPECT_EQ(found->theta.size(), 11 * policy::numbers_of_stage(task));

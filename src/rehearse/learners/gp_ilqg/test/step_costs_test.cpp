@@ -23,6 +23,14 @@ TEST(StepCosts, AreMinusTheRewardOrItsLogarithm) {
   EXPECT_NEAR(costs(0), 2.25 + 0.1 * 0.25, 1e-14);
 }
 
+TEST(StepCosts, OfStayingAreThoseOfAStepThatLeadsBack) {
+  const Task task = line::task(4);
+  const Vector costs = StepCosts(task, {.scale = CostScale::linear, .action_cost = 0.1})
+                           .of_staying(Matrix{{3, 1}, {0, 0}}, Matrix{{2}, {0}});
+  EXPECT_NEAR(costs(0), 9 + 0.1 + 0.025, 1e-12);
+  EXPECT_EQ(costs(1), 0);
+}
+
 TEST(StepCosts, ExpandQuadraticsExactly) {
   const Task task = line::task(4);
   const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 0.1});
