@@ -12,7 +12,7 @@ case $learner in
   pilco-prior)  # most instants are in the episodes on the prior
     arguments=(pendulum --set policy=rbf --set pilco.prior_episodes=4 --set search.line_searches=8 --set model.inducing=60) ;;
   pi-rem)
-    arguments=(pendubot --prior misleading --set centres=5 --set search.line_searches=5 --set search.prior_searches=5
+    arguments=(pendubot --prior misleading --set centres=5 --set search.line_searches=3 --set search.prior_searches=3
       --set model.identify=true) ;;
   ite)
     arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=60000)

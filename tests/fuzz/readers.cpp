@@ -1,0 +1,142 @@
+#include "tests/fuzz/readers.hpp"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+#include "rehearse/campaign/file.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/checkpoint.hpp"
+#include "rehearse/experiment/given_policy.hpp"
+#include "rehearse/experiment/preset.hpp"
+#include "rehearse/experiment/spec_file.hpp"
+#include "rehearse/files/checksum.hpp"
+#include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/seal.hpp"
+#include "rehearse/files/toml_reader.hpp"
+#include "rehearse/qd/archive_bytes.hpp"
+#include "rehearse/recording/recording.hpp"
+#include "rehearse/report/files.hpp"
+#include "rehearse/robot_file/read.hpp"
+#include "rehearse/robot_file/robot_file.hpp"
+#include "rehearse/robots/pendulum/pendulum.hpp"
+#include "rehearse/statistics/table.hpp"
+#include "rehearse/system/messages.hpp"
+
+namespace rehearse::fuzz {
+namespace {
+
+constexpr std::uint64_t kFingerprint = 17;  // of the spec that checkpoints belong to
+
+const scenario::Scenario& pendulum() {
+  static const scenario::Scenario scenario = robots::pendulum::builder()->build();
+  return scenario;
+}
+
+/// Whatever model a robot's file names, it is this one.
+std::optional<std::string> file_beside(const std::string& path) {
+  static const std::string model = files::read_file(std::string(REHEARSE_SOURCE) + "/examples/models/acrobot.xml");
+  return path.ends_with(".xml") ? std::optional<std::string>(model) : std::nullopt;
+}
+
+/// No program is started: a robot that has one is read and no more.
+void read_robot(std::string_view text) {
+  const robot_file::Robot robot = robot_file::read(text, "robot.toml", file_beside);
+  for (const robot_file::Dynamics& dynamics : robot.dynamics)
+    if (std::holds_alternative<robot_file::ProgramSource>(dynamics.source)) return;
+  (void)robot_file::builder(text, "robot.toml", file_beside)->build();
+}
+
+void read_campaign(std::string_view text) {
+  files::FileViolations violations("campaign.toml");
+  (void)campaign::read_campaign_file(text, "campaign.toml", violations);
+  violations.throw_if_any();
+}
+
+void read_spec(std::string_view text) { (void)experiment::from_toml(text, "spec.toml"); }
+
+void read_preset(std::string_view text) { (void)experiment::Preset(text, "preset.toml").options("pendulum", "gp-mi"); }
+
+void read_recording(std::string_view text) {
+  (void)recording::read_recording(std::string(text), "log.csv", pendulum().task);
+}
+
+void read_policy(std::string_view text) {
+  (void)experiment::given_policy(std::string(text), "policy.json", pendulum());
+}
+
+void read_table(std::string_view text) {
+  const statistics::Table table = statistics::read_csv(text);
+  report::Problems problems;
+  (void)report::columns(table, "trials.csv", problems);
+}
+
+/// With a checksum that fits, as whoever means harm would write it.
+void read_checkpoint(std::string_view body) {
+  (void)experiment::from_checkpoint(files::seal("checkpoint", body), kFingerprint);
+}
+
+void read_archive(std::string_view bytes) {
+  constexpr std::size_t kChecksum = 16, kChecked = 24;
+  std::string sealed(bytes);
+  if (sealed.size() > kChecked) {
+    const std::uint64_t sum = files::checksum(std::string_view(sealed).substr(kChecked));
+    sealed.replace(kChecksum, sizeof sum, reinterpret_cast<const char*>(&sum), sizeof sum);
+  }
+  (void)qd::from_bytes(sealed, "archive.bin");
+}
+
+/// The first byte says which answer it is.
+void read_message(std::string_view bytes) {
+  if (bytes.empty()) return;
+  const std::string_view text = bytes.substr(1);
+  const system::Program program{.states = {"dq", "q"}, .actions = {"u"}, .parameters = {"m"}, .dt_s = 0.1};
+  Matrix dX(3, 2);
+  switch (bytes[0] % 3) {
+    case 0:
+      (void)system::messages::read_hello(text, program);
+      break;
+    case 1:
+      system::messages::read_change(text, dX);
+      break;
+    default:
+      (void)system::messages::read_state(text, 2);
+  }
+}
+
+template <class Refusal>
+std::function<void(std::string_view)> refusing(void (*read)(std::string_view)) {
+  return [read](std::string_view bytes) {
+    try {
+      read(bytes);
+    } catch (const Refusal&) {
+    } catch (const std::bad_alloc&) {
+      // The command line says so in a sentence, too.
+    }
+  };
+}
+
+}  // namespace
+
+const std::vector<Reader>& readers() {
+  static const std::vector<Reader> all{
+      {"robot", refusing<InvalidInput>(read_robot)},
+      {"campaign", refusing<InvalidInput>(read_campaign)},
+      {"spec", refusing<InvalidInput>(read_spec)},
+      {"preset", refusing<InvalidInput>(read_preset)},
+      {"recording", refusing<InvalidInput>(read_recording)},
+      {"table", refusing<InvalidInput>(read_table)},
+      {"policy", refusing<InvalidInput>(read_policy)},
+      {"checkpoint", refusing<InvalidInput>(read_checkpoint)},
+      {"archive", refusing<InvalidInput>(read_archive)},
+      {"message", refusing<std::runtime_error>(read_message)},
+  };
+  return all;
+}
+
+const Reader* reader_of(std::string_view name) {
+  const auto found = std::ranges::find(readers(), name, &Reader::name);
+  return found == readers().end() ? nullptr : &*found;
+}
+
+}  // namespace rehearse::fuzz

@@ -1,0 +1,23 @@
+#pragma once
+// What reads bytes that others wrote: files of users, of run folders, and what programs say.
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rehearse::fuzz {
+
+/// A reader under test. `read` returns where the bytes were read or refused as the program refuses them; whatever else
+/// it throws is a finding. Any order of calls; one thread.
+struct Reader {
+  std::string name;  // of its folder of examples, too
+  std::function<void(std::string_view)> read;
+};
+
+const std::vector<Reader>& readers();
+
+/// Null: there is none.
+const Reader* reader_of(std::string_view name);
+
+}  // namespace rehearse::fuzz
