@@ -16,6 +16,7 @@ const LOOKS: Record<string, Look> = {
   'black-drops': { colour: 'var(--vermillion)', symbol: 'diamond2' },
   'pilco-prior': { colour: 'var(--purple)', symbol: 'star' },
   pilco: { colour: 'var(--sky)', symbol: 'cross' },
+  'pi-rem': { colour: 'var(--purple)', symbol: 'diamond2' },
   ite: { colour: 'var(--black)', symbol: 'wye' },
   'gp-ilqg': { colour: 'var(--yellow)', symbol: 'square' },
 }

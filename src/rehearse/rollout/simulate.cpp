@@ -42,7 +42,7 @@ Simulated gathered(const Matrix& results, Index limits, Index particles, Index c
 
 Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, const Candidates& candidates,
                    const Evaluator& evaluator) {
-  const auto& [first_candidate, particles] = candidates;
+  const Index particles = candidates.particles;
   const Index horizon = simulation.task.horizon;
   check_simulation(simulation, Theta.rows(), particles);
   const Index total = Theta.cols() * particles;
@@ -56,7 +56,7 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
     Lockstep chunk(simulation, rows, memory_of_this_thread());
     for (Index row = 0; row < rows; ++row) {
       const Index candidate = (first + row) / particles, particle = (first + row) % particles;
-      chunk.set_row(row, Theta.col(candidate), first_candidate + static_cast<std::uint64_t>(candidate),
+      chunk.set_row(row, Theta.col(candidate), candidates.first + static_cast<std::uint64_t>(candidate),
                     static_cast<std::uint64_t>(particle));
     }
     chunk.start();
