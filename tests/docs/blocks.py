@@ -84,10 +84,9 @@ def kind(text):
         return "python"
     if re.search(r"[;{}]( *//.*)?$", text, re.M):
         return "cpp"
-    if re.fullmatch(r"\w+\([^\n]*\)", text):
-        return "cmake"
-    code = re.sub(r"(^|\s)#.*", "", text)
-    return "signs" if SIGNS.search(code) else "sh"
+    if SIGNS.search(re.sub(r"(^|\s)#.*", "", text)):
+        return "signs"
+    return "cmake" if re.fullmatch(r"\w+\([^\n]*\)", text) else "sh"
 
 
 def parts(line, language, text):
