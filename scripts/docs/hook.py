@@ -24,6 +24,7 @@ DATA = {".csv", ".json", ".png", ".svg", ".bin"}
 LANGUAGES = {".cpp": "cpp", ".hpp": "cpp", ".py": "python", ".toml": "toml", ".c": "c", ".js": "javascript", ".xml": "xml",
              ".txt": "cmake", ".sh": "bash", "": "bash"}
 LINK = re.compile(r"(!?\[[^\]]*\]\()([^)\s#]*)(#[^)\s]*)?(\))")
+STAR = re.compile(r"(?<=\d)\*(?=[ |])")  # 0.84* begins no emphasis
 FENCE = re.compile(r"^ *(```|~~~)")
 headers = {}  # src/rehearse/…/NAME.hpp → cpp/….html
 texts = {}    # page of the site → its Markdown, of pages that docs/ has not
@@ -146,5 +147,5 @@ def on_page_markdown(markdown, page, config, files):
             return match[0]  # MkDocs complains
         return match[1] + posixpath.relpath(place(path), posixpath.dirname(here) or ".") + (match[3] or "") + match[4]
 
-    lines = [LINK.sub(moved, line) if counts else line for line, counts in prose(markdown)]
+    lines = [STAR.sub(r"\\*", LINK.sub(moved, line)) if counts else line for line, counts in prose(markdown)]
     return github_lists.indented("\n".join(lines))
