@@ -31,7 +31,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import tomllib
+
+try:
+    import tomllib
+except ImportError:
+    sys.exit(print("skipped: Python 3.11 or later was not found"))
 
 sys.dont_write_bytecode = True
 import small_budget  # noqa: E402
