@@ -3,7 +3,7 @@
 
     docs/make_picture.py runs/first > docs/pendubot.svg
 
-The robot is solid, what the model predicted before the trial is dashed. Whoever asks for less motion sees the traces alone.
+The robot is solid, what the model predicted before the trial is dashed. A reader who asks for less motion sees the traces alone.
 It takes any robot that moves in a plane: a run folder with motion/ (docs/run-folder.md).
 """
 import csv

@@ -13,7 +13,7 @@ of a shell. So a misspelt command is a failure, not another language.
     text, formulas, drawings    passed over.
     shell    run by bash, each page's blocks in one folder of their own, in order, with `set -e`.
 
-What a shell finds there: `rehearse` and `build/release/rehearse` are the program with small budgets (small_budget.py: `learn` does at
+A shell finds there: `rehearse` and `build/release/rehearse` are the program with small budgets (small_budget.py: `learn` does at
 most one trial with searches of 100 rollouts, `campaign` checks alone, options count as they stand); campaigns, examples, presets and
 results are the repository's; runs/demo (three trials) and runs/short (a campaign), my_robot.toml, the logs log1.csv to log3.csv and
 episode.csv, policy.json and mine.toml are there. The words S, P, N, FILE, RUN stand for 1, useful, 100, a robot's file, runs/demo. ./demo is
