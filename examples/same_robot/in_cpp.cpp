@@ -39,14 +39,16 @@ Task task() {
 
 std::unique_ptr<scenario::ScenarioBuilder> rod() {
   const ParameterSpace truth({Parameter::fixed("m", 1, "kg"), Parameter::fixed("l", 1, "m")});
-  const ParameterSpace guess({Parameter::continuous("m", 1.3, {0.05, 2}, "kg"), Parameter::continuous("l", 0.8, {0.05, 2}, "m")});
-  return scenario::make_ode_builder("swing up a pendulum (40 steps of 0.1 s)",
-                                    {.name = "rod",
-                                     .task = task(),
-                                     .kernel = system::plain_kernel(equation, {.states = 2, .actions = 1, .parameters = 2}),
-                                     .plant = truth,
-                                     .guesses = {{"useful", guess}},
-                                     .policy_scale = Vector{{10, 1, 1}}});
+  const ParameterSpace guess(
+      {Parameter::continuous("m", 1.3, {0.05, 2}, "kg"), Parameter::continuous("l", 0.8, {0.05, 2}, "m")});
+  return scenario::make_ode_builder(
+      "swing up a pendulum (40 steps of 0.1 s)",
+      {.name = "rod",
+       .task = task(),
+       .kernel = system::plain_kernel(equation, {.states = 2, .actions = 1, .parameters = 2}),
+       .plant = truth,
+       .guesses = {{"useful", guess}},
+       .policy_scale = Vector{{10, 1, 1}}});
 }
 
 int main(int argc, char** argv) { return rehearse::cli(argc, argv, {rod}); }
