@@ -33,12 +33,12 @@ int run(const experiment::Catalogue& catalogue, const Typed& typed, const Proces
   if (command == "ask") return ask(catalogue, typed.ask);
   if (command == "tell") return tell(catalogue, typed.tell);
   if (!processes.leads()) return kSuccess;
-  if (command == "status") return status(catalogue, typed.status);
+  if (command == "status") return status(to_look(catalogue), typed.status);
   if (command == "list") return list(catalogue, typed.list);
   if (command == "new") return make_new(typed.make_new);
   if (command == "check") return check(catalogue, typed.check, share);
   if (command == "evaluate") return evaluate(catalogue, typed.evaluate);
-  if (command == "export") return export_policy(catalogue, typed.export_policy);
+  if (command == "export") return export_policy(to_look(catalogue), typed.export_policy);
   if (command == "identify") return identify(catalogue, typed.identify);
   if (command == "report") return report(typed.report, share);
   return replay(typed.replay, share);

@@ -123,10 +123,18 @@ void Robot::add_plant(const std::string& name, py::object make) {
   functions_.plants[name] = [of = callable(name, std::move(make))] { return std::make_unique<PythonPlant>(of); };
 }
 
-experiment::Catalogue Robot::catalogue() const {
+experiment::Catalogue Robot::catalogue() const { return catalogue(functions_); }
+
+experiment::Catalogue Robot::to_look() const {
+  robot_file::Functions functions = functions_;
+  functions.only_look = true;
+  return catalogue(functions);
+}
+
+experiment::Catalogue Robot::catalogue(const robot_file::Functions& functions) const {
   experiment::Catalogue catalogue = apps::catalogue();
-  catalogue.read_robot = [functions = functions_](std::string_view text, const std::string& source,
-                                                  const scenario::ReadFile& read_file) {
+  catalogue.read_robot = [functions](std::string_view text, const std::string& source,
+                                     const scenario::ReadFile& read_file) {
     return robot_file::builder(text, source, read_file, functions);
   };
   return text_.empty() ? catalogue : catalogue.with_robot(text_, source_, folder_);

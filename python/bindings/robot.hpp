@@ -32,6 +32,9 @@ class Robot {
   /// The built-in robots and learners, with this robot; one without text adds its functions alone.
   experiment::Catalogue catalogue() const;
 
+  /// To look at a run and simulate nothing: functions may be missing.
+  experiment::Catalogue to_look() const;
+
   /// Calls each function on a few rows at the start, so that one that cannot be called is known before a folder is
   /// made. Throws what `call` does, and InvalidInput where a prior cannot simulate the start.
   void try_out(const scenario::Scenario& scenario) const;
@@ -39,6 +42,7 @@ class Robot {
   const std::shared_ptr<Failure>& failure() const { return failure_; }
 
  private:
+  experiment::Catalogue catalogue(const robot_file::Functions& functions) const;
   Callable callable(const std::string& name, py::object function) const;
 
   std::string text_, source_;

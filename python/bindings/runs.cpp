@@ -118,7 +118,7 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
 
 /// What a folder says of its run, beside its tables.
 py::dict describe(const Robot& robot, const std::string& folder) {
-  const auto [resolved, history, in_use] = experiment::status_of(robot.catalogue(), folder);
+  const auto [resolved, history, in_use] = experiment::status_of(robot.to_look(), folder);
   const std::vector<std::string> names = experiment::tunable_names(resolved.prior);
   const Spec& spec = resolved.spec;
   py::list trials;
@@ -136,7 +136,7 @@ py::dict describe(const Robot& robot, const std::string& folder) {
 }
 
 Policy policy(const Robot& robot, const std::string& folder, std::optional<Index> trial) {
-  const experiment::PastRun run = experiment::read_run(robot.catalogue(), folder);
+  const experiment::PastRun run = experiment::read_run(robot.to_look(), folder);
   return {policy_of(run.trial(trial), run.resolved.scenario), experiment::exported_policy(run, trial)};
 }
 

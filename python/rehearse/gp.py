@@ -25,19 +25,21 @@ class GaussianProcess:
         self.threads = threads
         self.options = options
         self._core: Union[_core.FittedGp, None] = None
+        self._data: tuple[Array, Array] = (np.empty((0, 0)), np.empty((0, 0)))
         self._one = True
 
     def fit(self, X: npt.ArrayLike, y: npt.ArrayLike) -> GaussianProcess:
         """X: n × D inputs; y: n targets, or n × E."""
         X, Y = self._arrays(X, y)
         options = {name: text_of(value) for name, value in self.options.items()}
-        self._core = _core.fit_gp(X, Y, self.trend, self.tolerance, options, self.threads)
+        self._core, self._data = _core.fit_gp(X, Y, self.trend, self.tolerance, options, self.threads), (X, Y)
         return self
 
     def condition(self, X: npt.ArrayLike, y: npt.ArrayLike, log_hyperparameters: npt.ArrayLike) -> GaussianProcess:
         """The same without a fit: E × (D + 2) logarithms of lengths, σ_f and σ_n."""
         X, Y = self._arrays(X, y)
-        self._core = _core.condition_gp(X, Y, np.atleast_2d(np.asarray(log_hyperparameters, float)), self.tolerance)
+        logs = np.atleast_2d(np.asarray(log_hyperparameters, float))
+        self._core, self._data = _core.condition_gp(X, Y, logs, self.tolerance), (X, Y)
         return self
 
     def predict(self, X: npt.ArrayLike, return_std: bool = False) -> Any:
@@ -47,6 +49,28 @@ class GaussianProcess:
             return self._shaped(self._fitted.predict_mean(inputs))
         mean, variance = self._fitted.predict(inputs)
         return self._shaped(mean), self._shaped(np.sqrt(variance))
+
+    def score(self, X: npt.ArrayLike, y: npt.ArrayLike) -> float:
+        """R² of the predicted means, 1 at best, as scikit-learn has it: of several outputs the mean."""
+        targets = np.asarray(y, dtype=float)
+        targets = targets.reshape(len(targets), -1)
+        means = self._fitted.predict_mean(np.asfortranarray(X, dtype=float))
+        if targets.shape != means.shape:
+            raise _core.InvalidInput(f"y is {targets.shape[0]} × {targets.shape[1]}, must be {means.shape[0]} × "
+                                     f"{means.shape[1]}")
+        residual = ((targets - means) ** 2).sum(axis=0)
+        return float(np.mean(1 - residual / ((targets - targets.mean(axis=0)) ** 2).sum(axis=0)))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """For pickle and copy: the data and the hyperparameters; what loads it predicts the same bytes."""
+        logs = None if self._core is None else self.log_hyperparameters
+        return {**self.__dict__, "_core": logs}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        logs, self._core = state["_core"], None
+        if logs is not None:
+            self._core = _core.condition_gp(*self._data, logs, self.tolerance)
 
     def match_moments(self, mean: npt.ArrayLike, covariance: npt.ArrayLike) -> tuple[Array, Array, Array]:
         """Of an input N(mean (D), covariance (D × D)): mean (E) and covariance (E × E) of the function's values, and
@@ -84,7 +108,8 @@ class GaussianProcess:
         return self._per_output(np.exp(self.log_hyperparameters[:, self._inputs + 1]))
 
     def _arrays(self, X: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array]:
-        inputs, targets = np.asfortranarray(X, dtype=float), np.asarray(y, dtype=float)
+        """As C++ takes them; copies, since the data are kept."""
+        inputs, targets = np.array(X, dtype=float, order="F"), np.array(y, dtype=float, order="F")
         if inputs.ndim != 2:
             raise _core.InvalidInput(f"X has {inputs.ndim} dimensions, must be n × D")
         self._one = targets.ndim == 1

@@ -232,7 +232,8 @@ def learn(robot: Robots, learner: str = "gp-mi", *, prior: Union[str, Sequence[s
 
 
 def open_run(folder: PathLike, robot: Union[Robot, None] = None) -> Run:
-    """The run in a folder. robot: the `Robot` that it began with, where that has functions of Python."""
+    """The run in a folder. robot: the `Robot` that it began with, where that has functions of Python, and the run is to
+    go on or to be evaluated; to look at it, it is not needed."""
     return Run(folder, robot)
 
 

@@ -17,7 +17,8 @@ class Cmaes:
     """CMA-ES (Hansen 2016). It MAXIMISES.
 
     mean: where it starts, n. sigma: the first step. bounds: (low, high) of each coordinate; None: unbounded. The same
-    seed gives the same candidates. options: as of `search.restarts.cmaes`, population=20.
+    seed gives the same candidates. max_evaluations: it stops with the generation that reaches them; None: when it has
+    converged. options: as of `search.restarts.cmaes`, population=20.
 
     >>> search = Cmaes([3.0, 1.0], 0.5)
     >>> while not search.stop:
@@ -25,7 +26,10 @@ class Cmaes:
     """
 
     def __init__(self, mean: npt.ArrayLike, sigma: float, bounds: Union[Sequence[tuple[float, float]], None] = None, *,
-                 seed: int = 1, **options: Any) -> None:
+                 seed: int = 1, max_evaluations: Union[int, None] = None, **options: Any) -> None:
+        if max_evaluations is not None and max_evaluations < 1:
+            raise _core.InvalidInput(f"max_evaluations = {max_evaluations}, must be ≥ 1")
+        self._max_evaluations = max_evaluations
         texts = {name: text_of(value) for name, value in options.items()}
         pairs = [(float(low), float(high)) for low, high in bounds] if bounds else []
         self._core = _core.Cmaes(np.atleast_1d(np.asarray(mean, float)), sigma, pairs, seed, texts)
@@ -41,6 +45,8 @@ class Cmaes:
     @property
     def stop(self) -> Union[str, None]:
         """Why it is over; None: it is not."""
+        if self._max_evaluations is not None and self.evaluations >= self._max_evaluations:
+            return f"{self._max_evaluations} evaluations"
         return self._core.stop
 
     @property

@@ -1,5 +1,7 @@
 """The pieces alone, against NumPy."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -49,6 +51,22 @@ def test_a_fit_finds_noise_and_beats_a_guess():
         rehearse.GaussianProcess().predict(X)
 
 
+def test_a_gp_scores_and_is_copied():
+    X, y = data()
+    gp = rehearse.GaussianProcess(trend=True, starts=1).fit(X, y)
+    X_new, y_new = data()
+    expected = 1 - ((gp.predict(X_new) - y_new) ** 2).sum() / ((y_new - y_new.mean()) ** 2).sum()
+    assert gp.score(X_new, y_new) == pytest.approx(expected, abs=1e-12)
+    assert gp.score(X_new, y_new) > 0.9
+    with pytest.raises(rehearse.InvalidInput, match="must be 60 × 1"):
+        gp.score(X_new, y_new[:5])
+    X[:] = 0  # the data are its own
+    loaded = pickle.loads(pickle.dumps(gp))
+    np.testing.assert_array_equal(loaded.predict(X_new, return_std=True), gp.predict(X_new, return_std=True))
+    assert loaded.log_evidence == gp.log_evidence
+    assert pickle.loads(pickle.dumps(rehearse.GaussianProcess(starts=2))).options == {"starts": 2}
+
+
 def test_moments_are_those_of_samples():
     X, y = data()
     gp = rehearse.GaussianProcess().condition(X, y, np.log([0.8, 1.5, 1.2, 0.1]))
@@ -80,6 +98,12 @@ def test_cmaes_finds_the_top_of_a_ridge():
         inside.tell([1.0])
     with pytest.raises(rehearse.InvalidInput, match="did you mean 'population'"):
         rehearse.Cmaes([0.5], 0.3, populatoin=8)
+    with pytest.raises(rehearse.InvalidInput, match="max_evaluations = 0, must be ≥ 1"):
+        rehearse.Cmaes([0.5], 0.3, max_evaluations=0)
+    short = rehearse.Cmaes([3.0, -2.0, 1.0], 0.5, max_evaluations=50, population=8)
+    while not short.stop:
+        short.tell(-np.sum(short.ask() ** 2, axis=1))
+    assert short.evaluations == 56 and short.stop == "50 evaluations"
 
 
 def test_map_elites_fill_their_niches():

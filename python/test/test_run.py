@@ -53,6 +53,22 @@ def test_formulas_in_python_are_those_of_a_file(tmp_path):
     assert run.trials["return"][1] == pytest.approx(learn(cart(), tmp_path / "same").trials["return"][1], abs=0.2)
 
 
+def test_to_look_at_a_run_its_functions_are_not_needed(tmp_path):
+    run = learn(cart(), tmp_path / "run")
+    seen = rehearse.open_run(tmp_path / "run")
+    assert seen.best == run.best and seen.solved_at == run.solved_at
+    states = np.array([[0.3, -0.5]])
+    np.testing.assert_array_equal(seen.policy()(states), run.policy()(states))
+    assert "mass" in seen._repr_html_()
+    for command in ("status", "export"):
+        more = ["--out", tmp_path / "policy.h"] if command == "export" else []
+        subprocess.run([PROGRAM, command, tmp_path / "run", *more], check=True, capture_output=True)
+    with pytest.raises(rehearse.InvalidInput, match="is a function of the program"):
+        seen.evaluate(3)
+    with pytest.raises(rehearse.InvalidInput, match="is a function of the program"):
+        seen.resume(3, progress=None)
+
+
 def test_tables_know_their_columns(tmp_path):
     run = learn(cart(), tmp_path / "run")
     moved = run.trajectory(1)

@@ -120,7 +120,7 @@ class RbfNetwork final : public Rbf, public Describable, public Differentiable {
     Matrix features(X.rows(), inputs), by_inputs = Matrix::Zero(X.rows(), inputs), squashed(X.rows(), 1);
     options_.features.apply(X, features);
     const Matrix scaled = features * inverse_scale_.asDiagonal();
-    const auto places = [&](auto& numbers) {
+    const auto places = [actions = actions, inputs = inputs, centres = centres](auto& numbers) {
       return numbers.segment(actions * inputs, centres * inputs).reshaped(inputs, centres).transpose();
     };
     Matrix by_centres = Matrix::Zero(centres, inputs);

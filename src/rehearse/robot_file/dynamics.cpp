@@ -63,7 +63,8 @@ std::shared_ptr<const system::Simulator> DynamicsMaker::simulator(const Variant&
   }
   if (std::holds_alternative<ModelSource>(dynamics.source)) return mujoco::make_simulator(model(dynamics), fixed);
   if (const auto* function = std::get_if<FunctionSource>(&dynamics.source))
-    return system::make_simulator(fixed, robot_.functions.dynamics.at(function->name), robot_.functions.rows_at_once);
+    return system::make_simulator(fixed, function_of(robot_.functions.dynamics, function->name),
+                                  robot_.functions.rows_at_once);
   return system::make_ode_simulator(system::formula_kernel(robot_.equation(dynamics)), fixed, robot_.dt_s, substeps);
 }
 
@@ -79,14 +80,15 @@ std::function<std::unique_ptr<system::Plant>()> DynamicsMaker::plant(const Varia
       return mujoco::make_plant(options);
     };
   if (const auto* function = std::get_if<FunctionSource>(&dynamics.source))
-    return [change = robot_.functions.dynamics.at(function->name), phi = variant.parameters.values(), around] {
-      const auto motion = [change, phi](const Vector& x, const Vector& u) -> Vector {
-        Matrix moved(1, x.size());
-        change(x.transpose(), u.transpose(), phi, moved);
-        return x + moved.transpose();
-      };
-      return system::make_simulated_plant(motion, around);
-    };
+    return
+        [change = function_of(robot_.functions.dynamics, function->name), phi = variant.parameters.values(), around] {
+          const auto motion = [change, phi](const Vector& x, const Vector& u) -> Vector {
+            Matrix moved(1, x.size());
+            change(x.transpose(), u.transpose(), phi, moved);
+            return x + moved.transpose();
+          };
+          return system::make_simulated_plant(motion, around);
+        };
   const system::OdePlantOptions options{.ode = system::formula_kernel(robot_.equation(dynamics)).ode(),
                                         .phi = variant.parameters.values(),
                                         .dt_s = robot_.dt_s,

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/task.hpp"
 #include "rehearse/system/plant.hpp"
 #include "rehearse/system/simulator.hpp"
@@ -20,6 +21,20 @@ struct Functions {
   std::map<std::string, system::Change> dynamics;
   std::map<std::string, std::function<std::unique_ptr<system::Plant>()>> plants;
   Index rows_at_once = 0;  // that a call should have to be worth its cost (system::Simulator)
+  // Functions that are missing are no violations, and throw InvalidInput when they are called: for whoever looks at a
+  // robot and simulates nothing.
+  bool only_look = false;
 };
+
+/// "'NAME' is a function of the program that wrote this file, …"
+std::string missing_function(const std::string& name);
+
+/// The function of that name; where there is none, one that throws InvalidInput.
+template <class Result, class... Arguments>
+std::function<Result(Arguments...)> function_of(const std::map<std::string, std::function<Result(Arguments...)>>& known,
+                                                const std::string& name) {
+  if (const auto found = known.find(name); found != known.end()) return found->second;
+  return [name](Arguments...) -> Result { throw InvalidInput(missing_function(name)); };
+}
 
 }  // namespace rehearse::robot_file

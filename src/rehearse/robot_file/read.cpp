@@ -188,7 +188,8 @@ class Reader {
     table.number("measurement_noise", robot_.options.measurement_noise, at_least(0));
     robot_.has_plant = true;
     if (table.reader().take("function", robot_.plant_function)) {
-      require_function(robot_.functions.plants, robot_.plant_function, files::line_of(*part), violations_);
+      require_function(robot_.functions, robot_.functions.plants, robot_.plant_function, files::line_of(*part),
+                       violations_);
       if (robot_.options.measurement_noise > 0)
         table.wrong("measurement_noise", "a plant that is a function measures by itself, noise included");
     } else {

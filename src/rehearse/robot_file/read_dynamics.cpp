@@ -43,7 +43,7 @@ class DynamicsReader {
     std::vector<std::string> command;
     std::string model, function;
     if (table.reader().take("function", function)) {
-      require_function(robot_.functions.dynamics, function, dynamics.line, violations_);
+      require_function(robot_.functions, robot_.functions.dynamics, function, dynamics.line, violations_);
       dynamics.source = FunctionSource{function};
     } else if (table.reader().take("program", command)) {
       dynamics.source = read_program(table, std::move(command));

@@ -50,7 +50,7 @@ class Builder final : public scenario::ScenarioBuilder {
                                 .require_ready = dynamics.require_ready(),
                                 .evaluations = robot_.options.evaluations};
     if (!robot_.plant_function.empty()) {
-      scenario.make_plant = robot_.functions.plants.at(robot_.plant_function);
+      scenario.make_plant = function_of(robot_.functions.plants, robot_.plant_function);
     } else if (robot_.has_plant) {
       scenario.make_plant = dynamics.plant(plant, around);
       scenario.oracle = dynamics.simulator(plant, robot_.options.substeps);

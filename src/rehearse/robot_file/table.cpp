@@ -29,13 +29,6 @@ std::optional<Interval> pair_of(const toml::node& node) {
   return Interval{*pair->get(0)->value<double>(), *pair->get(1)->value<double>()};
 }
 
-std::string missing_function(const std::string& name) {
-  return fmt::format(
-      "'{}' is a function of the program that wrote this file, and this one has none of that name "
-      "(in Python the robot is given again: rehearse.resume(folder, robot))",
-      name);
-}
-
 Formula Table::formula_of(const std::string& key, const toml::node& node) {
   if (node.is_string() || node.is_number()) return {files::text_of(node), files::line_of(node)};
   violations_.add(files::line_of(node), fmt::format("{} must be a formula in quotes, or a number", key));

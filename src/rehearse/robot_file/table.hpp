@@ -42,13 +42,11 @@ class Table {
   files::TomlReader reader_;
 };
 
-std::string missing_function(const std::string& name);
-
-/// Adds a violation unless the program has a function of that name.
+/// Adds a violation unless the program has a function of that name, or does without.
 template <class Function>
-void require_function(const std::map<std::string, Function>& known, const std::string& name, Index line,
-                      files::FileViolations& violations) {
-  if (!known.contains(name)) violations.add(line, missing_function(name));
+void require_function(const Functions& functions, const std::map<std::string, Function>& known, const std::string& name,
+                      Index line, files::FileViolations& violations) {
+  if (!functions.only_look && !known.contains(name)) violations.add(line, missing_function(name));
 }
 
 /// Two numbers, [low, high], in whatever order; empty: the node is something else.

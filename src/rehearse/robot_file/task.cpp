@@ -102,7 +102,7 @@ class Checker {
   void compile(Formulas& formulas, const std::string& what, const Formula& formula,
                const std::map<std::string, Function>& functions) {
     if (formula.is_function())
-      require_function(functions, formula.function(), formula.line, violations_);
+      require_function(robot_.functions, functions, formula.function(), formula.line, violations_);
     else
       compile(formulas, what, formula);
   }
@@ -138,7 +138,7 @@ class Checker {
 
 /// A formula of the state that a step reaches and the action that took it there.
 Reward of_steps(const Robot& robot, const Formula& formula) {
-  if (formula.is_function()) return robot.functions.of_steps.at(formula.function());
+  if (formula.is_function()) return function_of(robot.functions.of_steps, formula.function());
   return [program = program(robot, {formula})](const ConstMatrixView&, const ConstMatrixView& U,
                                                const ConstMatrixView& X_next,
                                                VectorView values) { values = evaluate(program, X_next, U).col(0); };
@@ -167,7 +167,7 @@ StepCost cost_of(const Robot& robot) {
 
 /// A condition on states, where all actions are 0.
 StateCondition of_states(const Robot& robot, const Formula& formula) {
-  if (formula.is_function()) return robot.functions.of_states.at(formula.function());
+  if (formula.is_function()) return function_of(robot.functions.of_states, formula.function());
   return [program = program(robot, {formula}), actions = static_cast<Index>(robot.actions.size())](
              const ConstMatrixView& X, VectorView holds) {
     holds = evaluate(program, X, Matrix::Zero(X.rows(), actions)).col(0);

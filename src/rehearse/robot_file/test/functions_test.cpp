@@ -132,6 +132,15 @@ TEST(RobotFunctions, ThoseOfAnotherProgramAreMissed) {
   EXPECT_NE(complaint(kFile, half).find("line 15: 'near' is a function"), std::string::npos) << complaint(kFile, half);
 }
 
+TEST(RobotFunctions, WhoOnlyLooksDoesWithout) {
+  const scenario::Scenario scenario = builder(kFile, "pushed.toml", example::no_files, {.only_look = true})->build();
+  EXPECT_EQ(scenario.task.states.front().name, "x");
+  Vector value(1);
+  EXPECT_THROW(scenario.task.reward(Matrix{{0.0}}, Matrix{{1.0}}, Matrix{{0.5}}, value), InvalidInput);
+  EXPECT_THROW(holds(scenario.task.ended, Vector{{4}}), InvalidInput);
+  EXPECT_THROW(scenario.make_plant(), InvalidInput);
+}
+
 TEST(RobotFunctions, APlantThatMeasuresHasNoOtherNoise) {
   std::string text = kFile;
   text.insert(text.find("function = \"robot\""), "measurement_noise = 0.1\n");
