@@ -44,6 +44,7 @@ STANDS_FOR = {"S": "1", "P": "useful", "N": "100", "FILE": "examples/robots/pend
               "RUN": "runs/demo"}
 PLACEHOLDER = re.compile(r"(?<=[ =])(FILE\.toml|FILE|RUN|S|P|N)(?=[ ;]|$)", re.M)
 IDLE = ["cmake", "ctest", "mpirun", "npm", "pip", "sbatch", "srun"]
+SHARED = ["bin", "build", "scripts"]  # the same for all pages
 SIGNS = re.compile(r"[│─└┘├┤┐Σφθℓσμεπτ²½√ᵀ⁻−∂∫Δ→↦·∈≤′Φ]")
 MARK = re.compile(r"<!-- not run: .+ -->")
 
@@ -188,7 +189,9 @@ class Checker:
 
     def shell(self, text, folder):
         if not folder.exists():
-            shutil.copytree(self.ready, folder, symlinks=True)
+            shutil.copytree(self.ready, folder, symlinks=True, ignore=shutil.ignore_patterns(*SHARED))
+            for name in SHARED:
+                (folder / name).symlink_to(self.ready / name)
         text = PLACEHOLDER.sub(lambda match: STANDS_FOR[match[1]], text)
         there = {**os.environ, "PROGRAM": self.program, "PATH": f"{folder}/bin:{os.environ['PATH']}", "REHEARSE_CACHE": "off",
                  "REHEARSE": f"{folder}/bin/rehearse"}
