@@ -1,0 +1,12 @@
+# The version and its date stand at the top of CHANGELOG.md, too.
+file(STRINGS ${PROJECT_SOURCE_DIR}/CHANGELOG.md heading REGEX "^## " LIMIT_COUNT 1)
+if(NOT heading MATCHES "^## ${PROJECT_VERSION} \\(([^)]*)\\)$")
+  message(FATAL_ERROR "CHANGELOG.md begins with '${heading}', must with '## ${PROJECT_VERSION} (DATE)' as CMakeLists.txt says")
+endif()
+set(REHEARSE_RELEASE_DATE ${CMAKE_MATCH_1})
+if(REHEARSE_RELEASE_DATE STREQUAL "unreleased")
+  string(TIMESTAMP REHEARSE_RELEASE_DATE "%Y-%m-%d" UTC)
+elseif(NOT REHEARSE_RELEASE_DATE MATCHES "^20[0-9][0-9]-[0-9][0-9]-[0-9][0-9]$")
+  message(FATAL_ERROR "CHANGELOG.md: '${REHEARSE_RELEASE_DATE}' must be a date like 2026-11-26, or 'unreleased'")
+endif()
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
