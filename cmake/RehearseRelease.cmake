@@ -1,4 +1,4 @@
-# The version and its date stand at the top of CHANGELOG.md, too.
+# The version stands at the top of CHANGELOG.md, too, with its date, and in the files of npm.
 file(STRINGS ${PROJECT_SOURCE_DIR}/CHANGELOG.md heading REGEX "^## " LIMIT_COUNT 1)
 if(NOT heading MATCHES "^## ${PROJECT_VERSION} \\(([^)]*)\\)$")
   message(FATAL_ERROR "CHANGELOG.md begins with '${heading}', must with '## ${PROJECT_VERSION} (DATE)' as CMakeLists.txt says")
@@ -9,4 +9,12 @@ if(REHEARSE_RELEASE_DATE STREQUAL "unreleased")
 elseif(NOT REHEARSE_RELEASE_DATE MATCHES "^20[0-9][0-9]-[0-9][0-9]-[0-9][0-9]$")
   message(FATAL_ERROR "CHANGELOG.md: '${REHEARSE_RELEASE_DATE}' must be a date like 2026-11-26, or 'unreleased'")
 endif()
+foreach(file package package-lock)
+  file(READ ${PROJECT_SOURCE_DIR}/web/${file}.json text)
+  string(JSON version GET "${text}" version)
+  if(NOT version STREQUAL PROJECT_VERSION)
+    message(FATAL_ERROR "web/${file}.json has version ${version}, CMakeLists.txt ${PROJECT_VERSION}")
+  endif()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/${file}.json)
+endforeach()
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/CHANGELOG.md)

@@ -33,18 +33,20 @@ if command -v zsh >/dev/null; then
   cat >capture.zsh <<'ZSH'
 zmodload zsh/zpty
 zpty shell zsh -f -i
-zpty -w shell "PS1=; fpath=($1 \$fpath); autoload -Uz compinit; compinit -u -D; zstyle ':completion:*' list-colors ''; bindkey '^I' complete-word; LISTMAX=0; echo rea\dy"
+zpty -w shell "PS1=; fpath=($1 \$fpath); autoload -Uz compinit; compinit -u -D; bindkey '^I' complete-word; echo rea\dy"
 zpty -r -m shell line '*ready*'
-zpty -w -n shell "$2"$'\t'
-sleep 1
-zpty -r -t shell line '*' && print -r -- $line
-while zpty -r -t shell line; do print -r -- $line; done
+shift
+while (( $# )); do
+  zpty -w -n shell "$1"$'\t'
+  zpty -r -m shell line "*$2*"
+  zpty -w -n shell $'\C-u'
+  shift 2
+done
 zpty -d shell
 ZSH
-  zshed() { zsh -f capture.zsh "$reference/zsh" "$1" 2>&1 | tr -d '\r' | sed 's/\x1b\[[0-9;?]*[a-zA-Z]//g'; }
-  zshed 'rehearse lea' | grep -q 'rehearse learn' || fail "zsh: $(zshed 'rehearse lea')"
-  zshed 'rehearse learn pendubot --learner gp-m' | grep -q 'gp-mi' || fail "zsh: learners"
-  zshed 'rehearse learn pendubot --set plant.b' | grep -q 'plant.b2' || fail "zsh: keys"
+  timeout 60 zsh -f capture.zsh "$reference/zsh" 'rehearse lea' 'rehearse learn' \
+    'rehearse learn pendubot --learner gp-m' 'gp-mi' 'rehearse learn pendubot --set plant.b' 'plant.b2' \
+    'rehearse learn pendubot --prior mis' misleading || fail "zsh does not complete"
 fi
 [ $tried = 1 ] || echo "neither fish nor zsh is there: only their files were read"
 finish
