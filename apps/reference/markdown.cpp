@@ -41,7 +41,7 @@ std::string section_of(const ReferenceCommand& command) {
   for (const ReferenceOption& option : command.arguments) rows += row_of(option);
   for (const ReferenceOption& option : command.options)
     if (option.name != "--help") rows += row_of(option);
-  if (!rows.empty()) text += "\n| argument | |\n|---|---|\n" + rows;
+  if (!rows.empty()) text += "\n| argument | what it does |\n|---|---|\n" + rows;
   if (!command.examples.empty()) text += "\n" + indented(command.examples) + "\n";
   return text;
 }
