@@ -5,28 +5,36 @@ here=$(cd "$(dirname "$0")" && pwd)
 reference=$2
 . "$here/../prelude.sh"
 . "$here/said.sh"
-export HOME=$folder XDG_CONFIG_HOME=$folder XDG_DATA_HOME=$folder
+export LC_ALL=C HOME=$folder XDG_CONFIG_HOME=$folder XDG_DATA_HOME=$folder
 tried=0
 
+fish=$(<"$reference/fish/rehearse.fish") zsh=$(<"$reference/zsh/_rehearse")
 for command in $(commands_said); do
-  sed -n "/^ *$command)\$/,/;;/p" "$reference/zsh/_rehearse" >zsh.part
-  grep -F -- "'__rehearse_has_command $command'" "$reference/fish/rehearse.fish" >fish.part
+  zsh_part=${zsh#*$'\n'*" $command)"$'\n'}
+  zsh_part=${zsh_part%%;;*}
   for flag in $(flags_said "$command"); do
-    grep -q -- " -l ${flag#--} " fish.part || fail "fish: $command $flag"
-    grep -q -- "'\**$flag[=[]" zsh.part || fail "zsh: $command $flag"
+    [[ $fish == *"'__rehearse_has_command $command' -l ${flag#--} "* ]] || fail "fish: $command $flag"
+    [[ $zsh_part == *"$flag["* || $zsh_part == *"$flag=["* ]] || fail "zsh: $command $flag"
   done
 done
 
 if command -v fish >/dev/null; then
   tried=1
-  fished() { # LINE: how it goes on
-    fish --no-config -c "source '$reference/fish/rehearse.fish'; complete -C '$1'" 2>&1 | cut -f1 | sort | xargs
-  }
-  [ "$(fished 'rehearse le')" = learn ] || fail "fish: $(fished 'rehearse le')"
-  [ "$(fished 'rehearse learn pendubot --learner pil')" = "pilco pilco-prior" ] || fail "fish: learners"
-  [ "$(fished 'rehearse learn pendubot --prior ')" = "misleading oracle partial tunable useful" ] || fail "fish: priors"
-  [ "$(fished 'rehearse learn pendubot --set plant.b')" = "plant.b1= plant.b2=" ] || fail "fish: keys"
-  [ "$(fished 'rehearse learn --until')" = --until-solved ] || fail "fish: flags"
+  cat >capture.fish <<'FISH'
+source $argv[1]/fish/rehearse.fish
+for line in $argv[2..]
+    echo $line: (complete -C $line | string split -f1 \t | sort)
+end
+FISH
+  fish --no-config capture.fish "$reference" 'rehearse le' 'rehearse learn pendubot --learner pil' \
+    'rehearse learn pendubot --prior ' 'rehearse learn pendubot --set plant.b' 'rehearse learn --until' >said 2>&1
+  diff said - <<'SAID' || fail "fish completes otherwise"
+rehearse le: learn
+rehearse learn pendubot --learner pil: pilco pilco-prior
+rehearse learn pendubot --prior : misleading oracle partial tunable useful
+rehearse learn pendubot --set plant.b: plant.b1= plant.b2=
+rehearse learn --until: --until-solved
+SAID
 fi
 if command -v zsh >/dev/null; then
   tried=1
