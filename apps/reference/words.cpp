@@ -89,6 +89,7 @@ std::string option_names(const ReferenceCommand& command, bool with_value) {
 
 std::string names_of(const std::vector<NamedThing>& things) {
   std::vector<std::string> names;
+  names.reserve(things.size());
   for (const NamedThing& thing : things) names.push_back(thing.name);
   return fmt::format("{}", fmt::join(names, " "));
 }
