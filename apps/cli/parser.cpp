@@ -222,7 +222,9 @@ std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
   return error.what();
 }
 
-void add_all(CLI::App& app, Typed& typed) {
+}  // namespace
+
+void define(CLI::App& app, Typed& typed) {
   app.footer(fmt::format(kExample, program_name()));
   app.set_version_flag("--version", "rehearse " REHEARSE_VERSION, "Show the version");
   app.require_subcommand(1);
@@ -242,12 +244,10 @@ void add_all(CLI::App& app, Typed& typed) {
   add_evaluate(app, typed.evaluate);
 }
 
-}  // namespace
-
 std::optional<Typed> parse(int argc, char** argv, bool silent) {
   CLI::App app(kAbout, program_name());
   Typed typed;
-  add_all(app, typed);
+  define(app, typed);
   check_command_name(app, argc, argv);
   try {
     app.parse(argc, argv);

@@ -5,6 +5,10 @@
 
 #include "apps/cli/commands.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace rehearse::apps {
 
 /// The command that was typed, with its arguments.
@@ -25,6 +29,9 @@ struct Typed {
   ExportArguments export_policy;
   EvaluateArguments evaluate;
 };
+
+/// Tells the parser of all commands and options. Both arguments live as long as it is used.
+void define(CLI::App& app, Typed& typed);
 
 /// Throws InvalidInput. Empty: help or the version was asked for, and is printed unless `silent`.
 std::optional<Typed> parse(int argc, char** argv, bool silent);

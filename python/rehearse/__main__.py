@@ -9,10 +9,10 @@ from ._core import command_line
 
 
 def share() -> Path:
-    """The folder of the page of reports: in the package, or in the build folder that it stands in."""
+    """The folder of the page of reports: in the package, or beside it in the build or installation folder."""
     package = Path(__file__).resolve().parent
-    inside = package / "share"
-    return inside if inside.exists() else package.parent.parent / "share" / "rehearse"
+    places = [package / "share"] + [folder / "share" / "rehearse" for folder in package.parents]
+    return next((place for place in places if (place / "report.html").exists()), places[0])
 
 
 def main() -> int:
