@@ -22,13 +22,6 @@ std::string cell_of(std::string text) {
   return text;
 }
 
-std::string indented(const std::string& text) {
-  std::string lines = "    ";
-  for (const char c : text) lines += c == '\n' ? std::string("\n    ") : std::string(1, c);
-  for (std::size_t at = 0; (at = lines.find("\n    \n", at)) != std::string::npos;) lines.erase(at + 1, 4);
-  return lines;
-}
-
 std::string row_of(const ReferenceOption& option) {
   const std::string value = option.name == option.value || option.value.empty() ? "" : " " + option.value;
   return fmt::format("| `{}{}` | {} |\n", option.name, value, cell_of(option.help));
@@ -36,13 +29,13 @@ std::string row_of(const ReferenceOption& option) {
 
 std::string section_of(const ReferenceCommand& command) {
   std::string text =
-      fmt::format("\n## {}\n\n{}.\n\n    rehearse {}\n", command.name, command.summary, synopsis(command));
+      fmt::format("\n## {}\n\n{}.\n\n```text\nrehearse {}\n```\n", command.name, command.summary, synopsis(command));
   std::string rows;
   for (const ReferenceOption& option : command.arguments) rows += row_of(option);
   for (const ReferenceOption& option : command.options)
     if (option.name != "--help") rows += row_of(option);
   if (!rows.empty()) text += "\n| argument | what it does |\n|---|---|\n" + rows;
-  if (!command.examples.empty()) text += "\n" + indented(command.examples) + "\n";
+  if (!command.examples.empty()) text += "\n```text\n" + command.examples + "\n```\n";
   return text;
 }
 

@@ -120,16 +120,11 @@ std::function<void(std::string_view)> refusing(void (*read)(std::string_view)) {
 
 const std::vector<Reader>& readers() {
   static const std::vector<Reader> all{
-      {"robot", refusing<InvalidInput>(read_robot)},
-      {"campaign", refusing<InvalidInput>(read_campaign)},
-      {"spec", refusing<InvalidInput>(read_spec)},
-      {"preset", refusing<InvalidInput>(read_preset)},
-      {"recording", refusing<InvalidInput>(read_recording)},
-      {"table", refusing<InvalidInput>(read_table)},
-      {"policy", refusing<InvalidInput>(read_policy)},
-      {"checkpoint", refusing<InvalidInput>(read_checkpoint)},
-      {"archive", refusing<InvalidInput>(read_archive)},
-      {"message", refusing<std::runtime_error>(read_message)},
+      {"robot", refusing<InvalidInput>(read_robot)},         {"campaign", refusing<InvalidInput>(read_campaign)},
+      {"spec", refusing<InvalidInput>(read_spec)},           {"preset", refusing<InvalidInput>(read_preset)},
+      {"recording", refusing<InvalidInput>(read_recording)}, {"table", refusing<InvalidInput>(read_table)},
+      {"policy", refusing<InvalidInput>(read_policy)},       {"checkpoint", refusing<InvalidInput>(read_checkpoint)},
+      {"archive", refusing<InvalidInput>(read_archive)},     {"message", refusing<std::runtime_error>(read_message)},
   };
   return all;
 }

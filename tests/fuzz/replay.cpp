@@ -21,9 +21,11 @@ std::size_t below(Random& random, std::size_t n) { return n == 0 ? 0 : random() 
 
 /// One change: bytes flipped, removed, repeated, replaced by a number that hurts, or taken from another example.
 void change(std::string& bytes, const std::vector<std::string>& examples, Random& random) {
-  static const std::vector<std::string> hurtful{"-1", "0", "1e999", "nan", "9223372036854775807", "\"", "[", "{",
-                                                "\n", ",", std::string(1, '\0'), "\xff\xfe", "1e-320"};
-  const std::size_t at = below(random, bytes.size() + 1), length = below(random, std::min<std::size_t>(bytes.size() - at, 32) + 1);
+  static const std::vector<std::string> hurtful{"-1",    "0", "1e999", "nan", "9223372036854775807", "\"",
+                                                "[",     "{", "\n",    ",",   std::string(1, '\0'),  "\xff\xfe",
+                                                "1e-320"};
+  const std::size_t at = below(random, bytes.size() + 1),
+                    length = below(random, std::min<std::size_t>(bytes.size() - at, 32) + 1);
   switch (random() % 5) {
     case 0:
       if (at < bytes.size()) bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
