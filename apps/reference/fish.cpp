@@ -75,7 +75,7 @@ const char* function(Names names) {
   return "";
 }
 
-/// What follows -a; empty for free text and for files of any ending.
+/// The words for `complete -a`; empty for free text and for files of any ending, which need none.
 std::string action(const Expected& expected) {
   std::vector<std::string> calls;
   for (const Names names : expected.names) calls.push_back(function(names));

@@ -108,16 +108,14 @@ def on_files(files, config):
     while todo:
         page = todo.pop()
         here = ROOT / page
-        if page in PAGES or not page.startswith("docs/") and place(page).endswith(".md"):
-            texts[place(page)] = page
+        if not page.startswith("docs/"):
             copy = folders() / "pages" / place(page)
             copy.parent.mkdir(parents=True, exist_ok=True)
-            copy.write_text(source_page(page))
-            add(place(page), folders() / "pages")
-        elif place(page).startswith("source/"):
-            copy = folders() / "pages" / place(page)
-            copy.parent.mkdir(parents=True, exist_ok=True)
-            copy.write_bytes(here.read_bytes())
+            if copy.suffix == ".md":
+                texts[place(page)] = page
+                copy.write_text(source_page(page))
+            else:
+                copy.write_bytes(here.read_bytes())
             add(place(page), folders() / "pages")
         if here.is_dir():
             found = [f"{page}/{child.name}" for child in listed(here)]
