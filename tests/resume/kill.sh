@@ -5,21 +5,21 @@
 source "$(dirname "$0")/../prelude.sh"
 learner=$2 instants=$3
 
-race=(--set search.race.max_evaluations=3000 --set search.race.descents=2 --set search.selection=20)
+race=(--set search.race.max_evaluations=1000 --set search.race.descents=2 --set search.selection=10 --set retry.searches=1)
 files=()
 case $learner in
   black-drops) arguments=(pendubot "${race[@]}") ;;
   pilco-prior)  # most instants are in the episodes on the prior
-    arguments=(pendulum --set policy=rbf --set pilco.prior_episodes=4 --set search.line_searches=8 --set model.inducing=60) ;;
+    arguments=(pendulum --set policy=rbf --set pilco.prior_episodes=3 --set search.line_searches=4 --set model.inducing=40) ;;
   pi-rem)
-    arguments=(pendubot --prior misleading --set centres=5 --set search.line_searches=3 --set search.prior_searches=3
+    arguments=(pendubot --prior misleading --set centres=3 --set search.line_searches=2 --set search.prior_searches=2
       --set model.identify=true) ;;
   ite)
-    arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=60000)
+    arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=20000)
     files=(archive.bin elites.csv tried.csv) ;;
   gp-ilqg)
-    arguments=(pendubot --prior useful --set identify=true --set search.starts=3 --set search.first_iterations=15
-      --set search.iterations=20) ;;
+    arguments=(pendubot --prior useful --set identify=true --set search.starts=2 --set search.first_iterations=5
+      --set search.iterations=8) ;;
   *) arguments=(pendubot --prior misleading --set model.subplex.max_evaluations=15 "${race[@]}") ;;
 esac
 arguments+=(--learner "$learner" --seed 5)
