@@ -4,10 +4,11 @@ import { scaleOf, type Scale } from './colours'
 import { parseHeader, present, withUnit, type Archive, type Run } from './data'
 import { h, type Child } from './dom'
 import type { Row } from './export'
-import { figure, tableFigure, type Panel } from './figure'
+import { figure, tableFigure } from './figure'
 import { count, number } from './format'
 import { choice } from './layout'
 import type { LegendEntry } from './legend'
+import type { Panel } from './panels'
 
 /** A trial, of an elite counted from 0. */
 interface Trial {

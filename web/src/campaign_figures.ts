@@ -3,10 +3,11 @@ import { chart, fit, heights, type Point, type Series } from './chart'
 import { present, type Campaign, type Group, type GroupTrial, type Quartiles, type SuccessRate } from './data'
 import type { Child } from './dom'
 import type { Row } from './export'
-import { figure, type Panel } from './figure'
+import { figure } from './figure'
 import { count, number, percent } from './format'
 import { inPanel, legendOf, medianPoint, medianPoints, panelPriors, panelTitle, type StyleOf } from './groups'
 import { choice } from './layout'
+import type { Panel } from './panels'
 
 const TRIAL = { label: 'trial', whole: true }
 

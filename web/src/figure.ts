@@ -1,29 +1,20 @@
 // The frame of every figure: title, what it shows, legend, panels as wide as the page allows, and what can be saved.
 import { h, download, type Child } from './dom'
 import { downloadCsv, svgOf, type Drawn, type Row } from './export'
+import { Folds, type Fold } from './folds'
 import { legend, type LegendEntry } from './legend'
+import { arranged, fill, type Filling, type Layout, type Panel } from './panels'
 
-export interface Panel {
-  title: string
-  /** For readers who do not see it, where the title alone does not say what it shows. */
-  label?: string
-  draw: (width: number) => SVGSVGElement
-}
-
-export interface FigureOptions {
+export interface FigureOptions extends Filling {
   /** Of the files that are saved. */
   name: string
   title: string
   about?: Child
   legend?: LegendEntry[]
   panels: () => Panel[]
+  /** The same panels in folds, where they are too many to look at. */
+  folds?: () => Fold[]
   table: () => Row[]
-  /** Of a panel, in px; as many stand side by side as fit, at most `columns`. */
-  minWidth?: number
-  maxWidth?: number
-  columns?: number
-  /** So many panels after each other belong together: they stand in one row, or under each other if all fit so. */
-  together?: number
   controls?: HTMLElement
   afterDrawing?: () => void
 }
@@ -34,48 +25,38 @@ export interface Figure {
   drawn: () => Drawn[]
 }
 
-const GAP = 16
-
 export function figure(options: FigureOptions): Figure {
   const grid = h('div', { class: 'panels' })
+  let layout: Layout = { columns: 1, width: 0, panels: [] }
   let panels: Drawn[] = []
-  let columns = 1
   let drawnWidth = 0
+  const afterDrawing = () => options.afterDrawing?.()
+  const draw = (into: HTMLElement, some: Panel[]) => fill(into, { ...layout, panels: some }, options.title)
+  const folds = options.folds ? new Folds(draw, afterDrawing) : null
+  const body = folds?.element ?? grid
 
   const redraw = () => {
     if (drawnWidth === 0) return
-    let wanted = options.panels()
-    const minWidth = options.minWidth ?? 300
-    const fitting = Math.floor((drawnWidth + GAP) / (minWidth + GAP))
-    const together = options.together ?? 1
-    const groups = wanted.length / together
-    columns = Math.max(1, Math.min(wanted.length, options.columns ?? 4, fitting))
-    if (together > 1 && groups > 2 && groups <= columns) {
-      columns = groups
-      wanted = wanted.map((_, i) => wanted[(i % groups) * together + Math.floor(i / groups)] as Panel)
-    } else if (columns > together) columns -= columns % together
-    const width = Math.min((drawnWidth - GAP * (columns - 1)) / columns, options.maxWidth ?? 720)
-    panels = wanted.map(({ title, label, draw }) => {
-      const svg = draw(Math.floor(width))
-      svg.setAttribute('role', 'img')
-      svg.setAttribute('aria-label', `${options.title}: ${label ?? title}`)
-      return { title, svg }
-    })
-    grid.style.gridTemplateColumns = `repeat(${columns}, minmax(0, ${Math.floor(width)}px))`
-    grid.replaceChildren(
-      ...panels.map(({ title, svg }) => h('div', { class: 'panel' }, title ? h('h4', {}, title) : null, svg)),
-    )
-    options.afterDrawing?.()
+    const wanted = options.folds?.() ?? []
+    layout = arranged(folds ? wanted.flatMap((fold) => fold.panels) : options.panels(), drawnWidth, options)
+    if (folds) folds.show(wanted)
+    else panels = draw(grid, layout.panels)
+    afterDrawing()
   }
   const fit = () => {
-    if (grid.clientWidth === drawnWidth) return
-    drawnWidth = grid.clientWidth
+    if (body.clientWidth === drawnWidth) return
+    drawnWidth = body.clientWidth
     redraw()
   }
-  whenNearOrIdle(grid, () => new ResizeObserver(() => requestAnimationFrame(fit)).observe(grid))
+  whenNearOrIdle(body, () => new ResizeObserver(() => requestAnimationFrame(fit)).observe(body))
 
+  const drawn = () => folds?.panels() ?? panels
   const saveSvg = () =>
-    download(`${options.name}.svg`, svgOf(options.title, panels, columns, options.legend ?? []), 'image/svg+xml')
+    download(
+      `${options.name}.svg`,
+      svgOf(options.title, drawn(), layout.columns, options.legend ?? []),
+      'image/svg+xml',
+    )
   const element = h(
     'figure',
     { id: options.name },
@@ -86,9 +67,9 @@ export function figure(options: FigureOptions): Figure {
     options.about ? h('figcaption', {}, options.about) : null,
     options.controls,
     options.legend?.length ? legend(options.legend) : null,
-    grid,
+    body,
   )
-  return { element, redraw, drawn: () => panels }
+  return { element, redraw, drawn }
 }
 
 /** Once: when the reader comes near, or before that in an idle moment, so that a page of many figures opens at once and

@@ -3,7 +3,8 @@ import { chart, fit, heights, type ChartOptions, type Domain, type Point, type S
 import { MOMENTS, PREDICTED } from './colours'
 import { column, present, type Columns, type Run } from './data'
 import { h, type Child } from './dom'
-import { figure, type Panel } from './figure'
+import { figure } from './figure'
+import type { Panel } from './panels'
 import { number } from './format'
 import type { LegendEntry } from './legend'
 

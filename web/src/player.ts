@@ -5,11 +5,16 @@ import { h } from './dom'
 import { figure, type Figure } from './figure'
 import { number } from './format'
 import { hasMoments, momentLegend, momentSwitch } from './moments'
+import { partFolds, partsOfRobot } from './part_folds'
 import { stage, type Stage } from './stage'
 import { stage3d } from './stage3d'
+import { rangesOf, relativeErrors } from './state_errors'
 import { MEAN, ROBOT, stateLegend, statePanels, stateTable } from './states'
 import { walkPanels, walkTable, walks } from './walk'
 
+const BY_PARTS =
+  ' States stand by body part, those first that the model got most wrong in this trial. The error of a state is the root ' +
+  'mean square over the trial, relative to the range in which the state moved in all trials.'
 const SPEEDS = [0.25, 0.5, 1, 2]
 
 /** describe: what is said of a trial ("Return 21.9, solved."). */
@@ -82,16 +87,20 @@ class Player {
   }
 
   private stateFigure(): Figure {
+    const parts = partsOfRobot(this.episodes)
+    const ranges = rangesOf(this.episodes)
+    const folds = () => partFolds(parts, statePanels(this.episode, this.moments), relativeErrors(this.episode, ranges))
     return figure({
       name: 'trajectory',
       title: 'States, action and reward of the trial',
-      about: 'Where the line leaves the band, the model was wrong about the robot.',
+      about: `Where the line leaves the band, the model was wrong about the robot.${parts.length > 0 ? BY_PARTS : ''}`,
       legend: [
         ...stateLegend(this.episodes.find(({ prediction }) => prediction) ?? this.episode),
         ...(this.moments ? [momentLegend()] : []),
       ],
       ...(this.moments ? { controls: momentSwitch((on) => this.showMoments(on)) } : {}),
       panels: () => statePanels(this.episode, this.moments),
+      ...(parts.length > 0 ? { folds } : {}),
       table: () => stateTable(this.episode),
       minWidth: 280,
       columns: 3,

@@ -1,10 +1,11 @@
-// The model of a run: its parameters, its error and its evidence.
-import { chart, fit, heights, type Point, type Series } from './chart'
-import { PREDICTED, REAL } from './colours'
-import { parseHeader, present, withUnit, type Cell, type Columns, type Run } from './data'
+// The model of a run: its parameters and its evidence.
+import { chart, fit, heights, type Point } from './chart'
+import { PREDICTED } from './colours'
+import { present, type Cell, type Columns, type Run } from './data'
 import { h, type Child } from './dom'
 import type { Row } from './export'
-import { figure, type Panel } from './figure'
+import { figure } from './figure'
+import type { Panel } from './panels'
 import { number } from './format'
 import type { LegendEntry } from './legend'
 import { pointsOf, rowsOf, TRIAL } from './trials'
@@ -72,48 +73,6 @@ function warningList(warnings: Run['identifiability'], trial: Cell | undefined):
   if (last.length === 0) return null
   const items = last.map((warning) => h('li', {}, `${warning}.`))
   return h('div', { class: 'warnings' }, 'Identifiability warnings:', h('ul', {}, ...items))
-}
-
-/** One panel a state, one line a trial. */
-export function errors({ errors, prior }: Run): Child {
-  const trials = [...new Set((errors?.['trial'] ?? []).filter(present))]
-  if (!errors || !present(trials[0])) return null
-  const panel = (header: string): Panel => ({
-    title: withUnit(parseHeader(header.slice(4))),
-    draw: (width) =>
-      chart({
-        width,
-        x: { label: 'horizon (steps)', log: true },
-        y: { label: 'root mean square error', log: true },
-        series: trials.map((trial, i) => errorSeries(errors, header, trial, i / trials.length)),
-      }),
-  })
-  const first = trials[0] === 1 && prior ? 'trial 1: the prior as given' : `trial ${trials[0]}: the first model`
-  const others = { label: `trials ${trials[1]} to ${trials.at(-1)}, faint to strong`, colour: PREDICTED }
-  return figure({
-    name: 'prediction-error',
-    title: 'How wrong is the model?',
-    about:
-      'The error of its mean prediction of each trial over 1, 2, 5, … steps, before it learned from the trial. ' +
-      'One step is on the left, the longest prediction on the right.',
-    legend: [{ label: first, colour: REAL }, ...(trials.length > 1 ? [others] : [])],
-    panels: () =>
-      Object.keys(errors)
-        .filter((header) => header.startsWith('rms '))
-        .map(panel),
-    table: () => rowsOf(errors, Object.keys(errors)),
-    minWidth: 260,
-  }).element
-}
-
-/** age: 0 is the first trial, which stands out. */
-function errorSeries(errors: Columns, header: string, trial: number, age: number): Series {
-  const points = (errors['horizon'] ?? []).flatMap((x, i): Point[] => {
-    const y = errors[header]?.[i]
-    return errors['trial']?.[i] === trial && present(x) && present(y) && y > 0 ? [{ x, y }] : []
-  })
-  const look = age === 0 ? { colour: REAL } : { colour: PREDICTED, opacity: 0.25 + 0.75 * age }
-  return { label: `trial ${trial}`, symbol: 'circle', points, ...look }
 }
 
 export function evidence({ trials }: Run): Child {

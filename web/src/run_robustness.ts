@@ -3,15 +3,18 @@ import { chart, fit, heights, type Point } from './chart'
 import { REAL } from './colours'
 import { present, type Columns, type Run } from './data'
 import type { Child } from './dom'
-import { figure, type Panel } from './figure'
+import { figure } from './figure'
 import { number, percent } from './format'
+import type { Panel } from './panels'
 
 /** The rate at the end of the episodes; where the task cannot say it, the return. */
 export function robustness({ robustness: parameters }: Run): Child {
   if (!parameters?.length) return null
   const known = parameters.some(({ columns }) => (columns['solved_at_end'] ?? []).some(present))
   const of = (columns: Columns) => (known ? rates(columns) : returns(columns))
-  const domain = known ? { domain: [0, 1] as [number, number] } : fit(parameters.flatMap(({ columns }) => heights({ points: of(columns) })))
+  const domain = known
+    ? { domain: [0, 1] as [number, number] }
+    : fit(parameters.flatMap(({ columns }) => heights({ points: of(columns) })))
   const panel = ({ parameter, columns }: { parameter: string; columns: Columns }): Panel => ({
     title: parameter,
     draw: (width) =>

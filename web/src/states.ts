@@ -3,9 +3,10 @@ import { chart, fit, heights, type Domain, type Point, type Series } from './cha
 import { PREDICTED, REAL } from './colours'
 import { column, present, variables, withUnit, type Cell, type Columns, type Episode, type Variable } from './data'
 import type { Row } from './export'
-import type { Panel } from './figure'
 import type { LegendEntry } from './legend'
 import { momentSeries } from './moments'
+import type { StatePanel } from './part_folds'
+import { robotCells } from './state_errors'
 
 export const ROBOT: LegendEntry = { label: 'the robot', colour: REAL }
 export const MEAN: LegendEntry = { label: 'the model’s predicted mean', colour: PREDICTED, dash: '6 3' }
@@ -34,11 +35,12 @@ function isNoisy(trajectory: Columns): boolean {
   })
 }
 
-export function statePanels({ trajectory, prediction }: Episode, moments: boolean): Panel[] {
+export function statePanels({ trajectory, prediction }: Episode, moments: boolean): StatePanel[] {
   if (!trajectory) return []
   const times = column(trajectory, 'time') ?? []
   const { states, actions } = variables(trajectory)
-  const panel = (variable: Variable, series: Series[]): Panel => ({
+  const panel = (variable: Variable, series: Series[]): StatePanel => ({
+    of: variable.name,
     title: withUnit(variable),
     draw: (width) =>
       chart({
@@ -69,11 +71,10 @@ function domainOf(series: Series[]): Domain {
 }
 
 function stateSeries({ name }: Variable, times: Cell[], trajectory: Columns): Series[] {
-  const truth = column(trajectory, `true ${name}`) ?? []
   const measured = column(trajectory, name) ?? []
   const all: Series[] = []
   if (isNoisy(trajectory)) all.push({ ...line('measured', REAL, times, measured), ...MEASURED })
-  all.push(line('robot', REAL, times, truth.some(present) ? truth : measured))
+  all.push(line('robot', REAL, times, robotCells(name, trajectory)))
   return all
 }
 

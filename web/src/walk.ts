@@ -4,7 +4,7 @@ import { addCursor } from './chart'
 import { PREDICTED, REAL } from './colours'
 import { isSolid, present, type Cell, type Episode, type Motion, type SolidMotion } from './data'
 import type { Row } from './export'
-import type { Panel } from './figure'
+import type { Panel } from './panels'
 import { NUMBERS } from './solids'
 
 /** A foot and its number among the bodies. */

@@ -1,0 +1,82 @@
+// How wrong the model of a run was, by the length of its predictions.
+import { chart, type Point, type Series } from './chart'
+import { PREDICTED, REAL } from './colours'
+import { parseHeader, present, withUnit, type Columns, type Run, type Variable } from './data'
+import type { Child } from './dom'
+import { figure } from './figure'
+import { partFolds, partsOfRobot, type StatePanel } from './part_folds'
+import { rangesOf, relative, type ByState } from './state_errors'
+import { rowsOf } from './trials'
+
+const RMS = 'rms '
+const BY_PARTS =
+  'States stand by body part, those first that the longest prediction of the last trial got most wrong, relative to ' +
+  'the range in which the state moved in all trials.'
+
+/** One panel a state, one line a trial. */
+export function errors({ errors, prior, episodes }: Run): Child {
+  const trials = [...new Set((errors?.['trial'] ?? []).filter(present))]
+  if (!errors || !present(trials[0])) return null
+  const last = trials.at(-1) ?? trials[0]
+  const headers = Object.keys(errors).filter((header) => header.startsWith(RMS))
+  const panel = (header: string): StatePanel => ({
+    of: stateOf(header).name,
+    title: withUnit(stateOf(header)),
+    draw: (width) =>
+      chart({
+        width,
+        x: { label: 'horizon (steps)', log: true },
+        y: { label: 'root mean square error', log: true },
+        series: trials.map((trial, i) => errorSeries(errors, header, trial, i / trials.length)),
+      }),
+  })
+  const first = trials[0] === 1 && prior ? 'trial 1: the prior as given' : `trial ${trials[0]}: the first model`
+  const others = { label: `trials ${trials[1]} to ${last}, faint to strong`, colour: PREDICTED }
+  const parts = partsOfRobot(episodes)
+  const folds = () => {
+    const ofLast = longestErrors(errors, headers, last, rangesOf(episodes))
+    return partFolds(parts, headers.map(panel), ofLast)
+  }
+  return figure({
+    name: 'prediction-error',
+    title: 'How wrong is the model?',
+    about:
+      'The error of its mean prediction of each trial over 1, 2, 5, … steps, before it learned from the trial. ' +
+      'One step is on the left, the longest prediction on the right.' +
+      (parts.length > 0 ? ` ${BY_PARTS}` : ''),
+    legend: [{ label: first, colour: REAL }, ...(trials.length > 1 ? [others] : [])],
+    panels: () => headers.map(panel),
+    ...(parts.length > 0 ? { folds } : {}),
+    table: () => rowsOf(errors, Object.keys(errors)),
+    minWidth: 260,
+  }).element
+}
+
+/** age: 0 is the first trial, which stands out. */
+function errorSeries(errors: Columns, header: string, trial: number, age: number): Series {
+  const points = (errors['horizon'] ?? []).flatMap((x, i): Point[] => {
+    const y = errors[header]?.[i]
+    return errors['trial']?.[i] === trial && present(x) && present(y) && y > 0 ? [{ x, y }] : []
+  })
+  const look = age === 0 ? { colour: REAL } : { colour: PREDICTED, opacity: 0.25 + 0.75 * age }
+  return { label: `trial ${trial}`, symbol: 'circle', points, ...look }
+}
+
+function stateOf(header: string): Variable {
+  return parseHeader(header.slice(RMS.length))
+}
+
+/** Errors of the longest predictions of a trial that have one, relative to the range of the state. */
+function longestErrors(errors: Columns, headers: string[], trial: number, ranges: ByState): ByState {
+  const rows = (errors['trial'] ?? []).flatMap((value, i) => (value === trial ? [i] : []))
+  return new Map(
+    headers.flatMap((header): [string, number][] => {
+      const error = rows
+        .map((i) => errors[header]?.[i])
+        .filter(present)
+        .at(-1)
+      const [{ name }, range] = [stateOf(header), ranges.get(stateOf(header).name)]
+      return present(error) && present(range) ? [[name, relative(error, range)]] : []
+    }),
+  )
+}

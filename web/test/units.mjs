@@ -1,0 +1,157 @@
+// units.mjs PACKAGES: tests of those sources of the page that need no browser. PACKAGES: the folder of node_modules.
+// Exits with 77 where there are none.
+import assert from 'node:assert/strict'
+import { existsSync } from 'node:fs'
+import { createRequire } from 'node:module'
+import { test } from 'node:test'
+import { fileURLToPath } from 'node:url'
+
+const packages = process.argv[2]
+if (!existsSync(`${packages}/node_modules/esbuild`)) process.exit(77)
+const { buildSync } = createRequire(`${packages}/`)('esbuild')
+
+/** A source of the page as a module. */
+async function source(name) {
+  const path = fileURLToPath(new URL(`../src/${name}.ts`, import.meta.url))
+  const { outputFiles } = buildSync({ entryPoints: [path], bundle: true, format: 'esm', write: false })
+  return import(`data:text/javascript,${encodeURIComponent(outputFiles[0].text)}`)
+}
+
+const { partsOf, TWO_SCREENS } = await source('parts')
+const { rangesOf, relativeErrors } = await source('state_errors')
+const { partFolds, partsOfRobot } = await source('part_folds')
+
+const named = (states, others) =>
+  Object.fromEntries(partsOf(states, others).map((part) => [part.name, [...part.states, ...part.others].join(', ')]))
+const withRates = (joints) => [...joints, ...joints.map((joint) => `d ${joint}`)]
+
+test('the legs of a walker are parts, and its trunk is not', () => {
+  const joints = ['rear-left coxa', 'rear-left femur', 'mid-right coxa', 'mid-right femur']
+  const trunk = ['rotation x', 'rotation y', 'x', 'y', 'omega x', 'v x']
+  assert.deepEqual(named([...withRates(joints), ...trunk], [...joints.map((one) => `${one} target`), 'reward']), {
+    'rear-left':
+      'rear-left coxa, rear-left femur, d rear-left coxa, d rear-left femur, rear-left coxa target, rear-left femur target',
+    'mid-right':
+      'mid-right coxa, mid-right femur, d mid-right coxa, d mid-right femur, mid-right coxa target, mid-right femur target',
+    '': 'rotation x, rotation y, x, y, omega x, v x, reward',
+  })
+})
+
+test('names with underscores, as MuJoCo’s models have them, are parted the same', () => {
+  const states = ['FL_hip', 'FL_calf', 'RR_hip', 'RR_calf', 'dFL_hip', 'd_FL_calf', 'dRR_hip', 'd_RR_calf', 'height']
+  assert.deepEqual(named(states, ['FL_hip_torque', 'reward']), {
+    FL: 'FL_hip, FL_calf, dFL_hip, d_FL_calf, FL_hip_torque',
+    RR: 'RR_hip, RR_calf, dRR_hip, d_RR_calf',
+    '': 'height, reward',
+  })
+})
+
+test('numbers name the joints of an arm', () => {
+  assert.deepEqual(named(['q1', 'q2', 'dq1', 'dq2', 'load'], ['torque1', 'torque2', 'reward']), {
+    q1: 'q1, dq1, torque1',
+    q2: 'q2, dq2, torque2',
+    '': 'load, reward',
+  })
+  assert.deepEqual(Object.keys(named(['joint 1', 'joint 2'], ['u 1', 'u 2'])), ['joint 1', 'joint 2'])
+})
+
+test('a word that would take more than two screens is followed by the next', () => {
+  const joints = [1, 2, 3].flatMap((leg) => ['hip', 'knee', 'foot'].map((joint) => `leg ${leg} ${joint}`))
+  assert.ok(2 * joints.length > TWO_SCREENS)
+  assert.deepEqual(Object.keys(named(withRates(joints), ['reward'])), ['leg 1', 'leg 2', 'leg 3', ''])
+})
+
+test('every variable is in one part', () => {
+  const [states, others] = [
+    ['a b', 'd', 'd a', 'd a b', '1', 'x.y', '', 'a b c'],
+    ['a b c d', 'reward', ' '],
+  ]
+  const all = partsOf(states, others).flatMap((part) => [...part.states, ...part.others])
+  assert.deepEqual(all.sort(), [...states, ...others].sort())
+})
+
+/** One trial of two lines and their predictions, as columns of the data of a page. */
+const episode = (a, b, predictedA, predictedB) => ({
+  trajectory: { 'time [s]': [0, 1], 'a [m]': a, 'b [m]': b, 'true a [m]': a, 'true b [m]': b, 'u [N]': [1, null] },
+  prediction: predictedA ? { 'time [s]': [0, 1], 'a mean [m]': predictedA, 'b mean [m]': predictedB } : null,
+})
+
+test('an error is relative to the range of all trials, or to a tenth of the widest of its unit', () => {
+  const episodes = [
+    episode([0, 2], [0, 0]),
+    episode([0, 1], [0, 0], [0, 1], [0.25, 0.25]),
+    episode([0, 4], [0, 0], [0, 2], [0, 9]),
+  ]
+  const ranges = rangesOf(episodes)
+  assert.deepEqual(
+    [...ranges],
+    [
+      ['a', 4],
+      ['b', 0.4],
+    ],
+  )
+  assert.deepEqual([...relativeErrors(episodes[0], ranges)], [])
+  assert.deepEqual(
+    [...relativeErrors(episodes[1], ranges)],
+    [
+      ['a', 0],
+      ['b', 0.25 / 0.4],
+    ],
+  )
+  assert.deepEqual(
+    [...relativeErrors(episodes[2], ranges)],
+    [
+      ['a', Math.SQRT2 / 4],
+      ['b', 1],
+    ],
+  )
+})
+
+test('what is not measured or not predicted is no error', () => {
+  const one = episode([0, null], [0, 1], [0, 5], [null, null])
+  assert.deepEqual([...relativeErrors(one, rangesOf([one]))], [['a', 0]])
+  assert.deepEqual([...rangesOf([{ trajectory: null, prediction: null }])], [])
+})
+
+test('the worst part stands first and open, and the others as long as two screens are not full', () => {
+  const parts = ['a', 'b', 'c'].map((name) => ({
+    name,
+    states: [1, 2, 3, 4, 5, 6].map((i) => `${name} ${i}`),
+    others: [],
+  }))
+  const panels = parts.flatMap(({ states }) => states.map((of) => ({ of, title: of, draw: () => null })))
+  const errors = new Map(panels.map(({ of }) => [of, { a: 0.0001, b: 0.5, c: 0.2 }[of[0]]]))
+  const folds = partFolds(parts, panels, errors.set('b 3', 2))
+  assert.deepEqual(
+    folds.map(({ title, open }) => `${title} ${open}`),
+    ['b true', 'c true', 'a false'],
+  )
+  assert.equal(
+    folds[0].about,
+    '1, 2, 3, 4, 5, 6. The model is off by 75 % of the range on average, by most for b 3: 100 % or more.',
+  )
+  assert.equal(folds[2].about, '1, 2, 3, 4, 5, 6. The model is off by less than 0.1 % of the range on average.')
+  const unknown = partFolds(parts, panels, new Map())
+  assert.deepEqual(
+    unknown.map(({ title }) => title),
+    ['a', 'b', 'c'],
+  )
+  assert.match(unknown[0].about, /There is no prediction\.$/)
+})
+
+test('robots with few states, or without parts, have none', () => {
+  const robot = (states) => ({
+    trajectory: Object.fromEntries(
+      [...states, ...states.map((state) => `true ${state}`), 'reward'].map((key) => [key, [0]]),
+    ),
+  })
+  const legs = withRates(['left hip', 'left knee', 'right hip', 'right knee'])
+  assert.deepEqual(partsOfRobot([robot(legs)]), [])
+  assert.deepEqual(partsOfRobot([robot('abcdefghijklmnopqrstuvw'.split(''))]), [])
+  const arms = withRates(['left arm', 'left hand', 'right arm', 'right hand'])
+  assert.deepEqual(
+    partsOfRobot([robot([...legs, ...arms])]).map(({ name }) => name),
+    ['left', 'right', ''],
+  )
+  assert.deepEqual(partsOfRobot([]), [])
+})
