@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# report.sh PROGRAM BUILD BROWSER_TEST CHROMIUM: reports of a run, a trial, a damaged campaign, a robot in space and an
-# archive, whole and damaged, opened in a browser.
+# report.sh PROGRAM BUILD BROWSER_TEST CHROMIUM: reports of a run, a trial, a damaged campaign, a robot in space, one of many
+# states and an archive, whole and damaged, opened in a browser.
 # Exits with 77 where the page is not built or there is no browser.
 set -euo pipefail
-walker=$(realpath "$(dirname "$0")")/walker.mjs
+here=$(realpath "$(dirname "$0")")
 program=$(realpath "$1") build=$2 browser_test=$3 chromium=$4
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -109,7 +109,10 @@ grep -q "bent/trials.csv: row 3: return = 7.0x3, must be a number" stderr || fai
 
 [ -x "$chromium" ] || { echo "there is no chromium"; exit 77; }
 cp -r run walker
-for trial in 1 2; do node "$walker" walker $trial 50; done
+node "$here/walker.mjs" walker 2 50
 "$program" report walker >/dev/null
-node "$browser_test" "$chromium" "$build/web/page" \
-  {run/report,replay,campaign/report,walker/report,moments/report,ite/report,damaged/report,bent/report}.html
+cp -r run many
+node "$here/many.mjs" many
+"$program" report many >/dev/null 2>stderr
+[ ! -s stderr ] || fail "the report of a robot with many states complains: $(cat stderr)"
+node "$browser_test" "$chromium" "$build/web/page" "$work"

@@ -1,8 +1,8 @@
-// walker.mjs RUN TRIAL STEPS: makes the motion of a trial in a run folder that of a robot in space, a box that walks on
-// two capsules with spheres for feet. The model had expected a slower one, and one that is lost in the end.
+// walker.mjs RUN TRIALS STEPS: makes the motions of the trials in a run folder those of a robot in space, a box that walks
+// on two capsules with spheres for feet. The model had expected a slower one, and one that is lost in the end.
 import { mkdirSync, writeFileSync } from 'node:fs'
 
-const [run, trial, steps] = process.argv.slice(2)
+const [run, trials, steps] = process.argv.slice(2)
 const LEG = 0.3
 const bodies = [
   { name: 'trunk', shape: 'box', size: [0.3, 0.2, 0.1] },
@@ -25,14 +25,16 @@ function frame(t, speed) {
   return [x, 0, hip + 0.05, 1, 0, 0, 0, ...leg(0.1, swing), ...leg(-0.1, -swing)]
 }
 
-function write(kind, speed, known) {
+function write(kind, trial, speed, known) {
   const frames = Array.from({ length: Number(steps) + 1 }, (_, t) =>
     frame(t, speed).map((number) => (t <= known ? number : null)),
   )
   const motion = { format: 1, dimensions: 3, unit: 'm', floor: 0, touching: 0.005, bodies, frames }
-  writeFileSync(`${run}/motion/${kind}-${trial.padStart(3, '0')}.json`, JSON.stringify(motion))
+  writeFileSync(`${run}/motion/${kind}-${String(trial).padStart(3, '0')}.json`, JSON.stringify(motion))
 }
 
 mkdirSync(`${run}/motion`, { recursive: true })
-write('trial', 0.03, Number(steps))
-write('prediction', 0.022, Number(steps) - 5)
+for (let trial = 1; trial <= Number(trials); ++trial) {
+  write('trial', trial, 0.03, Number(steps))
+  write('prediction', trial, 0.022, Number(steps) - 5)
+}

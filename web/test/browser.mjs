@@ -1,55 +1,12 @@
-// browser.mjs CHROMIUM PACKAGES RUN.html REPLAY.html CAMPAIGN.html WALKER.html MOMENTS.html ARCHIVE.html DAMAGED.html:
-// a reader's way through real reports. Fails on anything that a page says on the console, on any request, and on what it
-// does not show. PACKAGES: the folder of node_modules. WALKER: a run whose robot moves in space. MOMENTS: a run with
-// predictions by moment matching. ARCHIVE: one of ite, of 3 trials, DAMAGED: with a damaged archive.bin.
+// browser.mjs CHROMIUM PACKAGES FOLDER: a reader's way through real reports. Fails on anything that a page says on the
+// console, on any request, and on what it does not show. PACKAGES: the folder of node_modules. FOLDER: has the pages of
+// these names; report.sh makes them.
 import assert from 'node:assert/strict'
-import { readFileSync } from 'node:fs'
-import { createRequire } from 'node:module'
-import { pathToFileURL } from 'node:url'
+import { Reader } from './reader.mjs'
 
-const [chromiumPath, packages, runPage, replayPage, campaignPage, walkerPage, momentsPage, archivePage, damagedPage] =
-  process.argv.slice(2)
-const { chromium } = createRequire(`${packages}/`)('playwright-core')
-const launch = (...args) => chromium.launch({ executablePath: chromiumPath, args: ['--no-sandbox', ...args] })
-let browser = await launch('--use-angle=swiftshader', '--enable-unsafe-swiftshader') // WebGL without a graphics card
-
-/** Opens a page as a reader would and hands it to `visit`; nothing may have gone wrong when that ends. */
-async function open(file, settings, visit) {
-  const context = await browser.newContext({
-    viewport: { width: 1280, height: 900 },
-    acceptDownloads: true,
-    ...settings,
-  })
-  const page = await context.newPage()
-  const wrong = []
-  page.on('console', (message) => wrong.push(`console: ${message.text()}`))
-  page.on('pageerror', (error) => wrong.push(`error: ${error.message}`))
-  const url = pathToFileURL(file).href
-  page.on('request', (request) => {
-    if (request.url() !== url && !/^(data|blob):/.test(request.url())) wrong.push(`request: ${request.url()}`)
-  })
-  await page.goto(url)
-  await page.waitForSelector('h1')
-  await visit(page)
-  await everyFigure(page)
-  const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth)
-  assert.ok(overflow <= 0, `${file} is ${overflow} px wider than the window`)
-  assert.deepEqual(wrong, [])
-  await context.close()
-}
-
-/** Every figure draws something when the reader comes to it. */
-async function everyFigure(page) {
-  for (const figure of await page.locator('figure').all()) {
-    await figure.scrollIntoViewIfNeeded()
-    await figure.locator('svg path, svg line, tbody tr').first().waitFor({ state: 'attached' })
-  }
-}
-
-async function saved(page, name) {
-  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name }).click()])
-  return readFileSync(await download.path(), 'utf8')
-}
+const [chromium, packages, folder] = process.argv.slice(2)
+const reader = await Reader.start(chromium, packages)
+const open = (page, settings, visit) => reader.open(`${folder}/${page}.html`, settings, visit)
 
 const cursors = (page) =>
   page.locator('#trajectory line.cursor').evaluateAll((lines) => lines.map((line) => line.getAttribute('x1')))
@@ -78,7 +35,7 @@ async function play(page) {
   await page.getByRole('button', { name: 'Pause' }).press('Enter')
 }
 
-await open(runPage, {}, async (page) => {
+await open('run/report', {}, async (page) => {
   assert.equal(await page.locator('h1').textContent(), 'gp-mi on pendubot')
   assert.equal(await page.locator('#trajectory input, #moments-by-trial').count(), 0) // GPs around a simulator have none
   await moveSlider(page)
@@ -90,10 +47,10 @@ await open(runPage, {}, async (page) => {
   await page.getByRole('button', { name: 'Dark' }).click()
   assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark')
 
-  const svg = await saved(page, 'Save “Return, predicted and real” as SVG')
+  const svg = await reader.saved('Save “Return, predicted and real” as SVG')
   assert.match(svg, /^<svg [^]*Return, predicted and real[^]*<\/svg>$/)
   assert.doesNotMatch(svg, /var\(|light-dark/)
-  const csv = (await saved(page, 'Save “Return, predicted and real” as CSV')).trim().split('\n')
+  const csv = (await reader.saved('Save “Return, predicted and real” as CSV')).trim().split('\n')
   assert.equal(csv[0], 'trial,interaction_s,return,solved,predicted_return')
   assert.equal(csv.length, 3)
   const identified = page.locator('#parameters-by-trial')
@@ -106,12 +63,14 @@ await open(runPage, {}, async (page) => {
   await robust.locator('.panel').first().waitFor()
   assert.deepEqual(await robust.locator('.panel h4').allTextContents(), ['m1', 'm2', 'l1', 'l2', 'b1', 'b2'])
   assert.match(await robust.textContent(), /How often the policy solves the task/)
-  const changed = (await saved(page, 'Save “Robustness: one parameter of the robot at a time” as CSV')).trim().split('\n')
+  const changed = (await reader.saved('Save “Robustness: one parameter of the robot at a time” as CSV'))
+    .trim()
+    .split('\n')
   assert.match(changed[0], /^parameter,factor,value,episodes,solved,/)
   assert.equal(changed.length, 1 + 6 * 5)
   const warnings = await identified.locator('.warnings li').allTextContents()
   assert.equal(warnings.at(-1), 'm1 and m2 cannot be told apart by these trials.')
-  const parameters = await saved(page, 'Save “Parameters of the prior” as CSV')
+  const parameters = await reader.saved('Save “Parameters of the prior” as CSV')
   assert.match(parameters, /^trial,phi\.m1,phi\.m1\.low,phi\.m1\.high,phi\.m2,/)
 })
 
@@ -119,7 +78,7 @@ await open(runPage, {}, async (page) => {
 const outlines = (page) => page.locator('#trajectory g[stroke="var(--green)"]').count()
 
 for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme: 'dark' }])
-  await open(momentsPage, settings, async (page) => {
+  await open('moments/report', settings, async (page) => {
     await page.locator('#trajectory').scrollIntoViewIfNeeded()
     await page.locator('#trajectory .panel').first().waitFor()
     await page.getByRole('combobox', { name: 'Trial' }).selectOption('Trial 1')
@@ -133,17 +92,17 @@ for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme
       await page.locator('.player .about').textContent(),
       /moment matching predicts [^;]+; means of states are at most /,
     )
-    const csv = (await saved(page, 'Save “Moment matching against samples” as CSV')).trim().split('\n')
+    const csv = (await reader.saved('Save “Moment matching against samples” as CSV')).trim().split('\n')
     assert.equal(csv[0], 'trial,sampled_return,moment_return,apart,state,time_s,spread')
     assert.equal(csv.length, 2) // none of the random first trial
   })
 
-await open(replayPage, { colorScheme: 'dark' }, async (page) => {
+await open('replay', { colorScheme: 'dark' }, async (page) => {
   assert.match(await page.locator('h1').textContent(), /trial 2$/)
   await moveSlider(page)
 })
 
-await open(campaignPage, { viewport: { width: 400, height: 800 } }, async (page) => {
+await open('campaign/report', { viewport: { width: 400, height: 800 } }, async (page) => {
   const problems = await page.locator('.problems li').allTextContents()
   for (const name of ['stray.txt', 'trials.csv', 'another version'])
     assert.ok(
@@ -153,8 +112,12 @@ await open(campaignPage, { viewport: { width: 400, height: 800 } }, async (page)
   await page.locator('#return-by-interaction-time').scrollIntoViewIfNeeded()
   await page.getByRole('radio', { name: 'best so far' }).press('Space')
   await page.locator('#success-by-trial').scrollIntoViewIfNeeded()
-  const csv = await saved(page, 'Save “Return against time on the robot” as CSV')
+  const csv = await reader.saved('Save “Return against time on the robot” as CSV')
   assert.match(csv, /^learner,prior,variant,trial,runs,interaction_s,return_min,/)
+})
+
+await open('bent/report', {}, async (page) => {
+  assert.match(await page.locator('.problems').textContent(), /row 3: return = 7\.0x3, must be a number/)
 })
 
 const ARCHIVE = 'The archive before and after the trials'
@@ -173,7 +136,7 @@ async function readArchive(page) {
   )
   assert.ok((await panels.first().locator('[aria-label=cells] path').count()) > 5, 'all cells have the same colours')
 
-  const csv = (await saved(page, 'Save “Which policies of the archive were tried” as CSV')).trim().split('\n')
+  const csv = (await reader.saved('Save “Which policies of the archive were tried” as CSV')).trim().split('\n')
   assert.equal(csv[0], 'trial,elite,promised,predicted_return,return,learned')
   const trials = csv.slice(1).map((line) => line.split(',').map(Number))
   assert.equal(trials.map(([trial, , , , , learned]) => `${trial}:${learned}`).join(), '1:1,2:1,3:0')
@@ -182,10 +145,10 @@ async function readArchive(page) {
   assert.equal(labels.length, new Set(trials.map(([, elite]) => elite)).size)
   assert.ok(labels.includes('1'))
 
-  const elites = (await saved(page, `Save “${ARCHIVE}” as CSV`)).trim().split('\n')
+  const elites = (await reader.saved(`Save “${ARCHIVE}” as CSV`)).trim().split('\n')
   assert.match(elites[0], /^tip x at 0\.8 s \[m\],.*,promised,expected,trials$/)
   assert.match(elites[trials[0][1]], /,1( 3)?$/)
-  const svg = await saved(page, `Save “${ARCHIVE}” as SVG`)
+  const svg = await reader.saved(`Save “${ARCHIVE}” as SVG`)
   assert.doesNotMatch(svg, /var\(|light-dark/)
   await page.getByRole('radio', { name: 'every pair' }).press('Space')
   assert.equal(await panels.count(), 30)
@@ -193,13 +156,13 @@ async function readArchive(page) {
 }
 
 for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme: 'dark' }])
-  await open(archivePage, settings, async (page) => {
+  await open('ite/report', settings, async (page) => {
     const elites = await readArchive(page)
     assert.ok((await page.locator('#archive-of-elites').textContent()).includes(`${elites} elites in 400 niches`))
     assert.equal(await page.locator('.problems').count(), 0)
   })
 
-await open(damagedPage, {}, async (page) => {
+await open('damaged/report', {}, async (page) => {
   assert.match(await page.locator('.problems').textContent(), /archive\.bin – it is no usable archive/)
   await readArchive(page)
 })
@@ -212,46 +175,113 @@ async function picture(page) {
   return (await page.locator('.stage canvas').screenshot({ style: ALONE })).toString('base64')
 }
 
-/** What `change` does is seen in the canvas. */
-async function changes(page, what, change) {
-  const before = await picture(page)
+/** What `change` does is seen in the canvas; before: what was seen last. Gives what is seen now. */
+async function changed(page, before, what, change) {
   await change()
-  assert.notEqual(await picture(page), before, `${what} changes nothing in the picture`)
+  const now = await picture(page)
+  assert.notEqual(now, before, `${what} changes nothing in the picture`)
+  return now
 }
 
 for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme: 'dark' }])
-  await open(walkerPage, settings, async (page) => {
+  await open('walker/report', settings, async (page) => {
     const canvas = page.locator('.stage canvas')
     const slider = page.getByRole('slider', { name: 'Time' })
     await canvas.scrollIntoViewIfNeeded()
-    assert.equal(await picture(page), await picture(page))
-    await changes(page, 'the slider', () => slider.fill('20'))
-    await changes(page, 'a key on the slider', () => slider.press('ArrowRight'))
-    await changes(page, 'another view', () => page.getByRole('button', { name: 'Nearer' }).click())
-    await changes(page, 'a key on the picture', () => canvas.press('ArrowLeft'))
+    const still = await picture(page)
+    assert.equal(await picture(page), still)
     const box = await canvas.boundingBox()
-    await changes(page, 'dragging', async () => {
+    const drag = async () => {
       await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2)
       await page.mouse.down()
       await page.mouse.move(box.x + box.width / 2 + 60, box.y + box.height / 2 + 10)
       await page.mouse.up()
-    })
+    }
+    let seen = await changed(page, still, 'the slider', () => slider.fill('20'))
+    seen = await changed(page, seen, 'a key on the slider', () => slider.press('ArrowRight'))
+    seen = await changed(page, seen, 'another view', () => page.getByRole('button', { name: 'Nearer' }).click())
+    seen = await changed(page, seen, 'a key on the picture', () => canvas.press('ArrowLeft'))
+    await changed(page, seen, 'dragging', drag)
     await play(page)
     const bars = page.locator('#walk svg rect')
     await bars.first().waitFor({ state: 'attached' })
     const before = await bars.count()
     assert.ok(before >= 4, `${before} bars are too few for two feet that swing, real and expected`)
-    const rows = (await saved(page, 'Save “The walk of the trial” as CSV')).trim().split('\n')
+    const rows = (await reader.saved('Save “The walk of the trial” as CSV')).trim().split('\n')
     assert.match(rows[0], /left foot.*predicted right foot.*predicted x/)
     assert.equal(rows.length, 52)
   })
-await browser.close()
 
-browser = await launch('--disable-3d-apis')
-await open(walkerPage, {}, async (page) => {
+// The robot of many.mjs.
+const JOINTS = ['hip', 'knee', 'ankle']
+const WHOLE = 'the robot as a whole'
+const WORST_FIRST = {
+  1: ['front true', 'middle false', 'hind false', `${WHOLE} false`],
+  2: ['hind true', 'middle false', 'front false', `${WHOLE} false`],
+  errors: ['middle true', 'hind true', 'front false', `${WHOLE} false`],
+}
+const panelsOf = (leg) => [
+  ...JOINTS.map((joint) => `${leg} ${joint} (rad)`),
+  ...JOINTS.map((joint) => `d ${leg} ${joint} (rad/s)`),
+  ...JOINTS.map((joint) => `${leg} ${joint} target (rad)`),
+]
+const A_LEG = panelsOf('').length
+
+/** The parts in a figure of a robot with many states, from above. */
+async function partsOf(page, figure) {
+  const folds = page.locator(`${figure} details`)
+  await folds.first().waitFor()
+  return folds.evaluateAll((all) => all.map((one) => `${one.querySelector('strong').textContent} ${one.open}`))
+}
+
+/** Whichever part the model got most wrong in a trial stands first, alone open. */
+async function worstFirst(page) {
+  await page.locator('#trajectory').scrollIntoViewIfNeeded()
+  for (const trial of [1, 2]) {
+    await page.getByRole('combobox', { name: 'Trial' }).selectOption(`Trial ${trial}`)
+    assert.deepEqual(await partsOf(page, '#trajectory'), WORST_FIRST[trial])
+  }
+  assert.deepEqual(await page.locator('#trajectory .panel h4').allTextContents(), panelsOf('hind'))
+  assert.match(
+    await page.locator('#trajectory summary').first().textContent(),
+    /^hind hip, knee, ankle, their rates, 3 actions\. The model is off by 4\d % of the range on average, by most for .*hind .*: 4\d %\.$/,
+  )
+  await page.locator('#prediction-error').scrollIntoViewIfNeeded()
+  assert.deepEqual(await partsOf(page, '#prediction-error'), WORST_FIRST.errors)
+}
+
+await open('many/report', {}, async (page) => {
+  await worstFirst(page)
+  const summaries = page.locator('#trajectory summary')
+  const panels = page.locator('#trajectory .panel h4')
+  const count = (n) => page.waitForFunction((n) => document.querySelectorAll('#trajectory .cursor').length === n, n)
+  await page.getByRole('slider', { name: 'Time' }).fill('20')
+  await summaries.nth(1).press('Enter') // what is opened stands at the same time as the rest
+  await count(2 * A_LEG)
+  const at = await cursors(page)
+  assert.ok(
+    at.every((x) => x === at[0]),
+    `cursors at ${at}`,
+  )
+  await summaries.first().press('Space')
+  await count(A_LEG)
+  await page.getByRole('combobox', { name: 'Trial' }).selectOption('Trial 1') // and stays open, or folded
+  assert.deepEqual(await partsOf(page, '#trajectory'), ['front true', 'middle true', 'hind false', `${WHOLE} false`])
+  assert.equal((await cursors(page)).length, 2 * A_LEG)
+  await page.locator('#trajectory').getByRole('button', { name: 'Open all' }).press('Enter')
+  assert.equal(await panels.count(), 3 * A_LEG + 3) // height, pitch and the reward
+  const svg = await reader.saved('Save “States, action and reward of the trial” as SVG')
+  for (const title of ['front', 'middle', 'hind'].flatMap(panelsOf)) assert.ok(svg.includes(`>${title}<`), title)
+  await page.locator('#trajectory').getByRole('button', { name: 'Fold all' }).press('Enter')
+  assert.equal(await panels.count(), 0)
+})
+await open('many/report', { viewport: { width: 400, height: 800 }, colorScheme: 'dark' }, worstFirst)
+
+await reader.loseWebGL()
+await open('walker/report', {}, async (page) => {
   assert.match(await page.locator('.stage').textContent(), /WebGL 2 is switched off or missing/)
   await page.getByRole('slider', { name: 'Time' }).fill('20')
 })
 
-await browser.close()
+await reader.close()
 console.log('every page is as it should be')

@@ -1,0 +1,75 @@
+// A reader with a browser, for browser.mjs. One browser and one page of it make all visits: to start either takes longer
+// than most visits.
+import assert from 'node:assert/strict'
+import { readFileSync } from 'node:fs'
+import { createRequire } from 'node:module'
+import { pathToFileURL } from 'node:url'
+
+/** WebGL without a graphics card; all else is drawn without WebGL, which would take several times as long. */
+const FLAGS = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-compositing']
+/** The driver says this then, whatever a page does. */
+const OF_THE_DRIVER = /GL Driver Message .*GPU stall due to ReadPixels/
+
+export class Reader {
+  static async start(executablePath, packages) {
+    const { chromium } = createRequire(`${packages}/`)('playwright-core')
+    const browser = await chromium.launch({ executablePath, args: FLAGS })
+    // Without reduced motion the tests wait for the page to scroll.
+    return new Reader(browser, await browser.newPage({ reducedMotion: 'reduce' }))
+  }
+
+  constructor(browser, page) {
+    this.browser = browser
+    this.page = page
+    page.on('console', (message) => OF_THE_DRIVER.test(message.text()) || this.wrong.push(`console: ${message.text()}`))
+    page.on('pageerror', (error) => this.wrong.push(`error: ${error.message}`))
+    page.on('request', (request) => {
+      if (request.url() !== this.url && !/^(data|blob):/.test(request.url()))
+        this.wrong.push(`request: ${request.url()}`)
+    })
+  }
+
+  /** Opens a page as a reader would and hands it to `visit`; nothing may have gone wrong when that ends. */
+  async open(file, { viewport = { width: 1280, height: 900 }, colorScheme = 'light' }, visit) {
+    this.wrong = []
+    this.url = pathToFileURL(file).href
+    await this.page.setViewportSize(viewport)
+    await this.page.emulateMedia({ colorScheme })
+    await this.page.goto(this.url)
+    await this.page.waitForSelector('h1')
+    await visit(this.page)
+    await this.everyFigure()
+    const overflow = await this.page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth)
+    assert.ok(overflow <= 0, `${file} is ${overflow} px wider than the window`)
+    assert.deepEqual(this.wrong, [], file)
+  }
+
+  /** Every figure draws something when the reader comes to it. */
+  async everyFigure() {
+    for (const figure of await this.page.locator('figure').all()) {
+      await figure.scrollIntoViewIfNeeded()
+      await figure.locator('svg path, svg line, tbody tr').first().waitFor({ state: 'attached' })
+    }
+  }
+
+  /** The text that the button of that name saves. */
+  async saved(name) {
+    const download = this.page.waitForEvent('download')
+    const [file] = await Promise.all([download, this.page.getByRole('button', { name }).click()])
+    return readFileSync(await file.path(), 'utf8')
+  }
+
+  /** From now on no page has WebGL. */
+  async loseWebGL() {
+    await this.page.addInitScript(() => {
+      const { getContext } = HTMLCanvasElement.prototype
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...rest)
+      }
+    })
+  }
+
+  async close() {
+    await this.browser.close()
+  }
+}
