@@ -85,11 +85,12 @@ Result measure(const Condition& condition, std::uint64_t seed) {
   const FeatureMap features = scenario.task.model_features();
   const Vector truth = scenario.oracle->parameters().values()(prior.space.of_kind(Parameter::Kind::continuous));
   const dynamics::Residuals residuals(data, features);
-  const identification::PhiPosteriorOptions classical{.misfit_observations = 1e12};
+  const identification::PhiPosteriorOptions classical{.misfit_observations = 1e12, .misfit_share = 0};
   const Evaluator& evaluator = serial_evaluator();
   if (condition.learner == "mi") {
     const auto learned = identification::learn({data, features, {}, &prior}, identification::Mi{}, {}, evaluator);
-    const auto other = identification::phi_posterior(residuals, prior, *learned.state.phi, classical, evaluator);
+    const auto other =
+        identification::phi_posterior(residuals, prior, *learned.state.phi, classical.misfit_observations, evaluator);
     return {judge(learned.posterior.value(), truth), judge(other.value(), truth)};
   }
   const identification::GpMi kind;

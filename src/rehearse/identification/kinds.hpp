@@ -50,8 +50,12 @@ struct FixedPrior {
 
 /// The prior's parameters alone, by the squared one-step error; variance 0.
 struct Mi : LeastSquares {
-  PhiPosteriorOptions posterior;
-  Mi() { posterior.misfit_observations = 1; }  // φ takes more of the misfit upon it where no GP does
+  struct Posterior {
+    double misfit_observations = 1;  // φ takes more of the misfit upon it where no GP does
+    void fields(FieldVisitor& v) {
+      v.number("misfit_observations", misfit_observations, expert(PhiPosteriorOptions::kObservations), above(0));
+    }
+  } posterior;
   void fields(FieldVisitor& v) {
     LeastSquares::fields(v);
     v.group("posterior", posterior);

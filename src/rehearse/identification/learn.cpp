@@ -141,7 +141,8 @@ Learned learn_kind(const Mi& kind, const Given& given) {
   learned.state.phi = identified.phi;
   learned.evaluations = identified.evaluations;
   learned.left_out_rows = residuals.at(&prior, identified.phi).left_out;
-  add_posterior(learned, prior, phi_posterior(residuals, prior, identified.phi, kind.posterior, given.evaluator));
+  add_posterior(learned, prior,
+                phi_posterior(residuals, prior, identified.phi, kind.posterior.misfit_observations, given.evaluator));
   return learned;
 }
 

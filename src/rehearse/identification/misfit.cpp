@@ -10,37 +10,29 @@
 namespace rehearse::identification {
 namespace {
 
-constexpr double kLeastDeviation = 1e-6;  // of white residuals, as a fraction of the changes: gp::Bounds' floor
+struct Predictable {
+  double misfit;
+  Vector mean;
+};
 
 /// Mean square of y less that of its errors of leave-one-out predictions (Rasmussen 2006, eq. 5.12), a degree of
-/// freedom of the GP, which has the trace of (K − σ_n² I) K⁻¹.
-double predictable(const gp::Whitening& whiten, const ConstVectorView& y, double noise_variance) {
+/// freedom of the GP, which has the trace of (K − σ_n² I) K⁻¹. The posterior mean is y − σ_n² K⁻¹ y.
+Predictable predictable(const gp::Whitening& whiten, const ConstVectorView& y, double noise_variance) {
   const Matrix inverse_factor = whiten(Matrix::Identity(y.size(), y.size()));
   const Vector weights = inverse_factor.transpose() * whiten(y).col(0);
   const Vector precisions = inverse_factor.colwise().squaredNorm();
   const double errors = weights.cwiseQuotient(precisions).squaredNorm();
   const auto n = static_cast<double>(y.size());
   const double freedom = std::max(1.0, n - noise_variance * precisions.sum());
-  return std::max(0.0, y.squaredNorm() - errors) / (n * freedom);
+  return {std::max(0.0, y.squaredNorm() - errors) / (n * freedom), y - noise_variance * weights};
 }
 
 }  // namespace
 
 Spread spread_of_gp(const gp::Inputs& inputs, const gp::Hyperparameters& kernel, const ConstVectorView& y) {
   gp::Whitening whiten(inputs, kernel);
-  const double misfit = predictable(whiten, y, kernel.noise_variance());
-  return {std::move(whiten), misfit};
-}
-
-Vector misfits(const FitProblem& problem, const Fit& fit) {
-  const dynamics::Residuals::Rows rows = problem.residuals.at(problem.prior, fit.phi);
-  Vector all(rows.targets.cols());
-  problem.evaluator.for_each(all.size(), [&](Index e) {
-    const double floor = std::pow(kLeastDeviation * gp::usable_scale(problem.residuals.scale()(e)), 2);
-    const gp::FitStart& kernel = fit.kernels[static_cast<std::size_t>(e)];
-    all(e) = std::max(floor, spread_of_gp(*rows.inputs, kernel.hyperparameters, rows.targets.col(e)).misfit);
-  });
-  return all;
+  auto [misfit, mean] = predictable(whiten, y, kernel.noise_variance());
+  return {std::move(whiten), misfit, std::move(mean)};
 }
 
 std::vector<Index> nearest_rows(const gp::Inputs& inputs) {

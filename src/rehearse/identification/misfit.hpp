@@ -10,17 +10,18 @@
 
 namespace rehearse::identification {
 
-/// An output's residuals y: their covariance K = L Lᵀ and their misfit.
+inline constexpr double kLeastDeviation = 1e-6;  // of residuals, as a fraction of the changes: gp::Bounds' floor
+
+/// An output's residuals y (n): their covariance K = L Lᵀ and their misfit.
 struct Spread {
   std::function<Matrix(const Matrix&)> whiten;  // L⁻¹
   double misfit;                                // mean square, of a GP a degree of freedom
+  Vector explained = {};                        // n, of y by the GP; empty without one
 };
 
-/// The spread of residuals to which a GP was fitted: the misfit is what it predicts of each row from the others.
+/// The spread of residuals to which a GP was fitted: the misfit is what it predicts of each row from the others,
+/// `explained` its posterior mean.
 Spread spread_of_gp(const gp::Inputs& inputs, const gp::Hyperparameters& kernel, const ConstVectorView& y);
-
-/// The misfits of the GPs of a fit, positive, one an output.
-Vector misfits(const FitProblem& problem, const Fit& fit);
 
 /// The row nearest to each in the space of the inputs, of equals the first; of a single row itself.
 std::vector<Index> nearest_rows(const gp::Inputs& inputs);

@@ -70,10 +70,6 @@ Vector ErrorsInVariables::stacked(const Matrix& rows) const {
   return r;
 }
 
-Vector ErrorsInVariables::repeated(const Vector& values) const {
-  return stacked(values.transpose().replicate(measured_.size(), 1));
-}
-
 Vector ErrorsInVariables::residuals(const Matrix& on_path) const {
   Vector r = stacked(on_path);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {

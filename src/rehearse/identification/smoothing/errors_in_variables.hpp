@@ -50,9 +50,6 @@ class ErrorsInVariables {
   /// Rows × dx as a vector.
   Vector stacked(const Matrix& rows) const;
 
-  /// A number of each output (dx) as one of each step's.
-  Vector repeated(const Vector& values) const;
-
   /// Residuals on the path (n × dx) as a vector, with what the errors of the path's own states add.
   Vector residuals(const Matrix& on_path) const;
 

@@ -44,6 +44,7 @@ TEST(Misfit, OfAGpIsWhatItPredictsFromOtherRows) {
   const Spread wave = spread_of_gp(gp::Inputs(both.X), kernel, both.y);
   EXPECT_GT(wave.misfit, 20 * spread_of_gp(gp::Inputs(white.X), kernel, white.y).misfit);
   EXPECT_EQ(wave.whiten(both.y).rows(), 60);
+  EXPECT_LT((wave.explained - Line(60, 1, 0).y).norm() / std::sqrt(60), 0.06) << "the noise, 0.1, is not explained";
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 using swing::data_with_noise;
 
-constexpr PhiPosteriorOptions kClassical{.misfit_observations = 1e12};
+constexpr PhiPosteriorOptions kClassical{.misfit_observations = 1e12, .misfit_share = 0};
 
 prior::Prior swing_prior() { return swing::prior({swing::length(), swing::friction()}); }
 
@@ -99,11 +99,34 @@ TEST(PhiPosterior, IsTheInverseOfThePrecisionAndTheWayLeft) {
     }
     const Matrix inverse = precision.inverse();
     const Matrix expected = inverse + inverse * gradient * gradient.transpose() * inverse;
-    const auto posterior = phi_posterior(problem, fit, {.misfit_observations = observations});
+    const auto posterior = phi_posterior(problem, fit, {.misfit_observations = observations, .misfit_share = 0});
     ASSERT_TRUE(posterior);
     EXPECT_EQ(posterior->mean, swing::kTruth);
     EXPECT_LT((posterior->covariance - expected).norm(), 1e-3 * expected.norm()) << observations;
   }
+}
+
+TEST(PhiPosterior, AShareOfWhatGpsExplainMayBeThatOfParameters) {
+  const Dataset data = data_with_errors(15, 3);
+  const dynamics::Residuals residuals(data, swing::features());
+  const prior::Prior prior = swing_prior();
+  const FitProblem problem{residuals, &prior, Score::product, {}, serial_evaluator()};
+  const Fit fit = held_at(problem, swing::kTruth);
+  const Matrix K = covariance_of_rows(data, kernel()), targets = residuals.targets(&prior, swing::kTruth);
+  Matrix precision = Vector{{12 / (1.7 * 1.7), 12.0}}.asDiagonal();
+  Vector gradient = Vector::Zero(2);
+  for (Index e = 0; e < 2; ++e) {
+    const Matrix J = slopes_of_mean(data, prior, e);
+    const Vector y = targets.col(e), explained = y - kernel().noise_variance() * K.inverse() * y;
+    const double variance = y.squaredNorm() / 15;
+    precision += J.transpose() * J / variance;
+    gradient += J.transpose() * explained / variance;
+  }
+  const Vector way = precision.inverse() * gradient;  // less far than to the ends of the box
+  const Matrix none = phi_posterior(problem, fit, {.misfit_share = 0})->covariance;
+  const Matrix half = phi_posterior(problem, fit, {.misfit_share = 0.5})->covariance;
+  EXPECT_GT(way.norm(), 0.01);
+  EXPECT_LT((half - none - 0.25 * way * way.transpose()).norm(), 1e-3 * half.norm());
 }
 
 /// The steps of two outputs around the path, with errors of measurements and with that kernel for both.
@@ -141,22 +164,20 @@ TEST(PhiPosterior, OfStepsWithErrorsCountsThemOnce) {
   const ErrorsInVariables steps = steps_around(data, variances);
   const Matrix K = covariance_of_rows(data, kernel()), targets = residuals.targets(&prior, swing::kTruth);
   Matrix J(30, 2), C = Matrix::Zero(30, 30);
-  Vector units(30);
   for (Index e = 0; e < 2; ++e) {
     const auto own = Eigen::seqN(15 * e, 15);
     J(own, Eigen::all) = slopes_of_mean(data, prior, e);
-    C(own, own) = K + 2 * variances(e) * Matrix::Identity(15, 15);  // these steps share no measurement
-    units(own).setConstant(std::sqrt(predictable(K, targets.col(e))));
+    const Matrix Q = Eigen::HouseholderQR<Matrix>(J(own, Eigen::all)).householderQ() * Matrix::Identity(15, 2);
+    C(own, own) = K + 2 * variances(e) * Matrix::Identity(15, 15) +  // these steps share no measurement
+                  15 * predictable(K, targets.col(e)) / 4 * Q * Q.transpose();
   }
-  const Matrix scaled = units.cwiseInverse().asDiagonal() * J;
-  const Matrix Q = units.asDiagonal() * (Eigen::HouseholderQR<Matrix>(scaled).householderQ() * Matrix::Identity(30, 2));
-  C += 15.0 / 4 * Q * Q.transpose();
   Matrix precision = J.transpose() * C.inverse() * J;
   precision.diagonal() += Vector{{12 / (1.7 * 1.7), 12.0}};
   const Matrix inverse = precision.inverse();
   const Vector left = inverse * J.transpose() * C.inverse() * targets.reshaped();
   const Matrix expected = inverse + left * left.transpose();
-  const Matrix covariance = phi_posterior(problem, fit, steps, {.misfit_observations = 4})->covariance;
+  const Matrix covariance =
+      phi_posterior(problem, fit, steps, {.misfit_observations = 4, .misfit_share = 0})->covariance;
   EXPECT_LT((covariance - expected).norm(), 1e-3 * expected.norm());
 }
 
@@ -205,7 +226,7 @@ TEST(PhiPosterior, OfLeastSquaresIsTheClassicalOne) {
   const Dataset data = data_with_errors(200, 5);
   const prior::Prior prior = swing_prior();
   Mi kind;
-  kind.posterior = kClassical;
+  kind.posterior.misfit_observations = kClassical.misfit_observations;
   const auto learned = learn({data, swing::features(), {}, &prior}, kind, {}, serial_evaluator());
   const Matrix targets = dynamics::Residuals(data, swing::features()).targets(&prior, *learned.state.phi);
   Matrix precision = Vector{{12 / (1.7 * 1.7), 12.0}}.asDiagonal();
@@ -222,7 +243,7 @@ TEST(PhiPosterior, OfLeastSquaresSeesTheMisfitInRowsThatAreAlike) {
   for (Index i = 0; i < 200; ++i) data.changes.row(i).array() += 0.1 * std::sin(data.states(i, 0));
   const prior::Prior prior = swing_prior();
   Mi classical;
-  classical.posterior = kClassical;
+  classical.posterior.misfit_observations = kClassical.misfit_observations;
   const auto deviation = [&](const Mi& kind) {
     const auto learned = learn({data, swing::features(), {}, &prior}, kind, {}, serial_evaluator());
     return std::sqrt(learned.posterior->covariance(0, 0));
@@ -240,7 +261,7 @@ TEST(PhiPosterior, WhereNumbersOverflowThereIsNone) {
                                             dxdt(0) += 1e300 * (phi(1) - 0.1);
                                           });
   const dynamics::Residuals residuals(data, swing::features());
-  EXPECT_FALSE(phi_posterior(residuals, prior, Vector{{0.5, 0.9}}, {}, serial_evaluator()));
+  EXPECT_FALSE(phi_posterior(residuals, prior, Vector{{0.5, 0.9}}, 1, serial_evaluator()));
 }
 
 TEST(PhiPosterior, IsThereWhereContinuousParametersAreLearned) {
