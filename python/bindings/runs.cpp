@@ -64,6 +64,13 @@ void resumable(const std::filesystem::path& folder, Work work) {
   }
 }
 
+/// As Python's warnings, of the line that called the function of Python that called this.
+void warn(const std::vector<std::string>& lines) {
+  const py::gil_scoped_acquire locked;
+  for (const std::string& line : lines)
+    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 2) != 0) throw py::error_already_set();
+}
+
 /// Makes the folder, and runs all trials. Returns the folder.
 std::string learn(const Robot& robot, const Request& request, const std::string& out, const Settings& settings) {
   std::filesystem::path folder = out;
@@ -71,6 +78,7 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
     const experiment::Catalogue catalogue = robot.catalogue();
     const experiment::Resolved run = resolved(catalogue, request);
     robot.try_out(run.scenario);
+    warn(run.warnings);
     if (folder.empty()) folder = "runs/" + run_name(run.spec);
     experiment::start_run(catalogue, run.spec, folder, options);
   };
