@@ -10,7 +10,6 @@
 #include "rehearse/experiment/given_policy.hpp"
 #include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/spec_file.hpp"
-#include "rehearse/files/checksum.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/files/seal.hpp"
 #include "rehearse/files/toml_reader.hpp"
@@ -77,12 +76,8 @@ void read_checkpoint(std::string_view body) {
 }
 
 void read_archive(std::string_view bytes) {
-  constexpr std::size_t kChecksum = 16, kChecked = 24;
   std::string sealed(bytes);
-  if (sealed.size() > kChecked) {
-    const std::uint64_t sum = files::checksum(std::string_view(sealed).substr(kChecked));
-    sealed.replace(kChecksum, sizeof sum, reinterpret_cast<const char*>(&sum), sizeof sum);
-  }
+  qd::fit_checksum(sealed);
   (void)qd::from_bytes(sealed, "archive.bin");
 }
 
