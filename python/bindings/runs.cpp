@@ -124,6 +124,16 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
                   py::arg("logs") = logs, py::arg("known_before") = told->known_before, py::arg("notes") = notes);
 }
 
+py::dict take_back(const Robot& robot, const std::string& folder, const Settings& settings) {
+  experiment::TakenBack taken;
+  work_with(robot, settings, [&](const experiment::RunOptions& options) {
+    taken = experiment::take_back(robot.catalogue(), folder, options);
+  });
+  Strings files;
+  for (const std::filesystem::path& file : taken.files) files.push_back(file.string());
+  return py::dict(py::arg("trial") = taken.trial, py::arg("files") = files);
+}
+
 /// What a folder says of its run, beside its tables.
 py::dict describe(const Robot& robot, const std::string& folder) {
   const auto [resolved, history, in_use] = experiment::status_of(robot.to_look(), folder);
@@ -226,6 +236,10 @@ void add_runs(py::module_& module) {
         return tell(robot, folder, files, stop, {threads});
       },
       "robot"_a, "folder"_a, "files"_a, "stopped"_a, "at_fault"_a, "threads"_a);
+  module.def(
+      "take_back",
+      [](const Robot& robot, const std::string& folder, int threads) { return take_back(robot, folder, {threads}); },
+      "robot"_a, "folder"_a, "threads"_a);
   module.def("describe", &describe, "robot"_a, "folder"_a);
   module.def("policy", &policy, "robot"_a, "folder"_a, "trial"_a);
   module.def(
