@@ -7,7 +7,6 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/test/test_tools.hpp"
-#include "rehearse/files/checksum.hpp"
 
 namespace rehearse::qd {
 namespace {
