@@ -14,10 +14,12 @@ if(REHEARSE_TESTS)
   target_precompile_headers(rehearse_test_headers PRIVATE <Eigen/Core> <gtest/gtest.h>)
 endif()
 
+option(REHEARSE_TOGETHER "Compile several sources at once; OFF for tools that look at one by one (scripts/lint)" ON)
+
 # Compiles the sources of a target several at once: what takes the compiler long in them are headers and templates, which
 # they share. Names of helpers are unique in the target.
 function(rehearse_together target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${REHEARSE_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
 # The same, and optimises them little.
@@ -93,8 +95,7 @@ function(rehearse_room name)
   rehearse_check_includes("${name}" "${ROOM_USES};${ROOM_TEST_USES}" "${tests};${test_headers}")
   if(REHEARSE_TESTS AND tests AND NOT ROOM_SOURCES)
     add_executable(test_${target} ${tests})
-    # Tests of a room are compiled several at once: what takes time are headers and templates, which they share.
-    set_target_properties(test_${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    rehearse_together(test_${target})
     target_compile_options(test_${target} PRIVATE ${REHEARSE_TEST_OPTIONS})
     target_precompile_headers(test_${target} REUSE_FROM rehearse_test_headers)
     target_compile_definitions(test_${target} PRIVATE TEST_DATA_DIR="${CMAKE_CURRENT_SOURCE_DIR}/test/data")

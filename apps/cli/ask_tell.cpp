@@ -30,6 +30,7 @@ Index threads_or_throw(const std::optional<std::string>& text) {
 template <class Variables>
 std::string columns(const Variables& variables) {
   std::vector<std::string> names;
+  names.reserve(variables.size());
   for (const auto& variable : variables)
     names.push_back(variable.unit.empty() ? variable.name : fmt::format("{} [{}]", variable.name, variable.unit));
   return fmt::format("{}", fmt::join(names, ", "));
@@ -119,7 +120,28 @@ int ask(const experiment::Catalogue& catalogue, const AskArguments& arguments) {
                     });
 }
 
+namespace {
+
+int take_back(const experiment::Catalogue& catalogue, const TellArguments& arguments) {
+  if (!arguments.files.empty() || arguments.stopped)
+    throw InvalidInput("--undo takes the last file back that was told, and goes with nothing else");
+  Console console(Console::Begin::silent);
+  return on_console(arguments.folder, threads_or_throw(arguments.threads), console,
+                    "tell " + arguments.folder + " --undo", [&](const experiment::RunOptions& options) {
+                      const auto [trial, files] = experiment::take_back(catalogue, arguments.folder, options);
+                      console.clear_line();
+                      fmt::print("{}\n", trial ? fmt::format("trial {} is taken back, and is to come", *trial)
+                                               : std::string("the logs are taken back"));
+                      for (const auto& file : files) fmt::print("  {} has what was told\n", file.string());
+                      fmt::print("next: {} {} {}\n", program_name(), trial ? "tell" : "ask", arguments.folder);
+                    });
+}
+
+}  // namespace
+
 int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments) {
+  if (arguments.undo) return take_back(catalogue, arguments);
+  if (arguments.files.empty()) throw InvalidInput("FILE.csv is required: what the robot did");
   if (arguments.no_fault && !arguments.stopped) throw InvalidInput("--no-fault goes with --stopped");
   if (arguments.stopped && arguments.stopped->empty()) throw InvalidInput("--stopped says no reason");
   experiment::Tale tale{.files = {arguments.files.begin(), arguments.files.end()}, .stopped = {}};

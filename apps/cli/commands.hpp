@@ -50,7 +50,7 @@ struct TellArguments {
   std::string folder;
   std::vector<std::string> files;
   std::optional<std::string> stopped, threads;
-  bool no_fault = false;
+  bool no_fault = false, undo = false;
 };
 
 struct StatusArguments {

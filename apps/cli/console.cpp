@@ -44,6 +44,7 @@ void Console::started(const experiment::Resolved& resolved, const std::filesyste
       spec.trials == 0 ? "" : fmt::format("{}{} ", spec.until_solved ? "up to " : "", spec.trials);
   line_.print(fmt::format("{} learned by {}{}, seed {}: {}trials of {} s in {}", spec.scenario, spec.learner, prior,
                           spec.seed, trials, resolved.scenario.task.episode_s(), folder.string()));
+  for (const std::string& warning : resolved.warnings) line_.print("warning: " + warning);
   if (done > 0) line_.print(fmt::format("continuing after trial {}", done));
 }
 

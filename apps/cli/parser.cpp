@@ -97,12 +97,13 @@ void add_tell(CLI::App& app, TellArguments& arguments) {
   command
       ->add_option("FILE.csv", arguments.files,
                    "The episode of the trial that was asked for; before the first, logs of other controllers")
-      ->option_text(" ")
-      ->required();
+      ->option_text(" ");
   add(command, "--stopped", arguments.stopped,
       "Why the operator cut the episode short. The steps that are left out count as failed", "REASON");
   command->add_flag("--no-fault", arguments.no_fault,
                     "With --stopped: it was not the policy's fault, so nothing counts as failed");
+  command->add_flag("--undo", arguments.undo,
+                    "Take the last file that was told back: the folder is as before it, and the file is kept");
   add(command, "--threads", arguments.threads, "Threads to compute with. Default: all cores", "K");
   command->footer(fmt::format(kAskExample, program_name()));
 }

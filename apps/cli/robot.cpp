@@ -1,4 +1,5 @@
 // A robot of one's own: `new` and `check`.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <span>
@@ -71,6 +72,8 @@ void print_task(const scenario::Scenario& scenario) {
 }
 
 void print_parameters(const ParameterSpace& parameters) {
+  if (std::ranges::none_of(parameters.all(), &Parameter::tunable))
+    fmt::print("    nothing to tune: gp-mi and mi learn no parameters of it\n");
   for (const Parameter& parameter : parameters.all()) {
     if (parameter.kind == Parameter::Kind::continuous)
       fmt::print("    {} = {:g}, learned in [{:g}, {:g}]\n", parameter.name, parameter.value, parameter.box.low,
@@ -133,6 +136,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   fmt::print("priors, on {} steps of {} under random actions\n", tried.steps, driven ? "the plant" : "the first prior");
   for (std::size_t i = 0; i < tried.priors.size(); ++i)
     print_prior(scenario.priors[i], tried.priors[i], scenario, tried);
+  for (const std::string& line : scenario.oracle_lacks) fmt::print("  oracle: not all of the plant. {}\n", line);
   if (scenario.priors.empty()) fmt::print("  none: learners without a prior can be used\n");
   const std::vector<std::string> complaints = complaints_of(tried);
   if (arguments.out && !driven) throw InvalidInput("--out: there is no [plant] that could show its motion");

@@ -64,6 +64,13 @@ void resumable(const std::filesystem::path& folder, Work work) {
   }
 }
 
+/// As Python's warnings, of the line that called the function of Python that called this.
+void warn(const std::vector<std::string>& lines) {
+  const py::gil_scoped_acquire locked;
+  for (const std::string& line : lines)
+    if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 2) != 0) throw py::error_already_set();
+}
+
 /// Makes the folder, and runs all trials. Returns the folder.
 std::string learn(const Robot& robot, const Request& request, const std::string& out, const Settings& settings) {
   std::filesystem::path folder = out;
@@ -71,6 +78,7 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
     const experiment::Catalogue catalogue = robot.catalogue();
     const experiment::Resolved run = resolved(catalogue, request);
     robot.try_out(run.scenario);
+    warn(run.warnings);
     if (folder.empty()) folder = "runs/" + run_name(run.spec);
     experiment::start_run(catalogue, run.spec, folder, options);
   };
@@ -114,6 +122,16 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
   return py::dict(py::arg("trial") = told->trial ? std::optional(told->trial->trial) : std::nullopt,
                   py::arg("total_reward") = told->trial ? std::optional(told->trial->total_reward) : std::nullopt,
                   py::arg("logs") = logs, py::arg("known_before") = told->known_before, py::arg("notes") = notes);
+}
+
+py::dict take_back(const Robot& robot, const std::string& folder, const Settings& settings) {
+  experiment::TakenBack taken;
+  work_with(robot, settings, [&](const experiment::RunOptions& options) {
+    taken = experiment::take_back(robot.catalogue(), folder, options);
+  });
+  Strings files;
+  for (const std::filesystem::path& file : taken.files) files.push_back(file.string());
+  return py::dict(py::arg("trial") = taken.trial, py::arg("files") = files);
 }
 
 /// What a folder says of its run, beside its tables.
@@ -218,6 +236,10 @@ void add_runs(py::module_& module) {
         return tell(robot, folder, files, stop, {threads});
       },
       "robot"_a, "folder"_a, "files"_a, "stopped"_a, "at_fault"_a, "threads"_a);
+  module.def(
+      "take_back",
+      [](const Robot& robot, const std::string& folder, int threads) { return take_back(robot, folder, {threads}); },
+      "robot"_a, "folder"_a, "threads"_a);
   module.def("describe", &describe, "robot"_a, "folder"_a);
   module.def("policy", &policy, "robot"_a, "folder"_a, "trial"_a);
   module.def(

@@ -11,9 +11,10 @@ from ._core import InvalidInput, RunFailed, __version__
 from .gp import GaussianProcess
 from .identification import Identification, identify
 from .integrate import rk4
+from .parts import Action, Body, Distance, Limit, Model, State, Success
 from .policy import Policy
 from .progress import show
-from .robot import Action, Body, Distance, Limit, Model, Robot, State, Success
+from .robot import Robot
 from .run import Evaluation, Run, Trial, learn, learners, open_run, resume, robots
 from .search import Cmaes, MapElites
 

@@ -42,9 +42,17 @@ class GaussianProcess:
         self._core, self._data = _core.condition_gp(X, Y, logs, self.tolerance), (X, Y)
         return self
 
-    def predict(self, X: npt.ArrayLike, return_std: bool = False) -> Any:
-        """Means (n, or n × E) at X (n × D), and standard deviations of the function, without noise."""
+    def predict(self, X: npt.ArrayLike, return_std: bool = False, return_cov: bool = False) -> Any:
+        """Means (n, or n × E) at X (n × D), and what is asked for of the function, without noise: its standard deviations
+        (as the means), or its covariance over the rows of X (n × n, or n × n × E), as scikit-learn has them. The covariance
+        is exact, whatever the tolerance."""
         inputs = np.asfortranarray(X, dtype=float)
+        if return_std and return_cov:
+            raise _core.InvalidInput("return_std and return_cov: only one of them at a time")
+        if return_cov:
+            mean = self._fitted.predict_mean(inputs)
+            covariances = [self._covariance(inputs, logs) for logs in self.log_hyperparameters]
+            return self._shaped(mean), covariances[0] if self._one else np.stack(covariances, axis=-1)
         if not return_std:
             return self._shaped(self._fitted.predict_mean(inputs))
         mean, variance = self._fitted.predict(inputs)
@@ -121,6 +129,23 @@ class GaussianProcess:
         if self._core is None:
             raise _core.InvalidInput("the GP has no data yet: fit(X, y)")
         return self._core
+
+    def _covariance(self, X: Array, logs: Array) -> Array:
+        """Of one output (Rasmussen 2006, eq. 2.24)."""
+        lengths, signal, noise, trend = np.split(np.exp(logs), [self._inputs, self._inputs + 1, self._inputs + 2])
+
+        def kernel(A: Array, B: Array) -> Array:
+            squares = sum(((a[:, None] - b) / length) ** 2 for a, b, length in zip(A.T, B.T, lengths))
+            values: Array = signal**2 * np.exp(-0.5 * squares)
+            if len(trend):
+                values = values + (trend[0] ** 2 + A @ np.diag(trend[1:] ** 2) @ B.T) ** 2
+            return values
+
+        data = self._data[0]
+        factor = np.linalg.cholesky(kernel(data, data) + noise**2 * np.eye(len(data)))
+        known = np.linalg.solve(factor, kernel(data, X))
+        covariance: Array = kernel(X, X) - known.T @ known
+        return covariance
 
     def _shaped(self, values: Array) -> Array:
         shaped: Array = values[:, 0] if self._one else values

@@ -5,125 +5,15 @@ The keys are those of a robot's file (docs/own-robot.md). Where a file has a for
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Union
 
-import numpy as np
-
 from . import _core
-from .arrays import Array
 from .environment import Task, environment_maker
+from .parts import Action, Body, Distance, Limit, Model, State, StateFunction, StepFunction, Success
 from .toml import table, value
-
-#: function(states, actions, next_states) → n numbers; arrays of n rows
-StepFunction = Callable[[Array, Array, Array], Any]
-#: function(states) → n truths; states: n × dx
-StateFunction = Callable[[Array], Any]
-
-
-@dataclass(frozen=True)
-class State:
-    """A state that the robot measures.
-
-    unit: for tables and plots. angle: models and policies see its cosine and sine. rate: the state that is its
-    derivative by time. parent: the angle of the link that carries this one. input: False for a position that the
-    dynamics does not depend on. start, start_noise: mean and standard deviation at the start. scale: what the policy's
-    input is divided by.
-    """
-
-    name: str
-    unit: str = ""
-    angle: bool = False
-    rate: str = ""
-    parent: str = ""
-    input: bool = True
-    start: float = 0.0
-    start_noise: float = 0.0
-    scale: float = 1.0
-
-
-@dataclass(frozen=True)
-class Action:
-    """What moves the robot: a number inside its bounds, held for a control step.
-
-    max_rate: of the command, in units of the action a second. filter_s: time constant of the low-pass that commands go
-    through. delay_s: from the command until the robot gets it. lag_s: time constant with which it then follows. remember:
-    policies see the commands of so many last steps. docs/actuators.md says when to use which.
-    """
-
-    name: str
-    bounds: tuple[float, float]
-    unit: str = ""
-    max_rate: float = math.inf
-    filter_s: float = 0.0
-    delay_s: float = 0.0
-    lag_s: float = 0.0
-    remember: int = 0
-
-
-@dataclass(frozen=True)
-class Distance:
-    """The reward exp(−Σ (distance / width)² / 2), of formulas that are all 0 at the goal: "1 + cos(angle)".
-
-    All learners can use it; a function as reward is nothing for PILCO, which needs derivatives.
-    """
-
-    of: Union[str, Sequence[str]]
-    width: float = 1.0
-
-
-@dataclass(frozen=True)
-class Success:
-    """A trial is solved where this holds in the last seconds of a complete episode. when: a formula or a function."""
-
-    when: Union[str, StateFunction]
-    last_s: float = 0.0
-
-
-@dataclass(frozen=True)
-class Limit:
-    """What every step must keep: a formula, or a function of states, actions and the states that the steps reach.
-
-    risk: the largest probability that an episode of a policy breaks it.
-    """
-
-    keep: Union[str, StepFunction]
-    name: str = ""
-    risk: float = 0.05
-
-
-@dataclass(frozen=True)
-class Body:
-    """How a part of the robot looks: a line between two points [m], formulas of states."""
-
-    name: str
-    start: tuple[str, str]
-    end: tuple[str, str]
-    width_m: float = 0.05
-
-
-@dataclass(frozen=True)
-class Model:
-    """How states change in a control step: a prior, or a plant that is simulated.
-
-    change: function(states, actions, **parameters) → the changes of the states, n × dx. It is called with thousands of
-    rows, by one thread at a time. A row depends on that row alone; one that cannot be simulated is NaN. rates: instead,
-    a formula for the derivative of each state by time. parameters: the function's, or the formulas', at the values to
-    start from. tune: those that are learned, between bounds (low, high), or among a list of values. delay_s, lag_s: of a
-    plant's actions by name, where they are others than `Action` says.
-    """
-
-    change: Union[Callable[..., Any], None] = None
-    rates: Mapping[str, str] = field(default_factory=dict)
-    parameters: Mapping[str, float] = field(default_factory=dict)
-    tune: Mapping[str, Any] = field(default_factory=dict)
-    define: Mapping[str, str] = field(default_factory=dict)
-    delay_s: Mapping[str, float] = field(default_factory=dict)
-    lag_s: Mapping[str, float] = field(default_factory=dict)
 
 
 class Robot:

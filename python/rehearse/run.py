@@ -151,6 +151,11 @@ class Run:
             warnings.warn(note, stacklevel=2)
         return told
 
+    def take_back(self, *, threads: int = 0) -> dict[str, Any]:
+        """Takes the last `tell` back, when it took the wrong file: the folder is as before, byte for byte, but for
+        taken-back, where what was told is kept. Again, it takes back the one before. Returns trial (None: logs) and files."""
+        return dict(_core.take_back(self._core, str(self.folder), threads))
+
     def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None, seconds: float = 0.0, seed: int = 1,
                  options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Evaluation:
         """Episodes of a policy on the plant that are no trials. seconds: of an episode; 0: the task's. options: what is

@@ -34,6 +34,31 @@ def test_a_gp_is_that_of_the_textbook():
     assert gp.log_evidence == pytest.approx(evidence, abs=1e-8)
 
 
+@pytest.mark.parametrize("trend", [[], np.log([0.4, 0.2, 0.3])])
+def test_a_gp_knows_how_its_values_go_together(trend):
+    X, y = data()
+    logs = np.concatenate([np.log([0.8, 1.5, 1.2, 0.1]), trend])
+    gp = rehearse.GaussianProcess().condition(X, y, logs)
+    new = RNG.uniform(-3, 3, (20, 2))
+    mean, cov = gp.predict(new, return_cov=True)
+    _, std = gp.predict(new, return_std=True)
+    np.testing.assert_array_equal(mean, gp.predict(new))
+    np.testing.assert_allclose(np.diag(cov), std**2, atol=1e-9)
+    np.testing.assert_allclose(cov, cov.T, atol=1e-12)
+    # A measurement at the first row takes so much of the variance of the others.
+    more = rehearse.GaussianProcess().condition(np.vstack([X, new[:1]]), np.append(y, 0), logs)
+    left = std**2 - cov[0] ** 2 / (std[0] ** 2 + 0.01)
+    np.testing.assert_allclose(more.predict(new, return_std=True)[1] ** 2, left, atol=1e-9)
+    both = rehearse.GaussianProcess().condition(X, np.column_stack([y, y]), [logs, logs + 0.1])
+    means, covs = both.predict(new, return_cov=True)
+    assert means.shape == (20, 2) and covs.shape == (20, 20, 2)
+    np.testing.assert_array_equal(covs[..., 0], cov)
+    with pytest.raises(rehearse.InvalidInput, match="only one of them"):
+        gp.predict(new, return_std=True, return_cov=True)
+    with pytest.raises(rehearse.InvalidInput, match="must have 2"):
+        gp.predict(new[:, :1], return_cov=True)
+
+
 def test_a_fit_finds_noise_and_beats_a_guess():
     X, y = data(150)
     gp = rehearse.GaussianProcess().fit(X, y)

@@ -236,6 +236,33 @@ def test_ask_and_tell_are_learn(tmp_path):
         run.evaluate(1)
 
 
+def test_what_was_told_can_be_taken_back(tmp_path):
+    whole = learn(cart(), tmp_path / "whole", trials=2)
+    run = learn(cart(plant=None), tmp_path / "told", trials=0)
+    policy = run.ask()
+    before = (run.folder / "checkpoint").read_bytes()
+    with pytest.warns(UserWarning, match="force"):
+        run.tell(whole.trajectory(2))
+    taken = run.take_back()
+    assert taken["trial"] == 1 and len(taken["files"]) == 1
+    np.testing.assert_array_equal(np.genfromtxt(taken["files"][0], delimiter=",", names=True)["force"],
+                                  whole.trajectory(2)["force"])
+    assert (run.folder / "checkpoint").read_bytes() == before
+    assert run.ask().trial == policy.trial == 1
+    run.tell(whole.trajectory(1))
+    run.ask()
+    run.tell(whole.trajectory(2))
+    assert (run.folder / "trials.csv").read_bytes() == (whole.folder / "trials.csv").read_bytes()
+    with pytest.raises(rehearse.InvalidInput, match="no file was told"):
+        whole.take_back()
+
+
+def test_a_prior_without_anything_to_tune_is_warned_of(tmp_path):
+    fixed = rehearse.Model(change, parameters={"mass": 1.2, "friction": 0.3})
+    with pytest.warns(UserWarning, match="prior fixed has nothing to tune, so gp-mi learns no parameters"):
+        learn(cart(priors={"fixed": fixed}), tmp_path / "fixed", trials=0)
+
+
 def test_what_is_told_is_checked(tmp_path):
     whole = learn(cart(), tmp_path / "whole", trials=1).trajectory(1)
     run = learn(cart(plant=None), tmp_path / "told", trials=0)

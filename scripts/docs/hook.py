@@ -17,15 +17,14 @@ from mkdocs.structure.files import File
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import github_lists  # noqa: E402
+from page_links import LINK, prose  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}
 DATA = {".csv", ".json", ".png", ".svg", ".bin"}
 LANGUAGES = {".cpp": "cpp", ".hpp": "cpp", ".py": "python", ".toml": "toml", ".c": "c", ".js": "javascript", ".xml": "xml",
              ".txt": "cmake", ".sh": "bash", "": "bash"}
-LINK = re.compile(r"(!?\[[^\]]*\]\()([^)\s#]*)(#[^)\s]*)?(\))")
 STAR = re.compile(r"(?<=\d)\*(?=[ |])")  # 0.84* begins no emphasis
-FENCE = re.compile(r"^ *(```|~~~)")
 headers = {}  # src/rehearse/…/NAME.hpp → cpp/….html
 texts = {}    # page of the site → its Markdown, of pages that docs/ has not
 
@@ -41,16 +40,6 @@ def read_headers():
         if file.get("kind") == "file":
             path = file.findtext("path", "") + file.findtext("name")
             headers[path] = "cpp/" + file.findtext("filename")
-
-
-def prose(text):
-    """Lines, each with whether it is prose: no code, fenced or indented."""
-    fenced = False
-    for line in text.split("\n"):
-        fence = FENCE.match(line)
-        yield line, not fenced and not fence and not line.startswith("    ")
-        if fence:
-            fenced = not fenced
 
 
 def links(page, text):

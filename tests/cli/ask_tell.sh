@@ -65,8 +65,25 @@ refused "is not a folder" ask nowhere
 refused "is not a folder" status nowhere
 refused "goes on by .ask. and .tell." resume gp-mi-told
 "$program" tell gp-mi-told $episode | grep -q "told before, nothing is changed" || fail "a file counts twice"
+cp gp-mi-told/checkpoint untold
 "$program" tell gp-mi-told short.csv --stopped "a cable came off" --no-fault >stdout 2>stderr || fail "$(cat stderr)"
 grep -q "a cable came off" gp-mi-told/notes.csv || fail "the reason is lost"
+
+# The last file can be taken back.
+refused "goes with nothing else" tell gp-mi-told short.csv --undo
+refused "FILE.csv is required" tell gp-mi-told
+cp -r gp-mi-told kept
+"$program" ask gp-mi-told >/dev/null || fail "ask"
+sed 's/^0.1,/0.10,/' $episode >wrong.csv
+"$program" tell gp-mi-told wrong.csv >stdout 2>stderr || fail "tell: $(cat stderr)"
+"$program" tell gp-mi-told --undo >stdout 2>stderr || fail "undo: $(cat stderr)"
+grep -q "trial $((trials + 2)) is taken back" stdout || fail "undo says $(cat stdout)"
+cmp wrong.csv gp-mi-told/taken-back/*-wrong.csv || fail "what was taken back is lost"
+"$program" tell gp-mi-told --undo >stdout 2>stderr || fail "undo again: $(cat stderr)"
+cmp untold gp-mi-told/checkpoint || fail "the run is not as it was before"
+"$program" tell gp-mi-told short.csv --stopped "a cable came off" --no-fault >stdout 2>stderr || fail "$(cat stderr)"
+diff -r kept gp-mi-told --exclude timings.csv --exclude checkpoint --exclude taken-back --exclude lock ||
+  fail "told again, the run is another"
 
 # Logs first: the first policy of a learner without a prior is not random any more.
 "$program" learn pendulum --learner black-drops "${short[@]}" --trials 0 --out logs >/dev/null || fail "logs"

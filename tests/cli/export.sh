@@ -55,10 +55,11 @@ theta() { tr -d ' \n' <"$1" | grep -o '"theta":\[[^]]*\]'; }
 [ -n "$(theta begun.json)" ] && [ "$(theta begun.json)" = "$(theta mlp.json)" ] || fail "the first trial is another policy"
 expect 0 "best return" learn begun/spec.toml --out repeated
 same begun repeated trials.csv policy.json spec.toml
-expect 2 "learner pilco cannot begin with a policy" learn pendulum --learner pilco --set policy=rbf --policy rbf.json --out refused
-expect 2 "the policy 'linear', which is neither the scenario's" learn pendulum --learner gp-mi --policy linear.json --out refused
+expect 2 "rbf.json: learner pilco cannot begin with a policy" learn pendulum --learner pilco --policy rbf.json --out refused
+expect 2 "mlp.json: learner pilco cannot begin with a policy" learn pendulum --learner pilco --policy mlp.json --out refused
+expect 2 "linear.json is a policy 'linear', but learner gp-mi begins with policies 'mlp' here" learn pendulum --learner gp-mi --policy linear.json --out refused
 expect 0 "trial 1" export mlp --trial 1 --out random.json
-expect 2 "random.json is a schedule, no mlp to begin with" learn pendulum --learner gp-mi --policy random.json --out refused
+expect 2 "random.json is a policy 'schedule', but learner gp-mi begins with policies 'mlp' here" learn pendulum --learner gp-mi --policy random.json --out refused
 expect 2 "cannot read nothing.json" learn pendulum --learner gp-mi --policy nothing.json --out refused
 sed 's/^start = .*/start = "1 2 x"/' begun/spec.toml >bent.toml
 expect 2 "start must be the" learn bent.toml --out refused

@@ -57,4 +57,19 @@ refused "misspelt.toml: line [0-9]*: reward.distance" learn misspelt.toml --lear
 sed 's/tune = { m/tune = { b = [0, 1], m/; s/u - b \* dtheta/u/' pilco_robot.toml >idle.toml
 refused "prior useful: b changes no prediction" check idle.toml
 
+# What can be done so, and is hardly meant, is said.
+sed '/^tune = /d' pilco_robot.toml >fixed.toml
+"$program" check fixed.toml >output 2>&1 || fail "check of a fixed prior: $(cat output)"
+grep -q "nothing to tune: gp-mi and mi learn no parameters of it" output || fail "check: $(cat output)"
+"$program" learn fixed.toml --learner gp-mi --trials 0 --out fixed >output 2>&1 || fail "learn of a fixed prior"
+grep -q "warning: prior useful has nothing to tune, so gp-mi learns no parameters" output || fail "learn: $(cat output)"
+"$program" learn fixed.toml --learner black-drops-prior --trials 0 --out fixed-gp >output 2>&1 || fail "learn"
+grep -q warning output && fail "a warning of what is meant: $(cat output)"
+sed 's/^\[plant\]/&\ndelay_s = { u = 0.2 }/' pilco_robot.toml >late.toml
+"$program" check late.toml >output 2>&1 || fail "check of a late plant: $(cat output)"
+grep -q "oracle: not all of the plant. u: the plant has delay_s = 0.2" output || fail "check: $(cat output)"
+"$program" learn late.toml --learner gp-mi --prior oracle --trials 0 --out late >output 2>&1 || fail "learn from oracle"
+grep -q "warning: the oracle is not all of the plant: u: the plant has delay_s = 0.2" output || fail "learn: $(cat output)"
+refused "learner ite needs a descriptor, .*not a robot's file" learn late.toml --learner ite --out left
+
 finish

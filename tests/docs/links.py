@@ -11,27 +11,15 @@ import sys
 import urllib.parse
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
-LINK = re.compile(r"\[(?:[^\[\]]|\[[^\]]*\])*\]\(([^)\s]+)\)")
-
-
-def prose(path):
-    """Lines with their numbers, without code: fenced, indented after a blank line, or in backticks."""
-    fenced = code = False
-    blank = True
-    for number, line in enumerate(path.read_text().split("\n"), 1):
-        fence = line.lstrip().startswith(("```", "~~~"))
-        fenced ^= fence
-        code = line.startswith("    ") and (blank or code)
-        blank = not line.strip()
-        if not (fenced or fence or code):
-            yield number, line
+sys.path.insert(0, str(ROOT / "scripts/docs"))
+from page_links import LINK, prose  # noqa: E402
 
 
 @functools.lru_cache(None)
 def anchors(path):
     found = {}
-    for _, line in prose(path):
-        if heading := re.match(r"#{1,6} +(.*?) *#*$", line):
+    for line, counts in prose(path.read_text()):
+        if counts and (heading := re.match(r"#{1,6} +(.*?) *#*$", line)):
             text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading[1]).replace("`", "").lower()
             slug = re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
             found[slug] = found.get(slug, -1) + 1
@@ -41,8 +29,9 @@ def anchors(path):
 
 
 def wrong(page):
-    for number, line in prose(page):
-        for target in LINK.findall(re.sub(r"`[^`]*`", "", line)):
+    for number, (line, counts) in enumerate(prose(page.read_text()), 1):
+        for link in LINK.finditer(re.sub(r"`[^`]*`", "", line)) if counts else ():
+            target = link[2] + (link[3] or "")
             address = urllib.parse.urlsplit(target)
             if address.scheme or address.netloc:
                 continue

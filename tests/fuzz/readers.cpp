@@ -10,7 +10,6 @@
 #include "rehearse/experiment/given_policy.hpp"
 #include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/spec_file.hpp"
-#include "rehearse/files/checksum.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/files/seal.hpp"
 #include "rehearse/files/toml_reader.hpp"
@@ -57,8 +56,25 @@ void read_spec(std::string_view text) { (void)experiment::from_toml(text, "spec.
 
 void read_preset(std::string_view text) { (void)experiment::Preset(text, "preset.toml").options("pendulum", "gp-mi"); }
 
-void read_recording(std::string_view text) {
-  (void)recording::read_recording(std::string(text), "log.csv", pendulum().task);
+void require(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(what);
+}
+
+/// An episode of whole rows, finite and in its bounds, or a refusal that names the file.
+void read_recording(std::string_view text) try {
+  const Task& task = pendulum().task;
+  const Episode episode = recording::read_recording(std::string(text), "log.csv", task).episode;
+  require(episode.steps() >= 1, "an episode without a step");
+  require(episode.states.rows() == episode.steps() + 1, "an episode without its last state");
+  require(episode.states.allFinite() && episode.actions.allFinite(), "an episode that is not finite");
+  for (std::size_t a = 0; a < task.actions.size(); ++a) {
+    const auto [low, high] = task.actions[a].bounds;
+    const auto column = episode.actions.col(static_cast<Index>(a)).array();
+    require((column >= low && column <= high).all(), "an action out of its bounds");
+  }
+} catch (const InvalidInput& error) {
+  require(std::string_view(error.what()).starts_with("log.csv: "), "a refusal that does not name the file");
+  throw;
 }
 
 void read_policy(std::string_view text) {
@@ -77,12 +93,8 @@ void read_checkpoint(std::string_view body) {
 }
 
 void read_archive(std::string_view bytes) {
-  constexpr std::size_t kChecksum = 16, kChecked = 24;
   std::string sealed(bytes);
-  if (sealed.size() > kChecked) {
-    const std::uint64_t sum = files::checksum(std::string_view(sealed).substr(kChecked));
-    sealed.replace(kChecksum, sizeof sum, reinterpret_cast<const char*>(&sum), sizeof sum);
-  }
+  qd::fit_checksum(sealed);
   (void)qd::from_bytes(sealed, "archive.bin");
 }
 
@@ -105,14 +117,16 @@ void read_message(std::string_view bytes) {
 }
 
 template <class Refusal>
-std::function<void(std::string_view)> refusing(void (*read)(std::string_view)) {
+std::function<bool(std::string_view)> refusing(void (*read)(std::string_view)) {
   return [read](std::string_view bytes) {
     try {
       read(bytes);
+      return true;
     } catch (const Refusal&) {
     } catch (const std::bad_alloc&) {
       // The command line says so in a sentence, too.
     }
+    return false;
   };
 }
 

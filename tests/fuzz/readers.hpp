@@ -8,11 +8,11 @@
 
 namespace rehearse::fuzz {
 
-/// A reader under test. `read` returns where the bytes were read or refused as the program refuses them; whatever else
-/// it throws is a finding. Any order of calls; one thread.
+/// A reader under test. `read` says whether the bytes were read, or refused as the program refuses them; whatever it
+/// throws is a finding. Any order of calls; one thread.
 struct Reader {
   std::string name;  // of its folder of examples, too
-  std::function<void(std::string_view)> read;
+  std::function<bool(std::string_view)> read;
 };
 
 const std::vector<Reader>& readers();

@@ -1,5 +1,6 @@
 // replay NAME FOLDER COUNT: gives a reader each file of a folder, and COUNT inputs in all that are those files with
-// random changes, the same ones every time. Whatever the reader throws that is no refusal ends it.
+// random changes, the same ones every time. Whatever the reader throws that is no refusal ends it. So does a reader
+// that refuses them all: nothing behind its first check would be tested.
 
 #include <algorithm>
 #include <cstdio>
@@ -21,9 +22,20 @@ std::size_t below(Random& random, std::size_t n) { return n == 0 ? 0 : random() 
 
 /// One change: bytes flipped, removed, repeated, replaced by a number that hurts, or taken from another example.
 void change(std::string& bytes, const std::vector<std::string>& examples, Random& random) {
-  static const std::vector<std::string> hurtful{"-1",    "0", "1e999", "nan", "9223372036854775807", "\"",
-                                                "[",     "{", "\n",    ",",   std::string(1, '\0'),  "\xff\xfe",
-                                                "1e-320"};
+  static const std::vector<std::string> hurtful{"-1",       "0",
+                                                "-0",       "1e999",
+                                                "1e308",    "-1e308",
+                                                "1e-320",   "nan",
+                                                "inf",      "9223372036854775807",
+                                                "0x10",     "1.5.2",
+                                                "\"",       "[",
+                                                "{",        ";",
+                                                " ",        "q",
+                                                "\n",       "\n\n",
+                                                "\r",       ",",
+                                                ",,,,",     "time",
+                                                "[deg]",    std::string(1, '\0'),
+                                                "\xff\xfe", "\xEF\xBB\xBF"};
   const std::size_t at = below(random, bytes.size() + 1),
                     length = below(random, std::min<std::size_t>(bytes.size() - at, 32) + 1);
   switch (random() % 5) {
@@ -58,15 +70,18 @@ int main(int argc, char** argv) try {
   std::vector<std::string> examples;
   for (const auto& path : paths) examples.push_back(rehearse::files::read_file(path));
   if (examples.empty()) return std::fprintf(stderr, "%s has no example\n", argv[2]), 2;
-  for (const std::string& example : examples) reader->read(example);
+  std::size_t read = 0;
+  for (const std::string& example : examples) (void)reader->read(example);
   Random random(1);
   const std::size_t count = std::strtoul(argv[3], nullptr, 10);
   for (std::size_t i = 0; i < count; ++i) {
     std::string bytes = examples[i % examples.size()];
     for (std::size_t changes = 1 + below(random, 4); changes > 0; --changes) change(bytes, examples, random);
-    reader->read(bytes);
+    read += reader->read(bytes);
   }
-  std::printf("%s: %zu examples, %zu inputs made of them\n", argv[1], examples.size(), count);
+  std::printf("%s: %zu examples, %zu inputs made of them, of which it reads %zu\n", argv[1], examples.size(), count,
+              read);
+  return read > 0 ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s: %s\n", argv[1], error.what());
   return 1;

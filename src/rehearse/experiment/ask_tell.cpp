@@ -6,6 +6,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/failures.hpp"
+#include "rehearse/experiment/kept_tells.hpp"
 #include "rehearse/experiment/next_files.hpp"
 #include "rehearse/experiment/open_run.hpp"
 
@@ -35,6 +36,7 @@ class Reopened {
   }
 
   const Resolved& resolved() const { return participants_.resolved(); }
+  const RunFolder& folder() const { return folder_; }
   OpenRun& run() { return run_; }
 
   /// A run that has more trials than it was to have ends with the last of them.
@@ -121,15 +123,37 @@ Told tell_run(const Catalogue& catalogue, const fs::path& path, const Tale& tale
   Told told{.resolved = resolved, .trial = {}, .logs = {}};
   if (!history.asked) {
     std::vector<Log> logs = logs_of(news, resolved.scenario.task);
-    reopened.go_on(false, [&](OpenRun& run) { run.add_logs(logs); });
+    keep_tell(reopened.folder(), news);
+    try {
+      reopened.go_on(false, [&](OpenRun& run) { run.add_logs(logs); });
+    } catch (const InvalidInput&) {
+      forget_tell(reopened.folder());
+      throw;
+    }
     told.logs = std::move(logs);
     return told;
   }
   const ToldEpisode episode = episode_of(news.front(), resolved.scenario, *history.asked, tale.stopped);
+  keep_tell(reopened.folder(), news);
   reopened.go_on(true, [&](OpenRun& run) { run.conclude(episode.episode, news.front().checksum, episode.notes); });
   reopened.extend_to_done();
   told.trial = history.trials.back();
   return told;
+}
+
+TakenBack take_back(const Catalogue& catalogue, const fs::path& path, const RunOptions& options) {
+  TakenBack taken;
+  {
+    Reopened told(catalogue, path, options);
+    const KeptTell tell = last_tell(told.folder());
+    taken = {tell.trial(), set_aside(told.folder(), tell)};
+    told.run().update_learners_tables(false);
+    restore(told.folder(), tell);
+  }
+  Reopened before(catalogue, path, options);
+  before.go_on(false, [](OpenRun& run) { run.update_learners_tables(true); });
+  forget_tell(before.folder());
+  return taken;
 }
 
 RunStatus status_of(const Catalogue& built_in, const fs::path& path) {

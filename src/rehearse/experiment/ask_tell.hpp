@@ -44,6 +44,16 @@ struct Told {
 Told tell_run(const Catalogue& catalogue, const std::filesystem::path& path, const Tale& tale,
               const RunOptions& options);
 
+struct TakenBack {
+  std::optional<Index> trial;                // that was told, and is to come again; empty: logs were told
+  std::vector<std::filesystem::path> files;  // copies of the files that were told, in FOLDER/taken-back
+};
+
+/// Takes the last `tell_run` back, when it took the wrong file: the run's folder is as before it, byte for byte, but
+/// for taken-back. Again, it takes back the one before. A kill costs nothing: the same call goes on. Throws
+/// InvalidInput where there is none, or Rehearse drove the robot since, else RunFailed and Interrupted.
+TakenBack take_back(const Catalogue& catalogue, const std::filesystem::path& path, const RunOptions& options);
+
 /// A run as its folder has it, for reading only: another process may be at work there.
 struct RunStatus {
   Resolved resolved;

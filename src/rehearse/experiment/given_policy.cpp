@@ -43,6 +43,16 @@ bool answers_alike(const policy::Policy& policy, const Vector& theta, const Task
   return true;
 }
 
+InvalidInput no_export(const std::string& source) {
+  return InvalidInput(fmt::format("{} is no policy that `export` wrote as JSON", source));
+}
+
+std::string kind_of(const std::string& text, const std::string& source) try {
+  return json::parse(text).at("policy");
+} catch (const json::exception&) {
+  throw no_export(source);
+}
+
 }  // namespace
 
 TrialRecord given_policy(const std::string& text, const std::string& source, const scenario::Scenario& scenario) try {
@@ -53,26 +63,37 @@ TrialRecord given_policy(const std::string& text, const std::string& source, con
   record.theta = to_vector(file.at("theta"));
   const Task& task = scenario.task;
   const auto wrong = [&](const std::string& why) {
-    throw InvalidInput(fmt::format("{} is no policy of scenario {}: {}", source, scenario.name, why));
+    return InvalidInput(fmt::format("{} is no policy of scenario {}: {}", source, scenario.name, why));
   };
-  if (variable_names(file.at("states")) != variable_names(task.states)) wrong("its states are others");
-  if (variable_names(file.at("actions")) != variable_names(task.actions)) wrong("its actions are others");
-  const auto policy = policy_of(record, scenario);
+  if (variable_names(file.at("states")) != variable_names(task.states)) throw wrong("its states are others");
+  if (variable_names(file.at("actions")) != variable_names(task.actions)) throw wrong("its actions are others");
+  const auto policy = [&] {
+    try {
+      return policy_of(record, scenario);
+    } catch (const InvalidInput& error) {
+      throw wrong(error.what());
+    }
+  }();
   if (record.theta.size() != policy->parameters() || !record.theta.allFinite())
-    wrong(fmt::format("theta has {} numbers, must have {} finite ones", record.theta.size(), policy->parameters()));
+    throw wrong(
+        fmt::format("theta has {} numbers, must have {} finite ones", record.theta.size(), policy->parameters()));
   if (!answers_alike(*policy, record.theta, task, file.at("test")))
-    wrong("the run's options make another policy of its theta");
+    throw wrong("the run's options make another policy of its theta");
   return record;
 } catch (const json::exception&) {
-  throw InvalidInput(fmt::format("{} is no policy that `export` wrote as JSON", source));
+  throw no_export(source);
 }
 
 Spec with_start(const Catalogue& catalogue, Spec spec, const std::string& text, const std::string& source) {
-  const scenario::Scenario scenario = resolve(catalogue, spec).scenario;
-  const TrialRecord given = given_policy(text, source, scenario);
-  if (given.policy != scenario.policy->name())
-    throw InvalidInput(fmt::format("{} is a {}, no {} to begin with", source, given.policy, scenario.policy->name()));
-  spec.start = start_text(given.theta);
+  const Resolved resolved = resolve(catalogue, spec);
+  const std::string learner = resolved.learner->name(), known = resolved.scenario.policy->name();
+  if (!resolved.learner->takes_start())
+    throw InvalidInput(fmt::format("{}: learner {} cannot begin with a policy", source, learner));
+  const std::string kind = kind_of(text, source);
+  if (kind != known)
+    throw InvalidInput(fmt::format("{} is a policy '{}', but learner {} begins with policies '{}' here (option policy)",
+                                   source, kind, learner, known));
+  spec.start = start_text(given_policy(text, source, resolved.scenario).theta);
   return resolve(catalogue, spec).spec;
 }
 

@@ -15,7 +15,7 @@ namespace rehearse::experiment {
 TrialRecord given_policy(const std::string& text, const std::string& source, const scenario::Scenario& scenario);
 
 /// The complete spec of a run that begins with such a policy (Spec::start). Throws InvalidInput, too, if the learner
-/// cannot begin with one, or it is random actions.
+/// cannot begin with one, or begins with those of another kind (random actions, for example).
 Spec with_start(const Catalogue& catalogue, Spec spec, const std::string& text, const std::string& source);
 
 }  // namespace rehearse::experiment

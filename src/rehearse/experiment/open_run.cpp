@@ -42,12 +42,17 @@ void OpenRun::begin(bool something_to_come) {
   if (something_to_come || history_.told < history_.done()) catch_up();
 }
 
-/// Brings a new learner to where the history ends.
-void OpenRun::catch_up() {
+/// Brings a new learner to the last trial that it was told.
+void OpenRun::load_learner() {
   std::vector<Episode> told;
   with_.learner().study(as_told(history_.logs));
   for (Index i = 0; i < history_.told; ++i) told.push_back(as_told(history_.episodes[static_cast<std::size_t>(i)]));
   if (history_.told > 0) named_failure(history_.told, "learner", [&] { with_.learner().load(told, history_.learner); });
+}
+
+/// Brings a new learner to where the history ends.
+void OpenRun::catch_up() {
+  load_learner();
   if (history_.told == history_.done()) return;
   ask(history_.done(), &history_.trials.back());  // it may learn from what it proposed, too
   tell_last();
@@ -79,6 +84,14 @@ void OpenRun::tell_last() {
   ++history_.told;
   for (const learners::Table& table : with_.learner().tables()) folder_.write_learners_table(table);
   folder_.write_checkpoint(history_);  // which says that the tables are there
+}
+
+void OpenRun::update_learners_tables(bool keep) {
+  if (history_.told == 0) return;
+  with_.open_store(path());
+  load_learner();
+  for (const learners::Table& table : with_.learner().tables())
+    keep ? folder_.write_learners_table(table) : folder_.remove_learners_table(table);
 }
 
 std::vector<Episode> OpenRun::as_told(const std::vector<Log>& logs) const {

@@ -26,6 +26,9 @@ class OpenRun {
   /// kept, where it cannot learn from logs.
   void add_logs(std::vector<Log> logs);
 
+  /// The learner's tables of all that it was told; `keep` says whether they are to be there.
+  void update_learners_tables(bool keep);
+
   /// The next trial's policy. The same until it is concluded, whatever happens to the process.
   const learners::Proposal& propose();
 
@@ -35,6 +38,7 @@ class OpenRun {
  private:
   const std::filesystem::path& path() const { return folder_.path(); }
   void catch_up();
+  void load_learner();
   const learners::Proposal& ask(Index trial, const TrialRecord* known);
   Episode as_told(const Episode& episode) const;
   std::vector<Episode> as_told(const std::vector<Log>& logs) const;

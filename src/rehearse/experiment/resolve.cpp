@@ -62,7 +62,14 @@ class Resolver {
     auto prior = contained([&] { return priors.prior(); });
     violations_.throw_if_any();
     complete(names, priors);
-    return {spec_, *scenario, std::move(*prior), std::move(learner_builder_), std::move(comments_), std::move(robot_)};
+    std::vector<std::string> warnings = warnings_of(*scenario, names, *prior);
+    return {spec_,
+            *scenario,
+            std::move(*prior),
+            std::move(learner_builder_),
+            std::move(comments_),
+            std::move(robot_),
+            std::move(warnings)};
   }
 
  private:
@@ -175,6 +182,19 @@ class Resolver {
   }
 
   bool is_field(const std::string& key) const { return is_among(key, options_like(key)); }
+
+  std::vector<std::string> warnings_of(const scenario::Scenario& scenario, const std::vector<std::string>& names,
+                                       const std::optional<prior::Prior>& prior) const {
+    std::vector<std::string> warnings;
+    const bool oracle = is_among(kOracle, names);
+    if (learner_builder_->tunes_prior() && prior && !oracle && !prior->space.has_tunable())
+      warnings.push_back(fmt::format("prior {} has nothing to tune, so {} learns no parameters", spec_.prior,
+                                     learner_builder_->name()));
+    if (oracle)
+      for (const std::string& line : scenario.oracle_lacks)
+        warnings.push_back("the oracle is not all of the plant: " + line);
+    return warnings;
+  }
 
   void complete(const std::vector<std::string>& names, const ChosenPriors& priors) {
     spec_.prior.clear();

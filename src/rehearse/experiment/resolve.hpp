@@ -16,7 +16,8 @@ struct Resolved {
   std::optional<prior::Prior> prior;
   std::shared_ptr<const learners::LearnerBuilder> learner;
   Comments comments;
-  std::optional<RobotFile> robot = {};  // the file that describes the robot; empty: it is built in
+  std::optional<RobotFile> robot = {};     // the file that describes the robot; empty: it is built in
+  std::vector<std::string> warnings = {};  // what can be done so, and is hardly meant, a line each
 };
 
 /// Throws InvalidInput with a line for everything that is wrong.

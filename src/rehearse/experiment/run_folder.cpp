@@ -18,6 +18,12 @@ constexpr const char *kSpec = "spec.toml", *kCheckpoint = "checkpoint", *kDone =
 
 fs::path trial_file(const fs::path& folder, Index trial) { return folder / fmt::format("trial-{:03}.csv", trial); }
 
+fs::path log_file(const fs::path& run, Index log) { return run / "logs" / fmt::format("log-{:03}.csv", log); }
+
+fs::path motion_file(const fs::path& run, const char* kind, Index trial) {
+  return run / "motion" / fmt::format("{}-{:03}.json", kind, trial);
+}
+
 std::string already_exists(const fs::path& path) {
   return fmt::format("{} already exists and is never overwritten; name another folder, or continue a run with `resume`",
                      path.string());
@@ -99,6 +105,8 @@ void RunFolder::change_end(Until until, const Comments& comments) {
 
 History RunFolder::load() const { return history_of(path_, spec_); }
 
+History RunFolder::load(const fs::path& folder) const { return history_of(folder, spec_); }
+
 void RunFolder::write_checkpoint(const History& history) const {
   files::write_file(path_ / kCheckpoint, to_checkpoint(history, fingerprint(spec_)), files::Durability::power);
 }
@@ -125,7 +133,7 @@ void RunFolder::write_trajectory(Index trial, const std::string& csv) const {
 
 void RunFolder::write_log(Index log, const std::string& csv) const {
   fs::create_directories(path_ / "logs");
-  files::write_file(path_ / "logs" / fmt::format("log-{:03}.csv", log), csv);
+  files::write_file(log_file(path_, log), csv);
 }
 
 void RunFolder::write_next(const std::string& name, const std::string& text) const {
@@ -137,7 +145,7 @@ void RunFolder::remove_next() const { fs::remove_all(path_ / kNextFolder); }
 
 void RunFolder::write_motion(const char* kind, Index trial, const std::string& json) const {
   fs::create_directories(path_ / "motion");  // a scenario that cannot be drawn has none
-  files::write_file(path_ / "motion" / fmt::format("{}-{:03}.json", kind, trial), json);
+  files::write_file(motion_file(path_, kind, trial), json);
 }
 
 void RunFolder::write_archive(const std::string& bytes) const {
@@ -147,6 +155,21 @@ void RunFolder::write_archive(const std::string& bytes) const {
 
 void RunFolder::write_learners_table(const learners::Table& table) const {
   files::write_file(path_ / (table.name + ".csv"), learners_csv(table));
+}
+
+void RunFolder::remove_learners_table(const learners::Table& table) const { fs::remove(path_ / (table.name + ".csv")); }
+
+void RunFolder::remove_after(const History& history) const {
+  const Index trial = history.done() + 1, foreseen = history.asked ? trial + 1 : trial;
+  fs::remove(trial_file(path_ / "trajectories", trial));
+  fs::remove(motion_file(path_, "trial", trial));
+  fs::remove(trial_file(path_ / "predictions", foreseen));
+  fs::remove(motion_file(path_, "prediction", foreseen));
+  for (auto log = static_cast<Index>(history.logs.size()) + 1; fs::remove(log_file(path_, log)); ++log) {
+  }
+  if (history.logs.empty()) fs::remove(path_ / "logs.csv");
+  std::error_code not_empty;
+  for (const char* folder : {"motion", "logs"}) fs::remove(path_ / folder, not_empty);
 }
 
 void RunFolder::mark_done(Index trials) const { files::write_file(path_ / kDone, fmt::format("{} trials\n", trials)); }

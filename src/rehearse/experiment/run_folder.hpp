@@ -41,6 +41,9 @@ class RunFolder {
   /// Throws InvalidInput if the checkpoint is truncated, damaged, or does not belong to spec.toml.
   History load() const;
 
+  /// The same of a checkpoint of this run in another folder.
+  History load(const std::filesystem::path& folder) const;
+
   void write_checkpoint(const History& history) const;
 
   /// Every table that follows from the history.
@@ -65,6 +68,10 @@ class RunFolder {
 
   /// A learner's own: NAME.csv.
   void write_learners_table(const learners::Table& table) const;
+  void remove_learners_table(const learners::Table& table) const;
+
+  /// Removes the files of what came after a history: of one trial, or of logs and the trial that was asked for.
+  void remove_after(const History& history) const;
 
   /// Marks the run as complete after so many trials, or as not.
   void mark_done(Index trials) const;

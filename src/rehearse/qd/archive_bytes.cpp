@@ -149,23 +149,28 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 std::string to_bytes(const Search& search) {
   const Archive& archive = search.archive;
   const Niches& niches = archive.niches();
-  Header h{.about = search.about.size(),
-           .descriptors = static_cast<std::uint64_t>(niches.dimensions()),
-           .parameters = static_cast<std::uint64_t>(archive.parameters()),
-           .niches = static_cast<std::uint64_t>(niches.size()),
-           .elites = static_cast<std::uint64_t>(archive.size()),
-           .grid = niches.is_grid(),
-           .evaluations = search.evaluations,
-           .failed = search.failed};
+  const Header h{.about = search.about.size(),
+                 .descriptors = static_cast<std::uint64_t>(niches.dimensions()),
+                 .parameters = static_cast<std::uint64_t>(archive.parameters()),
+                 .niches = static_cast<std::uint64_t>(niches.size()),
+                 .elites = static_cast<std::uint64_t>(archive.size()),
+                 .grid = niches.is_grid(),
+                 .evaluations = search.evaluations,
+                 .failed = search.failed};
   Writer out;
   out.bytes().reserve(sizeof(Header) + static_cast<std::size_t>(body_size(h)));
   out.put(&h, 1);
   out.put(search.about.data(), static_cast<Index>(search.about.size()));
   put_niches(niches, out);
   put_elites(archive, out);
-  h.checksum = files::checksum(std::string_view(out.bytes()).substr(kUnchecked));
-  std::memcpy(out.bytes().data(), &h, sizeof(Header));
+  fit_checksum(out.bytes());
   return std::move(out.bytes());
+}
+
+void fit_checksum(std::string& bytes) {
+  if (bytes.size() <= kUnchecked) return;
+  const std::uint64_t sum = files::checksum(std::string_view(bytes).substr(kUnchecked));
+  std::memcpy(bytes.data() + offsetof(Header, checksum), &sum, sizeof sum);
 }
 
 Search from_bytes(std::string_view bytes, const std::string& name) {

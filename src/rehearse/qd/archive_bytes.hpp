@@ -19,6 +19,9 @@ struct Search {
 /// order, with exact doubles.
 std::string to_bytes(const Search& search);
 
+/// Bytes that are long enough get the checksum that fits them, whatever they are: tests of what stands behind it.
+void fit_checksum(std::string& bytes);
+
 /// Throws InvalidInput with one line, which begins with `name`, if the bytes are not an archive, of another version or
 /// byte order, truncated, damaged, or contradict themselves. Nothing is allocated for sizes that the bytes do not have,
 /// but for the niches of a grid.

@@ -1,5 +1,7 @@
 #include "rehearse/robot_file/robot_file.hpp"
 
+#include <fmt/format.h>
+
 #include "rehearse/robot_file/dynamics.hpp"
 #include "rehearse/robot_file/read.hpp"
 #include "rehearse/robot_file/task.hpp"
@@ -54,6 +56,7 @@ class Builder final : public scenario::ScenarioBuilder {
     } else if (robot_.has_plant) {
       scenario.make_plant = dynamics.plant(plant, around);
       scenario.oracle = dynamics.simulator(plant, robot_.options.substeps);
+      scenario.oracle_lacks = oracle_lacks();
     }
     for (const Variant& prior : robot_.priors)
       scenario.priors.push_back({prior.name, dynamics.simulator(prior, robot_.options.substeps), prior.parameters});
@@ -91,6 +94,20 @@ class Builder final : public scenario::ScenarioBuilder {
     if (scenario.oracle) scenario.oracle = system::with_actuators(scenario.oracle, actuators);
     for (scenario::NamedPrior& prior : scenario.priors)
       prior.simulator = system::with_actuators(prior.simulator, actuators);
+  }
+
+  /// A simulator knows of the commands before what the task remembers, which is as much as its own delay and lag take.
+  std::vector<std::string> oracle_lacks() const {
+    std::vector<std::string> lines;
+    for (std::size_t a = 0; a < robot_.actions.size(); ++a) {
+      const Actuation &known = robot_.actions[a].actuation, &own = robot_.plant_actuation[a];
+      if (known.delay_s != own.delay_s || known.lag_s != own.lag_s)
+        lines.push_back(
+            fmt::format("{}: the plant has delay_s = {:g} and lag_s = {:g}, its oracle those of the action, as all "
+                        "models: {:g} and {:g}",
+                        robot_.actions[a].name, own.delay_s, own.lag_s, known.delay_s, known.lag_s));
+    }
+    return lines;
   }
 
   Vector policy_scale() const {

@@ -32,6 +32,7 @@ struct Scenario {
   std::function<std::unique_ptr<system::Plant>()> make_plant;  // null: a robot that Rehearse does not drive
   std::vector<NamedPrior> priors;                              // the first is the default
   std::shared_ptr<const system::Simulator> oracle;  // the plant's own dynamics, for `--prior oracle`; may be null
+  std::vector<std::string> oracle_lacks;            // what the plant has of its own and its oracle has not, a line each
   std::shared_ptr<const policy::Policy> policy;
   std::optional<Drawing> drawing;       // empty: it cannot be shown
   std::function<void()> require_ready;  // throws InvalidInput with why plant or priors cannot be asked; null: they can

@@ -1,11 +1,14 @@
 #include "rehearse/experiment/ask_tell.hpp"
 
+#include <map>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "line_run.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
+#include "rehearse/experiment/run.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/files/write.hpp"
 
@@ -32,6 +35,7 @@ class AskTell : public ::testing::Test {
   Told tell(const fs::path& folder, const std::vector<fs::path>& files, std::optional<Stop> stopped = {}) {
     return tell_run(fake::catalogue(), folder, {files, std::move(stopped)}, {});
   }
+  TakenBack take_back(const fs::path& folder) { return experiment::take_back(fake::catalogue(), folder, {}); }
   fs::path written(const std::string& name, const std::string& text) {
     files::write_file(folder / name, text);
     return folder / name;
@@ -110,6 +114,67 @@ TEST_F(AskTell, WhatIsNotToComeIsRefusedAndChangesNothing) {
             std::string::npos);
 }
 
+/// Every file of a folder but those that were taken back, by its path there.
+std::map<std::string, std::string> all_files(const fs::path& run) {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(run))
+    if (const fs::path name = entry.path().lexically_relative(run);
+        entry.is_regular_file() && *name.begin() != "taken-back")
+      all[name.string()] = files::read_file(entry.path());
+  return all;
+}
+
+TEST_F(AskTell, WhatWasToldCanBeTakenBack) {
+  std::vector<std::map<std::string, std::string>> before;
+  for (Index trial = 1; trial <= kTrials; ++trial) {
+    ask(told);
+    before.push_back(all_files(told));
+    tell(told, {trial_of(driven, trial)});
+  }
+  ask(told);  // a policy that was made of the wrong trial
+  for (Index trial = kTrials; trial >= 1; --trial) {
+    const TakenBack taken = take_back(told);
+    EXPECT_EQ(taken.trial, trial);
+    ASSERT_EQ(taken.files.size(), 1U);
+    EXPECT_EQ(files::read_file(taken.files[0]), files::read_file(trial_of(driven, trial)));
+    EXPECT_EQ(all_files(told), before[static_cast<std::size_t>(trial) - 1]) << trial;
+  }
+  EXPECT_NE(message_of<InvalidInput>([&] { take_back(told); }).find("no file was told"), std::string::npos);
+  for (Index trial = 1; trial <= kTrials; ++trial) ask(told), tell(told, {trial_of(driven, trial)});
+  for (const char* file : {"trials.csv", "errors.csv", "policy.json", "memories.csv"})
+    EXPECT_EQ(files::read_file(told / file), files::read_file(driven / file)) << file;
+}
+
+TEST_F(AskTell, TakingBackGoesOnAfterAKill) {
+  ask(told), tell(told, {trial_of(driven, 1)}), ask(told);
+  const auto before = all_files(told);
+  tell(told, {trial_of(driven, 2)});
+  files::write_file(told / "checkpoint", before.at("checkpoint"));  // as far as that it came
+  EXPECT_EQ(take_back(told).trial, 2);
+  EXPECT_EQ(all_files(told), before);
+}
+
+TEST_F(AskTell, AnEndThatATellMovedIsMovedBack) {
+  const auto end = [&] { return std::pair(files::read_file(driven / "spec.toml"), fs::exists(driven / "done")); };
+  ask(driven);
+  const auto before = end();
+  tell(driven, {trial_of(driven, 2)}).trial.value();
+  EXPECT_NE(end(), before);
+  take_back(driven);
+  EXPECT_EQ(end(), before);
+  EXPECT_TRUE(before.second);
+  EXPECT_NE(message_of<InvalidInput>([&] { take_back(driven); }).find("no file was told"), std::string::npos);
+}
+
+TEST_F(AskTell, WhatRehearseDroveIsNotTakenBack) {
+  ask(told), tell(told, {trial_of(driven, 1)});
+  resume_run(fake::catalogue(), told, Until(2), {});
+  const std::string before = checkpoint();
+  EXPECT_NE(message_of<InvalidInput>([&] { take_back(told); }).find("trial 2, the last, cannot be taken back"),
+            std::string::npos);
+  EXPECT_EQ(checkpoint(), before);
+}
+
 TEST_F(AskTell, AnOperatorMayStopAnEpisode) {
   ask(told);
   const Told failed = tell(told, {beginning(trial_of(driven, 1), 6)}, Stop{"it hit the wall"});
@@ -135,6 +200,7 @@ TEST_F(AskTell, LearnersThatCannotUseLogsSaySoBeforeAnythingIsKept) {
   EXPECT_NE(message_of<InvalidInput>([&] { tell(told, {trial_of(driven, 1)}); }).find("cannot learn from logs"),
             std::string::npos);
   EXPECT_EQ(checkpoint(), before);
+  EXPECT_FALSE(fs::exists(told / "told"));
 }
 
 TEST_F(AskTell, StatusReadsWithoutDisturbing) {

@@ -44,7 +44,33 @@ TEST(GivenPolicy, SaysWhatIsWrong) {
   EXPECT_NE(said(changed("\"name\": \"x\"", "\"name\": \"y\"")).find("its states are others"), std::string::npos);
   EXPECT_NE(said(changed("\"theta\": [\n", "\"theta\": [\n 0.5,\n")).find("theta has 13 numbers"), std::string::npos);
   EXPECT_NE(said(changed("\"theta\": [\n  -1.0", "\"theta\": [\n  0.7")).find("another policy"), std::string::npos);
-  EXPECT_NE(said(changed("\"schedule\"", "\"mlp\"")).find("has the policy 'mlp'"), std::string::npos);
+  EXPECT_NE(said(changed("\"schedule\"", "\"mlp\""))
+                .find("it.json is no policy of scenario line: trial 1 has the "
+                      "policy 'mlp'"),
+            std::string::npos);
+}
+
+struct StartingBuilder : fake::EchoBuilder {
+  StartingBuilder() : EchoBuilder(true, {}) {}
+  std::string name() const override { return "starting"; }
+  bool takes_start() const override { return true; }
+};
+
+TEST(GivenPolicy, OfAnotherKindThanTheLearnersIsRefusedWithTheNamesOfBoth) {
+  Catalogue catalogue = fake::catalogue();
+  catalogue.learner_families.emplace_back([] {
+    std::vector<std::unique_ptr<learners::LearnerBuilder>> family;
+    family.push_back(std::make_unique<StartingBuilder>());
+    return family;
+  });
+  const auto said = [&](const std::string& learner, const std::string& text) {
+    return message_of<InvalidInput>([&] { with_start(catalogue, fake::line_spec(1, learner), text, "it.json"); });
+  };
+  const std::string file = schedule_file();
+  EXPECT_EQ(said("echo", file), "it.json: learner echo cannot begin with a policy");
+  EXPECT_EQ(said("starting", file),
+            "it.json is a policy 'schedule', but learner starting begins with policies 'line' here (option policy)");
+  EXPECT_EQ(said("starting", "[]"), "it.json is no policy that `export` wrote as JSON");
 }
 
 }  // namespace

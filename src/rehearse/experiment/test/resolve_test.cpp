@@ -45,6 +45,42 @@ TEST(Spec, DefaultsOfAScenarioComeBeforeTheUsersOptions) {
             "presets/defaults/line.toml: line 7: unknown option 'of.others', did you mean 'noise'?");
 }
 
+/// A robot whose plant has what its oracle lacks, and a prior without anything to tune.
+struct StiffBuilder final : fake::LineBuilder {
+  scenario::Scenario build() const override {
+    scenario::Scenario scenario = LineBuilder::build();
+    scenario.priors[1].parameters = scenario.priors[1].parameters.fixed_at(scenario.priors[1].parameters.values());
+    scenario.oracle_lacks = {"v is late"};
+    return scenario;
+  }
+};
+
+struct TuningBuilder final : fake::EchoBuilder {
+  TuningBuilder() : EchoBuilder(true, {}) {}
+  std::string name() const override { return "tuning"; }
+  bool tunes_prior() const override { return true; }
+};
+
+TEST(Spec, WarnsOfWhatIsHardlyMeant) {
+  Catalogue catalogue = fake::catalogue();
+  catalogue.scenarios = {[] { return std::make_unique<StiffBuilder>(); }};
+  catalogue.learner_families.emplace_back([] {
+    std::vector<std::unique_ptr<learners::LearnerBuilder>> family;
+    family.push_back(std::make_unique<TuningBuilder>());
+    return family;
+  });
+  const auto warnings = [&](const std::string& learner, const std::string& prior) {
+    return resolve(catalogue, spec_of(learner, prior)).warnings;
+  };
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(warnings("tuning", "near"), Lines{});
+  EXPECT_EQ(warnings("tuning", "far"), Lines{"prior far has nothing to tune, so tuning learns no parameters"});
+  EXPECT_EQ(warnings("tuning", "near,far"), Lines{});
+  EXPECT_EQ(warnings("echo", "far"), Lines{});
+  EXPECT_EQ(warnings("echo", "oracle"), Lines{"the oracle is not all of the plant: v is late"});
+  EXPECT_EQ(warnings("tuning", "oracle"), Lines{"the oracle is not all of the plant: v is late"});
+}
+
 /// A learner that prefers two options of the scenario, of which this one has one, and a value that it cannot have.
 class Choosy final : public fake::EchoBuilder {
  public:

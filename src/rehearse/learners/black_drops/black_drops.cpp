@@ -208,6 +208,7 @@ Entry<Options> entry(const char* name, const char* summary, identification::Kind
           .prior_use = prior_use(options),
           .chooses_priors = is<identification::GpMi>(options) || is<identification::Mi>(options),
           .takes_start = true,
+          .tunes_prior = is<identification::GpMi>(options) || is<identification::Mi>(options),
           .make = make,
           .options = options,
           .violations = violations_with};

@@ -111,6 +111,7 @@ std::vector<std::unique_ptr<LearnerBuilder>> builders() {
       .name = "gp-ilqg",
       .summary = "GPs around the prior, plans by iterative LQG; the policy is feedback that varies with time",
       .prior_use = PriorUse::required,
+      .tunes_prior = true,
       .make = make,
       .options = {},
       .violations = cannot_do});

@@ -233,9 +233,9 @@ std::vector<std::string> violations(const IlluminationOptions& options, const Ta
                                     const policy::Policy& policy) {
   Violations violations;
   violations.require(static_cast<bool>(task.descriptor),
-                     "the scenario says of no trial how it went (its task has no descriptor), which ite needs to tell "
-                     "policies apart: give the task a descriptor and descriptor_bounds, or choose the learner gp-mi or "
-                     "black-drops-prior");
+                     "learner ite needs a descriptor, numbers that say how an episode went, which the task does not "
+                     "have: only a robot in C++ can give one, not a robot's file or one in Python (docs/ite.md); "
+                     "choose the learner gp-mi or black-drops-prior");
   violations.require(task.limits.empty(),
                      "the task has limits, which ite does not keep: choose the learner gp-mi or black-drops-prior");
   if (task.descriptor)

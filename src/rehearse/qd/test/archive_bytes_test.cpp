@@ -7,7 +7,6 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/test/test_tools.hpp"
-#include "rehearse/files/checksum.hpp"
 
 namespace rehearse::qd {
 namespace {
@@ -60,8 +59,7 @@ std::string refusal(std::string_view bytes) {
 template <class T>
 std::string forged(std::string bytes, std::size_t at, T value) {
   std::memcpy(bytes.data() + at, &value, sizeof(T));
-  const std::uint64_t sum = files::checksum(std::string_view(bytes).substr(24));
-  std::memcpy(bytes.data() + 16, &sum, 8);
+  fit_checksum(bytes);
   return bytes;
 }
 

@@ -86,6 +86,18 @@ TEST(RobotFile, PlantsHaveTheDelaysOfTheirActions) {
   }
 }
 
+TEST(RobotFile, SaysWhatAPlantHasAndItsOracleHasNot) {
+  const auto lacks = [](const std::string& key, const std::string& value) {
+    const auto made = builder(kDelayed, "swing.toml", example::no_files);
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { made->fields(v); }, key, value));
+    return made->build().oracle_lacks;
+  };
+  EXPECT_EQ(lacks("plant.delay_s.u", "0.2"), std::vector<std::string>{});
+  EXPECT_EQ(lacks("plant.delay_s.u", "0.3"),
+            std::vector<std::string>{"u: the plant has delay_s = 0.3 and lag_s = 0.05, its oracle those of the action, "
+                                     "as all models: 0.2 and 0.05"});
+}
+
 /// The change of the rate in the first step of the plant under the largest action.
 double first_push(const std::string& text, const std::string& delay_s = "") {
   const auto made = builder(text, "swing.toml", example::no_files);

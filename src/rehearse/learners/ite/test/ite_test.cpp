@@ -191,7 +191,7 @@ TEST(Ite, RefusesToGoOnInAnotherArchive) {
 TEST(Ite, RefusesATaskThatDoesNotSayHowItWent) {
   Setting mute = setting();
   mute.task.descriptor = {};
-  EXPECT_NE(refusal(mute).find("its task has no descriptor"), std::string::npos) << refusal(mute);
+  EXPECT_NE(refusal(mute).find("not a robot's file or one in Python"), std::string::npos) << refusal(mute);
   EXPECT_EQ(builder()->violations(mute.task, *mute.policy).size(), 1U);
   Setting limited = setting();
   limited.task.limits = {{"end", "", limited.task.reward}};

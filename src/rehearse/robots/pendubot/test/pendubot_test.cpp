@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/random.hpp"
+#include "rehearse/scenario/test/drawn_reward.hpp"
 #include "rehearse/testing/check_scenario.hpp"
 
 namespace rehearse::robots::pendubot {
@@ -95,18 +96,7 @@ TEST(Pendubot, SolvedLooksAtTheLastHalfSecond) {
 }
 
 TEST(Pendubot, IsDrawnWithItsEndWhereTheRewardSeesIt) {
-  constexpr double kWidth = 0.5;
-  const scenario::Scenario s = make({});
-  const Vector upright{{0, 0, 0, 0}};
-  const Vector tilted = upright + Vector::Constant(upright.size(), 0.3);
-  const auto& drawing = std::get<scenario::LineDrawing>(*s.drawing);
-  for (const Vector& state : {upright, tilted}) {
-    const double distance = (drawing.lines(state).back().to - *drawing.goal).norm();
-    const Matrix X = state.transpose(), U = Matrix::Zero(1, 1);
-    Vector reward(1);
-    s.task.reward(X, U, X, reward);
-    EXPECT_NEAR(reward(0), std::exp(-distance * distance / (2 * kWidth * kWidth)), 1e-12);
-  }
+  scenario::expect_drawn_where_rewarded(make({}), Vector{{0, 0, 0, 0}}, 0.5);
 }
 
 TEST(Pendubot, ItsDescriptorsSayWhereAndWhen) {

@@ -1,0 +1,120 @@
+#include "rehearse/experiment/kept_tells.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/files/checksum.hpp"
+#include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/write.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What decides how a run goes on, the truth last.
+constexpr std::array<const char*, 3> kDeciding{"done", "spec.toml", "checkpoint"};
+constexpr const char *kBefore = "before", *kFiles = "files";
+
+fs::path tells_of(const RunFolder& run) { return run.path() / "told"; }
+
+bool is_number(const std::string& name) { return name.find_first_not_of("0123456789") == std::string::npos; }
+
+/// By number.
+std::vector<fs::path> all_tells(const RunFolder& run) {
+  std::vector<fs::path> all;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(tells_of(run), none))
+    if (is_number(entry.path().filename().string())) all.push_back(entry.path());
+  std::ranges::sort(all);
+  return all;
+}
+
+std::vector<fs::path> files_of(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+/// Leaves `to` as `from` is, not there for instance.
+void make_alike(const fs::path& from, const fs::path& to) {
+  if (!fs::exists(from)) {
+    fs::remove(to);
+    return;
+  }
+  const std::string bytes = files::read_file(from);
+  if (!files::holds(to, bytes)) files::write_file(to, bytes, files::Durability::power);
+}
+
+void remove_tell(const RunFolder& run, const fs::path& folder) {
+  fs::remove_all(folder);
+  std::error_code not_empty;
+  fs::remove(tells_of(run), not_empty);
+}
+
+/// Whether nothing was told since.
+bool is_untold(const History& before, const History& now) {
+  return now.done() == before.done() && now.logs.size() == before.logs.size();
+}
+
+}  // namespace
+
+void keep_tell(const RunFolder& run, const std::vector<ToldFile>& files) {
+  std::vector<fs::path> all = all_tells(run);
+  if (!all.empty() && files::holds(all.back() / kBefore / "checkpoint", files::read_file(run.path() / "checkpoint"))) {
+    remove_tell(run, all.back());
+    all.pop_back();
+  }
+  const fs::path unfinished = tells_of(run) / ".unfinished";
+  fs::remove_all(unfinished);
+  fs::create_directories(unfinished / kBefore);
+  fs::create_directories(unfinished / kFiles);
+  for (const char* name : kDeciding) make_alike(run.path() / name, unfinished / kBefore / name);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    files::write_file(unfinished / kFiles / fmt::format("{:03}-{}", i + 1, files[i].path.filename().string()),
+                      files[i].bytes, files::Durability::power);
+  const Index last = all.empty() ? 0 : std::stol(all.back().filename());
+  fs::rename(unfinished, tells_of(run) / fmt::format("{:03}", last + 1));
+}
+
+void forget_tell(const RunFolder& run) {
+  const std::vector<fs::path> all = all_tells(run);
+  if (!all.empty()) remove_tell(run, all.back());
+}
+
+KeptTell last_tell(const RunFolder& run) {
+  const std::vector<fs::path> all = all_tells(run);
+  if (all.empty())
+    throw InvalidInput(fmt::format("{} has nothing to take back: no file was told", run.path().string()));
+  KeptTell tell{.folder = all.back(), .before = run.load(all.back() / kBefore), .files = files_of(all.back() / kFiles)};
+  const History now = run.load();
+  const std::size_t logs = tell.before.logs.size() + (tell.trial() ? 0 : tell.files.size());
+  const Index trials = tell.before.done() + (tell.trial() ? 1 : 0);
+  if (!is_untold(tell.before, now) && (now.done() != trials || now.logs.size() != logs))
+    throw InvalidInput(
+        fmt::format("trial {}, the last, cannot be taken back: Rehearse drove the robot, no file told it", now.done()));
+  return tell;
+}
+
+std::vector<fs::path> set_aside(const RunFolder& run, const KeptTell& tell) {
+  const fs::path folder = run.path() / "taken-back";
+  fs::create_directories(folder);
+  std::vector<fs::path> kept;
+  for (const fs::path& file : tell.files) {
+    const std::string bytes = files::read_file(file), name = file.filename().string();
+    kept.push_back(folder / fmt::format("{:016x}-{}", files::checksum(bytes), name.substr(name.find('-') + 1)));
+    if (!files::holds(kept.back(), bytes)) files::write_file(kept.back(), bytes, files::Durability::power);
+  }
+  return kept;
+}
+
+void restore(const RunFolder& run, const KeptTell& tell) {
+  for (const char* name : kDeciding) make_alike(tell.folder / kBefore / name, run.path() / name);
+  run.remove_after(tell.before);
+}
+
+}  // namespace rehearse::experiment

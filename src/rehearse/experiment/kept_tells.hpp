@@ -1,0 +1,40 @@
+#pragma once
+// What a run was before each `tell`, and the files that it took, in FOLDER/told/001, …: so that the last can be taken
+// back. A folder there appears in one step.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rehearse/experiment/record.hpp"
+#include "rehearse/experiment/run_folder.hpp"
+#include "rehearse/experiment/told_file.hpp"
+
+namespace rehearse::experiment {
+
+struct KeptTell {
+  std::filesystem::path folder;
+  History before;
+  std::vector<std::filesystem::path> files;  // copies
+
+  /// The trial that was told; empty: the files are logs.
+  std::optional<Index> trial() const { return before.asked ? std::optional(before.asked->trial) : std::nullopt; }
+};
+
+/// Before the run changes. One that a kill kept from being told gives way.
+void keep_tell(const RunFolder& run, const std::vector<ToldFile>& files);
+
+/// The last one. Throws InvalidInput if there is none, or the run went on without being told.
+KeptTell last_tell(const RunFolder& run);
+
+/// It did not come about.
+void forget_tell(const RunFolder& run);
+
+/// Copies its files to FOLDER/taken-back, under their names behind checksums. Returns where they are.
+std::vector<std::filesystem::path> set_aside(const RunFolder& run, const KeptTell& tell);
+
+/// Makes the files that decide how the run goes on those from before it, and removes those of trials that are no more.
+void restore(const RunFolder& run, const KeptTell& tell);
+
+}  // namespace rehearse::experiment

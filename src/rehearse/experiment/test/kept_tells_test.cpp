@@ -1,0 +1,73 @@
+#include "rehearse/experiment/kept_tells.hpp"
+
+#include <gtest/gtest.h>
+
+#include "line_run.hpp"
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A run before whose first trial logs are told. What its files have does not matter here.
+class KeptTells : public ::testing::Test {
+ protected:
+  KeptTells() { start_run(fake::catalogue(), fake::line_spec(0), path, {}); }
+  static ToldFile file(const std::string& name, const std::string& bytes) { return {"elsewhere/" + name, bytes, ""}; }
+  /// As if so many logs had been told by now.
+  static void change(const RunFolder& run, std::size_t logs) {
+    History history = run.load();
+    const Episode episode{
+        .states = Matrix::Zero(2, 1), .true_states = Matrix::Zero(2, 1), .actions = Matrix::Zero(1, 1)};
+    history.logs.resize(logs, {.name = "log", .file = "", .episode = episode, .notes = {}});
+    run.write_checkpoint(history);
+  }
+
+  const fs::path path = fake::test_folder() / "run";
+};
+
+TEST_F(KeptTells, HaveTheRunAndTheFilesOfEach) {
+  const RunFolder run = RunFolder::open(path);
+  const std::string first = files::read_file(path / "checkpoint");
+  keep_tell(run, {file("a.csv", "A"), file("b.csv", "B")});
+  change(run, 2);
+  const std::string second = files::read_file(path / "checkpoint");
+  keep_tell(run, {file("a.csv", "another")});
+  change(run, 3);
+  EXPECT_EQ(last_tell(run).files.size(), 1U);
+  EXPECT_EQ(last_tell(run).before.logs.size(), 2U);
+  EXPECT_FALSE(last_tell(run).trial());
+  restore(run, last_tell(run));
+  EXPECT_EQ(files::read_file(path / "checkpoint"), second);
+  forget_tell(run);
+  const std::vector<fs::path> kept = set_aside(run, last_tell(run));
+  ASSERT_EQ(kept.size(), 2U);
+  EXPECT_EQ(files::read_file(kept[0]), "A");
+  EXPECT_TRUE(kept[1].filename().string().ends_with("-b.csv"));
+  restore(run, last_tell(run));
+  EXPECT_EQ(files::read_file(path / "checkpoint"), first);
+  forget_tell(run);
+  EXPECT_FALSE(fs::exists(path / "told"));
+  EXPECT_THROW(last_tell(run), InvalidInput);
+}
+
+TEST_F(KeptTells, OneThatNeverCameAboutGivesWay) {
+  const RunFolder run = RunFolder::open(path);
+  keep_tell(run, {file("a.csv", "A")});
+  fs::create_directories(path / "told/.unfinished/files");  // of a kill
+  keep_tell(run, {file("b.csv", "B")});
+  EXPECT_EQ(files::read_file(last_tell(run).files.at(0)), "B");
+  forget_tell(run);
+  EXPECT_FALSE(fs::exists(path / "told/001"));
+}
+
+TEST_F(KeptTells, ARunThatWentOnWithoutBeingToldStaysAsItIs) {
+  const RunFolder run = RunFolder::open(path);
+  keep_tell(run, {file("a.csv", "A")});
+  change(run, 2);
+  EXPECT_THROW(last_tell(run), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rehearse::experiment

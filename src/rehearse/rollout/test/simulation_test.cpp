@@ -1,0 +1,37 @@
+#include "rehearse/rollout/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "cart.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/test/test_tools.hpp"
+
+namespace rehearse::rollout {
+namespace {
+
+TEST(CheckSimulation, RefusesPartsThatDoNotFit) {
+  Task task = cart::task();
+  const auto policy = cart::policy();
+  const cart::Model model;
+  const Index parameters = policy->parameters();
+  const auto refusal = [&](Index given, Index particles) {
+    return message_of<InvalidInput>([&] { check_simulation({model, *policy, task}, given, particles); });
+  };
+  EXPECT_NO_THROW(check_simulation({model, *policy, task}, parameters, 1));
+  EXPECT_EQ(refusal(parameters - 1, 1),
+            "theta has 12 numbers for the 13 of the policy 'mlp', which has 1 actions for the 1 of the task; particles "
+            "= 1, must be ≥ 1");
+  EXPECT_NE(refusal(parameters, 0).find("particles = 0"), std::string::npos);
+  task.actions.push_back(task.actions.front());
+  EXPECT_NE(refusal(parameters, 1).find("1 actions for the 2 of the task"), std::string::npos);
+}
+
+TEST(SimulateOptions, AreNamedWithTheirBounds) {
+  SimulateOptions options{.noise_clip = -1, .measurement_noise = -2};
+  EXPECT_EQ(field_violations([&](FieldVisitor& v) { options.fields(v); }).size(), 2U);
+  options = {};
+  EXPECT_TRUE(field_violations([&](FieldVisitor& v) { options.fields(v); }).empty());
+}
+
+}  // namespace
+}  // namespace rehearse::rollout
