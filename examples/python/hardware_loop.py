@@ -4,7 +4,7 @@ Days may lie between two steps, and each may be another process: everything is i
 """
 
 import numpy as np
-from own_robot import pendulum, robot
+from own_robot import options, pendulum, robot
 
 import rehearse
 
@@ -23,7 +23,7 @@ def run_on_the_robot(policy, steps=30):
 
 
 if __name__ == "__main__":
-    run = rehearse.learn(robot, trials=0, out="runs/hardware", progress=None)  # makes the folder alone
+    run = rehearse.learn(robot, trials=0, options=options, out="runs/hardware", progress=None)  # makes the folder alone
     for _ in range(3):
         policy = run.ask()
         told = run.tell(run_on_the_robot(policy))

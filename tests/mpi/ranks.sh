@@ -41,20 +41,22 @@ killed_rank() {
   fail "rank $rank ends before it can be killed, six times"
 }
 
-short_campaign '["mi", "black-drops-prior"]' 1-8 >c.toml
+short_campaign '["mi", "black-drops-prior"]' 1-8 >c.toml  # long enough to be killed in
+short_campaign '["mi", "black-drops-prior"]' 1-3 >few.toml
 
 "$program" campaign c.toml --out one >/dev/null || fail "the campaign of one process"
-ranks 3 campaign c.toml --out three >output 2>&1 || fail "the campaign of three ranks: $(cat output)"
-same one three "${tables[@]}"
-[ "$(grep -c '^c: 16 runs' output)" = 1 ] || fail "not one rank alone speaks: $(cat output)"
-[ "$(grep -c '^\[ *[0-9]*/16\]' output)" = 16 ] || fail "not every run is told of once: $(cat output)"
+"$program" campaign few.toml --out one-few >/dev/null || fail "the smaller campaign of one process"
+ranks 3 campaign few.toml --out three >output 2>&1 || fail "the campaign of three ranks: $(cat output)"
+same one-few three "${tables[@]}"
+[ "$(grep -c '^few: 6 runs' output)" = 1 ] || fail "not one rank alone speaks: $(cat output)"
+[ "$(grep -c '^\[ *[0-9]*/6\]' output)" = 6 ] || fail "not every run is told of once: $(cat output)"
 
 "$mpirun" --oversubscribe -n 2 bash -c \
-  "'$program' campaign c.toml --out shares --threads 1 --share \$((OMPI_COMM_WORLD_RANK + 1))/2" >output 2>&1 ||
+  "'$program' campaign few.toml --out shares --threads 1 --share \$((OMPI_COMM_WORLD_RANK + 1))/2" >output 2>&1 ||
   fail "shares that mpirun started: $(cat output)"
-"$program" campaign c.toml --out shares >output || fail "the tables of shares that mpirun started"
-grep -q "16 of 16 runs done already" output || fail "the shares leave runs to do: $(cat output)"
-same one shares "${tables[@]}"
+"$program" campaign few.toml --out shares >output || fail "the tables of shares that mpirun started"
+grep -q "6 of 6 runs done already" output || fail "the shares leave runs to do: $(cat output)"
+same one-few shares "${tables[@]}"
 
 first_done_run() { compgen -G "$1/runs/*/done" >/dev/null; }
 for rank in 0 1; do
@@ -89,8 +91,8 @@ grep -q "^rehearse: .*need the same arguments" output || fail "different argumen
 differently() {
   "$mpirun" --oversubscribe --bind-to none -n 1 "$program" "$@" : -n 1 -x REHEARSE_KERNELS=avx2 "$program" "$@" >output 2>&1
 }
-differently campaign c.toml --out mixed || fail "a campaign on different processors: $(cat output)"
-same one mixed "${tables[@]}"
+differently campaign few.toml --out mixed || fail "a campaign on different processors: $(cat output)"
+same one-few mixed "${tables[@]}"
 
 SLURM_STEP_NUM_TASKS=2 "$program" list >output 2>&1
 [ $? = 2 ] && grep -q "Open MPI joins 1 of them" output || fail "a launcher that MPI does not know: $(cat output)"

@@ -12,7 +12,7 @@ case $learner in
   pilco-prior)  # most instants are in the episodes on the prior
     arguments=(pendulum --set policy=rbf --set pilco.prior_episodes=3 --set search.line_searches=4 --set model.inducing=40) ;;
   pi-rem)
-    arguments=(pendubot --prior misleading --set centres=3 --set search.line_searches=2 --set search.prior_searches=2
+    arguments=(pendulum --set centres=10 --set search.line_searches=20 --set search.prior_searches=3
       --set model.identify=true) ;;
   ite)
     arguments=(pendubot --prior misleading --set archive.niches=500 --set archive.evaluations=20000)

@@ -112,6 +112,7 @@ TEST(ExportedC, TestsItself) {
       };
       Exported exported = exports::exported(each, exports::asked(8, each.task.dt_s));
       EXPECT_EQ(status(exported), 0) << each.name;
+      if (way != ways.front()) continue;  // the same source is as wrong for every compiler
       exported.answers.actions(3, 1) += 1e-6;
       EXPECT_NE(status(exported), 0) << each.name;
     }
