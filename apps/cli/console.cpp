@@ -96,7 +96,8 @@ void Console::finished(const experiment::RunResult& result) {
                     result.folder.string(), program_name()));
   const std::string solved = result.solved_at ? fmt::format("solved at trial {}", *result.solved_at)
                                               : fmt::format("not solved in {} trials", result.trials);
-  line_.print(fmt::format("{}, best return {:.3f}, in {}", solved, result.best_return, result.folder.string()));
+  line_.print(fmt::format("{}, best return {:.3f}, in {}; its page: {} report {}", solved, result.best_return,
+                          result.folder.string(), program_name(), result.folder.string()));
 }
 
 }  // namespace rehearse::apps

@@ -63,7 +63,7 @@ void print_task(const scenario::Scenario& scenario) {
   fmt::print("reward\n  {}\n", reward::closed_form(task.reward)
                                    ? "saturating distance of features, as moment matching (PILCO) needs it"
                                    : "a formula; PILCO needs distances that are sums of multiples of features");
-  fmt::print("success\n  {}\n", task.solved ? "is told" : "is not told: there is no [success]");
+  fmt::print("success\n  {}\n", task.solved ? "as [success] has it" : "nobody can say: there is no [success]");
   if (!task.limits.empty()) fmt::print("limits\n");
   for (const Limit& limit : task.limits)
     fmt::print("  {}{} at every step, in all but {:g} % of episodes\n",
@@ -133,7 +133,9 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   const robot_file::Tried tried = robot_file::try_out(scenario);
   const bool driven = static_cast<bool>(scenario.make_plant);
   if (!driven) fmt::print("plant\n  none: there is no [plant], so its episodes are told\n");
-  fmt::print("priors, on {} steps of {} under random actions\n", tried.steps, driven ? "the plant" : "the first prior");
+  fmt::print("priors, on {} steps of {} under random actions{}\n", tried.steps,
+             driven ? "the plant" : "the first prior",
+             tried.ended > 0 ? fmt::format(", {} of 3 episodes `ended` before their time", tried.ended) : "");
   for (std::size_t i = 0; i < tried.priors.size(); ++i)
     print_prior(scenario.priors[i], tried.priors[i], scenario, tried);
   for (const std::string& line : scenario.oracle_lacks) fmt::print("  oracle: not all of the plant. {}\n", line);

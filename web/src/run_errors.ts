@@ -42,7 +42,8 @@ export function errors({ errors, prior, episodes }: Run): Child {
     title: 'How wrong is the model?',
     about:
       'The error of its mean prediction of each trial over 1, 2, 5, … steps, before it learned from the trial. ' +
-      'One step is on the left, the longest prediction on the right.' +
+      'One step is on the left, the longest prediction on the right. The actions that were taken are taken again, whatever ' +
+      'is predicted: the errors of an unstable robot grow fast, though its policy would correct them.' +
       (parts.length > 0 ? ` ${BY_PARTS}` : ''),
     legend: [{ label: first, colour: REAL }, ...(trials.length > 1 ? [others] : [])],
     panels: () => headers.map(panel),

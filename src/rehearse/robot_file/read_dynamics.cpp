@@ -102,7 +102,14 @@ class DynamicsReader {
   Formula rate_of(const State& state, const Definitions& given, Index line) {
     const std::string& name = state.variable.name;
     for (const auto& [own, formula] : given)
-      if (own == name) return formula;
+      if (own == name) {
+        if (const std::string& rate = state.variable.rate; !rate.empty() && formula.text != rate)
+          violations_.add(formula.line,
+                          fmt::format("rate.{} = \"{}\", but the rate of the state {} is \"{}\": one of them is "
+                                      "wrong, and the other is enough",
+                                      name, formula.text, name, rate));
+        return formula;
+      }
     if (!state.variable.rate.empty()) return {state.variable.rate, line};
     violations_.add(line,
                     fmt::format("rate.{} is missing: the derivative of {} by time, a formula; or program = […] or "

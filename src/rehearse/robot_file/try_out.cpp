@@ -15,6 +15,7 @@ namespace {
 struct Steps {
   Matrix X, U, dX;  // measured without noise where the plant knows it
   std::string end;
+  Index ended = 0;
 };
 
 /// As it may be commanded in state x.
@@ -45,7 +46,8 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
   Steps steps{Matrix(episodes * task.horizon, task.state_size()),
               Matrix(episodes * task.horizon, task.action_size()),
               Matrix(episodes * task.horizon, task.state_size()),
-              {}};
+              {},
+              0};
   Index row = 0;
   const auto plant = plant_or_prior(scenario);
   const auto state_of = [&](const Vector& measured) {
@@ -60,7 +62,9 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
         const Vector u = random_action(task, x, rng), next = state_of(plant->step(u));
         steps.X.row(row) = x, steps.U.row(row) = u, steps.dX.row(row) = next - x;
         x = next;
-        if (task.ended && holds(task.ended, x) && ++row) break;
+        if (!task.ended || !holds(task.ended, x)) continue;
+        ++row, ++steps.ended;
+        break;
       }
     }
   } catch (const std::exception& error) {
@@ -126,6 +130,9 @@ Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t 
   tried.start_reward = reward(0);
   if (!std::isfinite(tried.start_reward))
     tried.broken.push_back(fmt::format("the reward of the start is {}, must be a finite number", tried.start_reward));
+  if (task.ended && holds(task.ended, task.start_mean))
+    tried.broken.emplace_back("an episode ends where it starts: `ended` holds in the start");
+  tried.ended = steps.ended;
   if (!steps.dX.allFinite())
     tried.broken.emplace_back("the plant comes to states that are not finite");
   else if (again.X.rows() != steps.X.rows() || again.dX != steps.dX)

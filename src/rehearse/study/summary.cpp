@@ -41,6 +41,20 @@ std::string interval_of(const LogModel& model, std::size_t continuous) {
   return fmt::format("{:.4g} to {:.4g}", interval.low, interval.high);
 }
 
+/// Parameters that are not at an end of their boxes, where they would predict best: because errors are large, and tell
+/// little. Then a box may be the reason.
+Lines ends(const Zeros& zeros, const ParameterSpace& space) {
+  Lines lines;
+  for (const Index i : space.of_kind(Parameter::Kind::continuous))
+    for (const double end : {space[i].box.low, space[i].box.high}) {
+      const double near = 1e-3 * (space[i].box.high - space[i].box.low);
+      if (std::abs(zeros.closest_phi(i) - end) <= near && std::abs(zeros.phi(i) - end) > near)
+        lines.push_back(fmt::format(
+            "{} would predict best at the end of its box, {:.3g}: a better value may lie beyond", space[i].name, end));
+    }
+  return lines;
+}
+
 /// Whether all models' intervals of a parameter have a value in common.
 bool agree(const std::vector<LogModel>& models, std::size_t continuous) {
   double low = -INFINITY, high = INFINITY;
@@ -69,7 +83,7 @@ Lines parameters(const Study& study, const Problem& problem) {
     for (std::size_t m = 0; m < study.without.size(); ++m)
       line += fmt::format("{} without {}: {}", m == 0 ? ";" : ",", study.left_out[m],
                           interval_of(study.without[m], continuous));
-    if (!agree(study.without, continuous)) line += ": these do not overlap";
+    line += agree(study.without, continuous) ? "; all overlap" : ": these do not overlap";
     lines.push_back(line);
     ++continuous;
   }
@@ -77,6 +91,10 @@ Lines parameters(const Study& study, const Problem& problem) {
   if (study.model.learned.posterior)
     for (const std::string& warning : identification::identifiability_warnings(*study.model.learned.posterior))
       lines.push_back(warning);
+  for (const std::string& line : ends(study.model.zeros, problem.prior.space)) lines.push_back(line);
+  if (problem.logs.size() > study.left_out.size())
+    lines.push_back(
+        fmt::format("left out in turn are the first {} of {} logs", study.left_out.size(), problem.logs.size()));
   return lines;
 }
 
@@ -88,9 +106,10 @@ Lines steps(const Study& study, const Problem& problem) {
     const auto s = static_cast<Index>(i);
     std::string line = fmt::format(
         "{}: a step changes it by {:.3g} (rms); the prior as given leaves {:.3g}, with what was "
-        "learned of its parameters {:.3g}, with the GPs {:.3g}",
+        "learned of its parameters {:.3g}",
         with_unit(problem.task.states[i].name, problem.task.states[i].unit), of.change(s), of.prior_as_given(s),
-        of.prior(s), of.model(s));
+        of.prior(s));
+    if (study.gps_worsen || study.beyond != Beyond::nothing) line += fmt::format(", with the GPs {:.3g}", of.model(s));
     if (s < noise.size()) line += fmt::format("; errors of measurements: {:.3g}", noise(s));
     lines.push_back(line);
   }

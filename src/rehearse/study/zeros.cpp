@@ -147,15 +147,17 @@ Zeros find_zeros(const std::vector<Episode>& logs, const ZeroProblem& problem, c
   const optim::SquaresProblem squares{[&](const Vector& z) { return errors.at(z); },
                                       [&](const Vector& z, const Vector& r) { return errors.derivatives(z, r); },
                                       Vector::Zero(n), Vector::Ones(n)};
-  Vector z = errors.start();
+  Vector z = errors.start(), closest = z;
   for (int pass = 0; pass < 2 && n > 0; ++pass) {  // how much errors count is known after the first
     z = optim::minimise_squares(squares, z, {.max_steps = 30, .tolerance = 1e-4}).x;
     errors.trust_start(inflation(errors.fitted(z)));
+    if (pass == 0) closest = z;
   }
   const Vector phi = errors.phi(z);
   const Matrix left = n > 0 ? covariance(errors.fitted(z)) : Matrix();
   const Vector upwards = Vector::Constant(n, 0.5) + left.diagonal().cwiseSqrt();
-  return {phi, errors.offsets(z), errors.offsets(upwards), posterior_of(left, problem.prior.space, phi)};
+  return {phi, errors.offsets(z), errors.offsets(upwards), posterior_of(left, problem.prior.space, phi),
+          errors.phi(closest)};
 }
 
 Episode moved(Episode log, const Vector& offset) {

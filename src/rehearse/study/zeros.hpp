@@ -24,12 +24,13 @@ struct Zeros {
   Matrix offsets;     // logs × dx: measured + offset is the state that the prior means
   Matrix deviations;  // logs × dx, how sure the offsets are
   std::optional<identification::PhiPosterior> posterior = {};  // of φ
+  Vector closest_phi = {};                                     // of the least errors, wherever the logs leave it
 };
 
 /// The offsets, and the prior's continuous parameters, of the least errors over the horizon, from some 150 states of
-/// each log; errors beyond three usual ones count by their logarithm. Parameters that the logs do not tell stay at the
-/// prior's values, and zeros where they are. Gauss and Newton's method from the prior's values. Throws InvalidInput if
-/// no log is longer than the horizon.
+/// each log; errors beyond three usual ones count by their logarithm. Parameters that the logs do not tell stay near
+/// the prior's values, and zeros where they are. Gauss and Newton's method from the prior's values. Throws InvalidInput
+/// if no log is longer than the horizon.
 Zeros find_zeros(const std::vector<Episode>& logs, const ZeroProblem& problem, const Evaluator& evaluator);
 
 /// The log with its states moved by an offset (dx).

@@ -40,6 +40,12 @@ TEST(TryOut, NamesARewardThatIsNoNumber) {
   EXPECT_EQ(found.broken, std::vector<std::string>{"the reward of the start is inf, must be a finite number"});
 }
 
+TEST(TryOut, NamesAStartWhereEpisodesEnd) {
+  const Tried found = tried(with("dt_s = 0.1", "dt_s = 0.1\nended = \"angle > 2\""));
+  EXPECT_EQ(found.broken, std::vector<std::string>{"an episode ends where it starts: `ended` holds in the start"});
+  EXPECT_EQ(found.ended, 3);
+}
+
 TEST(TryOut, NamesAPlantThatLosesItsWay) {
   const Tried found = tried(with("define.torque = \"u +", "define.torque = \"1 / (angle - angle) +"));
   EXPECT_EQ(found.broken, std::vector<std::string>{"the plant comes to states that are not finite"});

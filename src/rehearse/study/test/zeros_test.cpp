@@ -30,6 +30,13 @@ TEST(Zeros, OutliersMoveNothing) {
   EXPECT_NEAR(find_zeros({log}, {prior, {1}, 0.3, 10}, serial_evaluator()).offsets(0, 1), 0.1, 0.02);
 }
 
+TEST(Zeros, AParameterThatWantsOutOfItsBoxIsKnown) {
+  const ParameterSpace space({Parameter::continuous("weight", 2, {1, 3}), Parameter::fixed("damping", 0.5)});
+  const prior::Prior prior{"guess", system::make_simulator(space, swing), space};
+  const Zeros zeros = find_zeros({swinging_log(1, 0).episode}, {prior, {}, 0.3, 10}, serial_evaluator());
+  EXPECT_NEAR(zeros.closest_phi(0), 3, 1e-3) << "6 is true";
+}
+
 TEST(Zeros, ShortLogsAreRefused) {
   const prior::Prior prior = swinging_prior();
   EXPECT_THROW(find_zeros({swinging_log(3, 0).episode}, {prior, {1}, 0.3, 1000}, serial_evaluator()), InvalidInput);
