@@ -1,7 +1,7 @@
 // Whether the 95 % intervals of φ hold the true parameters, over random priors: each tunable parameter starts at 0.5 to
 // 1.6 times the truth, frictions, which cannot be tuned, are right or anywhere from 0 to twice the truth. Data are
-// episodes of random policies: `phi_coverage [--priors N] [--seed S] [--scenario NAME] [--learner NAME] [--out
-// FILE.csv] [--quick]`.
+// episodes of random policies: `phi_coverage [--priors N] [--seed S] [--scenario NAME] [--learner NAME] [--noise
+// X] [--friction right|wrong] [--out FILE.csv] [--quick]`.
 
 #include <algorithm>
 #include <cstdio>
@@ -143,12 +143,15 @@ int main(int argc, char** argv) {
   CLI::App app("Whether the intervals of phi hold the truth");
   Index priors = 40, threads = 0;
   std::uint64_t seed = 1;
-  std::string only, only_learner, out;
+  std::string only, only_learner, only_friction, out;
+  double only_noise = -1;
   bool quick = false;
   app.add_option("--priors", priors);
   app.add_option("--seed", seed, "of the first prior");
   app.add_option("--scenario", only);
   app.add_option("--learner", only_learner);
+  app.add_option("--noise", only_noise);
+  app.add_option("--friction", only_friction, "right or wrong");
   app.add_option("--threads", threads);
   app.add_option("--out", out);
   app.add_flag("--quick", quick);
@@ -165,6 +168,8 @@ int main(int argc, char** argv) {
           for (const Index episodes : quick ? std::vector<Index>{1} : std::vector<Index>{1, 2, 4}) {
             if (!only.empty() && only != scenario) continue;
             if (!only_learner.empty() && only_learner != learner) continue;
+            if (only_noise >= 0 && only_noise != noise) continue;
+            if (!only_friction.empty() && only_friction != (right ? "right" : "wrong")) continue;
             const Condition condition{scenario, learner, noise, right, episodes};
             std::vector<Result> results(static_cast<std::size_t>(priors));
             evaluator->for_each(priors, [&](Index i) {
