@@ -21,7 +21,7 @@ struct ListArguments {
 };
 
 struct CheckArguments {
-  std::string file;                // of a robot
+  std::string robot;               // a file, or the name of a built-in one
   std::optional<std::string> out;  // the page with its motion
 };
 

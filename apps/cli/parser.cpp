@@ -35,8 +35,10 @@ void add_new(CLI::App& app, NewArguments& arguments) {
 }
 
 void add_check(CLI::App& app, CheckArguments& arguments) {
-  CLI::App* command = app.add_subcommand("check", "Say what a robot's file means, and try its plant and priors");
-  add(command, "ROBOT.toml", arguments.file, "The file, for instance examples/robots/pendulum.toml", "")->required();
+  CLI::App* command = app.add_subcommand("check", "Say what a robot is, and try its plant and priors");
+  add(command, "ROBOT.toml", arguments.robot,
+      "The file, for instance examples/robots/pendulum.toml, or a robot that `list` shows", "")
+      ->required();
   add(command, "--out", arguments.out,
       "Also show the motion of an episode of random actions, as a page for the browser", "FILE.html");
 }

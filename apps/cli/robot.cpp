@@ -63,7 +63,8 @@ void print_task(const scenario::Scenario& scenario) {
   fmt::print("reward\n  {}\n", reward::closed_form(task.reward)
                                    ? "saturating distance of features, as moment matching (PILCO) needs it"
                                    : "a formula; PILCO needs distances that are sums of multiples of features");
-  fmt::print("success\n  {}\n", task.solved ? "as [success] has it" : "nobody can say: there is no [success]");
+  fmt::print("success\n  {}\n",
+             task.solved ? "the task says when it is solved" : "nobody can say: there is no [success]");
   if (!task.limits.empty()) fmt::print("limits\n");
   for (const Limit& limit : task.limits)
     fmt::print("  {}{} at every step, in all but {:g} % of episodes\n",
@@ -121,13 +122,20 @@ void write_motion(const experiment::Catalogue& catalogue, const std::string& sce
   replay({.folder = (folder.path() / "run").string(), .trial = "1", .out = page}, share);
 }
 
+/// With the robot of a file; one that has a name is there already.
+experiment::Catalogue with_robot(const experiment::Catalogue& built_in, const std::string& robot) {
+  if (!robot.ends_with(".toml")) return built_in;
+  return built_in.with_robot(files::read_file(robot, files::Links::follow), robot,
+                             std::filesystem::path(robot).parent_path());
+}
+
 }  // namespace
 
 int check(const experiment::Catalogue& built_in, const CheckArguments& arguments, const std::string& share) {
-  const std::string text = files::read_file(arguments.file, files::Links::follow);
-  const std::filesystem::path folder = std::filesystem::path(arguments.file).parent_path();
-  const experiment::Catalogue catalogue = built_in.with_robot(text, arguments.file, folder);
-  const scenario::Scenario scenario = catalogue.scenario(catalogue.scenario_name(arguments.file))->build();
+  const experiment::Catalogue catalogue = with_robot(built_in, arguments.robot);
+  const auto builder = catalogue.scenario(catalogue.scenario_name(arguments.robot));
+  if (!builder) throw InvalidInput(catalogue.why_missing("scenario", arguments.robot));
+  const scenario::Scenario scenario = builder->build();
   print_task(scenario);
   if (scenario.require_ready) scenario.require_ready();
   const robot_file::Tried tried = robot_file::try_out(scenario);
@@ -144,7 +152,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   if (arguments.out && !driven) throw InvalidInput("--out: there is no [plant] that could show its motion");
   if (arguments.out && tried.end.empty()) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
-  fmt::print("\nall is well; to learn: {} learn {} --learner {}{}\n", program_name(), arguments.file,
+  fmt::print("\nall is well; to learn: {} learn {} --learner {}{}\n", program_name(), arguments.robot,
              scenario.priors.empty() ? "black-drops" : "gp-mi", driven ? "" : " --trials 0");
   return kSuccess;
 }

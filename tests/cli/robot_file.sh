@@ -57,6 +57,10 @@ refused "misspelt.toml: line [0-9]*: reward.distance" learn misspelt.toml --lear
 sed 's/tune = { m/tune = { b = [0, 1], m/; s/u - b \* dtheta/u/' pilco_robot.toml >idle.toml
 refused "prior useful: b changes no prediction" check idle.toml
 
+"$program" check pendubot >output 2>&1 || fail "check of a built-in robot: $(cat output)"
+grep -q "misleading: .* rows a second" output && grep -q "learn pendubot --learner gp-mi" output || fail "check: $(cat output)"
+refused "unknown scenario 'pendubut', did you mean 'pendubot'?" check pendubut
+
 # What can be done so, and is hardly meant, is said.
 sed '/^tune = /d' pilco_robot.toml >fixed.toml
 "$program" check fixed.toml >output 2>&1 || fail "check of a fixed prior: $(cat output)"
