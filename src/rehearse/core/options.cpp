@@ -1,6 +1,7 @@
 #include "rehearse/core/options.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numeric>
@@ -147,6 +148,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+std::string in_lower_case(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
 }  // namespace
 
 std::string FieldVisitor::enter(std::string_view name, Help help, Published published) {
@@ -183,9 +190,12 @@ std::vector<std::string> field_violations(const Fields& fields) {
 }
 
 std::string closest(std::string_view name, const std::vector<std::string>& names) {
-  const auto best = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
-    return edit_distance(name, a) < edit_distance(name, b);
-  });
+  // A capital letter is a smaller mistake than another letter.
+  const auto distance = [&](std::string_view other) {
+    return std::pair(edit_distance(in_lower_case(name), in_lower_case(other)), edit_distance(name, other));
+  };
+  const auto best = std::min_element(names.begin(), names.end(),
+                                     [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   return best == names.end() ? std::string{} : *best;
 }
 

@@ -234,6 +234,8 @@ TEST(Closest, IsTheNameMeant) {
   EXPECT_EQ(closest("sed", names), "seed");
   EXPECT_EQ(closest("learnr", names), "learner");
   EXPECT_EQ(closest("prior", names), "prior");
+  EXPECT_EQ(closest("M", {"b", "m"}), "m");
+  EXPECT_EQ(closest("c", {"m", "C", "c"}), "c");
   EXPECT_EQ(closest("anything", {}), "");
 }
 
