@@ -48,7 +48,10 @@ export function figure(options: FigureOptions): Figure {
     drawnWidth = body.clientWidth
     redraw()
   }
-  whenNearOrIdle(body, () => new ResizeObserver(() => requestAnimationFrame(fit)).observe(body))
+  whenNearOrIdle(body, () => {
+    fit() // a page that is printed may see no frame
+    new ResizeObserver(() => requestAnimationFrame(fit)).observe(body)
+  })
 
   const drawn = () => folds?.panels() ?? panels
   const saveSvg = () =>
@@ -86,9 +89,10 @@ function whenNearOrIdle(element: Element, then: () => void) {
     rootMargin: '800px 0px',
   })
   observer.observe(element)
-  // Safari has no idle callbacks.
+  // Safari has no idle callbacks, and a browser without a window may have none, or never look.
   if ('requestIdleCallback' in window) requestIdleCallback(draw)
-  else setTimeout(draw, 1000)
+  setTimeout(draw, 1000)
+  window.addEventListener('beforeprint', draw, { once: true })
 }
 
 function heading(title: string, files: { label: string; save: () => void }[]): HTMLElement {
