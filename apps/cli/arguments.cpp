@@ -1,6 +1,10 @@
 #include "apps/cli/arguments.hpp"
 
+#include <filesystem>
+
 #include <fmt/format.h>
+
+#include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::apps {
 
@@ -21,6 +25,12 @@ std::optional<Index> trial_of(const std::optional<std::string>& text) {
            violations);
   violations.throw_if_any();
   return text ? std::optional<Index>(trial) : std::nullopt;
+}
+
+experiment::Catalogue with_robot(const experiment::Catalogue& built_in, const std::string& robot) {
+  if (!robot.ends_with(".toml")) return built_in;
+  return built_in.with_robot(files::read_file(robot, files::Links::follow), robot,
+                             std::filesystem::path(robot).parent_path());
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<std::string>& set,

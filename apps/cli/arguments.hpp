@@ -8,6 +8,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/experiment/catalogue.hpp"
 
 namespace rehearse::apps {
 
@@ -17,6 +18,9 @@ void set_text(const Fields& fields, const std::string& name, const std::optional
 
 /// The number of --trial, from 1; none if it is not given. Throws InvalidInput.
 std::optional<Index> trial_of(const std::optional<std::string>& text);
+
+/// With the robot of a file, NAME.toml; a built-in one is there already. Throws InvalidInput.
+experiment::Catalogue with_robot(const experiment::Catalogue& built_in, const std::string& robot);
 
 /// Key and value of each --set.
 std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<std::string>& set,

@@ -11,7 +11,6 @@
 #include "apps/cli/study_setup.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/events.hpp"
-#include "rehearse/files/regular_file.hpp"
 #include "rehearse/files/write.hpp"
 #include "rehearse/study/page.hpp"
 #include "rehearse/study/study.hpp"
@@ -42,10 +41,7 @@ void write(const fs::path& folder, const study::Study& study, const study::Probl
 
 int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arguments) {
   Violations violations;
-  experiment::Catalogue catalogue = built_in;
-  if (arguments.robot.ends_with(".toml"))
-    catalogue = built_in.with_robot(files::read_file(arguments.robot, files::Links::follow), arguments.robot,
-                                    fs::path(arguments.robot).parent_path());
+  const experiment::Catalogue catalogue = with_robot(built_in, arguments.robot);
   const Index threads = threads_of(arguments.threads, violations);
   check_out(arguments.out, violations);
   const StudySetup setup =

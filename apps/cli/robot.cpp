@@ -8,11 +8,11 @@
 #include <fmt/ranges.h>
 
 #include "apps/catalogue.hpp"
+#include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/run.hpp"
-#include "rehearse/files/regular_file.hpp"
 #include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/files/write.hpp"
 #include "rehearse/reward/saturating.hpp"
@@ -122,13 +122,6 @@ void write_motion(const experiment::Catalogue& catalogue, const std::string& sce
   replay({.folder = (folder.path() / "run").string(), .trial = "1", .out = page}, share);
 }
 
-/// With the robot of a file; one that has a name is there already.
-experiment::Catalogue with_robot(const experiment::Catalogue& built_in, const std::string& robot) {
-  if (!robot.ends_with(".toml")) return built_in;
-  return built_in.with_robot(files::read_file(robot, files::Links::follow), robot,
-                             std::filesystem::path(robot).parent_path());
-}
-
 }  // namespace
 
 int check(const experiment::Catalogue& built_in, const CheckArguments& arguments, const std::string& share) {
@@ -141,9 +134,9 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   const robot_file::Tried tried = robot_file::try_out(scenario);
   const bool driven = static_cast<bool>(scenario.make_plant);
   if (!driven) fmt::print("plant\n  none: there is no [plant], so its episodes are told\n");
-  fmt::print("priors, on {} steps of {} under random actions{}\n", tried.steps,
-             driven ? "the plant" : "the first prior",
-             tried.ended > 0 ? fmt::format(", {} of 3 episodes `ended` before their time", tried.ended) : "");
+  fmt::print(
+      "priors, on {} steps of {} under random actions{}\n", tried.steps, driven ? "the plant" : "the first prior",
+      tried.ended > 0 ? fmt::format(", {} of {} episodes `ended` before their time", tried.ended, tried.episodes) : "");
   for (std::size_t i = 0; i < tried.priors.size(); ++i)
     print_prior(scenario.priors[i], tried.priors[i], scenario, tried);
   for (const std::string& line : scenario.oracle_lacks) fmt::print("  oracle: not all of the plant. {}\n", line);

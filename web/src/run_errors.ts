@@ -76,7 +76,8 @@ function longestErrors(errors: Columns, headers: string[], trial: number, ranges
         .map((i) => errors[header]?.[i])
         .filter(present)
         .at(-1)
-      const [{ name }, range] = [stateOf(header), ranges.get(stateOf(header).name)]
+      const { name } = stateOf(header)
+      const range = ranges.get(name)
       return present(error) && present(range) ? [[name, relative(error, range)]] : []
     }),
   )

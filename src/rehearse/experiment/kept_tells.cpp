@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What decides how a run goes on, the truth last.
+// Files that decide how a run goes on; the checkpoint, which is the truth, comes last.
 constexpr std::array<const char*, 3> kDeciding{"done", "spec.toml", "checkpoint"};
 constexpr const char *kBefore = "before", *kFiles = "files";
 

@@ -70,10 +70,9 @@ class Warnings {
     std::vector<std::string> all;
     for (const std::vector<Index>& group : groups_of(unsure, posterior_.covariance)) all.push_back(sentence(group));
     for (Index i = 0; i < posterior_.mean.size(); ++i)
-      for (const double end : {of(i).box.low, of(i).box.high})
-        if (std::abs(posterior_.mean(i) - end) <= kAtEnd * width(of(i).box))
-          all.push_back(
-              fmt::format("{} is at the end of its box, {:.3g}: a better value may lie beyond", of(i).name, end));
+      if (const auto end = end_at(of(i), posterior_.mean(i)))
+        all.push_back(
+            fmt::format("{} is at the end of its box, {:.3g}: a better value may lie beyond", of(i).name, *end));
     return all;
   }
 
@@ -109,6 +108,12 @@ class Warnings {
 };
 
 }  // namespace
+
+std::optional<double> end_at(const Parameter& parameter, double value) {
+  for (const double end : {parameter.box.low, parameter.box.high})
+    if (std::abs(value - end) <= kAtEnd * width(parameter.box)) return end;
+  return {};
+}
 
 std::vector<std::string> identifiability_warnings(const PhiPosterior& posterior) {
   return Warnings(posterior).sentences();

@@ -1,5 +1,5 @@
 #pragma once
-// What residuals tell of the parameters near a point.
+// Residuals near a point tell of the parameters: a precision, a gradient, directions that are not told.
 
 #include <functional>
 

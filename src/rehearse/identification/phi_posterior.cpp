@@ -16,6 +16,14 @@ namespace {
 constexpr double kTakesPart = 0.05;         // of a unit direction: the least component of a parameter that is
 constexpr double kFar = 3.841458820694124;  // of a sum of squares, above its minimum: 95 % of one direction
 
+/// Of the rows that count at a φ (n × dx).
+Matrix targets_of(const dynamics::Residuals& residuals, const prior::Prior& prior,
+                  const dynamics::Residuals::Rows& rows, const Vector& phi) {
+  Matrix all = residuals.targets(&prior, phi);
+  if (rows.kept.empty()) return all;
+  return all(rows.kept, Eigen::all);
+}
+
 /// How residuals of all outputs (n × dx) become one vector, and what its covariance is.
 struct Stack {
   std::function<Vector(const Matrix&)> of;  // rows as a vector, linear
@@ -28,11 +36,7 @@ Stack independent(const dynamics::Residuals& residuals, const prior::Prior& prio
                   const dynamics::Residuals::Rows& rows, const std::vector<Spread>& spreads,
                   const Evaluator& evaluator) {
   const auto of = [](const Matrix& all) -> Vector { return all.reshaped(); };
-  const auto at = [&](const Vector& phi) -> Vector {
-    Matrix all = residuals.targets(&prior, phi);
-    if (!rows.kept.empty()) all = Matrix(all(rows.kept, Eigen::all));
-    return all.reshaped();
-  };
+  const auto at = [&](const Vector& phi) -> Vector { return targets_of(residuals, prior, rows, phi).reshaped(); };
   const auto whiten = [&](const Matrix& columns) {
     const auto outputs = static_cast<Index>(spreads.size()), n = columns.rows() / outputs;
     Matrix white(columns.rows(), columns.cols());
@@ -79,10 +83,7 @@ class Around {
   Index outputs() const { return rows_.targets.cols(); }
   const Spread& spread(Index e) const { return spreads_[static_cast<std::size_t>(e)]; }
 
-  Matrix targets(const Vector& z) const {
-    const Matrix all = residuals_.targets(&prior_, coordinates_.phi(z));
-    return rows_.kept.empty() ? all : Matrix(all(rows_.kept, Eigen::all));
-  }
+  Matrix targets(const Vector& z) const { return targets_of(residuals_, prior_, rows_, coordinates_.phi(z)); }
 
   /// Derivatives (n × dx each) as columns.
   static Matrix stacked(const Stack& stack, const std::vector<Matrix>& slopes) {

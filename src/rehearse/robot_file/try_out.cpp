@@ -58,13 +58,14 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
     for (Index e = 0; plant && e < episodes; ++e) {
       Rng rng({.seed = seed, .trial = static_cast<std::uint64_t>(e) + 1, .purpose = Purpose::start_state});
       Vector x = state_of(plant->reset(rng));
-      for (Index t = 0; t < task.horizon; ++t, ++row) {
+      for (Index t = 0; t < task.horizon; ++t) {
         const Vector u = random_action(task, x, rng), next = state_of(plant->step(u));
         steps.X.row(row) = x, steps.U.row(row) = u, steps.dX.row(row) = next - x;
-        x = next;
-        if (!task.ended || !holds(task.ended, x)) continue;
-        ++row, ++steps.ended;
-        break;
+        x = next, ++row;
+        if (task.ended && holds(task.ended, x)) {
+          ++steps.ended;
+          break;
+        }
       }
     }
   } catch (const std::exception& error) {
@@ -123,7 +124,11 @@ PriorTried try_prior(const scenario::NamedPrior& prior, const Steps& steps) {
 Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) {
   const Steps steps = drive(scenario, episodes, seed), again = drive(scenario, episodes, seed);
   const Task& task = scenario.task;
-  Tried tried{.steps = steps.X.rows(), .end = steps.end, .change = root_mean_square(steps.dX)};
+  Tried tried{.steps = steps.X.rows(),
+              .episodes = episodes,
+              .ended = steps.ended,
+              .end = steps.end,
+              .change = root_mean_square(steps.dX)};
   Vector reward(1);
   const Matrix start = task.start_mean.transpose();
   task.reward(start, Matrix::Zero(1, task.action_size()), start, reward);
@@ -132,7 +137,6 @@ Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t 
     tried.broken.push_back(fmt::format("the reward of the start is {}, must be a finite number", tried.start_reward));
   if (task.ended && holds(task.ended, task.start_mean))
     tried.broken.emplace_back("an episode ends where it starts: `ended` holds in the start");
-  tried.ended = steps.ended;
   if (!steps.dX.allFinite())
     tried.broken.emplace_back("the plant comes to states that are not finite");
   else if (again.X.rows() != steps.X.rows() || again.dX != steps.dX)

@@ -69,14 +69,12 @@ Parameter tunable(const Parameter& parameter, const toml::node& node, files::Fil
     for (const toml::node& choice : *choices) values.push_back(choice.value<double>().value_or(NAN));
     return Parameter::discrete(parameter.name, parameter.value, values, parameter.unit);
   }
-  if (const auto box = pair_of(node); box && !(box->low < box->high)) {
-    violations.add(files::line_of(node), fmt::format("tune.{} = [{}, {}], must be [low, high] with low < high",
-                                                     parameter.name, box->low, box->high));
-    return parameter;
-  } else if (box)
-    return Parameter::continuous(parameter.name, parameter.value, *box, parameter.unit);
-  violations.add(files::line_of(node),
-                 fmt::format("tune.{} must be [low, high] or {{ choices = […] }}", parameter.name));
+  const auto box = pair_of(node);
+  if (box && box->low < box->high) return Parameter::continuous(parameter.name, parameter.value, *box, parameter.unit);
+  violations.add(
+      files::line_of(node),
+      box ? fmt::format("tune.{} = [{}, {}], must be [low, high] with low < high", parameter.name, box->low, box->high)
+          : fmt::format("tune.{} must be [low, high] or {{ choices = […] }}", parameter.name));
   return parameter;
 }
 

@@ -45,13 +45,12 @@ std::string interval_of(const LogModel& model, std::size_t continuous) {
 /// little. Then a box may be the reason.
 Lines ends(const Zeros& zeros, const ParameterSpace& space) {
   Lines lines;
-  for (const Index i : space.of_kind(Parameter::Kind::continuous))
-    for (const double end : {space[i].box.low, space[i].box.high}) {
-      const double near = 1e-3 * (space[i].box.high - space[i].box.low);
-      if (std::abs(zeros.closest_phi(i) - end) <= near && std::abs(zeros.phi(i) - end) > near)
-        lines.push_back(fmt::format(
-            "{} would predict best at the end of its box, {:.3g}: a better value may lie beyond", space[i].name, end));
-    }
+  for (const Index i : space.of_kind(Parameter::Kind::continuous)) {
+    const auto end = identification::end_at(space[i], zeros.closest_phi(i));
+    if (end && !identification::end_at(space[i], zeros.phi(i)))
+      lines.push_back(fmt::format("{} would predict best at the end of its box, {:.3g}: a better value may lie beyond",
+                                  space[i].name, *end));
+  }
   return lines;
 }
 

@@ -97,5 +97,12 @@ TEST(IdentifiabilityWarnings, ParametersThatOnlyActTogetherCannotBeToldApart) {
       << identifiability_warnings(*learned.posterior)[0];
 }
 
+TEST(Identifiability, AnEndIsAThousandthOfTheBox) {
+  const Parameter parameter = Parameter::continuous("m", 1, {1, 3});
+  EXPECT_EQ(end_at(parameter, 1.001), 1);
+  EXPECT_EQ(end_at(parameter, 2.999), 3);
+  EXPECT_EQ(end_at(parameter, 1.01), std::nullopt);
+}
+
 }  // namespace
 }  // namespace rehearse::identification
