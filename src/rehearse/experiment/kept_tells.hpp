@@ -1,6 +1,6 @@
 #pragma once
-// FOLDER/told/001, … keep a run as it was before each `tell`, and the files that were told: so that the last tell can be
-// taken back. Each of these folders appears in one step.
+// FOLDER/told/001, … keep a run as it was before each `tell`, and the files that were told: so that the last tell can
+// be taken back. Each of these folders appears in one step.
 
 #include <filesystem>
 #include <optional>
