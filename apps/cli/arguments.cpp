@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/errors.hpp"
 #include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::apps {
@@ -27,8 +28,16 @@ std::optional<Index> trial_of(const std::optional<std::string>& text) {
   return text ? std::optional<Index>(trial) : std::nullopt;
 }
 
+void refuse_file_without_ending(const experiment::Catalogue& catalogue, const std::string& robot) {
+  if (!robot.empty() && !catalogue.scenario(robot) && std::filesystem::is_regular_file(robot + ".toml"))
+    throw InvalidInput(fmt::format("there is no scenario '{0}'; the file is {0}.toml", robot));
+}
+
 experiment::Catalogue with_robot(const experiment::Catalogue& built_in, const std::string& robot) {
-  if (!robot.ends_with(".toml")) return built_in;
+  if (!robot.ends_with(".toml")) {
+    refuse_file_without_ending(built_in, robot);
+    return built_in;
+  }
   return built_in.with_robot(files::read_file(robot, files::Links::follow), robot,
                              std::filesystem::path(robot).parent_path());
 }

@@ -19,6 +19,9 @@ void set_text(const Fields& fields, const std::string& name, const std::optional
 /// The number of --trial, from 1; none if it is not given. Throws InvalidInput.
 std::optional<Index> trial_of(const std::optional<std::string>& text);
 
+/// Throws InvalidInput where a robot is named that there is not, but a file of that name, NAME.toml, is.
+void refuse_file_without_ending(const experiment::Catalogue& catalogue, const std::string& robot);
+
 /// With the robot of a file, NAME.toml; a built-in one is there already. Throws InvalidInput.
 experiment::Catalogue with_robot(const experiment::Catalogue& built_in, const std::string& robot);
 

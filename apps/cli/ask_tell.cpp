@@ -108,6 +108,13 @@ void print_trials(const std::vector<TrialRecord>& trials) {
                                : ", not solved");
 }
 
+/// Whether Rehearse drives the plant and has done what it was asked for.
+bool is_complete(const experiment::Resolved& resolved, const experiment::History& history) {
+  if (history.trials.empty() || resolved.spec.trials == 0 || !resolved.scenario.make_plant) return false;
+  return history.done() >= resolved.spec.trials ||
+         (resolved.spec.until_solved && history.trials.back().solved.value_or(false));
+}
+
 }  // namespace
 
 int ask(const experiment::Catalogue& catalogue, const AskArguments& arguments) {
@@ -171,6 +178,9 @@ int status(const experiment::Catalogue& catalogue, const StatusArguments& argume
   if (in_use) fmt::print("a process is at work on it\n");
   if (history.asked)
     print_asked(resolved, *history.asked, arguments.folder, std::filesystem::path(arguments.folder) / "next");
+  else if (is_complete(resolved, history))
+    fmt::print("next: {0} report {1} shows it; {0} resume {1} --trials {2} goes on\n", program_name(), arguments.folder,
+               2 * history.done());
   else if (spec.trials > history.done())
     fmt::print("next: {0} resume {1}, which drives the plant, or {0} ask {1}\n", program_name(), arguments.folder);
   else

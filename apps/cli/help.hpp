@@ -23,6 +23,45 @@ All scenarios and learners:
 A robot of your own:
   {0} new my_robot)";
 
+inline constexpr const char* kListExample = R"(Examples:
+  {0} list                         all scenarios and learners
+  {0} list pendubot                a scenario with its options
+  {0} list gp-mi --expert          a learner with all of its options
+  {0} list --schema >robot.json    for an editor that completes robots' files)";
+
+inline constexpr const char* kNewExample = R"(A robot of your own:
+  {0} new my_robot                 writes my_robot.toml, a pendulum with comments
+  {0} check my_robot.toml          after every change: what was understood
+  {0} learn my_robot.toml --learner gp-mi
+
+docs/own-robot.md describes the file.)";
+
+inline constexpr const char* kResumeExample = R"(Examples:
+  {0} resume runs/demo                what was interrupted
+  {0} resume runs/demo --trials 15    five trials more, after ten)";
+
+inline constexpr const char* kIdentifyExample = R"(Example:
+  {0} identify my_robot.toml log1.csv log2.csv --held-out log3.csv --out runs/identified
+
+docs/identify.md describes what it prints and writes.)";
+
+inline constexpr const char* kReportExample = R"(Examples:
+  {0} report runs/demo                          writes runs/demo/report.html
+  {0} replay runs/demo --trial 3 --out 3.html   one motion alone
+
+docs/report.md says how to read the page.)";
+
+inline constexpr const char* kExportExample = R"(Examples:
+  {0} export runs/demo --out policy.h              C99 without dependencies
+  {0} export runs/demo --trial 3 --out policy.py   a module for NumPy
+
+docs/export.md says how to call it.)";
+
+inline constexpr const char* kEvaluateExample = R"(Examples:
+  {0} evaluate runs/demo --episodes 100
+  {0} evaluate runs/demo --seconds 10 --set measurement_noise=0.01
+  {0} evaluate runs/demo --robustness)";
+
 inline constexpr const char* kAskExample = R"(A robot that Rehearse does not drive:
   {0} learn my_robot.toml --learner gp-mi --trials 0 --out runs/robot
   {0} tell runs/robot old_log.csv        if there are any

@@ -71,6 +71,7 @@ Catalogue with_given(const Catalogue& catalogue, const LearnArguments& arguments
 }
 
 Spec named_spec(const Catalogue& catalogue, const LearnArguments& arguments, Violations& violations) {
+  refuse_file_without_ending(catalogue, arguments.scenario);
   Spec spec;
   spec.scenario = catalogue.scenario_name(arguments.scenario);
   spec.learner = arguments.learner.value_or("");

@@ -27,11 +27,13 @@ void add_list(CLI::App& app, ListArguments& arguments) {
   command->add_flag("--options", arguments.options,
                     "With all options that --set can change, their defaults, and what is published of them");
   command->add_flag("--schema", arguments.schema, "The JSON schema of robots' files, for editors");
+  command->footer(fmt::format(kListExample, program_name()));
 }
 
 void add_new(CLI::App& app, NewArguments& arguments) {
   CLI::App* command = app.add_subcommand("new", "Begin a robot of your own: a file with comments, NAME.toml");
   add(command, "NAME", arguments.name, "The robot's name: letters, digits, - and _", "")->required();
+  command->footer(fmt::format(kNewExample, program_name()));
 }
 
 void add_check(CLI::App& app, CheckArguments& arguments) {
@@ -41,6 +43,7 @@ void add_check(CLI::App& app, CheckArguments& arguments) {
       ->required();
   add(command, "--out", arguments.out,
       "Also show the motion of an episode of random actions, as a page for the browser", "FILE.html");
+  command->footer(fmt::format(kNewExample, program_name()));
 }
 
 void add_learn(CLI::App& app, LearnArguments& arguments) {
@@ -84,6 +87,7 @@ void add_resume(CLI::App& app, ResumeArguments& arguments) {
       "asked for",
       "N");
   add(command, "--threads", arguments.threads, "Threads to compute with. Default: all cores", "K");
+  command->footer(fmt::format(kResumeExample, program_name()));
 }
 
 void add_ask(CLI::App& app, AskArguments& arguments) {
@@ -113,6 +117,7 @@ void add_tell(CLI::App& app, TellArguments& arguments) {
 void add_status(CLI::App& app, StatusArguments& arguments) {
   CLI::App* command = app.add_subcommand("status", "Say what a run knows, and what comes next");
   add(command, "DIR", arguments.folder, "The run folder", "")->required();
+  command->footer(fmt::format(kAskExample, program_name()));
 }
 
 void add_campaign(CLI::App& app, CampaignArguments& arguments) {
@@ -151,12 +156,14 @@ void add_identify(CLI::App& app, IdentifyArguments& arguments) {
       "KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->footer(fmt::format(kIdentifyExample, program_name()));
 }
 
 void add_report(CLI::App& app, ReportArguments& arguments) {
   CLI::App* command = app.add_subcommand("report", "Show a run or a campaign as a page for the browser");
   add(command, "DIR", arguments.folder, "The folder of the run or the campaign", "")->required();
   add(command, "--out", arguments.out, "The page. Default: report.html in the folder", "FILE.html");
+  command->footer(fmt::format(kReportExample, program_name()));
 }
 
 void add_replay(CLI::App& app, ReplayArguments& arguments) {
@@ -164,6 +171,7 @@ void add_replay(CLI::App& app, ReplayArguments& arguments) {
   add(command, "DIR", arguments.folder, "The run folder", "")->required();
   add(command, "--trial", arguments.trial, "Which trial, from 1", "N")->required();
   add(command, "--out", arguments.out, "The page. Default: for instance replay-003.html in the folder", "FILE.html");
+  command->footer(fmt::format(kReportExample, program_name()));
 }
 
 void add_export(CLI::App& app, ExportArguments& arguments) {
@@ -172,6 +180,7 @@ void add_export(CLI::App& app, ExportArguments& arguments) {
   add(command, "--trial", arguments.trial, "The trial whose policy it is. Default: the one with the highest return",
       "N");
   add(command, "--out", arguments.out, "The file: .h is C, .json JSON, .py Python", "FILE")->required();
+  command->footer(fmt::format(kExportExample, program_name()));
 }
 
 void add_evaluate(CLI::App& app, EvaluateArguments& arguments) {
@@ -194,6 +203,7 @@ void add_evaluate(CLI::App& app, EvaluateArguments& arguments) {
   add(command, "--out", arguments.out,
       "The table. Default: evaluation.csv in the folder, or robustness.csv; an older one is kept under another name",
       "FILE.csv");
+  command->footer(fmt::format(kEvaluateExample, program_name()));
 }
 
 /// CLI11 speaks of what it did not expect; we know what was meant.
@@ -228,7 +238,6 @@ std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
 }  // namespace
 
 void define(CLI::App& app, Typed& typed) {
-  app.footer(fmt::format(kExample, program_name()));
   app.set_version_flag("--version", "rehearse " REHEARSE_VERSION, "Show the version");
   app.require_subcommand(1);
   add_list(app, typed.list);
@@ -245,6 +254,7 @@ void define(CLI::App& app, Typed& typed) {
   add_replay(app, typed.replay);
   add_export(app, typed.export_policy);
   add_evaluate(app, typed.evaluate);
+  app.footer(fmt::format(kExample, program_name()));  // last, so that no command takes it over
 }
 
 std::optional<Typed> parse(int argc, char** argv, bool silent) {

@@ -28,12 +28,6 @@ std::vector<ReferenceOption> option_references(const CLI::App& command, bool arg
   return all;
 }
 
-/// A command without one has that of the program.
-std::string own_footer(const CLI::App& app, const CLI::App& command) {
-  const std::string footer = command.get_footer();
-  return footer == app.get_footer() ? "" : footer;
-}
-
 }  // namespace
 
 Reference reference() {
@@ -42,7 +36,7 @@ Reference reference() {
   define(app, typed);
   Reference all{kAbout, app.get_footer(), REHEARSE_VERSION, option_references(app, false), {}};
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    all.commands.push_back({command->get_name(), command->get_description(), own_footer(app, *command),
+    all.commands.push_back({command->get_name(), command->get_description(), command->get_footer(),
                             option_references(*command, true), option_references(*command, false)});
   return all;
 }

@@ -25,7 +25,8 @@ class Robot:
     ended: a fall, a formula or function(states) → n truths (True or False).
     plant: what plays the robot: an environment with `reset` and `step` as Gymnasium has them, a function that makes
     one, a `Model`, or None: the trials are yours (`Run.ask`, `Run.tell`). observe: function(observation) → state, where
-    an environment's observations are no states. measurement_noise: of every state, where the plant is a `Model`.
+    an environment's observations are no states. measurement_noise: a number for every state, or {"angle": 0.002} for
+    those that have some, where the plant is a `Model`.
     priors: guesses by name, the first is the default. policy: options of the policy, {"hidden": 20}.
 
     Raises InvalidInput with a line for everything that is wrong, when it is first used.
@@ -46,7 +47,7 @@ class Robot:
         plant: Any = None,
         priors: Union[Mapping[str, Model], None] = None,
         observe: Union[Callable[[Any], Any], None] = None,
-        measurement_noise: float = 0.0,
+        measurement_noise: Union[float, Mapping[str, float]] = 0.0,
         cost: str = "",
         floor: float = 0.0,
         define: Union[Mapping[str, str], None] = None,
@@ -158,16 +159,18 @@ class Robot:
         parameters = {key: float(number) for key, number in model.parameters.items()}
         return table(f"[dynamics.{value(name)}]", {**how, "parameters": parameters})
 
-    def _plant(self, plant: Any, observe: Any, task: Task, noise: float) -> list[str]:
+    def _plant(self, plant: Any, observe: Any, task: Task, noise: Union[float, Mapping[str, float]]) -> list[str]:
+        given: Any = ({key: float(number) for key, number in noise.items()} if isinstance(noise, Mapping)
+                      else float(noise) or None)
         if plant is None:
             return []
         if isinstance(plant, Model):
             return [self._dynamics("plant", plant),
-                    table("[plant]", {"dynamics": "plant", "measurement_noise": float(noise),
+                    table("[plant]", {"dynamics": "plant", "measurement_noise": given,
                                       "delay_s": dict(plant.delay_s), "lag_s": dict(plant.lag_s)})]
         self.has_environment = not callable(plant)
         self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
-        return [table("[plant]", {"function": "plant", "measurement_noise": float(noise) or None})]
+        return [table("[plant]", {"function": "plant", "measurement_noise": given})]
 
 
 def _require(given: Any, kind: type, name: str, like: str) -> None:

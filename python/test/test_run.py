@@ -53,6 +53,13 @@ def test_formulas_in_python_are_those_of_a_file(tmp_path):
     assert run.trials["return"][1] == pytest.approx(learn(cart(), tmp_path / "same").trials["return"][1], abs=0.2)
 
 
+def test_states_are_measured_with_noise_of_their_own(tmp_path):
+    noisy = cart(plant=rehearse.Model(change, parameters={"mass": 1.6, "friction": 0.3}),
+                 measurement_noise={"position": 0.01})
+    rows = learn(noisy, tmp_path / "run").trajectory(1)
+    assert np.all(rows["velocity"] == rows["true velocity"]) and np.all(rows["position"] != rows["true position"])
+
+
 def test_to_look_at_a_run_its_functions_are_not_needed(tmp_path):
     run = learn(cart(), tmp_path / "run")
     seen = rehearse.open_run(tmp_path / "run")

@@ -21,6 +21,9 @@ quick=(--trials 1 --set search.race.max_evaluations=100 --set search.race.descen
 expect 0 "rehearse " 1 --version
 expect 0 "Example" - --help
 expect 0 "--prior" - learn --help
+for command in list new check learn resume ask tell status campaign identify report replay export evaluate; do
+  expect 0 "rehearse $command " - "$command" --help # an example of its own
+done
 expect 0 "misleading" - list
 expect 0 '"takes_prior": true' - list --json
 expect 0 "search.race.max_evaluations = " - list --options

@@ -35,6 +35,7 @@ told pendulum black-drops 3
 # What is known, what comes next.
 "$program" status gp-mi-told >stdout || fail "status"
 grep -q "next: rehearse ask gp-mi-told" stdout || fail "status does not say what is next: $(cat stdout)"
+"$program" status gp-mi-driven | grep -q "next: rehearse report gp-mi-driven shows it" || fail "status of a run that is complete"
 "$program" ask gp-mi-told >stdout || fail "ask again"
 grep -q "trial $((trials + 1)): run the policy of gp-mi-told/next" stdout || fail "ask says $(cat stdout)"
 grep -q "columns: time \[s\], " stdout || fail "ask does not say what is expected: $(cat stdout)"

@@ -59,6 +59,8 @@ refused "prior useful: b changes no prediction" check idle.toml
 
 "$program" check pendubot >output 2>&1 || fail "check of a built-in robot: $(cat output)"
 grep -q "misleading: .* rows a second" output && grep -q "learn pendubot --learner gp-mi" output || fail "check: $(cat output)"
+refused "there is no scenario 'many'; the file is many.toml" check many
+refused "there is no scenario 'many'; the file is many.toml" learn many --learner gp-mi
 refused "unknown scenario 'pendubut', did you mean 'pendubot'?" check pendubut
 
 # What can be done so, and is hardly meant, is said.

@@ -8,6 +8,7 @@
 #include <deque>
 #include <functional>
 #include <numbers>
+#include <regex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -154,6 +155,17 @@ double* look_up(const char* name, void* lookup) {
   return &values.emplace_back(boxed(node(name)));
 }
 
+/// What is written otherwise in other languages, for which muParser has no word or another meaning.
+void refuse_other_spellings(const std::string& formula) {
+  static const std::pair<std::regex, const char*> kSpellings[] = {
+      {std::regex(R"(\?)"), "'a ? b : c' is written where(a, b, c)"},
+      {std::regex(R"(\band\b)"), "'a and b' is written a && b"},
+      {std::regex(R"(\bor\b)"), "'a or b' is written a || b"},
+      {std::regex(R"(\*\*)"), "'a ** b' is written a ^ b"}};
+  for (const auto& [spelling, message] : kSpellings)
+    if (std::regex_search(formula, spelling)) throw InvalidInput(message);
+}
+
 }  // namespace
 
 const std::vector<std::string>& Formulas::function_names() {
@@ -222,7 +234,7 @@ void Formulas::throw_unknown(const std::string& name) const {
 }
 
 Node Formulas::compile(const std::string& formula) {
-  if (formula.find('?') != std::string::npos) throw InvalidInput("'a ? b : c' is written where(a, b, c)");
+  refuse_other_spellings(formula);
   TapeBuilder* outer = std::exchange(current, &builder_);
   Lookup lookup{[this](const std::string& name) { return named(name); }, {}};
   try {

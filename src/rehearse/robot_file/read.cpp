@@ -185,13 +185,12 @@ class Reader {
     robot_.plant_actuation.resize(robot_.actions.size());
     if (!part) return;
     Table table(*part, "[plant]", violations_);
-    table.number("measurement_noise", robot_.options.measurement_noise, at_least(0));
+    const bool has_noise = read_measurement_noise(table);
     robot_.has_plant = true;
     if (table.reader().take("function", robot_.plant_function)) {
       require_function(robot_.functions, robot_.functions.plants, robot_.plant_function, files::line_of(*part),
                        violations_);
-      if (robot_.options.measurement_noise > 0)
-        table.wrong("measurement_noise", "a plant that is a function measures by itself, noise included");
+      if (has_noise) table.wrong("measurement_noise", "a plant that is a function measures by itself, noise included");
     } else {
       robot_.plant = read_variant("plant", table, robot_.dynamics, violations_);
       for (std::size_t a = 0; a < robot_.actions.size(); ++a) {
@@ -202,6 +201,24 @@ class Reader {
     read_plant_actuation(table, "delay_s", &Actuation::delay_s, between(0, longest_delay_s()));
     read_plant_actuation(table, "lag_s", &Actuation::lag_s, at_least(0));
     table.finish();
+  }
+
+  /// A number of all states, or STATE = number of each that has some; whether any has.
+  bool read_measurement_noise(Table& table) {
+    scenario::OdeOptions& options = robot_.options;
+    const toml::node* node = table.reader().take("measurement_noise");
+    if (!node || !node->is_table()) {
+      table.number("measurement_noise", options.measurement_noise, at_least(0));
+      return options.measurement_noise > 0;
+    }
+    Table entry(*node->as_table(), "[plant] measurement_noise", violations_);
+    for (const std::string& name : robot_.state_names()) {
+      options.measurement_noises.push_back(Parameter::fixed(name, 0));
+      entry.number(name, options.measurement_noises.back().value, at_least(0));
+    }
+    entry.finish();
+    return std::any_of(options.measurement_noises.begin(), options.measurement_noises.end(),
+                       [](const Parameter& noise) { return noise.value > 0; });
   }
 
   /// NAME = number, of an action.

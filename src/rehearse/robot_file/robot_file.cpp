@@ -70,8 +70,7 @@ class Builder final : public scenario::ScenarioBuilder {
  private:
   /// Start and noise of the robot's own states.
   system::StartAndSensors around_robot(const Task& task, Index own) const {
-    return {task.start_mean.head(own), task.start_std.head(own),
-            Vector::Constant(own, robot_.options.measurement_noise)};
+    return {task.start_mean.head(own), task.start_std.head(own), robot_.options.measurement_std(own)};
   }
 
   /// A model knows the robot's own states alone.

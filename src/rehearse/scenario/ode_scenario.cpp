@@ -23,11 +23,22 @@ void OdeOptions::fields_of_robot(FieldVisitor& v, std::vector<Parameter>& plant)
     const std::string help = "of the robot" + (parameter.unit.empty() ? "" : " [" + parameter.unit + "]");
     v.number("plant." + parameter.name, parameter.value, help.c_str());
   }
-  v.number("measurement_noise", measurement_noise, "deviation of every measured state [its unit]", at_least(0));
+  if (measurement_noises.empty())
+    v.number("measurement_noise", measurement_noise, "deviation of every measured state [its unit]", at_least(0));
+  for (Parameter& noise : measurement_noises)
+    v.number("measurement_noise." + noise.name, noise.value, "deviation of the measured state [its unit]", at_least(0));
   v.integer("substeps", substeps, expert("steps of integration of priors and oracle in a control step"),
             between(1, 1e4));
   v.integer("evaluations", evaluations, "extra episodes for each trial's expected_return; 0: none", between(0, 1e6));
   policy.fields(v);
+}
+
+Vector OdeOptions::measurement_std(Index states) const {
+  if (measurement_noises.empty()) return Vector::Constant(states, measurement_noise);
+  Vector std(states);
+  std::transform(measurement_noises.begin(), measurement_noises.end(), std.begin(),
+                 [](const Parameter& noise) { return noise.value; });
+  return std;
 }
 
 Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options) {
@@ -40,7 +51,7 @@ Scenario make_ode_scenario(const OdeScenario& parts, const OdeOptions& options) 
       .ode = parts.kernel.ode(),
       .phi = parts.plant.values(),
       .dt_s = task.dt_s,
-      .around = {task.start_mean, task.start_std, Vector::Constant(task.state_size(), options.measurement_noise)}};
+      .around = {task.start_mean, task.start_std, options.measurement_std(task.state_size())}};
   Scenario scenario{.name = parts.name,
                     .task = task,
                     .make_plant = [plant] { return system::make_ode_plant(plant); },

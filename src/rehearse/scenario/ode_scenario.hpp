@@ -16,9 +16,10 @@ namespace rehearse::scenario {
 
 /// What can be set of every such scenario.
 struct OdeOptions {
-  double start_noise = 0;        // std of every state at the start
-  double measurement_noise = 0;  // std of every measured state
-  double box_low = 0.05;         // of the parameters that may be tuned
+  double start_noise = 0;                     // std of every state at the start
+  double measurement_noise = 0;               // std of every measured state
+  std::vector<Parameter> measurement_noises;  // instead, one a state, with its name; empty: as above
+  double box_low = 0.05;                      // of the parameters that may be tuned
   double box_high = 1.2;
   Index substeps = 20;              // of priors and oracle in a control step
   double initial_reward_width = 0;  // of the guess that stands in for a reward still to be learned; 0: none
@@ -26,10 +27,11 @@ struct OdeOptions {
   PolicyOptions policy;
 
   Interval box() const { return {box_low, box_high}; }
+  Vector measurement_std(Index states) const;
   void fields(FieldVisitor& v);
 
-  /// Instead, for a robot without options of its own: `plant.NAME` for each parameter of the plant, measurement_noise,
-  /// substeps, evaluations, and those of the policy.
+  /// Instead, for a robot without options of its own: `plant.NAME` for each parameter of the plant, measurement_noise
+  /// or measurement_noise.STATE for each state, substeps, evaluations, and those of the policy.
   void fields_of_robot(FieldVisitor& v, std::vector<Parameter>& plant);
 };
 

@@ -63,6 +63,9 @@ TEST(Formulas, ErrorsSayWhatIsWrong) {
   EXPECT_EQ(complaint_of("theta + 1"), "unknown name 'theta', did you mean 'theta1'? (known: theta1, a, b, broken)");
   EXPECT_EQ(complaint_of("a"), "the definition of 'a' needs itself: a → b → a");
   EXPECT_EQ(complaint_of("theta1 ? 1 : 2"), "'a ? b : c' is written where(a, b, c)");
+  EXPECT_EQ(complaint_of("theta1 > 0 and theta1 < 1"), "'a and b' is written a && b");
+  EXPECT_EQ(complaint_of("theta1 > 0 or theta1 < 1"), "'a or b' is written a || b");
+  EXPECT_EQ(complaint_of("theta1 ** 2"), "'a ** b' is written a ^ b");
   for (const char* wrong : {"", "1 +", "sin()", "sin(1, 2)", "(theta1", "theta1)", "theta1 theta1", "1..2", "min(1)",
                             "theta1 = 2", "\"text\"", "sin", "broken", "theta1 $ 2", "1 < "})
     EXPECT_NE(complaint_of(wrong), "") << wrong;

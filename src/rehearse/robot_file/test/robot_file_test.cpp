@@ -52,6 +52,20 @@ TEST(RobotFile, OptionsSetThePlant) {
   EXPECT_EQ(made->build().oracle->parameters().values(), (Vector{{2, 0.5}}));
 }
 
+TEST(RobotFile, StatesAreMeasuredWithNoiseOfTheirOwn) {
+  const auto made =
+      builder(example::with("[plant]", "[plant]\nmeasurement_noise.angle = 0.1"), "swing.toml", example::no_files);
+  const Fields fields = [&](FieldVisitor& v) { made->fields(v); };
+  EXPECT_FALSE(set_field(fields, "measurement_noise", "0.1"));
+  EXPECT_TRUE(set_field(fields, "measurement_noise.angle", "0.2"));
+  auto plant = made->build().make_plant();
+  Rng rng({.seed = 1});
+  const Vector measured = plant->reset(rng), exact = plant->truth();
+  EXPECT_EQ(measured[0], exact[0]);
+  EXPECT_NE(measured[1], exact[1]);
+  EXPECT_NEAR(measured[1], exact[1], 1);
+}
+
 const std::string kDelayed = example::with(
     "bounds = [-2, 2]", "bounds = [-2, 2]\nmax_rate = 30\nfilter_s = 0.02\ndelay_s = 0.2\nlag_s = 0.05\nremember = 3");
 
