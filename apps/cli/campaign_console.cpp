@@ -9,6 +9,7 @@
 #include "apps/cli/complain.hpp"
 #include "rehearse/campaign/claims.hpp"
 #include "rehearse/campaign/summary.hpp"
+#include "rehearse/core/text_table.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -57,19 +58,6 @@ std::string first_successes(const Campaign& campaign, std::size_t group) {
   return fmt::format("{}", fmt::join(trials, " "));
 }
 
-void print_row(const std::vector<std::size_t>& widths, const std::vector<std::string>& cells) {
-  std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) line += fmt::format("  {:<{}}", cells[i], widths[i]);
-  fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
-}
-
-void print_table(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const auto& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  for (const auto& row : rows) print_row(widths, row);
-}
-
 void print_groups(const Campaign& campaign) {
   const Index last = campaign.plan.trials;
   std::vector<std::vector<std::string>> rows = {{"learner", "runs", fmt::format("solved by trial {} (95 %)", last),
@@ -85,7 +73,7 @@ void print_groups(const Campaign& campaign) {
                     trials.empty() || trials.back().solved ? first_successes(campaign, i) : "-"});
   }
   fmt::print("\n");
-  print_table(rows);
+  for (const std::string& line : aligned(rows)) fmt::print("  {}\n", line);
   for (const auto& [name, reason] : campaign.plan.missing) fmt::print("  missing: {}\n", reason);
 }
 

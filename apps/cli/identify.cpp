@@ -66,9 +66,9 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
         problem, setup.options.study, *evaluator,
         [&](const Progress& progress) { line.show(fmt::format("learning from {} …", progress.phase)); });
     line.clear();
-    for (const auto& [title, lines] : study::summary(study, problem)) {
-      fmt::print("\n{}\n", title);
-      for (const std::string& text : lines) fmt::print("  {}\n", printable(text));
+    for (const study::Section& section : study::summary(study, problem)) {
+      fmt::print("\n{}\n", section.title);
+      for (const std::string& text : study::lines_of(section)) fmt::print("  {}\n", printable(text));
     }
     if (arguments.out) write(*arguments.out, study, problem, setup.scenario.name);
     return kSuccess;

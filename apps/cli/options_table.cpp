@@ -9,6 +9,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "rehearse/core/text_table.hpp"
+
 namespace rehearse::apps {
 namespace {
 
@@ -16,17 +18,12 @@ constexpr std::size_t kColumns = 5, kGap = 2, kWidestCell = 18, kNarrowestHelp =
 using Row = std::array<std::string, kColumns>;
 using Widths = std::array<std::size_t, kColumns>;
 
-/// Characters of UTF-8.
-std::size_t length(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 /// Lines of at most so many characters, unless a word has more.
 std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
   std::vector<std::string> lines(1);
   std::istringstream words(text);
   for (std::string word; words >> word;) {
-    if (!lines.back().empty() && length(lines.back()) + 1 + length(word) > width) lines.emplace_back();
+    if (!lines.back().empty() && characters(lines.back()) + 1 + characters(word) > width) lines.emplace_back();
     lines.back() += (lines.back().empty() ? "" : " ") + word;
   }
   return lines;
@@ -45,7 +42,7 @@ Widths widths_of(const std::vector<Row>& rows, std::size_t width) {
   for (const Row& row : rows)
     for (std::size_t c = 0; c < kColumns; ++c)
       for (const std::string& line : c == 0 ? std::vector{row[c]} : wrapped(row[c], kWidestCell))
-        widths[c] = std::max(widths[c], length(line));
+        widths[c] = std::max(widths[c], characters(line));
   std::size_t before = 0;
   for (std::size_t c = 0; c + 1 < kColumns; ++c) before += widths[c] + kGap;
   widths.back() = std::max(width, before + kNarrowestHelp) - before;
@@ -64,7 +61,7 @@ std::string text_of(const Row& row, const Widths& widths) {
     std::string line;
     for (std::size_t c = 0; c < kColumns; ++c) {
       const std::string cell = i < cells[c].size() ? cells[c][i] : "";
-      line += cell + std::string(widths[c] + kGap - std::min(widths[c], length(cell)), ' ');
+      line += cell + std::string(widths[c] + kGap - std::min(widths[c], characters(cell)), ' ');
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }

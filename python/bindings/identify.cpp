@@ -47,7 +47,8 @@ Texts identify(const Robot& robot, const apps::StudyRequest& request, const File
     const study::Study study =
         study::study_logs(problem, setup.options.study, *make_stoppable(options.evaluator, options.stop));
     texts.tables = study::csv_files(study, problem);
-    for (const auto& [title, lines] : study::summary(study, problem)) texts.summary.emplace_back(title, lines);
+    for (const study::Section& section : study::summary(study, problem))
+      texts.summary.emplace_back(section.title, study::lines_of(section));
     texts.page = study::page(study, problem, setup.scenario.name);
   });
   return texts;

@@ -111,4 +111,21 @@ PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task,
   return {moved(log, offset), offset, zeros.deviations.row(0).transpose(), first};
 }
 
+Vector root_mean_squares(const Matrix& columns) {
+  Vector result(columns.cols());
+  for (Index c = 0; c < columns.cols(); ++c) {
+    double n = 0, squares = 0;
+    for (const double value : columns.col(c))
+      if (std::isfinite(value)) n += 1, squares += value * value;
+    result(c) = std::sqrt(squares / n);
+  }
+  return result;
+}
+
+bool moves(const LogModel& model) {
+  const Matrix& states = model.data.states;
+  const Vector spread = root_mean_squares(states.rowwise() - states.colwise().mean());
+  return (root_mean_squares(model.data.changes).array() < spread.array()).any();
+}
+
 }  // namespace rehearse::study

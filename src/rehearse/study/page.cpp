@@ -14,6 +14,8 @@ constexpr const char* kHead = R"(<!doctype html><meta charset="utf-8"><title>{0}
 body{{font:15px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}}
 svg{{display:block;margin:.3rem 0 1rem}}h2{{font-size:1.15rem;margin-top:2rem}}text{{font-size:12px;fill:#444}}
 .band{{fill:#9cc3e6}}.predicted{{stroke:#1f5f99;fill:none}}.measured{{stroke:#222;fill:none}}.axis{{stroke:#999}}
+.wide{{overflow-x:auto}}table{{border-collapse:collapse;font-variant-numeric:tabular-nums}}
+th,td{{text-align:left;padding:.15rem 1.2rem .15rem 0;border-bottom:1px solid #ddd;white-space:nowrap}}
 </style><h1>{0}</h1>
 )";
 constexpr double kWidth = 860, kHeight = 150, kLeft = 60, kBottom = 22;
@@ -22,6 +24,18 @@ std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '>' ? "&gt;" : std::string(1, c);
   return out;
+}
+
+/// The first row is the head.
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+  if (rows.empty()) return "";
+  std::string html = "<div class=\"wide\"><table>\n";
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    html += "<tr>";
+    for (const std::string& cell : rows[r]) html += fmt::format("<{0}>{1}</{0}>", r == 0 ? "th" : "td", escaped(cell));
+    html += "</tr>\n";
+  }
+  return html + "</table></div>\n";
 }
 
 /// Numbers to places in a figure.
@@ -115,9 +129,11 @@ std::string parameter_bars(const Study& study) {
 
 std::string page(const Study& study, const Problem& problem, const std::string& robot) {
   std::string html = fmt::format(kHead, escaped(robot + ", from logs"));
-  for (const auto& [title, lines] : summary(study, problem)) {
-    html += fmt::format("<h2>{}</h2><ul>\n", escaped(title));
-    for (const std::string& line : lines) html += fmt::format("<li>{}</li>\n", escaped(line));
+  for (const Section& section : summary(study, problem)) {
+    html += fmt::format("<h2>{}</h2>\n{}", escaped(section.title), table(section.table));
+    if (section.notes.empty()) continue;
+    html += "<ul>\n";
+    for (const std::string& note : section.notes) html += fmt::format("<li>{}</li>\n", escaped(note));
     html += "</ul>\n";
   }
   html += parameter_bars(study);

@@ -143,23 +143,13 @@ class Student {
 
   StepErrors step_errors() const {
     const Dataset& data = study_.model.data;
-    const auto rms = [](const Matrix& errors) -> Vector {
-      Vector result(errors.cols());
-      for (Index s = 0; s < errors.cols(); ++s) {
-        double n = 0, squares = 0;
-        for (const double error : errors.col(s))
-          if (std::isfinite(error)) n += 1, squares += error * error;
-        result(s) = std::sqrt(squares / n);
-      }
-      return result;
-    };
     const auto left = [&](const dynamics::DynamicsModel& model) -> Vector {
       Matrix mean(data.states.rows(), data.states.cols());
       model.predict_mean(data.states, data.actions, mean);
-      return rms(data.changes - mean);
+      return root_mean_squares(data.changes - mean);
     };
     const prior::Prior& prior = problem_.prior;
-    return {rms(data.changes), left(dynamics::SimulatorModel(prior, prior.space.values())),
+    return {root_mean_squares(data.changes), left(dynamics::SimulatorModel(prior, prior.space.values())),
             left(dynamics::SimulatorModel(prior, *study_.model.learned.state.phi)), left(*with_gps().learned.model)};
   }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/text_table.hpp"
 #include "rehearse/identification/identifiability.hpp"
 
 namespace rehearse::study {
@@ -15,11 +16,11 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
 }
 
-Lines logs(const Study& study, const Problem& problem) {
+Section logs(const Study& study, const Problem& problem) {
   Lines lines;
   const double all_s = static_cast<double>(study.model.all_rows) * problem.task.dt_s;
-  lines.push_back(fmt::format("{} logs, {:.4g} s in {} control steps of {} s", problem.logs.size(), all_s,
-                              study.model.all_rows, problem.task.dt_s));
+  lines.push_back(fmt::format("{} log{}, {:.4g} s in {} control steps of {} s", problem.logs.size(),
+                              problem.logs.size() == 1 ? "" : "s", all_s, study.model.all_rows, problem.task.dt_s));
   if (study.model.data.size() < study.model.all_rows)
     lines.push_back(
         fmt::format("GPs and parameters learn from {} steps in stretches of a second, evenly spread; {} are "
@@ -32,10 +33,11 @@ Lines logs(const Study& study, const Problem& problem) {
         lines.push_back(fmt::format("{}: {:+.3g} {} are added to {}", problem.logs[i].name, offset,
                                     problem.task.states[s].unit, problem.task.states[s].name));
     }
-  return lines;
+  return {"Logs", {}, lines};
 }
 
 std::string interval_of(const LogModel& model, std::size_t continuous) {
+  if (!moves(model)) return "nothing moves";
   if (!model.learned.posterior) return "unknown";
   const Interval interval = model.learned.posterior->intervals()[continuous];
   return fmt::format("{:.4g} to {:.4g}", interval.low, interval.high);
@@ -54,97 +56,105 @@ Lines ends(const Zeros& zeros, const ParameterSpace& space) {
   return lines;
 }
 
-/// Whether all models' intervals of a parameter have a value in common.
+/// Whether the intervals of a parameter have a value in common, of all models from logs that move.
 bool agree(const std::vector<LogModel>& models, std::size_t continuous) {
   double low = -INFINITY, high = INFINITY;
   for (const LogModel& model : models) {
-    if (!model.learned.posterior) return true;
+    if (!model.learned.posterior || !moves(model)) continue;
     const Interval interval = model.learned.posterior->intervals()[continuous];
     low = std::max(low, interval.low), high = std::min(high, interval.high);
   }
   return low <= high;
 }
 
-Lines parameters(const Study& study, const Problem& problem) {
-  Lines lines;
+Section parameters(const Study& study, const Problem& problem) {
+  Section section{.title = "Parameters", .table = {{"parameter", "value", "guess", "95 %"}}, .notes = {}};
+  for (const std::string& log : study.left_out) section.table.front().push_back("without " + log);
   std::size_t continuous = 0;
   for (Index i = 0; i < problem.prior.space.size(); ++i) {
     const Parameter& parameter = problem.prior.space[i];
     if (!parameter.tunable()) continue;
-    const double value = (*study.model.learned.state.phi)(i);
-    if (parameter.kind == Parameter::Kind::discrete) {
-      lines.push_back(fmt::format("{} = {:.4g} (guess: {:.4g})", with_unit(parameter.name, parameter.unit), value,
-                                  parameter.value));
-      continue;
+    Lines row = {with_unit(parameter.name, parameter.unit), fmt::format("{:.4g}", (*study.model.learned.state.phi)(i)),
+                 fmt::format("{:.4g}", parameter.value)};
+    if (parameter.kind == Parameter::Kind::continuous) {
+      row.push_back(interval_of(study.model, continuous));
+      for (const LogModel& without : study.without) row.push_back(interval_of(without, continuous));
+      if (!agree(study.without, continuous))
+        section.notes.push_back(fmt::format("{}: the intervals without one log do not overlap", parameter.name));
+      ++continuous;
     }
-    std::string line = fmt::format("{} = {:.4g}, 95 %: {} (guess: {:.4g})", with_unit(parameter.name, parameter.unit),
-                                   value, interval_of(study.model, continuous), parameter.value);
-    for (std::size_t m = 0; m < study.without.size(); ++m)
-      line += fmt::format("{} without {}: {}", m == 0 ? ";" : ",", study.left_out[m],
-                          interval_of(study.without[m], continuous));
-    line += agree(study.without, continuous) ? "; all overlap" : ": these do not overlap";
-    lines.push_back(line);
-    ++continuous;
+    section.table.push_back(row);
   }
-  if (lines.empty()) lines.emplace_back("the prior tunes none");
+  if (section.table.size() == 1) return {section.title, {}, {"the prior tunes none"}};
+  if (!moves(study.model))
+    section.notes.emplace_back("nothing moves but by errors of measurement, which the parameters follow");
   if (study.model.learned.posterior)
     for (const std::string& warning : identification::identifiability_warnings(*study.model.learned.posterior))
-      lines.push_back(warning);
-  for (const std::string& line : ends(study.model.zeros, problem.prior.space)) lines.push_back(line);
+      section.notes.push_back(warning);
+  for (const std::string& line : ends(study.model.zeros, problem.prior.space)) section.notes.push_back(line);
   if (problem.logs.size() > study.left_out.size())
-    lines.push_back(
+    section.notes.push_back(
         fmt::format("left out in turn are the first {} of {} logs", study.left_out.size(), problem.logs.size()));
-  return lines;
+  return section;
 }
 
-Lines steps(const Study& study, const Problem& problem) {
-  Lines lines;
+Section steps(const Study& study, const Problem& problem) {
   const Vector& noise = study.model.learned.model->measurement_std();
   const StepErrors& of = study.steps;
+  const bool has_gps = study.gps_worsen || study.beyond != Beyond::nothing;
+  Section section{
+      .title = "What a control step changes, and what is left of it unexplained (rms)", .table = {}, .notes = {}};
+  section.table.push_back({"state", "change", "prior as given", "with its parameters learned"});
+  if (has_gps) section.table.front().emplace_back("with the GPs");
+  if (noise.size() > 0) section.table.front().emplace_back("errors of measurements");
   for (std::size_t i = 0; i < problem.task.states.size(); ++i) {
     const auto s = static_cast<Index>(i);
-    std::string line = fmt::format(
-        "{}: a step changes it by {:.3g} (rms); the prior as given leaves {:.3g}, with what was "
-        "learned of its parameters {:.3g}",
-        with_unit(problem.task.states[i].name, problem.task.states[i].unit), of.change(s), of.prior_as_given(s),
-        of.prior(s));
-    if (study.gps_worsen || study.beyond != Beyond::nothing) line += fmt::format(", with the GPs {:.3g}", of.model(s));
-    if (s < noise.size()) line += fmt::format("; errors of measurements: {:.3g}", noise(s));
-    lines.push_back(line);
+    Lines row = {with_unit(problem.task.states[i].name, problem.task.states[i].unit)};
+    std::vector<double> numbers = {of.change(s), of.prior_as_given(s), of.prior(s)};
+    if (has_gps) numbers.push_back(of.model(s));
+    if (s < noise.size()) numbers.push_back(noise(s));
+    for (const double number : numbers) row.push_back(fmt::format("{:.3g}", number));
+    section.table.push_back(row);
   }
   if (study.gps_worsen)
-    lines.push_back(
+    section.notes.push_back(
         fmt::format("forecasts of logs left out have {:.2f} times the errors with GPs, which are {}used for "
                     "forecasts",
                     *study.gps_worsen, study.beyond == Beyond::gp ? "" : "not "));
-  return lines;
+  return section;
 }
 
-Lines forecasts(const Study& study, const Problem& problem, const Tested& tested) {
-  Lines lines;
+Section forecasts(const Study& study, const Problem& problem, const Tested& tested, const std::string& title) {
+  Section section{.title = title + ": how far forecasts are off (rms)", .table = {}, .notes = {}};
+  section.table.push_back({"ahead", "state", "model", "prior as given", "ratio", "inside the 95 % band"});
   for (std::size_t h = 0; h < study.horizons_s.size(); ++h)
     for (std::size_t i = 0; i < problem.task.states.size(); ++i) {
       const auto row = static_cast<Index>(h), s = static_cast<Index>(i);
       if (!std::isfinite(tested.of_model.rms(row, s))) continue;
       const double model = tested.of_model.rms(row, s), prior = tested.of_prior.rms(row, s);
-      lines.push_back(
-          fmt::format("{:.3g} s ahead, {}: off by {:.3g} (rms), the prior as given by {:.3g} ({:.2f} times); "
-                      "{:.1f} % of what was measured is inside the 95 % band",
-                      study.horizons_s[h], with_unit(problem.task.states[i].name, problem.task.states[i].unit), model,
-                      prior, model / prior, 100 * tested.of_model.covered(row, s)));
+      section.table.push_back({fmt::format("{:.3g} s", study.horizons_s[h]),
+                               with_unit(problem.task.states[i].name, problem.task.states[i].unit),
+                               fmt::format("{:.3g}", model), fmt::format("{:.3g}", prior),
+                               prior > 0 ? fmt::format("{:.2f}", model / prior) : "",
+                               fmt::format("{:.1f} %", 100 * tested.of_model.covered(row, s))});
     }
-  if (lines.empty()) lines.emplace_back("no log is long enough");
-  return lines;
+  if (section.table.size() == 1) return {title, {}, {"no log is long enough"}};
+  return section;
 }
 
 }  // namespace
 
-std::vector<Paragraph> summary(const Study& study, const Problem& problem) {
-  std::vector<Paragraph> all = {
-      {"Logs", logs(study, problem)}, {"Parameters", parameters(study, problem)}, {"One step", steps(study, problem)}};
-  if (!study.held_out.logs.empty()) all.push_back({"Held-out logs", forecasts(study, problem, study.held_out)});
-  all.push_back({"Logs left out in turn, which calibrate the bands", forecasts(study, problem, study.left_out_logs)});
+std::vector<Section> summary(const Study& study, const Problem& problem) {
+  std::vector<Section> all = {logs(study, problem), parameters(study, problem), steps(study, problem)};
+  if (!study.held_out.logs.empty()) all.push_back(forecasts(study, problem, study.held_out, "Held-out logs"));
+  all.push_back(forecasts(study, problem, study.left_out_logs, "Logs left out in turn, which calibrate the bands"));
   return all;
+}
+
+std::vector<std::string> lines_of(const Section& section) {
+  Lines lines = aligned(section.table);
+  lines.insert(lines.end(), section.notes.begin(), section.notes.end());
+  return lines;
 }
 
 }  // namespace rehearse::study

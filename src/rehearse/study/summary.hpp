@@ -7,12 +7,16 @@
 
 namespace rehearse::study {
 
-/// A part of what a study says in plain words.
-struct Paragraph {
+/// A part of what a study says: a table, whose first row is its head, and sentences; either may be empty.
+struct Section {
   std::string title;
-  std::vector<std::string> lines;
+  std::vector<std::vector<std::string>> table;
+  std::vector<std::string> notes;
 };
 
-std::vector<Paragraph> summary(const Study& study, const Problem& problem);
+std::vector<Section> summary(const Study& study, const Problem& problem);
+
+/// For a terminal: the table's columns below one another, then the notes.
+std::vector<std::string> lines_of(const Section& section);
 
 }  // namespace rehearse::study

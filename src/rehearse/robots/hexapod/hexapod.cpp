@@ -126,7 +126,7 @@ scenario::Scenario make(const Options& options) {
 }
 
 std::unique_ptr<scenario::ScenarioBuilder> builder() {
-  return scenario::make_builder("walk on six legs, or on five (40 steps of 0.1 s)", make);
+  return scenario::make_builder("walk on six legs, or on five (40 steps of 0.1 s); solved: 0.2 m/s and no fall", make);
 }
 
 }  // namespace rehearse::robots::hexapod

@@ -24,5 +24,21 @@ TEST(LogModel, StatesAreFoundByName) {
   EXPECT_THROW(states_named("p", swinging_task()), InvalidInput);
 }
 
+TEST(LogModel, RootMeanSquaresLeaveOutWhatIsNotFinite) {
+  EXPECT_TRUE(root_mean_squares(Matrix{{3, 1}, {-3, NAN}, {3, INFINITY}}).isApprox(Vector{{3, 1}}));
+}
+
+TEST(LogModel, KnowsNoiseFromMotion) {
+  const Task task = swinging_task();
+  const prior::Prior prior = swinging_prior();
+  Options options;
+  options.rows = 150;
+  const auto learned = [&](double push) {
+    return learn_logs({swinging_log(1, 0, 0.002, push).episode}, task, prior, options, serial_evaluator());
+  };
+  EXPECT_TRUE(moves(learned(1)));
+  EXPECT_FALSE(moves(learned(0)));
+}
+
 }  // namespace
 }  // namespace rehearse::study

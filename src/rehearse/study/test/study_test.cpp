@@ -35,7 +35,12 @@ TEST(Study, PredictsHeldOutLogsInsideItsBands) {
   const Problem problem = swings.problem();
   const auto files = csv_files(study, problem);
   EXPECT_EQ(files.size(), 5U + 3U);
-  EXPECT_EQ(summary(study, problem).size(), 5U);
+  const std::vector<Section> sections = summary(study, problem);
+  EXPECT_EQ(sections.size(), 5U);
+  EXPECT_EQ(lines_of(sections[1]).front().substr(0, 16), "parameter  value");
+  EXPECT_EQ(sections[1].table[0].size(), 4U + study.without.size());
+  for (const Section& section : sections)
+    for (const auto& row : section.table) EXPECT_EQ(row.size(), section.table.front().size()) << section.title;
   const std::string html = page(study, problem, "a <swing>");
   EXPECT_EQ(html.find("<swing>"), std::string::npos);
   EXPECT_EQ(html.find("nan"), std::string::npos);
@@ -50,6 +55,18 @@ TEST(Study, OfOneLogEitherHalfIsLeftOut) {
   const Study study = swings.run();
   EXPECT_EQ(study.left_out, (std::vector<std::string>{"log 1 (first half)", "log 1 (second half)"}));
   EXPECT_EQ(summary(study, swings.problem()).size(), 4U);
+}
+
+TEST(Study, SaysWhatMovesNothing) {
+  Case swings;
+  swings.logs = {swinging_log(1, 0), swinging_log(2, 0, 0.002, 0)};
+  swings.held_out.clear();
+  swings.options.beyond = Beyond::nothing;
+  const Section parameters = summary(swings.run(), swings.problem())[1];
+  EXPECT_NE(parameters.table[1][3], "nothing moves");  // of both
+  EXPECT_EQ(parameters.table[1][4], "nothing moves");  // without the first
+  EXPECT_NE(parameters.table[1][5], "nothing moves");
+  for (const std::string& note : parameters.notes) EXPECT_EQ(note.find("do not overlap"), std::string::npos) << note;
 }
 
 TEST(Study, WrongInputIsRefused) {

@@ -32,8 +32,9 @@ inline prior::Prior swinging_prior() {
   return {"guess", system::make_simulator(space, swing), space};
 }
 
-/// Eight seconds of a pendulum of weight 6 and damping 0.5, with noise, whose encoder is off by an angle.
-inline Log swinging_log(std::uint64_t seed, double zero, double noise = 0.002) {
+/// Eight seconds of a pendulum of weight 6 and damping 0.5, with noise, whose encoder is off by an angle. Without `push`
+/// it hangs at rest.
+inline Log swinging_log(std::uint64_t seed, double zero, double noise = 0.002, double push = 1) {
   constexpr Index kSteps = 400;
   Rng rng({.seed = seed});
   Episode episode{.states = Matrix(kSteps + 1, 2), .actions = Matrix(kSteps, 1), .rewards = Vector::Zero(kSteps)};
@@ -42,7 +43,7 @@ inline Log swinging_log(std::uint64_t seed, double zero, double noise = 0.002) {
   for (Index t = 0; t <= kSteps; ++t) {
     episode.states.row(t) << x(0, 0) + 10 * noise * rng.normal(), x(0, 1) - zero + noise * rng.normal();
     if (t == kSteps) break;
-    episode.actions(t, 0) = strength * std::sin(speed * 0.02 * static_cast<double>(t));
+    episode.actions(t, 0) = push * strength * std::sin(speed * 0.02 * static_cast<double>(t));
     swing(x, episode.actions.row(t), Vector{{6, 0.5}}, change);
     x += change;
   }

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rehearse {
+
+/// Characters of UTF-8.
+std::size_t characters(const std::string& text);
+
+/// A line a row, columns below one another with two spaces between. A row may have fewer cells than others.
+std::vector<std::string> aligned(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace rehearse
