@@ -32,8 +32,8 @@ inline prior::Prior swinging_prior() {
   return {"guess", system::make_simulator(space, swing), space};
 }
 
-/// Eight seconds of a pendulum of weight 6 and damping 0.5, with noise, whose encoder is off by an angle. Without `push`
-/// it hangs at rest.
+/// Eight seconds of a pendulum of weight 6 and damping 0.5, with noise, whose encoder is off by an angle. Without
+/// `push` it hangs at rest.
 inline Log swinging_log(std::uint64_t seed, double zero, double noise = 0.002, double push = 1) {
   constexpr Index kSteps = 400;
   Rng rng({.seed = seed});
