@@ -78,6 +78,7 @@ struct ReportArguments {
 struct ReplayArguments {
   std::string folder;
   std::optional<std::string> trial, out;
+  std::string headline;  // over the page instead of learner and robot; not to be typed
 };
 
 struct ExportArguments {

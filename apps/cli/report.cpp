@@ -39,7 +39,8 @@ int replay(const ReplayArguments& arguments, const std::string& share) {
   const fs::path folder = arguments.folder;
   const Index trial = *trial_of(arguments.trial);
   const fs::path beside = folder / fmt::format("replay-{:03}.html", trial);
-  return write_page(folder, replay_page(folder, trial, share), arguments.out.value_or(beside.string()));
+  return write_page(folder, replay_page(folder, trial, share, arguments.headline),
+                    arguments.out.value_or(beside.string()));
 }
 
 }  // namespace rehearse::apps

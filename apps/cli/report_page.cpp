@@ -48,8 +48,8 @@ Page report_page(const fs::path& folder, const std::string& share) {
   return filled(report::read_folder(folder, archive_space), share);
 }
 
-Page replay_page(const fs::path& folder, Index trial, const std::string& share) {
-  return filled(report::read_trial(folder, trial), share);
+Page replay_page(const fs::path& folder, Index trial, const std::string& share, const std::string& headline) {
+  return filled(report::read_trial(folder, trial, headline), share);
 }
 
 }  // namespace rehearse::apps

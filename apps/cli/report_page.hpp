@@ -17,7 +17,8 @@ struct Page {
 /// Throws InvalidInput.
 Page report_page(const std::filesystem::path& folder, const std::string& share);
 
-/// The page of one trial.
-Page replay_page(const std::filesystem::path& folder, Index trial, const std::string& share);
+/// The page of one trial. headline: instead of learner and robot.
+Page replay_page(const std::filesystem::path& folder, Index trial, const std::string& share,
+                 const std::string& headline = "");
 
 }  // namespace rehearse::apps

@@ -119,7 +119,11 @@ void write_motion(const experiment::Catalogue& catalogue, const std::string& sce
   experiment::Spec spec;
   spec.scenario = scenario, spec.learner = "black-drops", spec.trials = 1;
   experiment::start_run(catalogue, spec, folder.path() / "run", {});
-  replay({.folder = (folder.path() / "run").string(), .trial = "1", .out = page}, share);
+  replay({.folder = (folder.path() / "run").string(),
+          .trial = "1",
+          .out = page,
+          .headline = scenario + ": an episode of random actions"},
+         share);
 }
 
 }  // namespace

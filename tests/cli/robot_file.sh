@@ -11,6 +11,9 @@ grep -q "rehearse check my_robot.toml" output || fail "new does not say what com
 "$program" check my_robot.toml >output 2>&1 || fail "check: $(cat output)"
 grep -q "rehearse learn my_robot.toml --learner gp-mi" output || fail "check does not say what comes next: $(cat output)"
 
+"$program" check my_robot.toml --out motion.html >output 2>&1 || fail "check --out: $(cat output)"
+grep -q "my_robot: an episode of random actions" motion.html || fail "check --out has another headline"
+
 "$program" learn my_robot.toml --learner gp-mi --trials 2 "${few[@]}" --out alone >output 2>&1 || fail "learn: $(cat output)"
 "$program" learn my_robot.toml --learner gp-mi --trials 1 "${few[@]}" --out extended >/dev/null || fail "one trial"
 echo "name = \"another\"" >my_robot.toml # what is done to the file later does not matter

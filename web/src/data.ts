@@ -8,6 +8,8 @@ export type Columns = Record<string, Cell[]>
 export interface Report {
   format: 1
   name: string
+  /** Stands over a replay instead of learner and robot. */
+  headline?: string
   problems: { where: string; what: string }[]
   run?: Run
   replay?: Run

@@ -12,6 +12,7 @@ import { rangesOf, relativeErrors } from './state_errors'
 import { MEAN, ROBOT, stateLegend, statePanels, stateTable } from './states'
 import { walkPanels, walkTable, walks } from './walk'
 
+const WRONG = 'Where the line leaves the band, the model was wrong about the robot.'
 const BY_PARTS =
   ' States stand by body part, those first that the model got most wrong in this trial. The error of a state is the root ' +
   'mean square over the trial, relative to the range in which the state moved in all trials.'
@@ -89,11 +90,12 @@ class Player {
   private stateFigure(): Figure {
     const parts = partsOfRobot(this.episodes)
     const ranges = rangesOf(this.episodes)
+    const isPredicted = this.episodes.some(({ prediction }) => prediction)
     const folds = () => partFolds(parts, statePanels(this.episode, this.moments), relativeErrors(this.episode, ranges))
     return figure({
       name: 'trajectory',
       title: 'States, action and reward of the trial',
-      about: `Where the line leaves the band, the model was wrong about the robot.${parts.length > 0 ? BY_PARTS : ''}`,
+      about: `${isPredicted ? WRONG : ''}${parts.length > 0 ? BY_PARTS : ''}`,
       legend: [
         ...stateLegend(this.episodes.find(({ prediction }) => prediction) ?? this.episode),
         ...(this.moments ? [momentLegend()] : []),

@@ -38,7 +38,7 @@ export function runPage(report: Report, run: Run): Child[] {
 export function replayPage(report: Report, run: Run): Child[] {
   const trial = run.episodes[0]?.trial ?? 1
   return [
-    head(`${title(run)}: trial ${trial}`, subtitle(run)),
+    report.headline ? head(report.headline, '') : head(`${title(run)}: trial ${trial}`, subtitle(run)),
     problems(report),
     h('main', { class: 'replay' }, replay(run)),
   ]

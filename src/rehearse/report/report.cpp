@@ -23,9 +23,11 @@ std::string name_of(const fs::path& folder) {
 
 /// `read` fills the entry `kind`; what it throws is about `file`.
 template <class Read>
-Report make_report(const fs::path& folder, const char* kind, const char* file, Read read) {
+Report make_report(const fs::path& folder, const char* kind, const char* file, Read read,
+                   const std::string& headline = "") {
   Problems problems;
-  Json json = {{"format", 1}, {"name", name_of(folder)}};
+  Json json = {{"format", 1}, {"name", headline.empty() ? name_of(folder) : headline}};
+  if (!headline.empty()) json["headline"] = headline;
   try {
     json[kind] = read(problems);
   } catch (const InvalidInput& error) {
@@ -40,16 +42,16 @@ void require_folder(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InvalidInput(fmt::format("{} is not a folder", folder.string()));
 }
 
-Report read_run_folder(const fs::path& folder, std::optional<Index> only, const ArchiveReader& read_archive) {
-  return make_report(folder, only ? "replay" : "run", "spec.toml",
-                     [&](Problems& problems) { return read_run(folder, only, read_archive, problems); });
+Report read_run_folder(const fs::path& folder, const ArchiveReader& read_archive) {
+  return make_report(folder, "run", "spec.toml",
+                     [&](Problems& problems) { return read_run(folder, {}, read_archive, problems); });
 }
 
 }  // namespace
 
 Report read_folder(const fs::path& folder, const ArchiveReader& read_archive) {
   require_folder(folder);
-  if (has(folder, "spec.toml")) return read_run_folder(folder, {}, read_archive);
+  if (has(folder, "spec.toml")) return read_run_folder(folder, read_archive);
   if (has(folder, "summary.json"))
     return make_report(folder, "campaign", "summary.json",
                        [&](Problems& problems) { return read_campaign(folder, problems); });
@@ -59,7 +61,7 @@ Report read_folder(const fs::path& folder, const ArchiveReader& read_archive) {
       fmt::format("{} is neither a run folder (no spec.toml) nor a campaign (no summary.json)", folder.string()));
 }
 
-Report read_trial(const fs::path& folder, Index trial) {
+Report read_trial(const fs::path& folder, Index trial, const std::string& headline) {
   require_folder(folder);
   if (!has(folder, "spec.toml"))
     throw InvalidInput(fmt::format("{} is not a run folder: it has no spec.toml", folder.string()));
@@ -67,7 +69,9 @@ Report read_trial(const fs::path& folder, Index trial) {
   if (!fs::exists(trajectory))
     throw InvalidInput(
         fmt::format("trial {} is not in {}: there is no {}", trial, folder.string(), trajectory.string()));
-  return read_run_folder(folder, trial, {});
+  return make_report(
+      folder, "replay", "spec.toml", [&](Problems& problems) { return read_run(folder, trial, {}, problems); },
+      headline);
 }
 
 std::string to_html(const Report& report, std::string_view page_template) {

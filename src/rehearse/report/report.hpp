@@ -14,8 +14,9 @@ namespace rehearse::report {
 /// unusable. read_archive: of those who know archives; without it archive.bin is not looked at.
 Report read_folder(const std::filesystem::path& folder, const ArchiveReader& read_archive = {});
 
-/// Reads one trial of a run folder. Throws InvalidInput, too, if there is no such trial.
-Report read_trial(const std::filesystem::path& folder, Index trial);
+/// Reads one trial of a run folder. headline: what stands over the page instead of learner and robot; empty: these.
+/// Throws InvalidInput, too, if there is no such trial.
+Report read_trial(const std::filesystem::path& folder, Index trial, const std::string& headline = "");
 
 /// A self-contained page. page_template: the built page of web/, which has one place for the data. Throws InvalidInput
 /// if it has not.
