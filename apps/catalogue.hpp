@@ -7,8 +7,8 @@ namespace rehearse::apps {
 /// Every robot and learner of this build.
 experiment::Catalogue catalogue();
 
-/// For commands that look at a run and simulate nothing: it may be one of a program's robot, whose functions are not
-/// here.
+/// The catalogue for commands that look at a run and simulate nothing. The run may be one of a program's robot, whose
+/// functions are not here.
 experiment::Catalogue to_look(experiment::Catalogue catalogue);
 
 /// The JSON schema of robots' files, for editors: schemas/robot.json.

@@ -22,14 +22,14 @@ std::optional<Index> trial_of(const std::optional<std::string>& text);
 /// Throws InvalidInput where a robot is named that there is not, but a file of that name, NAME.toml, is.
 void refuse_file_without_ending(const experiment::Catalogue& catalogue, const std::string& robot);
 
-/// With the robot of a file, NAME.toml; a built-in one is there already. Throws InvalidInput.
+/// The catalogue with the robot of a file, NAME.toml; a built-in one is there already. Throws InvalidInput.
 experiment::Catalogue with_robot(const experiment::Catalogue& built_in, const std::string& robot);
 
 /// Key and value of each --set.
 std::vector<std::pair<std::string, std::string>> settings_of(const std::vector<std::string>& set,
                                                              Violations& violations);
 
-/// Of --threads; 0, all cores, if it is not given.
+/// The number of --threads; 0, all cores, if it is not given.
 Index threads_of(const std::optional<std::string>& text, Violations& violations);
 
 }  // namespace rehearse::apps

@@ -27,7 +27,7 @@ void set_numbers(Spec& spec, const std::optional<std::string>& trials, const std
   set_text(fields, "seed", seed, violations);
 }
 
-/// Unchanged, with violations, where a preset cannot be had.
+/// The spec with a preset's options. Where the preset cannot be had it is unchanged, and there are violations.
 Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string& name, Violations& violations) {
   try {
     return experiment::with_preset(catalogue, spec, name);
@@ -61,7 +61,7 @@ std::optional<SpecFile> spec_file(const LearnArguments& arguments, const std::op
   return SpecFile(file->text, arguments.scenario);
 }
 
-/// With the robot that is named, or that of the run that is named.
+/// The catalogue with the robot that the given file describes, or with that of the run that it describes.
 Catalogue with_given(const Catalogue& catalogue, const LearnArguments& arguments,
                      const std::optional<GivenFile>& file) {
   if (!file) return catalogue;

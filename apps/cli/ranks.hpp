@@ -17,10 +17,10 @@ struct Launch {
 };
 Launch launch();
 
-/// With --share, which says what its part of the work is, it works alone however it was started.
+/// A process with --share works alone however it was started: the option says what its part of the work is.
 Launch launch(int argc, char** argv);
 
-/// Those that this process works with.
+/// The processes that this one works with.
 struct ProcessGroup {
   std::unique_ptr<Ranks> ranks;  // null: it is alone, and MPI was not initialised
   int sharing = 1;               // how many processes, this one included, may use the same cores

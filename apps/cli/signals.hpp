@@ -30,10 +30,10 @@ class SignalWatch {
   std::thread thread_;
 };
 
-/// 0 if there was none.
+/// The signal that was caught; 0 if there was none.
 int caught_signal();
 
-/// Of a process that stopped because of it, or because another rank was told to.
+/// The exit code of a process that stopped because of a signal, or because another rank was told to.
 int exit_code_of_signal();
 
 }  // namespace rehearse::apps

@@ -25,7 +25,7 @@ std::vector<std::string> known_keys(const Fields& a, const Fields& b) {
   return keys;
 }
 
-/// Without the memory of actuators. Its functions are not asked.
+/// The task without actuators and their memory. Its functions are not asked.
 Task robot_alone(Task task) {
   const Index own = task.actuators().own_states();
   task.states.resize(static_cast<std::size_t>(own));
@@ -36,7 +36,7 @@ Task robot_alone(Task task) {
   return task;
 }
 
-/// What its own states did under what moved them.
+/// The episode of the robot's own states, with what moved them for actions.
 Episode moved(Episode episode, const Actuators& actuators) {
   const Matrix commands = episode.actions;
   actuators.moving(episode.states.topRows(episode.steps()), commands, episode.actions);

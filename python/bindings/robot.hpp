@@ -32,7 +32,7 @@ class Robot {
   /// The built-in robots and learners, with this robot; one without text adds its functions alone.
   experiment::Catalogue catalogue() const;
 
-  /// To look at a run and simulate nothing: functions may be missing.
+  /// The catalogue to look at a run and simulate nothing: functions may be missing.
   experiment::Catalogue to_look() const;
 
   /// Calls each function on a few rows at the start, so that one that cannot be called is known before a folder is

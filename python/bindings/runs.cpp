@@ -49,7 +49,7 @@ experiment::Resolved resolved(const experiment::Catalogue& catalogue, const Requ
   return experiment::resolve(catalogue, spec);
 }
 
-/// Where Ctrl-C stops it, it says what goes on. folder: may become known in the course of the work.
+/// Does the work. Where Ctrl-C stops it, the exception says how to go on. folder: may become known during the work.
 template <class Work>
 void resumable(const std::filesystem::path& folder, Work work) {
   try {
@@ -64,7 +64,7 @@ void resumable(const std::filesystem::path& folder, Work work) {
   }
 }
 
-/// As Python's warnings, of the line that called the function of Python that called this.
+/// Gives the lines as Python's warnings, about the line that called the function of Python that called this.
 void warn(const std::vector<std::string>& lines) {
   const py::gil_scoped_acquire locked;
   for (const std::string& line : lines)

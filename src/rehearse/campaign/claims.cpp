@@ -119,7 +119,7 @@ class Judge {
     result_.interval = interval;
   }
 
-  /// What decides, once every run has its say.
+  /// Adds a requirement in words, with its verdict. The part's verdict is that of all requirements together.
   void require(std::string required, Verdict verdict) {
     if (planned_.claim.observed && !required.starts_with("count")) required += " observed";
     required_.push_back(std::move(required));

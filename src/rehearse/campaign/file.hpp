@@ -41,7 +41,7 @@ struct Draw {
 
 enum class Metric { total_reward, best_return, first_success };
 
-/// Until or of this trial, as the metric says.
+/// A measure of a run: a metric, of this trial or of the trials until this one, as the metric says.
 struct Measure {
   Metric metric = Metric::total_reward;
   Index trial = 0;

@@ -13,7 +13,7 @@
 
 namespace rehearse::campaign {
 
-/// Where those who do the runs of a campaign get them from, and hear and tell how it goes. Thread-safe.
+/// Gives out the runs of a campaign, says when to stop, and is told how the runs go. Thread-safe.
 class Ledger {
  public:
   virtual ~Ledger() = default;
@@ -55,8 +55,8 @@ class OwnLedger final : public Ledger {
   Clock::time_point next_write_;
 };
 
-/// That of rank 0, for another rank. Outcomes travel, not only the news of them: on network file systems one machine
-/// may see for a minute what another has replaced.
+/// The ledger of rank 0 as another rank has it. Outcomes travel, not only the news of them: on network file systems one
+/// machine may see for a minute what another has replaced.
 class DistantLedger final : public Ledger {
  public:
   DistantLedger(Ranks& ranks, std::function<bool()> stop) : ranks_(ranks), stop_(std::move(stop)) {}
@@ -68,7 +68,7 @@ class DistantLedger final : public Ledger {
   void trial_done(std::size_t run, RunOutcome so_far) override;
   void run_ended(std::size_t run, RunOutcome outcome) override;
 
-  /// This rank asks no more. failure: why, unless all is well; then everybody stops.
+  /// Says that this rank asks no more. failure: empty if all is well; else why, and everybody stops.
   void close(const std::string& failure);
 
  private:

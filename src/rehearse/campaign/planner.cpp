@@ -138,14 +138,14 @@ class Planner {
     }
   }
 
-  /// That of the learners if without options it is just as wrong, 0 if no option alone is the cause.
+  /// The line of `learners` if the bare spec is just as wrong; else that of an option that alone is the cause, or 0.
   Index line_of_cause(const experiment::Spec& bare, const FileOptions& options, const std::string& message) const {
     if (experiment::has_violation(catalogue_, bare, message)) return line("learners");
     const experiment::FileOption* option = experiment::cause(catalogue_, bare, options, message);
     return option ? option->line : 0;
   }
 
-  /// Of [set] what this cell has, and all of [learner.NAME].
+  /// The options of [set] that this cell has, and all of [learner.NAME].
   FileOptions common_options(const experiment::Spec& complete) {
     FileOptions options;
     for (const experiment::FileOption& option : file_.options)
@@ -162,7 +162,7 @@ class Planner {
     return draws;
   }
 
-  /// Of [[variant]], those all of whose options this cell has; one without a name if there are none.
+  /// The variants of [[variant]] all of whose options this cell has; one without a name if there are none.
   std::vector<Varied> named_variants(const experiment::Spec& complete) {
     std::vector<Varied> found;
     for (const Variant& variant : file_.variants) {

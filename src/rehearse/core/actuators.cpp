@@ -14,7 +14,7 @@ constexpr double kRounding = 1e-9;  // of a step: so much later is still that st
 
 Index index(double value) { return static_cast<Index>(value); }
 
-/// Of a NaN it is that NaN.
+/// The value moved into [low, high]; a NaN stays that NaN.
 double within(double value, double low, double high) { return value < low ? low : value > high ? high : value; }
 
 }  // namespace

@@ -14,8 +14,8 @@ namespace rehearse {
 ///     held    = the mean over the step of the command delay_s ago, which whole steps before have sent
 ///     reached = held + (reached before − held) exp(−dt / lag_s)
 ///
-/// What moves the robot in a step is `held`, or the mean over the step of the way to `reached`. All that needs the
-/// commands of steps before. They are further states of the task, its memory: NAME_last, NAME_last2, …, NAME_reached
+/// The robot is moved by `held`, or with a lag by the mean over the step of the way to `reached`. These formulas need
+/// numbers of steps before, which are further states of the task, its memory: NAME_last, NAME_last2, …, NAME_reached
 /// stand behind the robot's own states. So a policy sees them, and the loops over time are those of any task. A value;
 /// const methods may run concurrently.
 class Actuators {

@@ -34,7 +34,7 @@ Fraction window(int first) {
   return bits;
 }
 
-/// Of the product with a whole number of 32 bits, what is behind the binary point.
+/// The part behind the binary point of the product with a whole number of 32 bits.
 Fraction times(const Fraction& fraction, std::uint32_t factor) {
   Fraction product{};
   std::uint64_t carry = 0;

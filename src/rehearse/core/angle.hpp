@@ -11,7 +11,7 @@ constexpr double kDirectAngle = 39000;
 /// NaN. Whole numbers and one product: the same bytes on every processor.
 double reduced_angle(double x);
 
-/// Those of n angles that are not below kDirectAngle in magnitude, in place.
+/// Replaces by `reduced_angle` those of n angles that are not below kDirectAngle in magnitude.
 void reduce_far_angles(double* x, Index n);
 
 }  // namespace rehearse

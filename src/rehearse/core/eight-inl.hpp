@@ -25,7 +25,7 @@ constexpr Tag kTag;
 HWY_INLINE std::ptrdiff_t lanes() { return static_cast<std::ptrdiff_t>(hwy::HWY_NAMESPACE::Lanes(kTag)); }
 constexpr int kParts = 8 / static_cast<int>(hwy::HWY_NAMESPACE::MaxLanes(Tag()));
 
-/// Where the row of a vector's first lane is among eight.
+/// The place of `row`, which is that of a vector's first lane, in its group of eight rows.
 HWY_INLINE std::ptrdiff_t place_in_eight(std::ptrdiff_t row) { return kParts == 1 ? 0 : row % 8; }
 
 /// The sum of eight consecutive doubles.

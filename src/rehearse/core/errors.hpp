@@ -12,7 +12,7 @@ class InvalidInput : public std::runtime_error {
   explicit InvalidInput(const std::string& violation);
   explicit InvalidInput(const std::vector<std::string>& violations);
 
-  /// One a line of the message.
+  /// The violations, one for each line of the message.
   std::vector<std::string> violations() const;
 };
 

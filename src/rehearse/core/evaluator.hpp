@@ -24,14 +24,14 @@ class Evaluator {
   virtual void stop_if_asked() const {}
 };
 
-/// One after the other, on the calling thread.
+/// The evaluator that runs one task after the other, on the calling thread.
 const Evaluator& serial_evaluator();
 
 /// The same evaluator, which asks `stop` before each task: once true, Interrupted comes out of whatever it was asked to
 /// do. stop: any thread.
 std::shared_ptr<const Evaluator> make_stoppable(std::shared_ptr<const Evaluator> evaluator, std::function<bool()> stop);
 
-/// On `threads` threads (≥ 1) of oneTBB; 0 means all cores.
+/// An evaluator that runs tasks on `threads` threads (≥ 1) of oneTBB; 0 means all cores.
 std::unique_ptr<Evaluator> make_thread_evaluator(int threads);
 
 }  // namespace rehearse

@@ -11,7 +11,7 @@ struct ExpectedEpisode {
   Matrix states, state_deviations;    // T+1 × dx
   Vector rewards, reward_deviations;  // T
 
-  /// Nothing of it.
+  /// An episode of which nothing is known: all numbers are NaN.
   static ExpectedEpisode unknown(Index steps, Index dx) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const Matrix by_state = Matrix::Constant(steps + 1, dx, nan);

@@ -38,7 +38,7 @@ class FeatureMap {
 
   /// X: rows × states, F: rows × features.
   void apply(const ConstMatrixView& X, MatrixView F) const;
-  /// And actions (rows × du) as inputs of models: those that are targets count from the state.
+  /// Writes actions U to F (both rows × du) as models take them: those that are targets count from the state.
   void apply_actions(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView F) const;
 
  private:

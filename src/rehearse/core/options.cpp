@@ -31,7 +31,7 @@ std::string violation(const std::string& name, double value, const Bound& bound)
   return line + (bounds.empty() ? "a number" : bounds);
 }
 
-/// Not less than it, where it has more digits than a double.
+/// The value as a double, which is not less than it even where the value has more digits than a double.
 double as_double(Index value) {
   const auto nearest = static_cast<double>(value);
   constexpr double kTooLarge = 9223372036854775808.0;  // 2^63

@@ -99,7 +99,7 @@ void fill_normals(const StreamKey& stream, const std::uint64_t* candidates, cons
 /// from which stream; called from any thread.
 using StreamObserver = std::function<void(const StreamKey& key, std::optional<std::uint64_t> step)>;
 
-/// One at a time, for as long as it lives.
+/// Tells `observer` of all streams for as long as this object lives. There may be one such object at a time.
 class ObservedStreams {
  public:
   explicit ObservedStreams(StreamObserver observer);

@@ -22,10 +22,10 @@ class Ranks {
   virtual int rank() const = 0;  // 0 leads
   virtual int size() const = 0;
 
-  /// What every rank gives, in order of rank. step: what all are at, "episode 3"; the same everywhere, or all throw.
+  /// Returns what every rank gave, in order of rank. step: what all are at, "episode 3"; all throw where ranks differ.
   std::vector<std::string> exchange(std::string_view step, std::string_view bytes);
 
-  /// What `work` returns on rank 0, on every rank; only rank 0 calls it. Its exception is thrown everywhere.
+  /// Rank 0 calls `work`, and every rank returns what it returned. Its exception is thrown everywhere.
   std::string once(std::string_view step, const std::function<std::string()>& work);
 
   struct End {
@@ -44,7 +44,7 @@ class Ranks {
   virtual bool answer(const std::function<std::string(const std::string& question)>& reply) = 0;
 
  protected:
-  /// What every rank gives, in order of rank; returns when it is there.
+  /// Returns what every rank gave, in order of rank, once all of it is there.
   virtual std::vector<std::string> carry(const std::string& bytes) = 0;
 
  private:

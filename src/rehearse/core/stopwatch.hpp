@@ -12,7 +12,7 @@ class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
-  /// Of what happened so often since the start.
+  /// The rate per second of something that happened `count` times since the start.
   double per_s(Index count) const { return static_cast<double>(count) / std::max(seconds(), 1e-9); }
 
  private:

@@ -8,7 +8,7 @@ namespace rehearse {
 
 void vector_exp(const double* in, double* out, Index n);
 void vector_tanh(const double* in, double* out, Index n);
-/// Of any finite angle, within 1e-15; of others NaN.
+/// Sine and cosine of any finite angle, within 1e-15; NaN for others.
 void vector_sin_cos(const double* in, double* sine, double* cosine, Index n);
 
 /// (9 sin a + sin 3a)/8, in [−1, 1] (Deisenroth 2010, eq. 3.46). Beyond ± 10⁴ rad, where it has no meaning, as there.

@@ -10,7 +10,7 @@ namespace rehearse::dynamics {
 // whose positions are integrals alone). X: n × dx states, Y: n × dx changes or their means. Without a prior the
 // position moves by dt·v + dt/2·Δv; around a prior the residual of v adds dt/2 of itself to that of the position.
 
-/// Targets of the GPs from changes (without a prior) or from changes minus the prior mean.
+/// Turns Y into targets of the GPs. Y holds changes (without a prior) or changes minus the prior mean.
 void subtract_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool has_prior, MatrixView Y);
 
 /// The inverse, for the means that the GPs predict.
@@ -19,7 +19,7 @@ void add_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool 
 /// Adds to the variances of positions what their rates bring.
 void add_variances_of_integrals(const Kinematics& kinematics, MatrixView variance);
 
-/// Both for the derivatives of means and variances.
+/// Does the same as the last two functions for the derivatives of means and variances.
 void add_integrals_of_derivatives(const Kinematics& kinematics, bool has_prior, Linearised& at);
 
 }  // namespace rehearse::dynamics

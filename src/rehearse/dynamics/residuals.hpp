@@ -11,9 +11,9 @@
 
 namespace rehearse::dynamics {
 
-/// The training data of the GPs: inputs, and targets minus the prior mean and integration.hpp; 0 for states that servos
-/// have told already (servos.hpp). Rows whose prior mean is not finite are left out. Const methods may run
-/// concurrently.
+/// The training data of the GPs. Targets are changes minus the prior mean and what integration.hpp subtracts; 0 for
+/// states that servos have told already (servos.hpp). Rows whose prior mean is not finite are left out. Const methods
+/// may run concurrently.
 class Residuals {
  public:
   /// `midpoint`: see Mean; nothing without a prior.
@@ -25,10 +25,10 @@ class Residuals {
     Index left_out = 0;
     std::vector<Index> kept;  // which rows of the data set; empty if none was left out
   };
-  /// Without a prior (null): the state changes themselves; of both what integrals of the rates leave.
+  /// The rows with the prior at φ. Without a prior (null) targets are changes minus what integration.hpp subtracts.
   Rows at(const prior::Prior* prior, const Vector& phi) const;
 
-  /// Those of every row (n × dx); a row that fails is not finite.
+  /// The targets of every row (n × dx); those of a row that fails are not finite.
   Matrix targets(const prior::Prior* prior, const Vector& phi) const;
 
   const Vector& scale() const { return scale_; }  // dx, standard deviation of the raw changes
@@ -39,7 +39,7 @@ class Residuals {
   bool told_by_servos(Index state) const;
   Index size() const { return data_.size(); }
 
-  /// The same of other rows.
+  /// The residuals of other rows, with the same features, kinematics and midpoint.
   Residuals of(const Dataset& rows) const { return Residuals(rows, features_, kinematics_, midpoint_); }
 
  private:

@@ -111,7 +111,7 @@ void Servos::learn_types(const Dataset& data, const GpOptions& options, const Ev
     types_[m].posterior = std::make_shared<gp::Posterior>(inputs[m], targets[m], kernels[m], options.tolerance);
 }
 
-/// What is learned here is small and local: where nothing is known of it, it is 0.
+/// Learns what the GPs of the types leave. That is small and local: where nothing is known of it, it is 0.
 void Servos::learn_rest(const Dataset& data, const GpOptions& options, const Evaluator& evaluator) {
   if (types_.empty()) return;
   End end;

@@ -18,9 +18,9 @@ namespace rehearse::dynamics {
 /// The data set with targets replaced by where the servos got to.
 Dataset reached(Dataset data, const std::vector<Kinematics::Servo>& servos);
 
-/// Where servos get to in a step and how fast they then are. GPs of the way beyond the target and of the speed, shared
-/// by the servos of a type, see the way to the target, the speed and the position of the one servo. What they leave,
-/// the load above all, GPs of each servo learn from the whole state, near what was tried. A servo that hardly moved in
+/// A model of where servos get to in a step, and how fast they then are. GPs that the servos of a type share predict
+/// the way beyond the target and the speed, from the servo's way to the target, speed and position. GPs of each servo
+/// learn what these leave, the load above all, from the whole state, near what was tried. A servo that hardly moved in
 /// the data stays where it is. Immutable; any thread.
 class Servos {
  public:
@@ -32,7 +32,7 @@ class Servos {
   struct End {
     Matrix positions, speeds, position_variances, speed_variances;  // n × du; nothing where an action moves no servo
   };
-  /// Without the work of variances: `end` has none.
+  /// Predicts means alone, without the work of variances: `end` has none.
   void means(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const;
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const;
 

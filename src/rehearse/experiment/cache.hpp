@@ -7,7 +7,7 @@
 
 namespace rehearse::experiment {
 
-/// Of all that a cache keeps together: some 200 archives of the hexapod's size.
+/// The most bytes that a cache keeps in all: some 200 archives of the hexapod's size.
 constexpr std::uintmax_t kMostCacheBytes = std::uintmax_t{1} << 30;
 
 /// The cache folder below `root` for what one program keeps; key: of its bytes.

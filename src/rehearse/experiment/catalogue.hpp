@@ -49,8 +49,8 @@ struct Catalogue {
   std::vector<std::unique_ptr<scenario::ScenarioBuilder>> scenario_builders() const;
   std::vector<std::unique_ptr<learners::LearnerBuilder>> learner_builders() const;
 
-  /// With the robot of a file, which may be there already. folder: where the files are that it names; they are read
-  /// once. Throws InvalidInput if it is none, or has the name of another scenario.
+  /// The catalogue with the robot of a file, which may be there already. folder: where the files are that it names;
+  /// they are read once. Throws InvalidInput if it is none, or has the name of another scenario.
   Catalogue with_robot(const std::string& text, const std::string& source, const std::filesystem::path& folder) const;
 
   /// The name of the scenario of a robot that came from this file; else what is given, a name itself.

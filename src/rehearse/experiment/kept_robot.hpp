@@ -11,10 +11,10 @@ namespace rehearse::experiment {
 inline constexpr const char* kRobotFile = "robot.toml";
 inline constexpr const char* kRobotFolder = "robot";  // with the files that it names
 
-/// With the robot that a run folder keeps, if it keeps one.
+/// The catalogue with the robot that a run folder keeps, if it keeps one.
 Catalogue with_robot_of_run(const Catalogue& catalogue, const std::filesystem::path& folder);
 
-/// Writes both.
+/// Writes the file that describes the robot and those that it names.
 void keep_robot(const RobotFile& robot, const std::filesystem::path& folder);
 
 }  // namespace rehearse::experiment

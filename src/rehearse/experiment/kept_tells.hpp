@@ -22,13 +22,13 @@ struct KeptTell {
   std::optional<Index> trial() const { return before.asked ? std::optional(before.asked->trial) : std::nullopt; }
 };
 
-/// Before the run changes. One that a kill kept from being told gives way.
+/// Keeps the run and the files; call it before the run changes. A tell that a kill interrupted gives way.
 void keep_tell(const RunFolder& run, const std::vector<ToldFile>& files);
 
 /// The last one. Throws InvalidInput if there is none, or the run went on without being told.
 KeptTell last_tell(const RunFolder& run);
 
-/// It did not come about.
+/// Forgets the last tell that was kept, because it did not come about.
 void forget_tell(const RunFolder& run);
 
 /// Copies its files to FOLDER/taken-back, under their names behind checksums. Returns where they are.

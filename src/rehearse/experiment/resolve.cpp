@@ -118,7 +118,7 @@ class Resolver {
       violations_.add(unknown_option(key, options_like(key)));
   }
 
-  /// Those of the learner, as far as the scenario has them.
+  /// Sets the scenario's options that the learner prefers, as far as the scenario has them.
   void set_preferences() {
     for (const auto& [key, text] : learner_builder_->scenario_defaults()) {
       try {

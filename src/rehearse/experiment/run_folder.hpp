@@ -41,7 +41,7 @@ class RunFolder {
   /// Throws InvalidInput if the checkpoint is truncated, damaged, or does not belong to spec.toml.
   History load() const;
 
-  /// The same of a checkpoint of this run in another folder.
+  /// Loads a checkpoint of this run from another folder, in the same way.
   History load(const std::filesystem::path& folder) const;
 
   void write_checkpoint(const History& history) const;

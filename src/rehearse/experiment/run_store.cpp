@@ -22,7 +22,7 @@ std::string owner_of(Spec spec) {
   return to_toml(spec);
 }
 
-/// Of the file's owner; nothing where there is none of that owner.
+/// The bytes that a file keeps for this owner; nothing where it is missing, damaged or another's.
 std::optional<std::string> read_kept(const fs::path& path, const std::string& owner) {
   if (path.empty() || !fs::exists(path)) return {};
   try {

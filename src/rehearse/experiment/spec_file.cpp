@@ -150,7 +150,7 @@ std::string SpecFile::located(const Catalogue& catalogue, const std::string& vio
   return files::in_file(source_, line, violation);
 }
 
-/// That of the name which is quoted, or of [run].
+/// The line of the name that the violation quotes, or that of [run].
 Index SpecFile::line_of_names(const std::string& violation) const {
   const auto is_quoted = [&](const std::string& name) {
     return !name.empty() && violation.find(fmt::format("'{}'", name)) != std::string::npos;

@@ -17,8 +17,8 @@ namespace rehearse::experiment {
 /// Names of the tunable parameters of a prior; empty without one.
 std::vector<std::string> tunable_names(const std::optional<prior::Prior>& prior);
 
-/// With three columns a parameter: its value and the ends of its interval. With one for the expected return where the
-/// scenario evaluates policies.
+/// One row a trial. A parameter has three columns: its value and the ends of its interval. `evaluated`: the expected
+/// return has one, since the scenario evaluates policies.
 std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector<std::string>& phi_names,
                        bool evaluated = false);
 std::string timings_csv(const std::vector<TrialRecord>& trials);

@@ -27,8 +27,8 @@ using rehearse::HWY_NAMESPACE::V;
 
 HWY_INLINE V constant(double x) { return hn::Set(kTag, x); }
 
-/// Of the polynomial that interpolates exp(r) at Chebyshev's points, |r| ≤ ½ ln 2 (relative error 3e-18): those of r¹¹,
-/// r¹⁰, …, 1.
+/// The coefficients, of r¹¹, r¹⁰, …, 1, of the polynomial that interpolates exp(r) at Chebyshev's points, |r| ≤ ½ ln 2
+/// (relative error 3e-18).
 constexpr int kExpDegree = 11;
 constexpr double kExpCoefficients[kExpDegree + 1] = {2.5110037605963777e-08,
                                                      2.763263963904103e-07,

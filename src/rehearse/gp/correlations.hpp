@@ -9,7 +9,7 @@ namespace rehearse::gp {
 /// thread.
 Matrix correlations(const Matrix& A, const Matrix& B);
 
-/// Of the latent function, without noise (n × n), at inputs X (n × D). Any thread.
+/// The covariance (n × n) of the latent function, without noise, at inputs X (n × D). Any thread.
 Matrix covariance(const Matrix& X, const Hyperparameters& kernel);
 
 }  // namespace rehearse::gp

@@ -121,7 +121,7 @@ struct Problem {
     return better(other, given) ? other : given;
   }
 
-  /// That one, a noisier one, and the likeliest of points all over.
+  /// The points that a fit starts from: the first start, a noisier one, and the likeliest of points all over.
   std::vector<Point> starts(const FitStart& start) {
     std::vector<Point> all{first_start(start)};
     if (options.starts < 2) return all;

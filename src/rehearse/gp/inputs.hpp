@@ -6,7 +6,7 @@
 
 namespace rehearse::gp {
 
-/// Of a sample (n − 1); 0 of fewer than two values.
+/// The standard deviation of a sample (by n − 1); 0 for fewer than two values.
 double standard_deviation(const ConstVectorView& x);
 
 /// The training inputs that all outputs share. Kept centred and divided by each column's half-range, so that no

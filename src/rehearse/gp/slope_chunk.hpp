@@ -19,7 +19,7 @@ struct Scales {
 /// that of k(x, x) less 2 vᵀ∂k.
 class SlopeChunk : public PredictionChunk {
  public:
-  /// As `predict` with variances, with the same bits, and what `slopes` needs of the same output.
+  /// Predicts as `predict` does with variances, to the bit, and computes what `slopes` needs of the same output.
   void linearise(const PosteriorOutput& output, Index rows) {
     const Index D = output.points.rows(), support = output.support, others = output.weights.size() - support;
     const bool trend = output.trend_points.size() > 0;

@@ -71,7 +71,7 @@ std::optional<std::string> combination(const std::string& name, const Vector& va
   return fmt::format("{} = {:.3g}", product(name, others, best.factors), std::exp(known));
 }
 
-/// With these of the parameters (bits) as those that the others are combined with.
+/// A combination of each other parameter with those that `bits` chooses; empty if one of them has none.
 std::vector<std::string> combinations_with(unsigned bits, const std::vector<std::string>& names, const Matrix& points) {
   std::vector<std::string> others;
   std::vector<Index> rows;

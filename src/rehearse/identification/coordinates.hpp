@@ -29,7 +29,7 @@ class Coordinates {
 /// inside the box. A coordinate that cannot be moved without failure, or moves nothing, has derivative 0.
 std::vector<Matrix> slopes(const std::function<Matrix(const Vector& z)>& of, const Vector& z, const Matrix& at);
 
-/// The same to fourth order, from points to the inside of the box; where these have no values, as above.
+/// Derivatives to fourth order, from points towards the inside of the box; where these fail, as `slopes` has them.
 struct PreciseSlopes {
   std::vector<Matrix> values;
   std::vector<Matrix> errors;  // what twice the distance between the points changes: where differences do not resolve

@@ -39,7 +39,7 @@ struct FitProblem {
   double charged_score(const Vector& log_evidences, Index left_out) const;
 };
 
-/// At φ, not fitted yet; `kernels` of an earlier fit, or none.
+/// A fit at φ that is still to be made, from the `kernels` of an earlier fit, or from none.
 Fit unfitted(const Vector& phi, Index outputs, const std::vector<gp::Hyperparameters>& kernels);
 
 std::vector<gp::Hyperparameters> hyperparameters(const Fit& fit);

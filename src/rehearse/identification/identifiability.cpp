@@ -79,7 +79,7 @@ class Warnings {
  private:
   const Parameter& of(Index i) const { return posterior_.parameters[static_cast<std::size_t>(i)]; }
 
-  /// Where the box cuts the normal distribution that is half an interval, too.
+  /// Whether a parameter's interval is wide. Half of it is at least 1.96 deviations, even where the box cuts it.
   bool is_unsure(Index i) const {
     const double deviation = std::sqrt(posterior_.covariance(i, i));
     const double half = std::max(kNormal * deviation, width(intervals_[static_cast<std::size_t>(i)]) / 2);

@@ -22,7 +22,7 @@ struct Information {
   Matrix errors;    // q × q, the Gram matrix of those of the whitened derivatives
 };
 
-/// With the covariance K + A Aᵀ; `misfit` is A (n × any). Empty matrices if a number is not finite.
+/// The information of residuals of covariance K + A Aᵀ; `misfit` is A (n × any). Empty if a number is not finite.
 Information information(const NearResiduals& residuals, const Matrix& misfit);
 
 /// √variance times an orthonormal basis of the columns of J (n × q), n × its rank: a misfit in all of these directions.

@@ -155,7 +155,7 @@ const ResidualGpOptions* servo_options(const Kind& kind) {
   return std::visit(with_servos, kind);
 }
 
-/// Of the robot behind its actuators. In front of its model they stand as they are known to be.
+/// Learns a model of the robot behind its actuators. In front of this model they stand as they are known to be.
 Learned learn_behind_actuators(const LearningProblem& problem, const Kind& kind, const WarmStart& start,
                                const Evaluator& evaluator) {
   const auto& [data, features, kinematics, prior, actuators] = problem;

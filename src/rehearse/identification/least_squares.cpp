@@ -71,7 +71,7 @@ Vector start(const Vector& z, Index i) {
   return spread;
 }
 
-/// For one combination of the discrete parameters, by descents from several starts.
+/// Searches φ for one combination of the discrete parameters, by descents from several starts.
 class Descents {
  public:
   Descents(const OneStepErrors& errors, Coordinates coordinates, const LeastSquares& options)

@@ -34,8 +34,8 @@ struct PhiPosterior {
 /// How the misfit, what the prior cannot explain, widens intervals. Both numbers were chosen on other data than that of
 /// docs/results/phi-intervals.md.
 struct PhiPosteriorOptions {
-  // It counts as so many observations a degree of freedom of what explains it, however many rows there are. Large: as
-  // many as there are, which is overconfident where a parameter that is not tuned is wrong.
+  // The misfit counts as so many observations for each degree of freedom of what explains it, however many rows there
+  // are. Large: as many as rows, which is overconfident where a parameter that is not tuned is wrong.
   double misfit_observations = 2;
   double misfit_share = 0.6;  // without GPs there is no share
   void fields(FieldVisitor& v) {

@@ -88,8 +88,8 @@ class Learner {
  public:
   virtual ~Learner() = default;
   virtual const Proposal& ask() = 0;
-  /// As `ask`, for who has kept the same proposal. Learners whose search takes long leave it out: policy, θ and model
-  /// of what is returned are those of `ask`, other fields may be empty.
+  /// Does what `ask` does, for a caller who has kept the same proposal. Learners whose search takes long leave it out:
+  /// policy, θ and model of what is returned are those of `ask`, other fields may be empty.
   virtual const Proposal& ask_again(const KnownProposal& /*known*/) { return ask(); }
   virtual void tell(const Episode& episode) = 0;  // its true states, rewards: of the plant, or as measured (a run says)
 

@@ -31,7 +31,7 @@ class TrialLearner : public Learner {
  protected:
   /// An interruption, which throws, must leave everything as it was.
   virtual Proposal propose() = 0;
-  /// The same where policy and θ are known: a search that takes long is left out.
+  /// Proposes the same again where policy and θ are known; a search that takes long is left out.
   virtual Proposal propose_again(const KnownProposal& /*known*/) { return propose(); }
   virtual void learn(const Proposal& tried, const Episode& episode) = 0;
   /// Replaces all that was learned by these episodes and what `save` returned after the last of them.

@@ -14,7 +14,7 @@ namespace rehearse::moments {
 
 inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// On the stack.
+/// A matrix and a vector that live on the stack, of at most kMostMomentInputs rows.
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostMomentInputs, kMostMomentInputs>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostMomentInputs, 1>;
 

@@ -51,7 +51,7 @@ class PolicyMoments {
       : features_(features), actions_(static_cast<Index>(bounds.size())), squash_(bounds) {}
 
  private:
-  /// The same of the actions before the squash, which is shared: tape.before is written, and read.
+  /// `forward` and `adjoint` of the actions before the squash, which is shared. tape.before is written, and read.
   virtual bool forward_before(const Gaussian& features, PolicyTape& tape, const Evaluator& evaluator) const = 0;
   virtual void adjoint_before(const Gaussian& features, const PolicyTape& tape, const Transformed& adjoint,
                               Gaussian& features_adjoint, PolicyAdjoint& policy) const = 0;

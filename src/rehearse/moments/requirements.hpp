@@ -9,7 +9,7 @@
 
 namespace rehearse::moments {
 
-/// Of a state, for models that have moments: those of policies, then, if wanted, the joint angles that the task names.
+/// The features of a state for models that have moments: those of policies, then, if wanted, the task's joint angles.
 FeatureMap model_features(const Task& task, bool joint_angles);
 
 /// Who needs moments.

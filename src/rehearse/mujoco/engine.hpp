@@ -39,7 +39,7 @@ const char* guarded(Work work) {
   return guarded([](void* data) { (*static_cast<Work*>(data))(); }, &work);
 }
 
-/// Those of one object in an array of MuJoCo's that has `Size` numbers of each.
+/// The numbers of one object in an array of MuJoCo's that has `Size` numbers of each.
 template <int Size, class Number>
 Number* numbers_of(Number* array, int id) {
   return array + std::ptrdiff_t{Size} * id;

@@ -23,8 +23,8 @@ class Box {
   /// Projects each column of X (dimension × count).
   void project(MatrixView X) const;
 
-  /// What the values (λ) of the projections of the draws X (n × λ) lose, given the search distribution that they came
-  /// from: its mean and standard deviations (n), its μ_eff. To be called once a generation.
+  /// The penalties (λ), to be subtracted from the values (λ) of the projections of the draws X (n × λ). `mean`,
+  /// `deviations` (n) and `mu_eff` are those of the search distribution of the draws. To be called once a generation.
   const Vector& penalties(const ConstMatrixView& X, const ConstVectorView& values, const ConstVectorView& mean,
                           const ConstVectorView& deviations, double mu_eff);
 

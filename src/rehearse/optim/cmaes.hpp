@@ -47,7 +47,7 @@ class Cmaes {
   /// better than from the values (uncertainty handling); empty: by value, ties to the first.
   void tell(const ConstVectorView& values, const std::vector<Index>& order = {});
 
-  /// What these values (λ) lose because their draws left the box; `tell` without an order takes it into account.
+  /// The penalties (λ), to be subtracted from these values, of draws outside the box; `tell` without an order does so.
   const Vector& penalties(const ConstVectorView& values);
 
   /// Multiplies σ, as uncertainty handling does.

@@ -42,8 +42,8 @@ struct Exported {
 Exported make_exported(const Origin& origin, const Task& task, const Policy& policy, const Vector& theta,
                        const Answers& asked);
 
-/// Where actuators remember something, each of the three carries that from step to step, and answers with commands.
-/// A state or a time that is not finite is answered with NaN for every action, in all three.
+/// The three texts below carry the memory of actuators, if there is any, from step to step, and answer with commands.
+/// They answer a state or a time that is not finite with NaN for every action.
 ///
 /// C99, and C++: a header with a function NAME_act, which needs <math.h> alone and allocates nothing. name: a word for
 /// identifiers (`identifier` makes one); functions are static, so policies of two names live in one program.

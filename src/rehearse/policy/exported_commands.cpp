@@ -9,7 +9,7 @@
 namespace rehearse::policy {
 namespace {
 
-/// Of one action.
+/// Makes the lines for the command of one action.
 class CommandLines {
  public:
   CommandLines(const Actuators::Line& line, Index action, const Dialect& dialect)

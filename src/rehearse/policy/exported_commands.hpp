@@ -8,7 +8,7 @@
 
 namespace rehearse::policy {
 
-/// What a language calls things.
+/// The words and signs of a programming language for the lines of `command_lines`.
 struct Dialect {
   std::function<std::string(Index action)> action;
   std::function<std::string(Index state)> before;  // of the memory, before the step

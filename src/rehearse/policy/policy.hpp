@@ -18,10 +18,10 @@ class Policy {
   virtual Index parameters() const = 0;  // of θ
   virtual Index actions() const = 0;     // du
 
-  /// Where each number of θ must lie; empty: anywhere, and whoever searches says where.
+  /// The interval in which each number of θ must lie; empty: there is none, and whoever searches chooses one.
   virtual std::optional<Interval> box() const { return std::nullopt; }
 
-  /// Each row a θ that is known to do something sensible, where there are any: 0 × parameters() or more.
+  /// Values of θ that are known to do something sensible, one a row; 0 × parameters() if there are none.
   virtual Matrix examples() const { return Matrix(0, parameters()); }
 
   /// Theta: n × parameters(), one policy a row; X: n × dx; t_s: time since the episode's start; U: n × du, written.

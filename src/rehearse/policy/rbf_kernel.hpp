@@ -14,9 +14,9 @@ struct RbfShape {
   Index parameters() const { return inputs * actions + centres * inputs + centres * actions; }
 };
 
-/// For a batch in which every row has its own θ (n × parameters(); see rbf.hpp) and inputs (n × D): out (n × actions),
-/// the mean of the policy's GP, before the squash. Strides are those between columns. No allocation after a thread's
-/// first call, and no factorisation where θ is that of the rows before.
+/// Writes `out` (n × actions), the mean of the policy's GP before the squash. Every row of the batch has its own θ
+/// (n × parameters(); see rbf.hpp) and inputs (n × D). Strides are those between columns. No allocation after a
+/// thread's first call, and no factorisation where θ is that of the rows before.
 void rbf(const RbfShape& shape, const double* theta, Index theta_stride, const double* in, Index in_stride, double* out,
          Index out_stride, Index rows);
 

@@ -58,7 +58,7 @@ class Tracking final : public Policy, public Describable {
   }
 
  private:
-  /// Without the bounds.
+  /// Writes the actions of a stage before they are moved into their bounds.
   void act_in(Index stage, const ConstMatrixView& Theta, const ConstMatrixView& X, MatrixView U) const {
     thread_local Eigen::ArrayXd difference;
     const auto of_stage = [&](Index number) { return Theta.col(stage * numbers() + number).array(); };

@@ -51,7 +51,7 @@ class MapElites {
   /// One generation, spread over the evaluator in chunks of a fixed size.
   void step(const Evaluate& evaluate, const Evaluator& evaluator);
 
-  /// The same by hand: solutions (batch × P), and what they were worth. `ask` is idempotent.
+  /// One generation by hand: `ask` gives solutions (batch × P), `tell` takes what they were worth. `ask` is idempotent.
   const Matrix& ask();
   void tell(const ConstVectorView& performances, const ConstMatrixView& descriptors);  // batch; batch × D
 

@@ -44,10 +44,10 @@ class Niches {
   Index dimensions() const { return static_cast<Index>(bounds_.size()); }
   const std::vector<Interval>& bounds() const { return bounds_; }
 
-  /// Of a descriptor of D numbers; −1 if one is not finite. Does not allocate.
+  /// The niche of a descriptor of D numbers; −1 if one is not finite. Does not allocate.
   Index find(const double* descriptor) const;
 
-  /// Its middle, or its centroid; in the descriptor's units.
+  /// The middle of a niche of a grid, or the centroid of one of a tessellation; in the descriptor's units.
   Vector centre(Index niche) const;
 
   /// Each descriptor from its bounds to [0, 1] (D → D).

@@ -33,12 +33,12 @@ class Varier {
 
   /// Solutions number first, first + 1, … into X (n × P): in the box and uniform. It needs a box.
   void draw(std::uint64_t first, MatrixView X) const;
-  /// N(start, σ_iso²), in the box.
+  /// Draws solutions from N(start, σ_iso²), in the box.
   void draw_about(const Vector& start, std::uint64_t first, MatrixView X) const;
   /// The same as `draw`, but a `share` of them is N(one of the examples, (sigma · the box's width)²), in the box.
   /// examples: k × P.
   void draw_near(const Matrix& examples, double share, double sigma, std::uint64_t first, MatrixView X) const;
-  /// From elites of the archive, of which there is at least one. No allocation after a thread's first call.
+  /// Varies elites of the archive, of which there is at least one. No allocation after a thread's first call.
   void vary(const Archive& archive, std::uint64_t first, MatrixView X) const;
 
  private:

@@ -40,7 +40,7 @@ Group group_of(const Json& run) {
           run.at("variant").get<std::string>()};
 }
 
-/// What the summary does not know: what happened to the folders since.
+/// Adds a problem for every run that failed, and for what happened to the folders since the summary was written.
 void check_runs(const fs::path& folder, const Json& runs, Problems& problems) {
   for (const Json& run : runs) {
     const std::string where = run.at("folder").get<std::string>(), state = run.at("state").get<std::string>();

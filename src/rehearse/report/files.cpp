@@ -28,7 +28,7 @@ Json numbers(const statistics::Table& table, std::size_t position, NoNumber no_n
   return column;
 }
 
-/// What walks through values calls itself for each level, and nothing of ours has as many.
+/// Limits the depth, since code that walks through values calls itself for each level. No file of ours is as deep.
 bool check_depth(int depth, Json::parse_event_t, Json&) {
   constexpr int kDeepest = 64;
   if (depth > kDeepest) throw InvalidInput(fmt::format("it is nested deeper than {} levels", kDeepest));

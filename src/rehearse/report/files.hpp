@@ -26,7 +26,7 @@ statistics::Table read_table(const std::filesystem::path& path);
 /// Throws InvalidInput.
 Json read_json(const std::filesystem::path& path);
 
-/// To so many significant digits, whole numbers exactly; null if it is not finite.
+/// The value to so many significant digits, whole numbers exactly; null if it is not finite.
 Json rounded(double value, int digits = 6);
 
 /// Every number in it rounded.

@@ -21,14 +21,14 @@ struct Report {
   std::vector<Problem> problems;
 };
 
-/// Where the elites of a learner's archive are.
+/// The size of a learner's archive, and the space of descriptors that it covers.
 struct ArchiveSpace {
   Index elites = 0, niches = 0;
   std::vector<Interval> bounds;  // of each descriptor
   std::vector<Index> bins;       // of each, of a grid; else empty
 };
 
-/// From the bytes of archive.bin. Throws InvalidInput if they are no archive.
+/// Reads an ArchiveSpace from the bytes of archive.bin. Throws InvalidInput if they are no archive.
 using ArchiveReader = std::function<ArchiveSpace(std::string_view bytes)>;
 
 }  // namespace rehearse::report

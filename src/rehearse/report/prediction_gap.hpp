@@ -5,8 +5,8 @@
 
 namespace rehearse::report {
 
-/// How far what moment matching predicts of a trial is from what the samples say (docs/report.md); null where the
-/// table, one of predictions/, has the samples alone. Throws InvalidInput if it lacks what they are compared by.
+/// The gap between moment matching's prediction of a trial and that of samples (docs/report.md); null where the table,
+/// one of predictions/, has the samples alone. Throws InvalidInput if it lacks what they are compared by.
 Json prediction_gap(const statistics::Table& prediction);
 
 }  // namespace rehearse::report

@@ -7,9 +7,9 @@
 
 namespace rehearse::rollout {
 
-/// Where a model's mean prediction, continued from every state of an episode under the actions that were taken,
-/// arrives. horizons: ascending, in 1..T. Element i has T − horizons[i] + 1 rows: row t is the state (dx) predicted for
-/// step t + horizons[i] from the one measured at step t; NaN once a prediction on the way was not finite.
+/// Continues a model's mean prediction from every state of an episode under the actions that were taken. horizons:
+/// ascending, in 1..T. Element i of the result has T − horizons[i] + 1 rows: row t is the state (dx) predicted for step
+/// t + horizons[i] from the one measured at step t; NaN once a prediction on the way was not finite.
 std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode& episode,
                              const std::vector<Index>& horizons);
 

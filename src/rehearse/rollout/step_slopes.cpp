@@ -7,7 +7,7 @@
 namespace rehearse::rollout {
 namespace {
 
-/// Of a difference by v: rounding is 1e-11 of a reward then.
+/// The width of a difference with respect to a number that is v: with it rounding is 1e-11 of a reward.
 double width_of(double v) { return 1e-5 * std::max(1.0, std::abs(v)); }
 
 using Parts = std::array<const ConstMatrixView*, 4>;

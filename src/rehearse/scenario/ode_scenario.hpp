@@ -30,8 +30,8 @@ struct OdeOptions {
   Vector measurement_std(Index states) const;
   void fields(FieldVisitor& v);
 
-  /// Instead, for a robot without options of its own: `plant.NAME` for each parameter of the plant, measurement_noise
-  /// or measurement_noise.STATE for each state, substeps, evaluations, and those of the policy.
+  /// Fields in the place of `fields`, for a robot without options of its own: `plant.NAME` for each parameter of the
+  /// plant, measurement_noise or measurement_noise.STATE for each state, substeps, evaluations, those of the policy.
   void fields_of_robot(FieldVisitor& v, std::vector<Parameter>& plant);
 };
 

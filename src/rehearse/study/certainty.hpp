@@ -25,8 +25,8 @@ inline constexpr double kBoxPrecision = 12;  // of a uniform distribution, in un
 /// and that of the boxes.
 Matrix covariance(const FittedSquares& fitted);
 
-/// Its first coordinates as what is known of the continuous parameters of a space; empty if it has none, or a number
-/// is not finite.
+/// The knowledge of a space's continuous parameters, the first coordinates of `covariance`; empty if there are none, or
+/// a number is not finite.
 std::optional<identification::PhiPosterior> posterior_of(const Matrix& covariance, const ParameterSpace& space,
                                                          const Vector& phi);
 

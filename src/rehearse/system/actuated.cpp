@@ -67,7 +67,7 @@ class ActuatedPlant final : public Plant {
     }
   };
 
-  /// Where something is known.
+  /// The robot's own state with the task's memory behind it; an empty one stays empty: it is not known.
   Vector with_memory(Vector own) const {
     if (own.size() == 0) return own;
     const Index states = own.size(), memory = task_.actuators.memory();

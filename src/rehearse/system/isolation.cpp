@@ -81,7 +81,7 @@ class Server {
   }
 
  private:
-  /// Its files, its terminal, its way to handle signals: the parent ends us by ending itself.
+  /// Gives up the parent's files, its terminal and its handlers of signals. The parent ends us by ending itself.
   void leave_the_parents_things() const {
     prctl(PR_SET_NAME, "rehearse-worker");
     for (const int number : {SIGTERM, SIGABRT, SIGSEGV, SIGFPE, SIGILL, SIGBUS}) std::signal(number, SIG_DFL);

@@ -21,26 +21,26 @@ struct Choice {
   }
 };
 
-/// In simulated episodes it is solved as often as is enough for a trial.
+/// Whether the choice solves the task in simulated episodes as often as is enough for a trial.
 bool often_solves(const Choice& choice);
 
 /// The i-th search more, i = 1, 2, …
 using SearchAgain = std::function<SearchResult(Index i)>;
 
-/// Where the choice keeps the task's limits too rarely, or less safe policies promise more: `safety.searches` searches
-/// near the best of all that `found` has, for policies that keep the limits. `found` becomes what the search that made
-/// the choice has found. Nothing happens without limits.
+/// Searches for policies that keep the task's limits, where the choice keeps them too rarely or less safe policies
+/// promise more: `safety.searches` times at most, near the best of all that `found` has. `found` becomes what the
+/// search that made the choice has found. Nothing happens without limits.
 void prefer_safe(TrialSearches& searches, const SafetyOptions& safety, SearchResult& found, Choice& choice);
 
-/// Where the model is sure: searches are repeated until one finds a policy that is expected to solve the task for about
-/// the highest return, `retry.searches` times at most. A policy that solves it becomes the choice, whatever it costs
-/// but a limit kept less often.
+/// Repeats searches, where the model is sure, until one finds a policy that is expected to solve the task for about the
+/// highest return, `retry.searches` times at most. A policy that solves it becomes the choice, whatever it costs but a
+/// limit kept less often.
 /// `found`: what the search that made the choice has found. Nothing happens where the task cannot say what solves it.
 void prefer_solving_where_sure(TrialSearches& searches, const SearchResult& found, const SearchAgain& again,
                                const Retry& retry, Choice& choice);
 
-/// Where the model is uncertain: the policy that most often solves the task becomes the choice for a little of the
-/// return (`retry.uncertain_tolerance`); where none does so in half of the episodes, searches go on in the means.
+/// Gives up a little of the return (`retry.uncertain_tolerance`), where the model is uncertain, for the policy that
+/// most often solves the task. Where none does so in half of the episodes, searches go on in the means.
 void prefer_solving_where_uncertain(TrialSearches& searches, const SearchResult& found, const Retry& retry,
                                     Choice& choice);
 

@@ -17,7 +17,7 @@ Interval interval_of(const policy::Policy& policy, const SearchOptions& options)
   return policy.box().value_or(Interval{-options.box, options.box});
 }
 
-/// With step sizes that are to the policy's box as they were to the options'.
+/// The options with step sizes that are to the policy's box as they were to the options'.
 SearchOptions in_box_of(const policy::Policy& policy, SearchOptions options) {
   const Interval interval = interval_of(policy, options);
   const double scale = (interval.high - interval.low) / (2 * options.box);
@@ -26,7 +26,7 @@ SearchOptions in_box_of(const policy::Policy& policy, SearchOptions options) {
   return options;
 }
 
-/// Where limits are to be kept no gradient tells how.
+/// Whether a search climbs along gradients. Where limits are to be kept it does not: no gradient tells how.
 bool climbs(const SearchProblem& problem, const SearchOptions& options) {
   return needs_derivatives(options.method) && !options.constrained && problem.doubted.empty();
 }

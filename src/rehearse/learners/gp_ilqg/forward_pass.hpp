@@ -25,7 +25,7 @@ class ForwardPass {
   /// hold: null: none. References must outlive it.
   ForwardPass(const PlanProblem& problem, const StepCosts& costs, const Hold* hold);
 
-  /// All in lockstep. Each has as many stages.
+  /// Follows all plans in lockstep. They have equally many stages.
   std::vector<Trajectory> follow(const std::vector<std::vector<policy::FeedbackStage>>& plans) const;
 
   /// The planner's state at the end less that of the hold.

@@ -97,7 +97,7 @@ class Improvement {
     return stages;
   }
 
-  /// By the robot's state alone, and what a policy may see of it.
+  /// The gain by the robot's state alone; 0 by what a policy does not see of it.
   Matrix gain_of(const Feedback& feedback) const {
     Matrix gain = costs_.half_ranges().asDiagonal() * feedback.gain.leftCols(costs_.columns().dx);
     for (Index i = 0; i < gain.cols(); ++i)
@@ -105,7 +105,7 @@ class Improvement {
     return gain;
   }
 
-  /// With the costs to go of one pass.
+  /// The cost of the model's variance along a trajectory, with the costs to go of one pass.
   double cost_of_uncertainty(const Trajectory& trajectory, const Matrix& variance, const BackwardPass& pass) const {
     double sum = 0;
     const Index steps = std::min(trajectory.steps, static_cast<Index>(pass.feedback.size()));

@@ -32,7 +32,7 @@ class Adaptation {
   /// The elite of the highest upper confidence bound, mean + κ · standard deviation; of several the first.
   Index next() const;
 
-  /// What the robot made of an elite. Ignored once stopped.
+  /// Takes the performance that an elite had on the robot. Ignored once stopped.
   void observe(Index elite, double performance);
 
   /// Why there is nothing more to try; empty: there is.

@@ -13,8 +13,8 @@ namespace rehearse::learners::pilco {
 /// 0.7. linear: weights from N(0, 0.01²), no offset.
 Vector initial_policy(const policy::Policy& policy, const moments::Gaussian& start, StreamKey key);
 
-/// What θ of an analytic policy counts in, one a parameter: the unit of a centre or a weight is that of the feature
-/// itself. PILCO's policies have features that are not scaled, and its steps depend on it.
+/// The units of an analytic policy's θ, one a parameter: a centre or a weight has the unit of the feature itself.
+/// PILCO's policies have features that are not scaled, and its steps depend on it.
 Vector units_of(const policy::Policy& policy);
 
 }  // namespace rehearse::learners::pilco

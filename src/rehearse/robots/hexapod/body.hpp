@@ -39,7 +39,7 @@ SegmentModel model_of(Segment segment);
 /// Where the segment's frame is in the frame of what carries it, with a zero angle.
 Eigen::Isometry3d mount_of(Index leg, Segment segment);
 
-/// About the centre of mass, of a solid box.
+/// The moments of inertia of a solid box about its centre of mass.
 Eigen::Vector3d box_inertia(const Eigen::Vector3d& size, double mass);
 
 }  // namespace rehearse::robots::hexapod

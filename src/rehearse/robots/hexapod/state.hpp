@@ -23,7 +23,7 @@ std::vector<ActionVariable> action_variables();
 
 Eigen::Quaterniond orientation_of(const ConstVectorView& state);
 
-/// Of norm below π.
+/// The orientation as a rotation vector, of norm below π.
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& orientation);
 
 /// The cosine of how far the trunk is tilted.
