@@ -31,7 +31,7 @@ struct ProcessGroup {
   int threads(Index asked) const;
 };
 
-/// Throws InvalidInput if the processes that were started together cannot work together; the processes is there all the
+/// Throws InvalidInput if the processes that were started together cannot work together; `processes` is there all the
 /// same, so that they end together: mpirun stops the others, and what they had to say, as soon as one ends badly.
 void join(ProcessGroup& processes, const Launch& launch, int argc, char** argv);
 

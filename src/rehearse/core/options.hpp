@@ -72,7 +72,7 @@ struct Help {
 };
 constexpr Help expert(const char* line) { return {line, kExpert}; }
 
-/// Is shown the fields of an options struct, one after the other. Names are joined with dots by `group`.
+/// A visitor is shown the fields of an options struct, one after the other. Names are joined with dots by `group`.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
@@ -119,7 +119,7 @@ class FieldVisitor {
   virtual void visit(const std::string& name, std::string& value) = 0;
   virtual void visit(const std::string& name, int& value, const std::vector<std::string>& names) = 0;
 
-  // About the field that is visited.
+  // What is said of the field that is visited.
   const Published& published() const { return published_; }
   const Help& help() const { return help_; }  // its audience is that of its groups, too
 

@@ -65,8 +65,11 @@ const learners::Proposal& OpenRun::ask(Index trial, const TrialRecord* known) {
   const auto& proposal = named_failure(trial, "learner", [&]() -> const learners::Proposal& {
     return checked(known ? with_.learner().ask_again({known->policy, known->theta}) : with_.learner().ask());
   });
-  if (known && (proposal.policy->name() != known->policy || proposal.theta != known->theta))
-    throw RunFailed(fmt::format("trial {}: the learner no longer proposes what it did", trial));
+  const auto is_known = [&] {  // Eigen compares vectors of equal sizes
+    return proposal.policy->name() == known->policy && proposal.theta.size() == known->theta.size() &&
+           proposal.theta == known->theta;
+  };
+  if (known && !is_known()) throw RunFailed(fmt::format("trial {}: the learner no longer proposes what it did", trial));
   with_.evaluator().stop_if_asked();
   return proposal;
 }

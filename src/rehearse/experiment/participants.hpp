@@ -26,13 +26,13 @@ class Participants {
   const Task& task() const { return resolved_.scenario.task; }
   learners::Learner& learner() const { return *learner_; }
 
-  /// Connected when it is first needed.
+  /// The robot, connected when it is first needed.
   system::Plant& plant();
 
-  /// Where the learner's store is.
+  /// Tells the learner the folder of its store.
   void open_store(const std::filesystem::path& folder) { store_->open(folder); }
 
-  /// Which trial progress is about.
+  /// Tells the trial that progress is about.
   void begin_trial(Index trial) { trial_ = trial; }
 
  private:

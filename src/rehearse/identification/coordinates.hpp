@@ -7,6 +7,10 @@
 
 namespace rehearse::identification {
 
+/// The precision of a coordinate of which its box alone is known: a uniform distribution on [0, 1] has the variance
+/// 1/12.
+inline constexpr double kBoxPrecision = 12;
+
 /// The continuous parameters of a φ as coordinates z in [0, 1], fractions of their boxes; the rest of φ stays.
 class Coordinates {
  public:

@@ -6,12 +6,13 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
+#include "rehearse/identification/coordinates.hpp"
+
 namespace rehearse::identification {
 namespace {
 
-constexpr double kBoxPrecision = 12;  // of a uniform distribution, in units of the box
-constexpr double kErrors = 2;         // times those of derivatives by differences: less is not resolved
-constexpr double kWeak = 0.1;         // deviation, as a fraction of the boxes, of a direction that is followed
+constexpr double kErrors = 2;  // times those of derivatives by differences: less is not resolved
+constexpr double kWeak = 0.1;  // deviation, as a fraction of the boxes, of a direction that is followed
 
 /// Directions of z (q × q), and the precision of each: that of the boxes, and of these factors what differences
 /// resolve.

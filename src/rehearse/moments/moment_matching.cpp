@@ -15,6 +15,9 @@ namespace {
 
 constexpr double kWorthSpreading = 30000;  // kernel values
 
+/// Whether two matrices are the same, whatever their sizes: Eigen's comparison is one of equal sizes.
+bool are_equal(const Matrix& a, const Matrix& b) { return a.rows() == b.rows() && a.cols() == b.cols() && a == b; }
+
 }  // namespace
 
 MomentMatching::MomentMatching(std::vector<MomentTerm> terms, Index outputs, bool parameters)
@@ -27,7 +30,7 @@ MomentMatching::MomentMatching(std::vector<MomentTerm> terms, Index outputs, boo
     const Index n = t.size(), stride = moment_stride(n);
     for (Index b = 0; b <= a; ++b) pairs_.push_back({b, a}), work_ += static_cast<double>(n * term(b).size());
     std::size_t place = 0;
-    while (place < centres_.size() && *centres_[place] != t.centres) ++place;
+    while (place < centres_.size() && !are_equal(*centres_[place], t.centres)) ++place;
     if (place == centres_.size()) centres_.push_back(&t.centres);
     centres_of_.push_back(static_cast<Index>(place));
     weights_.push_back(Vector::Zero(stride));

@@ -7,8 +7,9 @@
 namespace rehearse::mujoco {
 namespace {
 
-/// Warnings are counted from here. MuJoCo writes the text of one, which all threads share, where it has counted none.
-/// It resets its data where they go bad, and then counts from 0: any other count says so, too.
+/// The count of warnings at which a simulation begins. MuJoCo writes a text, which all threads share, at the first
+/// warning, that of count 0, so ours begin above. It resets data that go bad, and the count to 0: then that is other,
+/// too.
 constexpr int kNoWarnings = 2;
 
 void assign(double* to, const Vector& from) { Vector::Map(to, from.size()) = from; }

@@ -10,17 +10,17 @@ namespace rehearse::statistics {
 
 inline constexpr double kConfidence = 0.95;
 
-/// Of the probability of success after `successes` of `runs` independent ones (Clopper and Pearson 1934).
+/// The interval of the probability of success after `successes` of `runs` independent ones (Clopper and Pearson 1934).
 /// runs ≥ 0, successes in 0..runs.
 Interval rate_interval(Index successes, Index runs);
 
-/// Of the median of a distribution of which these are independent draws: order statistics (Thompson 1936).
-/// Needs 6 values.
+/// The interval of the median of a distribution of which these are independent draws: order statistics (Thompson
+/// 1936). Needs 6 values.
 Interval median_interval(std::vector<double> values);
 
-/// Of the centre of a symmetric distribution of which these are independent draws: the differences that the sign-flip
-/// test of the mean does not reject, which are order statistics of the means of all non-empty subsets (Hartigan 1969,
-/// theorem 1); above 14 values, of as many random ones as 14 have. Needs 6 values.
+/// The interval of the centre of a symmetric distribution of which these are independent draws: the differences that
+/// the sign-flip test of the mean does not reject, which are order statistics of the means of all non-empty subsets
+/// (Hartigan 1969, theorem 1); above 14 values, of as many random ones as 14 have. Needs 6 values.
 Interval mean_interval(const std::vector<double>& values);
 
 }  // namespace rehearse::statistics

@@ -6,6 +6,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "rehearse/identification/coordinates.hpp"
+
 namespace rehearse::study {
 namespace {
 
@@ -35,7 +37,7 @@ double inflation(const FittedSquares& fitted) {
 
 Matrix covariance(const FittedSquares& fitted) {
   const Matrix H = fitted.derivatives.transpose() * fitted.derivatives, one = Matrix::Identity(H.rows(), H.cols());
-  return (H / inflation(fitted) + kBoxPrecision * one).llt().solve(one);
+  return (H / inflation(fitted) + identification::kBoxPrecision * one).llt().solve(one);
 }
 
 std::optional<identification::PhiPosterior> posterior_of(const Matrix& covariance, const ParameterSpace& space,

@@ -19,8 +19,6 @@ struct FittedSquares {
 /// directions together, and four times that, since blocks are few and friction is not the same in each log.
 double inflation(const FittedSquares& fitted);
 
-inline constexpr double kBoxPrecision = 12;  // of a uniform distribution, in units of its box
-
 /// The covariance of all coordinates that errors of which neighbours are alike leave: the precision is JᵀJ / inflation,
 /// and that of the boxes.
 Matrix covariance(const FittedSquares& fitted);

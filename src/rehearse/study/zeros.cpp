@@ -88,7 +88,7 @@ class Errors {
 
   /// Errors go on with how far z is from where it starts, in units of the boxes' deviations, as errors of this
   /// inflation count it: what they do not tell stays there.
-  void trust_start(double inflation) { weight_ = std::sqrt(kBoxPrecision * inflation); }
+  void trust_start(double inflation) { weight_ = std::sqrt(identification::kBoxPrecision * inflation); }
 
   /// The errors of predictions alone.
   FittedSquares fitted(const Vector& z) const {

@@ -25,7 +25,6 @@ constexpr Index kStarts = 5;              // of the kernels' fits, and of their 
 constexpr double kShare = 0.3;            // of an output's noise is at least measurement noise at first
 constexpr double kLeastVariance = 1e-12;  // of measurement noise, as a fraction of the changes'
 constexpr double kLargestNoise = 1e3;     // times the changes' variance
-constexpr double kBoxPrecision = 12;      // of a uniform distribution, in units of the box
 constexpr double kTolerance = 0.01;       // of the model whose slopes are looked at (gp::Posterior)
 
 /// The white noise that leaves a function of covariance K as uncertain at the rows as `left`, the sum of its posterior

@@ -11,8 +11,8 @@ namespace rehearse::learners::pilco {
 /// What PILCO learns on the prior (Cutler 2015).
 struct PriorPhaseOptions {
   Index episodes = 40;  // at most; Chatzilygeroudis 2018, on the pendubot
-  // So many in a row that taught nothing end the phase: they returned what was predicted or more, and no more than one
-  // before, within 2 %. 0: none do (Chatzilygeroudis)
+  // The phase ends after so many episodes in a row that taught nothing: they returned what was predicted or more, and
+  // no more than one before, within 2 %. 0: it does not end so (Chatzilygeroudis)
   Index settled = 3;
   Index inducing = 300;  // at most so many points of what was learned are the means of the GPs on the robot (PILCO)
   void fields(FieldVisitor& v);

@@ -19,7 +19,8 @@ Matrix root(const Matrix& W) {
 Matrix symmetric(const Matrix& A) { return A + A.transpose(); }
 
 TEST(SaturatingMoments, AgreeWithPilcoIncludingDerivatives) {
-  for (const auto& test : reference::load("d_losses.json")["lossSat"]) {
+  const nlohmann::json pilco = reference::load("d_losses.json");
+  for (const auto& test : pilco["lossSat"]) {
     const reward::ClosedForm reward{.goal = reference::vector(test["z"]),
                                     .distances = root(reference::matrix(test["W"]))};
     const RewardMoments moments =

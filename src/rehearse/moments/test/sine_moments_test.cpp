@@ -35,7 +35,8 @@ Rows rows(const nlohmann::json& test, const std::string& of, Index entry) {
 }
 
 TEST(SineMoments, AgreeWithPilcoIncludingDerivatives) {
-  for (const auto& test : reference::load("c_gtrig.json")["cases"]) {
+  const nlohmann::json pilco = reference::load("c_gtrig.json");
+  for (const auto& test : pilco["cases"]) {
     const std::vector<Sine> sines = trigonometry(test);
     const Gaussian x{reference::vector(test["m"]), reference::matrix(test["v"])};
     const auto outputs = static_cast<Index>(sines.size()), D = x.size();

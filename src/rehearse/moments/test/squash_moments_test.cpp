@@ -28,7 +28,8 @@ Matrix by_covariance(const Matrix& row, Index size, const std::vector<Index>& in
 }
 
 TEST(SquashMoments, AgreeWithPilcoIncludingDerivatives) {
-  for (const auto& test : reference::load("g_squash.json")["cases"]) {
+  const nlohmann::json pilco = reference::load("g_squash.json");
+  for (const auto& test : pilco["cases"]) {
     const auto& expected = test["gSat"];
     const std::vector<Index> indices = squashed(test);
     const Vector m = reference::vector(test["m"]);
