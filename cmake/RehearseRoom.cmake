@@ -102,7 +102,7 @@ function(rehearse_room name)
     list(TRANSFORM ROOM_TEST_USES REPLACE "/" "_" OUTPUT_VARIABLE test_uses)
     list(TRANSFORM test_uses PREPEND rehearse_)
     target_link_libraries(test_${target} PRIVATE rehearse_${target} ${test_uses} ${ROOM_TEST_LINKS} GTest::gtest GTest::gtest_main)
-    gtest_discover_tests(test_${target} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+    gtest_discover_tests(test_${target} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
   endif()
 endfunction()
 
