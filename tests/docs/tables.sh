@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # tables.sh ROOT: the marked tables of docs follow from results/*.csv, and scripts/tables notices where one does not.
 set -u
+export PYTHONDONTWRITEBYTECODE=1
 root=$(realpath "$1")
 failures=0
 fail() {
@@ -13,7 +14,7 @@ fail() {
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 mkdir "$copy"/{scripts,results}
-cp "$root"/scripts/tables "$copy"/scripts
+cp "$root"/scripts/{tables,runs.py} "$copy"/scripts
 cp "$root"/results/*.csv "$copy"/results
 cp -r "$root"/docs "$copy"
 document=$copy/docs/results/priors.md
