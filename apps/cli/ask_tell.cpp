@@ -111,8 +111,7 @@ void print_trials(const std::vector<TrialRecord>& trials) {
 /// Whether Rehearse drives the plant and has done what it was asked for.
 bool is_complete(const experiment::Resolved& resolved, const experiment::History& history) {
   if (history.trials.empty() || resolved.spec.trials == 0 || !resolved.scenario.make_plant) return false;
-  return history.done() >= resolved.spec.trials ||
-         (resolved.spec.until_solved && history.trials.back().solved.value_or(false));
+  return resolved.spec.ends_with(history.done(), history.trials.back().solved.value_or(false));
 }
 
 }  // namespace

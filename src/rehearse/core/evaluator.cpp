@@ -20,8 +20,8 @@ extern "C" void __tsan_release(void* address);
 namespace rehearse {
 namespace {
 
-/// What one thread does before `publish` is done for another after `observe` of the same mark. It tells the thread
-/// sanitizer alone, which cannot see how oneTBB begins and joins tasks, since Debian's library is built without it.
+/// A mark tells the thread sanitizer that all before `publish` happened before all after `observe`; else it does
+/// nothing. The sanitizer cannot see how oneTBB begins and joins tasks, since Debian's library is built without it.
 struct Mark {
 #if defined(__SANITIZE_THREAD__)
   void publish() { __tsan_release(this); }

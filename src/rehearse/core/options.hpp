@@ -119,7 +119,7 @@ class FieldVisitor {
   virtual void visit(const std::string& name, std::string& value) = 0;
   virtual void visit(const std::string& name, int& value, const std::vector<std::string>& names) = 0;
 
-  // What is said of the field that is visited.
+  // The published value and the help of the field that is visited.
   const Published& published() const { return published_; }
   const Help& help() const { return help_; }  // its audience is that of its groups, too
 

@@ -155,7 +155,7 @@ double* look_up(const char* name, void* lookup) {
   return &values.emplace_back(boxed(node(name)));
 }
 
-/// What is written otherwise in other languages, for which muParser has no word or another meaning.
+/// Throws InvalidInput for operators as other languages spell them: muParser lacks them, or reads something else.
 void refuse_other_spellings(const std::string& formula) {
   static const std::pair<std::regex, const char*> kSpellings[] = {
       {std::regex(R"(\?)"), "'a ? b : c' is written where(a, b, c)"},

@@ -16,7 +16,7 @@ namespace {
 constexpr double kTakesPart = 0.05;         // of a unit direction: the least component of a parameter that is
 constexpr double kFar = 3.841458820694124;  // of a sum of squares, above its minimum: 95 % of one direction
 
-/// Of the rows that count at a φ (n × dx).
+/// The targets (n × dx) at a φ, of the rows that count.
 Matrix targets_of(const dynamics::Residuals& residuals, const prior::Prior& prior,
                   const dynamics::Residuals::Rows& rows, const Vector& phi) {
   Matrix all = residuals.targets(&prior, phi);
