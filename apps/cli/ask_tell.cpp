@@ -89,7 +89,7 @@ void print_logs(const std::vector<experiment::Log>& logs, const Task& task) {
   }
 }
 
-void print_told(const experiment::Told& told, const std::string& folder) {
+void print_told(const experiment::TellResult& told, const std::string& folder) {
   if (told.known_before) fmt::print("told before, nothing is changed:\n");
   print_logs(told.logs, told.resolved.scenario.task);
   if (told.trial && told.known_before)
@@ -120,7 +120,7 @@ int ask(const experiment::Catalogue& catalogue, const AskArguments& arguments) {
   Console console(Console::Begin::silent);
   return on_console(arguments.folder, threads_or_throw(arguments.threads), console, "ask " + arguments.folder,
                     [&](const experiment::RunOptions& options) {
-                      const experiment::Asked asked = experiment::ask_run(catalogue, arguments.folder, options);
+                      const experiment::AskResult asked = experiment::ask_run(catalogue, arguments.folder, options);
                       console.clear_line();
                       print_asked(asked.resolved, asked.trial, arguments.folder, asked.folder);
                     });
@@ -150,12 +150,13 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
   if (arguments.files.empty()) throw InvalidInput("FILE.csv is required: what the robot did");
   if (arguments.no_fault && !arguments.stopped) throw InvalidInput("--no-fault goes with --stopped");
   if (arguments.stopped && arguments.stopped->empty()) throw InvalidInput("--stopped says no reason");
-  experiment::Tale tale{.files = {arguments.files.begin(), arguments.files.end()}, .stopped = {}};
-  if (arguments.stopped) tale.stopped = {*arguments.stopped, !arguments.no_fault};
+  experiment::Measured measured{.files = {arguments.files.begin(), arguments.files.end()}, .stopped = {}};
+  if (arguments.stopped) measured.stopped = {*arguments.stopped, !arguments.no_fault};
   Console console(Console::Begin::silent);
   return on_console(arguments.folder, threads_or_throw(arguments.threads), console, "ask " + arguments.folder,
                     [&](const experiment::RunOptions& options) {
-                      const experiment::Told told = experiment::tell_run(catalogue, arguments.folder, tale, options);
+                      const experiment::TellResult told =
+                          experiment::tell_run(catalogue, arguments.folder, measured, options);
                       console.clear_line();
                       print_told(told, arguments.folder);
                     });

@@ -40,7 +40,7 @@ int run(const experiment::Catalogue& catalogue, const Typed& typed, const Proces
   if (command == "evaluate") return evaluate(catalogue, typed.evaluate);
   if (command == "export") return export_policy(to_look(catalogue), typed.export_policy);
   if (command == "identify") return identify(catalogue, typed.identify);
-  if (command == "report") return report(typed.report, share);
+  if (command == "report") return report(to_look(catalogue), typed.report, share);
   return replay(typed.replay, share);
 }
 

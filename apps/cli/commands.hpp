@@ -111,7 +111,7 @@ int evaluate(const experiment::Catalogue& catalogue, const EvaluateArguments& ar
 int export_policy(const experiment::Catalogue& catalogue, const ExportArguments& arguments);
 
 /// share: the folder of the page, where it is not beside the program.
-int report(const ReportArguments& arguments, const std::string& share);
+int report(const experiment::Catalogue& catalogue, const ReportArguments& arguments, const std::string& share);
 int replay(const ReplayArguments& arguments, const std::string& share);
 
 }  // namespace rehearse::apps

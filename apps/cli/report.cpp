@@ -30,9 +30,10 @@ int write_page(const fs::path& folder, const Page& page, const fs::path& out) {
 
 }  // namespace
 
-int report(const ReportArguments& arguments, const std::string& share) {
+int report(const experiment::Catalogue& catalogue, const ReportArguments& arguments, const std::string& share) {
   const fs::path folder = arguments.folder;
-  return write_page(folder, report_page(folder, share), arguments.out.value_or((folder / "report.html").string()));
+  return write_page(folder, report_page(catalogue, folder, share),
+                    arguments.out.value_or((folder / "report.html").string()));
 }
 
 int replay(const ReplayArguments& arguments, const std::string& share) {

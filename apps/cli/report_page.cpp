@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/qd/archive_bytes.hpp"
 #include "rehearse/report/report.hpp"
@@ -38,14 +39,23 @@ report::ArchiveSpace archive_space(std::string_view bytes) {
   return {archive.size(), niches.size(), niches.bounds(), niches.bins()};
 }
 
+/// Empty where no robot of this program or of the folder has that name.
+std::string task_of(const experiment::Catalogue& built_in, const fs::path& folder, const std::string& scenario) try {
+  const auto robot = experiment::with_robot_of_run(built_in, folder).scenario(scenario);
+  return robot ? robot->summary() : "";
+} catch (const InvalidInput&) {
+  return "";
+}
+
 Page filled(const report::Report& report, const std::string& share) {
   return {to_html(report, page_template(share)), report.problems};
 }
 
 }  // namespace
 
-Page report_page(const fs::path& folder, const std::string& share) {
-  return filled(report::read_folder(folder, archive_space), share);
+Page report_page(const experiment::Catalogue& built_in, const fs::path& folder, const std::string& share) {
+  const auto task = [&](const std::string& scenario) { return task_of(built_in, folder, scenario); };
+  return filled(report::read_folder(folder, {archive_space, task}), share);
 }
 
 Page replay_page(const fs::path& folder, Index trial, const std::string& share, const std::string& headline) {

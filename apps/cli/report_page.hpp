@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/report/page_data.hpp"
 
 namespace rehearse::apps {
@@ -13,9 +14,9 @@ struct Page {
   std::vector<report::Problem> problems;  // what of the folder could not be used
 };
 
-/// The page of a run or of a campaign. share: the folder of the page without data, where it is not beside the program.
-/// Throws InvalidInput.
-Page report_page(const std::filesystem::path& folder, const std::string& share);
+/// The page of a run or of a campaign. built_in: of those robots it says what they have to do. share: the folder of the
+/// page without data, where it is not beside the program. Throws InvalidInput.
+Page report_page(const experiment::Catalogue& built_in, const std::filesystem::path& folder, const std::string& share);
 
 /// The page of one trial. headline: instead of learner and robot.
 Page replay_page(const std::filesystem::path& folder, Index trial, const std::string& share,

@@ -95,7 +95,7 @@ void resume(const Robot& robot, const std::string& folder, std::optional<Index> 
 }
 
 Policy ask(const Robot& robot, const std::string& folder, const Settings& settings, py::dict& trial) {
-  std::optional<experiment::Asked> asked;
+  std::optional<experiment::AskResult> asked;
   std::optional<Policy> policy;
   work_with(robot, settings, [&](const experiment::RunOptions& options) {
     asked = experiment::ask_run(robot.catalogue(), folder, options);
@@ -108,10 +108,10 @@ Policy ask(const Robot& robot, const std::string& folder, const Settings& settin
 
 py::dict tell(const Robot& robot, const std::string& folder, const Strings& files,
               const std::optional<experiment::Stop>& stopped, const Settings& settings) {
-  std::optional<experiment::Told> told;
+  std::optional<experiment::TellResult> told;
   work_with(robot, settings, [&](const experiment::RunOptions& options) {
-    experiment::Tale tale{.files = {files.begin(), files.end()}, .stopped = stopped};
-    told = experiment::tell_run(robot.catalogue(), folder, tale, options);
+    experiment::Measured measured{.files = {files.begin(), files.end()}, .stopped = stopped};
+    told = experiment::tell_run(robot.catalogue(), folder, measured, options);
   });
   Strings logs, notes;
   for (const experiment::Log& log : told->logs) {
@@ -125,7 +125,7 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
 }
 
 py::dict take_back(const Robot& robot, const std::string& folder, const Settings& settings) {
-  experiment::TakenBack taken;
+  experiment::TakeBackResult taken;
   work_with(robot, settings, [&](const experiment::RunOptions& options) {
     taken = experiment::take_back(robot.catalogue(), folder, options);
   });
@@ -251,7 +251,9 @@ void add_runs(py::module_& module) {
       "robot"_a, "folder"_a, "trial"_a, "episodes"_a, "seconds"_a, "seed"_a, "options"_a, "threads"_a);
   module.def(
       "report",
-      [](const std::string& folder, const std::string& share) { return apps::report_page(folder, share).html; },
+      [](const std::string& folder, const std::string& share) {
+        return apps::report_page(apps::catalogue(), folder, share).html;
+      },
       "folder"_a, "share"_a);
   module.def("known", &known);
 }

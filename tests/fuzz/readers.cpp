@@ -20,6 +20,7 @@
 #include "rehearse/robot_file/robot_file.hpp"
 #include "rehearse/robots/pendulum/pendulum.hpp"
 #include "rehearse/statistics/table.hpp"
+#include "rehearse/system/answers.hpp"
 #include "rehearse/system/messages.hpp"
 
 namespace rehearse::fuzz {
@@ -116,6 +117,33 @@ void read_message(std::string_view bytes) {
   }
 }
 
+/// What `end` says of what a program wrote as soon as it says something, when that comes in pieces.
+std::size_t end_in_pieces(std::string_view written, std::size_t (*end)(std::string_view)) {
+  const std::size_t piece = written.size() / 16 + 1;
+  for (std::size_t size = 0; size < written.size(); size += piece) {
+    const std::size_t found = end(written.substr(0, size));
+    require(found <= size || found == system::kNoAnswer, "an answer that is longer than what was written");
+    if (found > 0) return found;
+  }
+  return end(written);
+}
+
+/// The first byte says whether the program answers in raw numbers.
+void read_answer(std::string_view bytes) {
+  if (bytes.empty()) return;
+  const std::string_view written = bytes.substr(1);
+  if (bytes[0] % 2 == 0) {
+    const std::size_t end = end_in_pieces(written, system::object_line);
+    require(end == system::object_line(written), "a line that ends elsewhere when more has come");
+    if (end > 0) require(system::last_line(written.substr(0, end)).starts_with('{'), "a line that is no object");
+    return;
+  }
+  Matrix dX(3, 2);
+  const std::size_t end = end_in_pieces(written, [](std::string_view text) { return system::frame_end(text, 3, 2); });
+  if (end == system::kNoAnswer) throw std::runtime_error("it wrote something else than the answer");
+  if (end > 0) system::read_frame(written.substr(0, end), dX);
+}
+
 template <class Refusal>
 std::function<bool(std::string_view)> refusing(void (*read)(std::string_view)) {
   return [read](std::string_view bytes) {
@@ -139,6 +167,7 @@ const std::vector<Reader>& readers() {
       {"recording", refusing<InvalidInput>(read_recording)}, {"table", refusing<InvalidInput>(read_table)},
       {"policy", refusing<InvalidInput>(read_policy)},       {"checkpoint", refusing<InvalidInput>(read_checkpoint)},
       {"archive", refusing<InvalidInput>(read_archive)},     {"message", refusing<std::runtime_error>(read_message)},
+      {"answer", refusing<std::runtime_error>(read_answer)},
   };
   return all;
 }

@@ -23,6 +23,8 @@ export interface Run {
   seed: number
   planned: number
   done: boolean
+  /** What the robot has to do, in a line; empty or not there where that is not known. */
+  task?: string
   options: [string, string][]
   /** What could not be read is not there. */
   trials?: Columns

@@ -3,11 +3,18 @@ import type { Report } from './data'
 import { h, type Child } from './dom'
 import { count } from './format'
 
-export function head(title: string, subtitle: Child): HTMLElement {
+/** lead: a sentence under them. */
+export function head(title: string, subtitle: Child, lead = ''): HTMLElement {
   return h(
     'header',
     {},
-    h('div', { class: 'title' }, h('h1', {}, title), h('p', { class: 'subtitle' }, subtitle)),
+    h(
+      'div',
+      { class: 'title' },
+      h('h1', {}, title),
+      h('p', { class: 'subtitle' }, subtitle),
+      lead ? h('p', { class: 'lead' }, lead) : null,
+    ),
     themeButton(),
   )
 }

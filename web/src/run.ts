@@ -16,7 +16,7 @@ import { notes, options } from './run_tables'
 
 export function runPage(report: Report, run: Run): Child[] {
   return [
-    head(title(run), subtitle(run)),
+    head(title(run), subtitle(run), run.task),
     problems(report),
     h(
       'main',

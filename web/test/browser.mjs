@@ -37,6 +37,7 @@ async function play(page) {
 
 await open('run/report', {}, async (page) => {
   assert.equal(await page.locator('h1').textContent(), 'gp-mi on pendubot')
+  assert.match(await page.locator('.lead').textContent(), /^swing up two links .*; solved: the tip within 0\.2 m/)
   assert.equal(await page.locator('#trajectory input, #moments-by-trial').count(), 0) // GPs around a simulator have none
   await moveSlider(page)
   await play(page)

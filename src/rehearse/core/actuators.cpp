@@ -23,50 +23,51 @@ Actuators::Actuators(const std::vector<ActionVariable>& actions, double dt_s, In
     : actions_(actions), own_states_(own_states) {
   for (const ActionVariable& action : actions) {
     const auto& [max_rate, filter_s, delay_s, lag_s, remember] = action.actuation;
-    Line line{.first = states(), .start = within(0, action.bounds.low, action.bounds.high)};
-    line.max_step = max_rate * dt_s;
-    if (filter_s > 0) line.passes = -std::expm1(-dt_s / filter_s);
+    Channel channel{.last_command = states(), .start_command = within(0, action.bounds.low, action.bounds.high)};
+    channel.max_change = max_rate * dt_s;
+    if (filter_s > 0) channel.filter_gain = -std::expm1(-dt_s / filter_s);
     const bool changes = filter_s > 0 || std::isfinite(max_rate);
     changes_commands_ |= changes;
     const double steps = std::max(0.0, delay_s / dt_s);
-    line.delay = index(std::floor(steps + kRounding));
-    line.further = std::max(0.0, steps - static_cast<double>(line.delay));
-    if (line.further < kRounding) line.further = 0;
-    line.before = std::max({remember, Index{changes}, line.delay + Index{line.further > 0}});
-    memory_ += line.before;
+    channel.delay_steps = index(std::floor(steps + kRounding));
+    channel.delay_fraction = std::max(0.0, steps - static_cast<double>(channel.delay_steps));
+    if (channel.delay_fraction < kRounding) channel.delay_fraction = 0;
+    channel.kept = std::max({remember, Index{changes}, channel.delay_steps + Index{channel.delay_fraction > 0}});
+    memory_ += channel.kept;
     if (lag_s > 0) {
-      line.reached = states();
-      line.stays = std::exp(-dt_s / lag_s);
-      line.mean_stays = -std::expm1(-dt_s / lag_s) * lag_s / dt_s;
+      channel.reached_state = states();
+      channel.lag_decay = std::exp(-dt_s / lag_s);
+      channel.mean_lag_decay = -std::expm1(-dt_s / lag_s) * lag_s / dt_s;
       ++memory_;
     }
-    lines_.push_back(line);
+    channels_.push_back(channel);
   }
 }
 
 std::vector<StateVariable> Actuators::variables() const {
   std::vector<StateVariable> variables;
-  for (std::size_t a = 0; a < lines_.size(); ++a) {
+  for (std::size_t a = 0; a < channels_.size(); ++a) {
     const std::string &name = actions_[a].name, &unit = actions_[a].unit;
-    for (Index k = 1; k <= lines_[a].before; ++k)
+    for (Index k = 1; k <= channels_[a].kept; ++k)
       variables.push_back({name + "_last" + (k > 1 ? std::to_string(k) : ""), unit});
-    if (lines_[a].reached >= 0) variables.push_back({name + "_reached", unit});
+    if (channels_[a].reached_state >= 0) variables.push_back({name + "_reached", unit});
   }
   return variables;
 }
 
 Vector Actuators::start() const {
   Vector start(memory_);
-  for (const Line& line : lines_)
-    start.segment(line.first - own_states_, line.before + Index{line.reached >= 0}).setConstant(line.start);
+  for (const Channel& channel : channels_)
+    start.segment(channel.last_command - own_states_, channel.kept + Index{channel.reached_state >= 0})
+        .setConstant(channel.start_command);
   return start;
 }
 
 Vector Actuators::scale() const {
   Vector scale(memory_);
-  for (std::size_t a = 0; a < lines_.size(); ++a) {
+  for (std::size_t a = 0; a < channels_.size(); ++a) {
     const auto& [low, high] = actions_[a].bounds;
-    scale.segment(lines_[a].first - own_states_, lines_[a].before + Index{lines_[a].reached >= 0})
+    scale.segment(channels_[a].last_command - own_states_, channels_[a].kept + Index{channels_[a].reached_state >= 0})
         .setConstant(std::max(std::abs(low), std::abs(high)));
   }
   return scale;
@@ -75,39 +76,40 @@ Vector Actuators::scale() const {
 void Actuators::command(const ConstMatrixView& X, MatrixView U) const {
   if (!changes_commands_) return;
   for (Index a = 0; a < U.cols(); ++a) {
-    const Line& line = lines_[static_cast<std::size_t>(a)];
-    if (line.passes == 1 && !std::isfinite(line.max_step)) continue;
+    const Channel& channel = channels_[static_cast<std::size_t>(a)];
+    if (channel.filter_gain == 1 && !std::isfinite(channel.max_change)) continue;
     for (Index row = 0; row < U.rows(); ++row) {
-      const double before = X(row, line.first), wanted = U(row, a);
-      const double passed = line.passes < 1 ? before + line.passes * (wanted - before) : wanted;
-      U(row, a) = within(passed, before - line.max_step, before + line.max_step);
+      const double before = X(row, channel.last_command), wanted = U(row, a);
+      const double passed = channel.filter_gain < 1 ? before + channel.filter_gain * (wanted - before) : wanted;
+      U(row, a) = within(passed, before - channel.max_change, before + channel.max_change);
     }
   }
 }
 
 /// The mean over the step of the command that arrives.
-auto Actuators::held(const Line& line, Index action, const ConstMatrixView& X, const ConstMatrixView& U) const {
-  const auto sent = [&](Index ago) { return ago == 0 ? U.col(action) : X.col(line.first + ago - 1); };
-  const Index older = line.further > 0 ? line.delay + 1 : line.delay;
-  return (1 - line.further) * sent(line.delay) + line.further * sent(older);
+auto Actuators::held(const Channel& channel, Index action, const ConstMatrixView& X, const ConstMatrixView& U) const {
+  const auto sent = [&](Index ago) { return ago == 0 ? U.col(action) : X.col(channel.last_command + ago - 1); };
+  const Index older = channel.delay_fraction > 0 ? channel.delay_steps + 1 : channel.delay_steps;
+  return (1 - channel.delay_fraction) * sent(channel.delay_steps) + channel.delay_fraction * sent(older);
 }
 
 void Actuators::moving(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView E) const {
   for (Index a = 0; a < U.cols(); ++a) {
-    const Line& line = lines_[static_cast<std::size_t>(a)];
-    E.col(a) = held(line, a, X, U);
-    if (line.reached >= 0) E.col(a) += line.mean_stays * (X.col(line.reached) - E.col(a));
+    const Channel& channel = channels_[static_cast<std::size_t>(a)];
+    E.col(a) = held(channel, a, X, U);
+    if (channel.reached_state >= 0) E.col(a) += channel.mean_lag_decay * (X.col(channel.reached_state) - E.col(a));
   }
 }
 
 void Actuators::remember(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView X_next) const {
   for (Index a = 0; a < U.cols(); ++a) {
-    const Line& line = lines_[static_cast<std::size_t>(a)];
-    if (line.before > 0) X_next.col(line.first) = U.col(a);
-    for (Index k = 1; k < line.before; ++k) X_next.col(line.first + k) = X.col(line.first + k - 1);
-    if (line.reached < 0) continue;
-    X_next.col(line.reached) = held(line, a, X, U);
-    X_next.col(line.reached) += line.stays * (X.col(line.reached) - X_next.col(line.reached));
+    const Channel& channel = channels_[static_cast<std::size_t>(a)];
+    if (channel.kept > 0) X_next.col(channel.last_command) = U.col(a);
+    for (Index k = 1; k < channel.kept; ++k) X_next.col(channel.last_command + k) = X.col(channel.last_command + k - 1);
+    if (channel.reached_state < 0) continue;
+    X_next.col(channel.reached_state) = held(channel, a, X, U);
+    X_next.col(channel.reached_state) +=
+        channel.lag_decay * (X.col(channel.reached_state) - X_next.col(channel.reached_state));
   }
 }
 

@@ -48,26 +48,27 @@ class Actuators {
   /// What is wrong with an action's actuation, a line each.
   static std::vector<std::string> violations(const ActionVariable& action, double dt_s);
 
-  // The parts of one action, for whoever computes them elsewhere (policy/exported.hpp).
-  struct Line {
-    Index first = 0;         // state that is the last command; older ones follow
-    Index before = 0;        // how many of them
-    Index reached = -1;      // state; −1: there is no lag
-    Index delay = 0;         // whole steps
-    double further = 0;      // part of a step
-    double passes = 1;       // the low-pass, in a step
-    double max_step = kInf;  // of the command
-    double stays = 0;        // exp(−dt / lag)
-    double start = 0;        // of all of the memory
-    double mean_stays = 0;   // mean of exp(−t / lag) over a step
+  /// What becomes of one action's commands, for whoever computes it elsewhere (policy/exported.hpp). Its part of the
+  /// memory holds the last `kept` commands, newest first, and, with a lag, what has been reached.
+  struct Channel {
+    Index last_command = 0;     // state
+    Index kept = 0;             // commands
+    Index reached_state = -1;   // −1: there is no lag
+    Index delay_steps = 0;      // whole control steps of the delay …
+    double delay_fraction = 0;  // … and the rest of it, in steps
+    double filter_gain = 1;     // 1 − exp(−dt / filter_s): part of a change that passes in a step; 1: no filter
+    double max_change = kInf;   // of the command in a step
+    double lag_decay = 0;       // exp(−dt / lag_s)
+    double mean_lag_decay = 0;  // mean of exp(−t / lag_s) over a step
+    double start_command = 0;   // all of the memory at the start
   };
-  const std::vector<Line>& lines() const { return lines_; }  // one an action
+  const std::vector<Channel>& channels() const { return channels_; }  // one an action
 
  private:
-  auto held(const Line& line, Index action, const ConstMatrixView& X, const ConstMatrixView& U) const;
+  auto held(const Channel& channel, Index action, const ConstMatrixView& X, const ConstMatrixView& U) const;
 
   std::vector<ActionVariable> actions_;
-  std::vector<Line> lines_;
+  std::vector<Channel> channels_;
   Index own_states_ = 0, memory_ = 0;
   bool changes_commands_ = false;
 };

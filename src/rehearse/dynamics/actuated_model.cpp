@@ -4,7 +4,7 @@
 
 namespace rehearse::dynamics {
 
-Dataset moved(const Dataset& data, const Actuators& actuators) {
+Dataset actuated(const Dataset& data, const Actuators& actuators) {
   const Index own = actuators.own_states();
   Dataset robot{data.states.leftCols(own), Matrix(data.actions.rows(), data.actions.cols()), data.changes.leftCols(own),
                 data.rewards};

@@ -10,7 +10,7 @@
 namespace rehearse::dynamics {
 
 /// The data set of the robot's own states, with what moved it for actions.
-Dataset moved(const Dataset& data, const Actuators& actuators);
+Dataset actuated(const Dataset& data, const Actuators& actuators);
 
 /// A model of the states with their memory: the robot's predicts what follows from what moves it. The memory is
 /// certain. Immutable; any thread.

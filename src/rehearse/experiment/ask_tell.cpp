@@ -74,7 +74,7 @@ bool is_of_policy_asked_for(const ToldFile& file, const scenario::Scenario& scen
   return history.asked && follows_policy(file, scenario, *history.asked);
 }
 
-void check(const History& history, const std::vector<ToldFile>& files, const Tale& tale) {
+void check(const History& history, const std::vector<ToldFile>& files, const Measured& measured) {
   if (history.asked && files.size() != 1)
     throw InvalidInput(
         fmt::format("trial {} is to come, one file tells it, but {} are named", history.asked->trial, files.size()));
@@ -82,12 +82,12 @@ void check(const History& history, const std::vector<ToldFile>& files, const Tal
     throw InvalidInput(fmt::format(
         "{} tells of no trial: trial {} was not asked for. Logs of other controllers are taken before the first trial",
         files.front().path.string(), history.done() + 1));
-  if (!history.asked && tale.stopped)
+  if (!history.asked && measured.stopped)
     throw InvalidInput("--stopped is for the episode of a trial, but none was asked for");
 }
 
-Told already_told(const Resolved& resolved, const History& history, const std::vector<ToldFile>& files) {
-  Told told{.resolved = resolved, .trial = {}, .logs = {}, .known_before = true};
+TellResult already_told(const Resolved& resolved, const History& history, const std::vector<ToldFile>& files) {
+  TellResult told{.resolved = resolved, .trial = {}, .logs = {}, .known_before = true};
   for (const ToldFile& file : files) {
     const KnownAs as = known_as(history, file.checksum);
     if (as.trial > 0) told.trial = history.trials[static_cast<std::size_t>(as.trial) - 1];
@@ -98,18 +98,19 @@ Told already_told(const Resolved& resolved, const History& history, const std::v
 
 }  // namespace
 
-Asked ask_run(const Catalogue& catalogue, const fs::path& path, const RunOptions& options) {
+AskResult ask_run(const Catalogue& catalogue, const fs::path& path, const RunOptions& options) {
   Reopened reopened(catalogue, path, options);
   reopened.go_on(true, [](OpenRun& run) { run.propose(); });
   return {reopened.resolved(), *reopened.run().history().asked, path / kNextFolder};
 }
 
-Told tell_run(const Catalogue& catalogue, const fs::path& path, const Tale& tale, const RunOptions& options) {
-  if (tale.files.empty()) throw InvalidInput("no file is named");
+TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Measured& measured,
+                    const RunOptions& options) {
+  if (measured.files.empty()) throw InvalidInput("no file is named");
   Reopened reopened(catalogue, path, options);
   const Resolved& resolved = reopened.resolved();
   const History& history = reopened.run().history();
-  const std::vector<ToldFile> files = read_told_files(tale.files);
+  const std::vector<ToldFile> files = read_told_files(measured.files);
   std::vector<ToldFile> news;
   for (const ToldFile& file : files)
     if (!known_as(history, file.checksum).known() || is_of_policy_asked_for(file, resolved.scenario, history))
@@ -119,8 +120,8 @@ Told tell_run(const Catalogue& catalogue, const fs::path& path, const Tale& tale
     reopened.extend_to_done();
     return already_told(resolved, history, files);
   }
-  check(history, news, tale);
-  Told told{.resolved = resolved, .trial = {}, .logs = {}};
+  check(history, news, measured);
+  TellResult told{.resolved = resolved, .trial = {}, .logs = {}};
   if (!history.asked) {
     std::vector<Log> logs = logs_of(news, resolved.scenario.task);
     keep_tell(reopened.folder(), news);
@@ -133,7 +134,7 @@ Told tell_run(const Catalogue& catalogue, const fs::path& path, const Tale& tale
     told.logs = std::move(logs);
     return told;
   }
-  const ToldEpisode episode = episode_of(news.front(), resolved.scenario, *history.asked, tale.stopped);
+  const ToldEpisode episode = episode_of(news.front(), resolved.scenario, *history.asked, measured.stopped);
   keep_tell(reopened.folder(), news);
   reopened.go_on(true, [&](OpenRun& run) { run.conclude(episode.episode, news.front().checksum, episode.notes); });
   reopened.extend_to_done();
@@ -141,8 +142,8 @@ Told tell_run(const Catalogue& catalogue, const fs::path& path, const Tale& tale
   return told;
 }
 
-TakenBack take_back(const Catalogue& catalogue, const fs::path& path, const RunOptions& options) {
-  TakenBack taken;
+TakeBackResult take_back(const Catalogue& catalogue, const fs::path& path, const RunOptions& options) {
+  TakeBackResult taken;
   {
     Reopened told(catalogue, path, options);
     const KeptTell tell = last_tell(told.folder());

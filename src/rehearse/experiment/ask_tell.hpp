@@ -14,7 +14,7 @@
 namespace rehearse::experiment {
 
 /// A trial that is to come.
-struct Asked {
+struct AskResult {
   Resolved resolved;
   TrialRecord trial;             // what is known before it
   std::filesystem::path folder;  // of the policy's files
@@ -22,16 +22,16 @@ struct Asked {
 
 /// The next policy of the run in a folder, on the disk when this returns. The same until `tell_run` has had its
 /// episode, whatever happens to the process. Throws InvalidInput, RunFailed and Interrupted.
-Asked ask_run(const Catalogue& catalogue, const std::filesystem::path& path, const RunOptions& options);
+AskResult ask_run(const Catalogue& catalogue, const std::filesystem::path& path, const RunOptions& options);
 
 /// Files of what a robot did (recording/recording.hpp): the episode of the trial that was asked for, or, before
 /// the first one, logs of other controllers.
-struct Tale {
+struct Measured {
   std::vector<std::filesystem::path> files;
   std::optional<Stop> stopped;  // the trial's episode
 };
 
-struct Told {
+struct TellResult {
   Resolved resolved;
   std::optional<TrialRecord> trial;  // the one that the file tells; empty: they are logs
   std::vector<Log> logs;             // these
@@ -41,10 +41,10 @@ struct Told {
 /// Exactly once: files that were told before change nothing, unless the policy that was asked for says just what they
 /// have (a simulator may repeat itself to the byte). Throws InvalidInput, with nothing changed, where a file
 /// is not what is to come, else RunFailed and Interrupted, which leave the episode told.
-Told tell_run(const Catalogue& catalogue, const std::filesystem::path& path, const Tale& tale,
-              const RunOptions& options);
+TellResult tell_run(const Catalogue& catalogue, const std::filesystem::path& path, const Measured& measured,
+                    const RunOptions& options);
 
-struct TakenBack {
+struct TakeBackResult {
   std::optional<Index> trial;                // that was told, and is to come again; empty: logs were told
   std::vector<std::filesystem::path> files;  // copies of the files that were told, in FOLDER/taken-back
 };
@@ -52,7 +52,7 @@ struct TakenBack {
 /// Takes the last `tell_run` back, when it took the wrong file: the run's folder is as before it, byte for byte, but
 /// for taken-back. Again, it takes back the one before. A kill costs nothing: the same call goes on. Throws
 /// InvalidInput where there is none, or Rehearse drove the robot since, else RunFailed and Interrupted.
-TakenBack take_back(const Catalogue& catalogue, const std::filesystem::path& path, const RunOptions& options);
+TakeBackResult take_back(const Catalogue& catalogue, const std::filesystem::path& path, const RunOptions& options);
 
 /// A run as its folder has it, for reading only: another process may be at work there.
 struct RunStatus {

@@ -165,7 +165,7 @@ Learned learn_behind_actuators(const LearningProblem& problem, const Kind& kind,
   std::optional<prior::Prior> robot;
   if (prior) robot = prior->behind_actuators();
   Learned learned =
-      learn({dynamics::moved(data, actuators), own, kinematics, robot ? &*robot : nullptr}, kind, start, evaluator);
+      learn({dynamics::actuated(data, actuators), own, kinematics, robot ? &*robot : nullptr}, kind, start, evaluator);
   learned.model = std::make_shared<dynamics::ActuatedModel>(learned.model, actuators);
   return learned;
 }

@@ -18,9 +18,9 @@ struct Entry {
   std::string name;     // "gp-mi"
   std::string summary;  // one line for `rehearse list`
   PriorUse prior_use = PriorUse::required;
-  bool chooses_priors = false;  // `--prior a,b,c` is allowed
-  bool takes_start = false;     // Setting::start
-  bool tunes_prior = false;     // it learns parameters of the prior
+  bool chooses_priors = false;                    // `--prior a,b,c` is allowed
+  bool takes_start = false;                       // Setting::start
+  bool (*tunes_prior)(const Options&) = nullptr;  // with these it learns parameters of the prior; null: never
   std::unique_ptr<Learner> (*make)(Setting, Options) = nullptr;
   Options options = {};
   std::vector<std::string> (*violations)(const Options&, const Task&, const policy::Policy&) = nullptr;  // may be null
@@ -38,7 +38,7 @@ class OptionsBuilder final : public LearnerBuilder {
   PriorUse prior_use() const override { return entry_.prior_use; }
   bool chooses_priors() const override { return entry_.chooses_priors; }
   bool takes_start() const override { return entry_.takes_start; }
-  bool tunes_prior() const override { return entry_.tunes_prior; }
+  bool tunes_prior() const override { return entry_.tunes_prior && entry_.tunes_prior(entry_.options); }
   OptionTexts scenario_defaults() const override { return entry_.scenario_defaults; }
   void fields(FieldVisitor& v) override { entry_.options.fields(v); }
   std::vector<std::string> violations(const Task& task, const policy::Policy& policy) const override {

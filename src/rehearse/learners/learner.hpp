@@ -121,7 +121,7 @@ class LearnerBuilder {
   virtual PriorUse prior_use() const = 0;
   virtual bool chooses_priors() const = 0;            // `--prior a,b,c` is allowed
   virtual bool takes_start() const { return false; }  // it may begin with a policy (Setting::start)
-  virtual bool tunes_prior() const { return false; }  // it learns parameters of the prior
+  virtual bool tunes_prior() const { return false; }  // with these options it learns parameters of the prior
   virtual void fields(FieldVisitor& v) = 0;
   /// Options of the scenario that suit this learner, where neither a preset nor the user sets them: the policy that it
   /// needs. Those that a scenario does not have, or not with that value, are left as they are.

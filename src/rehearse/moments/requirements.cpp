@@ -13,8 +13,8 @@ FeatureMap model_features(const Task& task, bool joint_angles) {
   return joint_angles ? FeatureMap(task.feature_map().kinds(), task.model_features().joints()) : task.feature_map();
 }
 
-std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, const Need& need) {
-  const auto& [who, otherwise, joint_angles] = need;
+std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, const User& user) {
+  const auto& [who, otherwise, joint_angles] = user;
   Violations violations;
   violations.require(analytic_options(policy).has_value(),
                      fmt::format("policy = {} has no analytic moments, which {} needs: choose policy = rbf "

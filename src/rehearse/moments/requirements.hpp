@@ -12,13 +12,13 @@ namespace rehearse::moments {
 /// The features of a state for models that have moments: those of policies, then, if wanted, the task's joint angles.
 FeatureMap model_features(const Task& task, bool joint_angles);
 
-/// Who needs moments.
-struct Need {
+/// A learner that needs moments, as messages name it.
+struct User {
   std::string_view who, otherwise;  // what else to choose
-  bool joint_angles = false;        // are inputs of the model
+  bool joint_angles = false;        // they are inputs of its model
 };
 
 /// What of a task or a policy has no analytic moments, a line each.
-std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, const Need& need);
+std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, const User& user);
 
 }  // namespace rehearse::moments

@@ -66,15 +66,15 @@ Json to_form(const Feedback& feedback) {
 Json commands(const Actuators& actuators) {
   Json all = Json::array();
   const auto known = [](bool is, auto value) { return is ? Json(value) : Json(); };
-  for (const Actuators::Line& line : actuators.lines())
-    all.push_back({{"last", known(line.before > 0, line.first)},
-                   {"remembers", line.before},
-                   {"start", line.start},
-                   {"passes", line.passes},
-                   {"max_step", known(std::isfinite(line.max_step), line.max_step)},
-                   {"reached", known(line.reached >= 0, line.reached)},
-                   {"delay", static_cast<double>(line.delay) + line.further},
-                   {"stays", line.stays}});
+  for (const Actuators::Channel& channel : actuators.channels())
+    all.push_back({{"last", known(channel.kept > 0, channel.last_command)},
+                   {"remembers", channel.kept},
+                   {"start", channel.start_command},
+                   {"passes", channel.filter_gain},
+                   {"max_step", known(std::isfinite(channel.max_change), channel.max_change)},
+                   {"reached", known(channel.reached_state >= 0, channel.reached_state)},
+                   {"delay", static_cast<double>(channel.delay_steps) + channel.delay_fraction},
+                   {"stays", channel.lag_decay}});
   return all;
 }
 

@@ -42,16 +42,16 @@ void require_folder(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw InvalidInput(fmt::format("{} is not a folder", folder.string()));
 }
 
-Report read_run_folder(const fs::path& folder, const ArchiveReader& read_archive) {
+Report read_run_folder(const fs::path& folder, const Knowledge& knowledge) {
   return make_report(folder, "run", "spec.toml",
-                     [&](Problems& problems) { return read_run(folder, {}, read_archive, problems); });
+                     [&](Problems& problems) { return read_run(folder, {}, knowledge, problems); });
 }
 
 }  // namespace
 
-Report read_folder(const fs::path& folder, const ArchiveReader& read_archive) {
+Report read_folder(const fs::path& folder, const Knowledge& knowledge) {
   require_folder(folder);
-  if (has(folder, "spec.toml")) return read_run_folder(folder, read_archive);
+  if (has(folder, "spec.toml")) return read_run_folder(folder, knowledge);
   if (has(folder, "summary.json"))
     return make_report(folder, "campaign", "summary.json",
                        [&](Problems& problems) { return read_campaign(folder, problems); });

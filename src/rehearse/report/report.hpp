@@ -11,8 +11,8 @@ namespace rehearse::report {
 
 /// Reads a run folder (docs/run-folder.md) or a campaign folder (docs/campaigns.md). A file that cannot be read is left
 /// out and named among the problems. Throws InvalidInput if the folder is neither, or its spec.toml or summary.json is
-/// unusable. read_archive: of those who know archives; without it archive.bin is not looked at.
-Report read_folder(const std::filesystem::path& folder, const ArchiveReader& read_archive = {});
+/// unusable.
+Report read_folder(const std::filesystem::path& folder, const Knowledge& knowledge = {});
 
 /// Reads one trial of a run folder. headline: what stands over the page instead of learner and robot; empty: these.
 /// Throws InvalidInput, too, if there is no such trial.

@@ -228,10 +228,10 @@ void check_run_folder(const fs::path& folder, const fs::path& where, Index trial
   }
 }
 
-Json read_run(const fs::path& folder, std::optional<Index> only, const ArchiveReader& read_archive,
-              Problems& problems) {
+Json read_run(const fs::path& folder, std::optional<Index> only, const Knowledge& knowledge, Problems& problems) {
   const RunSpec spec = read_spec(folder);
   Json run = spec_json(spec);
+  if (knowledge.task) run["task"] = knowledge.task(spec.scenario);
   run["done"] = fs::exists(folder / "done");
   Index trials = trajectories_in(folder);
   if (const auto table = problems.value_or_problem("trials.csv", [&] { return read_table(folder / "trials.csv"); })) {
@@ -250,7 +250,7 @@ Json read_run(const fs::path& folder, std::optional<Index> only, const ArchiveRe
   if (Json limits = limits_json(folder, problems); !limits.is_null()) run["limits"] = std::move(limits);
   problems.value_or_problem("checkpoint", [&] { return check_checkpoint(folder / "checkpoint"), true; });
   if (!only) {
-    Json archive = archive_json(folder, read_archive, problems);
+    Json archive = archive_json(folder, knowledge.archive, problems);
     if (!archive.is_null()) run["archive"] = std::move(archive);
     Json robustness = robustness_json(folder, problems);
     if (!robustness.is_null()) run["robustness"] = std::move(robustness);

@@ -36,7 +36,7 @@ void check_run_folder(const std::filesystem::path& folder, const std::filesystem
                       Problems& problems);
 
 /// Everything that the page shows of a run. only: if given, the one trial whose episode is wanted.
-Json read_run(const std::filesystem::path& folder, std::optional<Index> only, const ArchiveReader& read_archive,
+Json read_run(const std::filesystem::path& folder, std::optional<Index> only, const Knowledge& knowledge,
               Problems& problems);
 
 }  // namespace rehearse::report

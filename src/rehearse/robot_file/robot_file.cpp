@@ -10,6 +10,15 @@
 namespace rehearse::robot_file {
 namespace {
 
+/// The file's own line, and its condition of success.
+std::string summary_of(const Robot& robot) {
+  const auto& [when, last_s] = robot.success;
+  if (when.empty() || when.is_function()) return robot.summary;
+  const std::string solved = last_s > 0 ? fmt::format("solved: {} for the last {:g} s", when.text, last_s)
+                                        : fmt::format("solved: {} at the end", when.text);
+  return robot.summary.empty() ? solved : robot.summary + "; " + solved;
+}
+
 class Builder final : public scenario::ScenarioBuilder {
  public:
   explicit Builder(Robot robot)
@@ -18,7 +27,7 @@ class Builder final : public scenario::ScenarioBuilder {
         has_actuators_(robot_.actuators().memory() > 0 || robot_.plant_actuators().memory() > 0) {}
 
   std::string name() const override { return robot_.name; }
-  std::string summary() const override { return robot_.summary; }
+  std::string summary() const override { return summary_of(robot_); }
 
   std::vector<std::string> prior_names() const override {
     std::vector<std::string> names;

@@ -1,43 +1,15 @@
 #include "rehearse/system/conversation.hpp"
 
-#include <bit>
-#include <cstring>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "rehearse/system/answers.hpp"
+
 namespace rehearse::system {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "raw numbers are little-endian");
-
 constexpr std::size_t kWords = 1 << 20;  // bytes that a program may print beside an answer
-
-/// The end of the first line that begins with '{'. A program's own prints are passed over.
-std::size_t object_line(std::string_view text) {
-  for (std::size_t at = 0;;) {
-    const std::size_t end = text.find('\n', at);
-    if (end == std::string_view::npos) return 0;
-    if (text[at] == '{') return end + 1;
-    at = end + 1;
-  }
-}
-
-/// The last line of it, without what is before.
-std::string_view last_line(std::string_view text) {
-  text.remove_suffix(1);
-  const std::size_t before = text.rfind('\n');
-  return before == std::string_view::npos ? text : text.substr(before + 1);
-}
-
-void append(std::string& bytes, const void* data, std::size_t size) {
-  bytes.append(static_cast<const char*>(data), size);
-}
-
-void append_columns(std::string& bytes, const ConstMatrixView& rows) {
-  for (Index c = 0; c < rows.cols(); ++c)
-    append(bytes, rows.col(c).data(), sizeof(double) * static_cast<std::size_t>(rows.rows()));
-}
 
 }  // namespace
 
@@ -105,22 +77,10 @@ bool Conversation::change(const ConstMatrixView& X, const ConstMatrixView& U, co
 
 bool Conversation::change_in_doubles(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi,
                                      MatrixView dX) {
-  const std::int64_t rows = X.rows();
-  message_.clear();
-  append(message_, &rows, sizeof rows);
-  append(message_, phi.data(), sizeof(double) * static_cast<std::size_t>(phi.size()));
-  append_columns(message_, X);
-  append_columns(message_, U);
-  const std::size_t size = sizeof rows + sizeof(double) * static_cast<std::size_t>(dX.size());
-  const auto complete = [&](std::string_view text) -> std::size_t {
-    const std::size_t known = std::min(text.size(), sizeof rows);
-    if (std::memcmp(text.data(), &rows, known) != 0 || text.size() > size) return Process::kWrong;
-    return text.size() == size ? size : 0;
-  };
-  if (!hear(message_, complete, {program_.answer_s, size})) return false;
-  const char* at = process_->answer().data() + sizeof rows;
-  for (Index c = 0; c < dX.cols(); ++c, at += sizeof(double) * static_cast<std::size_t>(rows))
-    std::memcpy(dX.col(c).data(), at, sizeof(double) * static_cast<std::size_t>(rows));
+  write_frame(message_, X, U, phi);
+  const auto complete = [&](std::string_view written) { return frame_end(written, dX.rows(), dX.cols()); };
+  if (!hear(message_, complete, {program_.answer_s, frame_size(dX.rows(), dX.cols())})) return false;
+  read_frame(process_->answer(), dX);
   return true;
 }
 

@@ -149,7 +149,7 @@ Process::Outcome Process::exchange(std::string_view message, const Complete& com
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
   for (;;) {
     const std::size_t end = received_.empty() ? 0 : complete(received_);
-    if (end == kWrong) return Outcome::wrong;
+    if (end == kNoAnswer) return Outcome::wrong;
     if (end > 0) {
       answer_.assign(received_, 0, end);
       received_.erase(0, end);

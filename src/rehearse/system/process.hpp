@@ -9,6 +9,8 @@
 
 #include <sys/types.h>
 
+#include "rehearse/system/answers.hpp"
+
 namespace rehearse::system {
 
 /// A program that runs beside this one, with its standard streams in our hands; started without a shell, in a process
@@ -26,9 +28,8 @@ class Process {
   enum class Outcome { answered, wrong, ended, late, flooded };
 
   /// Looks at what the program wrote that is not yet used: how many bytes of it are the answer, 0 where some are still
-  /// to come, kWrong where it is none.
+  /// to come, kNoAnswer where it is none.
   using Complete = std::function<std::size_t(std::string_view)>;
-  static constexpr std::size_t kWrong = ~std::size_t{0};
 
   /// Sends a message and waits for the answer, so long and so many bytes at most. The answer stands in `answer`.
   struct Limits {

@@ -84,7 +84,7 @@ TEST(Actuators, DelaysThatAreDecimalFractionsAreWholeSteps) {
   for (int steps = 1; steps <= 20; ++steps) {
     const Actuators actuators({{.name = "u", .bounds = {-1, 1}, .actuation = {.delay_s = steps * 0.1}}}, 0.1, 0);
     EXPECT_EQ(actuators.memory(), steps);
-    EXPECT_EQ(actuators.lines().front().further, 0);
+    EXPECT_EQ(actuators.channels().front().delay_fraction, 0);
   }
 }
 

@@ -52,7 +52,7 @@ TEST(Moved, IsTheDataSetOfTheRobotAlone) {
   data.states << 5, 0.1, 0.2, 6, 0.3, 0.4;
   data.actions << 1, -1;
   data.changes << 7, 0, 0, 8, 0, 0;
-  const Dataset robot = moved(data, actuators());
+  const Dataset robot = actuated(data, actuators());
   EXPECT_EQ(robot.states, (Matrix(2, 1) << 5, 6).finished());
   EXPECT_EQ(robot.actions, (Matrix(2, 1) << 0.2, 0.4).finished());
   EXPECT_EQ(robot.changes, (Matrix(2, 1) << 7, 8).finished());

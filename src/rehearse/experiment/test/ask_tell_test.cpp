@@ -21,7 +21,7 @@ using fake::line_spec, fake::lines_of, fake::message_of;
 
 fs::path trial_of(const fs::path& run, Index trial) { return run / fmt::format("trajectories/trial-{:03}.csv", trial); }
 
-bool has_note(const Told& told, const std::string& note) { return is_among(note, told.trial->notes); }
+bool has_note(const TellResult& told, const std::string& note) { return is_among(note, told.trial->notes); }
 
 /// A run that Rehearse drives, and one that is told its trials.
 class AskTell : public ::testing::Test {
@@ -31,11 +31,11 @@ class AskTell : public ::testing::Test {
     start_run(fake::catalogue(), line_spec(0), told, {});
   }
 
-  Asked ask(const fs::path& folder) { return ask_run(fake::catalogue(), folder, {}); }
-  Told tell(const fs::path& folder, const std::vector<fs::path>& files, std::optional<Stop> stopped = {}) {
+  AskResult ask(const fs::path& folder) { return ask_run(fake::catalogue(), folder, {}); }
+  TellResult tell(const fs::path& folder, const std::vector<fs::path>& files, std::optional<Stop> stopped = {}) {
     return tell_run(fake::catalogue(), folder, {files, std::move(stopped)}, {});
   }
-  TakenBack take_back(const fs::path& folder) { return experiment::take_back(fake::catalogue(), folder, {}); }
+  TakeBackResult take_back(const fs::path& folder) { return experiment::take_back(fake::catalogue(), folder, {}); }
   fs::path written(const std::string& name, const std::string& text) {
     files::write_file(folder / name, text);
     return folder / name;
@@ -59,7 +59,7 @@ TEST_F(AskTell, TrialsThatAreToldAreThoseThatAreDriven) {
     EXPECT_EQ(ask(told).trial.trial, trial);
     EXPECT_EQ(ask(told).trial.trial, trial) << "asked again, it is the same trial";
     EXPECT_TRUE(fs::exists(told / "next/policy.json"));
-    const Told result = tell(told, {trial_of(driven, trial)});
+    const TellResult result = tell(told, {trial_of(driven, trial)});
     ASSERT_TRUE(result.trial);
     EXPECT_EQ(result.trial->trial, trial);
     EXPECT_FALSE(fs::exists(told / "next")) << "nobody runs an old policy again";
@@ -73,7 +73,7 @@ TEST_F(AskTell, AFileCountsOnce) {
   ask(told);
   tell(told, {trial_of(driven, 1)});
   const std::string before = checkpoint();
-  const Told again = tell(told, {trial_of(driven, 1)});
+  const TellResult again = tell(told, {trial_of(driven, 1)});
   EXPECT_TRUE(again.known_before);
   ASSERT_TRUE(again.trial);
   EXPECT_EQ(again.trial->trial, 1);
@@ -133,7 +133,7 @@ TEST_F(AskTell, WhatWasToldCanBeTakenBack) {
   }
   ask(told);  // a policy that was made of the wrong trial
   for (Index trial = kTrials; trial >= 1; --trial) {
-    const TakenBack taken = take_back(told);
+    const TakeBackResult taken = take_back(told);
     EXPECT_EQ(taken.trial, trial);
     ASSERT_EQ(taken.files.size(), 1U);
     EXPECT_EQ(files::read_file(taken.files[0]), files::read_file(trial_of(driven, trial)));
@@ -177,19 +177,19 @@ TEST_F(AskTell, WhatRehearseDroveIsNotTakenBack) {
 
 TEST_F(AskTell, AnOperatorMayStopAnEpisode) {
   ask(told);
-  const Told failed = tell(told, {beginning(trial_of(driven, 1), 6)}, Stop{"it hit the wall"});
+  const TellResult failed = tell(told, {beginning(trial_of(driven, 1), 6)}, Stop{"it hit the wall"});
   ASSERT_TRUE(failed.trial);
   EXPECT_EQ(failed.trial->interaction_s, 0.5);
   EXPECT_EQ(failed.trial->solved, false);
   EXPECT_TRUE(has_note(failed, "the episode ended at the reward floor: stopped by the operator: it hit the wall"));
   ask(told);
-  const Told stopped = tell(told, {beginning(trial_of(driven, 2), 6)}, Stop{"the battery", false});
+  const TellResult stopped = tell(told, {beginning(trial_of(driven, 2), 6)}, Stop{"the battery", false});
   EXPECT_TRUE(has_note(stopped, "stopped by the operator after 5 of 12 steps, by no fault of the policy: the battery"));
 }
 
 TEST_F(AskTell, AnotherPolicyThanTheOneAskedForIsNoted) {
   ask(told);
-  const Told other = tell(told, {trial_of(driven, 2)});
+  const TellResult other = tell(told, {trial_of(driven, 2)});
   ASSERT_TRUE(other.trial);
   EXPECT_NE(other.trial->notes.back().find("v differs from what the policy says"), std::string::npos)
       << other.trial->notes.back();
@@ -207,7 +207,7 @@ TEST_F(AskTell, StatusReadsWithoutDisturbing) {
   EXPECT_EQ(status_of(fake::catalogue(), told).history.done(), 0);
   ask(told);
   tell(told, {trial_of(driven, 1)});
-  const Asked asked = ask(told);
+  const AskResult asked = ask(told);
   const RunFolder at_work = RunFolder::open(told);
   const RunStatus status = status_of(fake::catalogue(), told);
   EXPECT_TRUE(status.in_use);

@@ -186,6 +186,10 @@ PriorUse prior_use(const Options& options) {
   return is<identification::ZeroMean>(options) ? PriorUse::none : PriorUse::required;
 }
 
+bool tunes_prior(const Options& options) {
+  return is<identification::GpMi>(options) || is<identification::Mi>(options);
+}
+
 std::vector<std::string> violations_with(const Options& options, const Task& task, const policy::Policy& policy) {
   if (needs_derivatives(options.search.method) && !dynamic_cast<const policy::Differentiable*>(&policy))
     return {"search.method = gradient or polish, but the policy '" + policy.name() +
@@ -206,9 +210,9 @@ Entry<Options> entry(const char* name, const char* summary, identification::Kind
   return {.name = name,
           .summary = summary,
           .prior_use = prior_use(options),
-          .chooses_priors = is<identification::GpMi>(options) || is<identification::Mi>(options),
+          .chooses_priors = tunes_prior(options),
           .takes_start = true,
-          .tunes_prior = is<identification::GpMi>(options) || is<identification::Mi>(options),
+          .tunes_prior = tunes_prior,
           .make = make,
           .options = options,
           .violations = violations_with};

@@ -111,7 +111,7 @@ std::vector<std::unique_ptr<LearnerBuilder>> builders() {
       .name = "gp-ilqg",
       .summary = "GPs around the prior, plans by iterative LQG; the policy is feedback that varies with time",
       .prior_use = PriorUse::required,
-      .tunes_prior = true,
+      .tunes_prior = [](const Options& options) { return options.identify; },
       .make = make,
       .options = {},
       .violations = cannot_do});

@@ -11,12 +11,12 @@ namespace {
 
 std::vector<std::string> without_moments(const Options& options, const Task& task, const policy::Policy& policy) {
   const bool joint_angles = options.model.joint_angles;
-  const auto need = [&]() -> moments::Need {
+  const auto user = [&]() -> moments::User {
     if (options.prior) return {"pilco-prior", "the learner black-drops-prior", joint_angles};
     if (options.pi_rem) return {"pi-rem", "the learner black-drops-prior", joint_angles};
     return {"pilco", "the learner black-drops", joint_angles};
   };
-  return moments::without_moments(task, policy, need());
+  return moments::without_moments(task, policy, user());
 }
 
 PriorUse prior_use(const Options& options) {
@@ -27,6 +27,7 @@ Entry<Options> entry(const char* name, const char* summary, const Options& optio
   return {.name = name,
           .summary = summary,
           .prior_use = prior_use(options),
+          .tunes_prior = [](const Options& used) { return used.pi_rem && used.pi_rem->identify; },
           .make = make,
           .options = options,
           .violations = without_moments,

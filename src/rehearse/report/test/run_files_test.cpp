@@ -47,6 +47,15 @@ TEST_F(RunFiles, ARunHasItsTablesAsColumns) {
   EXPECT_EQ(run["episodes"][1]["motion"]["predicted"], json::parse("[[null]]"));
 }
 
+TEST_F(RunFiles, WhatTheRobotHasToDoIsOfThoseWhoKnowIt) {
+  write_run(folder_);
+  const Report report =
+      read_folder(folder_, {.archive = {}, .task = [](const std::string& name) { return name + "!"; }});
+  const json run = json::parse(report.json)["run"];
+  EXPECT_EQ(run["task"], run["scenario"].get<std::string>() + "!");
+  EXPECT_FALSE(json::parse(read_folder(folder_).json)["run"].contains("task"));
+}
+
 TEST_F(RunFiles, LimitsAreThereWhereTheTaskHasThem) {
   write_run(folder_);
   EXPECT_FALSE(json::parse(read_folder(folder_).json)["run"].contains("limits"));

@@ -17,6 +17,7 @@ TEST(RobotFile, MakesAScenarioWithEverythingOfTheFile) {
   const auto made = builder(kSwing, "swing.toml", example::no_files);
   EXPECT_EQ(made->name(), "swing");
   EXPECT_EQ(made->prior_names(), std::vector<std::string>{"heavy"});
+  EXPECT_TRUE(made->summary().ends_with("solved: height > 0.9 for the last 0.2 s")) << made->summary();
   const scenario::Scenario scenario = made->build();
   EXPECT_EQ(scenario.task.violations(), std::vector<std::string>{});
   EXPECT_EQ(scenario.policy->actions(), 1);

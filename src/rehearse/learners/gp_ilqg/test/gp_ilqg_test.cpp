@@ -35,6 +35,11 @@ Setting setting(double gain, std::uint64_t seed = 1) {
   return setting;
 }
 
+TEST(GpIlqg, TunesThePriorWhereItIsAsked) {
+  EXPECT_FALSE(builder(false)->tunes_prior());
+  EXPECT_TRUE(builder(true)->tunes_prior());
+}
+
 TEST(GpIlqg, KeepsTheLaws) {
   for (const bool identify : {false, true})
     EXPECT_EQ(testing::check_learner(*builder(identify), setting(1), run_trial), std::vector<std::string>{})

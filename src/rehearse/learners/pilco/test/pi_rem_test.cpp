@@ -74,7 +74,10 @@ TEST(PiRem, LearnsTheSliderAroundAWrongPrior) {
 }
 
 TEST(PiRem, IdentifiesThePriorWhereItIsAsked) {
-  const auto learner = pi_rem({{"model.identify", "true"}})->build(setting_with_a_prior());
+  const auto builder = pi_rem({{"model.identify", "true"}});
+  EXPECT_TRUE(builder->tunes_prior());
+  EXPECT_FALSE(pi_rem()->tunes_prior());
+  const auto learner = builder->build(setting_with_a_prior());
   const auto [proposals, returns] = learn(*learner, 3);
   EXPECT_EQ(*proposals.front().phi, (Vector{{0.7, 0.5}}));
   EXPECT_NEAR((*proposals.back().phi)(0), 1.5, 0.05);
