@@ -56,7 +56,7 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
   };
   const std::vector<study::Log> logs = read(arguments.logs), held_out = read(arguments.held_out);
   violations.throw_if_any();
-  const study::Problem problem{setup.robot, *setup.prior, logs, held_out};
+  const study::Problem problem = setup.problem(logs, held_out);
   StatusLine line;
   const auto evaluator =
       make_stoppable(make_thread_evaluator(static_cast<int>(threads)), [] { return caught_signal() != 0; });

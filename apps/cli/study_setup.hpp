@@ -28,6 +28,11 @@ struct StudySetup {
   Task robot;                         // of its own states, by what moves it: its actuators are known
   std::optional<prior::Prior> prior;  // likewise
   IdentifyOptions options;
+
+  /// References: this and the logs must outlive it.
+  study::Problem problem(const std::vector<study::Log>& logs, const std::vector<study::Log>& held_out) const {
+    return {robot, *prior, logs, held_out};
+  }
 };
 
 struct StudyRequest {

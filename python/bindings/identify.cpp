@@ -43,7 +43,7 @@ Texts identify(const Robot& robot, const apps::StudyRequest& request, const File
     const auto logs = read(files.logs, setup, violations, texts.notes);
     const auto held_out = read(files.held_out, setup, violations, texts.notes);
     violations.throw_if_any();
-    const study::Problem problem{setup.scenario.task, *setup.prior, logs, held_out};
+    const study::Problem problem = setup.problem(logs, held_out);
     const study::Study study =
         study::study_logs(problem, setup.options.study, *make_stoppable(options.evaluator, options.stop));
     texts.tables = study::csv_files(study, problem);

@@ -44,6 +44,15 @@ def test_policies_remember_what_they_sent(tmp_path):
     assert run.trials["phi.mass"][1] == pytest.approx(1.6, rel=1e-3)  # of the cart behind its delay
 
 
+def test_identify_learns_what_moves_behind_a_delay(tmp_path):
+    whole = learn(late_cart(), tmp_path / "whole")
+    log = whole.trajectory(1)
+    columns = {name: log[name] for name in ("time", "velocity", "position", "force")}
+    for beyond in ("nothing", "gp"):
+        found = rehearse.identify(late_cart(plant=None), [columns], options={"beyond": beyond})
+        assert found.parameters["value"][0] == pytest.approx(1.6, rel=0.05)
+
+
 def test_what_is_told_needs_no_memory(tmp_path):
     whole = learn(late_cart(), tmp_path / "whole")
     run = learn(late_cart(plant=None), tmp_path / "told", trials=0)

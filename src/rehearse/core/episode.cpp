@@ -11,6 +11,13 @@ void append_rows(Matrix& matrix, const Matrix& rows) {
 
 }  // namespace
 
+Episode Episode::part(Index first, Index steps) const {
+  return {.states = states.middleRows(first, steps + 1),
+          .true_states = true_states.middleRows(first, steps + 1),
+          .actions = actions.middleRows(first, steps),
+          .rewards = rewards.segment(first, steps)};
+}
+
 void Dataset::append(const Episode& episode) {
   const Index steps = episode.steps();
   if (steps == 0) return;

@@ -20,6 +20,9 @@ struct Episode {
 
   Index steps() const { return actions.rows(); }
   double total_reward() const { return rewards.sum() + charged; }
+
+  /// Steps first to first + steps, as an episode of its own that did not end early.
+  Episode part(Index first, Index steps) const;
 };
 
 /// What the models learn from: one row per observed step.

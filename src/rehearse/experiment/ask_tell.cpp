@@ -136,7 +136,8 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Meas
   }
   const ToldEpisode episode = episode_of(news.front(), resolved.scenario, *history.asked, measured.stopped);
   keep_tell(reopened.folder(), news);
-  reopened.go_on(true, [&](OpenRun& run) { run.conclude(episode.episode, news.front().checksum, episode.notes); });
+  reopened.run().record(episode.episode, news.front().checksum, episode.notes);
+  reopened.go_on(false, [](OpenRun&) {});
   reopened.extend_to_done();
   told.trial = history.trials.back();
   return told;

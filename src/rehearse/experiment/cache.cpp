@@ -33,9 +33,17 @@ struct Entry {
   std::uintmax_t bytes = 0;
 };
 
+/// What is in a folder, as far as it can be read.
+std::vector<fs::directory_entry> contents(const fs::path& folder) {
+  std::vector<fs::directory_entry> all;
+  std::error_code none;
+  for (fs::directory_iterator at(folder, none), end; !none && at != end; at.increment(none)) all.push_back(*at);
+  return all;
+}
+
 void add_entries(const fs::path& folder, std::vector<Entry>& entries) {
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
+  for (const fs::directory_entry& entry : contents(folder)) {
     if (!is_entry(entry.path().filename().string()) || !fs::is_regular_file(entry.symlink_status(none))) continue;
     entries.push_back({entry.path(), entry.last_write_time(none), entry.file_size(none)});
     if (none) entries.pop_back();  // gone by now
@@ -51,7 +59,7 @@ std::string cache_entry(const std::string& name, std::uint64_t owner) { return f
 std::vector<fs::path> cache_folders(const fs::path& root) {
   std::vector<fs::path> folders;
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(root, none))
+  for (const fs::directory_entry& entry : contents(root))
     if (is_key(entry.path().filename().string()) && fs::is_directory(entry.symlink_status(none)))
       folders.push_back(entry.path());
   return folders;

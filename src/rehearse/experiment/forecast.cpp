@@ -71,9 +71,9 @@ double deviation(const std::vector<double>& values) {
 }  // namespace
 
 std::vector<ForecastError> forecast_errors(const dynamics::DynamicsModel& model, const Task& task,
-                                           const Episode& episode) {
+                                           const Episode& episode, const Evaluator& evaluator) {
   const std::vector<Index> horizons = horizons_up_to(episode.steps());
-  const std::vector<Matrix> predicted = rollout::forecast(model, episode, horizons);
+  const std::vector<Matrix> predicted = rollout::forecast(model, episode, horizons, evaluator);
   std::vector<ForecastError> errors;
   for (std::size_t i = 0; i < horizons.size(); ++i) errors.push_back(compare(task, episode, horizons[i], predicted[i]));
   return errors;

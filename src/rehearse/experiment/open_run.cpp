@@ -53,9 +53,7 @@ void OpenRun::load_learner() {
 /// Brings a new learner to where the history ends.
 void OpenRun::catch_up() {
   load_learner();
-  if (history_.told == history_.done()) return;
-  ask(history_.done(), &history_.trials.back());  // it may learn from what it proposed, too
-  tell_last();
+  if (history_.told < history_.done()) tell_last();
 }
 
 /// known: the record of the trial, where one was kept.
@@ -79,14 +77,24 @@ Episode OpenRun::as_told(const Episode& episode) const {
   return measured ? rollout::as_measured(episode, with_.task()) : episode;
 }
 
+/// Tells the learner the last trial, which it may have to be asked for again: it learns from what it proposed, too.
 void OpenRun::tell_last() {
-  named_failure(history_.done(), "learner", [&] {
+  TrialRecord& last = history_.trials.back();
+  const learners::Proposal& proposal = proposal_ ? *proposal_ : ask(last.trial, &last);
+  proposal_ = nullptr;
+  if (proposal.model)
+    last.forecast = named_failure(last.trial, "model of the learner", [&] {
+      return forecast_errors(*proposal.model, with_.task(), history_.episodes.back(), with_.evaluator());
+    });
+  named_failure(last.trial, "learner", [&] {
     with_.learner().tell(as_told(history_.episodes.back()));
     history_.learner = with_.learner().save();
   });
   ++history_.told;
   for (const learners::Table& table : with_.learner().tables()) folder_.write_learners_table(table);
+  folder_.write_tables(history_, with_.resolved());
   folder_.write_checkpoint(history_);  // which says that the tables are there
+  if (with_.options().listener) with_.options().listener->trial_done(last);
 }
 
 void OpenRun::update_learners_tables(bool keep) {
@@ -129,7 +137,7 @@ void OpenRun::predict(Index trial, const learners::Proposal& proposal) const {
                       .stage = Stage::prediction};
   const rollout::SimulateOptions unclipped{.noise_clip = 0};
   const auto recorded = rollout::simulate_recorded({*proposal.model, *proposal.policy, with_.task(), key, unclipped},
-                                                   proposal.theta, kPredictionParticles);
+                                                   proposal.theta, kPredictionParticles, with_.evaluator());
   std::optional<ExpectedEpisode> moments;
   if (proposal.moments) moments = proposal.moments();
   folder_.write_prediction(trial, prediction_csv(with_.task(), recorded, moments ? &*moments : nullptr));
@@ -147,23 +155,23 @@ double OpenRun::interaction_s(const Episode& last) const {
   return seconds(steps, with_.task().dt_s);
 }
 
-/// The episode is on the disk before anything that may take long or fail: a robot does not repeat it.
-void OpenRun::conclude(const Episode& episode, const std::string& file, const std::vector<std::string>& notes) {
-  const learners::Proposal& proposal = propose();
+void OpenRun::record(const Episode& episode, const std::string& file, const std::vector<std::string>& notes) {
   TrialRecord record = *history_.asked;
   record.file = file;
-  add_outcome(record, proposal, episode, with_.task());
+  add_outcome(record, episode, with_.task());
   record.notes.insert(record.notes.end(), notes.begin(), notes.end());
   record.interaction_s = interaction_s(episode);
   history_.trials.push_back(std::move(record));
   history_.episodes.push_back(episode);
   history_.asked.reset();
-  proposal_ = nullptr;
   folder_.write_checkpoint(history_);
+}
+
+void OpenRun::conclude(const Episode& episode) {
+  record(episode);
   publish();
   evaluate_last();
   tell_last();
-  if (with_.options().listener) with_.options().listener->trial_done(history_.trials.back());
 }
 
 /// The tables that follow from the history, and the last trial's episode.

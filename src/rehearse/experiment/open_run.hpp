@@ -32,8 +32,12 @@ class OpenRun {
   /// The next trial's policy. The same until it is concluded, whatever happens to the process.
   const learners::Proposal& propose();
 
-  /// The next trial is over. file: checksum of the file that says so, if it is one. notes: of how it was read.
-  void conclude(const Episode& episode, const std::string& file = "", const std::vector<std::string>& notes = {});
+  /// Records the episode of the trial that was asked for; the learner, which may take long or fail, is told by the next
+  /// `begin`. file: checksum of the file that says so, if it is one. notes: of how it was read.
+  void record(const Episode& episode, const std::string& file = "", const std::vector<std::string>& notes = {});
+
+  /// Records the episode of what was proposed, so that no robot has to repeat it, and tells the learner.
+  void conclude(const Episode& episode);
 
  private:
   const std::filesystem::path& path() const { return folder_.path(); }

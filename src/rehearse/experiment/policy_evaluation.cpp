@@ -19,22 +19,14 @@ namespace {
 constexpr Index kEpisodesOfAPlant = 10;  // fixed: what a plant remembers from one to the next decides results
 constexpr double kLongest = 1e6;         // steps
 
-/// Steps first to first + steps of an episode that ran so far.
-Episode part(const Episode& episode, Index first, Index steps) {
-  return {.states = episode.states.middleRows(first, steps + 1),
-          .true_states = episode.true_states.middleRows(first, steps + 1),
-          .actions = episode.actions.middleRows(first, steps),
-          .rewards = episode.rewards.segment(first, steps)};
-}
-
 Outcome outcome_of(const Episode& episode, const Task& task) {
   Outcome outcome{.total_reward = episode.total_reward()};
   if (episode.ended) outcome.ended_s = seconds(episode.steps(), task.dt_s);
   if (!task.solved) return outcome;
   const Index T = task.horizon;
   const bool lasted = episode.steps() >= T && !(episode.ended && episode.steps() == T);
-  outcome.solved = task.solved(lasted ? part(episode, 0, T) : episode);
-  outcome.solved_at_end = !episode.ended && task.solved(part(episode, episode.steps() - T, T));
+  outcome.solved = task.solved(lasted ? episode.part(0, T) : episode);
+  outcome.solved_at_end = !episode.ended && task.solved(episode.part(episode.steps() - T, T));
   return outcome;
 }
 

@@ -13,10 +13,18 @@
 namespace rehearse::experiment {
 namespace {
 
-std::string no_plant(const Spec& spec) {
-  return fmt::format(
-      "{} has no plant that could be driven: begin with --trials 0, then `ask` and `tell` go on a trial at a time",
-      spec.scenario);
+bool is_over(const Spec& spec, const History& history) {
+  const bool solved = history.done() > 0 && history.trials.back().solved.value_or(false);
+  return spec.ends_with(history.done(), solved);
+}
+
+/// Throws InvalidInput where there is no plant that trials could drive, or it is not ready.
+void require_plant(const Resolved& resolved) {
+  if (!resolved.scenario.make_plant)
+    throw InvalidInput(fmt::format(
+        "{} has no plant that could be driven: begin with --trials 0, then `ask` and `tell` go on a trial at a time",
+        resolved.spec.scenario));
+  if (resolved.scenario.require_ready) resolved.scenario.require_ready();
 }
 
 /// ask → execute → tell, to the end.
@@ -27,18 +35,13 @@ class Run {
 
   RunResult finish() {
     run_.begin(!complete());
-    if (!complete() && !with_.resolved().scenario.make_plant) throw InvalidInput(no_plant(with_.resolved().spec));
     while (!complete()) run_.conclude(execute(run_.propose()));
     if (with_.resolved().spec.trials > 0) folder_.mark_done(run_.history().done());
     return result();
   }
 
  private:
-  bool complete() const {
-    const History& history = run_.history();
-    const bool solved = history.done() > 0 && history.trials.back().solved.value_or(false);
-    return with_.resolved().spec.ends_with(history.done(), solved);
-  }
+  bool complete() const { return is_over(with_.resolved().spec, run_.history()); }
 
   Episode execute(const learners::Proposal& proposal) const {
     const Index trial = run_.history().done() + 1;
@@ -89,8 +92,10 @@ RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::fil
                     const RunOptions& options) {
   Participants participants(resolve(catalogue, spec), options);
   const Resolved& resolved = participants.resolved();
-  if (spec.trials > 0 && !resolved.scenario.make_plant) throw InvalidInput(no_plant(resolved.spec));
-  if (resolved.scenario.require_ready) resolved.scenario.require_ready();
+  if (spec.trials > 0)
+    require_plant(resolved);
+  else if (resolved.scenario.require_ready)
+    resolved.scenario.require_ready();
   const RunFolder folder = RunFolder::create(path, resolved.spec, resolved.comments, resolved.robot);
   return with_causes(catalogue, resolved.spec, [&] { return Run(participants, folder, {}).finish(); });
 }
@@ -107,6 +112,7 @@ RunResult resume_run(const Catalogue& built_in, const std::filesystem::path& pat
                     "drive the plant",
                     path.string()));
   Participants participants(resolve(catalogue, extended), options);
+  if (!is_over(extended, history)) require_plant(participants.resolved());
   folder.change_end({extended.trials, extended.until_solved}, participants.resolved().comments);
   return with_causes(catalogue, participants.resolved().spec,
                      [&] { return Run(participants, folder, std::move(history)).finish(); });

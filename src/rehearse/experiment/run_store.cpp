@@ -16,21 +16,15 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStoreKind = "kept";
 
-/// The spec without its number of trials, which a run may change on the way.
-std::string owner_of(Spec spec) {
-  spec.trials = 0;
-  return to_toml(spec);
-}
-
-/// The bytes that a file keeps for this owner; nothing where it is missing, damaged or another's.
+/// The bytes that a file keeps for this owner; nothing where it is missing, damaged, another's or not to be read.
 std::optional<std::string> read_kept(const fs::path& path, const std::string& owner) {
-  if (path.empty() || !fs::exists(path)) return {};
+  if (path.empty()) return {};
   try {
     const std::string bytes = files::read_file(path);
     const std::string_view body = files::unseal(kStoreKind, bytes);
     if (!body.starts_with(owner + '\0')) return {};
     return std::string(body.substr(owner.size() + 1));
-  } catch (const InvalidInput&) {  // a damaged one
+  } catch (const InvalidInput&) {
     return {};
   }
 }
@@ -46,7 +40,8 @@ void write_cached(const fs::path& path, const std::string& bytes) {
 
 }  // namespace
 
-RunStore::RunStore(const Spec& spec, CacheFolder cache) : owner_(owner_of(spec)), cache_(std::move(cache)) {}
+RunStore::RunStore(const Spec& spec, CacheFolder cache)
+    : owner_(to_toml(spec.without_end())), cache_(std::move(cache)) {}
 
 fs::path RunStore::kept(const std::string& name) const {
   return folder_.empty() ? fs::path() : folder_ / "kept" / name;

@@ -39,6 +39,14 @@ struct Spec {
   /// several).
   std::vector<std::pair<std::string, std::string>> options;
 
+  /// The spec without when it ends, which a run may change on the way.
+  Spec without_end() const {
+    Spec spec = *this;
+    spec.trials = 0;
+    spec.until_solved = false;
+    return spec;
+  }
+
   /// Whether the run ends with a trial. solved: whether that trial solves the task.
   bool ends_with(Index trial, bool solved) const { return trial >= trials || (until_solved && solved); }
 

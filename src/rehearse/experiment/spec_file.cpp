@@ -162,10 +162,6 @@ Index SpecFile::line_of_names(const std::string& violation) const {
 
 Spec from_toml(std::string_view text, const std::string& source_name) { return SpecFile(text, source_name).spec(); }
 
-std::uint64_t fingerprint(Spec spec) {
-  spec.trials = 0;
-  spec.until_solved = false;
-  return files::checksum(to_toml(spec));
-}
+std::uint64_t fingerprint(const Spec& spec) { return files::checksum(to_toml(spec.without_end())); }
 
 }  // namespace rehearse::experiment

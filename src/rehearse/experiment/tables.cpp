@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/core/names.hpp"
 #include "rehearse/experiment/forecast.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/files/csv.hpp"
@@ -15,14 +16,10 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-std::string titled(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
-}
-
 /// One column per state, `format` applied to its name.
 void add_states(Row& header, const Task& task, const std::string& format) {
   for (const StateVariable& state : task.states)
-    header.push_back(titled(fmt::format(fmt::runtime(format), state.name), state.unit));
+    header.push_back(with_unit(fmt::format(fmt::runtime(format), state.name), state.unit));
 }
 
 template <class RowOfMatrix>
@@ -188,7 +185,7 @@ std::string trajectory_csv(const Task& task, const Episode& episode) {
   Row header = {"time [s]"};
   add_states(header, task, "{}");
   add_states(header, task, "true {}");
-  for (const ActionVariable& action : task.actions) header.push_back(titled(action.name, action.unit));
+  for (const ActionVariable& action : task.actions) header.push_back(with_unit(action.name, action.unit));
   header.push_back("reward");
   files::Csv csv(header);
   for (Index t = 0; t <= episode.steps(); ++t) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "rehearse/experiment/forecast.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/tables.hpp"
 #include "rehearse/identification/identifiability.hpp"
@@ -67,12 +66,11 @@ TrialRecord record_before(Index trial, const learners::Proposal& proposal, const
   return record;
 }
 
-void add_outcome(TrialRecord& record, const learners::Proposal& proposal, const Episode& episode, const Task& task) {
+void add_outcome(TrialRecord& record, const Episode& episode, const Task& task) {
   record.total_reward = episode.total_reward();
   for (LimitRecord& limit : record.limits) limit.broken = std::ranges::count(episode.broken_limits, limit.limit) > 0;
   if (!episode.failure.empty()) record.notes.push_back("the episode ended at the reward floor: " + episode.failure);
   if (task.solved) record.solved = task.solved(episode);
-  if (proposal.model) record.forecast = forecast_errors(*proposal.model, task, episode);
 }
 
 }  // namespace rehearse::experiment

@@ -11,7 +11,7 @@ namespace rehearse::experiment {
 /// The record of a trial before it: the proposal.
 TrialRecord record_before(Index trial, const learners::Proposal& proposal, const Resolved& resolved);
 
-/// Adds what came of the proposal. `interaction_s` is left to who knows the trials before.
-void add_outcome(TrialRecord& record, const learners::Proposal& proposal, const Episode& episode, const Task& task);
+/// Adds what the episode says. `interaction_s` is left to who knows the trials before, `forecast` to who has the model.
+void add_outcome(TrialRecord& record, const Episode& episode, const Task& task);
 
 }  // namespace rehearse::experiment

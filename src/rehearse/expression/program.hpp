@@ -14,6 +14,9 @@ class Program {
   /// `outputs` of the formulas; all inputs of the formulas are inputs here, in the order in which they were made.
   Program(const Formulas& formulas, const std::vector<Node>& outputs);
 
+  /// Whether every output is a constant plus multiples of inputs, as it is written: x * x / x is not.
+  bool is_affine() const;
+
   Index inputs() const { return tape_.inputs; }
   Index outputs() const { return static_cast<Index>(tape_.outputs.size()); }
 

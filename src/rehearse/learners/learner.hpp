@@ -101,8 +101,8 @@ class Learner {
 
   /// State that is not in the episodes (warm starts); small. Called between `tell` and `ask`.
   virtual nlohmann::json save() const = 0;
-  /// Tables of all it was told, if it has any. Called after `tell`.
-  virtual std::vector<Table> tables() const { return {}; }
+  /// Tables of all it was told, if it has any. Called after `tell`, or after `load` with at least one episode.
+  virtual std::vector<Table> tables() { return {}; }
   /// The episodes told so far, in order, without the logs, and what `save` returned after the last of them.
   virtual void load(const std::vector<Episode>& episodes, const nlohmann::json& state) = 0;
 };

@@ -81,9 +81,7 @@ std::string filled(std::string_view text, const std::map<std::string, std::strin
   }
 }
 
-std::string labelled(const std::string& name, const std::string& unit) {
-  return harmless(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
-}
+std::string labelled(const std::string& name, const std::string& unit) { return harmless(with_unit(name, unit)); }
 
 std::vector<std::string> explanation(const Exported& exported) {
   const Origin& from = exported.origin;

@@ -24,7 +24,7 @@ Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector
 /// One episode on a simulator at φ in the place of the plant, from the task's start and measured without noise. A step
 /// that cannot be simulated ends it like a fall.
 Episode execute(const system::Simulator& simulator, const Vector& phi, const policy::Policy& policy,
-                const Vector& theta, const Task& task, Rng rng);
+                const Vector& theta, const Task& task, Rng rng, const std::function<void()>& before_step = {});
 
 /// An episode that somebody else ran, by its states and actions: with its rewards, and its end at the first fall, or at
 /// the first reward that is not finite. It has as many steps as were run.

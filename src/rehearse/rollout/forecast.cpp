@@ -18,7 +18,7 @@ Matrix known_states(const Matrix& predicted, const Episode& episode) {
 }  // namespace
 
 std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode& episode,
-                             const std::vector<Index>& horizons) {
+                             const std::vector<Index>& horizons, const Evaluator& evaluator) {
   for (std::size_t i = 0; i < horizons.size(); ++i)
     if (horizons[i] < (i > 0 ? horizons[i - 1] : 1) || horizons[i] > episode.steps())
       throw InvalidInput(fmt::format("horizon {} of a forecast, must be ascending and within the {} steps", horizons[i],
@@ -28,6 +28,7 @@ std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode
   Index step = 0;
   for (const Index horizon : horizons) {
     for (; step < horizon; ++step) {  // row t started at step t and has come to t + step
+      evaluator.stop_if_asked();
       const Index rows = episode.steps() - step;
       predicted.conservativeResize(rows, Eigen::NoChange);
       mean.resize(rows, predicted.cols());

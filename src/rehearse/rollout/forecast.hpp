@@ -3,14 +3,16 @@
 #include <vector>
 
 #include "rehearse/core/episode.hpp"
+#include "rehearse/core/evaluator.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
 
 namespace rehearse::rollout {
 
 /// Continues a model's mean prediction from every state of an episode under the actions that were taken. horizons:
 /// ascending, in 1..T. Element i of the result has T − horizons[i] + 1 rows: row t is the state (dx) predicted for step
-/// t + horizons[i] from the one measured at step t; NaN once a prediction on the way was not finite.
+/// t + horizons[i] from the one measured at step t; NaN once a prediction on the way was not finite. The evaluator is
+/// asked before each step whether to stop.
 std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode& episode,
-                             const std::vector<Index>& horizons);
+                             const std::vector<Index>& horizons, const Evaluator& evaluator = serial_evaluator());
 
 }  // namespace rehearse::rollout

@@ -72,7 +72,8 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
   return gathered(results, limits, particles, Theta.cols());
 }
 
-Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, Index particles) {
+Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, Index particles,
+                           const Evaluator& evaluator) {
   check_simulation(simulation, theta.size(), particles);
   const Index horizon = simulation.task.horizon;
   LockstepMemory memory;
@@ -82,6 +83,7 @@ Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, In
   Recorded recorded{.rewards = Matrix(particles, horizon)};
   recorded.states.push_back(chunk.states());
   for (Index t = 0; t < horizon; ++t) {
+    evaluator.stop_if_asked();
     const Vector before = chunk.returns();
     chunk.step(t);
     recorded.rewards.col(t) = chunk.returns() - before;
@@ -94,7 +96,7 @@ Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, In
 }
 
 void simulate_episodes(const Simulation& simulation, const ConstMatrixView& Theta, std::uint64_t first_candidate,
-                       Episodes& episodes) {
+                       Episodes& episodes, const Evaluator& evaluator) {
   check_simulation(simulation, Theta.cols(), 1);
   const Index rows = Theta.rows(), T = simulation.task.horizon;
   episodes.states.resize(static_cast<std::size_t>(T + 1));
@@ -108,7 +110,10 @@ void simulate_episodes(const Simulation& simulation, const ConstMatrixView& Thet
   chunk.set_rows(Theta, first_candidate);
   chunk.start();
   episodes.states.front() = chunk.states();
-  for (Index t = 0; t < T; ++t) chunk.step(t, &episodes);
+  for (Index t = 0; t < T; ++t) {
+    evaluator.stop_if_asked();
+    chunk.step(t, &episodes);
+  }
   episodes.returns = chunk.returns();
 }
 

@@ -26,17 +26,19 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
                    const Evaluator& evaluator);
 
 /// The same for one policy, with every state: element t holds the states (particles × dx) at step t, t = 0..T;
-/// after an early end a row is NaN.
+/// after an early end a row is NaN. On the calling thread; the evaluator is asked before each step whether to stop.
 struct Recorded {
   std::vector<Matrix> states;
   Matrix rewards;  // particles × T: what a step adds to the return, an early end all that is charged for the rest
   Vector returns;  // particles
 };
-Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, Index particles);
+Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, Index particles,
+                           const Evaluator& evaluator = serial_evaluator());
 
 /// One episode of each policy (Theta: rows × parameters, one a row) on the calling thread, all rows in lockstep. Row i
-/// is candidate `first_candidate` + i of the stream. No allocation if `episodes` had the same size before.
+/// is candidate `first_candidate` + i of the stream. No allocation if `episodes` had the same size before. The
+/// evaluator is asked before each step whether to stop.
 void simulate_episodes(const Simulation& simulation, const ConstMatrixView& Theta, std::uint64_t first_candidate,
-                       Episodes& episodes);
+                       Episodes& episodes, const Evaluator& evaluator = serial_evaluator());
 
 }  // namespace rehearse::rollout

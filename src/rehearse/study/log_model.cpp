@@ -18,13 +18,6 @@ Index steps_of(double time_s, const Task& task) {
   return std::max<Index>(1, static_cast<Index>(std::llround(time_s / task.dt_s)));
 }
 
-Episode part(const Episode& log, Index first, Index steps) {
-  return {.states = log.states.middleRows(first, steps + 1),
-          .true_states = log.true_states.middleRows(first, steps + 1),
-          .actions = log.actions.middleRows(first, steps),
-          .rewards = log.rewards.segment(first, steps)};
-}
-
 ZeroProblem zero_problem(const prior::Prior& prior, const Task& task, const Options& options) {
   return {prior, states_named(options.zeros, task), options.zero_range, steps_of(options.fit_horizon_s, task)};
 }
@@ -78,7 +71,7 @@ Dataset spread_rows(const std::vector<Episode>& logs, Index rows, Index length) 
     }
     const Index room = log.steps() - length;
     for (Index i = 0; i < stretches; ++i)
-      data.append(part(log, stretches == 1 ? room / 2 : i * room / (stretches - 1), length));
+      data.append(log.part(stretches == 1 ? room / 2 : i * room / (stretches - 1), length));
   }
   return data;
 }
@@ -106,7 +99,7 @@ PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task,
                                    static_cast<double>(log.steps()) * task.dt_s));
   prior::Prior learned = prior;
   learned.space = prior.space.fixed_at(*model.learned.state.phi);
-  const Zeros zeros = find_zeros({part(log, 0, first)}, zero_problem(learned, task, options), serial_evaluator());
+  const Zeros zeros = find_zeros({log.part(0, first)}, zero_problem(learned, task, options), serial_evaluator());
   const Vector offset = zeros.offsets.row(0).transpose();
   return {moved(log, offset), offset, zeros.deviations.row(0).transpose(), first};
 }

@@ -81,7 +81,7 @@ Curves curves(const Study& study, const Task& task, const Tested& tested, std::s
   for (Index i = 0; i < at.predicted.rows(); ++i) {
     if (!std::isfinite(at.measured(i, s)) || !std::isfinite(at.predicted(i, s))) continue;
     const double offset = tested.offsets[log](s), mean = at.predicted(i, s) - offset;
-    const double half = identification::kNormal * study.calibration(static_cast<Index>(h), s) * at.deviation(i, s);
+    const double half = study.half_band(h, s, at.deviation(i, s));
     c.t.push_back(static_cast<double>(forecasts.starts[static_cast<std::size_t>(i)] + forecasts.horizons[h]) *
                   task.dt_s);
     c.measured.push_back(at.measured(i, s) - offset);

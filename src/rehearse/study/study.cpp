@@ -57,12 +57,7 @@ class Student {
   static std::vector<Log> halves(const Log& log) {
     const Index half = log.episode.steps() / 2;
     const auto part = [&](const std::string& name, Index first, Index steps) {
-      Episode episode;
-      episode.states = log.episode.states.middleRows(first, steps + 1);
-      episode.true_states = log.episode.true_states.middleRows(first, steps + 1);
-      episode.actions = log.episode.actions.middleRows(first, steps);
-      episode.rewards = log.episode.rewards.segment(first, steps);
-      return Log{log.name + name, episode, log.measured.middleRows(first, steps + 1)};
+      return Log{log.name + name, log.episode.part(first, steps), log.measured.middleRows(first, steps + 1)};
     };
     return {part(" (first half)", 0, half), part(" (second half)", half, log.episode.steps() - half)};
   }

@@ -47,6 +47,11 @@ struct Study {
   Beyond beyond = Beyond::nothing;   // what was learned beyond the prior's parameters
   std::optional<double> gps_worsen;  // where that was chosen: errors with GPs over those without (geometric mean)
   StepErrors steps;
+
+  /// Half of the 95 % band of a state's forecast, whose deviation by the model is this.
+  double half_band(std::size_t horizon, Index state, double deviation) const {
+    return identification::kNormal * calibration(static_cast<Index>(horizon), state) * deviation;
+  }
 };
 
 /// Learns from all logs, and from all but one of them (at most four times; of a single log, from either half): the logs

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/names.hpp"
 #include "rehearse/core/text_table.hpp"
 #include "rehearse/identification/identifiability.hpp"
 
@@ -11,10 +12,6 @@ namespace rehearse::study {
 namespace {
 
 using Lines = std::vector<std::string>;
-
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
-}
 
 Section logs(const Study& study, const Problem& problem) {
   Lines lines;

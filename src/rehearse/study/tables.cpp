@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/names.hpp"
 #include "rehearse/files/csv.hpp"
 #include "rehearse/identification/identifiability.hpp"
 
@@ -12,10 +13,6 @@ namespace {
 
 using Row = std::vector<std::string>;
 using files::Csv;
-
-std::string titled(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
-}
 
 /// Value and interval of a parameter of a model.
 void add_parameter(Row& row, const LogModel& model, Index parameter, Index continuous) {
@@ -50,7 +47,7 @@ std::string parameters_csv(const Study& study, const Problem& problem) {
 
 std::string zeros_csv(const Study& study, const Problem& problem) {
   Row header = {"log", "set"};
-  for (const StateVariable& state : problem.task.states) header.push_back(titled(state.name, state.unit));
+  for (const StateVariable& state : problem.task.states) header.push_back(with_unit(state.name, state.unit));
   Csv csv(header);
   const auto add = [&](const std::string& log, const std::string& set, const Vector& offset) {
     Row row = {log, set};
@@ -102,7 +99,7 @@ std::string forecast_csv(const Study& study, const Task& task, const Forecasts& 
   Row header = {"time [s]"};
   for (const StateVariable& state : task.states)
     for (const char* what : {"{}", "{} predicted", "{} low", "{} high"})
-      header.push_back(titled(fmt::format(fmt::runtime(what), state.name), state.unit));
+      header.push_back(with_unit(fmt::format(fmt::runtime(what), state.name), state.unit));
   Csv csv(header);
   const Forecasts::At& at = forecasts.at[h];
   for (Index i = 0; i < at.predicted.rows(); ++i) {
@@ -111,7 +108,7 @@ std::string forecast_csv(const Study& study, const Task& task, const Forecasts& 
     Row row = {Csv::cell(static_cast<double>(step) * task.dt_s)};
     for (Index s = 0; s < at.predicted.cols(); ++s) {
       const double mean = at.predicted(i, s) - offset(s);
-      const double half = identification::kNormal * study.calibration(static_cast<Index>(h), s) * at.deviation(i, s);
+      const double half = study.half_band(h, s, at.deviation(i, s));
       for (const double number : {at.measured(i, s) - offset(s), mean, mean - half, mean + half})
         row.push_back(Csv::cell(number));
     }

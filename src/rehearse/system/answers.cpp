@@ -57,7 +57,8 @@ std::size_t frame_end(std::string_view written, Index rows, Index dx) {
 
 void read_frame(std::string_view answer, MatrixView dX) {
   const char* at = answer.data() + sizeof(std::int64_t);
-  for (Index c = 0; c < dX.cols(); ++c, at += bytes_of(dX.rows())) std::memcpy(dX.col(c).data(), at, bytes_of(dX.rows()));
+  for (Index c = 0; c < dX.cols(); ++c, at += bytes_of(dX.rows()))
+    std::memcpy(dX.col(c).data(), at, bytes_of(dX.rows()));
 }
 
 }  // namespace rehearse::system

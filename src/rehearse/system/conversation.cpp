@@ -41,6 +41,8 @@ bool Conversation::hear(std::string_view message, const Process::Complete& compl
       return wrong(process_->end());
     case Process::Outcome::wrong:
       return wrong(fmt::format("it wrote something else than the answer: {}", messages::excerpt(process_->unused())));
+    case Process::Outcome::unasked:
+      return wrong(fmt::format("it wrote an answer that nobody asked for: {}", messages::excerpt(process_->unused())));
     case Process::Outcome::flooded:
       return wrong(fmt::format("it wrote more than {} bytes without an answer: {}", limits.bytes,
                                messages::excerpt(process_->unused())));

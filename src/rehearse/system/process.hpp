@@ -25,7 +25,8 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  enum class Outcome { answered, wrong, ended, late, flooded };
+  /// unasked: an answer stood there before the message was sent, as if to another.
+  enum class Outcome { answered, wrong, unasked, ended, late, flooded };
 
   /// Looks at what the program wrote that is not yet used: how many bytes of it are the answer, 0 where some are still
   /// to come, kNoAnswer where it is none.
@@ -47,13 +48,14 @@ class Process {
   std::string end();
 
  private:
+  bool has_unasked_answer(const Complete& complete);
   bool send(std::string_view& left);
   bool receive();
   void read_errors();
 
   pid_t process_ = -1;
   int input_ = -1, output_ = -1, error_ = -1;
-  bool input_open_ = true;
+  bool input_open_ = true, spoken_ = false;
   std::string received_, answer_, errors_;
 };
 

@@ -122,6 +122,8 @@ class LearnerCheck {
     learner->load({run.episodes.begin(), run.episodes.begin() + told}, nlohmann::json::parse(run.saved[first]));
     found_.require(learner->save().dump() == run.saved[first],
                    fmt::format("loaded after {} episodes, something else is saved", told));
+    found_.require(told == 0 || same_tables(run.tables[first - 1], learner->tables()),
+                   fmt::format("loaded after {} episodes, it has other tables", told));
     for (std::size_t k = first; k < run.proposals.size(); ++k) {
       const std::string names = difference(run.proposals[k], learner->ask());
       if (!names.empty())

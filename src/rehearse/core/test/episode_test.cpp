@@ -21,6 +21,18 @@ TEST(Episode, TotalRewardHoldsWhatWasCharged) {
   EXPECT_EQ(e.total_reward(), -1);
 }
 
+TEST(Episode, PartsAreEpisodes) {
+  Episode e = episode(5, 0);
+  e.charged = -3, e.ended = true;
+  const Episode part = e.part(2, 3);
+  EXPECT_EQ(part.steps(), 3);
+  EXPECT_EQ(part.states, e.states.bottomRows(4));
+  EXPECT_EQ(part.true_states, e.true_states.bottomRows(4));
+  EXPECT_EQ(part.actions, e.actions.bottomRows(3));
+  EXPECT_EQ(part.total_reward(), 1.5);
+  EXPECT_FALSE(part.ended);
+}
+
 TEST(Dataset, TakesTheMeasuredSteps) {
   Dataset data;
   data.append(episode(3, 0));

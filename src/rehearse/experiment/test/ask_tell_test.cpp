@@ -11,6 +11,7 @@
 #include "rehearse/experiment/run.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/files/write.hpp"
+#include "rehearse/system/simulator.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -66,6 +67,81 @@ TEST_F(AskTell, TrialsThatAreToldAreThoseThatAreDriven) {
   }
   for (const char* file : {"trials.csv", "errors.csv", "identifiability.csv", "notes.csv", "policy.json",
                            "trajectories/trial-002.csv", "predictions/trial-003.csv", "memories.csv"})
+    EXPECT_EQ(files::read_file(told / file), files::read_file(driven / file)) << file;
+}
+
+/// Predicts nothing while it is broken, as a simulator whose program is gone.
+class FragileModel final : public dynamics::DynamicsModel {
+ public:
+  FragileModel(std::shared_ptr<const DynamicsModel> model, const bool* broken)
+      : model_(std::move(model)), broken_(broken) {}
+  void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView var) const override {
+    if (*broken_) throw system::Unavailable("its program is gone");
+    model_->predict(X, U, mean, var);
+  }
+
+ private:
+  std::shared_ptr<const DynamicsModel> model_;
+  const bool* broken_;
+};
+
+/// The pretending learner with such a model.
+class FragileLearner final : public learners::Learner {
+ public:
+  FragileLearner(std::unique_ptr<learners::Learner> echo, const bool* broken)
+      : echo_(std::move(echo)), broken_(broken) {}
+  const learners::Proposal& ask() override {
+    proposal_ = echo_->ask();
+    proposal_.model = std::make_shared<FragileModel>(proposal_.model, broken_);
+    return proposal_;
+  }
+  void tell(const Episode& episode) override { echo_->tell(episode); }
+  nlohmann::json save() const override { return echo_->save(); }
+  std::vector<learners::Table> tables() override { return echo_->tables(); }
+  void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override {
+    echo_->load(episodes, state);
+  }
+
+ private:
+  std::unique_ptr<learners::Learner> echo_;
+  const bool* broken_;
+  learners::Proposal proposal_;
+};
+
+Catalogue fragile(const bool& broken) {
+  class Builder final : public fake::EchoBuilder {
+   public:
+    explicit Builder(const bool* broken) : EchoBuilder(true, {}), broken_(broken) {}
+    std::unique_ptr<learners::Learner> build(learners::Setting setting) const override {
+      return std::make_unique<FragileLearner>(EchoBuilder::build(std::move(setting)), broken_);
+    }
+
+   private:
+    const bool* broken_;
+  };
+  Catalogue catalogue = fake::catalogue();
+  catalogue.learner_families = {[&broken] {
+    std::vector<std::unique_ptr<learners::LearnerBuilder>> family;
+    family.push_back(std::make_unique<Builder>(&broken));
+    return family;
+  }};
+  return catalogue;
+}
+
+TEST_F(AskTell, AnEpisodeIsKeptWhateverFailsThen) {
+  bool broken = false;
+  ask_run(fragile(broken), told, {});
+  broken = true;
+  const Measured first{{trial_of(driven, 1)}, {}};
+  EXPECT_THROW(tell_run(fragile(broken), told, first, {}), RunFailed);
+  EXPECT_EQ(status_of(fake::catalogue(), told).history.done(), 1);
+  broken = false;
+  EXPECT_TRUE(tell_run(fragile(broken), told, first, {}).known_before);
+  for (Index trial = 2; trial <= kTrials; ++trial) {
+    ask(told);
+    tell(told, {trial_of(driven, trial)});
+  }
+  for (const char* file : {"trials.csv", "errors.csv", "memories.csv"})
     EXPECT_EQ(files::read_file(told / file), files::read_file(driven / file)) << file;
 }
 

@@ -168,7 +168,7 @@ class EchoLearner final : public learners::Learner {
     memory_ = 0.3 * memory_ + episode.states.sum() + proposal_.theta(1);
     asked_ = false;
   }
-  std::vector<learners::Table> tables() const override {
+  std::vector<learners::Table> tables() override {
     return {{"memories", {"told", "memory [m]"}, Matrix{{static_cast<double>(told_), memory_}, {0, kUnknown}}}};
   }
   nlohmann::json save() const override {

@@ -71,6 +71,17 @@ TEST(RunStore, DoesNotDependOnItsCache) {
   without.open(run);
   EXPECT_EQ(without.read("prior"), "learned");
   store({}, spec(), file / "below").write("prior", "nowhere");
+  const fs::path none = folder / std::string(300, 'x');  // no file system has such a name
+  store(run, spec(), none).write("prior", "learned");
+  EXPECT_FALSE(store({}, spec(), none).read("prior"));
+}
+
+TEST(RunStore, KeepsForWhateverEnd) {
+  const fs::path run = fake::test_folder();
+  Spec until_solved = spec(1, 3);
+  until_solved.until_solved = true;
+  store(run, until_solved).write("archive", "of hours");
+  EXPECT_EQ(store(run, spec()).read("archive"), "of hours");
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ class Listener final : public learners::Learner {
     echo_->tell(episode);
   }
   nlohmann::json save() const override { return echo_->save(); }
-  std::vector<learners::Table> tables() const override { return echo_->tables(); }
+  std::vector<learners::Table> tables() override { return echo_->tables(); }
   void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override {
     *told_ = episodes;
     echo_->load(episodes, state);
@@ -145,6 +145,15 @@ TEST(Run, WrongInputLeavesNoFolder) {
   const fs::path folder = fake::test_folder();
   EXPECT_THROW(start_run(fake::catalogue(), line_spec(-1), folder / "a/b", {}), InvalidInput);
   EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST(Run, ARefusedResumeChangesNothing) {
+  const fs::path folder = fake::test_folder() / "run";
+  const Catalogue without_plant = fake::catalogue_with([](const fake::MakePlant&) { return fake::MakePlant(); });
+  start_run(without_plant, line_spec(0), folder, {});
+  const std::string spec = files::read_file(folder / "spec.toml");
+  EXPECT_THROW(resume_run(without_plant, folder, 5, {}), InvalidInput);
+  EXPECT_EQ(files::read_file(folder / "spec.toml"), spec);
 }
 
 TEST(Run, UntilSolvedEndsWithTheFirstTrialThatSolves) {

@@ -17,7 +17,7 @@ using fake::line_spec, fake::lines_of;
 TrialRecord record_of(Index trial, const learners::Proposal& proposal, const Episode& episode,
                       const Resolved& resolved) {
   TrialRecord record = record_before(trial, proposal, resolved);
-  add_outcome(record, proposal, episode, resolved.scenario.task);
+  add_outcome(record, episode, resolved.scenario.task);
   return record;
 }
 

@@ -26,5 +26,18 @@ TEST(Program, ComputesAllRowsWhateverTheirNumber) {
   }
 }
 
+TEST(Program, IsAffineAsItIsWritten) {
+  Formulas formulas;
+  formulas.input("x", Pace::always);
+  formulas.input("y", Pace::call);
+  const auto is_affine = [&](const char* formula) {
+    return Program(formulas, {formulas.compile(formula)}).is_affine();
+  };
+  for (const char* formula : {"3", "y", "2 * x - y / 4 + 1e9", "-(x + sin(1) * y)", "x * (2 - 1) + where(1, 2, 3)"})
+    EXPECT_TRUE(is_affine(formula)) << formula;
+  for (const char* formula : {"x * y", "1 / x", "abs(x)", "max(x - 5, 0)", "x ^ 2", "sin(y)", "where(x > 9, x, 0)"})
+    EXPECT_FALSE(is_affine(formula)) << formula;
+}
+
 }  // namespace
 }  // namespace rehearse::expression

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/learners/black_drops/exploration.hpp"
 #include "rehearse/learners/black_drops/known_policies.hpp"
+#include "rehearse/learners/black_drops/policy_search.hpp"
 #include "rehearse/learners/black_drops/trial_search.hpp"
 #include "rehearse/learners/builder.hpp"
 #include "rehearse/learners/json.hpp"
@@ -218,6 +220,20 @@ Entry<Options> entry(const char* name, const char* summary, identification::Kind
           .violations = violations_with};
 }
 
+/// Throws InvalidInput where no search could begin with the policy that the run begins with.
+void require_start_in_box(const Setting& setting, const Options& options) {
+  if (!setting.start || !setting.policy) return;
+  const Interval box = interval_of(*setting.policy, options.search);
+  const Vector& start = *setting.start;
+  for (Index i = 0; i < start.size(); ++i)
+    if (!(start(i) >= box.low && start(i) <= box.high))
+      throw InvalidInput(fmt::format(
+          "search.box: parameter {} of the policy to begin with is {}, policies are searched "
+          "in {} to {}{}",
+          i + 1, start(i), box.low, box.high,
+          setting.policy->box() ? "" : fmt::format(": set search.box to {:g} or more", start.cwiseAbs().maxCoeff())));
+}
+
 }  // namespace
 
 /// A learner that learns the reward knows neither it nor when the task is solved.
@@ -229,6 +245,7 @@ void forget_reward(Task& task) {
 
 std::unique_ptr<Learner> make(Setting setting, Options options) {
   setting = checked(std::move(setting), options, prior_use(options), violations_with);
+  require_start_in_box(setting, options);
   if (options.reward.learned) forget_reward(setting.task);
   if (!options.success_test) setting.task.solved = nullptr;
   if (!setting.task.limits.empty()) options.search.simulate.noise_clip = 0;  // or a model that errs seems to be safe

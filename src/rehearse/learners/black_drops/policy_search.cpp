@@ -12,11 +12,6 @@ namespace {
 
 using Box = std::vector<Interval>;
 
-/// Of every number of θ.
-Interval interval_of(const policy::Policy& policy, const SearchOptions& options) {
-  return policy.box().value_or(Interval{-options.box, options.box});
-}
-
 /// The options with step sizes that are to the policy's box as they were to the options'.
 SearchOptions in_box_of(const policy::Policy& policy, SearchOptions options) {
   const Interval interval = interval_of(policy, options);
@@ -107,6 +102,10 @@ SearchResult select(const std::vector<Vector>& found, const std::vector<Vector>&
 
 }  // namespace
 
+Interval interval_of(const policy::Policy& policy, const SearchOptions& options) {
+  return policy.box().value_or(Interval{-options.box, options.box});
+}
+
 bool better(const SearchResult& a, const SearchResult& b) {
   return a.excess != b.excess ? a.excess < b.excess : a.predicted_return > b.predicted_return;
 }
@@ -153,8 +152,8 @@ Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& po
   problem.evaluator.for_each(rates.size(), [&](Index j) {
     const Matrix Theta = policies[static_cast<std::size_t>(j)].transpose().replicate(rollouts, 1);
     rollout::Episodes episodes;
-    rollout::simulate_episodes({problem.model, problem.policy, problem.task, key, options.simulate}, Theta, 0,
-                               episodes);
+    rollout::simulate_episodes({problem.model, problem.policy, problem.task, key, options.simulate}, Theta, 0, episodes,
+                               problem.evaluator);
     Episode episode;
     Index solved = 0;
     for (Index i = 0; i < episodes.rows(); ++i) {

@@ -38,6 +38,9 @@ SearchResult judge(const SearchProblem& problem, const Vector& theta, const Sear
 Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,
                      const StreamKey& key);
 
+/// Where every number of θ is searched.
+Interval interval_of(const policy::Policy& policy, const SearchOptions& options);
+
 /// θ uniform in the box.
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, StreamKey key);
 

@@ -26,14 +26,17 @@ constexpr Index kTriedAgain = 16;         // elites of an archive that was kept
 class Rollouts {
  public:
   explicit Rollouts(const Setting& setting)
-      : model_(*setting.prior, setting.prior->space.values()), policy_(*setting.policy), task_(setting.task) {
+      : model_(*setting.prior, setting.prior->space.values()),
+        policy_(*setting.policy),
+        evaluator_(*setting.evaluator),
+        task_(setting.task) {
     task_.start_std.setZero();
   }
 
   void operator()(const ConstMatrixView& X, VectorView performances, MatrixView descriptors) const {
     thread_local rollout::Episodes episodes;
     thread_local Episode episode;
-    rollout::simulate_episodes({model_, policy_, task_, {}, {.sample = false}}, X, 0, episodes);
+    rollout::simulate_episodes({model_, policy_, task_, {}, {.sample = false}}, X, 0, episodes, evaluator_);
     for (Index i = 0; i < X.rows(); ++i) {
       performances(i) = std::numeric_limits<double>::quiet_NaN();
       if (episodes.failed[static_cast<std::size_t>(i)]) continue;
@@ -50,6 +53,7 @@ class Rollouts {
  private:
   dynamics::SimulatorModel model_;
   const policy::Policy& policy_;
+  const Evaluator& evaluator_;
   Task task_;
 };
 

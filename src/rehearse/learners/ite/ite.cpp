@@ -31,8 +31,10 @@ class Ite final : public TrialLearner {
  public:
   Ite(Setting setting, Options options) : setting_(std::move(setting)), options_(std::move(options)) {}
 
-  /// There is an adaptation after `tell`.
-  std::vector<Table> tables() const override { return {elites(), tried()}; }
+  std::vector<Table> tables() override {
+    prepare();  // after `load` there is no archive yet
+    return {elites(), tried()};
+  }
 
   void study(const std::vector<Episode>& logs) override {
     if (!logs.empty())

@@ -121,7 +121,7 @@ class PriorPhase {
                         .purpose = Purpose::start_state};
     const prior::Prior& prior = *setting_.prior;
     const Episode episode = rollout::execute(*prior.simulator, prior.space.values(), *proposal.policy, proposal.theta,
-                                             setting_.task, Rng(key));
+                                             setting_.task, Rng(key), [&] { setting_.evaluator->stop_if_asked(); });
     note_failure(episode);
     state_.settled = taught_nothing(proposal, episode) ? state_.settled + 1 : 0;
     trials_.tell(episode);

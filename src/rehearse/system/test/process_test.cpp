@@ -49,6 +49,19 @@ TEST(Process, HowItFailsIsSaid) {
   EXPECT_EQ(say(flood, "", {.seconds = 10, .bytes = 1000}), Process::Outcome::flooded);
 }
 
+TEST(Process, AnAnswerBeforeTheQuestionIsNone) {
+  Process twice({"sh", "-c", "while read line; do echo $line; echo $line; done"}, "");
+  ASSERT_EQ(say(twice, "a\n"), Process::Outcome::answered);
+  usleep(100000);
+  EXPECT_EQ(say(twice, "b\n"), Process::Outcome::unasked);
+  EXPECT_EQ(twice.unused(), "a\n");
+  Process greets({"sh", "-c", "echo hello; read line; echo $line"}, "");
+  usleep(100000);
+  EXPECT_EQ(say(greets, ""), Process::Outcome::answered) << "by itself";
+  EXPECT_EQ(say(greets, "b\n"), Process::Outcome::answered);
+  EXPECT_EQ(greets.answer(), "b\n");
+}
+
 TEST(Process, OneThatDoesNotReadDoesNoHarm) {
   Process process({"sh", "-c", "exec <&-; echo closed; sleep 100"}, "");
   EXPECT_EQ(say(process, std::string(10 << 20, 'x'), {.seconds = 5}), Process::Outcome::answered);

@@ -39,7 +39,7 @@ class Adding final : public learners::Learner {
     ++tells_;
     ++since_built_;
   }
-  std::vector<learners::Table> tables() const override {
+  std::vector<learners::Table> tables() override {
     const double since_built = fault_ == LearnerFault::other_tables ? since_built_ : 0;
     learners::Table table{"sums", {"sum", "since built"}, Matrix{{sum_, since_built}}};
     if (fault_ == LearnerFault::unnamed_columns) table.columns.pop_back();

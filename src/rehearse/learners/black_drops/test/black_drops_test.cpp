@@ -29,6 +29,25 @@ TEST(BlackDrops, HasFourLearners) {
   EXPECT_EQ(names, std::vector<std::string>(std::begin(slider::kNames), std::end(slider::kNames)));
 }
 
+TEST(BlackDrops, BeginsWithNoPolicyOutsideOfItsBox) {
+  Setting far = setting();
+  far.start = Vector::Constant(far.policy->parameters(), 7.5);
+  const auto why = [&](const std::string& box) -> std::string {
+    const auto learner = builder("black-drops");
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { learner->fields(v); }, "search.box", box));
+    try {
+      (void)learner->build(far);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why("5"),
+            "search.box: parameter 1 of the policy to begin with is 7.5, policies are searched in -5 to 5: set "
+            "search.box to 7.5 or more");
+  EXPECT_EQ(why("7.5"), "");
+}
+
 class EachLearner : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EachLearner, KeepsTheLaws) {
