@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/names.hpp"
+
 namespace rehearse::policy {
 namespace {
 
