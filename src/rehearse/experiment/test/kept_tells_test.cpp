@@ -62,6 +62,20 @@ TEST_F(KeptTells, OneThatNeverCameAboutGivesWay) {
   EXPECT_FALSE(fs::exists(path / "told/001"));
 }
 
+TEST_F(KeptTells, TheLastOfAThousandIsTheThousandth) {
+  const RunFolder run = RunFolder::open(path);
+  keep_tell(run, {file("a.csv", "A")});
+  change(run, 1);
+  fs::rename(path / "told/001", path / "told/999");
+  fs::create_directories(path / "told/99999999999999999999");  // of somebody else
+  for (std::size_t logs : {2, 3}) {
+    keep_tell(run, {file("b.csv", "B")});
+    change(run, logs);
+  }
+  EXPECT_TRUE(fs::exists(path / "told/1000"));
+  EXPECT_EQ(last_tell(run).folder.filename(), "1001");
+}
+
 TEST_F(KeptTells, ARunThatWentOnWithoutBeingToldStaysAsItIs) {
   const RunFolder run = RunFolder::open(path);
   keep_tell(run, {file("a.csv", "A")});
