@@ -18,8 +18,10 @@ class KeptTells : public ::testing::Test {
   /// As if so many logs had been told by now.
   static void change(const RunFolder& run, std::size_t logs) {
     History history = run.load();
-    const Episode episode{
-        .states = Matrix::Zero(2, 1), .true_states = Matrix::Zero(2, 1), .actions = Matrix::Zero(1, 1)};
+    const Episode episode{.states = Matrix::Zero(2, 1),
+                          .true_states = Matrix::Zero(2, 1),
+                          .actions = Matrix::Zero(1, 1),
+                          .rewards = Vector::Zero(1)};
     history.logs.resize(logs, {.name = "log", .file = "", .episode = episode, .notes = {}});
     run.write_checkpoint(history);
   }
