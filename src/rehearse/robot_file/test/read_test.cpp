@@ -23,7 +23,7 @@ TEST(ReadRobot, TakesEverythingThatStandsInTheFile) {
   EXPECT_EQ(std::get<Equations>(robot.dynamics[0].source).rates[1].text, "rate") << "the state that is its rate";
   EXPECT_EQ(robot.plant.parameters.values(), (Vector{{1, 0.5}}));
   ASSERT_EQ(robot.priors.size(), 1u);
-  EXPECT_EQ(robot.priors[0].dynamics, "pendulum") << "of one there is no question";
+  EXPECT_EQ(robot.priors[0].dynamics, "pendulum") << "the first";
   EXPECT_EQ(robot.priors[0].parameters[0].value, 1.3);
   EXPECT_EQ(robot.priors[0].parameters[0].box.high, 2);
   EXPECT_EQ(robot.priors[0].parameters[1].kind, Parameter::Kind::fixed);
