@@ -29,7 +29,8 @@ std::optional<Index> trial_of(const std::optional<std::string>& text) {
 }
 
 void refuse_file_without_ending(const experiment::Catalogue& catalogue, const std::string& robot) {
-  if (!robot.empty() && !catalogue.scenario(robot) && std::filesystem::is_regular_file(robot + ".toml"))
+  std::error_code none;
+  if (!robot.empty() && !catalogue.scenario(robot) && std::filesystem::is_regular_file(robot + ".toml", none))
     throw InvalidInput(fmt::format("there is no scenario '{0}'; the file is {0}.toml", robot));
 }
 

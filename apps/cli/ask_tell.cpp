@@ -10,6 +10,7 @@
 
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/cli/complain.hpp"
 #include "apps/cli/on_console.hpp"
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
@@ -39,10 +40,10 @@ std::string columns(const Variables& variables) {
 void print_parameters(const TrialRecord& trial, const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < std::min(trial.phi.size(), names.size()); ++i) {
     const auto interval = i < trial.phi_intervals.size() ? trial.phi_intervals[i] : std::nullopt;
-    fmt::print("  {} = {:.4g}{}\n", names[i], trial.phi[i],
-               interval ? fmt::format(", 95 %: {:.4g} to {:.4g}", interval->low, interval->high) : "");
+    put("  {} = {:.4g}{}\n", names[i], trial.phi[i],
+        interval ? fmt::format(", 95 %: {:.4g} to {:.4g}", interval->low, interval->high) : "");
   }
-  for (const std::string& warning : trial.warnings) fmt::print("  {}\n", warning);
+  for (const std::string& warning : trial.warnings) put("  {}\n", warning);
 }
 
 /// Before the trial; the first is the one that is nearest to what it allows.
@@ -50,31 +51,30 @@ void print_risks(std::vector<experiment::LimitRecord> limits) {
   std::ranges::stable_sort(limits, std::greater(), [](const auto& l) { return l.predicted.value_or(1) / l.allowed; });
   for (const experiment::LimitRecord& limit : limits) {
     if (!limit.predicted) {
-      fmt::print("  limit {}: its risk is not known\n", limit.limit);
+      put("  limit {}: its risk is not known\n", limit.limit);
       continue;
     }
-    fmt::print("  limit {}: risk {:.2g} % (95 %: {:.2g} to {:.2g}), {:.2g} % is allowed: {}\n", limit.limit,
-               100 * *limit.predicted, 100 * limit.interval.low, 100 * limit.interval.high, 100 * limit.allowed,
-               limit.safe() ? "safe" : "not safe");
+    put("  limit {}: risk {:.2g} % (95 %: {:.2g} to {:.2g}), {:.2g} % is allowed: {}\n", limit.limit,
+        100 * *limit.predicted, 100 * limit.interval.low, 100 * limit.interval.high, 100 * limit.allowed,
+        limit.safe() ? "safe" : "not safe");
   }
 }
 
 void print_expected_file(const Task& task, const std::string& folder) {
   const auto own =
       static_cast<std::size_t>(task.actuators().own_states());  // what is remembered follows from the actions
-  fmt::print("then: {} tell {} EPISODE.csv\n  columns: time [s], {}, {}\n", program_name(), folder,
-             columns(std::span(task.states).first(own)), columns(task.actions));
+  put("then: {} tell {} EPISODE.csv\n  columns: time [s], {}, {}\n", program_name(), folder,
+      columns(std::span(task.states).first(own)), columns(task.actions));
 }
 
 void print_asked(const experiment::Resolved& resolved, const TrialRecord& trial, const std::string& folder,
                  const std::filesystem::path& files) {
   const Task& task = resolved.scenario.task;
-  fmt::print("trial {}: run the policy of {} for {} steps of {} s\n", trial.trial, files.string(), task.horizon,
-             task.dt_s);
-  if (trial.predicted_return) fmt::print("  predicted return {:.4g}\n", *trial.predicted_return);
+  put("trial {}: run the policy of {} for {} steps of {} s\n", trial.trial, files.string(), task.horizon, task.dt_s);
+  if (trial.predicted_return) put("  predicted return {:.4g}\n", *trial.predicted_return);
   print_risks(trial.limits);
   print_parameters(trial, experiment::tunable_names(resolved.prior));
-  for (const std::string& note : trial.notes) fmt::print("  {}\n", note);
+  for (const std::string& note : trial.notes) put("  {}\n", note);
   print_expected_file(task, folder);
 }
 
@@ -84,28 +84,27 @@ std::string steps_text(const Episode& episode, double dt_s) {
 
 void print_logs(const std::vector<experiment::Log>& logs, const Task& task) {
   for (const experiment::Log& log : logs) {
-    fmt::print("log {}: {}\n", log.name, steps_text(log.episode, task.dt_s));
-    for (const std::string& note : log.notes) fmt::print("  {}\n", note);
+    put("log {}: {}\n", log.name, steps_text(log.episode, task.dt_s));
+    for (const std::string& note : log.notes) put("  {}\n", note);
   }
 }
 
 void print_told(const experiment::TellResult& told, const std::string& folder) {
-  if (told.known_before) fmt::print("told before, nothing is changed:\n");
+  if (told.known_before) put("told before, nothing is changed:\n");
   print_logs(told.logs, told.resolved.scenario.task);
-  if (told.trial && told.known_before)
-    fmt::print("trial {}: return {:.4g}\n", told.trial->trial, told.trial->total_reward);
+  if (told.trial && told.known_before) put("trial {}: return {:.4g}\n", told.trial->trial, told.trial->total_reward);
   if (told.trial)
-    for (const std::string& note : told.trial->notes) fmt::print("  {}\n", note);
-  fmt::print("next: {} ask {}\n", program_name(), folder);
+    for (const std::string& note : told.trial->notes) put("  {}\n", note);
+  put("next: {} ask {}\n", program_name(), folder);
 }
 
 void print_trials(const std::vector<TrialRecord>& trials) {
   for (const TrialRecord& trial : trials)
-    fmt::print("trial {}: return {:.4g}{}{}\n", trial.trial, trial.total_reward,
-               trial.predicted_return ? fmt::format(", {:.4g} was predicted", *trial.predicted_return) : "",
-               !trial.solved   ? ""
-               : *trial.solved ? ", solved"
-                               : ", not solved");
+    put("trial {}: return {:.4g}{}{}\n", trial.trial, trial.total_reward,
+        trial.predicted_return ? fmt::format(", {:.4g} was predicted", *trial.predicted_return) : "",
+        !trial.solved   ? ""
+        : *trial.solved ? ", solved"
+                        : ", not solved");
 }
 
 /// Whether Rehearse drives the plant and has done what it was asked for.
@@ -136,10 +135,10 @@ int take_back(const experiment::Catalogue& catalogue, const TellArguments& argum
                     "tell " + arguments.folder + " --undo", [&](const experiment::RunOptions& options) {
                       const auto [trial, files] = experiment::take_back(catalogue, arguments.folder, options);
                       console.clear_line();
-                      fmt::print("{}\n", trial ? fmt::format("trial {} is taken back, and is to come", *trial)
-                                               : std::string("the logs are taken back"));
-                      for (const auto& file : files) fmt::print("  {} has what was told\n", file.string());
-                      fmt::print("next: {} {} {}\n", program_name(), trial ? "tell" : "ask", arguments.folder);
+                      put("{}\n", trial ? fmt::format("trial {} is taken back, and is to come", *trial)
+                                        : std::string("the logs are taken back"));
+                      for (const auto& file : files) put("  {} has what was told\n", file.string());
+                      put("next: {} {} {}\n", program_name(), trial ? "tell" : "ask", arguments.folder);
                     });
 }
 
@@ -167,25 +166,25 @@ int status(const experiment::Catalogue& catalogue, const StatusArguments& argume
   const experiment::Spec& spec = resolved.spec;
   const Task& task = resolved.scenario.task;
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
-  fmt::print("{} learned by {}{}, seed {}\n", spec.scenario, spec.learner, prior, spec.seed);
+  put("{} learned by {}{}, seed {}\n", spec.scenario, spec.learner, prior, spec.seed);
   print_logs(history.logs, task);
   print_trials(history.trials);
   if (history.done() > 0) {
     const TrialRecord& best = experiment::best_trial(history.trials);
-    fmt::print("best: trial {}, return {:.4g}, after {:.4g} s on the robot in all\n", best.trial, best.total_reward,
-               history.trials.back().interaction_s);
+    put("best: trial {}, return {:.4g}, after {:.4g} s on the robot in all\n", best.trial, best.total_reward,
+        history.trials.back().interaction_s);
   }
-  if (in_use) fmt::print("a process is at work on it\n");
+  if (in_use) put("a process is at work on it\n");
   if (history.asked)
     print_asked(resolved, *history.asked, arguments.folder, std::filesystem::path(arguments.folder) / "next");
   else if (is_complete(resolved, history))
-    fmt::print("next: {0} report {1} shows it; {0} resume {1} --trials {2} goes on\n", program_name(), arguments.folder,
-               2 * history.done());
+    put("next: {0} report {1} shows it; {0} resume {1} --trials {2} goes on\n", program_name(), arguments.folder,
+        2 * history.done());
   else if (spec.trials > history.done())
-    fmt::print("next: {0} resume {1}, which drives the plant, or {0} ask {1}\n", program_name(), arguments.folder);
+    put("next: {0} resume {1}, which drives the plant, or {0} ask {1}\n", program_name(), arguments.folder);
   else
-    fmt::print("next: {} ask {}{}\n", program_name(), arguments.folder,
-               history.done() == 0 ? ", or tell it logs of other controllers first" : "");
+    put("next: {} ask {}{}\n", program_name(), arguments.folder,
+        history.done() == 0 ? ", or tell it logs of other controllers first" : "");
   return kSuccess;
 }
 

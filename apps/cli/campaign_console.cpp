@@ -72,16 +72,16 @@ void print_groups(const Campaign& campaign) {
                     reached ? numbers_text(trials.back().total_reward) : "-",
                     trials.empty() || trials.back().solved ? first_successes(campaign, i) : "-"});
   }
-  fmt::print("\n");
-  for (const std::string& line : aligned(rows)) fmt::print("  {}\n", line);
-  for (const auto& [name, reason] : campaign.plan.missing) fmt::print("  missing: {}\n", reason);
+  put("\n");
+  for (const std::string& line : aligned(rows)) put("  {}\n", line);
+  for (const auto& [name, reason] : campaign.plan.missing) put("  missing: {}\n", reason);
 }
 
 void print_failures(const Campaign& campaign) {
-  if (campaign.count(RunState::failed) > 0) fmt::print("\nFailed; tried again when the campaign is started again\n");
+  if (campaign.count(RunState::failed) > 0) put("\nFailed; tried again when the campaign is started again\n");
   for (std::size_t i = 0; i < campaign.runs.size(); ++i)
     if (campaign.runs[i].state == RunState::failed)
-      fmt::print("  {}: {}\n", campaign.plan.runs[i].name, printable(campaign.runs[i].reason));
+      put("  {}: {}\n", campaign.plan.runs[i].name, campaign.runs[i].reason);
 }
 
 const char* word_for(Verdict verdict) { return verdict == Verdict::fail ? "FAIL" : to_text(verdict); }
@@ -110,15 +110,13 @@ std::string part_text(const Campaign& campaign, const ClaimPart& part, const Par
 
 void print_claims(const Campaign& campaign) {
   const std::vector<ClaimResult> results = campaign::judge(campaign);
-  if (!results.empty()) fmt::print("\nClaims, with 95 % intervals\n");
+  if (!results.empty()) put("\nClaims, with 95 % intervals\n");
   for (std::size_t i = 0; i < results.size(); ++i) {
     const auto& [claim, parts, missing] = campaign.plan.claims[i];
     const PartResult& first = results[i].parts.front();
-    fmt::print("  {:<10} {} ({}: {})\n", word_for(results[i].verdict), printable(claim.text), first.measure,
-               first.required);
+    put("  {:<10} {} ({}: {})\n", word_for(results[i].verdict), claim.text, first.measure, first.required);
     for (std::size_t k = 0; k < parts.size(); ++k)
-      fmt::print("    {:<10} {}\n", word_for(results[i].parts[k].verdict),
-                 printable(part_text(campaign, parts[k], results[i].parts[k])));
+      put("    {:<10} {}\n", word_for(results[i].parts[k].verdict), part_text(campaign, parts[k], results[i].parts[k]));
   }
 }
 
@@ -131,11 +129,11 @@ std::string headline(const campaign::CampaignPlan& plan) {
 }  // namespace
 
 void print_plan(const campaign::CampaignPlan& plan) {
-  fmt::print("{}\n", printable(headline(plan)));
-  for (const CampaignGroup& group : plan.groups) fmt::print("  {}\n", printable(label_of(group)));
-  for (const auto& [name, reason] : plan.missing) fmt::print("  missing: {}\n", reason);
-  if (!plan.claims.empty()) fmt::print("Claims\n");
-  for (const campaign::PlannedClaim& claim : plan.claims) fmt::print("  {}\n", printable(claim.claim.text));
+  put("{}\n", headline(plan));
+  for (const CampaignGroup& group : plan.groups) put("  {}\n", label_of(group));
+  for (const auto& [name, reason] : plan.missing) put("  missing: {}\n", reason);
+  if (!plan.claims.empty()) put("Claims\n");
+  for (const campaign::PlannedClaim& claim : plan.claims) put("  {}\n", claim.claim.text);
 }
 
 void CampaignConsole::started(const Campaign& campaign, Index at_once) {
@@ -197,13 +195,13 @@ void CampaignConsole::finished(const Campaign& campaign) {
   line_.clear();
   if (share_.of > 1) {
     print_failures(campaign);
-    fmt::print("The same command without --share, when all shares have ended, writes the tables\n");
+    put("The same command without --share, when all shares have ended, writes the tables\n");
     return;
   }
   print_groups(campaign);
   print_failures(campaign);
   print_claims(campaign);
-  fmt::print("\nThe tables: {0}/campaign.csv, {0}/summary.json\n", folder_);
+  put("\nThe tables: {0}/campaign.csv, {0}/summary.json\n", folder_);
 }
 
 std::string CampaignConsole::name_of(std::size_t run) const {

@@ -74,37 +74,35 @@ std::string rate_text(const Rate& rate) {
 }
 
 void print_summary(const Summary& summary, double task_s, double episode_s) {
-  if (!summary.solved) fmt::print("solved         the task does not say what that is\n");
-  if (summary.solved) fmt::print("solved at {:g} s  {}\n", task_s, rate_text(*summary.solved));
-  if (summary.solved && episode_s > task_s)
-    fmt::print("solved at {:g} s  {}\n", episode_s, rate_text(*summary.solved_at_end));
-  fmt::print("ended early    {}\n", rate_text(summary.ended));
+  if (!summary.solved) put("solved         the task does not say what that is\n");
+  if (summary.solved) put("solved at {:g} s  {}\n", task_s, rate_text(*summary.solved));
+  if (summary.solved && episode_s > task_s) put("solved at {:g} s  {}\n", episode_s, rate_text(*summary.solved_at_end));
+  put("ended early    {}\n", rate_text(summary.ended));
   const auto [min, low, median, high, max] = statistics::five_numbers(summary.returns);
-  fmt::print("return         median {:.4g}, quartiles {:.4g} and {:.4g}, all from {:.4g} to {:.4g}\n", median, low,
-             high, min, max);
+  put("return         median {:.4g}, quartiles {:.4g} and {:.4g}, all from {:.4g} to {:.4g}\n", median, low, high, min,
+      max);
   if (min == max && summary.returns.size() > 1)
-    fmt::print("all episodes are alike: this plant has no random start and no noise, so one tells as much\n");
+    put("all episodes are alike: this plant has no random start and no noise, so one tells as much\n");
 }
 
 /// The rate that is asked for by changed parameter: at the end of the episode, else the median return.
 void print_robustness(const std::vector<experiment::Changed>& all) {
   const bool can_say = all.front().summary.solved_at_end.has_value();
-  fmt::print("{} by the factor of one parameter at a time\n{:12}",
-             can_say ? "solved at the end, in %," : "median return", "");
-  for (const double factor : experiment::kFactors) fmt::print("{:>9g}", factor);
+  put("{} by the factor of one parameter at a time\n{:12}", can_say ? "solved at the end, in %," : "median return", "");
+  for (const double factor : experiment::kFactors) put("{:>9g}", factor);
   for (const experiment::Changed& each : all) {
-    if (each.factor == experiment::kFactors.front()) fmt::print("\n{:12}", printable(each.parameter));
+    if (each.factor == experiment::kFactors.front()) put("\n{:12}", each.parameter);
     const double value = can_say ? 100 * each.summary.solved_at_end->value() : statistics::median(each.summary.returns);
-    fmt::print("{:>9.4g}", value);
+    put("{:>9.4g}", value);
   }
-  fmt::print("\n");
+  put("\n");
 }
 
 /// An older file of this name is kept under another one.
 void write_table(const fs::path& path, const std::string& text) {
-  if (const auto older = keep_older(path)) fmt::print("{} is kept as {}\n", path.string(), older->string());
+  if (const auto older = keep_older(path)) put("{} is kept as {}\n", path.string(), older->string());
   write_output({.path = path, .kind = "", .option = "--out FILE.csv", .is_ours = {}}, text);
-  fmt::print("{} has the numbers\n", printable(path.string()));
+  put("{} has the numbers\n", path.string());
 }
 
 /// A policy, what is set, and how it is evaluated.
@@ -144,11 +142,9 @@ Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& a
 
 void announce(const Work& work, const EvaluateArguments& arguments) {
   const std::string settings = settings_text(work.wanted.settings);
-  const std::string whose =
-      arguments.policy ? printable(*arguments.policy) : fmt::format("trial {}", work.policy.trial);
-  fmt::print("the policy of {} (return {:.4g}): {} episodes of {:g} s, seed {}{}{}\n", whose, work.policy.total_reward,
-             work.wanted.plan.episodes, work.episode_s(), work.wanted.plan.seed, settings.empty() ? "" : ", ",
-             printable(settings));
+  const std::string whose = arguments.policy ? *arguments.policy : fmt::format("trial {}", work.policy.trial);
+  put("the policy of {} (return {:.4g}): {} episodes of {:g} s, seed {}{}{}\n", whose, work.policy.total_reward,
+      work.wanted.plan.episodes, work.episode_s(), work.wanted.plan.seed, settings.empty() ? "" : ", ", settings);
 }
 
 void evaluate_episodes(const Work& work, const std::optional<std::string>& out) {

@@ -46,9 +46,8 @@ int export_policy(const experiment::Catalogue& catalogue, const ExportArguments&
                         .option = fmt::format("--out FILE{}", format.ending),
                         .is_ours = policy::is_exported};
   const bool replaced = write_output(file, format.text(exported, path));
-  fmt::print("{}{}: the policy of trial {} (return {:.3f})\n", printable(path.string()),
-             replaced ? ", which was there, is replaced" : "", exported.origin.trial,
-             exported.origin.total_reward.value_or(0));
+  put("{}{}: the policy of trial {} (return {:.3f})\n", path.string(), replaced ? ", which was there, is replaced" : "",
+      exported.origin.trial, exported.origin.total_reward.value_or(0));
   return kSuccess;
 }
 

@@ -34,7 +34,7 @@ void write(const fs::path& folder, const study::Study& study, const study::Probl
   fs::create_directories(folder);
   for (const auto& [name, text] : study::csv_files(study, problem)) files::write_file(folder / name, text);
   files::write_file(folder / "identify.html", study::page(study, problem, robot));
-  fmt::print("\n{} opens in a browser; tables are beside it\n", printable((folder / "identify.html").string()));
+  put("\n{} opens in a browser; tables are beside it\n", (folder / "identify.html").string());
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
   const auto read = [&](const std::vector<std::string>& paths) {
     std::vector<study::Log> logs;
     for (auto& [path, log, notes] : read_logs(paths, setup, violations)) {
-      for (const std::string& note : notes) fmt::print("{}: {}\n", printable(path), printable(note));
+      for (const std::string& note : notes) put("{}: {}\n", path, note);
       logs.push_back(std::move(log));
     }
     return logs;
@@ -67,8 +67,8 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
         [&](const Progress& progress) { line.show(fmt::format("learning from {} …", progress.phase)); });
     line.clear();
     for (const study::Section& section : study::summary(study, problem)) {
-      fmt::print("\n{}\n", section.title);
-      for (const std::string& text : study::lines_of(section)) fmt::print("  {}\n", printable(text));
+      put("\n{}\n", section.title);
+      for (const std::string& text : study::lines_of(section)) put("  {}\n", text);
     }
     if (arguments.out) write(*arguments.out, study, problem, setup.scenario.name);
     return kSuccess;

@@ -6,6 +6,7 @@
 
 #include "apps/catalogue.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/cli/complain.hpp"
 #include "apps/cli/options_table.hpp"
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
@@ -74,13 +75,13 @@ Json as_json(const experiment::Catalogue& catalogue) {
 
 template <class Builder>
 void print_entry(Builder& builder, const std::string& remark, bool with_options) {
-  fmt::print("  {:<18} {}\n", builder.name(), builder.summary());
-  fmt::print("  {:<18} {}\n", "", remark);
+  put("  {:<18} {}\n", builder.name(), builder.summary());
+  put("  {:<18} {}\n", "", remark);
   if (!with_options) return;
   for (const Field& field : options_of(builder)) {
     const std::string otherwise =
         field.deviates() ? fmt::format("  ({}: {})", field.published.source, field.published.text) : "";
-    fmt::print("  {:<18}   {} = {}{}\n", "", field.name, field.value, otherwise);
+    put("  {:<18}   {} = {}{}\n", "", field.name, field.value, otherwise);
   }
 }
 
@@ -100,40 +101,40 @@ std::string remark_of(const scenario::ScenarioBuilder& builder) {
 /// Options that every run has, whatever its scenario and learner.
 void print_run_options() {
   experiment::Spec spec;
-  fmt::print("\nRuns\n");
+  put("\nRuns\n");
   for (const auto& [name, text] : list_fields([&](FieldVisitor& v) { spec.settable_fields(v); }))
-    fmt::print("  {:<18}   {} = {}\n", "", name, text);
+    put("  {:<18}   {} = {}\n", "", name, text);
 }
 
 void print(const experiment::Catalogue& catalogue, bool with_options) {
-  fmt::print("Scenarios\n");
+  put("Scenarios\n");
   for (const auto& builder : catalogue.scenario_builders()) print_entry(*builder, remark_of(*builder), with_options);
-  fmt::print("\nLearners\n");
+  put("\nLearners\n");
   for (const auto& builder : catalogue.learner_builders()) print_entry(*builder, remark_of(*builder), with_options);
-  if (!catalogue.presets.empty()) fmt::print("\nPresets\n");
+  if (!catalogue.presets.empty()) put("\nPresets\n");
   for (const auto& preset : catalogue.presets)
-    fmt::print("  {:<18} {}\n", preset.name, experiment::Preset(preset.text, preset.name).title());
+    put("  {:<18} {}\n", preset.name, experiment::Preset(preset.text, preset.name).title());
   if (with_options) print_run_options();
-  if (!catalogue.not_built.empty()) fmt::print("\nNot built\n");
-  for (const auto& missing : catalogue.not_built) fmt::print("  {:<18} {}\n", missing.name, missing.reason);
-  if (!with_options) fmt::print("\nOptions for --set, with what they do: {} list NAME\n", program_name());
+  if (!catalogue.not_built.empty()) put("\nNot built\n");
+  for (const auto& missing : catalogue.not_built) put("  {:<18} {}\n", missing.name, missing.reason);
+  if (!with_options) put("\nOptions for --set, with what they do: {} list NAME\n", program_name());
 }
 
 /// Those that everyone needs, and unless it is asked for them only the number of the others.
 template <class Builder>
 void print_one(Builder& builder, const std::string& kind, bool with_expert) {
-  fmt::print("{} {}: {}\n{:{}} {}\n", kind, builder.name(), builder.summary(), "",
-             kind.size() + builder.name().size() + 2, remark_of(builder));
+  put("{} {}: {}\n{:{}} {}\n", kind, builder.name(), builder.summary(), "", kind.size() + builder.name().size() + 2,
+      remark_of(builder));
   std::vector<Field> shown = options_of(builder);
   const auto middle = std::stable_partition(shown.begin(), shown.end(), [](const Field& f) { return !f.expert; });
   const std::vector<Field> hidden(middle, shown.end());
   shown.erase(middle, shown.end());
-  if (!shown.empty()) fmt::print("\n{}", options_table(shown, terminal_width()));
+  if (!shown.empty()) put("\n{}", options_table(shown, terminal_width()));
   if (hidden.empty()) return;
   if (with_expert)
-    fmt::print("\nFor experts\n{}", options_table(hidden, terminal_width()));
+    put("\nFor experts\n{}", options_table(hidden, terminal_width()));
   else
-    fmt::print("\n{} more for experts: {} list {} --expert\n", hidden.size(), program_name(), builder.name());
+    put("\n{} more for experts: {} list {} --expert\n", hidden.size(), program_name(), builder.name());
 }
 
 template <class Builder>

@@ -23,8 +23,7 @@ int write_page(const fs::path& folder, const Page& page, const fs::path& out) {
                page.html);
   for (const report::Problem& problem : page.problems)
     complain(fmt::format("{}: {}", (folder / problem.where).string(), problem.what));
-  fmt::print("{} ({:.1f} MB) opens in a browser\n", printable(out.string()),
-             1e-6 * static_cast<double>(page.html.size()));
+  put("{} ({:.1f} MB) opens in a browser\n", out.string(), 1e-6 * static_cast<double>(page.html.size()));
   return kSuccess;
 }
 

@@ -10,6 +10,7 @@
 #include "apps/catalogue.hpp"
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
+#include "apps/cli/complain.hpp"
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/run.hpp"
@@ -48,51 +49,49 @@ std::span<const StateVariable> own_states(const Task& task) {
 
 void print_task(const scenario::Scenario& scenario) {
   const Task& task = scenario.task;
-  fmt::print("{}: {} steps of {} s, {} s in all\n\nstates\n", scenario.name, task.horizon, task.dt_s, task.episode_s());
+  put("{}: {} steps of {} s, {} s in all\n\nstates\n", scenario.name, task.horizon, task.dt_s, task.episode_s());
   for (std::size_t i = 0; i < own_states(task).size(); ++i)
-    fmt::print("  {}; starts at {:.4g} ± {:.3g}\n", description(task.states[i]), task.start_mean(static_cast<Index>(i)),
-               task.start_std(static_cast<Index>(i)));
-  fmt::print("actions\n");
+    put("  {}; starts at {:.4g} ± {:.3g}\n", description(task.states[i]), task.start_mean(static_cast<Index>(i)),
+        task.start_std(static_cast<Index>(i)));
+  put("actions\n");
   for (const ActionVariable& action : task.actions)
-    fmt::print("  {}{} from {:g} to {:g}{}\n", action.name,
-               action.unit.empty() ? "" : fmt::format(" [{}]", action.unit), action.bounds.low, action.bounds.high,
-               description(action.actuation, action.unit));
-  if (task.memory > 0) fmt::print("what policies see of the last actions\n");
+    put("  {}{} from {:g} to {:g}{}\n", action.name, action.unit.empty() ? "" : fmt::format(" [{}]", action.unit),
+        action.bounds.low, action.bounds.high, description(action.actuation, action.unit));
+  if (task.memory > 0) put("what policies see of the last actions\n");
   for (const StateVariable& memory : std::span(task.states).last(static_cast<std::size_t>(task.memory)))
-    fmt::print("  {}\n", description(memory));
-  fmt::print("reward\n  {}\n", reward::closed_form(task.reward)
-                                   ? "saturating distance of features, as moment matching (PILCO) needs it"
-                                   : "a formula; PILCO needs distances that are sums of multiples of features");
-  fmt::print("success\n  {}\n",
-             task.solved ? "the task says when it is solved" : "nobody can say: there is no [success]");
-  if (!task.limits.empty()) fmt::print("limits\n");
+    put("  {}\n", description(memory));
+  put("reward\n  {}\n", reward::closed_form(task.reward)
+                            ? "saturating distance of features, as moment matching (PILCO) needs it"
+                            : "a formula; PILCO needs distances that are sums of multiples of features");
+  put("success\n  {}\n", task.solved ? "the task says when it is solved" : "nobody can say: there is no [success]");
+  if (!task.limits.empty()) put("limits\n");
   for (const Limit& limit : task.limits)
-    fmt::print("  {}{} at every step, in all but {:g} % of episodes\n",
-               limit.name == limit.text ? "" : limit.name + ": ", limit.text, 100 * limit.risk);
-  fmt::print("drawing\n  {}\n", scenario.drawing ? "bodies are drawn in reports" : "none: there is no [[body]]");
+    put("  {}{} at every step, in all but {:g} % of episodes\n", limit.name == limit.text ? "" : limit.name + ": ",
+        limit.text, 100 * limit.risk);
+  put("drawing\n  {}\n", scenario.drawing ? "bodies are drawn in reports" : "none: there is no [[body]]");
 }
 
 void print_parameters(const ParameterSpace& parameters) {
   if (std::ranges::none_of(parameters.all(), &Parameter::tunable))
-    fmt::print("    nothing to tune: gp-mi and mi learn no parameters of it\n");
+    put("    nothing to tune: gp-mi and mi learn no parameters of it\n");
   for (const Parameter& parameter : parameters.all()) {
     if (parameter.kind == Parameter::Kind::continuous)
-      fmt::print("    {} = {:g}, learned in [{:g}, {:g}]\n", parameter.name, parameter.value, parameter.box.low,
-                 parameter.box.high);
+      put("    {} = {:g}, learned in [{:g}, {:g}]\n", parameter.name, parameter.value, parameter.box.low,
+          parameter.box.high);
     else if (parameter.kind == Parameter::Kind::discrete)
-      fmt::print("    {} = {:g}, one of {}\n", parameter.name, parameter.value, fmt::join(parameter.choices, ", "));
+      put("    {} = {:g}, one of {}\n", parameter.name, parameter.value, fmt::join(parameter.choices, ", "));
   }
 }
 
 void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried& tried,
                  const scenario::Scenario& scenario, const robot_file::Tried& all) {
-  fmt::print("  {}: {:.2g} rows a second on one thread{}\n", prior.name, tried.rows_per_s,
-             tried.failed > 0 ? fmt::format(", {} of {} rows failed", tried.failed, all.steps) : "");
+  put("  {}: {:.2g} rows a second on one thread{}\n", prior.name, tried.rows_per_s,
+      tried.failed > 0 ? fmt::format(", {} of {} rows failed", tried.failed, all.steps) : "");
   print_parameters(prior.parameters);
   for (std::size_t i = 0; i < own_states(scenario.task).size(); ++i) {
     const auto s = static_cast<Index>(i);
-    fmt::print("    {}: a step changes it by {:.3g}, the prior errs by {:.3g}\n", scenario.task.states[i].name,
-               all.change(s), tried.error(s));
+    put("    {}: a step changes it by {:.3g}, the prior errs by {:.3g}\n", scenario.task.states[i].name, all.change(s),
+        tried.error(s));
   }
 }
 
@@ -137,20 +136,19 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   if (scenario.require_ready) scenario.require_ready();
   const robot_file::Tried tried = robot_file::try_out(scenario);
   const bool driven = static_cast<bool>(scenario.make_plant);
-  if (!driven) fmt::print("plant\n  none: there is no [plant], so its episodes are told\n");
-  fmt::print(
-      "priors, on {} steps of {} under random actions{}\n", tried.steps, driven ? "the plant" : "the first prior",
+  if (!driven) put("plant\n  none: there is no [plant], so its episodes are told\n");
+  put("priors, on {} steps of {} under random actions{}\n", tried.steps, driven ? "the plant" : "the first prior",
       tried.ended > 0 ? fmt::format(", {} of {} episodes `ended` before their time", tried.ended, tried.episodes) : "");
   for (std::size_t i = 0; i < tried.priors.size(); ++i)
     print_prior(scenario.priors[i], tried.priors[i], scenario, tried);
-  for (const std::string& line : scenario.oracle_lacks) fmt::print("  oracle: not all of the plant. {}\n", line);
-  if (scenario.priors.empty()) fmt::print("  none: learners without a prior can be used\n");
+  for (const std::string& line : scenario.oracle_lacks) put("  oracle: not all of the plant. {}\n", line);
+  if (scenario.priors.empty()) put("  none: learners without a prior can be used\n");
   const std::vector<std::string> complaints = complaints_of(tried);
   if (arguments.out && !driven) throw InvalidInput("--out: there is no [plant] that could show its motion");
   if (arguments.out && tried.end.empty()) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
-  fmt::print("\nall is well; to learn: {} learn {} --learner {}{}\n", program_name(), arguments.robot,
-             scenario.priors.empty() ? "black-drops" : "gp-mi", driven ? "" : " --trials 0");
+  put("\nall is well; to learn: {} learn {} --learner {}{}\n", program_name(), arguments.robot,
+      scenario.priors.empty() ? "black-drops" : "gp-mi", driven ? "" : " --trials 0");
   return kSuccess;
 }
 
@@ -164,8 +162,8 @@ int make_new(const NewArguments& arguments) {
   if (std::filesystem::exists(path))
     throw InvalidInput(fmt::format("{} exists, and is not overwritten", path.string()));
   files::write_file(path, text);
-  fmt::print("{} is a pendulum, to be made your robot. Say what it is, then: {} check {}\n", path.string(),
-             program_name(), path.string());
+  put("{} is a pendulum, to be made your robot. Say what it is, then: {} check {}\n", path.string(), program_name(),
+      path.string());
   return kSuccess;
 }
 

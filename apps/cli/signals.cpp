@@ -9,6 +9,7 @@
 #include <semaphore.h>
 #include <unistd.h>
 
+#include "apps/cli/complain.hpp"
 #include "apps/cli/program.hpp"
 
 namespace rehearse::apps {
@@ -34,7 +35,7 @@ void catch_signals() {
 /// On a terminal the line that is being rewritten gives way.
 void say(const std::string& line) {
   const std::string text =
-      fmt::format("{}{}: {}\n", ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", program_name(), line);
+      fmt::format("{}{}: {}\n", ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", program_name(), printable(line));
   std::fputs(text.c_str(), stderr);
 }
 

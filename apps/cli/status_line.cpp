@@ -8,6 +8,7 @@
 
 #include "apps/cli/complain.hpp"
 #include "apps/cli/ranks.hpp"
+#include "rehearse/core/text_table.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -30,7 +31,7 @@ StatusLine::StatusLine() : terminal_(::isatty(STDOUT_FILENO) == 1 && launch().si
 
 void StatusLine::print(const std::string& line) {
   clear();
-  fmt::print("{}\n", printable(line));
+  put("{}\n", line);
   std::fflush(stdout);
 }
 
@@ -39,7 +40,7 @@ bool StatusLine::is_due() const { return terminal_ && Clock::now() - last_ >= st
 void StatusLine::show(const std::string& line) {
   if (!is_due()) return;
   last_ = Clock::now();
-  fmt::print("\r\033[K{}", line.substr(0, terminal_width()));
+  fmt::print("\r\033[K{}", first_characters(printable(line), terminal_width()));
   std::fflush(stdout);
   shown_ = true;
 }

@@ -45,7 +45,7 @@ Vocabulary vocabulary(const experiment::Catalogue& catalogue) {
   for (const auto& builder : catalogue.scenario_builders()) {
     all.scenarios.push_back({builder->name(), builder->summary()});
     std::vector<std::string>& priors = all.priors[builder->name()] = builder->prior_names();
-    if (builder->build().oracle) priors.push_back("oracle");
+    if (builder->build().oracle) priors.push_back(scenario::kOracle);
     all.keys[builder->name()] = keys_of(*builder);
   }
   for (const auto& builder : catalogue.learner_builders()) {

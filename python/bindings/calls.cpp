@@ -17,8 +17,10 @@ std::string shape_of(const py::array& array) {
   return fmt::format("({}{})", shape, array.ndim() == 1 ? "," : "");
 }
 
-FortranArray numbers_of(const py::object& result, const std::string& name) {
-  const FortranArray array = FortranArray::ensure(result);
+/// Raises ValueError where NumPy makes no array of a result.
+template <class Array>
+Array array_of(const py::object& result, const std::string& name) {
+  const Array array = Array::ensure(result);
   if (array) return array;
   PyErr_Clear();
   throw py::value_error(fmt::format("{} returned {}, must be an array of numbers", name,
@@ -85,7 +87,7 @@ void call(const Callable& of, const std::function<void(const py::object& functio
 }
 
 void write_result(const py::object& result, const std::string& name, VectorView values) {
-  const FortranArray array = numbers_of(result, name);
+  const FortranArray array = array_of<FortranArray>(result, name);
   const bool column = array.ndim() == 2 && array.shape(1) == 1;
   if (!(array.ndim() == 1 || column) || array.shape(0) != values.size())
     throw py::value_error(
@@ -94,13 +96,13 @@ void write_result(const py::object& result, const std::string& name, VectorView 
 }
 
 void write_truths(const py::object& result, const std::string& name, VectorView values) {
-  if (py::array::ensure(result).dtype().kind() != 'b')
+  if (array_of<py::array>(result, name).dtype().kind() != 'b')
     throw py::value_error(name + " returned numbers, must be truths, one a row: states[:, 0] > 1");
   write_result(result, name, values);
 }
 
 void write_result(const py::object& result, const std::string& name, MatrixView values) {
-  const FortranArray array = numbers_of(result, name);
+  const FortranArray array = array_of<FortranArray>(result, name);
   if (array.ndim() != 2 || array.shape(0) != values.rows() || array.shape(1) != values.cols())
     throw py::value_error(fmt::format("{} returned an array of shape {}, must be ({}, {})", name, shape_of(array),
                                       values.rows(), values.cols()));

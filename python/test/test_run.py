@@ -325,6 +325,8 @@ def test_what_is_wrong_is_said_in_lines(tmp_path):
         learn(cart(success=rehearse.Success("velocity > 1", 9)), tmp_path / "none")
     with pytest.raises(ValueError, match="success returned numbers, must be truths"):
         learn(cart(success=rehearse.Success(lambda states: states[:, 0])), tmp_path / "none")
+    with pytest.raises(ValueError, match="success returned list, must be an array of numbers"):
+        learn(cart(success=rehearse.Success(lambda states: [[True], [True, False]])), tmp_path / "none")
     with pytest.raises(rehearse.InvalidInput, match="is not a run folder"):
         rehearse.open_run(tmp_path / "nowhere")
     assert not (tmp_path / "none").exists()

@@ -95,6 +95,12 @@ grep -q "log trial-001.csv: " stdout || fail "tell says $(cat stdout)"
 "$program" ask logs >stdout || fail "ask after logs"
 grep -q '"policy": "schedule"' logs/next/policy.json && fail "the first policy is still random"
 grep -q "predicted return" stdout || fail "nothing is predicted after logs"
+sed $'1s/$/,\xc2\x9b2J/; 2,$s/$/,0/' black-drops-driven/trajectories/trial-002.csv >controls.csv
+"$program" learn pendulum --learner black-drops "${short[@]}" --trials 0 --out controls >/dev/null || fail "controls"
+for command in "tell controls controls.csv" "status controls"; do
+  "$program" $command >stdout 2>stderr || fail "$command: $(cat stderr)"
+  grep -q 'not used: \\x9b2J' stdout || fail "$command gives a terminal what a column is named: $(cat -v stdout)"
+done
 killed 0.05 tell logs black-drops-driven/trajectories/trial-003.csv
 killed 0.05 ask logs
 grep -q "^1," logs/trials.csv || fail "the trial after logs is lost"

@@ -65,6 +65,7 @@ grep -q "misleading: .* rows a second" output && grep -q "learn pendubot --learn
 refused "there is no scenario 'many'; the file is many.toml" check many
 refused "there is no scenario 'many'; the file is many.toml" learn many --learner gp-mi
 refused "unknown scenario 'pendubut', did you mean 'pendubot'?" check pendubut
+refused "unknown scenario 'xxx" check "$(printf 'x%.0s' {1..300})"
 
 # What can be done so, and is hardly meant, is said.
 sed '/^tune = /d' pilco_robot.toml >fixed.toml

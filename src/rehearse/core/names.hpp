@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rehearse {
@@ -11,7 +12,7 @@ inline bool is_among(const std::string& name, const std::vector<std::string>& na
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Whether a name is of letters, digits, - and _: folders are named after robots and learners.
+/// Whether a name is of letters, digits, - and _: folders are named after robots, priors and learners.
 inline bool is_word(const std::string& name) {
   const auto is_part = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
   return !name.empty() && std::all_of(name.begin(), name.end(), is_part);
@@ -20,6 +21,14 @@ inline bool is_word(const std::string& name) {
 /// "q1 [rad]", as files and tables head a column.
 inline std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " [" + unit + "]";
+}
+
+/// The name of a folder on every file system: whatever some of them do not take is _.
+inline std::string folder_name_of(std::string name) {
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && std::string_view("._,=+-").find(c) == std::string::npos)
+      c = '_';
+  return name;
 }
 
 }  // namespace rehearse

@@ -3,9 +3,20 @@
 #include <algorithm>
 
 namespace rehearse {
+namespace {
+
+bool begins_character(char c) { return (c & 0xC0) != 0x80; }
+
+}  // namespace
 
 std::size_t characters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
+}
+
+std::string first_characters(const std::string& text, std::size_t most) {
+  std::size_t begun = 0;
+  return {text.begin(),
+          std::find_if(text.begin(), text.end(), [&](char c) { return begins_character(c) && ++begun > most; })};
 }
 
 std::vector<std::string> aligned(const std::vector<std::vector<std::string>>& rows) {

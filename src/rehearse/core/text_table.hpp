@@ -7,6 +7,7 @@ namespace rehearse {
 
 /// Characters of UTF-8.
 std::size_t characters(const std::string& text);
+std::string first_characters(const std::string& text, std::size_t most);
 
 /// A line a row, columns below one another with two spaces between. A row may have fewer cells than others.
 std::vector<std::string> aligned(const std::vector<std::vector<std::string>>& rows);

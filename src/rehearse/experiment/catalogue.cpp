@@ -1,5 +1,7 @@
 #include "rehearse/experiment/catalogue.hpp"
 
+#include <system_error>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -51,7 +53,8 @@ Catalogue Catalogue::with_robot(const std::string& text, const std::string& sour
                                 const std::filesystem::path& folder) const {
   if (!read_robot) throw InvalidInput(fmt::format("{}: this program reads no robots from files", source));
   const scenario::ReadFile from_disk = [&](const std::string& path) -> std::optional<std::string> {
-    if (!std::filesystem::is_regular_file(folder / path)) return {};
+    std::error_code none;  // a text may be too long for a path
+    if (!std::filesystem::is_regular_file(folder / path, none)) return {};
     return files::read_file(folder / path, files::Links::follow);
   };
   const auto builder = read_robot(text, source, from_disk);

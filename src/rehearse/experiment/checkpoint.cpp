@@ -1,5 +1,9 @@
 #include "rehearse/experiment/checkpoint.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "rehearse/core/errors.hpp"
 #include "rehearse/files/seal.hpp"
 #include "rehearse/learners/json.hpp"
@@ -130,6 +134,38 @@ Log to_log(const json& j) {
           j.at("notes").get<std::vector<std::string>>()};
 }
 
+[[noreturn]] void refuse_contradiction(const std::string& what) {
+  throw InvalidInput("the checkpoint contradicts itself: " + what);
+}
+
+/// One that ended before its first action has one state.
+void check_rows(const Episode& e, const std::string& name) {
+  const Index steps = e.steps();
+  const bool rows = e.states.rows() == steps + 1 && e.true_states.rows() == steps + 1 && e.rewards.size() == steps;
+  if (!rows || e.true_states.cols() != e.states.cols())
+    refuse_contradiction(fmt::format("{} has {} × {} states, {} × {} true states and {} rewards in {} steps", name,
+                                     e.states.rows(), e.states.cols(), e.true_states.rows(), e.true_states.cols(),
+                                     e.rewards.size(), steps));
+}
+
+void check_history(const History& history) {
+  const Index done = history.done();
+  if (static_cast<Index>(history.episodes.size()) != done)
+    refuse_contradiction(fmt::format("{} trials have {} episodes", done, history.episodes.size()));
+  if (history.told < std::max<Index>(done - 1, 0) || history.told > done)
+    refuse_contradiction(
+        fmt::format("the learner was told {} of {} trials, must be all but perhaps the last", history.told, done));
+  for (Index i = 0; i < done; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (history.trials[at].trial != i + 1)
+      refuse_contradiction(fmt::format("trial {} has the number {}", i + 1, history.trials[at].trial));
+    check_rows(history.episodes[at], fmt::format("trial {}", i + 1));
+  }
+  if (history.asked && history.asked->trial != done + 1)
+    refuse_contradiction(fmt::format("trial {} is to come after {}", history.asked->trial, done));
+  for (const Log& log : history.logs) check_rows(log.episode, fmt::format("log {}", log.name));
+}
+
 History to_history(const json& j) {
   History history;
   for (const json& r : j.at("trials")) history.trials.push_back(to_record(r));
@@ -138,9 +174,7 @@ History to_history(const json& j) {
   history.learner = j.at("learner");
   for (const json& log : j.value("logs", json::array())) history.logs.push_back(to_log(log));
   if (const json asked = j.value("asked", json()); !asked.is_null()) history.asked = to_record(asked);
-  if (history.episodes.size() != history.trials.size() || history.told > history.done() ||
-      history.told < history.done() - 1)
-    throw InvalidInput("the checkpoint contradicts itself");
+  check_history(history);
   return history;
 }
 

@@ -21,15 +21,19 @@ constexpr const char *kBefore = "before", *kFiles = "files";
 
 fs::path tells_of(const RunFolder& run) { return run.path() / "told"; }
 
-bool is_number(const std::string& name) { return name.find_first_not_of("0123456789") == std::string::npos; }
+bool is_number(const std::string& name) {
+  return name.size() <= 18 && name.find_first_not_of("0123456789") == std::string::npos;
+}
 
-/// By number.
+Index tell_number(const fs::path& tell) { return std::stol(tell.filename()); }
+
+/// By number; their names have three digits and, from 1000 on, more.
 std::vector<fs::path> all_tells(const RunFolder& run) {
   std::vector<fs::path> all;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(tells_of(run), none))
     if (is_number(entry.path().filename().string())) all.push_back(entry.path());
-  std::ranges::sort(all);
+  std::ranges::sort(all, {}, tell_number);
   return all;
 }
 
@@ -77,7 +81,7 @@ void keep_tell(const RunFolder& run, const std::vector<ToldFile>& files) {
   for (std::size_t i = 0; i < files.size(); ++i)
     files::write_file(unfinished / kFiles / fmt::format("{:03}-{}", i + 1, files[i].path.filename().string()),
                       files[i].bytes, files::Durability::power);
-  const Index last = all.empty() ? 0 : std::stol(all.back().filename());
+  const Index last = all.empty() ? 0 : tell_number(all.back());
   fs::rename(unfinished, tells_of(run) / fmt::format("{:03}", last + 1));
 }
 

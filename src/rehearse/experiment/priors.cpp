@@ -12,13 +12,13 @@ namespace {
 
 scenario::NamedPrior oracle_prior(const scenario::Scenario& scenario) {
   const ParameterSpace& space = scenario.oracle->parameters();
-  return {kOracle, scenario.oracle, space.fixed_at(space.values())};
+  return {scenario::kOracle, scenario.oracle, space.fixed_at(space.values())};
 }
 
 std::vector<std::string> known_names(const scenario::Scenario& scenario) {
   std::vector<std::string> names;
   for (const scenario::NamedPrior& prior : scenario.priors) names.push_back(prior.name);
-  if (scenario.oracle) names.push_back(kOracle);
+  if (scenario.oracle) names.push_back(scenario::kOracle);
   return names;
 }
 
@@ -35,7 +35,7 @@ const scenario::NamedPrior* find_prior(const std::vector<scenario::NamedPrior>& 
 }
 
 void set_value(scenario::NamedPrior& prior, const std::string& parameter, double value, Violations& violations) {
-  if (prior.name == kOracle) {
+  if (prior.name == scenario::kOracle) {
     violations.add(fmt::format("prior.{0}: the oracle is the plant's own dynamics, set plant.{0} instead", parameter));
     return;
   }
@@ -70,7 +70,7 @@ ChosenPriors::ChosenPriors(const scenario::Scenario& scenario, const std::vector
       violations.add(fmt::format("prior '{}' is named twice", name));
     } else if (const scenario::NamedPrior* found = find_prior(scenario.priors, name)) {
       priors_.push_back(*found);
-    } else if (name == kOracle && scenario.oracle) {
+    } else if (name == scenario::kOracle && scenario.oracle) {
       priors_.push_back(oracle_prior(scenario));
     } else {
       violations.add(unknown_prior(scenario, name));
@@ -117,7 +117,7 @@ std::vector<std::string> ChosenPriors::keys() const {
 std::vector<std::pair<std::string, std::string>> ChosenPriors::values() const {
   std::vector<std::pair<std::string, std::string>> values;
   for (const scenario::NamedPrior& prior : priors_) {
-    if (prior.name == kOracle) continue;
+    if (prior.name == scenario::kOracle) continue;
     const std::string prefix = priors_.size() > 1 ? "prior." + prior.name + "." : "prior.";
     for (const Parameter& parameter : prior.parameters.all())
       values.emplace_back(prefix + parameter.name, to_text(parameter.value));

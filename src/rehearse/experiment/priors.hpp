@@ -11,8 +11,6 @@
 
 namespace rehearse::experiment {
 
-inline constexpr const char* kOracle = "oracle";
-
 /// "a,b,c" → its names; empty text: none.
 std::vector<std::string> split_names(const std::string& text);
 

@@ -186,7 +186,7 @@ class Resolver {
   std::vector<std::string> warnings_of(const scenario::Scenario& scenario, const std::vector<std::string>& names,
                                        const std::optional<prior::Prior>& prior) const {
     std::vector<std::string> warnings;
-    const bool oracle = is_among(kOracle, names);
+    const bool oracle = is_among(scenario::kOracle, names);
     if (learner_builder_->tunes_prior() && prior && !oracle && !prior->space.has_tunable())
       warnings.push_back(fmt::format("prior {} has nothing to tune, so {} learns no parameters", spec_.prior,
                                      learner_builder_->name()));

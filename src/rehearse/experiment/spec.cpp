@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/names.hpp"
+
 namespace rehearse::experiment {
 
 std::string start_text(const Vector& theta) {
@@ -23,7 +25,8 @@ std::optional<Vector> start_of(const std::string& text) {
 }
 
 std::string run_name(const Spec& spec) {
-  return fmt::format("{}-{}-{}-{}", spec.scenario, spec.learner, spec.prior.empty() ? "none" : spec.prior, spec.seed);
+  return folder_name_of(
+      fmt::format("{}-{}-{}-{}", spec.scenario, spec.learner, spec.prior.empty() ? "none" : spec.prior, spec.seed));
 }
 
 Spec with_options(Spec spec, const std::vector<FileOption>& options) {

@@ -71,7 +71,8 @@ using Comments = std::map<std::string, std::string>;
 std::string start_text(const Vector& theta);
 std::optional<Vector> start_of(const std::string& text);
 
-/// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec; PRIOR is "none" for a learner that takes none.
+/// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec; PRIOR is "none" for a learner that takes none. It names a folder
+/// on every file system.
 std::string run_name(const Spec& spec);
 
 /// An option as a file has it.

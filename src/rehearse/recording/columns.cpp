@@ -1,6 +1,7 @@
 #include "rehearse/recording/columns.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <span>
@@ -52,11 +53,8 @@ class Finder {
     for (const ActionVariable& action : task.actions) wanted_.insert(action.name);
   }
 
-  /// "time" as anyone spells it, or "t" if the task has no such name.
   void find_times() {
-    std::string name = "time";
-    for (const Title& title : titles_)
-      if (lower(title.name) == "time" || (lower(title.name) == "t" && !wanted_.contains(title.name))) name = title.name;
+    const std::string name = name_of_time();
     const int column = require(name);
     const double scale = column < 0 ? 1 : scale_of(column, "time", "s");
     for (std::size_t row = 0; column >= 0 && row < table_.rows.size(); ++row) {
@@ -95,6 +93,22 @@ class Finder {
   }
 
  private:
+  /// "time", else as anyone spells it, else "t", else "T"; none that the task has for something else.
+  std::string name_of_time() {
+    std::array<std::set<std::string>, 4> ranks;
+    for (const auto& [name, unit] : titles_) {
+      if (wanted_.contains(name)) continue;
+      if (lower(name) == "time") ranks[name == "time" ? 0 : 1].insert(name);
+      if (lower(name) == "t") ranks[name == "t" ? 2 : 3].insert(name);
+    }
+    const auto best = std::ranges::find_if_not(ranks, &std::set<std::string>::empty);
+    if (best == ranks.end()) return "time";
+    if (best->size() > 1)
+      problems_.add(1, "two times",
+                    fmt::format("the columns {} are all the time, must be one", fmt::join(*best, ", ")));
+    return *best->begin();
+  }
+
   static Index in_file(std::size_t row) { return static_cast<Index>(row) + 2; }
 
   /// −1: it is not there, which is a problem.

@@ -233,12 +233,20 @@ class Reader {
 
   void read_priors() {
     for (const auto& [name, part] : file_.tables("prior")) {
+      check_prior_name(name, files::line_of(*part));
       Table table(*part, fmt::format("[prior.{}]", name), violations_);
       Variant prior = read_variant(name, table, robot_.dynamics, violations_);
       tune(table, prior, violations_);
       table.finish();
       robot_.priors.push_back(std::move(prior));
     }
+  }
+
+  void check_prior_name(const std::string& name, Index line) {
+    if (!is_word(name))
+      violations_.add(line, fmt::format("the name of prior '{}' must be of letters, digits, - and _", name));
+    if (name == scenario::kOracle)
+      violations_.add(line, fmt::format("'{}' is the plant's own dynamics, and no name of a prior", name));
   }
 
   void read_policy() {

@@ -8,7 +8,8 @@
 namespace rehearse::robot_file {
 namespace {
 
-/// Null, and a violation, if there is none of that name. Of one there is no question.
+/// The dynamics that the table names, or without that key the first. Null, and a violation, if there is none of that
+/// name.
 const Dynamics* named_dynamics(Table& table, const std::vector<Dynamics>& dynamics, std::string& name) {
   if (!table.reader().take("dynamics", name) && !dynamics.empty()) name = dynamics.front().name;
   std::vector<std::string> known;

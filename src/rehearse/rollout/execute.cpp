@@ -59,11 +59,16 @@ void check(const policy::Policy& policy, const Vector& theta, const Task& task) 
   violations.throw_if_any();
 }
 
+/// The reward of the step to state t+1. False: it is not finite, and that step earns the reward floor.
+bool earn(Episode& episode, Index t, const Task& task) {
+  const double reward = reward_of(task, episode, t);
+  episode.rewards(t) = std::isfinite(reward) ? reward : task.reward_floor;
+  return std::isfinite(reward);
+}
+
 /// The reward of the step to state t+1, and whether the episode ends there.
 bool ends_at(Episode& episode, Index t, const Task& task) {
-  episode.rewards(t) = reward_of(task, episode, t);
-  if (!std::isfinite(episode.rewards(t))) {
-    episode.rewards(t) = task.reward_floor;
+  if (!earn(episode, t, task)) {
     end(episode, t + 1, task, fmt::format("the reward at step {} is not finite", t + 1));
     return true;
   }
@@ -151,7 +156,7 @@ std::vector<std::string> limits_broken_by(const Task& task, const Episode& episo
 
 Episode as_measured(Episode episode, const Task& task) {
   episode.true_states = episode.states;
-  for (Index t = 0; t < episode.steps(); ++t) episode.rewards(t) = reward_of(task, episode, t);
+  for (Index t = 0; t < episode.steps(); ++t) earn(episode, t, task);
   return episode;
 }
 

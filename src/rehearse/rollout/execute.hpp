@@ -37,7 +37,7 @@ void fail(Episode& episode, const Task& task, const std::string& why);
 std::vector<std::string> limits_broken_by(const Task& task, const Episode& episode, Index t);
 
 /// The episode as one who sees measurements alone knows it: they are its true states, and what it earned follows from
-/// them. That it ended early is known.
+/// them, the reward floor where a reward is not finite. That it ended early is known.
 Episode as_measured(Episode episode, const Task& task);
 
 }  // namespace rehearse::rollout

@@ -15,6 +15,9 @@
 
 namespace rehearse::scenario {
 
+/// The plant's own dynamics, among the names of priors.
+inline constexpr const char* kOracle = "oracle";
+
 /// A simulator with the values its parameters start from and which of them may be tuned.
 struct NamedPrior {
   std::string name;

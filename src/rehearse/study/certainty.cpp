@@ -27,7 +27,7 @@ double inflation(const FittedSquares& fitted) {
   const Vector& values = solver.eigenvalues();
   double ratio = 0, directions = 0;
   for (Index i = 0; i < values.size(); ++i) {
-    if (values(i) < kUnknown * values.maxCoeff()) continue;
+    if (values(i) <= kUnknown * values.maxCoeff()) continue;  // all of them, where H is 0
     ratio += (solver.eigenvectors().col(i).transpose() * sums).squaredNorm() / values(i);
     directions += 1;
   }

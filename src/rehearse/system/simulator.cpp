@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -66,11 +67,15 @@ Index change_contained(const Simulator& simulator, const ConstMatrixView& X, con
     simulator.change(X, U, phi, dX);
   } catch (const Unavailable&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (...) {
     for (Index i = 0; i < X.rows(); ++i) {
       try {
         simulator.change(X.middleRows(i, 1), U.middleRows(i, 1), phi, dX.middleRows(i, 1));
       } catch (const Unavailable&) {
+        throw;
+      } catch (const std::bad_alloc&) {
         throw;
       } catch (...) {
         dX.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -18,9 +18,9 @@ class Unavailable : public std::runtime_error {
 /// A black box that maps states, actions and parameters to state changes over one control step, a batch at a time.
 ///
 /// Laws (checked by testing::check_simulator): `change` may run concurrently; a row depends on that row alone; a row
-/// that cannot be simulated comes back as NaN, or the call throws, and then it is retried row by row; Unavailable alone
-/// goes on to the caller. It must not run
-/// oneTBB tasks of its own: the calling thread could pick up another batch in the middle of this one.
+/// that cannot be simulated comes back as NaN, or the call throws, and then it is retried row by row; Unavailable and
+/// std::bad_alloc alone go on to the caller: a lack of memory says nothing of a row. It must not run oneTBB tasks of
+/// its own: the calling thread could pick up another batch in the middle of this one.
 class Simulator {
  public:
   virtual ~Simulator() = default;
@@ -50,7 +50,8 @@ void check_sizes(const Simulator& simulator, const ConstMatrixView& X, const Con
 std::shared_ptr<const Simulator> make_simulator(ParameterSpace parameters, Change change, Index rows_at_once = 0);
 
 /// Contains a hostile simulator: if the batch, of the right sizes, throws it is retried row by row, and rows that throw
-/// again, or are not finite, come back as NaN. Returns how many rows failed.
+/// again, or are not finite, come back as NaN. Unavailable and std::bad_alloc go on to the caller. Returns how many
+/// rows failed.
 Index change_contained(const Simulator& simulator, const ConstMatrixView& X, const ConstMatrixView& U,
                        const Vector& phi, MatrixView dX);
 

@@ -14,5 +14,12 @@ TEST(TextTable, ColumnsStandBelowOneAnother) {
 
 TEST(TextTable, CharactersAreNotBytes) { EXPECT_EQ(characters("≥ 1 °"), 5U); }
 
+TEST(TextTable, TheFirstCharactersAreWhole) {
+  EXPECT_EQ(first_characters("a≥°", 0), "");
+  EXPECT_EQ(first_characters("a≥°", 2), "a≥");
+  EXPECT_EQ(first_characters("a≥°", 3), "a≥°");
+  EXPECT_EQ(first_characters("a≥°", 4), "a≥°");
+}
+
 }  // namespace
 }  // namespace rehearse

@@ -1,5 +1,7 @@
 #include "rehearse/experiment/catalogue.hpp"
 
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "fake.hpp"
@@ -31,6 +33,18 @@ TEST(Catalogue, SaysWhyThereIsNone) {
   EXPECT_EQ(Catalogue{}.why_missing("learner", "echo"), "unknown learner 'echo': there are none");
   EXPECT_EQ(unknown_name("robot", "lien", {"arm", "line"}),
             "unknown robot 'lien', did you mean 'line'? (known: arm, line)");
+}
+
+// Arguments of programs are asked for, which may be scripts.
+TEST(Catalogue, ATextThatIsTooLongForAPathIsNoFileOfARobot) {
+  Catalogue catalogue;
+  std::optional<std::string> bytes = "not asked";
+  catalogue.read_robot = [&](std::string_view, const std::string&, const scenario::ReadFile& read_file) {
+    bytes = read_file(std::string(5000, 'x'));
+    return std::make_unique<fake::LineBuilder>();
+  };
+  EXPECT_EQ(catalogue.with_robot("a robot", "line.toml", fake::test_folder()).robots.size(), 1u);
+  EXPECT_FALSE(bytes.has_value());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "rehearse/experiment/checkpoint.hpp"
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -92,6 +93,46 @@ TEST(Checkpoint, DamageAnotherVersionAndAnotherSpecAreRefused) {
   bytes[bytes.size() / 2] ^= 1;
   EXPECT_EQ(checkpoint_complaint(bytes), "the checkpoint is truncated or damaged");
   EXPECT_EQ(checkpoint_complaint("hello"), "the checkpoint is truncated or not one of Rehearse");
+}
+
+/// What is said of the checkpoint of one trial after a change.
+std::string complaint_after(const std::function<void(History& history)>& change) {
+  History history = history_of_one();
+  change(history);
+  return checkpoint_complaint(to_checkpoint(history, 42));
+}
+
+TEST(Checkpoint, OneThatContradictsItselfIsRefused) {
+  const std::string told = "the checkpoint contradicts itself: the learner was told ";
+  EXPECT_EQ(complaint_after([](History& h) { h.told = -1; }),
+            told + "-1 of 1 trials, must be all but perhaps the last");
+  EXPECT_EQ(complaint_after([](History& h) { h.told = 2; }), told + "2 of 1 trials, must be all but perhaps the last");
+  EXPECT_EQ(complaint_after([](History& h) { h = {}, h.told = -1; }),
+            told + "-1 of 0 trials, must be all but perhaps the last");
+  EXPECT_EQ(complaint_after([](History& h) { h.trials[0].trial = 1'000'000; }),
+            "the checkpoint contradicts itself: trial 1 has the number 1000000");
+  EXPECT_EQ(complaint_after([](History& h) { h.asked = h.trials[0]; }),
+            "the checkpoint contradicts itself: trial 1 is to come after 1");
+  EXPECT_EQ(complaint_after([](History& h) { h.episodes.clear(); }),
+            "the checkpoint contradicts itself: 1 trials have 0 episodes");
+  EXPECT_EQ(complaint_after([](History& h) { h.episodes[0].rewards.resize(1); }),
+            "the checkpoint contradicts itself: trial 1 has 3 × 2 states, 3 × 2 true states and 1 rewards in 2 steps");
+  for (Matrix Episode::*matrix : {&Episode::states, &Episode::true_states, &Episode::actions})
+    EXPECT_NE(complaint_after([&](History& h) { (h.episodes[0].*matrix) = Matrix::Zero(1, 2); }), "");
+  EXPECT_NE(complaint_after([](History& h) { h.episodes[0].true_states = Matrix::Zero(3, 1); }), "");
+  EXPECT_EQ(
+      complaint_after([](History& h) { h.logs.push_back({.name = "a.csv", .file = "", .episode = {}}); }),
+      "the checkpoint contradicts itself: log a.csv has 0 × 0 states, 0 × 0 true states and 0 rewards in 0 steps");
+}
+
+TEST(Checkpoint, AnEpisodeMayEndBeforeItsFirstAction) {
+  EXPECT_EQ(complaint_after([](History& h) {
+              h.episodes[0].states = h.episodes[0].true_states = Matrix::Zero(1, 2);
+              h.episodes[0].actions.resize(0, 1);
+              h.episodes[0].rewards.resize(0);
+              h.told = 0;
+            }),
+            "");
 }
 
 }  // namespace

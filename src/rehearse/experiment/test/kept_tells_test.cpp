@@ -18,8 +18,10 @@ class KeptTells : public ::testing::Test {
   /// As if so many logs had been told by now.
   static void change(const RunFolder& run, std::size_t logs) {
     History history = run.load();
-    const Episode episode{
-        .states = Matrix::Zero(2, 1), .true_states = Matrix::Zero(2, 1), .actions = Matrix::Zero(1, 1)};
+    const Episode episode{.states = Matrix::Zero(2, 1),
+                          .true_states = Matrix::Zero(2, 1),
+                          .actions = Matrix::Zero(1, 1),
+                          .rewards = Vector::Zero(1)};
     history.logs.resize(logs, {.name = "log", .file = "", .episode = episode, .notes = {}});
     run.write_checkpoint(history);
   }
@@ -60,6 +62,20 @@ TEST_F(KeptTells, OneThatNeverCameAboutGivesWay) {
   EXPECT_EQ(files::read_file(last_tell(run).files.at(0)), "B");
   forget_tell(run);
   EXPECT_FALSE(fs::exists(path / "told/001"));
+}
+
+TEST_F(KeptTells, TheLastOfAThousandIsTheThousandth) {
+  const RunFolder run = RunFolder::open(path);
+  keep_tell(run, {file("a.csv", "A")});
+  change(run, 1);
+  fs::rename(path / "told/001", path / "told/999");
+  fs::create_directories(path / "told/99999999999999999999");  // of somebody else
+  for (std::size_t logs : {2, 3}) {
+    keep_tell(run, {file("b.csv", "B")});
+    change(run, logs);
+  }
+  EXPECT_TRUE(fs::exists(path / "told/1000"));
+  EXPECT_EQ(last_tell(run).folder.filename(), "1001");
 }
 
 TEST_F(KeptTells, ARunThatWentOnWithoutBeingToldStaysAsItIs) {

@@ -21,6 +21,8 @@ TEST(Spec, NamesItsRun) {
   EXPECT_EQ(run_name(spec), "line-echo-near,far-7");
   spec.prior.clear();
   EXPECT_EQ(run_name(spec), "line-echo-none-7");
+  spec.prior = "../../p/q";
+  EXPECT_EQ(run_name(spec), "line-echo-.._.._p_q-7");
 }
 
 TEST(Spec, ThePolicyThatItBeginsWithIsANumberAfterTheOther) {

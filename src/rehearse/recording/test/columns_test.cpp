@@ -26,5 +26,24 @@ TEST(Columns, AreFoundInAnyOrderAndConverted) {
                                              "columns that are not used: note"}));
 }
 
+/// The times of the samples of a table's first action.
+std::vector<double> times_in(const std::string& text, Problems& problems) {
+  std::vector<std::string> notes;
+  std::vector<double> times;
+  const Channels found = find_channels(statistics::read_csv(text), swing_task(), problems, notes);
+  for (const Sample& sample : found.actions[0].samples) times.push_back(sample.time_s);
+  return times;
+}
+
+TEST(Columns, TimeIsTakenBeforeItsOtherSpellingsAndThoseBeforeT) {
+  const std::string rows = ",0,0,0\n0.1,7,9,0,0,0\n";
+  for (const char* names : {"time,t,T", "time,Time,t", "TIME,t,T", "t,T,x"}) {
+    Problems problems("f");
+    EXPECT_EQ(times_in(names + std::string(",dq,q,torque\n0,6,8") + rows, problems), (std::vector<double>{0, 0.1}))
+        << names;
+    EXPECT_TRUE(problems.empty()) << names;
+  }
+}
+
 }  // namespace
 }  // namespace rehearse::recording

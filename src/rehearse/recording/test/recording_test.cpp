@@ -117,6 +117,8 @@ TEST(Recording, WrongFilesAreRefusedWithWhatIsWrong) {
       {titled("time,dq,q,force"), "log.csv: row 1: there is no column torque; the nearest is 'force'"},
       {titled("clock,dq,q,torque"), "log.csv: row 1: there is no column time; the nearest is 'clock'"},
       {titled("time,q,q,torque"), "log.csv: row 1: there are 2 columns q"},
+      {"t,Time,TIME,dq,q,torque\n0,0,0,0,0,0\n",
+       "log.csv: row 1: the columns TIME, Time are all the time, must be one"},
       {titled("time,dq,q [m],torque"),
        "log.csv: row 1: q is in 'm', must be in rad or a unit that is known to be so many of them"},
       {titled("time,dq [rad],q,torque"),

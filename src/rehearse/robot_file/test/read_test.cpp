@@ -23,7 +23,7 @@ TEST(ReadRobot, TakesEverythingThatStandsInTheFile) {
   EXPECT_EQ(std::get<Equations>(robot.dynamics[0].source).rates[1].text, "rate") << "the state that is its rate";
   EXPECT_EQ(robot.plant.parameters.values(), (Vector{{1, 0.5}}));
   ASSERT_EQ(robot.priors.size(), 1u);
-  EXPECT_EQ(robot.priors[0].dynamics, "pendulum") << "of one there is no question";
+  EXPECT_EQ(robot.priors[0].dynamics, "pendulum") << "the first";
   EXPECT_EQ(robot.priors[0].parameters[0].value, 1.3);
   EXPECT_EQ(robot.priors[0].parameters[0].box.high, 2);
   EXPECT_EQ(robot.priors[0].parameters[1].kind, Parameter::Kind::fixed);
@@ -123,6 +123,10 @@ const Wrong kWrong[] = {
     {"tune.m = [0.5, 2]", "tune.m = [0.5, 1]", "m"},
     {"tune.m = [0.5, 2]", "tune.m = 2", "tune.m must be [low, high]"},
     {"tune.m = [0.5, 2]", "tune.n = [0.5, 2]", "unknown parameter 'n', did you mean 'm'?"},
+    {"[prior.heavy]", "[prior.\"../../p/q\"]", "line 39: the name of prior '../../p/q' must be of letters, digits"},
+    {"[prior.heavy]", "[prior.\"a,b\"]", "the name of prior 'a,b' must be of letters"},
+    {"[prior.heavy]", "[prior.\"\"]", "the name of prior '' must be of letters"},
+    {"[prior.heavy]", "[prior.oracle]", "line 39: 'oracle' is the plant's own dynamics, and no name of a prior"},
     {"[plant]", "[policy]\npolicy = \"deep\"\n[plant]", "policy = deep"},
     {"[plant]", "[policy]\nhiden = 5\n[plant]", "unknown key 'hiden' in [policy], did you mean 'hidden'?"},
     {"[plant]", "[[body]]\nname = \"rod\"\nfrom = [0, 0]\n[plant]", "a body goes from = [x, y] to = [x, y]"},

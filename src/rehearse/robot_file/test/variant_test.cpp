@@ -16,6 +16,14 @@ TEST(RobotVariant, HasTheValuesOfItsDynamicsAndItsOwn) {
   EXPECT_EQ(robot.priors[0].parameters.values(), (Vector{{1.3, 0.5}}));
 }
 
+TEST(RobotVariant, IsOfTheFirstDynamicsUnlessItSaysAnother) {
+  const std::string text = with("[plant]", "[dynamics.a]\nrate.rate = \"u\"\n[plant]\n");
+  const Robot robot = read(text + "[prior.b]\ndynamics = \"a\"\n", "swing.toml", example::no_files);
+  EXPECT_EQ(robot.plant.dynamics, "pendulum");
+  EXPECT_EQ(robot.priors[0].dynamics, "pendulum");
+  EXPECT_EQ(robot.priors[1].dynamics, "a");
+}
+
 TEST(RobotVariant, ParametersMayHaveChoices) {
   const Robot robot =
       read(with("tune.m = [0.5, 2]", "tune.m = { choices = [1, 1.3, 2] }"), "swing.toml", example::no_files);

@@ -185,7 +185,7 @@ TEST(Execute, ARewardThatIsNotFiniteEndsTheEpisodeAtTheFloor) {
     Task task = cart::task();
     int steps = 0;
     task.reward = [&](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView rewards) {
-      rewards.setConstant(++steps == 7 ? bad : 1);
+      rewards.setConstant(++steps % 7 == 0 ? bad : 1);
     };
     CartPlant plant;
     const Episode episode = execute(plant, *cart::policy(), cart::candidates(1), task, kRng);
@@ -193,6 +193,7 @@ TEST(Execute, ARewardThatIsNotFiniteEndsTheEpisodeAtTheFloor) {
     EXPECT_TRUE(episode.ended);
     EXPECT_EQ(episode.steps(), 7) << "its states are known";
     EXPECT_DOUBLE_EQ(episode.total_reward(), 6 + 14 * task.reward_floor);
+    EXPECT_EQ(as_measured(episode, task).rewards, episode.rewards) << "by measured states, too";
   }
 }
 

@@ -36,5 +36,15 @@ TEST(Certainty, WhatIsNotToldIsAnywhereInItsBox) {
   EXPECT_FALSE(posterior_of(covariance(fitted), space.fixed_at(Vector{{1, 5}}), Vector{{1, 5}}));
 }
 
+TEST(Certainty, ErrorsThatTellNothingLeaveTheBoxes) {
+  FittedSquares fitted = fitted_line(false);
+  fitted.derivatives.setZero();
+  EXPECT_NEAR(inflation(fitted), 4 * fitted.errors.squaredNorm() / 1000, 1e-12);
+  const ParameterSpace space({Parameter::continuous("a", 1, {0, 2})});
+  const auto posterior = posterior_of(covariance(fitted), space, Vector{{1}});
+  ASSERT_TRUE(posterior);
+  EXPECT_NEAR(posterior->covariance(0, 0), 4.0 / 12, 1e-9);
+}
+
 }  // namespace
 }  // namespace rehearse::study

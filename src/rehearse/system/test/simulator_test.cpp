@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <new>
 #include <stdexcept>
 #include <vector>
 
@@ -69,6 +70,18 @@ TEST(ChangeContained, ABatchThatThrowsIsRetriedRowByRow) {
   expect_contained(standard);
   EXPECT_EQ(standard.calls, (std::vector<Index>{5, 1, 1, 1, 1, 1}));
   expect_contained(Fragile([](MatrixView) { throw 7; }));
+}
+
+TEST(ChangeContained, ALackOfMemoryIsNoRowsFault) {
+  const Fragile at_once([](MatrixView) { throw std::bad_alloc(); });
+  Matrix dX(5, 2);
+  EXPECT_THROW(change_contained(at_once, kX, kU, {}, dX), std::bad_alloc);
+  int calls = 0;
+  const Fragile in_a_row([&](MatrixView) {
+    if (++calls == 1) throw std::runtime_error("diverged");
+    throw std::bad_alloc();
+  });
+  EXPECT_THROW(change_contained(in_a_row, kX, kU, {}, dX), std::bad_alloc);
 }
 
 TEST(ChangeContained, GoodRowsAreLeftAlone) {
