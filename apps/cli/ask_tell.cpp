@@ -149,13 +149,13 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
   if (arguments.files.empty()) throw InvalidInput("FILE.csv is required: what the robot did");
   if (arguments.no_fault && !arguments.stopped) throw InvalidInput("--no-fault goes with --stopped");
   if (arguments.stopped && arguments.stopped->empty()) throw InvalidInput("--stopped says no reason");
-  experiment::Measured measured{.files = {arguments.files.begin(), arguments.files.end()}, .stopped = {}};
-  if (arguments.stopped) measured.stopped = {*arguments.stopped, !arguments.no_fault};
+  experiment::TellRequest request{.files = {arguments.files.begin(), arguments.files.end()}, .stopped = {}};
+  if (arguments.stopped) request.stopped = {*arguments.stopped, !arguments.no_fault};
   Console console(Console::Begin::silent);
   return on_console(arguments.folder, threads_or_throw(arguments.threads), console, "ask " + arguments.folder,
                     [&](const experiment::RunOptions& options) {
                       const experiment::TellResult told =
-                          experiment::tell_run(catalogue, arguments.folder, measured, options);
+                          experiment::tell_run(catalogue, arguments.folder, request, options);
                       console.clear_line();
                       print_told(told, arguments.folder);
                     });

@@ -110,8 +110,8 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
               const std::optional<experiment::Stop>& stopped, const Settings& settings) {
   std::optional<experiment::TellResult> told;
   work_with(robot, settings, [&](const experiment::RunOptions& options) {
-    experiment::Measured measured{.files = {files.begin(), files.end()}, .stopped = stopped};
-    told = experiment::tell_run(robot.catalogue(), folder, measured, options);
+    experiment::TellRequest request{.files = {files.begin(), files.end()}, .stopped = stopped};
+    told = experiment::tell_run(robot.catalogue(), folder, request, options);
   });
   Strings logs, notes;
   for (const experiment::Log& log : told->logs) {

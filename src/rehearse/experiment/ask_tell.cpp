@@ -63,7 +63,8 @@ struct KnownAs {
 
 KnownAs known_as(const History& history, const std::string& checksum) {
   const auto place = [&](const auto& all) -> Index {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.file == checksum; });
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.file_checksum == checksum; });
     return found == all.end() ? 0 : found - all.begin() + 1;
   };
   return {place(history.trials), place(history.logs)};
@@ -74,7 +75,7 @@ bool is_of_policy_asked_for(const ToldFile& file, const scenario::Scenario& scen
   return history.asked && follows_policy(file, scenario, *history.asked);
 }
 
-void check(const History& history, const std::vector<ToldFile>& files, const Measured& measured) {
+void check(const History& history, const std::vector<ToldFile>& files, const TellRequest& request) {
   if (history.asked && files.size() != 1)
     throw InvalidInput(
         fmt::format("trial {} is to come, one file tells it, but {} are named", history.asked->trial, files.size()));
@@ -82,7 +83,7 @@ void check(const History& history, const std::vector<ToldFile>& files, const Mea
     throw InvalidInput(fmt::format(
         "{} tells of no trial: trial {} was not asked for. Logs of other controllers are taken before the first trial",
         files.front().path.string(), history.done() + 1));
-  if (!history.asked && measured.stopped)
+  if (!history.asked && request.stopped)
     throw InvalidInput("--stopped is for the episode of a trial, but none was asked for");
 }
 
@@ -104,13 +105,13 @@ AskResult ask_run(const Catalogue& catalogue, const fs::path& path, const RunOpt
   return {reopened.resolved(), *reopened.run().history().asked, path / kNextFolder};
 }
 
-TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Measured& measured,
+TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const TellRequest& request,
                     const RunOptions& options) {
-  if (measured.files.empty()) throw InvalidInput("no file is named");
+  if (request.files.empty()) throw InvalidInput("no file is named");
   Reopened reopened(catalogue, path, options);
   const Resolved& resolved = reopened.resolved();
   const History& history = reopened.run().history();
-  const std::vector<ToldFile> files = read_told_files(measured.files);
+  const std::vector<ToldFile> files = read_told_files(request.files);
   std::vector<ToldFile> news;
   for (const ToldFile& file : files)
     if (!known_as(history, file.checksum).known() || is_of_policy_asked_for(file, resolved.scenario, history))
@@ -120,7 +121,7 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Meas
     reopened.extend_to_done();
     return already_told(resolved, history, files);
   }
-  check(history, news, measured);
+  check(history, news, request);
   TellResult told{.resolved = resolved, .trial = {}, .logs = {}};
   if (!history.asked) {
     std::vector<Log> logs = logs_of(news, resolved.scenario.task);
@@ -134,7 +135,7 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Meas
     told.logs = std::move(logs);
     return told;
   }
-  const ToldEpisode episode = episode_of(news.front(), resolved.scenario, *history.asked, measured.stopped);
+  const ToldEpisode episode = episode_of(news.front(), resolved.scenario, *history.asked, request.stopped);
   keep_tell(reopened.folder(), news);
   reopened.run().record(episode.episode, news.front().checksum, episode.notes);
   reopened.go_on(false, [](OpenRun&) {});

@@ -26,7 +26,7 @@ AskResult ask_run(const Catalogue& catalogue, const std::filesystem::path& path,
 
 /// Files of what a robot did (recording/recording.hpp): the episode of the trial that was asked for, or, before
 /// the first one, logs of other controllers.
-struct Measured {
+struct TellRequest {
   std::vector<std::filesystem::path> files;
   std::optional<Stop> stopped;  // the trial's episode
 };
@@ -41,7 +41,7 @@ struct TellResult {
 /// Exactly once: files that were told before change nothing, unless the policy that was asked for says just what they
 /// have (a simulator may repeat itself to the byte). Throws InvalidInput, with nothing changed, where a file
 /// is not what is to come, else RunFailed and Interrupted, which leave the episode told.
-TellResult tell_run(const Catalogue& catalogue, const std::filesystem::path& path, const Measured& measured,
+TellResult tell_run(const Catalogue& catalogue, const std::filesystem::path& path, const TellRequest& request,
                     const RunOptions& options);
 
 struct TakeBackResult {

@@ -96,7 +96,7 @@ json from_record(const TrialRecord& r) {
           {"notes", r.notes},
           {"model_s", r.model_s},
           {"search_s", r.search_s},
-          {"file", r.file}};
+          {"file", r.file_checksum}};
 }
 
 TrialRecord to_record(const json& j) {
@@ -121,12 +121,12 @@ TrialRecord to_record(const json& j) {
   j.at("notes").get_to(r.notes);
   j.at("model_s").get_to(r.model_s);
   j.at("search_s").get_to(r.search_s);
-  r.file = j.value("file", "");
+  r.file_checksum = j.value("file", "");
   return r;
 }
 
 json from_log(const Log& log) {
-  return {{"name", log.name}, {"file", log.file}, {"episode", to_json(log.episode)}, {"notes", log.notes}};
+  return {{"name", log.name}, {"file", log.file_checksum}, {"episode", to_json(log.episode)}, {"notes", log.notes}};
 }
 
 Log to_log(const json& j) {

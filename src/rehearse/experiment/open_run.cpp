@@ -35,8 +35,8 @@ const learners::Proposal& checked(const learners::Proposal& proposal) {
 }  // namespace
 
 void OpenRun::begin(bool something_to_come) {
-  with_.open_store(path());
-  if (with_.options().listener) with_.options().listener->started(with_.resolved(), path(), history_.done());
+  parts_.open_store(path());
+  if (parts_.options().listener) parts_.options().listener->started(parts_.resolved(), path(), history_.done());
   publish();
   if (history_.done() > 0) evaluate_last();
   if (something_to_come || history_.told < history_.done()) catch_up();
@@ -45,9 +45,10 @@ void OpenRun::begin(bool something_to_come) {
 /// Brings a new learner to the last trial that it was told.
 void OpenRun::load_learner() {
   std::vector<Episode> told;
-  with_.learner().study(as_told(history_.logs));
+  parts_.learner().study(as_told(history_.logs));
   for (Index i = 0; i < history_.told; ++i) told.push_back(as_told(history_.episodes[static_cast<std::size_t>(i)]));
-  if (history_.told > 0) named_failure(history_.told, "learner", [&] { with_.learner().load(told, history_.learner); });
+  if (history_.told > 0)
+    named_failure(history_.told, "learner", [&] { parts_.learner().load(told, history_.learner); });
 }
 
 /// Brings a new learner to where the history ends.
@@ -58,23 +59,23 @@ void OpenRun::catch_up() {
 
 /// known: the record of the trial, where one was kept.
 const learners::Proposal& OpenRun::ask(Index trial, const TrialRecord* known) {
-  with_.begin_trial(trial);
-  with_.evaluator().stop_if_asked();
+  parts_.begin_trial(trial);
+  parts_.evaluator().stop_if_asked();
   const auto& proposal = named_failure(trial, "learner", [&]() -> const learners::Proposal& {
-    return checked(known ? with_.learner().ask_again({known->policy, known->theta}) : with_.learner().ask());
+    return checked(known ? parts_.learner().ask_again({known->policy, known->theta}) : parts_.learner().ask());
   });
   const auto is_known = [&] {  // Eigen compares vectors of equal sizes
     return proposal.policy->name() == known->policy && proposal.theta.size() == known->theta.size() &&
            proposal.theta == known->theta;
   };
   if (known && !is_known()) throw RunFailed(fmt::format("trial {}: the learner no longer proposes what it did", trial));
-  with_.evaluator().stop_if_asked();
+  parts_.evaluator().stop_if_asked();
   return proposal;
 }
 
 Episode OpenRun::as_told(const Episode& episode) const {
-  const bool measured = with_.resolved().spec.told_by == ToldBy::measured;
-  return measured ? rollout::as_measured(episode, with_.task()) : episode;
+  const bool measured = parts_.resolved().spec.told_by == ToldBy::measured;
+  return measured ? rollout::as_measured(episode, parts_.task()) : episode;
 }
 
 /// Tells the learner the last trial, which it may have to be asked for again: it learns from what it proposed, too.
@@ -84,24 +85,24 @@ void OpenRun::tell_last() {
   proposal_ = nullptr;
   if (proposal.model)
     last.forecast = named_failure(last.trial, "model of the learner", [&] {
-      return forecast_errors(*proposal.model, with_.task(), history_.episodes.back(), with_.evaluator());
+      return forecast_errors(*proposal.model, parts_.task(), history_.episodes.back(), parts_.evaluator());
     });
   named_failure(last.trial, "learner", [&] {
-    with_.learner().tell(as_told(history_.episodes.back()));
-    history_.learner = with_.learner().save();
+    parts_.learner().tell(as_told(history_.episodes.back()));
+    history_.learner = parts_.learner().save();
   });
   ++history_.told;
-  for (const learners::Table& table : with_.learner().tables()) folder_.write_learners_table(table);
-  folder_.write_tables(history_, with_.resolved());
+  for (const learners::Table& table : parts_.learner().tables()) folder_.write_learners_table(table);
+  folder_.write_tables(history_, parts_.resolved());
   folder_.write_checkpoint(history_);  // which says that the tables are there
-  if (with_.options().listener) with_.options().listener->trial_done(last);
+  if (parts_.options().listener) parts_.options().listener->trial_done(last);
 }
 
 void OpenRun::update_learners_tables(bool keep) {
   if (history_.told == 0) return;
-  with_.open_store(path());
+  parts_.open_store(path());
   load_learner();
-  for (const learners::Table& table : with_.learner().tables())
+  for (const learners::Table& table : parts_.learner().tables())
     keep ? folder_.write_learners_table(table) : folder_.remove_learners_table(table);
 }
 
@@ -112,7 +113,7 @@ std::vector<Episode> OpenRun::as_told(const std::vector<Log>& logs) const {
 }
 
 void OpenRun::add_logs(std::vector<Log> logs) {
-  with_.learner().study(as_told(logs));  // which may refuse them
+  parts_.learner().study(as_told(logs));  // which may refuse them
   for (Log& log : logs) history_.logs.push_back(std::move(log));
   folder_.write_checkpoint(history_);
   publish();
@@ -126,39 +127,39 @@ const learners::Proposal& OpenRun::propose() {
   if (history_.asked) return proposal;
   if (proposal.model) predict(trial, proposal);
   if (proposal.archive) folder_.write_archive(*proposal.archive);
-  history_.asked = record_before(trial, proposal, with_.resolved());
+  history_.asked = record_before(trial, proposal, parts_.resolved());
   folder_.write_checkpoint(history_);
   return proposal;
 }
 
 void OpenRun::predict(Index trial, const learners::Proposal& proposal) const {
-  const StreamKey key{.seed = static_cast<std::uint64_t>(with_.resolved().spec.seed),
+  const StreamKey key{.seed = static_cast<std::uint64_t>(parts_.resolved().spec.seed),
                       .trial = static_cast<std::uint64_t>(trial),
                       .stage = Stage::prediction};
   const rollout::SimulateOptions unclipped{.noise_clip = 0};
-  const auto recorded = rollout::simulate_recorded({*proposal.model, *proposal.policy, with_.task(), key, unclipped},
-                                                   proposal.theta, kPredictionParticles, with_.evaluator());
+  const auto recorded = rollout::simulate_recorded({*proposal.model, *proposal.policy, parts_.task(), key, unclipped},
+                                                   proposal.theta, kPredictionParticles, parts_.evaluator());
   std::optional<ExpectedEpisode> moments;
   if (proposal.moments) moments = proposal.moments();
-  folder_.write_prediction(trial, prediction_csv(with_.task(), recorded, moments ? &*moments : nullptr));
+  folder_.write_prediction(trial, prediction_csv(parts_.task(), recorded, moments ? &*moments : nullptr));
   draw("prediction", trial, mean_states(recorded));
 }
 
 void OpenRun::draw(const char* kind, Index trial, const Matrix& states) const {
-  const auto& drawing = with_.resolved().scenario.drawing;
+  const auto& drawing = parts_.resolved().scenario.drawing;
   if (drawing) folder_.write_motion(kind, trial, motion_json(*drawing, states));
 }
 
 double OpenRun::interaction_s(const Episode& last) const {
   Index steps = last.steps();
   for (const Episode& before : history_.episodes) steps += before.steps();
-  return seconds(steps, with_.task().dt_s);
+  return seconds(steps, parts_.task().dt_s);
 }
 
-void OpenRun::record(const Episode& episode, const std::string& file, const std::vector<std::string>& notes) {
+void OpenRun::record(const Episode& episode, const std::string& file_checksum, const std::vector<std::string>& notes) {
   TrialRecord record = *history_.asked;
-  record.file = file;
-  add_outcome(record, episode, with_.task());
+  record.file_checksum = file_checksum;
+  add_outcome(record, episode, parts_.task());
   record.notes.insert(record.notes.end(), notes.begin(), notes.end());
   record.interaction_s = interaction_s(episode);
   history_.trials.push_back(std::move(record));
@@ -176,12 +177,12 @@ void OpenRun::conclude(const Episode& episode) {
 
 /// The tables that follow from the history, and the last trial's episode.
 void OpenRun::publish() const {
-  folder_.write_tables(history_, with_.resolved());
+  folder_.write_tables(history_, parts_.resolved());
   for (std::size_t i = 0; i < history_.logs.size(); ++i)
-    folder_.write_log(static_cast<Index>(i) + 1, trajectory_csv(with_.task(), history_.logs[i].episode));
+    folder_.write_log(static_cast<Index>(i) + 1, trajectory_csv(parts_.task(), history_.logs[i].episode));
   if (history_.done() == 0) return;
   const Episode& last = history_.episodes.back();
-  folder_.write_trajectory(history_.done(), trajectory_csv(with_.task(), last));
+  folder_.write_trajectory(history_.done(), trajectory_csv(parts_.task(), last));
   draw("trial", history_.done(), last.true_states);
 }
 
@@ -190,10 +191,10 @@ void OpenRun::evaluate_last() {
   TrialRecord& last = history_.trials.back();
   if (last.expected_return) return;
   last.expected_return = named_failure(last.trial, "plant of the evaluations",
-                                       [&] { return expected_return(with_.resolved(), last, with_.evaluator()); });
+                                       [&] { return expected_return(parts_.resolved(), last, parts_.evaluator()); });
   if (!last.expected_return) return;
   folder_.write_checkpoint(history_);
-  folder_.write_tables(history_, with_.resolved());
+  folder_.write_tables(history_, parts_.resolved());
 }
 
 }  // namespace rehearse::experiment

@@ -15,7 +15,7 @@ class OpenRun {
  public:
   /// References must outlive it.
   OpenRun(Participants& participants, const RunFolder& folder, History history)
-      : with_(participants), folder_(folder), history_(std::move(history)) {}
+      : parts_(participants), folder_(folder), history_(std::move(history)) {}
 
   /// Brings the tables, and the learner, to where the history ends. The learner only if something is to come.
   void begin(bool something_to_come);
@@ -33,8 +33,9 @@ class OpenRun {
   const learners::Proposal& propose();
 
   /// Records the episode of the trial that was asked for; the learner, which may take long or fail, is told by the next
-  /// `begin`. file: checksum of the file that says so, if it is one. notes: of how it was read.
-  void record(const Episode& episode, const std::string& file = "", const std::vector<std::string>& notes = {});
+  /// `begin`. file_checksum: of the file that says so, if it is one. notes: of how it was read.
+  void record(const Episode& episode, const std::string& file_checksum = "",
+              const std::vector<std::string>& notes = {});
 
   /// Records the episode of what was proposed, so that no robot has to repeat it, and tells the learner.
   void conclude(const Episode& episode);
@@ -53,7 +54,7 @@ class OpenRun {
   void publish() const;
   void evaluate_last();
 
-  Participants& with_;
+  Participants& parts_;
   const RunFolder& folder_;
   History history_;
   const learners::Proposal* proposal_ = nullptr;  // of the trial that is asked for, once the learner has it

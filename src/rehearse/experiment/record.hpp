@@ -53,13 +53,13 @@ struct TrialRecord {
   std::vector<std::string> notes;
   double model_s = 0;
   double search_s = 0;
-  std::string file;  // checksum of the file that the episode was told by; empty: Rehearse drove the robot
+  std::string file_checksum;  // of the file that the episode was told by; empty: Rehearse drove the robot
 };
 
 /// An episode of another controller, which was told before the first trial.
 struct Log {
   std::string name;  // of the file
-  std::string file;  // its checksum
+  std::string file_checksum;
   Episode episode;
   std::vector<std::string> notes;  // how the file was read
 };

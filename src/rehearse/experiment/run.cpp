@@ -31,26 +31,26 @@ void require_plant(const Resolved& resolved) {
 class Run {
  public:
   Run(Participants& participants, const RunFolder& folder, History history)
-      : with_(participants), folder_(folder), run_(participants, folder, std::move(history)) {}
+      : parts_(participants), folder_(folder), run_(participants, folder, std::move(history)) {}
 
   RunResult finish() {
     run_.begin(!complete());
     while (!complete()) run_.conclude(execute(run_.propose()));
-    if (with_.resolved().spec.trials > 0) folder_.mark_done(run_.history().done());
+    if (parts_.resolved().spec.trials > 0) folder_.mark_done(run_.history().done());
     return result();
   }
 
  private:
-  bool complete() const { return is_over(with_.resolved().spec, run_.history()); }
+  bool complete() const { return is_over(parts_.resolved().spec, run_.history()); }
 
   Episode execute(const learners::Proposal& proposal) const {
     const Index trial = run_.history().done() + 1;
-    const Rng rng({.seed = static_cast<std::uint64_t>(with_.resolved().spec.seed),
+    const Rng rng({.seed = static_cast<std::uint64_t>(parts_.resolved().spec.seed),
                    .trial = static_cast<std::uint64_t>(trial),
                    .purpose = Purpose::start_state});
     return named_failure(trial, "plant", [&] {
-      return rollout::execute(with_.plant(), *proposal.policy, proposal.theta, with_.task(), rng,
-                              [&] { with_.evaluator().stop_if_asked(); });
+      return rollout::execute(parts_.plant(), *proposal.policy, proposal.theta, parts_.task(), rng,
+                              [&] { parts_.evaluator().stop_if_asked(); });
     });
   }
 
@@ -60,14 +60,14 @@ class Run {
     if (history.done() == 0) return result;
     result.best_return = best_trial(history.trials).total_reward;
     result.warnings = history.trials.back().warnings;
-    if (const auto& faults = with_.resolved().scenario.faults)
+    if (const auto& faults = parts_.resolved().scenario.faults)
       for (const std::string& fault : faults()) result.warnings.push_back(fault);
     for (const TrialRecord& trial : history.trials)
       if (!result.solved_at && trial.solved.value_or(false)) result.solved_at = trial.trial;
     return result;
   }
 
-  Participants& with_;
+  Participants& parts_;
   const RunFolder& folder_;
   OpenRun run_;
 };

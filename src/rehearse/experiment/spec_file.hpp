@@ -40,6 +40,6 @@ class SpecFile {
 Spec from_toml(std::string_view text, const std::string& source_name);
 
 /// A checksum of everything in the spec but when it ends, which a run may change on the way.
-std::uint64_t fingerprint(Spec spec);
+std::uint64_t fingerprint(const Spec& spec);
 
 }  // namespace rehearse::experiment

@@ -123,11 +123,11 @@ Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector
   return run(plant, policy, theta, task, rng, before_step, false);
 }
 
-Episode execute(const system::Simulator& simulator, const Vector& phi, const policy::Policy& policy,
-                const Vector& theta, const Task& task, Rng rng, const std::function<void()>& before_step) {
+Episode execute(const SimulatedRobot& robot, const policy::Policy& policy, const Vector& theta, const Task& task,
+                Rng rng, const std::function<void()>& before_step) {
   const auto motion = [&](const Vector& x, const Vector& u) -> Vector {  // NaN after a step that failed
     Matrix change(1, x.size());
-    system::change_contained(simulator, x.transpose(), u.transpose(), phi, change);
+    system::change_contained(robot.simulator, x.transpose(), u.transpose(), robot.phi, change);
     return x + change.transpose();
   };
   const auto plant = system::make_simulated_plant(motion, {task.start_mean, task.start_std, {}});

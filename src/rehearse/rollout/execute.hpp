@@ -21,10 +21,16 @@ namespace rehearse::rollout {
 Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng rng,
                 const std::function<void()>& before_step = {});
 
-/// One episode on a simulator at φ in the place of the plant, from the task's start and measured without noise. A step
-/// that cannot be simulated ends it like a fall.
-Episode execute(const system::Simulator& simulator, const Vector& phi, const policy::Policy& policy,
-                const Vector& theta, const Task& task, Rng rng, const std::function<void()>& before_step = {});
+/// A simulator at φ in the place of the plant.
+struct SimulatedRobot {
+  const system::Simulator& simulator;
+  const Vector& phi;
+};
+
+/// One episode on it, from the task's start and measured without noise. A step that cannot be simulated ends it like a
+/// fall.
+Episode execute(const SimulatedRobot& robot, const policy::Policy& policy, const Vector& theta, const Task& task,
+                Rng rng, const std::function<void()>& before_step = {});
 
 /// An episode that somebody else ran, by its states and actions: with its rewards, and its end at the first fall, or at
 /// the first reward that is not finite. It has as many steps as were run.

@@ -121,7 +121,7 @@ TEST(Checkpoint, OneThatContradictsItselfIsRefused) {
     EXPECT_NE(complaint_after([&](History& h) { (h.episodes[0].*matrix) = Matrix::Zero(1, 2); }), "");
   EXPECT_NE(complaint_after([](History& h) { h.episodes[0].true_states = Matrix::Zero(3, 1); }), "");
   EXPECT_EQ(
-      complaint_after([](History& h) { h.logs.push_back({.name = "a.csv", .file = "", .episode = {}}); }),
+      complaint_after([](History& h) { h.logs.push_back({.name = "a.csv", .file_checksum = "", .episode = {}}); }),
       "the checkpoint contradicts itself: log a.csv has 0 × 0 states, 0 × 0 true states and 0 rewards in 0 steps");
 }
 

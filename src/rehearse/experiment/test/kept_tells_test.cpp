@@ -22,7 +22,7 @@ class KeptTells : public ::testing::Test {
                           .true_states = Matrix::Zero(2, 1),
                           .actions = Matrix::Zero(1, 1),
                           .rewards = Vector::Zero(1)};
-    history.logs.resize(logs, {.name = "log", .file = "", .episode = episode, .notes = {}});
+    history.logs.resize(logs, {.name = "log", .file_checksum = "", .episode = episode, .notes = {}});
     run.write_checkpoint(history);
   }
 
