@@ -16,8 +16,8 @@ struct Kinematics {
     Index rate = -1;                 // of the position, −1: no state is
     Index type = 0;                  // servos of the same type are alike
   };
-  double dt_s = 0;  // control step
-  std::vector<Pair> pairs;
+  double dt_s = 0;          // control step
+  std::vector<Pair> pairs;  // a position stands before its rate, where that is a position, too
   std::vector<Servo> servos;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,16 @@ Index index_of(const std::vector<StateVariable>& states, const std::string& name
   for (std::size_t i = 0; i < states.size(); ++i)
     if (states[i].name == name) return static_cast<Index>(i);
   return -1;
+}
+
+/// How many rates follow from a state, one the rate of the other; no fewer than there are states: they go in a circle.
+Index rates_behind(const std::vector<StateVariable>& states, Index state) {
+  Index count = 0;
+  for (; count < static_cast<Index>(states.size()); ++count) {
+    state = index_of(states, states[static_cast<std::size_t>(state)].rate);
+    if (state < 0) break;
+  }
+  return count;
 }
 
 /// The first action of its type.
@@ -80,6 +91,8 @@ Kinematics Task::kinematics() const {
     const Index rate = index_of(states, states[static_cast<std::size_t>(position)].rate);
     if (rate >= 0) kinematics.pairs.push_back({position, rate});
   }
+  std::ranges::stable_sort(kinematics.pairs, std::greater(),
+                           [&](const Kinematics::Pair& pair) { return rates_behind(states, pair.position); });
   for (Index action = 0; action < action_size(); ++action) {
     const ActionVariable& variable = actions[static_cast<std::size_t>(action)];
     const Index position = index_of(states, variable.target_of);
@@ -118,6 +131,9 @@ std::vector<std::string> Task::violations() const {
   for (const StateVariable& state : states)
     found.require(state.rate.empty() || (index_of(states, state.rate) >= 0 && state.rate != state.name),
                   fmt::format("state {}: its rate {} is not another state", state.name, state.rate));
+  for (Index state = 0; state < state_size(); ++state)
+    found.require(rates_behind(states, state) < state_size(),
+                  fmt::format("state {}: it is a rate of its own rate", states[static_cast<std::size_t>(state)].name));
   for (const StateVariable& state : states) {
     const Index parent = index_of(states, state.parent);
     const bool angles = parent >= 0 && state.kind == StateKind::angle &&

@@ -1,6 +1,14 @@
 #include "rehearse/dynamics/integration.hpp"
 
+#include <ranges>
+
 namespace rehearse::dynamics {
+namespace {
+
+/// The pairs from the last to the first: a rate that is a position itself is whole before its own position follows.
+auto from_the_last(const Kinematics& kinematics) { return std::views::reverse(kinematics.pairs); }
+
+}  // namespace
 
 void subtract_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool has_prior, MatrixView Y) {
   const double dt = kinematics.dt_s;
@@ -12,7 +20,7 @@ void subtract_integrals(const Kinematics& kinematics, const ConstMatrixView& X, 
 
 void add_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool has_prior, MatrixView mean) {
   const double dt = kinematics.dt_s;
-  for (const auto& [position, rate] : kinematics.pairs) {
+  for (const auto& [position, rate] : from_the_last(kinematics)) {
     mean.col(position) += 0.5 * dt * mean.col(rate);
     if (!has_prior) mean.col(position) += dt * X.col(rate);
   }
@@ -20,13 +28,14 @@ void add_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool 
 
 void add_variances_of_integrals(const Kinematics& kinematics, MatrixView variance) {
   const double dt = kinematics.dt_s;
-  for (const auto& [position, rate] : kinematics.pairs) variance.col(position) += 0.25 * dt * dt * variance.col(rate);
+  for (const auto& [position, rate] : from_the_last(kinematics))
+    variance.col(position) += 0.25 * dt * dt * variance.col(rate);
 }
 
 void add_integrals_of_derivatives(const Kinematics& kinematics, bool has_prior, Linearised& at) {
   const double dt = kinematics.dt_s;
   const Index inputs = at.mean_by.cols() / at.mean.cols();
-  for (const auto& [position, rate] : kinematics.pairs) {
+  for (const auto& [position, rate] : from_the_last(kinematics)) {
     const auto add = [&, position = position, rate = rate](Matrix& by, double factor) {
       by.middleCols(position * inputs, inputs) += factor * by.middleCols(rate * inputs, inputs);
     };

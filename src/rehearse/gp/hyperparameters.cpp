@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::gp {
 
 double Hyperparameters::signal_variance() const { return std::exp(2 * log_signal); }
@@ -16,6 +18,9 @@ Vector Hyperparameters::flat() const {
 }
 
 Hyperparameters Hyperparameters::from_flat(const ConstVectorView& flat, Index inputs) {
+  if (flat.size() != inputs + 2 && flat.size() != 2 * inputs + 3)
+    throw InvalidInput(fmt::format("{} log hyperparameters, must be {}, or {} with a trend, for {} inputs", flat.size(),
+                                   inputs + 2, 2 * inputs + 3, inputs));
   return {.log_lengths = flat.head(inputs),
           .log_signal = flat(inputs),
           .log_noise = flat(inputs + 1),

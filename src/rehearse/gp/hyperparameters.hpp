@@ -27,6 +27,7 @@ struct Hyperparameters {
   /// [ln ℓ_1 … ln ℓ_D, ln σ_f, ln σ_n], D + 2 numbers: the order of every gradient and of PILCO's files; with a trend
   /// then [ln τ_0 … ln τ_D], 2 D + 3 numbers in all.
   Vector flat() const;
+  /// Throws InvalidInput if there are so many neither with nor without a trend.
   static Hyperparameters from_flat(const ConstVectorView& flat, Index inputs);
 };
 

@@ -27,7 +27,15 @@ Expressed fit(const Matrix& others, const Vector& values) {
   return {deviation(changes - centred * factors) / deviation(values), factors};
 }
 
-std::string number(double value) { return std::abs(value - 1) < kLittle ? "" : fmt::format("{:.2g}·", value); }
+/// The factor, or power, as it is printed: of two digits, and 1 where it is hardly another.
+double printed(double value) {
+  if (std::abs(std::abs(value) - 1) < kLittle) return std::copysign(1, value);
+  if (value == 0) return 0;
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
+  return std::round(value / unit) * unit;
+}
+
+std::string number(double value) { return value == 1 ? "" : fmt::format("{:.2g}·", value); }
 
 /// x + 2·y − z.
 std::string sum(const std::string& name, const std::vector<std::string>& others, const Vector& factors) {
@@ -46,7 +54,7 @@ std::string product(const std::string& name, const std::vector<std::string>& oth
     const double power = -powers(static_cast<Index>(k)), size = std::abs(power);
     if (power == 0) continue;
     text += (power < 0 ? "/" : "·") + others[k];
-    if (std::abs(size - 1) >= kLittle) text += fmt::format("^{:.2g}", size);
+    if (size != 1) text += fmt::format("^{:.2g}", size);
   }
   return text;
 }
@@ -65,6 +73,7 @@ std::optional<std::string> combination(const std::string& name, const Vector& va
   for (Index k = 0; k < best.factors.size(); ++k) {
     const Vector other = scaled(other_values.row(k).transpose());
     if (std::abs(best.factors(k)) * deviation(other) < kLittle * deviation(scaled(values))) best.factors(k) = 0;
+    best.factors(k) = printed(best.factors(k));
     known -= best.factors(k) * other.mean();
   }
   if (as_sum) return fmt::format("{} = {:.3g}", sum(name, others, best.factors), known);

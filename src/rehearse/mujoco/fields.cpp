@@ -13,9 +13,14 @@
 namespace rehearse::mujoco {
 namespace {
 
-/// MuJoCo skips work for bodies whose centre of mass is their origin. It may be so no longer.
+/// MuJoCo skips work for bodies whose centre of mass is their origin, and for geoms and sites that are there. It may be
+/// so no longer.
 void forget_shortcuts(mjModel& model, int body) {
   model.body_sameframe[body] = 0;
+  for (int geom = 0; geom < model.ngeom; ++geom)
+    if (model.geom_bodyid[geom] == body) model.geom_sameframe[geom] = 0;
+  for (int site = 0; site < model.nsite; ++site)
+    if (model.site_bodyid[site] == body) model.site_sameframe[site] = 0;
   model.body_simple[body] = 0;
   std::fill_n(model.dof_simplenum, model.nv, 0);
 }

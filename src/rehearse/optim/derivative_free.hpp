@@ -29,7 +29,7 @@ struct SubplexOptions {
   bool repeat = false;            // begin again at the result until that improves it by less than value_tolerance: in a
                                   // curved valley one search stops early
   void fields(FieldVisitor& v) {
-    v.integer("max_evaluations", max_evaluations, "evaluations at most", at_least(1));
+    v.integer("max_evaluations", max_evaluations, "evaluations at most", between(1, 2147483647));  // an int
     v.number("x_tolerance", x_tolerance, expert("stop when steps are smaller, relative to the point"), at_least(0));
     v.number("value_tolerance", value_tolerance, expert("stop when values differ by less, as a fraction"), at_least(0));
     v.number("first_step", first_step, expert("first step, as a fraction of the box's width"), between(1e-6, 1));

@@ -129,7 +129,7 @@ void UncertaintyHandler::treat() {
   const double most = static_cast<double>(options_.max_samples), growth = options_.samples_growth;
   sigma_factor_ = uncertainty_ > 0 && real_samples_ >= most ? options_.sigma_growth : 1;
   if (uncertainty_ > 0)
-    real_samples_ = std::min(real_samples_ * growth, most);
+    real_samples_ = std::clamp(real_samples_ * growth, 1.0, most);
   else
     real_samples_ = std::max(real_samples_ * std::pow(growth, -options_.samples_decay), 1.0);
 }

@@ -11,6 +11,7 @@
 namespace rehearse::qd {
 namespace {
 
+constexpr std::uint64_t kMostParameters = 10'000'000;  // of a policy
 constexpr std::array<char, 8> kMagic{'R', 'H', 'S', 'A', 'R', 'C', 'H', '\n'};
 constexpr std::uint32_t kVersion = 1, kByteOrder = 0x01020304, kOtherByteOrder = 0x04030201;
 
@@ -126,6 +127,8 @@ Header checked_header(std::string_view bytes) {
   if (static_cast<double>(bytes.size()) > expected || h.byte_order != kByteOrder || h.grid > 1 ||
       h.checksum != files::checksum(bytes.substr(kUnchecked)))
     throw InvalidInput("damaged: the checksum does not fit");
+  if (h.parameters > kMostParameters)  // that no elite has to vouch for
+    throw InvalidInput(fmt::format("policies of {} numbers, must have at most {}", h.parameters, kMostParameters));
   return h;
 }
 

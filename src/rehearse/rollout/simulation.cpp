@@ -10,10 +10,15 @@ void check_simulation(const Simulation& simulation, Index parameters, Index part
   const policy::Policy& policy = simulation.policy;
   const Task& task = simulation.task;
   if (parameters == policy.parameters() && policy.actions() == task.action_size() && particles >= 1) return;
-  throw InvalidInput(
-      fmt::format("theta has {} numbers for the {} of the policy '{}', which has {} actions for the {} of the task; "
-                  "particles = {}, must be ≥ 1",
-                  parameters, policy.parameters(), policy.name(), policy.actions(), task.action_size(), particles));
+  Violations found;
+  found.require(parameters == policy.parameters(),
+                fmt::format("theta has {} numbers, must have the {} of the policy '{}'", parameters,
+                            policy.parameters(), policy.name()));
+  found.require(policy.actions() == task.action_size(),
+                fmt::format("the policy '{}' has {} actions, must have the {} of the task", policy.name(),
+                            policy.actions(), task.action_size()));
+  found.require(particles >= 1, fmt::format("particles = {}, must be ≥ 1", particles));
+  found.throw_if_any();
 }
 
 }  // namespace rehearse::rollout

@@ -61,6 +61,9 @@ TEST(Task, EachViolationIsNamed) {
               t.actions[0].bounds = {1, 1};
             }),
             Lines{"action u: bounds must be finite with low < high"});
+  EXPECT_EQ(after([](Task& t) { t.states[0].rate = t.states[1].name, t.states[1].rate = t.states[0].name; }),
+            (Lines{"state " + task().states[0].name + ": it is a rate of its own rate",
+                   "state " + task().states[1].name + ": it is a rate of its own rate"}));
   EXPECT_EQ(after([](Task& t) { t.states[0].rate = "speed"; }),
             Lines{"state " + task().states[0].name + ": its rate speed is not another state"});
   EXPECT_EQ(after([](Task& t) { t.actions[0].target_of = "nobody"; }),

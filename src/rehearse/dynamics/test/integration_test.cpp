@@ -35,6 +35,21 @@ TEST(Integration, WhatIsSubtractedIsAddedAgain) {
   }
 }
 
+// A position (2), its rate (0), and the rate of that (1), in either order.
+TEST(Integration, ChainsOfRatesAreAddedAgain) {
+  using Pair = Kinematics::Pair;
+  const Matrix X = normals(1), changes = normals(2);
+  for (const auto& pairs : {std::vector<Pair>{{2, 0}, {0, 1}}, std::vector<Pair>{{0, 1}, {2, 0}}}) {
+    const Kinematics chain{.dt_s = 0.1, .pairs = pairs};
+    for (const bool has_prior : {false, true}) {
+      Matrix targets = changes;
+      subtract_integrals(chain, X, has_prior, targets);
+      add_integrals(chain, X, has_prior, targets);
+      EXPECT_LT((targets - changes).cwiseAbs().maxCoeff(), 1e-14) << has_prior;
+    }
+  }
+}
+
 TEST(Integration, AroundAPriorRatesCountByTheirResidualsAlone) {
   Matrix means = Matrix::Zero(6, 3);
   add_integrals(kKinematics, normals(1), true, means);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::gp {
 namespace {
 
@@ -21,6 +23,11 @@ TEST(Hyperparameters, TheTrendIsLastInFlat) {
       .log_lengths = Vector{{1, 2}}, .log_signal = 3, .log_noise = 4, .log_trend = Vector{{5, 6, 7}}};
   EXPECT_EQ(theta.flat(), Vector(Vector::LinSpaced(7, 1, 7)));
   EXPECT_EQ(Hyperparameters::from_flat(theta.flat(), 2).log_trend, theta.log_trend);
+}
+
+TEST(Hyperparameters, AreOfTheSizesThatThereAre) {
+  for (const Index size : {0, 3, 5, 6, 8})
+    EXPECT_THROW(Hyperparameters::from_flat(Vector::Zero(size), 2), InvalidInput) << size;
 }
 
 TEST(Hyperparameters, EveryViolationIsNamed) {

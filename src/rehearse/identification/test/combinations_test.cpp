@@ -1,5 +1,6 @@
 #include "rehearse/identification/combinations.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "rehearse/core/random.hpp"
@@ -29,6 +30,12 @@ TEST(KnownCombinations, NamesSumsAndProductsAlongARidge) {
 TEST(KnownCombinations, NamesDifferencesRatiosAndPowers) {
   const Matrix ridge = points(20, [](double a, double) { return Vector{{a + 0.3, 2 * a, a * a}}; });
   EXPECT_EQ(known_combinations({"x", "y", "z"}, ridge, 1), (Names{"x − 0.5·y = 0.3", "z/y^2 = 0.25"}));
+}
+
+TEST(KnownCombinations, AreTrueAsTheyArePrinted) {
+  const Matrix ridge = points(20, [](double a, double) { return Vector{{5 - 1.019 * (100 + a), 100 + a}}; });
+  const double mean = (ridge.row(0) + ridge.row(1)).mean();
+  EXPECT_EQ(known_combinations({"x", "y"}, ridge, 1), Names{fmt::format("x + y = {:.3g}", mean)});
 }
 
 TEST(KnownCombinations, NamesWhatTwoUnknownDirectionsLeave) {

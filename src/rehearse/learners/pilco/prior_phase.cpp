@@ -52,7 +52,9 @@ State to_state(const std::string& bytes) {
 class PriorPhase {
  public:
   PriorPhase(const Setting& setting, const Options& options)
-      : setting_(setting), options_(options.prior.value()), trials_(inner_setting(), inner_options(options)) {}
+      : setting_(with_evaluator(setting)),
+        options_(options.prior.value()),
+        trials_(inner_setting(), inner_options(options)) {}
   PriorPhase(const PriorPhase&) = delete;  // the progress of its trials points here
   PriorPhase& operator=(const PriorPhase&) = delete;
 
@@ -71,12 +73,15 @@ class PriorPhase {
   }
 
  private:
+  static Setting with_evaluator(Setting setting) {
+    if (!setting.evaluator) setting.evaluator = make_thread_evaluator(1);
+    return setting;
+  }
   Setting inner_setting() {
     Setting inner = setting_;
     inner.prior.reset();
     inner.store.reset();
     inner.phase = Phase::prior;
-    if (!inner.evaluator) inner.evaluator = make_thread_evaluator(1);
     if (setting_.progress) inner.progress = [this](const Progress& progress) { report(progress); };
     return inner;
   }
@@ -158,7 +163,7 @@ class PriorPhase {
     return proposal;
   }
 
-  const Setting& setting_;
+  Setting setting_;
   PriorPhaseOptions options_;
   State state_;
   Trials trials_;

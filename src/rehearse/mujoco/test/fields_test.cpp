@@ -23,6 +23,24 @@ TEST(Fields, EntriesAreThoseOfAnyCopy) {
   EXPECT_NE(entries.at(*other), entries.at(*model));
 }
 
+/// MuJoCo takes shortcuts for geoms and sites that are where the centre of mass is.
+TEST(Fields, GeomsAndSitesDoNotFollowACentreOfMass) {
+  const ModelPointer model = load(data_file("marked.xml"));
+  const auto places = [&] {
+    const DataPointer data = make_data(*model);
+    mj_forward(model.get(), data.get());
+    Vector all(3 * (model->ngeom + model->nsite));
+    all << Vector::Map(data->geom_xpos, 3 * model->ngeom), Vector::Map(data->site_xpos, 3 * model->nsite);
+    return all;
+  };
+  const Vector before = places();
+  Violations violations;
+  const Entries centre = find_entries(*model, {"body", "rod", "ipos", 2}, "p", violations);
+  *centre.at(*model) = -0.3;
+  centre.field->follow(*model, centre.id);
+  EXPECT_EQ(places(), before);
+}
+
 TEST(Fields, ABallJointHasThreeDampings) {
   const ModelPointer model = load(data_file("loose.xml"));
   Violations violations;

@@ -70,6 +70,13 @@ TEST(Uncertainty, FirstMoreSamplesThenLargerSteps) {
   EXPECT_DOUBLE_EQ(handler.sigma_factor(), 1.1);
 }
 
+TEST(Uncertainty, OneSampleIsTheLeast) {
+  UncertaintyHandler handler({.enabled = true, .reevaluated = 0.25, .max_samples = 3, .samples_growth = 0.3}, 10, 4);
+  Vector values{{10, 5, 3, 2}};
+  for (int i = 0; i < 3; ++i) handler.rank(values, Vector{{1}});
+  EXPECT_EQ(handler.samples(), 1);
+}
+
 TEST(Uncertainty, ValuesThatAreNotFiniteAreTheWorst) {
   UncertaintyHandler handler({.enabled = true, .reevaluated = 0.5}, 10, 4);
   Vector values{{10, std::nan(""), 3, 2}};

@@ -63,6 +63,12 @@ std::string forged(std::string bytes, std::size_t at, T value) {
   return bytes;
 }
 
+TEST(ArchiveBytes, AnEmptyArchiveAsksForNoMemory) {
+  const std::string bytes = to_bytes(Search{Archive(Niches(Grid{{{0, 1}}, {3}}), 2)});
+  EXPECT_EQ(refusal(forged(bytes, 40, std::uint64_t{1} << 45)),
+            "archive.bin: policies of 35184372088832 numbers, must have at most 10000000");
+}
+
 TEST(ArchiveBytes, ForeignFilesAreRefused) {
   for (const char* foreign : {"", "RHS", "trial,return\n1,2\n", "\x89PNG\r\n\x1a\nand so on and so on and so on"})
     EXPECT_EQ(refusal(foreign), "archive.bin: not an archive of Rehearse");

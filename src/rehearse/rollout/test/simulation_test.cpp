@@ -18,12 +18,10 @@ TEST(CheckSimulation, RefusesPartsThatDoNotFit) {
     return message_of<InvalidInput>([&] { check_simulation({model, *policy, task}, given, particles); });
   };
   EXPECT_NO_THROW(check_simulation({model, *policy, task}, parameters, 1));
-  EXPECT_EQ(refusal(parameters - 1, 1),
-            "theta has 12 numbers for the 13 of the policy 'mlp', which has 1 actions for the 1 of the task; particles "
-            "= 1, must be ≥ 1");
-  EXPECT_NE(refusal(parameters, 0).find("particles = 0"), std::string::npos);
+  EXPECT_EQ(refusal(parameters - 1, 1), "theta has 12 numbers, must have the 13 of the policy 'mlp'");
+  EXPECT_EQ(refusal(parameters, 0), "particles = 0, must be ≥ 1");
   task.actions.push_back(task.actions.front());
-  EXPECT_NE(refusal(parameters, 1).find("1 actions for the 2 of the task"), std::string::npos);
+  EXPECT_EQ(refusal(parameters, 1), "the policy 'mlp' has 1 actions, must have the 2 of the task");
 }
 
 TEST(SimulateOptions, AreNamedWithTheirBounds) {
