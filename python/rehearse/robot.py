@@ -139,9 +139,17 @@ class Robot:
         name = limit.name or (limit.keep if isinstance(limit.keep, str) else limit.keep.__name__)
         keep: Any = limit.keep
         if callable(keep):
-            self._functions.append(("add_step_condition", name, keep))
-            keep = "@" + name
+            key = self._untaken(name)
+            self._functions.append(("add_step_condition", key, keep))
+            keep = "@" + key
         return {"name": name, "keep": keep, "risk": float(limit.risk)}
+
+    def _untaken(self, name: str) -> str:
+        """A key for a function of steps that no other has: the reward and all limits share one table."""
+        taken = {key for add, key, *_ in self._functions if add in ("add_step_function", "add_step_condition")}
+        while name in taken:
+            name = "limit " + name
+        return name
 
     def _dynamics(self, name: str, model: Model) -> str:
         if (model.change is None) == (not model.rates):
