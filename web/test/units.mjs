@@ -13,13 +13,15 @@ const { buildSync } = createRequire(`${packages}/`)('esbuild')
 /** A source of the page as a module. */
 async function source(name) {
   const path = fileURLToPath(new URL(`../src/${name}.ts`, import.meta.url))
-  const { outputFiles } = buildSync({ entryPoints: [path], bundle: true, format: 'esm', write: false })
+  const settings = { bundle: true, format: 'esm', write: false, nodePaths: [`${packages}/node_modules`] }
+  const { outputFiles } = buildSync({ entryPoints: [path], ...settings })
   return import(`data:text/javascript,${encodeURIComponent(outputFiles[0].text)}`)
 }
 
 const { partsOf, TWO_SCREENS } = await source('parts')
 const { rangesOf, relativeErrors } = await source('state_errors')
 const { partFolds, partsOfRobot } = await source('part_folds')
+const { onTheRobot } = await source('run_returns')
 
 const named = (states, others) =>
   Object.fromEntries(partsOf(states, others).map((part) => [part.name, [...part.states, ...part.others].join(', ')]))
@@ -154,4 +156,20 @@ test('robots with few states, or without parts, have none', () => {
     ['left', 'right', ''],
   )
   assert.deepEqual(partsOfRobot([]), [])
+})
+
+test('returns of a task that cannot say solved are none of trials that failed', () => {
+  const trials = { trial: [1, 2], return: [3, 4], solved: [null, null] }
+  const unknown = onTheRobot(trials)
+  assert.ok(unknown.points.every(({ hollow }) => !hollow))
+  assert.deepEqual(
+    unknown.legend.map(({ label }) => label),
+    ['on the robot'],
+  )
+  const known = onTheRobot({ ...trials, solved: [0, 1] })
+  assert.deepEqual(
+    known.points.map(({ hollow }) => hollow),
+    [true, false],
+  )
+  assert.equal(known.legend.length, 2)
 })
