@@ -25,6 +25,8 @@ export interface Run {
   done: boolean
   /** What the robot has to do, in a line; empty or not there where that is not known. */
   task?: string
+  /** Logs were told before the first trial, whose model has learned from them. */
+  logs?: boolean
   options: [string, string][]
   /** What could not be read is not there. */
   trials?: Columns

@@ -21,6 +21,8 @@ async function source(name) {
 const { partsOf, TWO_SCREENS } = await source('parts')
 const { rangesOf, relativeErrors } = await source('state_errors')
 const { partFolds, partsOfRobot } = await source('part_folds')
+const { firstModel } = await source('run_errors')
+const { firstValues } = await source('run_model')
 const { onTheRobot } = await source('run_returns')
 
 const named = (states, others) =>
@@ -172,4 +174,13 @@ test('returns of a task that cannot say solved are none of trials that failed', 
     [true, false],
   )
   assert.equal(known.legend.length, 2)
+})
+
+test('the first model is the prior as given, unless it has learned from logs', () => {
+  assert.equal(firstModel({ prior: 'light' }, 1), 'trial 1: the prior as given')
+  assert.equal(firstModel({ prior: 'light', logs: true }, 1), 'trial 1: the model from the logs')
+  assert.equal(firstModel({ prior: '', logs: true }, 1), 'trial 1: the model from the logs')
+  assert.equal(firstModel({ prior: '' }, 2), 'trial 2: the first model')
+  assert.match(firstValues({}), /the prior as given/)
+  assert.match(firstValues({ logs: true }), /the model from the logs/)
 })
