@@ -32,7 +32,9 @@ class Failure {
   void raise_if_any();
 
  private:
-  mutable std::mutex mutex_;
+  std::optional<py::error_already_set> take();
+
+  mutable std::mutex mutex_;  // never held while Python runs
   std::optional<py::error_already_set> first_;
 };
 

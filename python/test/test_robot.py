@@ -1,5 +1,9 @@
 """Robots as Python describes them: names, environments, and several runs of one."""
 
+import pathlib
+import subprocess
+import sys
+
 from robots import QUICK, cart
 
 import rehearse
@@ -16,3 +20,33 @@ def test_a_limit_may_have_the_name_of_the_reward(tmp_path):
     runs = [learn(cart(limits=[rehearse.Limit(near, name=name)]), tmp_path / name) for name in ("near", "reward")]
     assert runs[0].trials["return"][0] == runs[1].trials["return"][0]
     assert runs[1].details[0].limits[0]["name"] == "reward" and not runs[1].details[0].limits[0]["broken"]
+
+
+def test_two_threads_may_fail_at_once(tmp_path):
+    script = f"""
+import sys, threading, time; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
+from robots import QUICK, Environment, cart
+import rehearse
+
+both, noted = threading.Barrier(2, timeout=20), []
+
+class Noted(Exception):
+    def add_note(self, note):
+        noted.append(note)
+        time.sleep(0.3)  # the other thread runs, and fails
+
+class Failing(Environment):
+    def step(self, action):
+        both.wait()
+        raise Noted("both")
+
+plants = [Environment]
+run = rehearse.learn(cart(lambda: plants[-1]()), trials=1, out={str(tmp_path / "run")!r}, progress=None, options=QUICK)
+plants.append(Failing)
+try:
+    run.evaluate(200, threads=2)
+except Noted as error:
+    print(error, noted)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert done.stdout == "both ['raised in plant']\n", done.stderr
