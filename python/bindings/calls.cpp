@@ -52,9 +52,6 @@ bool Failure::any() const {
   return first_.has_value();
 }
 
-void Failure::clear() { take(); }
-
-/// What is let go runs Python, too, and so after the mutex is free.
 std::optional<py::error_already_set> Failure::take() {
   const std::lock_guard guard(mutex_);
   return std::exchange(first_, std::nullopt);

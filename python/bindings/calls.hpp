@@ -25,7 +25,6 @@ class Failure {
   /// where: what was called, for the exception's notes. The interpreter is locked.
   void keep(const py::error_already_set& error, const std::string& where);
   bool any() const;
-  void clear();
 
   /// Raises it as it was, if there is one, and forgets it: its traceback holds whoever called. The interpreter is
   /// locked.

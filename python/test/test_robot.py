@@ -4,6 +4,7 @@ import pathlib
 import subprocess
 import sys
 
+import pytest
 from robots import QUICK, cart
 
 import rehearse
@@ -50,3 +51,18 @@ except Noted as error:
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
     assert done.stdout == "both ['raised in plant']\n", done.stderr
+
+
+def test_two_runs_of_one_robot_do_not_share_failures(tmp_path):
+    robot = cart()
+
+    class Noted(Exception):
+        def add_note(self, note):  # while the failure of the first run is kept
+            assert len(learn(robot, tmp_path / "second").trials) == 1
+
+    def fail(event):
+        raise Noted("the first")
+
+    with pytest.raises(Noted, match="the first"):
+        learn(robot, tmp_path / "first", progress=fail)
+    assert len(rehearse.open_run(tmp_path / "second").trials) == 1
