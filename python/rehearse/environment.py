@@ -99,9 +99,14 @@ class Task:
                               f"start_noise={spread:g}: policies are made for that", stacklevel=2)
 
 
+def is_environment(plant: Any) -> bool:
+    """One object, for one thread; else a plant makes some. An environment may be callable, too."""
+    return hasattr(plant, "reset") and hasattr(plant, "step") and not isinstance(plant, type)
+
+
 def environment_maker(plant: Any, observe: Any, task: Task) -> Callable[[], Environment]:
     """Makes what plays the robot: of an environment, or of a function that makes one."""
-    if hasattr(plant, "reset") and hasattr(plant, "step") and not isinstance(plant, type):
+    if is_environment(plant):
         return lambda: Environment(plant, observe, task)
     if callable(plant):
         return lambda: Environment(plant(), observe, task)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Union
 
 from . import _core
-from .environment import Task, environment_maker
+from .environment import Task, environment_maker, is_environment
 from .parts import Action, Body, Distance, Limit, Model, State, StateFunction, StepFunction, Success
 from .toml import table, value
 
@@ -176,7 +176,7 @@ class Robot:
             return [self._dynamics("plant", plant),
                     table("[plant]", {"dynamics": "plant", "measurement_noise": given,
                                       "delay_s": dict(plant.delay_s), "lag_s": dict(plant.lag_s)})]
-        self.has_environment = not callable(plant)
+        self.has_environment = is_environment(plant)
         self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
         return [table("[plant]", {"function": "plant", "measurement_noise": given})]
 

@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from robots import QUICK, cart
+from robots import QUICK, Environment, cart
 
 import rehearse
 
@@ -66,3 +66,13 @@ def test_two_runs_of_one_robot_do_not_share_failures(tmp_path):
     with pytest.raises(Noted, match="the first"):
         learn(robot, tmp_path / "first", progress=fail)
     assert len(rehearse.open_run(tmp_path / "second").trials) == 1
+
+
+def test_an_environment_that_can_be_called_is_one_object(tmp_path):
+    class Callable(Environment):
+        def __call__(self):
+            raise AssertionError("it is no function that makes environments")
+
+    assert cart(Callable()).has_environment and cart(Environment()).has_environment
+    assert not cart(Callable).has_environment and not cart(lambda: Callable()).has_environment
+    assert len(learn(cart(Callable()), tmp_path / "run").evaluate(30).returns) == 30
