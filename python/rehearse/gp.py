@@ -26,21 +26,19 @@ class GaussianProcess:
         self.options = options
         self._core: Union[_core.FittedGp, None] = None
         self._data: tuple[Array, Array] = (np.empty((0, 0)), np.empty((0, 0)))
-        self._one = True
+        self._one, self._inputs = True, 0
 
     def fit(self, X: npt.ArrayLike, y: npt.ArrayLike) -> GaussianProcess:
         """X: n × D inputs; y: n targets, or n × E."""
-        X, Y = self._arrays(X, y)
+        X, Y, one = _arrays(X, y)
         options = {name: text_of(value) for name, value in self.options.items()}
-        self._core, self._data = _core.fit_gp(X, Y, self.trend, self.tolerance, options, self.threads), (X, Y)
-        return self
+        return self._knowing(_core.fit_gp(X, Y, self.trend, self.tolerance, options, self.threads), X, Y, one)
 
     def condition(self, X: npt.ArrayLike, y: npt.ArrayLike, log_hyperparameters: npt.ArrayLike) -> GaussianProcess:
         """The same without a fit: E × (D + 2) logarithms of lengths, σ_f and σ_n."""
-        X, Y = self._arrays(X, y)
+        X, Y, one = _arrays(X, y)
         logs = np.atleast_2d(np.asarray(log_hyperparameters, float))
-        self._core, self._data = _core.condition_gp(X, Y, logs, self.tolerance), (X, Y)
-        return self
+        return self._knowing(_core.condition_gp(X, Y, logs, self.tolerance), X, Y, one)
 
     def predict(self, X: npt.ArrayLike, return_std: bool = False, return_cov: bool = False) -> Any:
         """Means (n, or n × E) at X (n × D), and what is asked for of the function, without noise: its standard deviations
@@ -115,14 +113,10 @@ class GaussianProcess:
         """Standard deviation of the noise, σ_n."""
         return self._per_output(np.exp(self.log_hyperparameters[:, self._inputs + 1]))
 
-    def _arrays(self, X: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array]:
-        """As C++ takes them; copies, since the data are kept."""
-        inputs, targets = np.array(X, dtype=float, order="F"), np.array(y, dtype=float, order="F")
-        if inputs.ndim != 2:
-            raise _core.InvalidInput(f"X has {inputs.ndim} dimensions, must be n × D")
-        self._one = targets.ndim == 1
-        self._inputs = inputs.shape[1]
-        return inputs, np.asfortranarray(targets.reshape(len(targets), -1))
+    def _knowing(self, core: _core.FittedGp, X: Array, Y: Array, one: bool) -> GaussianProcess:
+        """Takes what C++ has made of the data; where it refused them, the GP is as before."""
+        self._core, self._data, self._one, self._inputs = core, (X, Y), one, X.shape[1]
+        return self
 
     @property
     def _fitted(self) -> _core.FittedGp:
@@ -153,6 +147,14 @@ class GaussianProcess:
 
     def _per_output(self, values: Array) -> Any:
         return values[0] if self._one else values
+
+
+def _arrays(X: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array, bool]:
+    """As C++ takes them, copies, since the data are kept; and whether y is of one output."""
+    inputs, targets = np.array(X, dtype=float, order="F"), np.array(y, dtype=float, order="F")
+    if inputs.ndim != 2:
+        raise _core.InvalidInput(f"X has {inputs.ndim} dimensions, must be n × D")
+    return inputs, np.asfortranarray(targets.reshape(len(targets), -1)), targets.ndim == 1
 
 
 def text_of(value: Any) -> str:

@@ -92,6 +92,19 @@ def test_a_gp_scores_and_is_copied():
     assert pickle.loads(pickle.dumps(rehearse.GaussianProcess(starts=2))).options == {"starts": 2}
 
 
+def test_what_a_gp_refuses_leaves_it_as_it_was():
+    X, y = data()
+    gp = rehearse.GaussianProcess().condition(X, y, np.log([0.8, 1.5, 1.2, 0.1]))
+    before, lengths = gp.predict(X, return_cov=True)[1], gp.lengths
+    with pytest.raises(rehearse.InvalidInput, match="60 rows and y 3"):
+        gp.fit(np.hstack([X, X]), np.zeros((3, 2)))
+    with pytest.raises(rehearse.InvalidInput, match="must have one an output"):
+        gp.condition(X[:, :1], np.column_stack([y, y]), np.log([[0.8, 1.2, 0.1]]))
+    np.testing.assert_array_equal(gp.predict(X, return_cov=True)[1], before)
+    np.testing.assert_array_equal(gp.lengths, lengths)
+    assert isinstance(gp.log_evidence, float)
+
+
 def test_moments_are_those_of_samples():
     X, y = data()
     gp = rehearse.GaussianProcess().condition(X, y, np.log([0.8, 1.5, 1.2, 0.1]))
