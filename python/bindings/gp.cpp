@@ -24,12 +24,17 @@ struct Fitted {
   Vector log_evidence;
 };
 
+void require_outputs(const MatrixIn& Y) {
+  if (Y.cols() == 0) throw InvalidInput("y has no columns, must have one an output");
+}
+
 /// Outputs are fitted one by one on the evaluator's threads.
 std::shared_ptr<Fitted> fit(const MatrixIn& X, const MatrixIn& Y, bool trend, double tolerance,
                             const OptionTexts& texts, int threads) {
   gp::FitOptions options;
   set_options([&](FieldVisitor& v) { options.fields(v); }, texts);
   options.trend = trend;
+  require_outputs(Y);
   if (X.rows() != Y.rows()) throw InvalidInput(fmt::format("X has {} rows and y {}", X.rows(), Y.rows()));
   const py::gil_scoped_release unlocked;
   require_processor();
@@ -48,6 +53,7 @@ std::shared_ptr<Fitted> fit(const MatrixIn& X, const MatrixIn& Y, bool trend, do
 
 std::shared_ptr<Fitted> condition(const MatrixIn& X, const MatrixIn& Y, const MatrixIn& log_hyperparameters,
                                   double tolerance) {
+  require_outputs(Y);
   if (log_hyperparameters.rows() != Y.cols())
     throw InvalidInput(
         fmt::format("hyperparameters has {} rows, must have one an output, {}", log_hyperparameters.rows(), Y.cols()));

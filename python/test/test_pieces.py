@@ -103,6 +103,10 @@ def test_what_a_gp_refuses_leaves_it_as_it_was():
     np.testing.assert_array_equal(gp.predict(X, return_cov=True)[1], before)
     np.testing.assert_array_equal(gp.lengths, lengths)
     assert isinstance(gp.log_evidence, float)
+    with pytest.raises(rehearse.InvalidInput, match="y has no columns"):
+        gp.condition(np.zeros((3, 1)), np.zeros((3, 0)), np.zeros((0, 3)))
+    with pytest.raises(rehearse.InvalidInput, match="y has no columns"):
+        gp.fit(np.zeros((3, 1)), np.zeros((3, 0)))
 
 
 def test_moments_are_those_of_samples():
