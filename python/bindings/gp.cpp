@@ -95,6 +95,9 @@ Matrix log_hyperparameters(const Fitted& gp) {
 }
 
 py::tuple match_moments(const Fitted& gp, const Vector& mean, const Matrix& covariance) {
+  for (Index e = 0; e < gp.posterior.outputs(); ++e)
+    if (gp.posterior.variance_points(e) < gp.posterior.size())
+      throw InvalidInput("moments take all points, and some were left out: tolerance must be 0");
   moments::Transformed result;
   {
     const py::gil_scoped_release unlocked;

@@ -82,9 +82,16 @@ class GaussianProcess:
         """Of an input N(mean (D), covariance (D × D)): mean (E) and covariance (E × E) of the function's values, and
         their covariance with the input (D × E), in closed form (Deisenroth 2011). Not with a trend or a tolerance."""
         m, S = np.asarray(mean, float), np.atleast_2d(np.asarray(covariance, float))
-        if not np.isfinite(S).all() or np.linalg.eigvalsh(S).min() < -1e-9 * np.abs(S).max():
-            raise _core.InvalidInput("covariance must be finite and positive semi-definite")
-        return self._fitted.match_moments(m, S)
+        fitted, inputs = self._fitted, self._inputs
+        if m.shape != (inputs,) or S.shape != (inputs, inputs):
+            raise _core.InvalidInput(f"mean and covariance have the shapes {m.shape} and {S.shape}, must have "
+                                     f"{(inputs,)} and {(inputs, inputs)}")
+        if not np.isfinite(S).all() or (np.abs(S - S.T) > 1e-9 * np.abs(S).max()).any():
+            raise _core.InvalidInput("covariance must be finite and symmetric")
+        S = (S + S.T) / 2
+        if np.linalg.eigvalsh(S).min() < -1e-9 * np.abs(S).max():
+            raise _core.InvalidInput("covariance must be positive semi-definite")
+        return fitted.match_moments(m, S)
 
     @property
     def log_evidence(self) -> Union[float, Array]:

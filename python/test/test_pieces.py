@@ -119,8 +119,19 @@ def test_moments_are_those_of_samples():
     assert mean[0] == pytest.approx(f.mean(), abs=3e-3)
     assert covariance[0, 0] == pytest.approx(f.var() + (std**2).mean(), rel=0.02)
     np.testing.assert_allclose(with_input[:, 0], np.cov(np.column_stack([x, f]).T)[:2, 2], atol=1e-3)
-    with pytest.raises(rehearse.InvalidInput):
+    with pytest.raises(rehearse.InvalidInput, match="must be positive semi-definite"):
         gp.match_moments(m, -S)
+    with pytest.raises(rehearse.InvalidInput, match="must be finite and symmetric"):
+        gp.match_moments(m, [[0.05, 0.04], [0.01, 0.02]])
+    with pytest.raises(rehearse.InvalidInput, match=r"must have \(2,\) and \(2, 2\)"):
+        gp.match_moments(m, S[:1])
+
+
+def test_moments_take_all_points():
+    X = np.linspace(-2, 2, 200)[:, None]
+    few = rehearse.GaussianProcess(tolerance=0.1).condition(X, np.sin(X[:, 0]), np.log([1.5, 1, 0.2]))
+    with pytest.raises(rehearse.InvalidInput, match="tolerance must be 0"):
+        few.match_moments([0.0], [[0.1]])
 
 
 def test_cmaes_finds_the_top_of_a_ridge():
