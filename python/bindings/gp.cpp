@@ -120,7 +120,8 @@ void add_gp(py::module_& module) {
       .def("predict_mean", &predict_mean, "X"_a)
       .def("match_moments", &match_moments, "mean"_a, "covariance"_a)
       .def_property_readonly("log_hyperparameters", &log_hyperparameters)
-      .def_property_readonly("log_evidence", [](const Fitted& gp) { return gp.log_evidence; });
+      .def_property_readonly("log_evidence", [](const Fitted& gp) { return gp.log_evidence; })
+      .def_property_readonly("jitters", [](const Fitted& gp) { return gp.posterior.jitters(); });
   module.def("fit_gp", &fit, "X"_a, "Y"_a, "trend"_a, "tolerance"_a, "options"_a, "threads"_a);
   module.def("condition_gp", &condition, "X"_a, "Y"_a, "log_hyperparameters"_a, "tolerance"_a);
 }

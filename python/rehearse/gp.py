@@ -49,7 +49,8 @@ class GaussianProcess:
             raise _core.InvalidInput("return_std and return_cov: only one of them at a time")
         if return_cov:
             mean = self._fitted.predict_mean(inputs)
-            covariances = [self._covariance(inputs, logs) for logs in self.log_hyperparameters]
+            covariances = [self._covariance(inputs, logs, jitter)
+                           for logs, jitter in zip(self.log_hyperparameters, self._fitted.jitters)]
             return self._shaped(mean), covariances[0] if self._one else np.stack(covariances, axis=-1)
         if not return_std:
             return self._shaped(self._fitted.predict_mean(inputs))
@@ -131,8 +132,8 @@ class GaussianProcess:
             raise _core.InvalidInput("the GP has no data yet: fit(X, y)")
         return self._core
 
-    def _covariance(self, X: Array, logs: Array) -> Array:
-        """Of one output (Rasmussen 2006, eq. 2.24)."""
+    def _covariance(self, X: Array, logs: Array, jitter: float) -> Array:
+        """Of one output (Rasmussen 2006, eq. 2.24). jitter: times σ_f², what C++ had to add to the data's covariance."""
         lengths, signal, noise, trend = np.split(np.exp(logs), [self._inputs, self._inputs + 1, self._inputs + 2])
 
         def kernel(A: Array, B: Array) -> Array:
@@ -143,7 +144,7 @@ class GaussianProcess:
             return values
 
         data = self._data[0]
-        factor = np.linalg.cholesky(kernel(data, data) + noise**2 * np.eye(len(data)))
+        factor = _factor(kernel(data, data) + noise**2 * np.eye(len(data)), float(signal[0] ** 2), jitter)
         known = np.linalg.solve(factor, kernel(data, X))
         covariance: Array = kernel(X, X) - known.T @ known
         return covariance
@@ -154,6 +155,17 @@ class GaussianProcess:
 
     def _per_output(self, values: Array) -> Any:
         return values[0] if self._one else values
+
+
+def _factor(covariance: Array, scale: float, jitter: float) -> Array:
+    """Its Cholesky factor with this jitter times the scale, or more where NumPy, which rounds otherwise, needs it."""
+    for more in (jitter, *(rung for rung in (1e-10, 1e-8, 1e-6) if rung > jitter)):
+        try:
+            factor: Array = np.linalg.cholesky(covariance + more * scale * np.eye(len(covariance)))
+            return factor
+        except np.linalg.LinAlgError:
+            continue
+    raise _core.InvalidInput("the hyperparameters are too extreme for a covariance")
 
 
 def _arrays(X: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array, bool]:

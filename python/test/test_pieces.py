@@ -59,6 +59,15 @@ def test_a_gp_knows_how_its_values_go_together(trend):
         gp.predict(new[:, :1], return_cov=True)
 
 
+def test_measurements_that_repeat_have_a_covariance():
+    X = np.repeat([[-2.0], [0.0], [2.0]], 3, axis=0)
+    gp = rehearse.GaussianProcess().condition(X, np.sin(X[:, 0]), np.log([0.5, 3.0, 1e-9]))
+    new = np.linspace(-3, 3, 13)[:, None]
+    _, std = gp.predict(new, return_std=True)
+    _, cov = gp.predict(new, return_cov=True)
+    np.testing.assert_allclose(np.diag(cov), std**2, atol=1e-8)
+
+
 def test_a_fit_finds_noise_and_beats_a_guess():
     X, y = data(150)
     gp = rehearse.GaussianProcess().fit(X, y)
