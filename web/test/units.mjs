@@ -23,6 +23,7 @@ const { rangesOf, relativeErrors } = await source('state_errors')
 const { partFolds, partsOfRobot } = await source('part_folds')
 const { firstModel } = await source('run_errors')
 const { firstValues } = await source('run_model')
+const { outcome } = await source('limits')
 const { onTheRobot } = await source('run_returns')
 
 const named = (states, others) =>
@@ -183,4 +184,9 @@ test('the first model is the prior as given, unless it has learned from logs', (
   assert.equal(firstModel({ prior: '' }, 2), 'trial 2: the first model')
   assert.match(firstValues({}), /the prior as given/)
   assert.match(firstValues({ logs: true }), /the model from the logs/)
+})
+
+test('a broken limit does not say that a robot was stopped, which may have been told', () => {
+  assert.equal(outcome(1), 'broken, the trial counts up to there')
+  assert.equal(outcome(0), 'kept')
 })
