@@ -23,6 +23,8 @@ const { rangesOf, relativeErrors } = await source('state_errors')
 const { partFolds, partsOfRobot } = await source('part_folds')
 const { firstModel } = await source('run_errors')
 const { firstValues } = await source('run_model')
+const { fit, powersOfTen, wholeTicks } = await source('chart')
+const { indexOfMax } = await source('data')
 const { outcome } = await source('limits')
 const { onTheRobot } = await source('run_returns')
 
@@ -189,4 +191,12 @@ test('the first model is the prior as given, unless it has learned from logs', (
 test('a broken limit does not say that a robot was stopped, which may have been told', () => {
   assert.equal(outcome(1), 'broken, the trial counts up to there')
   assert.equal(outcome(0), 'kept')
+})
+
+test('figures take more numbers than a function takes arguments', () => {
+  const many = Array.from({ length: 300_000 }, (_, i) => i)
+  assert.deepEqual(fit(many, { zero: true }), { domain: [0, 1.04 * 299_999] })
+  assert.equal(wholeTicks(many, 10).at(-1), 299_000)
+  assert.deepEqual(powersOfTen(many), [1, 10, 100, 1000, 10_000, 100_000])
+  assert.equal(indexOfMax(many), 299_999)
 })
