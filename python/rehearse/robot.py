@@ -205,7 +205,10 @@ def _name_in(text: str) -> str:
 
 def _horizon_in(text: str) -> int:
     horizon = _first(text, "horizon")
-    return int(horizon) if horizon.isdigit() else 0
+    try:
+        return int(horizon, 0) if horizon else 0  # as TOML has them: 1_000, 0x3E8; C++ says where there is none
+    except ValueError:
+        raise _core.InvalidInput(f"horizon = {horizon}, must be a whole number of control steps") from None
 
 
 def _first(text: str, key: str) -> str:
@@ -214,6 +217,6 @@ def _first(text: str, key: str) -> str:
         if line.startswith("["):
             break
         name, _, rest = line.partition("=")
-        if name.strip() == key:
+        if name.strip().strip("\"'") == key:
             return rest.split("#")[0].strip()
     return ""

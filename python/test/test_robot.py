@@ -1,6 +1,7 @@
 """Robots as Python describes them: names, environments, and several runs of one."""
 
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -8,6 +9,25 @@ import pytest
 from robots import QUICK, Environment, cart
 
 import rehearse
+
+FILE = """
+format = 1
+name = "cart"
+dt_s = 0.1
+horizon = {horizon}
+[[state]]
+name = "velocity"
+unit = "m/s"
+[[state]]
+name = "position"
+unit = "m"
+start = 1.0
+[[action]]
+name = "force"
+bounds = [-5.0, 5.0]
+[reward]
+formula = "exp(-position^2)"
+"""
 
 
 def learn(robot, out, **more):
@@ -76,3 +96,15 @@ def test_an_environment_that_can_be_called_is_one_object(tmp_path):
     assert cart(Callable()).has_environment and cart(Environment()).has_environment
     assert not cart(Callable).has_environment and not cart(lambda: Callable()).has_environment
     assert len(learn(cart(Callable()), tmp_path / "run").evaluate(30).returns) == 30
+
+
+def test_a_file_may_write_its_horizon_as_toml_has_it(tmp_path):
+    file = tmp_path / "cart.toml"
+    for horizon in ("1_5", "0xF", "+15"):
+        file.write_text(FILE.format(horizon=horizon))
+        with pytest.raises(RuntimeError, match="ended the episode after 10 of 15 steps"):
+            learn(rehearse.Robot.from_file(file, plant=Environment(limit=10)), tmp_path / "run", learner="black-drops")
+        shutil.rmtree(tmp_path / "run", ignore_errors=True)
+    file.write_text(FILE.format(horizon="15.5"))
+    with pytest.raises(rehearse.InvalidInput, match="horizon = 15.5, must be a whole number"):
+        rehearse.Robot.from_file(file, plant=Environment())
