@@ -108,3 +108,11 @@ def test_a_file_may_write_its_horizon_as_toml_has_it(tmp_path):
     file.write_text(FILE.format(horizon="15.5"))
     with pytest.raises(rehearse.InvalidInput, match="horizon = 15.5, must be a whole number"):
         rehearse.Robot.from_file(file, plant=Environment())
+
+
+def test_an_environment_is_not_asked_for_more_than_its_time(tmp_path):
+    run = learn(cart(Environment(limit=15)), tmp_path / "run")
+    assert len(run.evaluate(12).returns) == 12
+    with pytest.raises(RuntimeError, match="ended the episode after 15 steps by its own limit of time, and more"):
+        run.evaluate(2, seconds=2.0)
+    assert len(run.evaluate(2, seconds=1.5).returns) == 2
