@@ -82,7 +82,7 @@ class GaussianProcess:
     def match_moments(self, mean: npt.ArrayLike, covariance: npt.ArrayLike) -> tuple[Array, Array, Array]:
         """Of an input N(mean (D), covariance (D × D)): mean (E) and covariance (E × E) of the function's values, and
         their covariance with the input (D × E), in closed form (Deisenroth 2011). Not with a trend or a tolerance."""
-        m, S = np.asarray(mean, float), np.atleast_2d(np.asarray(covariance, float))
+        m, S = np.asarray(mean, float).reshape(-1), np.atleast_2d(np.asarray(covariance, float))
         fitted, inputs = self._fitted, self._inputs
         if m.shape != (inputs,) or S.shape != (inputs, inputs):
             raise _core.InvalidInput(f"mean and covariance have the shapes {m.shape} and {S.shape}, must have "

@@ -128,6 +128,7 @@ def test_moments_are_those_of_samples():
     assert mean[0] == pytest.approx(f.mean(), abs=3e-3)
     assert covariance[0, 0] == pytest.approx(f.var() + (std**2).mean(), rel=0.02)
     np.testing.assert_allclose(with_input[:, 0], np.cov(np.column_stack([x, f]).T)[:2, 2], atol=1e-3)
+    np.testing.assert_array_equal(gp.match_moments(m[:, None], S)[0], mean)
     with pytest.raises(rehearse.InvalidInput, match="must be positive semi-definite"):
         gp.match_moments(m, -S)
     with pytest.raises(rehearse.InvalidInput, match="must be finite and symmetric"):
