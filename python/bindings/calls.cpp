@@ -38,9 +38,12 @@ Shared shared(py::object object) {
 }
 
 void Failure::keep(const py::error_already_set& error, const std::string& where) {
-  const std::lock_guard guard(mutex_);
-  if (first_) return;
-  first_ = error;
+  {
+    const std::lock_guard guard(mutex_);
+    if (first_) return;
+    first_ = error;
+  }
+  // Python may let another thread run here, which may come to keep its own.
   if (py::hasattr(error.value(), "add_note")) error.value().attr("add_note")("raised in " + where);
 }
 
@@ -49,14 +52,13 @@ bool Failure::any() const {
   return first_.has_value();
 }
 
-void Failure::clear() {
+std::optional<py::error_already_set> Failure::take() {
   const std::lock_guard guard(mutex_);
-  first_.reset();
+  return std::exchange(first_, std::nullopt);
 }
 
 void Failure::raise_if_any() {
-  const std::lock_guard guard(mutex_);
-  if (const auto first = std::exchange(first_, std::nullopt)) throw py::error_already_set(*first);
+  if (const auto first = take()) throw py::error_already_set(*first);
 }
 
 py::array_t<double> to_array(const ConstMatrixView& X) {

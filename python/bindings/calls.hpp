@@ -25,14 +25,15 @@ class Failure {
   /// where: what was called, for the exception's notes. The interpreter is locked.
   void keep(const py::error_already_set& error, const std::string& where);
   bool any() const;
-  void clear();
 
   /// Raises it as it was, if there is one, and forgets it: its traceback holds whoever called. The interpreter is
   /// locked.
   void raise_if_any();
 
  private:
-  mutable std::mutex mutex_;
+  std::optional<py::error_already_set> take();
+
+  mutable std::mutex mutex_;  // never held while Python runs
   std::optional<py::error_already_set> first_;
 };
 

@@ -24,12 +24,17 @@ struct Fitted {
   Vector log_evidence;
 };
 
+void require_outputs(const MatrixIn& Y) {
+  if (Y.cols() == 0) throw InvalidInput("y has no columns, must have one an output");
+}
+
 /// Outputs are fitted one by one on the evaluator's threads.
 std::shared_ptr<Fitted> fit(const MatrixIn& X, const MatrixIn& Y, bool trend, double tolerance,
                             const OptionTexts& texts, int threads) {
   gp::FitOptions options;
   set_options([&](FieldVisitor& v) { options.fields(v); }, texts);
   options.trend = trend;
+  require_outputs(Y);
   if (X.rows() != Y.rows()) throw InvalidInput(fmt::format("X has {} rows and y {}", X.rows(), Y.rows()));
   const py::gil_scoped_release unlocked;
   require_processor();
@@ -48,6 +53,7 @@ std::shared_ptr<Fitted> fit(const MatrixIn& X, const MatrixIn& Y, bool trend, do
 
 std::shared_ptr<Fitted> condition(const MatrixIn& X, const MatrixIn& Y, const MatrixIn& log_hyperparameters,
                                   double tolerance) {
+  require_outputs(Y);
   if (log_hyperparameters.rows() != Y.cols())
     throw InvalidInput(
         fmt::format("hyperparameters has {} rows, must have one an output, {}", log_hyperparameters.rows(), Y.cols()));
@@ -89,6 +95,9 @@ Matrix log_hyperparameters(const Fitted& gp) {
 }
 
 py::tuple match_moments(const Fitted& gp, const Vector& mean, const Matrix& covariance) {
+  for (Index e = 0; e < gp.posterior.outputs(); ++e)
+    if (gp.posterior.variance_points(e) < gp.posterior.size())
+      throw InvalidInput("moments take all points, and some were left out: tolerance must be 0");
   moments::Transformed result;
   {
     const py::gil_scoped_release unlocked;
@@ -111,7 +120,8 @@ void add_gp(py::module_& module) {
       .def("predict_mean", &predict_mean, "X"_a)
       .def("match_moments", &match_moments, "mean"_a, "covariance"_a)
       .def_property_readonly("log_hyperparameters", &log_hyperparameters)
-      .def_property_readonly("log_evidence", [](const Fitted& gp) { return gp.log_evidence; });
+      .def_property_readonly("log_evidence", [](const Fitted& gp) { return gp.log_evidence; })
+      .def_property_readonly("jitters", [](const Fitted& gp) { return gp.posterior.jitters(); });
   module.def("fit_gp", &fit, "X"_a, "Y"_a, "trend"_a, "tolerance"_a, "options"_a, "threads"_a);
   module.def("condition_gp", &condition, "X"_a, "Y"_a, "log_hyperparameters"_a, "tolerance"_a);
 }

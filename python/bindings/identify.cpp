@@ -37,9 +37,9 @@ std::vector<study::Log> read(const Strings& paths, const apps::StudySetup& setup
 
 Texts identify(const Robot& robot, const apps::StudyRequest& request, const Files& files, const Settings& settings) {
   Texts texts;
-  work_with(robot, settings, [&](const experiment::RunOptions& options) {
+  work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
     Violations violations;
-    const apps::StudySetup setup = apps::set_up_study(robot.catalogue(), request, violations);
+    const apps::StudySetup setup = apps::set_up_study(own.catalogue(), request, violations);
     const auto logs = read(files.logs, setup, violations, texts.notes);
     const auto held_out = read(files.held_out, setup, violations, texts.notes);
     violations.throw_if_any();

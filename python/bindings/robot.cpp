@@ -66,6 +66,22 @@ StepCondition of_steps(const Callable& of, Write write) {
   };
 }
 
+StateCondition of_states(const Callable& of) {
+  return [of](const ConstMatrixView& X, VectorView values) {
+    call(of, [&](const py::object& function) { write_truths(function(to_array(X)), of.name, values); });
+  };
+}
+
+system::Change changes(const Callable& of, const std::vector<std::string>& parameters) {
+  return [of, parameters](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
+    call(of, [&](const py::object& function) {
+      py::dict values;
+      for (std::size_t i = 0; i < parameters.size(); ++i) values[py::str(parameters[i])] = phi(static_cast<Index>(i));
+      write_result(function(to_array(X), to_array(U), **values), of.name, dX);
+    });
+  };
+}
+
 }  // namespace
 
 Robot::Robot(std::string text, std::string source, std::string folder)
@@ -73,16 +89,27 @@ Robot::Robot(std::string text, std::string source, std::string folder)
   functions_.rows_at_once = kRowsAtOnce;
 }
 
-Callable Robot::callable(const std::string& name, py::object function) const {
-  return {shared(std::move(function)), name, failure_};
+void Robot::add(Addition addition) {
+  addition(functions_, failure_);
+  additions_.push_back(std::move(addition));
+}
+
+Robot Robot::for_work() const {
+  Robot robot(text_, source_, folder_.string());
+  for (const Addition& addition : additions_) robot.add(addition);
+  return robot;
 }
 
 void Robot::add_step_function(const std::string& name, py::object function) {
-  functions_.of_steps[name] = of_steps(callable(name, std::move(function)), write_result);
+  add([name, function = shared(std::move(function))](robot_file::Functions& to, const auto& failure) {
+    to.of_steps[name] = of_steps({function, name, failure}, write_result);
+  });
 }
 
 void Robot::add_step_condition(const std::string& name, py::object function) {
-  functions_.of_steps[name] = of_steps(callable(name, std::move(function)), write_truths);
+  add([name, function = shared(std::move(function))](robot_file::Functions& to, const auto& failure) {
+    to.of_steps[name] = of_steps({function, name, failure}, write_truths);
+  });
 }
 
 void Robot::try_out(const scenario::Scenario& scenario) const {
@@ -102,25 +129,21 @@ void Robot::try_out(const scenario::Scenario& scenario) const {
 }
 
 void Robot::add_state_function(const std::string& name, py::object function) {
-  functions_.of_states[name] = [of = callable(name, std::move(function))](const ConstMatrixView& X, VectorView values) {
-    call(of, [&](const py::object& function) { write_truths(function(to_array(X)), of.name, values); });
-  };
+  add([name, function = shared(std::move(function))](robot_file::Functions& to, const auto& failure) {
+    to.of_states[name] = of_states({function, name, failure});
+  });
 }
 
 void Robot::add_dynamics(const std::string& name, py::object function, const std::vector<std::string>& parameters) {
-  functions_.dynamics[name] = [of = callable(name, std::move(function)), parameters](const ConstMatrixView& X,
-                                                                                     const ConstMatrixView& U,
-                                                                                     const Vector& phi, MatrixView dX) {
-    call(of, [&](const py::object& function) {
-      py::dict values;
-      for (std::size_t i = 0; i < parameters.size(); ++i) values[py::str(parameters[i])] = phi(static_cast<Index>(i));
-      write_result(function(to_array(X), to_array(U), **values), of.name, dX);
-    });
-  };
+  add([name, function = shared(std::move(function)), parameters](robot_file::Functions& to, const auto& failure) {
+    to.dynamics[name] = changes({function, name, failure}, parameters);
+  });
 }
 
 void Robot::add_plant(const std::string& name, py::object make) {
-  functions_.plants[name] = [of = callable(name, std::move(make))] { return std::make_unique<PythonPlant>(of); };
+  add([name, make = shared(std::move(make))](robot_file::Functions& to, const auto& failure) {
+    to.plants[name] = [of = Callable{make, name, failure}] { return std::make_unique<PythonPlant>(of); };
+  });
 }
 
 experiment::Catalogue Robot::catalogue() const { return catalogue(functions_); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,6 +30,10 @@ class Robot {
   /// make() → an object with reset(seed) → state and step(action) → (state, ended).
   void add_plant(const std::string& name, py::object make);
 
+  /// The same robot, whose functions keep their exceptions in a Failure of its own: for one piece of work, of which
+  /// there may be several at once.
+  Robot for_work() const;
+
   /// The built-in robots and learners, with this robot; one without text adds its functions alone.
   experiment::Catalogue catalogue() const;
 
@@ -43,10 +48,14 @@ class Robot {
 
  private:
   experiment::Catalogue catalogue(const robot_file::Functions& functions) const;
-  Callable callable(const std::string& name, py::object function) const;
+
+  /// Adds a function of Python, whose exceptions go to `failure`.
+  using Addition = std::function<void(robot_file::Functions& functions, const std::shared_ptr<Failure>& failure)>;
+  void add(Addition addition);
 
   std::string text_, source_;
   std::filesystem::path folder_;
+  std::vector<Addition> additions_;
   robot_file::Functions functions_;
   std::shared_ptr<Failure> failure_ = std::make_shared<Failure>();
 };

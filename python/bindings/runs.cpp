@@ -1,6 +1,7 @@
 #include "python/bindings/runs.hpp"
 
 #include <filesystem>
+#include <functional>
 
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
@@ -50,8 +51,7 @@ experiment::Resolved resolved(const experiment::Catalogue& catalogue, const Requ
 }
 
 /// Does the work. Where Ctrl-C stops it, the exception says how to go on. folder: may become known during the work.
-template <class Work>
-void resumable(const std::filesystem::path& folder, Work work) {
+void resumable(const std::filesystem::path& folder, const std::function<void()>& work) {
   try {
     work();
   } catch (const py::error_already_set& error) {
@@ -74,10 +74,10 @@ void warn(const std::vector<std::string>& lines) {
 /// Makes the folder, and runs all trials. Returns the folder.
 std::string learn(const Robot& robot, const Request& request, const std::string& out, const Settings& settings) {
   std::filesystem::path folder = out;
-  const auto run_all = [&](const experiment::RunOptions& options) {
-    const experiment::Catalogue catalogue = robot.catalogue();
+  const auto run_all = [&](const Robot& own, const experiment::RunOptions& options) {
+    const experiment::Catalogue catalogue = own.catalogue();
     const experiment::Resolved run = resolved(catalogue, request);
-    robot.try_out(run.scenario);
+    own.try_out(run.scenario);
     warn(run.warnings);
     if (folder.empty()) folder = "runs/" + run_name(run.spec);
     experiment::start_run(catalogue, run.spec, folder, options);
@@ -87,9 +87,9 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
 }
 
 void resume(const Robot& robot, const std::string& folder, std::optional<Index> trials, const Settings& settings) {
-  const auto go_on = [&](const experiment::RunOptions& options) {
+  const auto go_on = [&](const Robot& own, const experiment::RunOptions& options) {
     const auto until = trials ? std::optional<experiment::Until>(*trials) : std::nullopt;
-    experiment::resume_run(robot.catalogue(), folder, until, options);
+    experiment::resume_run(own.catalogue(), folder, until, options);
   };
   resumable(folder, [&] { work_with(robot, settings, go_on); });
 }
@@ -97,8 +97,8 @@ void resume(const Robot& robot, const std::string& folder, std::optional<Index> 
 Policy ask(const Robot& robot, const std::string& folder, const Settings& settings, py::dict& trial) {
   std::optional<experiment::AskResult> asked;
   std::optional<Policy> policy;
-  work_with(robot, settings, [&](const experiment::RunOptions& options) {
-    asked = experiment::ask_run(robot.catalogue(), folder, options);
+  work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
+    asked = experiment::ask_run(own.catalogue(), folder, options);
     policy.emplace(policy_of(asked->trial, asked->resolved.scenario),
                    experiment::exported_policy(asked->resolved, asked->trial, nullptr));
   });
@@ -109,9 +109,9 @@ Policy ask(const Robot& robot, const std::string& folder, const Settings& settin
 py::dict tell(const Robot& robot, const std::string& folder, const Strings& files,
               const std::optional<experiment::Stop>& stopped, const Settings& settings) {
   std::optional<experiment::TellResult> told;
-  work_with(robot, settings, [&](const experiment::RunOptions& options) {
+  work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
     experiment::TellRequest request{.files = {files.begin(), files.end()}, .stopped = stopped};
-    told = experiment::tell_run(robot.catalogue(), folder, request, options);
+    told = experiment::tell_run(own.catalogue(), folder, request, options);
   });
   Strings logs, notes;
   for (const experiment::Log& log : told->logs) {
@@ -126,8 +126,8 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
 
 py::dict take_back(const Robot& robot, const std::string& folder, const Settings& settings) {
   experiment::TakeBackResult taken;
-  work_with(robot, settings, [&](const experiment::RunOptions& options) {
-    taken = experiment::take_back(robot.catalogue(), folder, options);
+  work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
+    taken = experiment::take_back(own.catalogue(), folder, options);
   });
   Strings files;
   for (const std::filesystem::path& file : taken.files) files.push_back(file.string());
@@ -167,8 +167,8 @@ struct Evaluation {
 
 py::dict evaluate(const Robot& robot, const std::string& folder, const Evaluation& wanted, const Settings& settings) {
   std::vector<experiment::Outcome> outcomes;
-  work_with(robot, settings, [&](const experiment::RunOptions& options) {
-    const experiment::Catalogue catalogue = robot.catalogue();
+  work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
+    const experiment::Catalogue catalogue = own.catalogue();
     const experiment::PastRun run = experiment::read_run(catalogue, folder);
     const experiment::TrialRecord& trial = run.trial(wanted.trial);
     const experiment::Learned learned{policy_of(trial, run.resolved.scenario), trial.theta, trial.trial};

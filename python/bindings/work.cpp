@@ -65,20 +65,19 @@ class Listener final : public experiment::RunListener {
 
 }  // namespace
 
-void work_with(const Robot& robot, const Settings& settings,
-               const std::function<void(const experiment::RunOptions& options)>& work) {
+void work_with(const Robot& robot, const Settings& settings, const Work& work) {
   require_processor();
-  Failure& failure = *robot.failure();
-  failure.clear();
-  const auto interruption = std::make_shared<Interruption>(robot.failure());
-  Listener listener({shared(settings.listener), "progress", robot.failure()});
+  const Robot own = robot.for_work();
+  Failure& failure = *own.failure();
+  const auto interruption = std::make_shared<Interruption>(own.failure());
+  Listener listener({shared(settings.listener), "progress", own.failure()});
   try {
     const bool heard = !settings.listener.is_none();
     const py::gil_scoped_release unlocked;
-    work({.evaluator = make_thread_evaluator(settings.threads),
-          .listener = heard ? &listener : nullptr,
-          .stop = [interruption] { return interruption->asked(); },
-          .cache = apps::cache_folder});
+    work(own, {.evaluator = make_thread_evaluator(settings.threads),
+               .listener = heard ? &listener : nullptr,
+               .stop = [interruption] { return interruption->asked(); },
+               .cache = apps::cache_folder});
   } catch (...) {
     failure.raise_if_any();
     throw;

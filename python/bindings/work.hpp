@@ -18,9 +18,11 @@ struct Settings {
   py::object listener = py::none();
 };
 
+/// own: the robot, with a Failure for this work alone.
+using Work = std::function<void(const Robot& own, const experiment::RunOptions& options)>;
+
 /// Does the work and raises what a function of Python raised, as it was; KeyboardInterrupt where Ctrl-C stopped it.
-void work_with(const Robot& robot, const Settings& settings,
-               const std::function<void(const experiment::RunOptions& options)>& work);
+void work_with(const Robot& robot, const Settings& settings, const Work& work);
 
 /// A trial as Python has it.
 py::dict trial_of(const experiment::TrialRecord& trial, const std::vector<std::string>& parameters);

@@ -29,6 +29,7 @@ class Environment:
         self._observe = observe
         self._task = task
         self._step = 0
+        self._over = False  # the environment's own limit of time was reached
         space = getattr(environment, "action_space", None)
         self._shape = getattr(space, "shape", None)
         self._dtype = getattr(space, "dtype", None)
@@ -36,7 +37,7 @@ class Environment:
             raise InvalidInput("the environment chooses among actions by number; its actions must be continuous")
 
     def reset(self, seed: int) -> Array:
-        self._step = 0
+        self._step, self._over = 0, False
         try:
             result = self._environment.reset(seed=seed)
         except TypeError as error:
@@ -49,6 +50,10 @@ class Environment:
         return state
 
     def step(self, action: Array) -> tuple[Array, bool]:
+        if self._over:
+            raise RuntimeError(
+                f"the environment ended the episode after {self._step} steps by its own limit of time, and more were asked "
+                "for: give it a longer one (max_episode_steps), or the evaluation fewer seconds")
         self._step += 1
         if self._shape is not None:
             action = action.reshape(self._shape).astype(self._dtype or float)
@@ -63,7 +68,8 @@ class Environment:
             terminated = done and not truncated
         else:
             raise ValueError(f"step returned {len(result)} things, must be an observation, four or five")
-        if truncated and not terminated and self._step < self._task.horizon:
+        self._over = bool(truncated and not terminated)
+        if self._over and self._step < self._task.horizon:
             raise RuntimeError(
                 f"the environment ended the episode after {self._step} of {self._task.horizon} steps by its own limit of "
                 "time: give it a longer one (max_episode_steps), or the robot a shorter horizon")
@@ -99,9 +105,14 @@ class Task:
                               f"start_noise={spread:g}: policies are made for that", stacklevel=2)
 
 
+def is_environment(plant: Any) -> bool:
+    """One object, for one thread; else a plant makes some. An environment may be callable, too."""
+    return hasattr(plant, "reset") and hasattr(plant, "step") and not isinstance(plant, type)
+
+
 def environment_maker(plant: Any, observe: Any, task: Task) -> Callable[[], Environment]:
     """Makes what plays the robot: of an environment, or of a function that makes one."""
-    if hasattr(plant, "reset") and hasattr(plant, "step") and not isinstance(plant, type):
+    if is_environment(plant):
         return lambda: Environment(plant, observe, task)
     if callable(plant):
         return lambda: Environment(plant(), observe, task)

@@ -26,21 +26,19 @@ class GaussianProcess:
         self.options = options
         self._core: Union[_core.FittedGp, None] = None
         self._data: tuple[Array, Array] = (np.empty((0, 0)), np.empty((0, 0)))
-        self._one = True
+        self._one, self._inputs = True, 0
 
     def fit(self, X: npt.ArrayLike, y: npt.ArrayLike) -> GaussianProcess:
         """X: n × D inputs; y: n targets, or n × E."""
-        X, Y = self._arrays(X, y)
+        X, Y, one = _arrays(X, y)
         options = {name: text_of(value) for name, value in self.options.items()}
-        self._core, self._data = _core.fit_gp(X, Y, self.trend, self.tolerance, options, self.threads), (X, Y)
-        return self
+        return self._knowing(_core.fit_gp(X, Y, self.trend, self.tolerance, options, self.threads), X, Y, one)
 
     def condition(self, X: npt.ArrayLike, y: npt.ArrayLike, log_hyperparameters: npt.ArrayLike) -> GaussianProcess:
         """The same without a fit: E × (D + 2) logarithms of lengths, σ_f and σ_n."""
-        X, Y = self._arrays(X, y)
+        X, Y, one = _arrays(X, y)
         logs = np.atleast_2d(np.asarray(log_hyperparameters, float))
-        self._core, self._data = _core.condition_gp(X, Y, logs, self.tolerance), (X, Y)
-        return self
+        return self._knowing(_core.condition_gp(X, Y, logs, self.tolerance), X, Y, one)
 
     def predict(self, X: npt.ArrayLike, return_std: bool = False, return_cov: bool = False) -> Any:
         """Means (n, or n × E) at X (n × D), and what is asked for of the function, without noise: its standard deviations
@@ -51,7 +49,8 @@ class GaussianProcess:
             raise _core.InvalidInput("return_std and return_cov: only one of them at a time")
         if return_cov:
             mean = self._fitted.predict_mean(inputs)
-            covariances = [self._covariance(inputs, logs) for logs in self.log_hyperparameters]
+            covariances = [self._covariance(inputs, logs, jitter)
+                           for logs, jitter in zip(self.log_hyperparameters, self._fitted.jitters)]
             return self._shaped(mean), covariances[0] if self._one else np.stack(covariances, axis=-1)
         if not return_std:
             return self._shaped(self._fitted.predict_mean(inputs))
@@ -83,10 +82,17 @@ class GaussianProcess:
     def match_moments(self, mean: npt.ArrayLike, covariance: npt.ArrayLike) -> tuple[Array, Array, Array]:
         """Of an input N(mean (D), covariance (D × D)): mean (E) and covariance (E × E) of the function's values, and
         their covariance with the input (D × E), in closed form (Deisenroth 2011). Not with a trend or a tolerance."""
-        m, S = np.asarray(mean, float), np.atleast_2d(np.asarray(covariance, float))
-        if not np.isfinite(S).all() or np.linalg.eigvalsh(S).min() < -1e-9 * np.abs(S).max():
-            raise _core.InvalidInput("covariance must be finite and positive semi-definite")
-        return self._fitted.match_moments(m, S)
+        m, S = np.asarray(mean, float).reshape(-1), np.atleast_2d(np.asarray(covariance, float))
+        fitted, inputs = self._fitted, self._inputs
+        if m.shape != (inputs,) or S.shape != (inputs, inputs):
+            raise _core.InvalidInput(f"mean and covariance have the shapes {m.shape} and {S.shape}, must have "
+                                     f"{(inputs,)} and {(inputs, inputs)}")
+        if not np.isfinite(S).all() or (np.abs(S - S.T) > 1e-9 * np.abs(S).max()).any():
+            raise _core.InvalidInput("covariance must be finite and symmetric")
+        S = (S + S.T) / 2
+        if np.linalg.eigvalsh(S).min() < -1e-9 * np.abs(S).max():
+            raise _core.InvalidInput("covariance must be positive semi-definite")
+        return fitted.match_moments(m, S)
 
     @property
     def log_evidence(self) -> Union[float, Array]:
@@ -115,14 +121,10 @@ class GaussianProcess:
         """Standard deviation of the noise, σ_n."""
         return self._per_output(np.exp(self.log_hyperparameters[:, self._inputs + 1]))
 
-    def _arrays(self, X: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array]:
-        """As C++ takes them; copies, since the data are kept."""
-        inputs, targets = np.array(X, dtype=float, order="F"), np.array(y, dtype=float, order="F")
-        if inputs.ndim != 2:
-            raise _core.InvalidInput(f"X has {inputs.ndim} dimensions, must be n × D")
-        self._one = targets.ndim == 1
-        self._inputs = inputs.shape[1]
-        return inputs, np.asfortranarray(targets.reshape(len(targets), -1))
+    def _knowing(self, core: _core.FittedGp, X: Array, Y: Array, one: bool) -> GaussianProcess:
+        """Takes what C++ has made of the data; where it refused them, the GP is as before."""
+        self._core, self._data, self._one, self._inputs = core, (X, Y), one, X.shape[1]
+        return self
 
     @property
     def _fitted(self) -> _core.FittedGp:
@@ -130,8 +132,8 @@ class GaussianProcess:
             raise _core.InvalidInput("the GP has no data yet: fit(X, y)")
         return self._core
 
-    def _covariance(self, X: Array, logs: Array) -> Array:
-        """Of one output (Rasmussen 2006, eq. 2.24)."""
+    def _covariance(self, X: Array, logs: Array, jitter: float) -> Array:
+        """Of one output (Rasmussen 2006, eq. 2.24). jitter: times σ_f², what C++ had to add to the data's covariance."""
         lengths, signal, noise, trend = np.split(np.exp(logs), [self._inputs, self._inputs + 1, self._inputs + 2])
 
         def kernel(A: Array, B: Array) -> Array:
@@ -142,7 +144,7 @@ class GaussianProcess:
             return values
 
         data = self._data[0]
-        factor = np.linalg.cholesky(kernel(data, data) + noise**2 * np.eye(len(data)))
+        factor = _factor(kernel(data, data) + noise**2 * np.eye(len(data)), float(signal[0] ** 2), jitter)
         known = np.linalg.solve(factor, kernel(data, X))
         covariance: Array = kernel(X, X) - known.T @ known
         return covariance
@@ -153,6 +155,25 @@ class GaussianProcess:
 
     def _per_output(self, values: Array) -> Any:
         return values[0] if self._one else values
+
+
+def _factor(covariance: Array, scale: float, jitter: float) -> Array:
+    """Its Cholesky factor with this jitter times the scale, or more where NumPy, which rounds otherwise, needs it."""
+    for more in (jitter, *(rung for rung in (1e-10, 1e-8, 1e-6) if rung > jitter)):
+        try:
+            factor: Array = np.linalg.cholesky(covariance + more * scale * np.eye(len(covariance)))
+            return factor
+        except np.linalg.LinAlgError:
+            continue
+    raise _core.InvalidInput("the hyperparameters are too extreme for a covariance")
+
+
+def _arrays(X: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array, bool]:
+    """As C++ takes them, copies, since the data are kept; and whether y is of one output."""
+    inputs, targets = np.array(X, dtype=float, order="F"), np.array(y, dtype=float, order="F")
+    if inputs.ndim != 2:
+        raise _core.InvalidInput(f"X has {inputs.ndim} dimensions, must be n × D")
+    return inputs, np.asfortranarray(targets.reshape(len(targets), -1)), targets.ndim == 1
 
 
 def text_of(value: Any) -> str:

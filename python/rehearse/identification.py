@@ -6,6 +6,7 @@ import os
 import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any, Union
 
@@ -47,7 +48,7 @@ class Identification:
         return Path(path)
 
     def _repr_html_(self) -> str:
-        return f"<pre>{self.summary}</pre>"
+        return f"<pre>{escape(self.summary)}</pre>"
 
     def __str__(self) -> str:
         return self.summary

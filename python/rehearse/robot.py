@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Union
 
 from . import _core
-from .environment import Task, environment_maker
+from .environment import Task, environment_maker, is_environment
 from .parts import Action, Body, Distance, Limit, Model, State, StateFunction, StepFunction, Success
 from .toml import table, value
 
@@ -139,9 +139,17 @@ class Robot:
         name = limit.name or (limit.keep if isinstance(limit.keep, str) else limit.keep.__name__)
         keep: Any = limit.keep
         if callable(keep):
-            self._functions.append(("add_step_condition", name, keep))
-            keep = "@" + name
+            key = self._untaken(name)
+            self._functions.append(("add_step_condition", key, keep))
+            keep = "@" + key
         return {"name": name, "keep": keep, "risk": float(limit.risk)}
+
+    def _untaken(self, name: str) -> str:
+        """A key for a function of steps that no other has: the reward and all limits share one table."""
+        taken = {key for add, key, *_ in self._functions if add in ("add_step_function", "add_step_condition")}
+        while name in taken:
+            name = "limit " + name
+        return name
 
     def _dynamics(self, name: str, model: Model) -> str:
         if (model.change is None) == (not model.rates):
@@ -168,7 +176,7 @@ class Robot:
             return [self._dynamics("plant", plant),
                     table("[plant]", {"dynamics": "plant", "measurement_noise": given,
                                       "delay_s": dict(plant.delay_s), "lag_s": dict(plant.lag_s)})]
-        self.has_environment = not callable(plant)
+        self.has_environment = is_environment(plant)
         self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
         return [table("[plant]", {"function": "plant", "measurement_noise": given})]
 
@@ -197,7 +205,10 @@ def _name_in(text: str) -> str:
 
 def _horizon_in(text: str) -> int:
     horizon = _first(text, "horizon")
-    return int(horizon) if horizon.isdigit() else 0
+    try:
+        return int(horizon, 0) if horizon else 0  # as TOML has them: 1_000, 0x3E8; C++ says where there is none
+    except ValueError:
+        raise _core.InvalidInput(f"horizon = {horizon}, must be a whole number of control steps") from None
 
 
 def _first(text: str, key: str) -> str:
@@ -206,6 +217,6 @@ def _first(text: str, key: str) -> str:
         if line.startswith("["):
             break
         name, _, rest = line.partition("=")
-        if name.strip() == key:
+        if name.strip().strip("\"'") == key:
             return rest.split("#")[0].strip()
     return ""

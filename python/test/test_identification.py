@@ -28,6 +28,11 @@ def test_arrays_tell_the_mass(tmp_path):
     assert found.report(tmp_path / "page.html").read_text().startswith("<!")
 
 
+def test_a_summary_is_text_in_a_notebook():
+    found = rehearse.Identification({}, "p < 0.05 & <b>mass</b>", [], "")
+    assert found._repr_html_() == "<pre>p &lt; 0.05 &amp; &lt;b&gt;mass&lt;/b&gt;</pre>"
+
+
 def test_logs_that_are_wrong_are_named():
     wrong = log(1)
     wrong["velocity"] = wrong["velocity"][:10]

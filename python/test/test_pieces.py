@@ -59,6 +59,15 @@ def test_a_gp_knows_how_its_values_go_together(trend):
         gp.predict(new[:, :1], return_cov=True)
 
 
+def test_measurements_that_repeat_have_a_covariance():
+    X = np.repeat([[-2.0], [0.0], [2.0]], 3, axis=0)
+    gp = rehearse.GaussianProcess().condition(X, np.sin(X[:, 0]), np.log([0.5, 3.0, 1e-9]))
+    new = np.linspace(-3, 3, 13)[:, None]
+    _, std = gp.predict(new, return_std=True)
+    _, cov = gp.predict(new, return_cov=True)
+    np.testing.assert_allclose(np.diag(cov), std**2, atol=1e-8)
+
+
 def test_a_fit_finds_noise_and_beats_a_guess():
     X, y = data(150)
     gp = rehearse.GaussianProcess().fit(X, y)
@@ -92,6 +101,23 @@ def test_a_gp_scores_and_is_copied():
     assert pickle.loads(pickle.dumps(rehearse.GaussianProcess(starts=2))).options == {"starts": 2}
 
 
+def test_what_a_gp_refuses_leaves_it_as_it_was():
+    X, y = data()
+    gp = rehearse.GaussianProcess().condition(X, y, np.log([0.8, 1.5, 1.2, 0.1]))
+    before, lengths = gp.predict(X, return_cov=True)[1], gp.lengths
+    with pytest.raises(rehearse.InvalidInput, match="60 rows and y 3"):
+        gp.fit(np.hstack([X, X]), np.zeros((3, 2)))
+    with pytest.raises(rehearse.InvalidInput, match="must have one an output"):
+        gp.condition(X[:, :1], np.column_stack([y, y]), np.log([[0.8, 1.2, 0.1]]))
+    np.testing.assert_array_equal(gp.predict(X, return_cov=True)[1], before)
+    np.testing.assert_array_equal(gp.lengths, lengths)
+    assert isinstance(gp.log_evidence, float)
+    with pytest.raises(rehearse.InvalidInput, match="y has no columns"):
+        gp.condition(np.zeros((3, 1)), np.zeros((3, 0)), np.zeros((0, 3)))
+    with pytest.raises(rehearse.InvalidInput, match="y has no columns"):
+        gp.fit(np.zeros((3, 1)), np.zeros((3, 0)))
+
+
 def test_moments_are_those_of_samples():
     X, y = data()
     gp = rehearse.GaussianProcess().condition(X, y, np.log([0.8, 1.5, 1.2, 0.1]))
@@ -102,8 +128,20 @@ def test_moments_are_those_of_samples():
     assert mean[0] == pytest.approx(f.mean(), abs=3e-3)
     assert covariance[0, 0] == pytest.approx(f.var() + (std**2).mean(), rel=0.02)
     np.testing.assert_allclose(with_input[:, 0], np.cov(np.column_stack([x, f]).T)[:2, 2], atol=1e-3)
-    with pytest.raises(rehearse.InvalidInput):
+    np.testing.assert_array_equal(gp.match_moments(m[:, None], S)[0], mean)
+    with pytest.raises(rehearse.InvalidInput, match="must be positive semi-definite"):
         gp.match_moments(m, -S)
+    with pytest.raises(rehearse.InvalidInput, match="must be finite and symmetric"):
+        gp.match_moments(m, [[0.05, 0.04], [0.01, 0.02]])
+    with pytest.raises(rehearse.InvalidInput, match=r"must have \(2,\) and \(2, 2\)"):
+        gp.match_moments(m, S[:1])
+
+
+def test_moments_take_all_points():
+    X = np.linspace(-2, 2, 200)[:, None]
+    few = rehearse.GaussianProcess(tolerance=0.1).condition(X, np.sin(X[:, 0]), np.log([1.5, 1, 0.2]))
+    with pytest.raises(rehearse.InvalidInput, match="tolerance must be 0"):
+        few.match_moments([0.0], [[0.1]])
 
 
 def test_cmaes_finds_the_top_of_a_ridge():

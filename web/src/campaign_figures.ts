@@ -3,6 +3,7 @@ import { chart, fit, heights, type Point, type Series } from './chart'
 import { present, type Campaign, type Group, type GroupTrial, type Quartiles, type SuccessRate } from './data'
 import type { Child } from './dom'
 import type { Row } from './export'
+import { largest } from './extent'
 import { figure } from './figure'
 import { count, number, percent } from './format'
 import { inPanel, legendOf, medianPoint, medianPoints, panelPriors, panelTitle, type StyleOf } from './groups'
@@ -170,7 +171,7 @@ const SHORTEST_S = 0.01
 export function times(campaign: Campaign, style: StyleOf): Child {
   const { times } = campaign
   if (times.length === 0) return null
-  const longest = Math.max(1, ...times.flatMap((one) => heights({ points: medianPoints(one) })))
+  const longest = Math.max(1, largest(times.flatMap((one) => heights({ points: medianPoints(one) }))))
   const panel = (prior: string, part: string, name: string): Panel => {
     const shown = inPanel(times, prior).filter((one) => one.part === part)
     const y = { label: 'seconds', log: true, domain: [SHORTEST_S, 1.2 * longest] as [number, number] }

@@ -1,6 +1,7 @@
 // Lines with bands over a number, which is what nearly every figure here is.
 import * as Plot from '@observablehq/plot'
 import { INTERVAL_OPACITY, type Symbol } from './colours'
+import { largest, least } from './extent'
 import { number } from './format'
 
 export interface Point {
@@ -120,10 +121,10 @@ export interface Domain {
 export function fit(values: number[], { zero = false, span = 0 } = {}): Domain {
   const finite = values.filter(Number.isFinite)
   if (finite.length === 0) return {}
-  const low = Math.min(...finite, zero ? 0 : Infinity)
-  const high = Math.max(...finite, zero ? 0 : -Infinity)
-  const largest = Math.max(Math.abs(low), Math.abs(high))
-  const room = Math.max(0.04 * (high - low), (span * largest - (high - low)) / 2) || 0.1 * largest || 1
+  const low = Math.min(least(finite), zero ? 0 : Infinity)
+  const high = Math.max(largest(finite), zero ? 0 : -Infinity)
+  const size = Math.max(Math.abs(low), Math.abs(high))
+  const room = Math.max(0.04 * (high - low), (span * size - (high - low)) / 2) || 0.1 * size || 1
   return { domain: [zero && low === 0 ? 0 : low - room, high + room] }
 }
 
@@ -142,19 +143,19 @@ function axis(of: ChartOptions['x'] | ChartOptions['y'], ticks: number): Plot.Sc
 }
 
 /** Every integer between the least and the largest, or every second, fifth, … */
-function wholeTicks(values: number[], most: number): number[] {
+export function wholeTicks(values: number[], most: number): number[] {
   if (values.length === 0) return []
-  const [low, high] = [Math.ceil(Math.min(...values)), Math.floor(Math.max(...values))]
+  const [low, high] = [Math.ceil(least(values)), Math.floor(largest(values))]
   const step = [1, 2, 5, 10, 20, 50, 100, 200, 500].find((size) => (high - low) / size < most) ?? 1000
   const first = step === 1 ? low : Math.ceil(low / step) * step
   return Array.from({ length: Math.floor((high - first) / step) + 1 }, (_, i) => first + i * step)
 }
 
 /** At most six powers of ten among these numbers; undefined, which leaves it to Plot, without two. */
-function powersOfTen(values: number[]): number[] | undefined {
+export function powersOfTen(values: number[]): number[] | undefined {
   const exponents = values.filter((value) => value > 0).map(Math.log10)
-  const low = Math.ceil(Math.min(...exponents) - 1e-9)
-  const high = Math.floor(Math.max(...exponents) + 1e-9)
+  const low = Math.ceil(least(exponents) - 1e-9)
+  const high = Math.floor(largest(exponents) + 1e-9)
   if (exponents.length === 0 || high <= low) return undefined
   const step = Math.ceil((high - low + 1) / 6)
   return Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, i) => 10 ** (low + i * step))

@@ -1,6 +1,8 @@
 // The data that `rehearse report` puts into the page. src/rehearse/report writes it; docs/run-folder.md and
 // docs/campaigns.md say what the columns and keys mean.
 
+import { largest } from './extent'
+
 export type Cell = number | null
 /** Column name → cells. */
 export type Columns = Record<string, Cell[]>
@@ -25,6 +27,8 @@ export interface Run {
   done: boolean
   /** What the robot has to do, in a line; empty or not there where that is not known. */
   task?: string
+  /** Logs were told before the first trial, whose model has learned from them. */
+  logs?: boolean
   options: [string, string][]
   /** What could not be read is not there. */
   trials?: Columns
@@ -243,5 +247,5 @@ export function present(value: Cell | undefined): value is number {
 /** Position of the largest number, the first of equals; 0 without any. */
 export function indexOfMax(cells: Cell[]): number {
   const numbers = cells.map((value) => value ?? -Infinity)
-  return Math.max(0, numbers.indexOf(Math.max(...numbers)))
+  return Math.max(0, numbers.indexOf(largest(numbers)))
 }

@@ -1,5 +1,5 @@
 // Limits of the task: how often each trial's policy was expected to break them, and whether the trial did.
-import { present, type Columns, type Run } from './data'
+import { present, type Cell, type Columns, type Run } from './data'
 import { h, type Child } from './dom'
 import { tableFigure } from './figure'
 import { count, percent } from './format'
@@ -21,7 +21,7 @@ export function limits({ limits }: Run): Child {
       h('td', {}, name),
       h('td', {}, percent(at('allowed_risk', i))),
       h('td', {}, risk(i)),
-      h('td', {}, at('broken', i) === 1 ? 'broken, the trial was stopped' : 'kept'),
+      h('td', {}, outcome(at('broken', i))),
     ),
   )
   return tableFigure({
@@ -36,6 +36,11 @@ export function limits({ limits }: Run): Child {
         limit: names[i] ?? '',
       })),
   })
+}
+
+/** An episode that was told may have gone on behind the step that broke the limit: nobody stopped that robot. */
+export function outcome(broken: Cell): string {
+  return broken === 1 ? 'broken, the trial counts up to there' : 'kept'
 }
 
 /** Predicted against observed, by trials. */

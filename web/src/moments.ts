@@ -3,6 +3,7 @@ import { chart, fit, heights, type ChartOptions, type Domain, type Point, type S
 import { MOMENTS, PREDICTED } from './colours'
 import { column, present, type Columns, type Run } from './data'
 import { h, type Child } from './dom'
+import { largest, least } from './extent'
 import { figure } from './figure'
 import type { Panel } from './panels'
 import { number } from './format'
@@ -55,8 +56,8 @@ export function gapSentence({ episodes }: Run, trial: number): string {
 /** From one power of ten to another. */
 function decades(values: number[]): Domain {
   if (values.length === 0) return {}
-  const low = Math.floor(Math.log10(Math.min(...values)))
-  const high = Math.max(low + 1, Math.ceil(Math.log10(Math.max(...values))))
+  const low = Math.floor(Math.log10(least(values)))
+  const high = Math.max(low + 1, Math.ceil(Math.log10(largest(values))))
   return { domain: [10 ** low, 10 ** high] }
 }
 

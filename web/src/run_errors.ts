@@ -14,7 +14,8 @@ const BY_PARTS =
   'the range in which the state moved in all trials.'
 
 /** One panel a state, one line a trial. */
-export function errors({ errors, prior, episodes }: Run): Child {
+export function errors(run: Run): Child {
+  const { errors, episodes } = run
   const trials = [...new Set((errors?.['trial'] ?? []).filter(present))]
   if (!errors || !present(trials[0])) return null
   const last = trials.at(-1) ?? trials[0]
@@ -30,7 +31,6 @@ export function errors({ errors, prior, episodes }: Run): Child {
         series: trials.map((trial, i) => errorSeries(errors, header, trial, i / trials.length)),
       }),
   })
-  const first = trials[0] === 1 && prior ? 'trial 1: the prior as given' : `trial ${trials[0]}: the first model`
   const others = { label: `trials ${trials[1]} to ${last}, faint to strong`, colour: PREDICTED }
   const parts = partsOfRobot(episodes)
   const folds = () => {
@@ -45,12 +45,18 @@ export function errors({ errors, prior, episodes }: Run): Child {
       'One step is on the left, the longest prediction on the right. The actions that were taken are taken again, whatever ' +
       'is predicted: the errors of an unstable robot grow fast, though its policy would correct them.' +
       (parts.length > 0 ? ` ${BY_PARTS}` : ''),
-    legend: [{ label: first, colour: REAL }, ...(trials.length > 1 ? [others] : [])],
+    legend: [{ label: firstModel(run, trials[0]), colour: REAL }, ...(trials.length > 1 ? [others] : [])],
     panels: () => headers.map(panel),
     ...(parts.length > 0 ? { folds } : {}),
     table: () => rowsOf(errors, Object.keys(errors)),
     minWidth: 260,
   }).element
+}
+
+/** What chose the policy of the first trial that there are errors of. */
+export function firstModel({ logs, prior }: Pick<Run, 'logs' | 'prior'>, trial: number): string {
+  if (trial !== 1 || !(logs || prior)) return `trial ${trial}: the first model`
+  return `trial 1: ${logs ? 'the model from the logs' : 'the prior as given'}`
 }
 
 /** age: 0 is the first trial, which stands out. */

@@ -10,7 +10,8 @@ import { number } from './format'
 import type { LegendEntry } from './legend'
 import { pointsOf, rowsOf, TRIAL } from './trials'
 
-export function parameters({ trials, truth = {}, identifiability }: Run): Child {
+export function parameters(run: Run): Child {
+  const { trials, truth = {}, identifiability } = run
   const columns = Object.keys(trials ?? {}).filter((name) => name.startsWith('phi.'))
   const isEnd = (name: string) => /\.(low|high)$/.test(name) && columns.includes(name.replace(/\.[a-z]+$/, ''))
   const names = columns.filter((name) => !isEnd(name))
@@ -40,7 +41,7 @@ export function parameters({ trials, truth = {}, identifiability }: Run): Child 
     about: h(
       'div',
       {},
-      'The model chose each trial’s policy with these values. Trial 1 has those of the prior as given. ' +
+      `The model chose each trial’s policy with these values. ${firstValues(run)} ` +
         'A dashed line is the robot’s own value, where the scenario says it.',
       warningList(identifiability, trials['trial']?.at(-1)),
     ),
@@ -50,6 +51,10 @@ export function parameters({ trials, truth = {}, identifiability }: Run): Child 
     minWidth: 220,
     columns: 2,
   }).element
+}
+
+export function firstValues({ logs }: Pick<Run, 'logs'>): string {
+  return logs ? 'Trial 1 has those of the model from the logs.' : 'Trial 1 has those of the prior as given.'
 }
 
 const INTERVAL_LEGEND: LegendEntry[] = [

@@ -1,7 +1,7 @@
 // Returns of a run, trial by trial: predicted by the model, and earned on the robot.
-import { chart, fit, heights, type Series } from './chart'
+import { chart, fit, heights, type Point, type Series } from './chart'
 import { EXPECTED, PREDICTED, REAL } from './colours'
-import type { Run } from './data'
+import { present, type Columns, type Run } from './data'
 import type { Child } from './dom'
 import { figure } from './figure'
 import type { LegendEntry } from './legend'
@@ -9,19 +9,17 @@ import { pointsOf, rowsOf, TRIAL } from './trials'
 
 export function returns({ trials }: Run): Child {
   if (!trials?.['return']?.length) return null
-  const solved = trials['solved'] ?? []
-  const real = pointsOf(trials, 'return').map((p, i) => ({ ...p, hollow: solved[i] !== 1 }))
+  const real = onTheRobot(trials)
   const predicted = pointsOf(trials, 'predicted_return')
   const expected = pointsOf(trials, 'expected_return')
   const series: Series[] = [
     { label: 'predicted', colour: PREDICTED, points: predicted, dash: '6 3', symbol: 'square' },
     { label: 'expected', colour: EXPECTED, points: expected, dash: '2 3', symbol: 'triangle' },
-    { label: 'robot', colour: REAL, points: real, symbol: 'circle' },
+    { label: 'robot', colour: REAL, points: real.points, symbol: 'circle' },
   ]
   const evaluated = expected.length > 0
   const legend: LegendEntry[] = [
-    { label: 'on the robot, solved', colour: REAL, symbol: 'circle' },
-    { label: 'on the robot, not solved', colour: REAL, symbol: 'circle', hollow: true },
+    ...real.legend,
     { label: 'predicted before the trial', colour: PREDICTED, symbol: 'square', dash: '6 3' },
   ]
   if (evaluated) legend.push({ label: 'mean of more episodes', colour: EXPECTED, symbol: 'triangle', dash: '2 3' })
@@ -51,4 +49,19 @@ export function returns({ trials }: Run): Child {
     },
     maxWidth: 1200,
   }).element
+}
+
+/** The points of the returns, and what they mean: hollow are trials that did not solve a task that can say so. */
+export function onTheRobot(trials: Columns): { points: Point[]; legend: LegendEntry[] } {
+  const solved = trials['solved'] ?? []
+  const points = pointsOf(trials, 'return')
+  const look = { colour: REAL, symbol: 'circle' as const }
+  if (!solved.some(present)) return { points, legend: [{ label: 'on the robot', ...look }] }
+  return {
+    points: points.map((p, i) => ({ ...p, hollow: solved[i] !== 1 })),
+    legend: [
+      { label: 'on the robot, solved', ...look },
+      { label: 'on the robot, not solved', ...look, hollow: true },
+    ],
+  }
 }

@@ -4,6 +4,7 @@ import { addCursor } from './chart'
 import { PREDICTED, REAL } from './colours'
 import { isSolid, present, type Cell, type Episode, type Motion, type SolidMotion } from './data'
 import type { Row } from './export'
+import { largest, least } from './extent'
 import type { Panel } from './panels'
 import { NUMBERS } from './solids'
 
@@ -113,8 +114,11 @@ function way(motion: SolidMotion, width: number): SVGSVGElement {
   const points = (frames: Frames) => (frames ?? []).flatMap(([x, y]) => (present(x) && present(y) ? [{ x, y }] : []))
   const [real, predicted] = [points(motion.frames), points(motion.predicted)]
   const all = [...real, ...predicted]
-  const middle = (key: 'x' | 'y') => (Math.min(...all.map((p) => p[key])) + Math.max(...all.map((p) => p[key]))) / 2
-  const reach = (key: 'x' | 'y') => Math.max(...all.map((p) => Math.abs(p[key] - middle(key))), 0.1) * 1.1
+  const middle = (key: 'x' | 'y') => (least(all.map((p) => p[key])) + largest(all.map((p) => p[key]))) / 2
+  const reach = (key: 'x' | 'y') => {
+    const center = middle(key)
+    return Math.max(largest(all.map((p) => Math.abs(p[key] - center))), 0.1) * 1.1
+  }
   const scale = Math.max(reach('x') / (width - 72), reach('y') / 250) // half of a pixel, the same along both
   const height = Math.max(120, reach('y') / scale)
   const domain = (key: 'x' | 'y', pixels: number): [number, number] => [

@@ -13,13 +13,20 @@ const { buildSync } = createRequire(`${packages}/`)('esbuild')
 /** A source of the page as a module. */
 async function source(name) {
   const path = fileURLToPath(new URL(`../src/${name}.ts`, import.meta.url))
-  const { outputFiles } = buildSync({ entryPoints: [path], bundle: true, format: 'esm', write: false })
+  const settings = { bundle: true, format: 'esm', write: false, nodePaths: [`${packages}/node_modules`] }
+  const { outputFiles } = buildSync({ entryPoints: [path], ...settings })
   return import(`data:text/javascript,${encodeURIComponent(outputFiles[0].text)}`)
 }
 
 const { partsOf, TWO_SCREENS } = await source('parts')
 const { rangesOf, relativeErrors } = await source('state_errors')
 const { partFolds, partsOfRobot } = await source('part_folds')
+const { firstModel } = await source('run_errors')
+const { firstValues } = await source('run_model')
+const { fit, powersOfTen, wholeTicks } = await source('chart')
+const { indexOfMax } = await source('data')
+const { outcome } = await source('limits')
+const { onTheRobot } = await source('run_returns')
 
 const named = (states, others) =>
   Object.fromEntries(partsOf(states, others).map((part) => [part.name, [...part.states, ...part.others].join(', ')]))
@@ -154,4 +161,42 @@ test('robots with few states, or without parts, have none', () => {
     ['left', 'right', ''],
   )
   assert.deepEqual(partsOfRobot([]), [])
+})
+
+test('returns of a task that cannot say solved are none of trials that failed', () => {
+  const trials = { trial: [1, 2], return: [3, 4], solved: [null, null] }
+  const unknown = onTheRobot(trials)
+  assert.ok(unknown.points.every(({ hollow }) => !hollow))
+  assert.deepEqual(
+    unknown.legend.map(({ label }) => label),
+    ['on the robot'],
+  )
+  const known = onTheRobot({ ...trials, solved: [0, 1] })
+  assert.deepEqual(
+    known.points.map(({ hollow }) => hollow),
+    [true, false],
+  )
+  assert.equal(known.legend.length, 2)
+})
+
+test('the first model is the prior as given, unless it has learned from logs', () => {
+  assert.equal(firstModel({ prior: 'light' }, 1), 'trial 1: the prior as given')
+  assert.equal(firstModel({ prior: 'light', logs: true }, 1), 'trial 1: the model from the logs')
+  assert.equal(firstModel({ prior: '', logs: true }, 1), 'trial 1: the model from the logs')
+  assert.equal(firstModel({ prior: '' }, 2), 'trial 2: the first model')
+  assert.match(firstValues({}), /the prior as given/)
+  assert.match(firstValues({ logs: true }), /the model from the logs/)
+})
+
+test('a broken limit does not say that a robot was stopped, which may have been told', () => {
+  assert.equal(outcome(1), 'broken, the trial counts up to there')
+  assert.equal(outcome(0), 'kept')
+})
+
+test('figures take more numbers than a function takes arguments', () => {
+  const many = Array.from({ length: 300_000 }, (_, i) => i)
+  assert.deepEqual(fit(many, { zero: true }), { domain: [0, 1.04 * 299_999] })
+  assert.equal(wholeTicks(many, 10).at(-1), 299_000)
+  assert.deepEqual(powersOfTen(many), [1, 10, 100, 1000, 10_000, 100_000])
+  assert.equal(indexOfMax(many), 299_999)
 })

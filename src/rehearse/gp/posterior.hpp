@@ -49,6 +49,7 @@ class Posterior {
   const std::vector<Hyperparameters>& hyperparameters() const { return hyperparameters_; }
   const Vector& noise_variances() const { return noise_variances_; }  // E, σ_n²
   const Vector& log_evidences() const { return log_evidences_; }      // E, nats
+  const Vector& jitters() const { return jitters_; }  // E, × σ_f², what the ladder of cholesky.hpp added
   const Inputs& inputs() const { return inputs_; }
 
   /// Points that the mean and the variance of output e are computed from; n where none is left out.

@@ -233,6 +233,7 @@ Json read_run(const fs::path& folder, std::optional<Index> only, const Knowledge
   Json run = spec_json(spec);
   if (knowledge.task) run["task"] = knowledge.task(spec.scenario);
   run["done"] = fs::exists(folder / "done");
+  if (fs::exists(folder / "logs.csv")) run["logs"] = true;  // told before trial 1, whose model has learned from them
   Index trials = trajectories_in(folder);
   if (const auto table = problems.value_or_problem("trials.csv", [&] { return read_table(folder / "trials.csv"); })) {
     trials = static_cast<Index>(table->rows.size());

@@ -70,6 +70,15 @@ TEST_F(RunFiles, LimitsAreThereWhereTheTaskHasThem) {
   EXPECT_FALSE(limits["numbers"].contains("limit"));
 }
 
+TEST_F(RunFiles, LogsThatWereToldBeforeTheFirstTrialAreKnown) {
+  write_run(folder_);
+  EXPECT_FALSE(json::parse(read_folder(folder_).json)["run"].contains("logs"));
+  write(folder_ / "logs.csv", "log\n");
+  const Report report = read_folder(folder_);
+  EXPECT_EQ(problems_of(report), Lines{});
+  EXPECT_EQ(json::parse(report.json)["run"]["logs"], true);
+}
+
 TEST_F(RunFiles, ARunOfAnOlderVersionHasNoIdentifiabilityWarnings) {
   write_run(folder_);
   fs::remove(folder_ / "identifiability.csv");

@@ -1,0 +1,118 @@
+"""Robots as Python describes them: names, environments, and several runs of one."""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+
+import pytest
+from robots import QUICK, Environment, cart
+
+import rehearse
+
+FILE = """
+format = 1
+name = "cart"
+dt_s = 0.1
+horizon = {horizon}
+[[state]]
+name = "velocity"
+unit = "m/s"
+[[state]]
+name = "position"
+unit = "m"
+start = 1.0
+[[action]]
+name = "force"
+bounds = [-5.0, 5.0]
+[reward]
+formula = "exp(-position^2)"
+"""
+
+
+def learn(robot, out, **more):
+    return rehearse.learn(robot, out=out, **{"trials": 1, "threads": 2, "progress": None, "options": QUICK, **more})
+
+
+def test_a_limit_may_have_the_name_of_the_reward(tmp_path):
+    def near(states, actions, following):
+        return following[:, 1] < 100
+
+    runs = [learn(cart(limits=[rehearse.Limit(near, name=name)]), tmp_path / name) for name in ("near", "reward")]
+    assert runs[0].trials["return"][0] == runs[1].trials["return"][0]
+    assert runs[1].details[0].limits[0]["name"] == "reward" and not runs[1].details[0].limits[0]["broken"]
+
+
+def test_two_threads_may_fail_at_once(tmp_path):
+    script = f"""
+import sys, threading, time; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
+from robots import QUICK, Environment, cart
+import rehearse
+
+both, noted = threading.Barrier(2, timeout=20), []
+
+class Noted(Exception):
+    def add_note(self, note):
+        noted.append(note)
+        time.sleep(0.3)  # the other thread runs, and fails
+
+class Failing(Environment):
+    def step(self, action):
+        both.wait()
+        raise Noted("both")
+
+plants = [Environment]
+run = rehearse.learn(cart(lambda: plants[-1]()), trials=1, out={str(tmp_path / "run")!r}, progress=None, options=QUICK)
+plants.append(Failing)
+try:
+    run.evaluate(200, threads=2)
+except Noted as error:
+    print(error, noted)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert done.stdout == "both ['raised in plant']\n", done.stderr
+
+
+def test_two_runs_of_one_robot_do_not_share_failures(tmp_path):
+    robot = cart()
+
+    class Noted(Exception):
+        def add_note(self, note):  # while the failure of the first run is kept
+            assert len(learn(robot, tmp_path / "second").trials) == 1
+
+    def fail(event):
+        raise Noted("the first")
+
+    with pytest.raises(Noted, match="the first"):
+        learn(robot, tmp_path / "first", progress=fail)
+    assert len(rehearse.open_run(tmp_path / "second").trials) == 1
+
+
+def test_an_environment_that_can_be_called_is_one_object(tmp_path):
+    class Callable(Environment):
+        def __call__(self):
+            raise AssertionError("it is no function that makes environments")
+
+    assert cart(Callable()).has_environment and cart(Environment()).has_environment
+    assert not cart(Callable).has_environment and not cart(lambda: Callable()).has_environment
+    assert len(learn(cart(Callable()), tmp_path / "run").evaluate(30).returns) == 30
+
+
+def test_a_file_may_write_its_horizon_as_toml_has_it(tmp_path):
+    file = tmp_path / "cart.toml"
+    for horizon in ("1_5", "0xF", "+15"):
+        file.write_text(FILE.format(horizon=horizon))
+        with pytest.raises(RuntimeError, match="ended the episode after 10 of 15 steps"):
+            learn(rehearse.Robot.from_file(file, plant=Environment(limit=10)), tmp_path / "run", learner="black-drops")
+        shutil.rmtree(tmp_path / "run", ignore_errors=True)
+    file.write_text(FILE.format(horizon="15.5"))
+    with pytest.raises(rehearse.InvalidInput, match="horizon = 15.5, must be a whole number"):
+        rehearse.Robot.from_file(file, plant=Environment())
+
+
+def test_an_environment_is_not_asked_for_more_than_its_time(tmp_path):
+    run = learn(cart(Environment(limit=15)), tmp_path / "run")
+    assert len(run.evaluate(12).returns) == 12
+    with pytest.raises(RuntimeError, match="ended the episode after 15 steps by its own limit of time, and more"):
+        run.evaluate(2, seconds=2.0)
+    assert len(run.evaluate(2, seconds=1.5).returns) == 2
