@@ -18,7 +18,8 @@ TEST(Resume, AfterAStopAnywhereGivesTheSameBytes) {
   const fs::path folder = fake::test_folder();
   Spec spec = line_spec(4);
   spec.options = {{"evaluations", "5"}};
-  constexpr Index kSteps = 12, kPolls = 3 + kSteps + 5 * (1 + kSteps);  // of a trial: policy, episode, evaluations
+  constexpr Index kSteps = 12, kBefore = 3 + 2 * kSteps;     // the episode is on the disk: policy, prediction, episode
+  constexpr Index kPolls = kBefore + 5 * (1 + kSteps) + 10;  // of a trial: evaluations and errors over 10 steps, too
   Index polls_of_all = 0;
   start_run(fake::catalogue(), spec, folder / "whole", {.stop = [&] { return ++polls_of_all == 0; }});
   EXPECT_EQ(polls_of_all, 4 * kPolls);
@@ -33,7 +34,7 @@ TEST(Resume, AfterAStopAnywhereGivesTheSameBytes) {
     } catch (const Interrupted&) {
       stopped = true;
       EXPECT_FALSE(fs::exists(run / "done"));
-      EXPECT_EQ(RunFolder::open(run).load().done(), (stops + kPolls - 3 - kSteps) / kPolls) << stops;
+      EXPECT_EQ(RunFolder::open(run).load().done(), (stops + kPolls - kBefore) / kPolls) << stops;
       resume_run(fake::catalogue(), run, {}, {});
     }
     EXPECT_EQ(results_of(run), expected) << stops;
