@@ -35,7 +35,7 @@ TEST(KnownCombinations, NamesDifferencesRatiosAndPowers) {
 TEST(KnownCombinations, AreTrueAsTheyArePrinted) {
   const Matrix ridge = points(20, [](double a, double) { return Vector{{5 - 1.019 * (100 + a), 100 + a}}; });
   const double mean = (ridge.row(0) + ridge.row(1)).mean();
-  EXPECT_EQ(known_combinations({"x", "y"}, ridge, 1), Names{fmt::format("x + y = {:.3g}", mean)});
+  EXPECT_EQ(known_combinations({"x", "y"}, ridge, 1), Names{fmt::format("y + x = {:.3g}", mean)});
 }
 
 TEST(KnownCombinations, NamesWhatTwoUnknownDirectionsLeave) {
