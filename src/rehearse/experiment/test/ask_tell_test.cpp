@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "fragile.hpp"
 #include "line_run.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
 #include "rehearse/experiment/run.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/files/write.hpp"
+#include "wrapped.hpp"
 
 namespace rehearse::experiment {
 namespace {

@@ -5,6 +5,7 @@
 #include "line_run.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/spec_file.hpp"
+#include "wrapped.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -63,43 +64,25 @@ TEST(Run, FolderHoldsWhatTheContractSays) {
 }
 
 /// A learner that keeps what it is told.
-class Listener final : public learners::Learner {
+class Listener final : public fake::Wrapped {
  public:
-  Listener(std::unique_ptr<learners::Learner> echo, std::vector<Episode>* told) : echo_(std::move(echo)), told_(told) {}
-  const learners::Proposal& ask() override { return echo_->ask(); }
+  Listener(std::unique_ptr<learners::Learner> inner, std::vector<Episode>* told)
+      : Wrapped(std::move(inner)), told_(told) {}
   void tell(const Episode& episode) override {
     told_->push_back(episode);
-    echo_->tell(episode);
+    Wrapped::tell(episode);
   }
-  nlohmann::json save() const override { return echo_->save(); }
-  std::vector<learners::Table> tables() override { return echo_->tables(); }
   void load(const std::vector<Episode>& episodes, const nlohmann::json& state) override {
     *told_ = episodes;
-    echo_->load(episodes, state);
+    Wrapped::load(episodes, state);
   }
 
  private:
-  std::unique_ptr<learners::Learner> echo_;
   std::vector<Episode>* told_;
 };
-Catalogue with_listener(std::vector<Episode>& told) {
-  class Builder final : public fake::EchoBuilder {
-   public:
-    explicit Builder(std::vector<Episode>* told) : EchoBuilder(true, {}), told_(told) {}
-    std::unique_ptr<learners::Learner> build(learners::Setting setting) const override {
-      return std::make_unique<Listener>(EchoBuilder::build(std::move(setting)), told_);
-    }
 
-   private:
-    std::vector<Episode>* told_;
-  };
-  Catalogue catalogue = fake::catalogue();
-  catalogue.learner_families = {[&told] {
-    std::vector<std::unique_ptr<learners::LearnerBuilder>> family;
-    family.push_back(std::make_unique<Builder>(&told));
-    return family;
-  }};
-  return catalogue;
+Catalogue with_listener(std::vector<Episode>& told) {
+  return fake::catalogue_of([&told](auto inner) { return std::make_unique<Listener>(std::move(inner), &told); });
 }
 
 // Also what it loads when a run is resumed; the folder tells of the noise-free states in any case.
