@@ -252,7 +252,7 @@ void add_runs(py::module_& module) {
   module.def(
       "report",
       [](const std::string& folder, const std::string& share) {
-        return apps::report_page(apps::catalogue(), folder, share).html;
+        return apps::report_page(apps::to_look(apps::catalogue()), folder, share).html;
       },
       "folder"_a, "share"_a);
   module.def("known", &known);

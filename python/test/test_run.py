@@ -36,6 +36,11 @@ def test_any_number_of_threads_gives_the_same_bytes(tmp_path):
     assert one.trials["phi.mass"][1] == pytest.approx(1.6, rel=1e-3)
 
 
+def test_the_page_says_what_the_robot_has_to_do(tmp_path):
+    page = learn(cart(summary="go to the origin"), tmp_path / "run").report().read_text()
+    assert '"task":"go to the origin"' in page
+
+
 def test_a_file_gives_the_bytes_of_the_command_line(tmp_path):
     options = [word for name, value in QUICK.items() for word in ("--set", f"{name}={value}")]
     subprocess.run([PROGRAM, "learn", EXAMPLE, "--learner", "gp-mi", "--trials", "2", "--out", tmp_path / "there",

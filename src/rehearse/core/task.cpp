@@ -131,9 +131,13 @@ std::vector<std::string> Task::violations() const {
   for (const StateVariable& state : states)
     found.require(state.rate.empty() || (index_of(states, state.rate) >= 0 && state.rate != state.name),
                   fmt::format("state {}: its rate {} is not another state", state.name, state.rate));
+  const auto own_rate = [&](Index state) {
+    const StateVariable& variable = states[static_cast<std::size_t>(state)];
+    return variable.rate == variable.name;  // which is said already
+  };
   for (Index state = 0; state < state_size(); ++state)
-    found.require(rates_behind(states, state) < state_size(),
-                  fmt::format("state {}: it is a rate of its own rate", states[static_cast<std::size_t>(state)].name));
+    found.require(rates_behind(states, state) < state_size() || own_rate(state),
+                  fmt::format("state {}: its rates go in a circle", states[static_cast<std::size_t>(state)].name));
   for (const StateVariable& state : states) {
     const Index parent = index_of(states, state.parent);
     const bool angles = parent >= 0 && state.kind == StateKind::angle &&

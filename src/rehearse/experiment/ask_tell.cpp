@@ -138,6 +138,7 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Tell
   const ToldEpisode episode = episode_of(news.front(), resolved.scenario, *history.asked, request.stopped);
   keep_tell(reopened.folder(), news);
   reopened.run().record(episode.episode, news.front().checksum, episode.notes);
+  update_next_files(reopened.folder(), resolved, history);  // before anything can fail: nobody runs an old policy again
   reopened.go_on(false, [](OpenRun&) {});
   reopened.extend_to_done();
   told.trial = history.trials.back();

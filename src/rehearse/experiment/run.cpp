@@ -18,13 +18,25 @@ bool is_over(const Spec& spec, const History& history) {
   return spec.ends_with(history.done(), solved);
 }
 
-/// Throws InvalidInput where there is no plant that trials could drive, or it is not ready.
 void require_plant(const Resolved& resolved) {
   if (!resolved.scenario.make_plant)
     throw InvalidInput(fmt::format(
         "{} has no plant that could be driven: begin with --trials 0, then `ask` and `tell` go on a trial at a time",
         resolved.spec.scenario));
+}
+
+/// Throws InvalidInput, for instance where a program cannot be started.
+void require_ready(const Resolved& resolved) {
   if (resolved.scenario.require_ready) resolved.scenario.require_ready();
+}
+
+/// What is not ready may be ready later: the run that has begun is as good as before.
+void require_ready_again(const Resolved& resolved) {
+  try {
+    require_ready(resolved);
+  } catch (const InvalidInput& error) {
+    throw RunFailed(error.what(), true);
+  }
 }
 
 /// ask → execute → tell, to the end.
@@ -92,10 +104,8 @@ RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::fil
                     const RunOptions& options) {
   Participants participants(resolve(catalogue, spec), options);
   const Resolved& resolved = participants.resolved();
-  if (spec.trials > 0)
-    require_plant(resolved);
-  else if (resolved.scenario.require_ready)
-    resolved.scenario.require_ready();
+  if (spec.trials > 0) require_plant(resolved);
+  require_ready(resolved);
   const RunFolder folder = RunFolder::create(path, resolved.spec, resolved.comments, resolved.robot);
   return with_causes(catalogue, resolved.spec, [&] { return Run(participants, folder, {}).finish(); });
 }
@@ -112,7 +122,10 @@ RunResult resume_run(const Catalogue& built_in, const std::filesystem::path& pat
                     "drive the plant",
                     path.string()));
   Participants participants(resolve(catalogue, extended), options);
-  if (!is_over(extended, history)) require_plant(participants.resolved());
+  if (!is_over(extended, history)) {
+    require_plant(participants.resolved());
+    require_ready_again(participants.resolved());
+  }
   folder.change_end({extended.trials, extended.until_solved}, participants.resolved().comments);
   return with_causes(catalogue, participants.resolved().spec,
                      [&] { return Run(participants, folder, std::move(history)).finish(); });

@@ -29,6 +29,13 @@ std::optional<std::string> read_kept(const fs::path& path, const std::string& ow
   }
 }
 
+/// As versions before 0.2.0 named it: with until_solved.
+std::string older_owner(const Spec& spec) {
+  Spec older = spec.without_end();
+  older.until_solved = spec.until_solved;
+  return to_toml(older);
+}
+
 void write_cached(const fs::path& path, const std::string& bytes) {
   try {
     fs::create_directories(path.parent_path());
@@ -41,7 +48,7 @@ void write_cached(const fs::path& path, const std::string& bytes) {
 }  // namespace
 
 RunStore::RunStore(const Spec& spec, CacheFolder cache)
-    : owner_(to_toml(spec.without_end())), cache_(std::move(cache)) {}
+    : owner_(to_toml(spec.without_end())), older_owner_(older_owner(spec)), cache_(std::move(cache)) {}
 
 fs::path RunStore::kept(const std::string& name) const {
   return folder_.empty() ? fs::path() : folder_ / "kept" / name;
@@ -54,8 +61,9 @@ fs::path RunStore::cached(const std::string& name) {
 }
 
 std::optional<std::string> RunStore::read(const std::string& name) {
-  std::optional<std::string> bytes = read_kept(kept(name), owner_);
-  return bytes ? bytes : read_kept(cached(name), owner_);
+  for (const std::string& owner : {owner_, older_owner_})
+    if (auto bytes = read_kept(kept(name), owner)) return bytes;
+  return read_kept(cached(name), owner_);
 }
 
 void RunStore::write(const std::string& name, const std::string& bytes) {

@@ -32,7 +32,8 @@ class RunStore final : public learners::Store {
   std::filesystem::path kept(const std::string& name) const;
   std::filesystem::path cached(const std::string& name);
 
-  std::string owner_;  // the spec that it belongs to
+  std::string owner_;        // the spec that it belongs to
+  std::string older_owner_;  // … as older versions named it
   CacheFolder cache_;
   std::optional<std::filesystem::path> cache_folder_;
   std::filesystem::path folder_;

@@ -146,16 +146,17 @@ void Process::read_errors() {
 }
 
 /// What it wrote since the last answer is read. The first answer may stand there: some programs greet by themselves.
-bool Process::has_unasked_answer(const Complete& complete) {
+bool Process::has_unasked_answer(const Complete& complete, std::size_t most) {
   if (!std::exchange(spoken_, true)) return false;
   pollfd ready{output_, POLLIN, 0};
-  if (poll(&ready, 1, 0) > 0) (void)receive();
+  while (received_.size() <= most && poll(&ready, 1, 0) > 0 && receive()) {
+  }
   const std::size_t end = received_.empty() ? 0 : complete(received_);
   return end > 0 && end != kNoAnswer;
 }
 
 Process::Outcome Process::exchange(std::string_view message, const Complete& complete, Limits limits) {
-  if (has_unasked_answer(complete)) return Outcome::unasked;
+  if (has_unasked_answer(complete, limits.bytes)) return Outcome::unasked;
   const auto until =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
   for (;;) {

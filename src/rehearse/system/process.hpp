@@ -48,7 +48,7 @@ class Process {
   std::string end();
 
  private:
-  bool has_unasked_answer(const Complete& complete);
+  bool has_unasked_answer(const Complete& complete, std::size_t most);
   bool send(std::string_view& left);
   bool receive();
   void read_errors();

@@ -62,8 +62,8 @@ TEST(Task, EachViolationIsNamed) {
             }),
             Lines{"action u: bounds must be finite with low < high"});
   EXPECT_EQ(after([](Task& t) { t.states[0].rate = t.states[1].name, t.states[1].rate = t.states[0].name; }),
-            (Lines{"state " + task().states[0].name + ": it is a rate of its own rate",
-                   "state " + task().states[1].name + ": it is a rate of its own rate"}));
+            (Lines{"state " + task().states[0].name + ": its rates go in a circle",
+                   "state " + task().states[1].name + ": its rates go in a circle"}));
   EXPECT_EQ(after([](Task& t) { t.states[0].rate = "speed"; }),
             Lines{"state " + task().states[0].name + ": its rate speed is not another state"});
   EXPECT_EQ(after([](Task& t) { t.actions[0].target_of = "nobody"; }),
@@ -93,6 +93,15 @@ TEST(Task, KnowsWhichStatesAreRates) {
   EXPECT_EQ(kinematics.pairs[0].position, 1);
   EXPECT_EQ(kinematics.pairs[0].rate, 0);
   EXPECT_EQ(kinematics.dt_s, moving.dt_s);
+}
+
+TEST(Task, PositionsStandBeforeRatesThatArePositions) {
+  Task moving = task();
+  moving.states = {{.name = "v", .rate = "a"}, {.name = "a"}, {.name = "x", .rate = "v"}};
+  const auto pairs = moving.kinematics().pairs;
+  ASSERT_EQ(pairs.size(), 2u);
+  EXPECT_EQ(pairs[0].position, 2);
+  EXPECT_EQ(pairs[1].position, 0);
 }
 
 TEST(Task, KnowsWhichActionsAreTargetsOfServos) {

@@ -62,6 +62,13 @@ TEST(Integration, VariancesOfPositionsHaveAQuarterOfThatOfTheRates) {
   EXPECT_TRUE(variance.isApprox(Matrix{{4, 1, 0.5 + 0.01}}));
 }
 
+TEST(Integration, VariancesOfChainsHaveThoseOfWholeRates) {
+  const Kinematics chain{.dt_s = 0.1, .pairs = {{.position = 2, .rate = 0}, {.position = 0, .rate = 1}}};
+  Matrix variance{{4, 1, 0.5}};
+  add_variances_of_integrals(chain, variance);
+  EXPECT_TRUE(variance.isApprox(Matrix{{4.0025, 1, 0.5 + 0.0025 * 4.0025}}, 1e-14)) << variance;
+}
+
 TEST(Integration, DerivativesAreThoseOfItsSums) {
   const Matrix X = normals(1), mean_slopes = normals(2), variance_slopes = normals(3).cwiseAbs();
   for (const bool has_prior : {false, true}) {

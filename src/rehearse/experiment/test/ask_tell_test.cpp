@@ -77,6 +77,7 @@ TEST_F(AskTell, AnEpisodeIsKeptWhateverFailsThen) {
   const TellRequest first{{trial_of(driven, 1)}, {}};
   EXPECT_THROW(tell_run(fake::fragile(broken), told, first, {}), RunFailed);
   EXPECT_EQ(status_of(fake::catalogue(), told).history.done(), 1);
+  EXPECT_FALSE(fs::exists(told / "next"));
   broken = false;
   EXPECT_TRUE(tell_run(fake::fragile(broken), told, first, {}).known_before);
   for (Index trial = 2; trial <= kTrials; ++trial) {

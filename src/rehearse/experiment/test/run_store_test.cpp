@@ -6,6 +6,7 @@
 
 #include "fake.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/files/seal.hpp"
 #include "rehearse/files/write.hpp"
 
@@ -82,6 +83,10 @@ TEST(RunStore, KeepsForWhateverEnd) {
   until_solved.until_solved = true;
   store(run, until_solved).write("archive", "of hours");
   EXPECT_EQ(store(run, spec()).read("archive"), "of hours");
+  Spec older = until_solved.without_end();
+  older.until_solved = true;
+  files::write_file(run / "kept" / "prior", files::seal("kept", to_toml(older) + '\0' + "of an older version"));
+  EXPECT_EQ(store(run, until_solved).read("prior"), "of an older version");
 }
 
 }  // namespace

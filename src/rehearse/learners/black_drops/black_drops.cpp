@@ -228,10 +228,9 @@ void require_start_in_box(const Setting& setting, const Options& options) {
   for (Index i = 0; i < start.size(); ++i)
     if (!(start(i) >= box.low && start(i) <= box.high))
       throw InvalidInput(fmt::format(
-          "search.box: parameter {} of the policy to begin with is {}, policies are searched "
-          "in {} to {}{}",
-          i + 1, start(i), box.low, box.high,
-          setting.policy->box() ? "" : fmt::format(": set search.box to {:g} or more", start.cwiseAbs().maxCoeff())));
+          "{}: parameter {} of the policy to begin with is {}, policies are searched in {} to {}{}",
+          setting.policy->box() ? "policy" : "search.box", i + 1, start(i), box.low, box.high,
+          setting.policy->box() ? "" : fmt::format(": set search.box to {} or more", start.cwiseAbs().maxCoeff())));
 }
 
 }  // namespace
