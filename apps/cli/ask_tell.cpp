@@ -14,6 +14,7 @@
 #include "apps/cli/on_console.hpp"
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/experiment/tables.hpp"
 
 namespace rehearse::apps {
@@ -32,8 +33,7 @@ template <class Variables>
 std::string columns(const Variables& variables) {
   std::vector<std::string> names;
   names.reserve(variables.size());
-  for (const auto& variable : variables)
-    names.push_back(variable.unit.empty() ? variable.name : fmt::format("{} [{}]", variable.name, variable.unit));
+  for (const auto& variable : variables) names.push_back(with_unit(variable.name, variable.unit));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

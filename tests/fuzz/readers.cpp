@@ -117,7 +117,7 @@ void read_message(std::string_view bytes) {
   }
 }
 
-/// What `end` says of what a program wrote as soon as it says something, when that comes in pieces.
+/// The first end that `end` finds when what a program wrote comes in pieces; 0: none.
 std::size_t end_in_pieces(std::string_view written, std::size_t (*end)(std::string_view)) {
   const std::size_t piece = written.size() / 16 + 1;
   for (std::size_t size = 0; size < written.size(); size += piece) {

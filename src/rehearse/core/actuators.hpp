@@ -48,8 +48,9 @@ class Actuators {
   /// What is wrong with an action's actuation, a line each.
   static std::vector<std::string> violations(const ActionVariable& action, double dt_s);
 
-  /// What becomes of one action's commands, for whoever computes it elsewhere (policy/exported.hpp). Its part of the
-  /// memory holds the last `kept` commands, newest first, and, with a lag, what has been reached.
+  /// The numbers that turn one action's commands into what moves the robot, for exported policies
+  /// (policy/exported.hpp). The action's part of the memory holds the last `kept` commands, newest first, and, with a
+  /// lag, the value reached.
   struct Channel {
     Index last_command = 0;     // state
     Index kept = 0;             // commands

@@ -18,7 +18,8 @@ Index index_of(const std::vector<StateVariable>& states, const std::string& name
   return -1;
 }
 
-/// How many rates follow from a state, one the rate of the other; no fewer than there are states: they go in a circle.
+/// The number of rates behind a state, each the rate of the one before; as many as there are states: they go in a
+/// circle.
 Index rates_behind(const std::vector<StateVariable>& states, Index state) {
   Index count = 0;
   for (; count < static_cast<Index>(states.size()); ++count) {
@@ -128,16 +129,13 @@ std::vector<std::string> Task::violations() const {
   found.require(!actions.empty(), "task has no actions");
   for (const std::string& name : ambiguous_names(*this))
     found.add(fmt::format("{}: must be one of time, reward, states, \"true\" states and actions alone", name));
-  for (const StateVariable& state : states)
-    found.require(state.rate.empty() || (index_of(states, state.rate) >= 0 && state.rate != state.name),
-                  fmt::format("state {}: its rate {} is not another state", state.name, state.rate));
-  const auto own_rate = [&](Index state) {
-    const StateVariable& variable = states[static_cast<std::size_t>(state)];
-    return variable.rate == variable.name;  // which is said already
-  };
-  for (Index state = 0; state < state_size(); ++state)
-    found.require(rates_behind(states, state) < state_size() || own_rate(state),
-                  fmt::format("state {}: its rates go in a circle", states[static_cast<std::size_t>(state)].name));
+  for (Index i = 0; i < state_size(); ++i) {
+    const StateVariable& state = states[static_cast<std::size_t>(i)];
+    const bool can_follow = state.rate.empty() || (index_of(states, state.rate) >= 0 && state.rate != state.name);
+    found.require(can_follow, fmt::format("state {}: its rate {} is not another state", state.name, state.rate));
+    found.require(!can_follow || rates_behind(states, i) < state_size(),
+                  fmt::format("state {}: its rates go in a circle", state.name));
+  }
   for (const StateVariable& state : states) {
     const Index parent = index_of(states, state.parent);
     const bool angles = parent >= 0 && state.kind == StateKind::angle &&

@@ -33,7 +33,7 @@ struct Entry {
   std::uintmax_t bytes = 0;
 };
 
-/// What is in a folder, as far as it can be read.
+/// The entries of a folder, as far as it can be read; none, and no error, if it cannot.
 std::vector<fs::directory_entry> contents(const fs::path& folder) {
   std::vector<fs::directory_entry> all;
   std::error_code none;

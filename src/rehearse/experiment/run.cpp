@@ -30,7 +30,7 @@ void require_ready(const Resolved& resolved) {
   if (resolved.scenario.require_ready) resolved.scenario.require_ready();
 }
 
-/// What is not ready may be ready later: the run that has begun is as good as before.
+/// The same for a run that has begun, as RunFailed: the robot may be ready later, and the run is as good as before.
 void require_ready_again(const Resolved& resolved) {
   try {
     require_ready(resolved);

@@ -29,7 +29,7 @@ std::optional<std::string> read_kept(const fs::path& path, const std::string& ow
   }
 }
 
-/// As versions before 0.2.0 named it: with until_solved.
+/// The owner as older versions named it: with until_solved.
 std::string older_owner(const Spec& spec) {
   Spec older = spec.without_end();
   older.until_solved = spec.until_solved;

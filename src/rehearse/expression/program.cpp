@@ -7,7 +7,7 @@
 namespace rehearse::expression {
 namespace {
 
-/// What a slot holds, in inputs.
+/// The value of a slot as a function of the inputs: the same for all, a constant plus multiples of them, or another.
 enum class Degree { constant, affine, other };
 
 Degree product(Degree a, Degree b) {

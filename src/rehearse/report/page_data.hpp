@@ -31,7 +31,8 @@ struct ArchiveSpace {
 /// Reads an ArchiveSpace from the bytes of archive.bin. Throws InvalidInput if they are no archive.
 using ArchiveReader = std::function<ArchiveSpace(std::string_view bytes)>;
 
-/// What a folder does not say by itself, from those who know archives and robots. Each may be empty.
+/// Functions that add what a folder does not say by itself, from rooms that know archives and robots. Each may be
+/// empty.
 struct Knowledge {
   ArchiveReader archive;                                         // without it archive.bin is not looked at
   std::function<std::string(const std::string& scenario)> task;  // what the robot of a run has to do, in a line

@@ -10,7 +10,7 @@
 
 namespace rehearse::system {
 
-/// What the functions below return for bytes that no answer begins with.
+/// The size that `frame_end`, and `Process::Complete`, return for bytes that no answer begins with.
 inline constexpr std::size_t kNoAnswer = ~std::size_t{0};
 
 /// The bytes up to the end of the first line that begins with '{'; 0: it is not all there. A program's own prints are

@@ -145,7 +145,8 @@ void Process::read_errors() {
   if (errors_.size() > kLastWords) errors_.erase(0, errors_.size() - kLastWords);
 }
 
-/// What it wrote since the last answer is read. The first answer may stand there: some programs greet by themselves.
+/// True if a whole answer stands there before the message is sent; all that the program wrote since its last answer is
+/// read first. Before the first message it may: some programs greet by themselves.
 bool Process::has_unasked_answer(const Complete& complete, std::size_t most) {
   if (!std::exchange(spoken_, true)) return false;
   pollfd ready{output_, POLLIN, 0};

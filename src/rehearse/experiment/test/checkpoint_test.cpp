@@ -95,7 +95,7 @@ TEST(Checkpoint, DamageAnotherVersionAndAnotherSpecAreRefused) {
   EXPECT_EQ(checkpoint_complaint("hello"), "the checkpoint is truncated or not one of Rehearse");
 }
 
-/// What is said of the checkpoint of one trial after a change.
+/// The message by which the checkpoint of one trial is refused after a change; empty: it is not.
 std::string complaint_after(const std::function<void(History& history)>& change) {
   History history = history_of_one();
   change(history);
