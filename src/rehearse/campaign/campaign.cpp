@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char *kOpen = "open the folder", *kStart = "start";  // steps of all ranks
 
-/// Passes on what one run says.
+/// Passes the events of one run on.
 class Reporter final : public experiment::RunListener {
  public:
   Reporter(const CampaignFolder& folder, Ledger& ledger, const PlannedRun& planned, std::size_t run)
@@ -40,7 +40,7 @@ class Reporter final : public experiment::RunListener {
   std::size_t run_;
 };
 
-/// How many runs go on at once, here and in all, and with how many threads here.
+/// The number of concurrent runs, here and in all, and of threads here.
 struct Places {
   Index here = 0, in_all = 0;
   int threads = 1;
@@ -110,7 +110,7 @@ class Crew {
   Ledger& ledger_;
 };
 
-/// As many places as there are threads, but no more than runs; on every rank in proportion to its threads.
+/// The places: one for each thread, but no more than runs; on every rank in proportion to its threads.
 Places places_of(const CampaignOptions& options, Index runs) {
   Places places{.threads = options.threads > 0 ? options.threads : make_thread_evaluator(0)->concurrency()};
   const auto given = options.ranks ? options.ranks->exchange("threads", std::to_string(places.threads))
@@ -182,7 +182,7 @@ class Leader {
   }
 
  private:
-  /// What fails here fails on all ranks, which wait for it.
+  /// Does the work once for all ranks. A failure fails on all of them, which wait for it.
   std::string once(const char* step, const std::function<std::string()>& work) const {
     return options_.ranks ? options_.ranks->once(step, work) : work();
   }

@@ -30,8 +30,8 @@ std::optional<Index> first_success(const RunOutcome& run, const Measure& measure
   return std::nullopt;
 }
 
-/// Nothing if the run has not come so far, even if it has succeeded: early ones alone would be a biased choice. A run
-/// that failed has no success from there on, but no return either.
+/// The value of a measure; none if the run has not come so far, even if it has succeeded: early ones alone would be a
+/// biased choice. A run that failed has no success from there on, but no return either.
 std::optional<double> value_of(const RunOutcome& run, const Measure& measure) {
   if (measure.metric == Metric::first_success) {
     if (!run.decided(measure.trial)) return std::nullopt;
@@ -42,7 +42,7 @@ std::optional<double> value_of(const RunOutcome& run, const Measure& measure) {
   return measure.metric == Metric::total_reward ? run.returns[*row] : run.best_return(measure.trial);
 }
 
-/// Whether the interval is at or above a threshold (`strict`: above it), below it, or neither.
+/// The verdict: the interval is at or above a threshold (`strict`: above it), below it, or neither.
 Verdict at_or_above(const Interval& interval, double threshold, bool strict = false) {
   if (strict ? interval.low > threshold : interval.low >= threshold) return Verdict::pass;
   if (strict ? interval.high <= threshold : interval.high < threshold) return Verdict::fail;
@@ -95,7 +95,7 @@ class Judge {
     return values;
   }
 
-  /// By how much the runs are better than what they are compared with, by seed.
+  /// The advantage of the runs over those that they are compared with, by seed.
   std::vector<double> differences(const Measure& measure) {
     const double sign = measure.metric == Metric::first_success ? -1 : 1;
     std::vector<double> differences;
@@ -188,7 +188,7 @@ class Judge {
   PartResult result_;
   std::vector<std::string> required_;
   Index failed_ = 0;         // runs without a value, now and for ever
-  bool cannot_say_ = false;  // what is solved
+  bool cannot_say_ = false;  // the scenario has no test of success
 };
 
 ClaimResult judge_claim(const Campaign& campaign, const PlannedClaim& planned) {

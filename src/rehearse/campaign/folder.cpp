@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr const char *kFile = "campaign.toml", *kRuns = "runs";
 constexpr std::chrono::seconds kUntilVisible{30};  // network file systems may show an old state for a while
 
-/// Whether nothing of anybody's is in a folder: what is left of a start that was killed counts as nothing.
+/// True if a folder is empty; remains of a start that was killed do not count.
 bool is_blank(const fs::path& folder) {
   return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), [](const fs::directory_entry& entry) {
     return entry.path().filename() == "lock" || entry.path().extension() == ".tmp";
@@ -98,7 +98,7 @@ std::string complaint_about_spec(const fs::path& file, const PlannedRun& run) {
   }
 }
 
-/// What `plan` needs to be there, in a folder that is locked.
+/// Writes the campaign's file and folders for `plan`, in a folder that is locked.
 void begin(const experiment::Catalogue& catalogue, const fs::path& path, std::string_view text,
            const CampaignPlan& plan, files::FolderLock::Kind kind) {
   const fs::path file = path / kFile;
@@ -113,7 +113,8 @@ void begin(const experiment::Catalogue& catalogue, const fs::path& path, std::st
   }
 }
 
-/// Nothing if the file is not there or damaged: the run is resumed, and writes it again from its checkpoint.
+/// The rows of a trials.csv; none if the file is missing or damaged: the run is resumed, and writes it again from its
+/// checkpoint.
 RunOutcome rows_of(const fs::path& file, Index trials) {
   try {
     if (fs::exists(file)) return outcome_of(statistics::read_csv(files::read_file(file)), trials);

@@ -128,7 +128,7 @@ void DistantLedger::close(const std::string& failure) { ask({{"do", "close"}, {"
 
 namespace {
 
-/// Does on the ledger itself what a distant one asks or tells. Returns the run for "next".
+/// Performs the request of a distant ledger on the ledger itself. Returns the run for "next".
 json perform(const json& question, OwnLedger& ledger) {
   const std::string what = question.at("do");
   if (what == "next") {

@@ -26,7 +26,7 @@ struct RunOutcome {
   /// solved. Nothing if it was not reached.
   std::optional<std::size_t> row_of(Index trial) const;
 
-  /// Whether trial `trial` was reached, or never will be.
+  /// True if trial `trial` was reached, or never will be.
   bool decided(Index trial) const { return row_of(trial) || state == RunState::failed; }
 
   /// The first trial up to `until` that solved the task, if any did.

@@ -92,7 +92,7 @@ const char* to_text(RunState state) {
   return state == RunState::done ? "done" : state == RunState::failed ? "failed" : "unfinished";
 }
 
-/// Without repetition, in order of first appearance.
+/// The groups' names without repetition, in order of first appearance.
 Json names_of(const CampaignPlan& plan, const std::vector<std::size_t>& groups, std::string CampaignGroup::*name) {
   Json all = Json::array();
   for (std::size_t group : groups)

@@ -32,12 +32,12 @@ class Actuators {
   bool changes_commands() const { return changes_commands_; }  // a rate or a low-pass is set
 
   std::vector<StateVariable> variables() const;  // of the memory
-  Vector start() const;                          // memory(): as if 0, or the bound that is next to it, was always sent
+  Vector start() const;                          // memory(): as if 0, or the bound nearest to 0, had always been sent
   Vector scale() const;                          // memory(): the largest size of each
 
   /// Actions that policies want (U: rows × du) become commands. X: rows × states().
   void command(const ConstMatrixView& X, MatrixView U) const;
-  /// What moves the robot, E (rows × du), in a step that begins at X under the commands U.
+  /// The actions that move the robot, E (rows × du), in a step that begins at X under the commands U.
   void moving(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView E) const;
   /// Writes the memory's columns of X_next, which must be no part of X.
   void remember(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView X_next) const;
@@ -45,7 +45,7 @@ class Actuators {
   /// The memory at each state of an episode with these commands (T × du) from its start: T+1 × memory().
   Matrix memory_of(const ConstMatrixView& commands) const;
 
-  /// What is wrong with an action's actuation, a line each.
+  /// The violations in an action's actuation, a line each.
   static std::vector<std::string> violations(const ActionVariable& action, double dt_s);
 
   /// The numbers that turn one action's commands into what moves the robot, for exported policies

@@ -25,7 +25,7 @@ struct Episode {
   Episode part(Index first, Index steps) const;
 };
 
-/// What the models learn from: one row per observed step.
+/// The training data of models: one row per observed step.
 struct Dataset {
   Matrix states;   // n × dx
   Matrix actions;  // n × du

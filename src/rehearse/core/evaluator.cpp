@@ -20,8 +20,8 @@ extern "C" void __tsan_release(void* address);
 namespace rehearse {
 namespace {
 
-/// A mark tells the thread sanitizer that all before `publish` happened before all after `observe`; else it does
-/// nothing. The sanitizer cannot see how oneTBB begins and joins tasks, since Debian's library is built without it.
+/// A mark for the thread sanitizer: all before `publish` happened before all after `observe`; else it does nothing. The
+/// sanitizer cannot see how oneTBB begins and joins tasks, since Debian's library is built without it.
 struct Mark {
 #if defined(__SANITIZE_THREAD__)
   void publish() { __tsan_release(this); }
@@ -76,7 +76,8 @@ class ThreadEvaluator final : public Evaluator {
   int concurrency() const override { return arena_.max_concurrency(); }
 
  private:
-  /// Without it oneTBB prints a warning. One for the process, because of several the smallest limit holds.
+  /// Raises oneTBB's limit of threads, which else prints a warning. One object for the process, because of several the
+  /// smallest limit holds.
   static void allow_more_threads_than_cores() {
     static const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kMostThreads);
   }

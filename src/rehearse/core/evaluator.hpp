@@ -17,7 +17,7 @@ class Evaluator {
   /// of i) is thrown again here. May be called from within a task.
   virtual void for_each(Index n, const std::function<void(Index)>& task) const = 0;
 
-  /// How many tasks run at once; must not decide results.
+  /// The number of tasks that run at once; must not affect results.
   virtual int concurrency() const = 0;
 
   /// Throws Interrupted if the user asked to stop; long tasks call it as they go. Any thread.
@@ -27,8 +27,8 @@ class Evaluator {
 /// The evaluator that runs one task after the other, on the calling thread.
 const Evaluator& serial_evaluator();
 
-/// The same evaluator, which asks `stop` before each task: once true, Interrupted comes out of whatever it was asked to
-/// do. stop: any thread.
+/// The same evaluator, which calls `stop` before each task; once it returns true, Interrupted is thrown. stop: called
+/// on any thread.
 std::shared_ptr<const Evaluator> make_stoppable(std::shared_ptr<const Evaluator> evaluator, std::function<bool()> stop);
 
 /// An evaluator that runs tasks on `threads` threads (≥ 1) of oneTBB; 0 means all cores.

@@ -7,7 +7,7 @@
 
 namespace rehearse {
 
-/// How far a long computation is. Rooms emit these; only apps print them.
+/// The progress of a long computation. Rooms emit these events; only apps print them.
 struct Progress {
   std::string phase;   // "model", "search"
   double done = 0;     // fraction of the phase, 0..1

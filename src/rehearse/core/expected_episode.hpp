@@ -6,7 +6,7 @@
 
 namespace rehearse {
 
-/// What is expected of an episode of T steps: means and standard deviations by step; NaN where they are not known.
+/// A prediction of an episode of T steps: means and standard deviations by step; NaN where unknown.
 struct ExpectedEpisode {
   Matrix states, state_deviations;    // T+1 × dx
   Vector rewards, reward_deviations;  // T

@@ -7,7 +7,7 @@
 
 namespace rehearse {
 
-/// How a state variable enters the inputs of models and policies.
+/// The way a state variable enters the inputs of models and policies.
 enum class StateKind {
   plain,    // as it is
   angle,    // as its cosine and sine, in this order

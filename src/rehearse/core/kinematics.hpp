@@ -6,7 +6,7 @@
 
 namespace rehearse {
 
-/// Which state variables are rates of change of others, and which are moved by servos.
+/// The state variables that are rates of change of others, and those moved by servos.
 struct Kinematics {
   struct Pair {
     Index position = 0, rate = 0;  // state variables

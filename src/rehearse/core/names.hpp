@@ -12,7 +12,7 @@ inline bool is_among(const std::string& name, const std::vector<std::string>& na
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Whether a name is of letters, digits, - and _: folders are named after robots, priors and learners.
+/// True if a name consists of letters, digits, - and _: folders are named after robots, priors and learners.
 inline bool is_word(const std::string& name) {
   const auto is_part = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; };
   return !name.empty() && std::all_of(name.begin(), name.end(), is_part);
@@ -23,7 +23,7 @@ inline std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " [" + unit + "]";
 }
 
-/// The name of a folder on every file system: whatever some of them do not take is _.
+/// A folder name that every file system accepts: other characters become _.
 inline std::string folder_name_of(std::string name) {
   for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && std::string_view("._,=+-").find(c) == std::string::npos)

@@ -7,12 +7,12 @@
 
 namespace rehearse {
 
-/// Objects that one call uses at a time and that are dear to make: in the end as many as there are calls at a time. Any
-/// thread.
+/// A pool of objects that are expensive to make and used by one call at a time; it grows to the number of concurrent
+/// calls. Any thread.
 template <class T>
 class Pool {
  public:
-  /// Null: none is idle, and the caller makes one.
+  /// Takes an idle object; null if there is none: the caller makes one.
   std::unique_ptr<T> take() {
     const std::lock_guard lock(mutex_);
     if (idle_.empty()) return nullptr;
@@ -21,7 +21,7 @@ class Pool {
     return object;
   }
 
-  /// Keeps it for another call; null is nothing.
+  /// Keeps the object for another call; null is ignored.
   void give_back(std::unique_ptr<T> object) {
     if (!object) return;
     const std::lock_guard lock(mutex_);

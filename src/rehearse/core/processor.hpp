@@ -1,5 +1,5 @@
 #pragma once
-// What Rehearse asks of a processor, so that results have the same bytes on each: docs/architecture.md, "Laws".
+// Requirements on the processor, so that results have the same bytes on each: docs/architecture.md, "Laws".
 
 #include <string>
 

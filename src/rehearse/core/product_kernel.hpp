@@ -14,7 +14,7 @@ struct Factor {
 
 enum class Sign { plus, minus };
 
-/// Which entries of a result are computed; others keep their values.
+/// The entries of a result that are computed; others keep their values.
 enum class Part { all, lower };
 
 /// C (m × n, column-major with `stride`) ← scale·C ± A B, A: m × k, B: k × n. Every entry is one chain of fused

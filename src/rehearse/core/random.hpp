@@ -11,7 +11,7 @@
 
 namespace rehearse {
 
-/// What the numbers of a stream decide. Values are part of the results: append, never renumber.
+/// The purpose of a stream's numbers. Values are part of the results: append, never renumber.
 enum class Purpose : std::uint8_t {
   start_state = 1,            // and all noise of an episode on a plant
   simulated_start = 2,        // of a rollout in a model
@@ -95,11 +95,11 @@ class Rng {
 void fill_normals(const StreamKey& stream, const std::uint64_t* candidates, const std::uint64_t* particles,
                   std::uint64_t step, MatrixView normals);
 
-/// Is told every stream that is opened: an Rng, or a row of `fill_normals`, which has a step. For tests of what draws
-/// from which stream; called from any thread.
+/// Called for every stream that is opened: an Rng, or a row of `fill_normals`, which has a step. For tests that check
+/// which code draws from which stream; called on any thread.
 using StreamObserver = std::function<void(const StreamKey& key, std::optional<std::uint64_t> step)>;
 
-/// Tells `observer` of all streams for as long as this object lives. There may be one such object at a time.
+/// Calls an observer for all streams while this object lives. At most one such object at a time.
 class ObservedStreams {
  public:
   explicit ObservedStreams(StreamObserver observer);

@@ -7,8 +7,8 @@
 
 namespace rehearse {
 
-/// Processes that were started together and run the same program: the ranks of MPI. An implementation carries bytes;
-/// what they mean is said here.
+/// Processes that were started together and run the same program: the ranks of MPI. An implementation transports bytes;
+/// this class defines their meaning.
 ///
 /// The public calls down to `leave` are made by all ranks in the same order, each on one thread at a time. Where a rank
 /// breaks this (it met an exception that the others did not), all the others throw instead of waiting for ever.

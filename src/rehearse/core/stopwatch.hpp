@@ -7,7 +7,7 @@
 
 namespace rehearse {
 
-/// Runs from when it is made. For the log and the console; must not decide results.
+/// Measures the time since its construction. For the log and the console; must not decide results.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
@@ -19,7 +19,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// How long `work()` takes.
+/// The duration of `work()`.
 template <class Work>
 double seconds(Work&& work) {
   const Stopwatch watch;

@@ -28,18 +28,19 @@ struct Steps {
   double time_s = 0;                // since the start, when the step begins
 };
 
-/// Costs of a batch of steps, one a row: of what a reward cannot know, changes of actions and time. Must be callable
-/// from several threads and depend on its row alone.
+/// Costs of a batch of steps, one a row: those that a reward cannot express, of changes of actions and of time. Must be
+/// callable from several threads and depend on its row alone.
 using StepCost = std::function<void(const Steps& steps, VectorView costs)>;
 
-/// Whether the steps of a batch keep to something, one number a row: 0 or NaN where they do not. Arguments and promises
-/// are those of a reward.
+/// A condition on the steps of a batch, one number a row: 0 or NaN where it does not hold. Arguments and promises are
+/// those of a reward.
 using StepCondition = Reward;
 
-/// Whether states of a batch (rows × dx) are so, one number a row: 0 or NaN where they are not. Promises as a reward's.
+/// A condition on the states of a batch (rows × dx), one number a row: 0 or NaN where it does not hold. Promises as a
+/// reward's.
 using StateCondition = std::function<void(const ConstMatrixView& X, VectorView holds)>;
 
-/// The condition of states one by one.
+/// The condition that tests each state by a function of one state.
 StateCondition each_state(std::function<bool(const ConstVectorView& state)> is);
 
 /// The truth of a condition in one state (dx).
@@ -57,7 +58,7 @@ struct Limit {
   double risk = 0.05;  // the largest probability, in (0, 1), that an episode of a policy breaks it
 };
 
-/// What every room may know of a problem. A plain value.
+/// The problem as every room sees it. A plain value.
 struct Task {
   std::vector<StateVariable> states;  // the robot's own, then the memory of its actuators
   std::vector<ActionVariable> actions;

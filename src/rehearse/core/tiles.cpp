@@ -21,7 +21,7 @@ constexpr int kColumns = 4;
 /// Rows (and columns) of tile t that belong to the matrix.
 HWY_INLINE Size tile_rows(Size n, Size t) { return std::min(kTile, n - t * kTile); }
 
-/// Which entry B(m, c) of a product is meant by b[c * column + m * inner].
+/// The strides of a factor: entry B(m, c) is b[c * column + m * inner].
 struct Strides {
   Size column, inner;
 };

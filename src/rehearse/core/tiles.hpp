@@ -17,11 +17,11 @@ constexpr Size tile_count(Size n) { return (n + kTile - 1) / kTile; }
 /// Arrays over the training points are padded to whole tiles.
 constexpr Size padded(Size n) { return tile_count(n) * kTile; }
 
-/// Where tile (i, j), i ≥ j, begins, and how many doubles all tiles are.
+/// The offset of tile (i, j), i ≥ j, and the number of doubles in all tiles.
 constexpr Size tile_offset(Size i, Size j) { return (i * (i + 1) / 2 + j) * kTile * kTile; }
 constexpr Size tiles_size(Size n) { return tile_offset(tile_count(n), 0); }
 
-/// Where the entry (row, column), row ≥ column, is.
+/// The offset of the entry (row, column), row ≥ column.
 constexpr Size entry_offset(Size row, Size column) {
   return tile_offset(row / kTile, column / kTile) + column % kTile * kTile + row % kTile;
 }
@@ -39,7 +39,7 @@ constexpr Size transposed_offset(Size row, Size column) {
   return tile_offset(row / kTile, column / kTile) + row % kTile * kTile + column % kTile;
 }
 
-/// What tiles_invert_factor left becomes L⁻ᵀ L⁻¹ = A⁻¹; its lower triangle is defined.
+/// The result of tiles_invert_factor becomes L⁻ᵀ L⁻¹ = A⁻¹; its lower triangle is defined.
 void tiles_multiply_inverse(Size n, double* tiles);
 
 }  // namespace rehearse

@@ -16,7 +16,7 @@ struct StateVariable {
                        // direction; empty: none does
 };
 
-/// What lies between the action that a policy wants and the one that moves the robot (actuators.hpp).
+/// The actuator between the action that a policy wants and the one that moves the robot (actuators.hpp).
 struct Actuation {
   double max_rate = kInf;  // of the command: units of the action a second; infinite: any
   double filter_s = 0;     // time constant of the first-order low-pass that the command goes through; 0: none
@@ -31,8 +31,8 @@ struct ActionVariable {
   std::string name;  // of no state
   std::string unit;
   Interval bounds;
-  std::string target_of;   // name of the state that it commands (a servo's angle): models are told how far that is from
-                           // it; empty: none
+  std::string target_of;   // name of the state that it commands (a servo's angle): models see its distance from that
+                           // state; empty: none
   std::string servo_type;  // of the servo whose target it is: those of the same type are alike; empty: like no other
   Actuation actuation = {};
 };

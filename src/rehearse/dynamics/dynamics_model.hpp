@@ -28,7 +28,7 @@ class DynamicsModel {
     predict(X, U, mean, variance);
   }
 
-  /// The predictions and their derivatives, by central differences of `predict` unless a model knows better. A row that
+  /// The predictions and their derivatives, by central differences of `predict` unless a model overrides it. A row that
   /// cannot be predicted, or not beside it, has NaN where that matters. No allocation if `at` had the same size before.
   virtual void linearise(const ConstMatrixView& X, const ConstMatrixView& U, Linearised& at) const;
 
@@ -36,14 +36,13 @@ class DynamicsModel {
   virtual void sample(const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& normals,
                       MatrixView change) const;
 
-  /// Whether all variances are 0.
+  /// True if all variances are 0.
   virtual bool certain() const { return false; }
 
-  /// How many rows a call should have, as of the simulator that is asked (system::Simulator); 0: it makes no
-  /// difference.
+  /// The number of rows a call should have, as for a simulator (system::Simulator); 0: it makes no difference.
   virtual Index rows_at_once() const { return 0; }
 
-  /// What a measurement adds to each state, as far as the data tell: a standard deviation each (dx). Empty: nothing.
+  /// The measurement noise of each state estimated from the data: standard deviations (dx). Empty: none.
   virtual const Vector& measurement_std() const {
     static const Vector nothing;
     return nothing;

@@ -16,7 +16,7 @@ Matrix gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const Con
   return F;
 }
 
-/// What the prior predicts, and where the GPs are asked; memory of the calling thread.
+/// The prior's predictions, and the inputs of the GPs; memory of the calling thread.
 struct GpModel::Point {
   Matrix prior_mean, middle, inputs;
 };
@@ -59,7 +59,7 @@ void GpModel::predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, M
 /// Derivatives of one number a row: by inputs of the GPs (n × features + du) → by states, then actions (n × dx + du).
 void GpModel::to_states(const Point& point, const ConstMatrixView& by_inputs, const Matrix& prior_by,
                         MatrixView by) const {
-  thread_local Matrix by_place;  // where the GPs look
+  thread_local Matrix by_place;  // by the states at which the GPs are evaluated
   const Index features = features_.features(), du = by_inputs.cols() - features, dx = by.cols() - du;
   auto by_states = by.leftCols(dx);
   auto by_actions = by.rightCols(du);

@@ -12,7 +12,7 @@ inline constexpr Index kFewInputs = 16;
 /// The options of a fit for GPs of so many inputs.
 gp::FitOptions fit_options(gp::FitOptions options, Index inputs);
 
-/// How the GPs of a dynamics model are learned.
+/// Options for learning the GPs of a dynamics model.
 struct GpOptions {
   gp::FitOptions fit;
   PredictedVariance variance = PredictedVariance::latent;

@@ -12,8 +12,8 @@
 namespace rehearse::dynamics {
 
 /// The training data of the GPs. Targets are changes minus the prior mean and what integration.hpp subtracts; 0 for
-/// states that servos have told already (servos.hpp). Rows whose prior mean is not finite are left out. Const methods
-/// may run concurrently.
+/// states that the model of servos predicts already (servos.hpp). Rows whose prior mean is not finite are left out.
+/// Const methods may run concurrently.
 class Residuals {
  public:
   /// `midpoint`: see Mean; nothing without a prior.

@@ -11,7 +11,7 @@ namespace {
 
 using Servo = Kinematics::Servo;
 
-constexpr double kDead = 0.01;    // of the squared ways to its targets: a servo that moves less is dead
+constexpr double kDead = 0.01;    // least ratio of squared motion to squared ways to targets; below it a servo is dead
 constexpr Index kMostRows = 600;  // of a type
 constexpr Index kInputs = 3, kOutputs = 2;
 
@@ -35,7 +35,7 @@ struct Rows {
   Matrix targets;  // rows × (way beyond the target, speed)
 };
 
-/// Of all servos; evenly thinned if they are many.
+/// The training rows of all servos; evenly thinned if they are many.
 Rows rows_of(const std::vector<Servo>& servos, const Dataset& data) {
   const Index n = data.size(), all = n * static_cast<Index>(servos.size());
   Rows rows{Matrix(all, kInputs), Matrix::Zero(all, kOutputs)};

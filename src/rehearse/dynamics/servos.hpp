@@ -1,7 +1,8 @@
 #pragma once
 // A model of servos that reach their targets late or not at all. A simulator of rigid bodies is often right about what
 // moving joints do to the robot, and wrong about how far they move in a step: torque, friction and delays are hard to
-// measure. So GPs learn where the joints get to, and the prior is asked what follows from that.
+// measure. Therefore GPs learn the joints' positions at the end of a step, and the prior predicts what follows from
+// these.
 
 #include <memory>
 #include <vector>
@@ -15,20 +16,20 @@
 
 namespace rehearse::dynamics {
 
-/// The data set with targets replaced by where the servos got to.
+/// The data set with targets replaced by the positions that the servos reached.
 Dataset reached(Dataset data, const std::vector<Kinematics::Servo>& servos);
 
-/// A model of where servos get to in a step, and how fast they then are. GPs that the servos of a type share predict
-/// the way beyond the target and the speed, from the servo's way to the target, speed and position. GPs of each servo
-/// learn what these leave, the load above all, from the whole state, near what was tried. A servo that hardly moved in
-/// the data stays where it is. Immutable; any thread.
+/// A model of the servos' positions and speeds at the end of a step. GPs that the servos of a type share predict the
+/// way beyond the target and the speed, from the servo's way to the target, speed and position. GPs of each servo learn
+/// what these leave, the load above all, from the whole state, near what was tried. A servo that hardly moved in the
+/// data stays where it is. Immutable; any thread.
 class Servos {
  public:
   /// Throws InvalidInput if the data set has no row.
   Servos(const Dataset& data, FeatureMap features, const std::vector<Kinematics::Servo>& servos,
          const GpOptions& options, const Evaluator& evaluator);
 
-  /// States of servos at the end of a step, and how uncertain the GPs are of them.
+  /// States of servos at the end of a step, with the GPs' variances.
   struct End {
     Matrix positions, speeds, position_variances, speed_variances;  // n × du; nothing where an action moves no servo
   };
@@ -36,7 +37,7 @@ class Servos {
   void means(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const;
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, End& end) const;
 
-  /// Actions with targets replaced by where the servos get to.
+  /// Replaces the targets in actions by the predicted positions of the servos.
   void replace_targets(const End& end, MatrixView U) const;
 
   const std::vector<Kinematics::Servo>& servos() const { return servos_; }
@@ -61,7 +62,7 @@ class Servos {
   double log_evidence_ = 0;
 };
 
-/// Servos, and behind them a model of what follows from where they get to. A draw of theirs moves the robot with them.
+/// The servos, followed by a model of the robot given their positions. A draw of the servos moves the robot with them.
 class ServoModel final : public DynamicsModel {
  public:
   ServoModel(std::shared_ptr<const Servos> servos, std::shared_ptr<const DynamicsModel> body)

@@ -5,7 +5,7 @@
 
 namespace rehearse::dynamics {
 
-/// A prior taken at its word: its mean, and everywhere the same variance (0: it is certain).
+/// The prior as a model: its mean, and the same variance everywhere (0: it is certain).
 class SimulatorModel final : public DynamicsModel {
  public:
   SimulatorModel(prior::Prior prior, Vector phi, double variance = 0)

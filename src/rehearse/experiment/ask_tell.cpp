@@ -55,7 +55,7 @@ class Reopened {
   OpenRun run_;
 };
 
-/// The trial or the log that a file was told as; 0: none.
+/// The trial or the log by which a file is known; 0: none.
 struct KnownAs {
   Index trial = 0, log = 0;
   bool known() const { return trial > 0 || log > 0; }
@@ -70,7 +70,7 @@ KnownAs known_as(const History& history, const std::string& checksum) {
   return {place(history.trials), place(history.logs)};
 }
 
-/// A robot without noise may do exactly the same again: by the policy that was asked for, then.
+/// True if the file follows the policy that was asked for: a robot without noise may do exactly the same again.
 bool is_of_policy_asked_for(const ToldFile& file, const scenario::Scenario& scenario, const History& history) {
   return history.asked && follows_policy(file, scenario, *history.asked);
 }

@@ -52,7 +52,7 @@ std::vector<double> sorted_finite(const Matrix& states, Index column) {
   return values;
 }
 
-/// From the first value on, so that the mean of equal values is that value.
+/// The mean, computed relative to the first value, so that the mean of equal values is that value.
 double mean(const std::vector<double>& values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   double sum = 0;

@@ -28,7 +28,7 @@ std::vector<std::string> variable_names(const json& variables) {
   return names;
 }
 
-/// Whether the policy answers as the file says.
+/// True if the policy's actions are those in the file.
 bool answers_alike(const policy::Policy& policy, const Vector& theta, const Task& task, const json& test) {
   Matrix U(1, policy.actions());
   for (std::size_t i = 0; i < test.at("states").size(); ++i) {

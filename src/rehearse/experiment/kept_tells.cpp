@@ -27,7 +27,7 @@ bool is_number(const std::string& name) {
 
 Index tell_number(const fs::path& tell) { return std::stol(tell.filename()); }
 
-/// By number; their names have three digits and, from 1000 on, more.
+/// The folders of all tells by number; names have three digits and, from 1000 on, more.
 std::vector<fs::path> all_tells(const RunFolder& run) {
   std::vector<fs::path> all;
   std::error_code none;
@@ -60,7 +60,7 @@ void remove_tell(const RunFolder& run, const fs::path& folder) {
   fs::remove(tells_of(run), not_empty);
 }
 
-/// Whether nothing was told since.
+/// True if there was no tell since.
 bool is_untold(const History& before, const History& now) {
   return now.done() == before.done() && now.logs.size() == before.logs.size();
 }

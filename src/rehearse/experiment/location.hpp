@@ -1,5 +1,5 @@
 #pragma once
-// Which line of a file is to blame for what is wrong with a spec.
+// The line of a file that causes a violation in a spec.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace rehearse::experiment {
 
-/// Whether `resolve` finds this violation.
+/// True if `resolve` finds this violation.
 bool has_violation(const Catalogue& catalogue, const Spec& spec, const std::string& violation);
 
 /// The first option that causes this violation without the others, too, or null.

@@ -7,8 +7,8 @@
 
 namespace rehearse::experiment {
 
-/// Says of a complete spec for which memory did not suffice which sizes it asks for: the largest three among the whole
-/// numbers that are not the defaults, or among all of them if there are none.
+/// A message for a spec that needs too much memory: its three largest whole numbers that are not defaults, or of all
+/// whole numbers if there are none.
 std::string not_enough_memory(const Catalogue& catalogue, const Spec& complete);
 
 }  // namespace rehearse::experiment

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Index kPredictionParticles = 100;
 
-/// By step (T+1 × dx), of the particles that are still finite.
+/// Mean states by step (T+1 × dx), of the particles that are still finite.
 Matrix mean_states(const rollout::Recorded& recorded) {
   Matrix means(recorded.states.size(), recorded.states.front().cols());
   for (std::size_t t = 0; t < recorded.states.size(); ++t)
@@ -42,7 +42,7 @@ void OpenRun::begin(bool something_to_come) {
   if (something_to_come || history_.told < history_.done()) catch_up();
 }
 
-/// Brings a new learner to the last trial that it was told.
+/// Brings a new learner to the last trial that was told.
 void OpenRun::load_learner() {
   std::vector<Episode> told;
   parts_.learner().study(as_told(history_.logs));
@@ -78,7 +78,7 @@ Episode OpenRun::as_told(const Episode& episode) const {
   return measured ? rollout::as_measured(episode, parts_.task()) : episode;
 }
 
-/// Tells the learner the last trial, which it may have to be asked for again: it learns from what it proposed, too.
+/// Tells the learner the last trial. Its proposal may have to be computed again first: learners learn from it, too.
 void OpenRun::tell_last() {
   TrialRecord& last = history_.trials.back();
   const learners::Proposal& proposal = proposal_ ? *proposal_ : ask(last.trial, &last);

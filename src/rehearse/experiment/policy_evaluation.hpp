@@ -11,7 +11,7 @@
 
 namespace rehearse::experiment {
 
-/// How a policy is evaluated: episodes on the scenario's plant that are no interaction.
+/// The settings of an evaluation: episodes on the scenario's plant that do not count as interaction.
 struct EvaluationPlan {
   Index episodes = 100;
   double seconds = 0;      // of an episode, at least the task's; 0: the task's
@@ -21,14 +21,14 @@ struct EvaluationPlan {
   Index steps(const Task& task) const;
 };
 
-/// A policy as it was learned, whatever options are set since.
+/// A policy as it was learned, independent of options set since.
 struct Learned {
   std::shared_ptr<const policy::Policy> policy;
   Vector theta;
   Index trial = 1;
 };
 
-/// How an episode went.
+/// The outcome of one episode.
 struct Outcome {
   double total_reward = 0;            // of all its steps
   std::optional<bool> solved;         // by its first task.horizon steps, as a trial is; empty: the task cannot say

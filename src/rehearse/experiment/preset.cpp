@@ -27,7 +27,7 @@ std::vector<FileOption> options_in(const toml::table* table, files::FileViolatio
   return options;
 }
 
-/// Whether the catalogue has this scenario or learner (`there`), or names it as one that the build leaves out.
+/// True if the catalogue has this scenario or learner (`there`), or names it as one that the build leaves out.
 bool is_known(const Catalogue& catalogue, const std::string& name, bool there) {
   return there || std::any_of(catalogue.not_built.begin(), catalogue.not_built.end(),
                               [&](const NotBuilt& missing) { return missing.name == name; });

@@ -11,8 +11,8 @@
 
 namespace rehearse::experiment {
 
-/// How far a model's mean prediction, continued over `horizon` steps from every state of an episode under the actions
-/// that were taken, ended from the states that were measured.
+/// The error of a model's mean prediction, continued over `horizon` steps from every state of an episode under the
+/// actions that were taken, against the measured states.
 struct ForecastError {
   Index horizon = 0;   // steps
   Index compared = 0;  // pairs of states
@@ -45,8 +45,8 @@ struct TrialRecord {
   std::optional<double> log_evidence;
   std::vector<double> phi;                             // of the tunable parameters
   std::vector<std::optional<Interval>> phi_intervals;  // 95 %, as phi; none: of a discrete or a given value
-  std::vector<std::string> warnings;                   // what the trials before cannot tell of φ, a sentence each
-  std::string policy;                                  // the name of the one that theta are the parameters of
+  std::vector<std::string> warnings;                   // parts of φ that earlier trials leave open, a sentence each
+  std::string policy;                                  // the name of the policy with the parameters theta
   Vector theta;
   std::vector<ForecastError> forecast;
   Index left_out_rows = 0;

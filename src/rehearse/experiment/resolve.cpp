@@ -92,7 +92,7 @@ class Resolver {
         fmt::format("start must be the {} numbers of the policy '{}'", policy.parameters(), policy.name()));
   }
 
-  /// What `make` returns, or nothing when it finds its input invalid.
+  /// The result of `make`; none, and a violation, if its input is invalid.
   template <class Make>
   auto contained(Make make) -> std::optional<decltype(make())> {
     try {
@@ -139,7 +139,7 @@ class Resolver {
     }
   }
 
-  /// Those that the key may mean, written as it is: with the prefix if it has one, then of that section alone.
+  /// The options that a key may mean, written like the key: with its prefix if it has one, then of that section alone.
   std::vector<std::string> options_like(std::string_view key) const {
     std::vector<std::string> known;
     const auto add = [&](std::string_view section, const auto& fields) {

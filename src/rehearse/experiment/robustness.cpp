@@ -17,7 +17,7 @@ struct Value {
   double value;
 };
 
-/// Those that a factor changes.
+/// The plant's parameters that a factor changes.
 std::vector<Value> parameters_of(const Spec& complete) {
   std::vector<Value> all;
   for (const auto& [key, text] : complete.options) {

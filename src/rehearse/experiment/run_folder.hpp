@@ -60,17 +60,17 @@ class RunFolder {
   void write_next(const std::string& name, const std::string& text) const;
   void remove_next() const;
 
-  /// How the robot moved, or how the model expects it to. kind: "trial" or "prediction".
+  /// The robot's motion, recorded or predicted. kind: "trial" or "prediction".
   void write_motion(const char* kind, Index trial, const std::string& json) const;
 
   /// A learner's archive of policies (qd/archive_bytes.hpp), unless it is there already.
   void write_archive(const std::string& bytes) const;
 
-  /// A learner's own: NAME.csv.
+  /// A table of the learner: NAME.csv.
   void write_learners_table(const learners::Table& table) const;
   void remove_learners_table(const learners::Table& table) const;
 
-  /// Removes the files of what came after a history: of one trial, or of logs and the trial that was asked for.
+  /// Removes the files written after a history: of one trial, or of logs and the trial that was asked for.
   void remove_after(const History& history) const;
 
   /// Marks the run as complete after so many trials, or as not.

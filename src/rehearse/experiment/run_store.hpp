@@ -11,8 +11,8 @@
 
 namespace rehearse::experiment {
 
-/// Names a folder that runs share, or none (an empty path); asked when it is first needed. What is in it must come from
-/// the same program on the same kind of machine: it is taken at its word.
+/// Names a folder that runs share, or none (an empty path); asked when it is first needed. Its files must come from the
+/// same program on the same kind of machine: they are not checked further.
 using CacheFolder = std::function<std::filesystem::path()>;
 
 /// A learner's store: in the run's folder, `kept/NAME`, and in the cache, where runs of the same spec but for the
@@ -22,7 +22,7 @@ class RunStore final : public learners::Store {
  public:
   RunStore(const Spec& spec, CacheFolder cache);
 
-  /// Before that nothing is kept in a run folder.
+  /// Sets the run folder; before that nothing is kept in one.
   void open(const std::filesystem::path& run_folder) { folder_ = run_folder; }
 
   std::optional<std::string> read(const std::string& name) override;

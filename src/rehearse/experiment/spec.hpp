@@ -10,12 +10,12 @@
 
 namespace rehearse::experiment {
 
-/// When a run ends; it may be changed on the way.
+/// The end of a run; it may be changed during the run.
 struct Until {
   Until(Index all, bool or_solved = false) : trials(all), solved(or_solved) {}  // NOLINT(google-explicit-constructor)
 
   Index trials;
-  bool solved;  // or before, with a trial that solves the task
+  bool solved;  // the run ends earlier, with a trial that solves the task
 };
 
 /// The states by which the learner is told what an episode earned and whether it solved the task. Rows of trials.csv
@@ -39,7 +39,7 @@ struct Spec {
   /// several).
   std::vector<std::pair<std::string, std::string>> options;
 
-  /// The spec without when it ends, which a run may change on the way.
+  /// The spec without its end, which may change during a run.
   Spec without_end() const {
     Spec spec = *this;
     spec.trials = 0;
@@ -47,7 +47,7 @@ struct Spec {
     return spec;
   }
 
-  /// Whether the run ends with a trial. solved: whether that trial solves the task.
+  /// True if the run ends with a trial. solved: that trial solves the task.
   bool ends_with(Index trial, bool solved) const { return trial >= trials || (until_solved && solved); }
 
   void fields(FieldVisitor& v) {
@@ -58,7 +58,7 @@ struct Spec {
     v.text("start", start, "parameters of the policy that it begins with");
     settable_fields(v);
   }
-  /// Those that --set changes, too.
+  /// The fields that --set changes, too.
   void settable_fields(FieldVisitor& v) {
     v.choice("told_by", told_by, "states by which the learner is told what an episode earned", {"truth", "measured"});
   }
@@ -67,7 +67,7 @@ struct Spec {
 /// Help lines of options, by the names that a complete spec has for them.
 using Comments = std::map<std::string, std::string>;
 
-/// θ as `Spec::start` has it, and back; empty: it holds something else than numbers, or nothing.
+/// θ as the text of `Spec::start`, and back; empty: the text is not a list of numbers.
 std::string start_text(const Vector& theta);
 std::optional<Vector> start_of(const std::string& text);
 

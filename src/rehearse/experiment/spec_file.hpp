@@ -12,10 +12,10 @@
 
 namespace rehearse::experiment {
 
-/// With a comment behind each option that has one.
+/// The spec as TOML, with a comment behind each option that has one.
 std::string to_toml(const Spec& spec, const Comments& comments = {});
 
-/// A spec as a file has it, which still knows its lines.
+/// A spec read from a file, with the line of each key.
 class SpecFile {
  public:
   /// Throws InvalidInput with the source's name and line.
@@ -39,7 +39,7 @@ class SpecFile {
 /// The spec alone; throws as SpecFile does.
 Spec from_toml(std::string_view text, const std::string& source_name);
 
-/// A checksum of everything in the spec but when it ends, which a run may change on the way.
+/// A checksum of everything in the spec but its end, which may change during a run.
 std::uint64_t fingerprint(const Spec& spec);
 
 }  // namespace rehearse::experiment

@@ -41,7 +41,7 @@ std::string logs_csv(const std::vector<Log>& logs, const Task& task);
 /// The best observed policy and each trial's.
 std::string policies_json(const std::vector<TrialRecord>& trials, const Resolved& resolved);
 
-/// As a learner has it.
+/// A learner's table as CSV.
 std::string learners_csv(const learners::Table& table);
 
 std::string trajectory_csv(const Task& task, const Episode& episode);

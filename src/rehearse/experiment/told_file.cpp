@@ -20,7 +20,7 @@ constexpr double kSameActions = 0.01;  // of the range of an action: motors are 
 
 constexpr double kRounding = 1e-9;  // likewise, of numbers in a file
 
-/// Root mean square differences of the actions (du) from those that the policy says of the measured states.
+/// Root mean square differences of the actions (du) from those of the policy in the measured states.
 Vector deviations(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& asked) {
   const Task& task = scenario.task;
   const auto policy = policy_of(asked, scenario);

@@ -1,5 +1,5 @@
 #pragma once
-// Files of episodes that were not run by Rehearse.
+// Files of episodes that Rehearse did not run.
 
 #include <filesystem>
 #include <optional>
@@ -29,13 +29,13 @@ std::vector<ToldFile> read_told_files(const std::vector<std::filesystem::path>& 
 /// Whole files, whatever their length. Rewards are those of the measured states.
 std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task);
 
-/// Whether its actions are those that the policy of a trial says of its states, but for rounding. False of a file that
+/// True if the file's actions are those of a trial's policy in the file's states, but for rounding. False if the file
 /// cannot be read.
 bool follows_policy(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked);
 
 struct ToldEpisode {
   Episode episode;
-  std::vector<std::string> notes;  // how the file was read, and what is unlike the policy that was asked for
+  std::vector<std::string> notes;  // remarks on reading, and differences from the policy that was asked for
 };
 
 /// The episode of a trial that was asked for. Throws InvalidInput if it is shorter than the task's horizon, and neither

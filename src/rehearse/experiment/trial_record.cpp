@@ -30,7 +30,7 @@ void add_posterior(TrialRecord& record, const identification::PhiPosterior& post
   record.warnings = identification::identifiability_warnings(posterior);
 }
 
-/// Before the trial.
+/// The records of the limits before the trial.
 std::vector<LimitRecord> limits_of(const Task& task, const learners::Proposal& proposal) {
   std::vector<LimitRecord> records;
   for (std::size_t l = 0; l < task.limits.size(); ++l) {

@@ -11,7 +11,8 @@ namespace rehearse::experiment {
 /// The record of a trial before it: the proposal.
 TrialRecord record_before(Index trial, const learners::Proposal& proposal, const Resolved& resolved);
 
-/// Adds what the episode says. `interaction_s` is left to who knows the trials before, `forecast` to who has the model.
+/// Adds the results of the episode. The caller sets `interaction_s`, which needs the trials before, and `forecast`,
+/// which needs the model.
 void add_outcome(TrialRecord& record, const Episode& episode, const Task& task);
 
 }  // namespace rehearse::experiment

@@ -13,7 +13,7 @@ namespace rehearse::expression {
 /// given, definitions (names for formulas), pi, + - * / ^, comparisons, && and ||, and the functions of
 /// `function_names`: where(condition, a, b) is a where the condition holds, else b. Truth is 1 or 0.
 ///
-/// The grammar is muParser's. Not for several threads at a time; what is made of it is.
+/// The grammar is muParser's. Not thread-safe; programs made from it are.
 class Formulas {
  public:
   /// Throws InvalidInput if the name is none, or taken.
@@ -35,7 +35,7 @@ class Formulas {
   struct Definition {
     std::string formula;
     Node node = TapeBuilder::kNone;
-    bool begun = false;  // to find one that needs itself
+    bool begun = false;  // to find a definition that refers to itself
   };
 
   void check_name(const std::string& name) const;

@@ -14,7 +14,7 @@ class Program {
   /// `outputs` of the formulas; all inputs of the formulas are inputs here, in the order in which they were made.
   Program(const Formulas& formulas, const std::vector<Node>& outputs);
 
-  /// Whether every output is a constant plus multiples of inputs, as it is written: x * x / x is not.
+  /// True if every output, as written, is a constant plus multiples of inputs; x * x / x is not.
   bool is_affine() const;
 
   Index inputs() const { return tape_.inputs; }

@@ -4,7 +4,7 @@
 
 namespace rehearse::expression {
 
-/// Slots of the calling thread, aligned, which keep what they hold until they are asked for again.
+/// Aligned slots of the calling thread; their contents last until the next call.
 double* slots_of_this_thread(Index slots);
 
 /// Fills the first `rows` numbers of a slot, and with the first of them up to whole vectors.

@@ -48,7 +48,7 @@ enum class Op : std::uint8_t {
   where,                  // b where a is not 0, else c
 };
 
-/// How many numbers an operation takes.
+/// The number of arguments of an operation.
 constexpr int arguments_of(Op op) { return op >= Op::multiply_add ? 3 : op >= Op::add ? 2 : 1; }
 
 /// out = op(a, b, c), numbers of slots; those that the operation does not take are 0.
@@ -57,7 +57,7 @@ struct Instruction {
   std::int32_t out, a, b, c;
 };
 
-/// How often an input changes: what follows from some is computed when the last of them changes.
+/// The rate at which an input changes; a value is computed when the fastest of its inputs changes.
 enum class Pace : std::uint8_t { call, block, always };
 
 /// Formulas as a list of instructions. Slots hold constants, then inputs, then what instructions write.

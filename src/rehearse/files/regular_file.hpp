@@ -1,5 +1,5 @@
 #pragma once
-// How files are opened and read, everywhere.
+// The one way to open and read files.
 
 #include <filesystem>
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace rehearse::files {
 
-/// Whether a link may stand for the file: one that a user names may be one, those of a run folder are none. Links among
-/// the folders above it are followed.
+/// The handling of a path that is a symbolic link: allowed for files that a user names, refused in run folders. Links
+/// among the folders above it are followed.
 enum class Links { refuse, follow };
 
-/// A regular file that is open while this lives. Opening it waits for nobody, as a FIFO does, and follows no link
+/// A regular file that is open while this lives. Opening never blocks, as it would for a FIFO, and follows no link
 /// unless that is allowed; devices and folders are refused.
 class RegularFile {
  public:
@@ -25,16 +25,16 @@ class RegularFile {
   bool open() const { return descriptor_ >= 0; }
   const std::string& problem() const { return problem_; }  // why it is not open: "it is not there", "it is a link", …
 
-  /// All of it from the start. Throws InvalidInput with the problem, also where it is not open.
+  /// The contents from the start. Throws InvalidInput with the problem, also where it is not open.
   std::string read() const;
 
-  /// Whether this is its last byte.
+  /// True if this is its last byte.
   bool ends_with(char last) const;
 
   bool write(std::string_view bytes) const;
   bool sync() const;
 
-  /// The descriptor, which the caller closes from here on.
+  /// The descriptor; the caller must close it.
   int release();
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Bytes that tell whether they are whole: "rehearse-KIND FORMAT BYTES CHECKSUM\n" stands before them.
+// Bytes behind a header that reveals truncation and damage: "rehearse-KIND FORMAT BYTES CHECKSUM\n".
 
 #include <string>
 #include <string_view>

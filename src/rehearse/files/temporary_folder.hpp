@@ -23,7 +23,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// Whether a path stays within the folder that it is seen from: relative, and without "..".
+/// True if a path stays within its folder: relative, and without "..".
 bool stays_within(const std::filesystem::path& path);
 
 }  // namespace rehearse::files

@@ -1,5 +1,5 @@
 #pragma once
-// Reading TOML files so that everything that is wrong is said at once, with its line. For the sources of this room.
+// Reading of TOML files that reports all errors at once, each with its line. For the sources of this room.
 
 #include <set>
 #include <string>

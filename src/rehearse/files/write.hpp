@@ -11,7 +11,7 @@ namespace rehearse::files {
 /// A folder's path without a "/" at its end.
 std::filesystem::path without_slash(const std::filesystem::path& path);
 
-/// Whether a file can be read and has these bytes.
+/// True if a file can be read and has these bytes.
 bool holds(const std::filesystem::path& path, std::string_view bytes);
 
 enum class Durability {
@@ -22,23 +22,23 @@ enum class Durability {
 /// Replaces a file, or a link of that name, in one step. Throws std::runtime_error (a full disk).
 void write_file(const std::filesystem::path& path, std::string_view bytes, Durability durability = Durability::process);
 
-/// The same for a file that several processes may replace at once, durably. Who is killed leaves a file of its own,
-/// which `remove_temporaries` removes where nobody else is at work.
+/// The same for a file that several processes may replace at once, durably. A killed process leaves a temporary file,
+/// which `remove_temporaries` removes when no other process is at work.
 void write_shared_file(const std::filesystem::path& path, std::string_view bytes);
 void remove_temporaries(const std::filesystem::path& path);
 
 /// Renames a folder unless something of that name exists; then returns false.
 bool rename_new(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Held by the one process that may write a folder, or by several that share it; given back when it dies, however it
-/// dies. Nothing on a file system that has no locks. Movable.
+/// A lock held by the one process that may write a folder, or by several that share it; released when the process ends
+/// in any way. Without effect on a file system that has no locks. Movable.
 class FolderLock {
  public:
   enum class Kind { exclusive, shared };
   explicit FolderLock(const std::filesystem::path& folder, Kind kind = Kind::exclusive);  // InvalidInput: it is in use
   ~FolderLock();
 
-  /// Whether a process has it now. It neither waits nor writes.
+  /// True if a process holds it now. Neither waits nor writes.
   static bool is_held(const std::filesystem::path& folder);
 
   FolderLock(FolderLock&& other) noexcept;

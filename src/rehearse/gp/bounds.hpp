@@ -6,9 +6,9 @@
 
 namespace rehearse::gp {
 
-/// Where hyperparameters may be. The floors are relative to `scale`, the standard deviation of the raw targets before
-/// the prior mean was subtracted: a perfect prior leaves residuals of zero, whose evidence would otherwise grow
-/// without end.
+/// The bounds of hyperparameters. The floors are relative to `scale`, the standard deviation of the raw targets before
+/// the prior mean was subtracted: a perfect prior leaves residuals of zero, whose evidence would otherwise grow without
+/// end.
 struct Bounds {
   double signal_floor = 1e-6;  // σ_f ≥ this × scale
   double noise_floor = 1e-6;   // σ_n ≥ this × scale

@@ -4,9 +4,9 @@
 
 namespace rehearse::gp {
 
-/// What is added to the diagonal of a covariance, times σ_f², one after the other until it factorises. The first is
-/// nothing: the learned noise is usually enough. Rounding disturbs the eigenvalues of an n × n correlation matrix by
-/// about n·1e-16, so the second rung is enough for n up to some 10⁵ and the others are a reserve.
+/// The jitter added to the diagonal of a covariance, times σ_f²; each rung is tried in turn until the matrix
+/// factorises. The first is 0: the learned noise is usually enough. Rounding disturbs the eigenvalues of an n × n
+/// correlation matrix by about n·1e-16, so the second rung is enough for n up to some 10⁵ and the others are a reserve.
 inline constexpr double kJitterLadder[] = {0, 1e-10, 1e-8, 1e-6, 1e-4};
 
 /// A covariance over σ_f²: correlations of the scaled inputs (kernel.hpp), noise, and perhaps more.

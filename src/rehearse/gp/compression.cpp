@@ -55,8 +55,8 @@ Index factorise_pivoted(Matrix& C, double least, Indices& order) {
   return n;
 }
 
-/// As few columns as leave a trace ≤ remainder. The factorisation stops at a largest diagonal of remainder / n; each
-/// column that is dropped again adds its squared norm to the trace.
+/// The fewest columns that leave a trace ≤ remainder. The factorisation stops at a largest diagonal of remainder / n;
+/// each column that is dropped again adds its squared norm to the trace.
 std::optional<Pivoted> pivoted_cholesky(Matrix C, double remainder, Index most) {
   const Index n = C.rows();
   const double least = 0.5 * remainder / static_cast<double>(n);

@@ -29,12 +29,12 @@ struct Point {
 bool better(const Point& a, const Point& b) { return std::isfinite(a.value()) && !(a.value() <= b.value()); }
 
 constexpr double kNoisierLength = 1, kNoisierNoise = 2;  // how ln ℓ and ln σ_n of the default start move
-constexpr Index kTried = 40;  // so many points more than are climbed from are tried, and the likeliest taken
+constexpr Index kTried = 40;  // points tried beside those climbed from; the likeliest are taken
 constexpr Interval kTriedLengths{-1, 4}, kTriedNoise{-6, 0};  // ln ℓ in spreads, ln σ_n in σ_f
 constexpr double kTriedSignal = 0.5;                          // ln σ_f above that of the default start
 
 /// The i-th of points spread evenly over lengths and noise (Roberts 2018, the additive recurrence with the generalised
-/// golden ratio): optima differ in what inputs matter, which no start with like lengths tells.
+/// golden ratio): optima differ in what inputs matter, which starts with equal lengths do not find.
 Vector spread_point(const Vector& standard, Index D, Index i) {
   double ratio = 2;  // the root of ratio^(D + 2) = ratio + 1
   for (int k = 0; k < 60; ++k) ratio = std::pow(1 + ratio, 1 / static_cast<double>(D + 2));
@@ -49,7 +49,7 @@ Vector spread_point(const Vector& standard, Index D, Index i) {
   return flat;
 }
 
-/// What is maximised: the penalised log evidence of one output.
+/// The objective: the penalised log evidence of one output.
 struct Problem {
   Problem(const Inputs& X, const ConstVectorView& targets, double scale, const FitOptions& fit_options,
           const KnownNoise* known_noise = nullptr)
@@ -148,8 +148,8 @@ Inputs part_of(const Inputs& inputs, Index stride) {
   return Inputs(Matrix(inputs.values()(Eigen::seq(0, inputs.size() - 1, stride), Eigen::all)));
 }
 
-/// Where to begin: the best of the optima of every `stride`th row and of the usual first start, by the evidence of all
-/// rows after a short climb.
+/// The start on all rows: the best of the optima of every `stride`th row and of the usual first start, by the evidence
+/// of all rows after a short climb.
 Point start_by_part(Problem& all, double scale, const FitStart& start, Index stride) {
   const Inputs inputs = part_of(all.inputs, stride);
   const Vector y = all.y(Eigen::seq(0, all.y.size() - 1, stride));

@@ -40,7 +40,7 @@ struct FitOptions {
   }
 };
 
-/// What a fit may begin with.
+/// The start of a fit.
 struct FitStart {
   Hyperparameters hyperparameters;
   Matrix inverse_hessian;  // of minus the evidence, in the free coordinates of SoftBounds: of an earlier fit of nearly

@@ -72,8 +72,8 @@ void AddTrendKernel(const double* z, Size n, Size dimensions, double* tiles) {
   }
 }
 
-/// Of the tiles below the diagonal every pair counts twice; of those on it the entries above the diagonal are not
-/// there, so that those below count twice and the diagonal once.
+/// Every pair counts twice in the tiles below the diagonal. In those on it entries above the diagonal are missing:
+/// those below count twice and the diagonal once.
 void TrendGradientSumsKernel(const double* z, Size n, Size dimensions, const double* b, const double* inverse,
                              double* sums) {
   std::fill(sums, sums + 8 * dimensions, 0.0);

@@ -8,8 +8,8 @@
 
 namespace rehearse::gp {
 
-/// How the inputs of an output are scaled: by `factors` (D) once they are in unit range, and for the trend, unless it
-/// is empty, by `trend_factors` (1 + D) as they are.
+/// The scales of an output's inputs: `factors` (D) for inputs in unit range, and for the trend `trend_factors` (1 + D;
+/// empty without one) for inputs as they are.
 struct Scales {
   const Inputs& inputs;
   ConstVectorView factors, trend_factors;

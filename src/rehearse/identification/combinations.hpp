@@ -1,5 +1,5 @@
 #pragma once
-// Names for what is known of parameters that cannot be told apart.
+// Names for the known combinations of parameters that the data cannot separate.
 
 #include <string>
 #include <vector>

@@ -21,7 +21,7 @@ struct Fit {
   Index evaluations = 0;  // values of φ scored on the way here
 };
 
-/// What φ and kernels are fitted to. References must outlive it.
+/// The data and options that φ and kernels are fitted to. References must outlive it.
 struct FitProblem {
   const dynamics::Residuals& residuals;
   const prior::Prior* prior;  // null: zero mean
@@ -34,8 +34,7 @@ struct FitProblem {
   void refit(Fit& fit, const gp::FitOptions& options) const;
 
   /// The score of these log evidences, with `left_out` rows failing. A φ at which rows fail must not win by having
-  /// fewer of them to explain: a row that fails counts as if the model knew no more of it than the spread of the
-  /// changes.
+  /// fewer of them to explain: a row that fails counts as if it were predicted with the spread of the changes.
   double charged_score(const Vector& log_evidences, Index left_out) const;
 };
 
@@ -44,7 +43,7 @@ Fit unfitted(const Vector& phi, Index outputs, const std::vector<gp::Hyperparame
 
 std::vector<gp::Hyperparameters> hyperparameters(const Fit& fit);
 
-/// Where learning starts; what `learn` returned the time before.
+/// The start of learning: the state that `learn` returned the time before.
 struct WarmStart {
   std::vector<gp::Hyperparameters> kernels;  // one an output; empty: from the data
   std::optional<Vector> phi;                 // of the prior; empty: its own values

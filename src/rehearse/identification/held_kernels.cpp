@@ -51,7 +51,7 @@ class Climb {
     return Made::misled;
   }
 
-  /// Whether the score rises there.
+  /// Moves to z if the score is higher there; false if not.
   bool move(const Vector& z, double promised) {
     HeldKernels::At next = held_.at(z);
     ++evaluations_;

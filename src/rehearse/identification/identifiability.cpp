@@ -13,8 +13,8 @@ namespace rehearse::identification {
 namespace {
 
 constexpr double kUnsure = 0.1;       // half an interval that is worth a sentence, as a fraction of the box
-constexpr double kOthersKnown = 0.3;  // of a deviation is left once the others are known: they cannot be told apart.
-                                      // Of two parameters that is a correlation of 0.95
+constexpr double kOthersKnown = 0.3;  // parameters cannot be separated if less than this fraction of a deviation is
+                                      // left once the others are known; for two of them: a correlation of 0.95
 constexpr double kLinked = 0.5;       // correlation of those that are named together
 constexpr double kRounding = 1e-9;    // of a variance: combinations that are known better are all known
 constexpr double kAtEnd = 1e-3;       // of the box
@@ -79,7 +79,7 @@ class Warnings {
  private:
   const Parameter& of(Index i) const { return posterior_.parameters[static_cast<std::size_t>(i)]; }
 
-  /// Whether a parameter's interval is wide. Half of it is at least 1.96 deviations, even where the box cuts it.
+  /// True if a parameter's interval is wide. Half of it is at least 1.96 deviations, even where the box cuts it.
   bool is_unsure(Index i) const {
     const double deviation = std::sqrt(posterior_.covariance(i, i));
     const double half = std::max(kNormal * deviation, width(intervals_[static_cast<std::size_t>(i)]) / 2);

@@ -1,5 +1,5 @@
 #pragma once
-// Residuals near a point tell of the parameters: a precision, a gradient, directions that are not told.
+// The information of residuals near a point about parameters: a precision, a gradient, directions without information.
 
 #include <functional>
 
@@ -35,8 +35,8 @@ Matrix covariance_of(const Information& information, const Vector& z);
 /// The directions (q × some) that the data alone leave to the boxes.
 Matrix weak_directions(const Information& information);
 
-/// The way (q) from z, inside the box, on which parameters would by least squares take over what now explains
-/// residuals: `explained` (n) of them, whose deviations these are (n).
+/// The step (q) from z, inside the box, by which parameters would explain, by least squares, the part `explained` (n)
+/// of the residuals; deviations (n): of the residuals.
 Vector way_to_explain(const Matrix& J, const Vector& explained, const Vector& deviations, const Vector& z);
 
 }  // namespace rehearse::identification

@@ -24,10 +24,10 @@ struct ZeroMean {
   void fields(FieldVisitor& v) { v.group("gp", gp); }
 };
 
-/// Of GPs around a prior.
+/// Options of GPs around a prior.
 struct ResidualGpOptions : GpOptions {
   bool midpoint = true;  // inputs are those halfway along the step that the prior predicts (Mean)
-  bool servos = true;    // where servos get to is learned before the prior is asked what follows (servos.hpp)
+  bool servos = true;    // GPs learn the positions that servos reach, the prior predicts what follows (servos.hpp)
   ResidualGpOptions() {
     fit.trend = smooth = true;
     fit.penalties.length_deviation =
@@ -62,7 +62,7 @@ struct Mi : LeastSquares {
   }
 };
 
-/// How GP-MI looks for the φ of the highest score.
+/// GP-MI's search for the φ of the highest score.
 enum class PhiSearch {
   alternating,  // φ with the kernels held and kernels with φ held, by turns (alternating.hpp)
   nested,       // Subplex, each φ with kernels fitted anew (Chatzilygeroudis 2018, Algorithm 2)

@@ -38,7 +38,7 @@ gp::FitOptions fit_options(const GpOptions& options, const dynamics::Residuals& 
   return dynamics::fit_options(options.fit, residuals.features().features() + residuals.data().actions.cols());
 }
 
-/// `smoothed`: null where noise of measurements is to be told from what the kernels take for noise.
+/// `smoothed`: null if measurement noise is to be estimated from the kernels' noise.
 Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, const Smoothed* smoothed) {
   const dynamics::Residuals& residuals = problem.residuals;
   const dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
@@ -146,7 +146,7 @@ Learned learn_kind(const Mi& kind, const Given& given) {
   return learned;
 }
 
-/// Null: the kind has none, or knows the actions as they are.
+/// The options if GPs learn servos first; null: the kind has no GPs around a prior, or servos are off.
 const ResidualGpOptions* servo_options(const Kind& kind) {
   const auto with_servos = [](const auto& k) -> const ResidualGpOptions* {
     if constexpr (requires { k.gp.servos; }) return k.gp.servos ? &k.gp : nullptr;

@@ -17,7 +17,7 @@
 
 namespace rehearse::identification {
 
-/// What GPs learned from instead of the data set.
+/// The rows that GPs learned from instead of the data set.
 struct SmoothedRows {
   Dataset data;
   std::vector<gp::Hyperparameters> kernels;  // one an output

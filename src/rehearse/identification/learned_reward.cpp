@@ -16,7 +16,8 @@
 namespace rehearse::identification {
 namespace {
 
-/// What a GP with zero mean is fitted to, and the way back: r = y, or r = exp(min(y + offset, highest)) − floor.
+/// The targets of a GP with zero mean, and the way back to rewards: r = y, or r = exp(min(y + offset, highest)) −
+/// floor.
 struct Targets {
   Vector y;
   RewardScale scale = RewardScale::linear;

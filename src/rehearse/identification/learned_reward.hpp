@@ -13,7 +13,7 @@
 namespace rehearse::identification {
 
 /// The scale on which the GP of the reward r is learned. A saturating reward is flat nearly everywhere, and a GP of it
-/// knows nothing of what is beyond the data; its logarithm is a smooth function of the features, which goes on.
+/// does not extrapolate; its logarithm is a smooth function of the features, which does.
 enum class RewardScale {
   linear,       // r itself (the authors' code)
   logarithmic,  // ln(r + floor), around the mean of the data; linear if a reward is negative
@@ -21,7 +21,7 @@ enum class RewardScale {
 };
 
 struct RewardOptions {
-  bool learned = false;  // the task's reward is not told, but learned from what the trials earned
+  bool learned = false;  // the task's reward is unknown, and learned from the rewards of trials
   RewardScale scale = RewardScale::evidence;
   double floor = 1e-8;   // of the logarithm, as a fraction of the largest reward; 0: linear
   double ceiling = 100;  // of what the logarithm predicts, in largest rewards: beyond the data it may go on for ever

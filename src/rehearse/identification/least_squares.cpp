@@ -97,7 +97,7 @@ class Descents {
     if (found.value < best_.value) best_ = found;
   }
 
-  /// By Subplex, where derivatives mislead.
+  /// Searches by Subplex, where derivatives mislead.
   void search() {
     const std::vector<Interval> box(static_cast<std::size_t>(best_.x.size()), {0, 1});
     const auto score = [&](const Vector& z) { return -problem_.errors(z).squaredNorm(); };

@@ -8,14 +8,14 @@
 
 namespace rehearse::identification {
 
-/// How the φ of the least squared one-step error is found.
+/// The search for the φ of the least squared one-step error.
 struct LeastSquares {
   enum class Method {
     gauss_newton,  // from several starts, and Subplex where the prior is not smooth enough for it
     subplex,       // Chatzilygeroudis 2018
   };
   Method method = Method::gauss_newton;
-  Index starts = 4;  // of Gauss–Newton: where it is told, and places spread over the boxes, while no fit is exact
+  Index starts = 4;  // of Gauss–Newton: the given one, and points spread over the boxes, while no fit is exact
   optim::SubplexOptions subplex{
       .max_evaluations = 2000, .x_tolerance = 1e-6, .value_tolerance = 1e-6};  // the authors' code
   void fields(FieldVisitor& v) {

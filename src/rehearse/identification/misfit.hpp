@@ -1,5 +1,5 @@
 #pragma once
-// How far residuals spread, and what of them is no noise: a misfit of the prior.
+// The spread of residuals, and the part of them that is no noise: a misfit of the prior.
 
 #include <functional>
 #include <vector>

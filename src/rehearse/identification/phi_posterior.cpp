@@ -24,14 +24,14 @@ Matrix targets_of(const dynamics::Residuals& residuals, const prior::Prior& prio
   return all(rows.kept, Eigen::all);
 }
 
-/// How residuals of all outputs (n × dx) become one vector, and what its covariance is.
+/// The residuals of all outputs (n × dx) as one vector, and its covariance.
 struct Stack {
   std::function<Vector(const Matrix&)> of;  // rows as a vector, linear
   std::function<Vector(const Vector& phi)> residuals;
   std::function<Matrix(const Matrix&)> whiten;  // columns that are such vectors
 };
 
-/// Outputs that know nothing of one another, one below the other. References must outlive it.
+/// Independent outputs, one below the other. References must outlive it.
 Stack independent(const dynamics::Residuals& residuals, const prior::Prior& prior,
                   const dynamics::Residuals::Rows& rows, const std::vector<Spread>& spreads,
                   const Evaluator& evaluator) {
@@ -109,7 +109,7 @@ class Around {
     return all;
   }
 
-  /// What GPs explain of the residuals.
+  /// The part of the residuals that GPs explain.
   Vector explained(const Stack& stack) const {
     Matrix all = Matrix::Zero(rows_.targets.rows(), outputs());
     for (Index e = 0; e < outputs(); ++e)
@@ -137,7 +137,7 @@ class Around {
     return {errors, derivatives, Vector::Zero(coordinates_.size()), Vector::Ones(coordinates_.size())};
   }
 
-  /// How far the parameters that take part in these directions get.
+  /// Finds the ranges of the parameters that take part in these directions.
   void follow(const Matrix& directions, const Stack& stack, PhiPosterior& posterior) const {
     std::vector<Index> moved;
     for (Index i = 0; i < directions.rows(); ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// How sure the data leave us of φ.
+// The posterior of φ given the data.
 
 #include <optional>
 #include <string>
@@ -21,8 +21,8 @@ struct PhiPosterior {
   Vector mean;                        // q, the φ learned
   Matrix covariance;                  // q × q, positive definite
 
-  // Where the data leave a direction to the boxes, the valley there is followed: how far each parameter gets in it
-  // (empty: not at all), φ on the way (q × points), and how many such directions there are.
+  // Results of following the valley along each direction that the data do not determine: the range of each parameter
+  // there (empty: it does not move), φ on the way (q × points), and the number of such directions.
   std::vector<std::optional<Interval>> reach = {};
   Matrix alternatives = {};
   Index unknown_directions = 0;
@@ -31,8 +31,8 @@ struct PhiPosterior {
   std::vector<Interval> intervals() const;
 };
 
-/// How the misfit, what the prior cannot explain, widens intervals. Both numbers were chosen on other data than that of
-/// docs/results/phi-intervals.md.
+/// The effect of the misfit, which the prior cannot explain, on intervals. Both numbers were chosen on other data than
+/// that of docs/results/phi-intervals.md.
 struct PhiPosteriorOptions {
   // The misfit counts as so many observations for each degree of freedom of what explains it, however many rows there
   // are. Large: as many as rows, which is overconfident where a parameter that is not tuned is wrong.

@@ -1,5 +1,5 @@
 #pragma once
-// How far parameters can go while the others make up for it.
+// The range of parameters over which the others can compensate.
 
 #include <optional>
 #include <vector>

@@ -4,7 +4,7 @@
 
 namespace rehearse::identification {
 
-/// How the outputs' likelihoods make one score of a φ (Chatzilygeroudis 2018, section IV-B).
+/// The combination of the outputs' likelihoods into one score of a φ (Chatzilygeroudis 2018, section IV-B).
 enum class Score { sum, product, harmonic };
 
 /// log of the sum (product, harmonic mean) of likelihoods given as log likelihoods, without over- or underflow.

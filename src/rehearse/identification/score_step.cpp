@@ -16,8 +16,8 @@ struct Ascent {
   Matrix curvature;  // of minus the function, made positive
 };
 
-/// Of the score at d. The sum's log Σ exp is convex in the log likelihoods, that of the harmonic mean concave: its
-/// curvature counts, that of the sum is left out, which makes the step shorter and safe.
+/// Gradient and curvature of the score at d. The sum's log Σ exp is convex in the log likelihoods, that of the harmonic
+/// mean concave: its curvature counts, that of the sum is left out, which makes the step shorter and safe.
 Ascent ascent_at(const Quadratics& quadratics, Score score, const Vector& d) {
   const Index q = d.size();
   const Vector weights = score_gradient(quadratics.at(d), score);

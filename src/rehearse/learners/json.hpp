@@ -1,5 +1,6 @@
 #pragma once
-// What learners and runs save, as JSON values. As CBOR they keep every double; as text NaN and infinities are lost.
+// The saved state of learners and runs, as JSON values. As CBOR they keep every double; as text NaN and infinities are
+// lost.
 
 #include <vector>
 

@@ -25,7 +25,7 @@
 
 namespace rehearse::learners {
 
-/// How many simulated episodes of a policy broke a limit.
+/// The number of simulated episodes of a policy that broke a limit.
 struct LimitRisk {
   Index broken = 0;
   Index episodes = 0;
@@ -58,7 +58,7 @@ struct KnownProposal {
   Vector theta;
 };
 
-/// A table that a learner makes of its trials, for whoever looks into the run folder: NAME.csv there.
+/// A table of a learner's trials, for readers of the run folder: NAME.csv there.
 struct Table {
   std::string name;                  // "elites"
   std::vector<std::string> columns;  // with units: "x [m]"
@@ -81,9 +81,9 @@ struct Setting {
 /// Proposes policies and learns from the episodes they make.
 ///
 /// Laws (checked by testing::check_learner): `ask` is idempotent: until the next `tell` it returns the same proposal.
-/// A learner that is reminded of its proposal, by `ask_again`, goes on as one that found it.
-/// The same setting, options and episodes give the same bytes, whatever the evaluator. A learner that loaded what
-/// another saved, after being told the same episodes, goes on as that one would, its tables too.
+/// A learner whose proposal is restored by `ask_again` goes on as one that found it. The same setting, options and
+/// episodes give the same bytes, whatever the evaluator. A learner that loaded what another saved, after being told the
+/// same episodes, goes on as that one would, its tables too.
 class Learner {
  public:
   virtual ~Learner() = default;
@@ -91,7 +91,8 @@ class Learner {
   /// Does what `ask` does, for a caller who has kept the same proposal. Learners whose search takes long leave it out:
   /// policy, θ and model of what is returned are those of `ask`, other fields may be empty.
   virtual const Proposal& ask_again(const KnownProposal& /*known*/) { return ask(); }
-  virtual void tell(const Episode& episode) = 0;  // its true states, rewards: of the plant, or as measured (a run says)
+  virtual void tell(const Episode& episode) = 0;  // true states and rewards: of the plant, or as measured
+                                                  // (Spec::told_by)
 
   /// Takes episodes of other controllers for data, like those of trials, before the first `ask` or `load`. Throws
   /// InvalidInput if this learner learns from its own policies alone.
@@ -126,7 +127,7 @@ class LearnerBuilder {
   /// Options of the scenario that suit this learner, where neither a preset nor the user sets them: the policy that it
   /// needs. Those that a scenario does not have, or not with that value, are left as they are.
   virtual OptionTexts scenario_defaults() const { return {}; }
-  /// Reasons why these options cannot do with a task or a policy, a line each: wrong input that is known before
+  /// Reasons why these options cannot do with a task or a policy, a line each: wrong input that can be found before
   /// anything is built.
   virtual std::vector<std::string> violations(const Task& /*task*/, const policy::Policy& /*policy*/) const {
     return {};

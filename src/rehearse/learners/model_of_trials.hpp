@@ -8,22 +8,22 @@
 
 namespace rehearse::learners {
 
-/// All that a learner was told, and the model that is learned from it before each trial. A part of a learner: one
+/// All episodes given to a learner, and the model that is learned from them before each trial. A part of a learner: one
 /// thread.
 class ModelOfTrials {
  public:
-  /// prior_variance: of predictions while nothing is known but the prior. The setting must outlive it.
+  /// prior_variance: of predictions before there are data. The setting must outlive it.
   ModelOfTrials(const Setting& setting, identification::Kind kind, double prior_variance = 0);
 
   void study(const std::vector<Episode>& logs);  // as Learner::study
   void add(const Episode& episode);              // of a trial
 
-  /// Nothing was told, no log either.
+  /// True if there are neither trials nor logs.
   bool without_data() const { return trials_ == 0 && logs_.size() == 0; }
   const Dataset& data() const { return data_; }  // of logs and trials
 
-  /// Writes the model, and what is known of it, into a proposal. Returns where the next one starts, for `keep`: a trial
-  /// that is interrupted leaves nothing behind. The prior is trusted where nothing can be learned.
+  /// Writes the model, and its properties, into a proposal. Returns the start of the next one, for `keep`: an
+  /// interrupted trial leaves nothing behind. The prior is trusted where nothing can be learned.
   identification::WarmStart learn(Proposal& proposal) const;
   void keep(identification::WarmStart start) { start_ = std::move(start); }
 

@@ -5,14 +5,14 @@
 
 namespace rehearse::learners {
 
-/// Keeps what takes a learner long before its first trial and is not in the episodes, so that a run that was killed
-/// goes on from there, and another that would compute the same begins with it. It belongs to one setting and its
-/// options. What is lost is computed again: a store changes no result.
+/// Keeps the results of long computations before a learner's first trial, so that a run that was killed goes on from
+/// there, and another run that would compute the same begins with them. It belongs to one setting and its options. What
+/// is lost is computed again: a store changes no result.
 class Store {
  public:
   virtual ~Store() = default;
 
-  /// What was last written under `name`; nothing where there is none, or it is damaged.
+  /// The bytes last written under `name`; nothing if there are none, or they are damaged.
   virtual std::optional<std::string> read(const std::string& name) = 0;
 
   /// Replaces it in one step.

@@ -8,7 +8,7 @@
 
 namespace rehearse::learners {
 
-/// A learner that computes one proposal a trial, when it is first asked for it, and keeps it until it is told.
+/// A learner that computes one proposal a trial, at the first `ask`, and keeps it until the next `tell`.
 class TrialLearner : public Learner {
  public:
   const Proposal& ask() final {

@@ -12,7 +12,7 @@
 namespace rehearse::moments {
 
 /// The options of a policy whose actions have analytic moments: one of radial basis functions, or a linear one
-/// with a sine as squash. Empty for any other. What it points to lives as long as the policy.
+/// with a sine as squash. Empty for any other. The options live as long as the policy.
 using AnalyticOptions = std::variant<const policy::RbfOptions*, const policy::LinearOptions*>;
 std::optional<AnalyticOptions> analytic_options(const policy::Policy& policy);
 

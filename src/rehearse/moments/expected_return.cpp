@@ -19,7 +19,7 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// What GPs are of: joint angles too where they have as many inputs.
+/// The features that are inputs of the GPs: with joint angles if their number of inputs says so.
 FeatureMap features_of(const Task& task, const StepDynamics& dynamics) {
   if (!dynamics) throw InvalidInput("dynamics: there are none");
   FeatureMap with_joints = model_features(task, true);

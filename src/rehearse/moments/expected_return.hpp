@@ -64,8 +64,8 @@ class ExpectedReturn {
 /// The dynamics, made when it is called.
 using MakeMoments = std::function<StepDynamics()>;
 
-/// ExpectedReturn::episode from the task's start, computed when it is called: most proposals, those of episodes on a
-/// prior, are never asked.
+/// ExpectedReturn::episode from the task's start, computed when it is called: for most proposals, those of episodes on
+/// a prior, it never is.
 std::function<ExpectedEpisode()> expected_episode(Task task, std::shared_ptr<const policy::Policy> policy,
                                                   MakeMoments dynamics, Vector theta);
 

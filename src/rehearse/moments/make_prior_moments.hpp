@@ -6,7 +6,7 @@
 
 namespace rehearse::moments {
 
-/// How a Gaussian goes through a prior, which is a black box and has no moments in closed form.
+/// The propagation of a Gaussian through a prior, which is a black box and has no moments in closed form.
 enum class Through {
   linearised,  // the prior's slopes at the mean (Saveriano 2017)
   unscented,   // 2 n points with the Gaussian's mean and covariance (Julier 1997; of this weight: Arasaratnam 2009)

@@ -30,7 +30,8 @@ HWY_INLINE V exponential(V x) {
 
 constexpr int kGroup = 4;  // points of b taken together: their long chains of dependent operations overlap
 
-/// That of kGroup vectors at once, with short_exp's polynomial as even and odd powers, two chains half as long.
+/// The exponentials of kGroup vectors at once, with short_exp's polynomial as even and odd powers, two chains half as
+/// long.
 HWY_INLINE void exponentials(V* x) {
   const V cut = constant(-80);
   V r[kGroup], square[kGroup], even[kGroup], odd[kGroup], shifted[kGroup];
@@ -206,7 +207,7 @@ struct Loops {
     point_sums({b.points, total, b.size, b.stride}, D, out);
   }
 
-  /// What the other triangle adds.
+  /// Adds the sums of the other triangle.
   static HWY_INLINE void add_mirror(const WeightedPoints& b, int D, const double* columns, double* total,
                                     PairSums& out) {
     double first[kSize], second[kSize * kSize];

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kWorthSpreading = 30000;  // kernel values
 
-/// Whether two matrices are the same, whatever their sizes: Eigen's comparison is one of equal sizes.
+/// True if two matrices are equal; sizes may differ, unlike in Eigen's comparison.
 bool are_equal(const Matrix& a, const Matrix& b) { return a.rows() == b.rows() && a.cols() == b.cols() && a == b; }
 
 }  // namespace

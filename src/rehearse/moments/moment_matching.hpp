@@ -36,7 +36,7 @@ struct PairGeometry;  // moment_geometry.hpp
 /// Outputs that are sums of terms. Terms with reduction are independent functions. Immutable; any thread.
 class MomentMatching {
  public:
-  /// parameters: whether the adjoint will be asked for that of the terms; only without reductions. Throws InvalidInput
+  /// parameters: true if `adjoint` will be called for the terms' adjoints; only without reductions. Throws InvalidInput
   /// on sizes that do not agree, numbers that are not finite, or more than kMostMomentInputs inputs.
   MomentMatching(std::vector<MomentTerm> terms, Index outputs, bool parameters = false);
   MomentMatching(MomentMatching&&) = default;

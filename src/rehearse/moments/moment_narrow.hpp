@@ -22,8 +22,8 @@ struct NarrowSide {
 /// The largest |t_ij| that leaves out less than rounding would add to the sums of all pairs.
 double narrow_limit(const MomentTerm& a, const MomentTerm& b);
 
-/// Whether no |t_ij| exceeds the limit, by a bound; forward_a, forward_b: PairForm's A plus ½ diag ℓ⁻², of a and of b.
-/// A few operations where the first points exceed it.
+/// True if a bound shows that no |t_ij| exceeds the limit; forward_a, forward_b: PairForm's A plus ½ diag ℓ⁻², of a and
+/// of b. A few operations where the first points exceed it.
 bool crosses_within(const Matrix& points_a, const ConstMatrixView& forward_a, const Matrix& points_b,
                     const ConstMatrixView& forward_b, double limit);
 

@@ -16,7 +16,7 @@ struct PolicyTape {
   Transformed squash;
 };
 
-/// The adjoint of what a policy is made of, summed over the steps of a rollout.
+/// The adjoint of a policy's numbers, summed over the steps of a rollout.
 struct PolicyAdjoint {
   std::vector<TermAdjoint> networks;  // of an RBF policy, one an action
   Matrix slopes;                      // of a linear policy, actions × features

@@ -11,7 +11,7 @@ namespace rehearse::moments {
 /// allocation; not shared by threads.
 struct PriorTape {
   Matrix directions;          // n × n, a column each: from the mean to a point on that side
-  Matrix points, changes;     // what the prior was asked, and answered
+  Matrix points, changes;     // inputs and outputs of the prior
   Matrix neighbours, nearby;  // the same of the points that derivatives of the answers need (`differentiate`)
 };
 
@@ -26,12 +26,13 @@ class PriorMoments {
   Index actions() const { return actions_; }  // du
   Index inputs() const { return states_ + actions_; }
 
-  /// input: of n variables. change: its gain is that of states and actions (n × dx). Asks the prior once. False, and
+  /// input: of n variables. change: its gain is that of states and actions (n × dx). Calls the prior once. False, and
   /// `change` undefined, where the prior fails at a point, or the input is no Gaussian. Throws InvalidInput on wrong
   /// sizes.
   bool forward(const Gaussian& input, PriorTape& tape, Transformed& change) const;
 
-  /// Asks the prior for what the adjoints of all these steps need, once. False where it fails at a point.
+  /// Calls the prior once, for the predictions that the adjoints of all these steps need. False where it fails at a
+  /// point.
   bool differentiate(const std::vector<PriorTape*>& tapes) const;
 
   /// Adds to the adjoint of the input what the adjoint of the change brings, up to the square of the steps of
@@ -49,7 +50,7 @@ class PriorMoments {
   virtual bool place(const Gaussian& input, PriorTape& tape) const = 0;
   /// Mean, gain, and the part of the covariance that does not come with the gain.
   virtual void combine(const PriorTape& tape, Transformed& change) const = 0;
-  /// How many neighbours a step has, and these (rows × n).
+  /// The number of neighbours of a step, and the neighbours (rows × n).
   virtual Index neighbours() const = 0;
   virtual void place_neighbours(const PriorTape& tape, MatrixView neighbours) const = 0;
   /// The adjoint of `combine` and `place`.

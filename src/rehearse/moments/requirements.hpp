@@ -18,7 +18,7 @@ struct User {
   bool joint_angles = false;        // they are inputs of its model
 };
 
-/// What of a task or a policy has no analytic moments, a line each.
+/// The parts of a task or a policy without analytic moments, a line each.
 std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, const User& user);
 
 }  // namespace rehearse::moments

@@ -83,7 +83,7 @@ class MpiRanks final : public Ranks {
   }
 
  protected:
-  /// In blocks of one size, because to wait for the others is what costs; what does not fit follows.
+  /// Sends blocks of one size first, since waiting for the others costs most; the rest follows.
   std::vector<std::string> carry(const std::string& bytes) override {
     const auto ranks = static_cast<std::size_t>(size_);
     const int own = static_cast<int>(bytes.size());

@@ -20,9 +20,9 @@ struct State {
   enum class Kind {
     position,  // of hinges [rad] and slides [m]; can be set
     velocity,  // of hinges [rad/s] and slides [m/s]; can be set
-    sensor,    // what sensors say; is read only
-    body,      // where the origins of bodies are in the world [m]; is read only
-    site,      // where sites are in the world [m]; is read only
+    sensor,    // readings of sensors; read only
+    body,      // positions of the bodies' origins in the world [m]; read only
+    site,      // positions of sites in the world [m]; read only
   };
   std::string name;  // for messages
   Kind kind = Kind::position;
@@ -59,10 +59,10 @@ struct ModelParameter {
   std::vector<Target> targets;
 };
 
-/// How a model of MuJoCo is a robot. States and actions are those of the task, in its order. Positions and velocities
-/// of joints that no state gives begin every step of a simulator where the keyframe has them: `unseen` lists them.
-/// MuJoCo cuts actions to the ranges of their actuators. Of a URDF it keeps collision shapes alone, joins links whose
-/// joint is fixed, and looks for meshes beside the file, whatever folder they are said to be in.
+/// A MuJoCo model as a robot. States and actions are those of the task, in its order. Positions and velocities of
+/// joints that no state gives begin every step of a simulator where the keyframe has them: `unseen` lists them. MuJoCo
+/// cuts actions to the ranges of their actuators. Of a URDF it keeps collision shapes alone, joins links whose joint is
+/// fixed, and looks for meshes beside the file, whatever folder they are said to be in.
 struct ModelDescription {
   std::string path;      // MJCF or URDF; files that it names are looked for beside it
   std::string keyframe;  // empty: the model's reference position, at rest

@@ -14,8 +14,8 @@
 namespace rehearse::mujoco {
 namespace {
 
-// MuJoCo's handlers are functions without an argument of ours, one of each for the whole program. So what a guarded
-// call needs stands here, once a thread.
+// MuJoCo's handlers are functions without an argument of ours, one of each for the whole program. The variables of a
+// guarded call are therefore here, once a thread.
 thread_local std::jmp_buf* innermost = nullptr;
 thread_local std::array<char, 300> last_error{};
 
@@ -33,7 +33,8 @@ void leave(const char* message) {
   throw std::runtime_error(message);
 }
 
-/// Without handlers MuJoCo prints, writes MUJOCO_LOG.TXT and ends the program. Its warnings are counted in mjData, too.
+/// Sets handlers of errors and warnings. Without them MuJoCo prints, writes MUJOCO_LOG.TXT and ends the program. Its
+/// warnings are counted in mjData, too.
 void take_over_errors() {
   static std::once_flag once;
   std::call_once(once, [] {

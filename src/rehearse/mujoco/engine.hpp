@@ -1,5 +1,5 @@
 #pragma once
-// MuJoCo's own objects, and how its errors are survived. For the files of this room.
+// MuJoCo's own objects, and protection against its errors. For the files of this room.
 
 #include <cstddef>
 #include <memory>

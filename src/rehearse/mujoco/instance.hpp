@@ -9,7 +9,7 @@
 
 namespace rehearse::mujoco {
 
-/// A model in motion. One thread. What throws leaves it useless.
+/// A model in motion. One thread. Unusable after an exception.
 class Instance {
  public:
   explicit Instance(std::shared_ptr<const CompiledModel> compiled);
@@ -23,10 +23,10 @@ class Instance {
   /// A control step under u (du). False if the simulation diverged. Allocates nothing.
   bool step(const Vector& u);
 
-  /// Computes what states see where nothing has moved since `place`. False if that cannot be.
+  /// Computes the numbers that states read, after `place` without a step. False if that fails.
   bool look();
 
-  /// Computes where bodies and geoms are, as `look` does only for states that need it.
+  /// Computes the positions of bodies and geoms, which `look` does only for states that need them.
   bool place_bodies();
 
   /// Writes x (dx). After `step` or `look`.
@@ -44,7 +44,7 @@ class Instance {
   ModelPointer model_;
   DataPointer data_;
   Vector phi_;                       // that the model has
-  Vector qpos_, qvel_, act_, ctrl_;  // where every row begins
+  Vector qpos_, qvel_, act_, ctrl_;  // the start of every row
   bool spoilt_ = false;              // MuJoCo left its data midway
 };
 

@@ -7,13 +7,13 @@
 
 namespace rehearse::mujoco {
 
-/// The parameters of a description, as what they do to a model and its copies.
+/// The parameters of a description, as changes to a model and its copies.
 class Parameters {
  public:
   Parameters() = default;
   Parameters(mjModel& original, const std::vector<ModelParameter>& parameters, Violations& violations);
 
-  /// Moves the numbers of a copy of `original` to what they are at phi (in the description's order). Whether
+  /// Moves the numbers of a copy of `original` to what they are at phi (in the description's order). True if
   /// mj_setConst must follow.
   bool apply(mjModel& original, const Vector& phi, mjModel& model) const;
 

@@ -20,13 +20,13 @@ class States {
   /// Sets the joints that x (dx) gives. Nothing else changes.
   void write(const Vector& x, mjData& data) const;
 
-  /// Computes what `read` needs of the data's positions and velocities. Call it within `guarded`.
+  /// Computes the numbers that `read` needs from the data's positions and velocities. Call it within `guarded`.
   void prepare(const mjModel& model, mjData& data) const;
 
-  /// Writes x (dx). What is read only is that of the last `prepare`.
+  /// Writes x (dx). Read-only states are those of the last `prepare`.
   void read(const mjData& data, Vector& x) const;
 
-  /// Whether a state moves this joint's position or velocity.
+  /// True if a state gives this joint's position or velocity.
   bool gives(State::Kind kind, int joint) const;
 
  private:

@@ -21,12 +21,13 @@ struct AdamOptions {
   }
 };
 
-/// What Adam remembers of one point that it moves. A value.
+/// The state of Adam for one point that it moves. A value.
 class Adam {
  public:
   Adam(Index coordinates, const AdamOptions& options);
 
-  /// Moves x uphill. `done`: how much of the search is over, in [0, 1]. A gradient that is not finite is passed over.
+  /// Moves x uphill. `done`: the fraction of the search that is over, in [0, 1]. A gradient that is not finite is
+  /// ignored.
   void ascend(VectorView x, const ConstVectorView& gradient, double done);
 
  private:

@@ -29,7 +29,7 @@ struct Point {
   bool ok() const { return std::isfinite(value) && gradient.allFinite(); }
 };
 
-/// Where on a line: how far, the value and the slope there.
+/// A point on a line: the step, the value and the slope there.
 struct Mark {
   double step, value, slope;
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kEstimates = 5;  // generations from which the first weights are estimated
 
-/// Of the values that are finite.
+/// The interquartile range of the finite values.
 double interquartile_range(const ConstVectorView& values) {
   std::vector<double> sorted;
   for (const double value : values)
@@ -49,7 +49,7 @@ const Vector& Box::penalties(const ConstMatrixView& X, const ConstVectorView& va
   return penalties_;
 }
 
-/// The first weights: leaving by σ costs some interquartile ranges of the values. A plateau says nothing; wait.
+/// The first weights: leaving by σ costs some interquartile ranges of the values. On a plateau they are not estimated.
 void Box::estimate(const ConstVectorView& values, double variance) {
   if (curvatures_.size() >= kEstimates) return;
   const double range = interquartile_range(values);

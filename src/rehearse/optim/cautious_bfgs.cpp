@@ -28,7 +28,7 @@ struct Mark {
   bool ok() const { return std::isfinite(cost) && std::isfinite(slope); }
 };
 
-/// Where the cubic through both marks has its minimum, as the distance from `a`; not finite if it has none.
+/// The minimum of the cubic through both marks, as the distance from `a`; not finite if there is none.
 double cubic_minimum(const Mark& a, const Mark& b) {
   const double x = b.step - a.step, rise = b.cost - a.cost;
   const double A = 3 * (a.slope + b.slope) * x - 6 * rise, B = 3 * rise - (2 * a.slope + b.slope) * x;

@@ -1,5 +1,5 @@
 #pragma once
-// One descent of CMA-ES, to be asked for candidates and told their values.
+// One descent of CMA-ES, by `ask` for candidates and `tell` of their values.
 
 #include <string>
 #include <vector>

@@ -103,7 +103,7 @@ class Search {
     return Made::misled;
   }
 
-  /// Whether the sum is less there.
+  /// Moves to x if the sum is less there; false if not.
   bool move(const Vector& x, double promised) {
     Vector r = problem_.errors(x);
     ++evaluations_;

@@ -29,7 +29,7 @@ struct SquaresResult {
 };
 
 /// Gauss–Newton with Levenberg's and Marquardt's damping (Moré 1978), each step the best one in the box. Along
-/// directions that change nothing x stays where it started.
+/// directions that change nothing x stays at its start.
 SquaresResult minimise_squares(const SquaresProblem& problem, const Vector& start, const SquaresOptions& options = {});
 
 }  // namespace rehearse::optim

@@ -30,7 +30,7 @@ void check(const Vector& start, const std::vector<Interval>& box, SearchOptions 
   violations.throw_if_any();
 }
 
-/// How the next descent starts.
+/// The start of the next descent.
 struct Plan {
   Index population;
   double step;
@@ -113,7 +113,7 @@ SearchResult Search::run() {
   return std::move(result_);
 }
 
-/// For the plan of the next descent.
+/// Random numbers for the plan of the next descent.
 Rng Search::random() const { return Rng(key_of(static_cast<Index>(result_.descents.size()))); }
 
 StreamKey Search::key_of(Index descent) const {
@@ -173,7 +173,7 @@ void Search::descend(const Plan& plan) {
   result_.descents.push_back(descent);
 }
 
-/// Empty: goes on. Also says when the whole search must stop.
+/// The reason to stop a descent; empty: it goes on. Also sets the stop of the whole search.
 std::string Search::stop_of(const Cmaes& cmaes, const UncertaintyHandler& noise, Index used, const Plan& plan) {
   if (best_ >= options_.target)
     result_.stop = "target reached";

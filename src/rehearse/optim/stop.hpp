@@ -4,7 +4,7 @@
 
 namespace rehearse::optim {
 
-/// Why a descent of CMA-ES ended.
+/// The reason why a descent of CMA-ES ended.
 enum class Stop { none, value_tolerance, step_tolerance, condition, growth, stagnation, no_effect, max_generations };
 std::string to_string(Stop stop);  // in words
 

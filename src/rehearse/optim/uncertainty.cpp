@@ -57,7 +57,8 @@ double measure(const JointRanks& ranks, std::size_t count, double theta) {
   return sum / static_cast<double>(count);
 }
 
-/// By the sum of ranks; then the steadier candidate first (one evaluated once counts as average); then by value.
+/// The order by the sum of ranks; then the steadier candidate first (one evaluated once counts as average); then by
+/// value.
 std::vector<Index> order_of(const JointRanks& ranks, std::size_t count, const ConstVectorView& values) {
   double mean_change = 0;
   for (std::size_t i = 0; i < count; ++i) mean_change += ranks.change(i) / static_cast<double>(count);

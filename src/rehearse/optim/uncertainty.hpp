@@ -26,7 +26,7 @@ struct UncertaintyOptions {
   void fields(FieldVisitor& v);
 };
 
-/// Measures by re-evaluation how much the noise changes the ranking of a generation, and says what to do about it.
+/// Measures by re-evaluation how much the noise changes the ranking of a generation, and how to respond.
 class UncertaintyHandler {
  public:
   UncertaintyHandler(const UncertaintyOptions& options, Index dimension, Index population);
@@ -35,9 +35,9 @@ class UncertaintyHandler {
   Index reevaluations() const;    // of this generation: its first so many candidates are evaluated twice
   Index generation_cost() const;  // evaluations that this generation takes
 
-  /// Takes the values (λ) of this generation, those of its first `reevaluations()` candidates evaluated again, and what
-  /// the ranking is to take off each (λ; empty: nothing). Leaves in `values` the means of both evaluations; returns the
-  /// candidates from best to worst by the sum of their ranks in both. What is not finite is the worst.
+  /// Takes the values (λ) of this generation, those of its first `reevaluations()` candidates evaluated again, and the
+  /// penalty that the ranking subtracts from each (λ; empty: none). Leaves in `values` the means of both evaluations;
+  /// returns the candidates from best to worst by the sum of their ranks in both. What is not finite is the worst.
   std::vector<Index> rank(VectorView values, const ConstVectorView& again, const Vector& penalties = {});
 
   double sigma_factor() const { return sigma_factor_; }  // that the last generation asks for

@@ -54,10 +54,10 @@ struct Feedback {
   std::vector<bool> angles;  // which states are
 };
 
-/// A policy at one θ as plain numbers, for whoever computes it elsewhere (exported.hpp).
+/// A policy at one θ as plain numbers, for exports (exported.hpp).
 using Description = std::variant<Layers, Radial, Table, Feedback>;
 
-/// A policy that can say what it is. A Policy of one's own that is to be exported implements it, too.
+/// A policy that can be described as numbers. A Policy of one's own that is to be exported implements it, too.
 class Describable {
  public:
   virtual ~Describable() = default;

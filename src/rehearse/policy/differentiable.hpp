@@ -6,8 +6,8 @@
 
 namespace rehearse::policy {
 
-/// A policy that knows the derivatives of its actions, which a search by gradient asks for. A Policy of one's own that
-/// is to be searched so implements it, too. Any thread.
+/// A policy with derivatives of its actions, which a search by gradient needs. A Policy of one's own implements it,
+/// too, to be searched so. Any thread.
 class Differentiable {
  public:
   virtual ~Differentiable() = default;

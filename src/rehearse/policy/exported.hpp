@@ -10,7 +10,7 @@
 
 namespace rehearse::policy {
 
-/// Where a policy comes from.
+/// The origin of a policy.
 struct Origin {
   std::string robot, learner;
   std::string prior;  // empty: none
@@ -18,19 +18,19 @@ struct Origin {
   std::optional<double> total_reward;  // of that trial; empty: it is to come
 };
 
-/// What the original does in some states: what is exported is tested with it.
+/// The original's actions in some states, for tests of the exported policy.
 struct Answers {
   Matrix states;   // n × dx
   Vector times_s;  // n
   Matrix actions;  // n × du: commands
 };
 
-/// Everything that its texts say. A value.
+/// The contents of all three texts. A value.
 struct Exported {
   Origin origin;
   std::vector<StateVariable> states;
   std::vector<ActionVariable> actions;  // with their bounds
-  Actuators actuators;                  // what becomes of the actions; the last states are their memory
+  Actuators actuators;                  // turn actions into commands; the last states are their memory
   double dt_s = 0;
   std::string kind;  // the policy's name: "mlp"
   Vector theta;
@@ -58,7 +58,7 @@ std::string to_numpy(const Exported& exported);
 /// Among the first characters of every text.
 inline constexpr const char* kExportedMark = "policy that was learned on a robot, written by Rehearse";
 
-/// Whether a text is one of these.
+/// True if a text is one of these.
 bool is_exported(std::string_view text);
 
 /// The text with everything replaced that no identifier may have; "policy_" before a digit.

@@ -179,7 +179,7 @@ std::string input_lines(const std::vector<Input>& inputs, const std::string& nam
   return lines;
 }
 
-/// What the frame says where actuators remember something; nothing where they do not.
+/// Fills the frame's places for the memory of actuators; empty without one.
 void add_memory(const Exported& exported, const std::string& name, Values& values) {
   for (const char* part : {"MEMORY_PARAMETER", "MEMORY_ARGUMENT", "MEMORY_ABOUT", "MEMORY_DEFINE", "MEMORY_START",
                            "JOINED", "COMMANDS", "TEST_MEMORY", "TEST_REMEMBERS"})

@@ -1,5 +1,5 @@
 #pragma once
-// How commands follow from each other (core/actuators.hpp), as lines of a program. For the sources of this room.
+// The recursion of commands (core/actuators.hpp), as lines of a program. For the sources of this room.
 
 #include <functional>
 #include <string>

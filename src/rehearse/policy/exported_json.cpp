@@ -62,7 +62,7 @@ Json to_form(const Feedback& feedback) {
           {"angles", feedback.angles}};
 }
 
-/// How each action becomes a command, and what is remembered of it: docs/export.md.
+/// The conversion of each action to a command, and its memory: docs/export.md.
 Json commands(const Actuators& actuators) {
   Json all = Json::array();
   const auto known = [](bool is, auto value) { return is ? Json(value) : Json(); };

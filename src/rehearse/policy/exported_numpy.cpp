@@ -103,7 +103,7 @@ std::string input_lines(const std::vector<Input>& inputs) {
   return lines;
 }
 
-/// What the frame says where actuators remember something.
+/// Fills the frame's places for the memory of actuators; empty without one.
 void add_memory(const Exported& exported, Values& values) {
   for (const char* part : {"MEMORY_START", "MEMORY_ABOUT", "JOINED", "COMMANDS"}) values[part] = "";
   values["T"] = "t=0.0";

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kLine = 120;
 
-/// Without control characters, ends of comments, and trigraphs.
+/// The text without control characters, ends of comments, and trigraphs.
 std::string harmless(const std::string& text) {
   std::string safe;
   for (const char c : text) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the texts of an exported policy have in common.
+// Common parts of the texts of an exported policy.
 
 #include <map>
 #include <string>
@@ -27,10 +27,10 @@ std::string filled(std::string_view text, const std::map<std::string, std::strin
 /// "angle [rad]", as a comment may have it: without what ends one, or a line.
 std::string labelled(const std::string& name, const std::string& unit);
 
-/// Lines that say where the policy comes from, what it sees and what it does: of a comment.
+/// Lines of a comment on the policy's origin, inputs and outputs.
 std::vector<std::string> explanation(const Exported& exported);
 
-/// How many states are measured, and how many are the memory behind them.
+/// The number of states that are measured, and of those in the memory behind them.
 Index measured(const Exported& exported);
 Index memory(const Exported& exported);
 
@@ -41,7 +41,7 @@ Vector highs(const Exported& exported);
 /// Features of plain states are kept within ± this, where every policy is saturated: nothing overflows.
 inline constexpr const char* kLargestInput = "1e100";
 
-/// Seconds beyond this one are no longer told apart.
+/// Times beyond this one [s] are no longer distinguished.
 inline constexpr const char* kLargestTime = "1e12";
 
 }  // namespace rehearse::policy

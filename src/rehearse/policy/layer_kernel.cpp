@@ -39,7 +39,7 @@ void LayerKernel(const double* weights, Index weight_stride, const double* in, I
   for (Index o = 0; row < rows && o < outputs; ++o) {
     const double* w = weights + o * (inputs + 1) * weight_stride;
     for (Index r = row; r < rows; ++r) {
-      // As the vector code rounds, so that a row does not depend on its place in the batch.
+      // The same rounding as in the vector code, so that a row does not depend on its place in the batch.
       hn::CappedTag<double, 1> d1;
       auto sum = hn::LoadU(d1, w + inputs * weight_stride + r);
       for (Index i = 0; i < inputs; ++i)

@@ -26,7 +26,7 @@ struct LinearOptions {
   Squash squash;
 };
 
-/// What `make_linear` makes, for those who need to know what it consists of (moments/analytic_policy.hpp).
+/// The class that `make_linear` makes, with access to its options (moments/analytic_policy.hpp).
 class Linear : public Policy {
  public:
   virtual const LinearOptions& options() const = 0;

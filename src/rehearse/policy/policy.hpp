@@ -18,7 +18,7 @@ class Policy {
   virtual Index parameters() const = 0;  // of θ
   virtual Index actions() const = 0;     // du
 
-  /// The interval in which each number of θ must lie; empty: there is none, and whoever searches chooses one.
+  /// The interval in which each number of θ must lie; empty: none, and the search chooses one.
   virtual std::optional<Interval> box() const { return std::nullopt; }
 
   /// Values of θ that are known to do something sensible, one a row; 0 × parameters() if there are none.
@@ -29,7 +29,7 @@ class Policy {
   virtual void act(const ConstMatrixView& Theta, const ConstMatrixView& X, double t_s, MatrixView U) const = 0;
 };
 
-/// Throws InvalidInput unless what `act` was given has the sizes that it says. states: dx; −1: any.
+/// Throws InvalidInput unless the arguments of `act` have the sizes stated there. states: dx; −1: any.
 void check_sizes(const Policy& policy, Index states, const ConstMatrixView& Theta, const ConstMatrixView& X,
                  const ConstMatrixView& U);
 

@@ -24,7 +24,7 @@ struct RbfOptions {
   std::vector<Interval> bounds;  // one an action
 };
 
-/// What `make_rbf` makes, for those who need to know what it consists of (moments/analytic_policy.hpp).
+/// The class that `make_rbf` makes, with access to its options (moments/analytic_policy.hpp).
 class Rbf : public Policy {
  public:
   const RbfOptions& options() const { return options_; }

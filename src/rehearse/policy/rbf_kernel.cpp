@@ -72,7 +72,7 @@ HWY_INLINE void solve(const Lanes& L, const Lanes& b, Index n) {
   }
 }
 
-/// Where the vectors of a block of rows lie.
+/// The memory of the vectors of a block of rows.
 struct Block {
   Block(const RbfShape& s, double* memory, Index lanes)
       : theta(memory, lanes),
@@ -93,7 +93,7 @@ struct Block {
   Lanes factors;  // 1/ℓ of each input
 };
 
-/// What an action's network is at θ: its centres, L, and L⁻¹ y in w.
+/// Computes an action's network at θ: its centres, L, and L⁻¹ y in w.
 HWY_INLINE void prepare(const RbfShape& s, Index action, const Block& block) {
   const D d;
   const Index n = s.centres, lengths = action * s.inputs, centres = s.actions * s.inputs;
@@ -120,8 +120,8 @@ HWY_INLINE V act(const RbfShape& s, const Block& block) {
   return mean;
 }
 
-/// Rows [row, row + count) of some columns; a block that is not full is padded with its first row. Whether that changes
-/// what is there.
+/// Loads rows [row, row + count) of some columns; a block that is not full is padded with its first row. True if that
+/// changes the contents.
 HWY_INLINE bool load(const double* from, Index stride, Index columns, Index row, Index count, const Lanes& to) {
   bool changed = false;
   for (Index c = 0; c < columns; ++c)

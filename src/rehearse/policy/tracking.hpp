@@ -18,11 +18,11 @@ struct FeedbackStage {
 
 /// Time-varying linear feedback: step t has the t-th stage, and every step after the last but one has the last, which
 /// holds the robot where the plan ends. At times between two steps actions are between those of both stages, so a robot
-/// may ask more often. What trajectory optimisation makes (Li 2004). θ: the stages one after the other,
-/// each its action, its state, its gain row by row. Throws InvalidInput if there are fewer than two stages.
+/// may call it more often. The result of trajectory optimisation (Li 2004). θ: the stages one after the other, each its
+/// action, its state, its gain row by row. Throws InvalidInput if there are fewer than two stages.
 std::shared_ptr<const Policy> make_tracking(const Task& task, Index stages);
 
-/// Its name.
+/// The name of the tracking policy.
 inline constexpr const char* kTracking = "tracking";
 
 /// The numbers of θ that a stage takes.

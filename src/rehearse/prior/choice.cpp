@@ -14,7 +14,7 @@ bool same_box(const Parameter& a, const Parameter& b) {
   return a.kind == b.kind && a.box.low == b.box.low && a.box.high == b.box.high && a.choices == b.choices;
 }
 
-/// Whether every prior that has a tunable parameter of this name lets it be tuned in the same box.
+/// True if every prior with a tunable parameter of this name has the same box for it.
 bool shared(const Parameter& parameter, const std::vector<Prior>& priors) {
   return std::all_of(priors.begin(), priors.end(), [&](const Prior& prior) {
     const Index i = prior.space.find(parameter.name);
@@ -67,7 +67,7 @@ class Choice final : public system::Simulator {
   }
 
  private:
-  /// Where each parameter of a prior is taken from in the joint φ; −1: fixed by the prior.
+  /// The index of each parameter of a prior in the joint φ; −1: fixed by the prior.
   std::vector<Index> add_tunable(const Prior& prior, std::vector<Parameter>& joint) const {
     std::vector<Index> sources;
     for (Parameter parameter : prior.space.all()) {

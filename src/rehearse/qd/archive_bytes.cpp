@@ -47,7 +47,7 @@ class Writer {
   std::string bytes_;
 };
 
-/// Whoever calls knows that the bytes are there.
+/// A reader of bytes. The caller ensures that there are enough.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}

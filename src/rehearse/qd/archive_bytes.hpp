@@ -12,14 +12,14 @@ namespace rehearse::qd {
 struct Search {
   Archive archive;
   std::uint64_t evaluations = 0, failed = 0;
-  std::string about;  // what it was made from, in the words of who kept it
+  std::string about;  // a description of its inputs, by the caller who kept it
 };
 
 /// A compact file: a header (magic, version, byte order, sizes, checksum), then `about`, the niches and the elites in
 /// order, with exact doubles.
 std::string to_bytes(const Search& search);
 
-/// Bytes that are long enough get the checksum that fits them, whatever they are: tests of what stands behind it.
+/// Writes the right checksum into any bytes that are long enough, for tests of the checks behind it.
 void fit_checksum(std::string& bytes);
 
 /// Throws InvalidInput with one line, which begins with `name`, if the bytes are not an archive, of another version or

@@ -21,8 +21,8 @@ struct MapElitesOptions {
   void fields(FieldVisitor& v);
 };
 
-/// Where solutions live: in a box, where the first are uniform unless there is a start or there are examples; or
-/// anywhere about a start.
+/// The space of solutions: a box, in which the first are uniform unless there is a start or there are examples; or
+/// unbounded about a start.
 struct SearchSpace {
   std::vector<Interval> box;    // P, or empty
   std::optional<Vector> start;  // P: the first solutions are N(start, σ_iso²)
@@ -30,8 +30,8 @@ struct SearchSpace {
 };
 
 /// Performances (n, higher is better) and descriptors (n × D) of solutions X (n × P), the first of which has number
-/// `first` among all that were ever made. What is not finite counts as failed and is never kept. Called from several
-/// threads at once; a row must depend on itself and its number alone. Views are written.
+/// `first` among all that were ever made. Results that are not finite count as failed and are never kept. Called from
+/// several threads at once; a row must depend on itself and its number alone. Views are written.
 using Evaluate =
     std::function<void(const ConstMatrixView& X, std::uint64_t first, VectorView performances, MatrixView descriptors)>;
 
@@ -51,7 +51,7 @@ class MapElites {
   /// One generation, spread over the evaluator in chunks of a fixed size.
   void step(const Evaluate& evaluate, const Evaluator& evaluator);
 
-  /// One generation by hand: `ask` gives solutions (batch × P), `tell` takes what they were worth. `ask` is idempotent.
+  /// One generation by hand: `ask` gives solutions (batch × P), `tell` takes their results. `ask` is idempotent.
   const Matrix& ask();
   void tell(const ConstVectorView& performances, const ConstMatrixView& descriptors);  // batch; batch × D
 

@@ -12,7 +12,7 @@ namespace rehearse::qd {
 /// and of each the points are listed that are the nearest to some place in it. Immutable; any thread; no allocation.
 class NearestTable {
  public:
-  /// Whether a table of so many points is smaller and faster than the tree alone.
+  /// True if a table of so many points is smaller and faster than the tree alone.
   static bool worthwhile(Index dimensions, Index points) { return dimensions <= 3 && points >= 64 && points <= 200000; }
 
   NearestTable() = default;

@@ -31,7 +31,7 @@ struct Cvt {
   std::uint64_t seed = 1;
 };
 
-/// Which niche of a space of descriptors a descriptor belongs to. A value; const methods may run concurrently.
+/// The niches of a space of descriptors. A value; const methods may run concurrently.
 class Niches {
  public:
   /// Throws InvalidInput with every violation.

@@ -9,7 +9,7 @@
 
 namespace rehearse::qd {
 
-/// How a new solution comes from elites drawn at random.
+/// The variation of elites drawn at random into a new solution.
 struct Variation {
   enum class Kind {
     iso_line,  // x_i + σ_iso N(0, I) + σ_line (x_j − x_i) N(0, 1)  (Vassiliades 2018, "Discovering the elite

@@ -1,5 +1,5 @@
 #pragma once
-// Whether the numbers of a recording are those of a robot. For the sources of this room.
+// Plausibility checks of recordings. For the sources of this room.
 
 #include <string>
 #include <vector>

@@ -87,7 +87,7 @@ void check_size(double bytes, const std::string& source, const ReadOptions& opti
                                    source, bytes, options.max_bytes));
 }
 
-/// Behind the states that were measured stands what follows from the actions since the recording began.
+/// Appends the memory of actuators, which follows from the actions since the recording began, to the measured states.
 void add_memory(Episode& episode, const Task& task) {
   if (task.memory == 0) return;
   const Matrix memory = task.actuators().memory_of(episode.actions);

@@ -52,7 +52,7 @@ Json tried_json(const statistics::Table& tried, std::size_t elites, Problems& pr
   return columns(tried, "tried.csv", problems);
 }
 
-/// How many niches there are and where; of a grid the bins of each descriptor.
+/// The number of niches and their bounds; for a grid the bins of each descriptor.
 Json space_json(const ArchiveSpace& bytes, const Json& tables) {
   const std::size_t elites = tables["promised"].size(), descriptors = tables["descriptors"].size();
   if (bytes.elites != static_cast<Index>(elites) || bytes.bounds.size() != descriptors)

@@ -51,7 +51,7 @@ void check_runs(const fs::path& folder, const Json& runs, Problems& problems) {
   }
 }
 
-/// What lies in runs/ and is no run of the campaign. Hidden entries are folders that are being made.
+/// Names entries of runs/ that are no runs of the campaign. Hidden ones are folders that are being made.
 void name_strangers(const fs::path& folder, const Json& summary, Problems& problems) {
   std::map<std::string, std::string> reasons;
   for (const Json& skipped : summary.at("skipped"))

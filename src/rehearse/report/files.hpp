@@ -1,5 +1,5 @@
 #pragma once
-// Reading the files of a folder so that what is wrong with one of them becomes a problem. For the sources of this room.
+// Reading of a folder's files; an unreadable one becomes a problem. For the sources of this room.
 
 #include <filesystem>
 #include <optional>

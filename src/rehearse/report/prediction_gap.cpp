@@ -16,7 +16,7 @@ struct Variable {
   Numbers column(const statistics::Table& table, const char* part) const { return table.numbers(name + part + unit); }
 };
 
-/// Those that moment matching predicts, the reward among them.
+/// The variables that moment matching predicts, the reward among them.
 std::vector<Variable> variables(const statistics::Table& table) {
   std::vector<Variable> found;
   for (const std::string& header : table.header)
@@ -32,7 +32,7 @@ struct Gap {
   int compared = 0;
 };
 
-/// Only where the samples differ: a start that is known exactly has no deviation.
+/// Compares a state at all times where the samples differ: a start that is known exactly has no deviation.
 void compare(const statistics::Table& table, const Variable& state, const Numbers& times, Gap& gap) {
   const Numbers mean = state.column(table, " mean"), deviation = state.column(table, " std");
   const Numbers other = state.column(table, " moment mean"), other_deviation = state.column(table, " moment std");
@@ -46,7 +46,7 @@ void compare(const statistics::Table& table, const Variable& state, const Number
   }
 }
 
-/// Of all steps; null if one is not known.
+/// The total reward of all steps; null if one is not known.
 Json total(const Numbers& rewards) {
   double sum = 0;
   for (std::size_t t = 1; t < rewards.size(); ++t) {

@@ -1,5 +1,5 @@
 #pragma once
-// Folders of runs and campaigns as one page (docs/report.md). Reads files, and knows no algorithm and no robot.
+// Folders of runs and campaigns as one page (docs/report.md). Reads files alone; independent of algorithms and robots.
 
 #include <filesystem>
 #include <string>

@@ -117,7 +117,7 @@ Json read_motion(const fs::path& path, const Json& bodies_of) {
   return motion;
 }
 
-/// What the files of a trial say together; null if the scenario cannot draw its robot.
+/// The motion of a trial, from its files; null if the scenario cannot draw its robot.
 Json motion(const fs::path& folder, Index trial, Problems& problems) {
   const auto read = [&](const char* kind, const Json& bodies_of) -> Json {
     const fs::path path = fs::path("motion") / fmt::format("{}-{:03}.json", kind, trial);
@@ -159,7 +159,7 @@ Json episode(const fs::path& folder, Index trial, Problems& problems) {
           {"motion", motion(folder, trial, problems)}};
 }
 
-/// Null of a task without limits.
+/// The limits of the run; null for a task without limits.
 Json limits_json(const fs::path& folder, Problems& problems) {
   const fs::path path = "limits.csv";
   if (!fs::exists(folder / path)) return {};

@@ -1,5 +1,5 @@
 #pragma once
-// Makes what computes a robot's dynamics, by where they come from. For the sources of this room.
+// Makes the simulators and plants of a robot's dynamics, by their source. For the sources of this room.
 
 #include <functional>
 #include <memory>
@@ -26,16 +26,16 @@ class DynamicsMaker {
   std::function<std::unique_ptr<system::Plant>()> plant(const Variant& variant,
                                                         const system::StartAndSensors& around) const;
 
-  /// How the model looks that the plant or the first prior is; empty: none is one.
+  /// The drawing of the model that the plant or the first prior is; empty: neither is a model.
   std::optional<scenario::Drawing> drawing() const;
 
   /// A violation for everything that models do not have.
   void check_models(files::FileViolations& violations) const;
 
-  /// Says, later, how many processes of the simulators that were made had to be replaced; null: there are none.
+  /// A function that reports the processes of these simulators that had to be replaced so far; null: there are none.
   std::function<std::vector<std::string>()> faults() const;
 
-  /// Throws InvalidInput with why a program cannot be spoken with; null if there is none to be asked.
+  /// A function that throws InvalidInput, with the reason, if a program does not answer; null if there are no programs.
   std::function<void()> require_ready() const;
 
  private:

@@ -14,15 +14,15 @@ namespace rehearse::robot_file {
 
 /// Functions of a program, by the names that a robot's file has for them: "@NAME" where a formula may stand, and
 /// `function = "NAME"` in [dynamics.NAME] and [plant]. The program alone can use such a file, since no file keeps its
-/// functions. Each keeps the promises of its type.
+/// functions. Each must keep the promises of its type.
 struct Functions {
   std::map<std::string, StepCondition> of_steps;    // reward.formula, limit.keep
   std::map<std::string, StateCondition> of_states;  // ended, success.when
   std::map<std::string, system::Change> dynamics;
   std::map<std::string, std::function<std::unique_ptr<system::Plant>()>> plants;
   Index rows_at_once = 0;  // that a call should have to be worth its cost (system::Simulator)
-  // Functions that are missing are no violations, and throw InvalidInput when they are called: for whoever looks at a
-  // robot and simulates nothing.
+  // Missing functions are no violations, and throw InvalidInput when they are called: for commands that simulate
+  // nothing.
   bool only_look = false;
 };
 

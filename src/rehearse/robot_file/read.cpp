@@ -119,7 +119,7 @@ class Reader {
     });
   }
 
-  /// As long as the control step is wrong, any.
+  /// The longest delay allowed; any while the control step is wrong.
   double longest_delay_s() const { return robot_.dt_s > 0 ? Actuators::kMostSteps * robot_.dt_s : kInf; }
 
   /// Formulas may use what an action's actuators remember.

@@ -14,7 +14,7 @@
 namespace rehearse::robot_file {
 namespace {
 
-/// Whether an argument of a command looks like a file: script.py, ./simulator.
+/// True if an argument of a command looks like a file: script.py, ./simulator.
 bool looks_like_a_file(const std::string& argument, bool first) {
   if (argument.starts_with('-')) return false;
   const std::filesystem::path path(argument);

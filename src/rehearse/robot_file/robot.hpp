@@ -62,7 +62,7 @@ struct Equations {
   std::vector<Formula> rates;  // one a state
 };
 
-/// A program that is asked (system/program_simulator.hpp).
+/// A program as the source (system/program_simulator.hpp).
 struct ProgramSource {
   std::vector<std::string> command;
   double start_s = 30, answer_s = 10;
@@ -76,7 +76,7 @@ struct FunctionSource {
   std::string name;
 };
 
-/// How states change, and what computes it.
+/// The changes of states, and their source.
 struct Dynamics {
   std::string name;
   Index line = 0;
@@ -109,8 +109,8 @@ struct Robot {
   Formula ended;
   std::vector<LimitFormula> limits;
   std::vector<Dynamics> dynamics;
-  std::vector<Actuation> plant_actuation;  // what the plant's actions have by themselves, one an action
-  bool has_plant = false;                  // else it is a real one, whose episodes are told
+  std::vector<Actuation> plant_actuation;  // the plant's own actuators, one an action
+  bool has_plant = false;                  // false: a real one, whose episodes come by `tell`
   std::string plant_function;              // plays the robot instead of `plant`; empty: none does
   Variant plant;
   std::vector<Variant> priors;  // the first is the default

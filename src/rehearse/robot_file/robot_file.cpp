@@ -82,7 +82,7 @@ class Builder final : public scenario::ScenarioBuilder {
     return {task.start_mean.head(own), task.start_std.head(own), robot_.options.measurement_std(own)};
   }
 
-  /// A model knows the robot's own states alone.
+  /// The drawing of the model, whose states are the robot's own alone.
   std::optional<scenario::Drawing> drawing_of_model(const DynamicsMaker& dynamics) const {
     std::optional<scenario::Drawing> drawing = dynamics.drawing();
     auto* solids = drawing ? std::get_if<scenario::SolidDrawing>(&*drawing) : nullptr;
@@ -104,7 +104,8 @@ class Builder final : public scenario::ScenarioBuilder {
       prior.simulator = system::with_actuators(prior.simulator, actuators);
   }
 
-  /// A simulator knows of the commands before what the task remembers, which is as much as its own delay and lag take.
+  /// Delays and lags of the plant that its oracle lacks: a simulator sees earlier commands by the task's memory alone,
+  /// which has the size for the task's own delay and lag.
   std::vector<std::string> oracle_lacks() const {
     std::vector<std::string> lines;
     for (std::size_t a = 0; a < robot_.actions.size(); ++a) {

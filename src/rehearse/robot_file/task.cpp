@@ -97,7 +97,7 @@ class Checker {
           formula.line, [&] { formulas.compile(formula.text); }, what);
   }
 
-  /// Or a function of the program.
+  /// Compiles a formula, or finds a function of the program.
   template <class Function>
   void compile(Formulas& formulas, const std::string& what, const Formula& formula,
                const std::map<std::string, Function>& functions) {
@@ -187,7 +187,7 @@ Program program_of_features(const Robot& robot) {
   return {formulas, nodes};
 }
 
-/// Which input of program_of_features each feature is.
+/// The input of program_of_features that each feature is.
 std::vector<Index> inputs_of_features(const Robot& robot) {
   std::vector<Index> inputs;
   const Index states = robot.actuators().states();

@@ -18,7 +18,7 @@ struct Steps {
   Index ended = 0;
 };
 
-/// As it may be commanded in state x.
+/// A random action, as it may be commanded in state x.
 Vector random_action(const Task& task, const Vector& x, Rng& rng) {
   Matrix u(1, task.action_size());
   for (Index i = 0; i < u.cols(); ++i) {

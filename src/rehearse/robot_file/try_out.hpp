@@ -7,7 +7,7 @@
 
 namespace rehearse::robot_file {
 
-/// How a prior does on what the plant did.
+/// The errors of a prior on the plant's steps.
 struct PriorTried {
   std::string name;
   Vector error;                   // of each state: root mean square error of its change in a step
@@ -27,7 +27,7 @@ struct Tried {
   std::vector<std::string> broken;  // laws of plants and simulators, a line each
 };
 
-/// Use it before anything is learned: tries plant and priors of a scenario on some episodes of random actions. Says
+/// Use it before anything is learned: tries plant and priors of a scenario on some episodes of random actions. Finds
 /// what a learner would stumble over later. The first prior plays the robot where Rehearse does not drive it. The same
 /// for the same seed, but for times.
 Tried try_out(const scenario::Scenario& scenario, Index episodes = 3, std::uint64_t seed = 1);

@@ -42,8 +42,8 @@ void fail(Episode& episode, const Task& task, const std::string& why);
 /// Names of the limits that step t of an episode breaks, by its true states.
 std::vector<std::string> limits_broken_by(const Task& task, const Episode& episode, Index t);
 
-/// The episode as one who sees measurements alone knows it: they are its true states, and what it earned follows from
-/// them, the reward floor where a reward is not finite. That it ended early is known.
+/// The episode from its measurements alone: they become its true states, and rewards follow from them, the reward floor
+/// where a reward is not finite. Its early end stays.
 Episode as_measured(Episode episode, const Task& task);
 
 }  // namespace rehearse::rollout

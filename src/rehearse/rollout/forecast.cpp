@@ -7,7 +7,7 @@
 namespace rehearse::rollout {
 namespace {
 
-/// What has failed is no input for a model: a state of the episode stands in.
+/// The predicted states; failed ones, which are no input for a model, replaced by states of the episode.
 Matrix known_states(const Matrix& predicted, const Episode& episode) {
   Matrix states = predicted;
   for (Index i = 0; i < states.rows(); ++i)

@@ -63,13 +63,13 @@ class WayBack {
   TapeMemory& m_;
 };
 
-/// Which rollouts a chunk has.
+/// The rollouts of a chunk.
 struct StreamRows {
   std::uint64_t candidate, first_particle;
   Index rows;
 };
 
-/// What a chunk gives: the sum of returns, how many failed, and the sum of gradients.
+/// Runs a chunk. result: the sum of returns, the number of failed rollouts, and the sum of gradients.
 void run(const Simulation& simulation, const policy::Differentiable& policy, const ConstVectorView& theta,
          const StreamRows& of, const Evaluator& evaluator, VectorView result) {
   thread_local TapeMemory memory;

@@ -74,7 +74,7 @@ void Lockstep::step(Index t, Episodes* record, TapedStep* tape) {
   m_.X.swap(m_.next);
 }
 
-/// What the policy sees.
+/// The states that the policy sees, with measurement noise.
 const Matrix& Lockstep::measured(Index t) {
   const Vector& std = model_.measurement_std();
   if (std.size() == 0 || options_.measurement_noise == 0) return m_.X;

@@ -9,7 +9,7 @@
 
 namespace rehearse::rollout {
 
-/// From where to where particles are carried.
+/// The starts and horizons of forecasts by particles.
 struct Journeys {
   std::vector<Index> starts;    // steps of the episode
   std::vector<Index> horizons;  // ascending, ≥ 1: steps further on

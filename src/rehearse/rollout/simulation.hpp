@@ -13,8 +13,8 @@ namespace rehearse::rollout {
 struct SimulateOptions {
   double noise_clip = 1;         // samples are clipped to ± so many standard deviations; 0: not clipped
   bool sample = true;            // false: the mean prediction alone is followed
-  double measurement_noise = 1;  // times what the model takes for noise of measurements, which the policy meets, with
-                                 // samples or without; 0: it sees the true state (the paper)
+  double measurement_noise = 1;  // times the model's estimate of measurement noise, which is added to the states that
+                                 // the policy sees, with samples or without; 0: it sees the true state (the paper)
   void fields(FieldVisitor& v) {
     v.number("noise_clip", noise_clip, "samples are clipped to so many standard deviations; 0: not clipped",
              at_least(0), published(1, kAuthors));
@@ -34,7 +34,7 @@ struct Simulation {
   SimulateOptions options = {};
 };
 
-/// Which rollouts of a stream a batch is: its candidates are numbered from the first on, each with so many particles.
+/// The rollouts of a batch within a stream: candidates numbered from `first` on, each with so many particles.
 struct Candidates {
   std::uint64_t first = 0;
   Index particles = 1;

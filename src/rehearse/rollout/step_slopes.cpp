@@ -59,7 +59,7 @@ void write_slopes(const ConstMatrixView& at, const Blocks& blocks, Index block, 
     by.col(c) = (blocks.of(block + 1) - blocks.of(block)).array() / (2 * at.col(c).unaryExpr(&width_of)).array();
 }
 
-/// Whether two blocks earn the same to the bit.
+/// True if two blocks earn the same to the bit.
 bool same(const Blocks& blocks, Index a, Index b) {
   for (Index i = 0; i < blocks.n; ++i) {
     const double one = blocks.of(a)(i), other = blocks.of(b)(i);

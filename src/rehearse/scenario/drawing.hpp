@@ -18,7 +18,7 @@ struct Line {
   Point from, to;
 };
 
-/// How a robot looks in a plane: bodies that are straight from one point to another.
+/// A drawing of a robot in a plane: bodies that are straight from one point to another.
 struct LineDrawing {
   struct Body {
     std::string name;
@@ -27,7 +27,7 @@ struct LineDrawing {
   std::vector<Body> bodies;
   std::optional<Point> goal;  // where the end of the last body ought to be
 
-  /// Where the bodies are in a state (dx), one line a body. Any thread.
+  /// The positions of the bodies in a state (dx), one line a body. Any thread.
   std::function<std::vector<Line>(const ConstVectorView& state)> lines;
 };
 
@@ -48,7 +48,7 @@ struct Pose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // of norm 1
 };
 
-/// How a robot looks in space: rigid bodies. What shows it follows the first.
+/// A drawing of a robot in space: rigid bodies. Views follow the first.
 struct SolidDrawing {
   struct Body {
     std::string name;
@@ -59,7 +59,7 @@ struct SolidDrawing {
   std::optional<double> floor_m;  // height of the floor
   double touching_m = 0.005;      // a foot that is nearer touches it
 
-  /// Where the bodies are in a state (dx), one pose a body. Any thread.
+  /// The poses of the bodies in a state (dx), one a body. Any thread.
   std::function<std::vector<Pose>(const ConstVectorView& state)> poses;
 };
 

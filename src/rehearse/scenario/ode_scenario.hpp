@@ -14,7 +14,7 @@
 
 namespace rehearse::scenario {
 
-/// What can be set of every such scenario.
+/// Options of every such scenario.
 struct OdeOptions {
   double start_noise = 0;                     // std of every state at the start
   double measurement_noise = 0;               // std of every measured state
@@ -58,7 +58,8 @@ Reward initial_reward(const reward::SquaredDistance& squared_distance, const Ode
 /// For Task::limits: |state| < bound, of the state of this index; it has the state's name.
 Limit limit_within(const StateVariable& state, Index index, double bound, double risk);
 
-/// For Task::solved: whether the whole horizon was run and every true state of its last `seconds` is as it should be.
+/// For Task::solved: true if the whole horizon was run and the condition holds in every true state of its last
+/// `seconds`.
 std::function<bool(const Episode&)> holds_at_the_end(const Task& task, double seconds, StateCondition holds);
 
 }  // namespace rehearse::scenario

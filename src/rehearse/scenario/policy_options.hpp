@@ -9,12 +9,12 @@
 
 namespace rehearse::scenario {
 
-/// Which policy a scenario learns, as options of the scenario.
+/// The policy that a scenario learns, as options of the scenario.
 struct PolicyOptions {
   enum class Kind { mlp, rbf, linear };
   Kind policy = Kind::mlp;
   Index hidden = 10;  // units of the mlp
-  // Of mlp and linear, whose output is u_max squash(gain · a); the rbf's is a sine.
+  // Gain and squash are of mlp and linear, whose output is u_max squash(gain · a); the rbf's squash is a sine.
   double policy_gain = 1;
   policy::Squash::Shape policy_squash = policy::Squash::Shape::tanh;
   Index centres = 10;  // of the rbf

@@ -23,8 +23,8 @@ struct NamedPrior {
   std::string name;
   std::shared_ptr<const system::Simulator> simulator;
   ParameterSpace parameters;  // the simulator's, with this prior's values
-  // The same, but joints whose targets are the actions move there evenly, and are there when the step ends, whatever
-  // moves them: what follows for the rest of the robot, when where they get to is learned. Null: there is none.
+  // The same, but joints whose targets are the actions move there evenly and are there when the step ends: it predicts
+  // the rest of the robot, where GPs learn the joints' positions. Null: there is none.
   std::shared_ptr<const system::Simulator> driven = nullptr;
 };
 
@@ -35,10 +35,10 @@ struct Scenario {
   std::function<std::unique_ptr<system::Plant>()> make_plant;  // null: a robot that Rehearse does not drive
   std::vector<NamedPrior> priors;                              // the first is the default
   std::shared_ptr<const system::Simulator> oracle;  // the plant's own dynamics, for `--prior oracle`; may be null
-  std::vector<std::string> oracle_lacks;            // what the plant has of its own and its oracle has not, a line each
+  std::vector<std::string> oracle_lacks;            // properties of the plant that its oracle lacks, a line each
   std::shared_ptr<const policy::Policy> policy;
   std::optional<Drawing> drawing;       // empty: it cannot be shown
-  std::function<void()> require_ready;  // throws InvalidInput with why plant or priors cannot be asked; null: they can
+  std::function<void()> require_ready;  // throws InvalidInput with why plant or priors cannot be used; null: they can
   std::function<std::vector<std::string>()> faults;  // of programs so far, a sentence each; null: there are none
   Index evaluations = 0;  // extra episodes of each trial's policy on a plant of their own, which are no
                           // interaction: their mean return is recorded as expected_return; 0: none

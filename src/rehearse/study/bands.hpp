@@ -1,5 +1,5 @@
 #pragma once
-// Forecasts of a log with bands, and how far they hold.
+// Forecasts of a log with bands, and their accuracy.
 
 #include <vector>
 
@@ -25,7 +25,7 @@ struct ForecastPlan {
   Index first = 0, every = 1;
   std::vector<Index> horizons;
   Index particles = 50;
-  Vector start_std;  // dx, of what is not known of the states but of their measurements' noise; empty: nothing
+  Vector start_std;  // dx, of the states' uncertainty beside measurement noise; empty: none
 };
 
 /// Means and deviations of particles that start from the measured states, with an error of measurement, and carry the
@@ -37,15 +37,15 @@ struct Draws {
 Forecasts make_forecasts(const dynamics::DynamicsModel& model, const Episode& log, const Matrix& measured,
                          const ForecastPlan& plan, const Draws& draws);
 
-/// By how much deviations have to be multiplied (horizons × dx) so that 95 % bands, ± 1.96 of them, hold 95 % of what
-/// was measured in these forecasts, none of which the model may have learned from (Lei 2018: conformal prediction), and
-/// √(1 + 1/k) times as much, since k logs say only so much of another one. 1 where there is nothing to compare.
+/// Factors of the deviations (horizons × dx) by which 95 % bands, ± 1.96 of them, hold 95 % of the measurements in
+/// these forecasts, none of which the model may have learned from (Lei 2018: conformal prediction), times √(1 + 1/k),
+/// for the variation between k logs and another one. 1 where there is nothing to compare.
 Matrix calibration(const std::vector<Forecasts>& forecasts);
 
-/// Adds to the deviations what the model does not know that it does not know: these (horizons × dx).
+/// Adds these deviations (horizons × dx), which the model does not account for, to those of the forecasts.
 void widen(std::vector<Forecasts>& forecasts, const Matrix& deviations);
 
-/// How good forecasts of one log or several are, horizons × dx.
+/// The accuracy of forecasts of one log or several, horizons × dx.
 struct Accuracy {
   Matrix rms;                   // of the errors
   Matrix covered;               // fraction inside the bands

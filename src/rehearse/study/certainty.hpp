@@ -12,11 +12,11 @@ namespace rehearse::study {
 struct FittedSquares {
   Vector errors;              // N, of a usual size of 1
   Matrix derivatives;         // N × coordinates
-  std::vector<Index> blocks;  // N: errors of different blocks know nothing of one another
+  std::vector<Index> blocks;  // N: errors of different blocks are independent
 };
 
-/// How many times more the sums over blocks vary than they would if all errors were independent (Liang 1986): of all
-/// directions together, and four times that, since blocks are few and friction is not the same in each log.
+/// The variance of the sums over blocks relative to that of independent errors (Liang 1986): of all directions
+/// together, and four times that, since blocks are few and friction is not the same in each log.
 double inflation(const FittedSquares& fitted);
 
 /// The covariance of all coordinates that errors of which neighbours are alike leave: the precision is JᵀJ / inflation,

@@ -38,8 +38,8 @@ PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task,
 /// Root mean squares of columns, of what is finite in them.
 Vector root_mean_squares(const Matrix& columns);
 
-/// Whether any state changes less in a step than it is spread. Where a robot rests, independent errors of measurement
-/// change by √2 times their spread, and parameters that fit them say nothing of it (von Neumann 1941).
+/// True if some state changes less in a step than its spread: the robot moves. At rest, independent errors of
+/// measurement change by √2 times their spread, and parameters fitted to them are meaningless (von Neumann 1941).
 bool moves(const LogModel& model);
 
 /// Evenly spread stretches of `length` rows, about `rows` of them all in all.

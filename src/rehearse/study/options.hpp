@@ -15,7 +15,7 @@ enum class Beyond {
   gp_mi,    // GPs and the parameters anew, by steps (Chatzilygeroudis 2018)
 };
 
-/// How a robot is learned from logs alone.
+/// Options for learning a robot from logs alone.
 struct Options {
   std::string zeros;           // states, "q1,q2"
   double zero_range = 0.3;     // of their units

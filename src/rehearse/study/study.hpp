@@ -1,5 +1,5 @@
 #pragma once
-// The front door: from logs to what they tell of a robot.
+// The front door: from logs to a model of the robot, its parameters and forecasts.
 
 #include <optional>
 #include <string>
@@ -32,7 +32,7 @@ struct Tested {
   Accuracy of_model, of_prior;
 };
 
-/// How a state changes in a step, root mean squares over the rows learned from.
+/// Changes of states in a step and the models' errors, root mean squares over the rows learned from.
 struct StepErrors {
   Vector change, prior_as_given, prior, model;  // dx; of the last three what they leave
 };

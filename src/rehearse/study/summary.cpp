@@ -53,7 +53,7 @@ Lines ends(const Zeros& zeros, const ParameterSpace& space) {
   return lines;
 }
 
-/// Whether the intervals of a parameter have a value in common, of all models from logs that move.
+/// True if the intervals of a parameter in all models from logs that move have a value in common.
 bool agree(const std::vector<LogModel>& models, std::size_t continuous) {
   double low = -INFINITY, high = INFINITY;
   for (const LogModel& model : models) {

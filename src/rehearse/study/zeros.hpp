@@ -1,5 +1,5 @@
 #pragma once
-// Zeros of states that are others in each log: an encoder that counts from where it was switched on. And the φ that
+// Zeros of states that differ between logs: an encoder that counts from where it was switched on. Also the φ that
 // belongs to them. A wrong zero looks like a force to a model of one step, and ruins what it learns.
 
 #include <optional>

@@ -9,7 +9,7 @@
 
 namespace rehearse::system {
 
-/// A simulator of the states with their memory: the robot's is asked about what moves the robot.
+/// A simulator of the states with their memory; the robot's gets the actions that move the robot.
 std::shared_ptr<const Simulator> with_actuators(std::shared_ptr<const Simulator> robot, Actuators actuators);
 
 /// A plant that measures the memory of `task`, too. `own`: the actuators that the plant has, of no own states, which a

@@ -1,6 +1,6 @@
 #pragma once
-// Where a program's answer ends in what it wrote so far, and batches as raw numbers (docs/programs.md, "Raw numbers").
-// For the sources of this room. Pure functions; any thread.
+// The end of a program's answer in its output so far, and batches as raw numbers (docs/programs.md, "Raw numbers"). For
+// the sources of this room. Pure functions; any thread.
 
 #include <cstddef>
 #include <string>

@@ -4,7 +4,7 @@
 
 namespace rehearse::system {
 
-inline constexpr double kLargestTurn = 30000;  // rad in a control step; a simulation that turns further lost its way
+inline constexpr double kLargestTurn = 30000;  // rad in a control step; a simulation that turns further has diverged
 
 /// States, actions and changes of as many rows, column-major, columns a stride apart. Numbers and pointers alone: code
 /// for one instruction set instantiates nothing of Eigen, which the linker could take for the others' code, too.

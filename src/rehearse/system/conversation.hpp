@@ -1,5 +1,5 @@
 #pragma once
-// One program that runs, spoken with. For the sources of this room.
+// The exchange of messages with one running program. For the sources of this room.
 
 #include <optional>
 #include <string>

@@ -35,7 +35,7 @@ struct Request {
 
 using Clock = std::chrono::steady_clock;
 
-/// Whether all went through. until: gives up then.
+/// Receives bytes; true if all arrived. until: gives up then.
 bool receive(int socket, void* data, std::size_t bytes, std::optional<Clock::time_point> until = {}) {
   auto* at = static_cast<char*>(data);
   while (bytes > 0) {
@@ -67,7 +67,7 @@ bool send_all(int socket, const void* data, std::size_t bytes) {
   return true;
 }
 
-/// What the new process does until nobody asks any more.
+/// The work of the new process until its socket is closed.
 class Server {
  public:
   Server(const Simulator& simulator, int socket) : simulator_(simulator), socket_(socket) {}

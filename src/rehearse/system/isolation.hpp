@@ -6,9 +6,9 @@
 
 namespace rehearse::system {
 
-/// The simulator in processes of its own. Use it for one that may end its process (by an assertion, a segmentation
-/// fault) or hang. There are as many processes as calls at a time, made by fork when they are needed, and ended with
-/// this object or with the program. `simulator` is called in them alone, one row at a time.
+/// The simulator in processes of its own. Use it for a simulator that may end its process (by an assertion, a
+/// segmentation fault) or hang. There are as many processes as calls at a time, made by fork when they are needed, and
+/// ended with this object or with the program. `simulator` is called in them alone, one row at a time.
 ///
 /// A row during which its process ends, or that takes longer than row_s, is tried once more in a new process and comes
 /// back as NaN when that ends too: a process that is killed from outside changes no number. What the processes print is

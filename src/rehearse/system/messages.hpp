@@ -1,5 +1,5 @@
 #pragma once
-// The texts that programs are spoken to with (docs/programs.md). For the sources of this room.
+// The messages to and from programs (docs/programs.md). For the sources of this room.
 
 #include <cstdint>
 #include <string>
@@ -24,7 +24,7 @@ std::string change(const ConstMatrixView& X, const ConstMatrixView& U, const Vec
 std::string reset(const Vector& start, const Vector& phi, std::uint64_t seed);
 std::string step(const Vector& u);
 
-/// Answers. They throw std::runtime_error that says what is wrong with one.
+/// Readers of answers. They throw std::runtime_error with what is wrong.
 Hello read_hello(std::string_view text, const Program& program);
 void read_change(std::string_view text, MatrixView dX);  // rows that are null, or have one, are NaN
 struct State {

@@ -5,7 +5,7 @@
 
 namespace rehearse::system {
 
-/// What a trial runs on: a real robot, a simulator playing one, an external program. Stateful; one thread.
+/// The system that a trial runs on: a real robot, a simulator playing one, an external program. Stateful; one thread.
 class Plant {
  public:
   virtual ~Plant() = default;
@@ -18,7 +18,7 @@ class Plant {
   /// std::exception if the robot does not answer.
   virtual Vector step(const Vector& u) = 0;
 
-  /// Whether the last step ended the episode: a fall that only the robot itself knows of.
+  /// True if the last step ended the episode: a fall that only the robot itself can detect.
   virtual bool ended() const { return false; }
 
   /// The noise-free state where it is known, else an empty vector.

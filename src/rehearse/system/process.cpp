@@ -34,7 +34,7 @@ void close_all(std::initializer_list<int> files) {
     if (file >= 0) close(file);
 }
 
-/// Both ends of its standard streams. Its input is a socket: who writes to a pipe that nobody reads gets a signal.
+/// Both ends of its standard streams. Its input is a socket: writing to a pipe without a reader raises a signal.
 struct Streams {
   std::array<int, 2> input{-1, -1}, output{-1, -1}, error{-1, -1};  // ours, its own
 

@@ -25,11 +25,11 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  /// unasked: an answer stood there before the message was sent, as if to another.
+  /// unasked: an answer was there before the message was sent.
   enum class Outcome { answered, wrong, unasked, ended, late, flooded };
 
-  /// Looks at what the program wrote that is not yet used: how many bytes of it are the answer, 0 where some are still
-  /// to come, kNoAnswer where it is none.
+  /// Finds the answer in the program's unused output: the number of its bytes, 0 if some are still to come, kNoAnswer
+  /// if it is none.
   using Complete = std::function<std::size_t(std::string_view)>;
 
   /// Sends a message and waits for the answer, so long and so many bytes at most. The answer stands in `answer`.
@@ -40,7 +40,7 @@ class Process {
   Outcome exchange(std::string_view message, const Complete& complete, Limits limits);
   std::string_view answer() const { return answer_; }
 
-  /// The beginning of what it wrote and nobody used, for messages.
+  /// The beginning of its unused output, for messages.
   std::string unused() const;
 
   /// The last lines that it wrote to standard error, perhaps cut; and how it ended, or nothing while it runs.

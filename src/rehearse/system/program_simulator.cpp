@@ -36,7 +36,7 @@ class ProgramWorker final : public Worker {
   bool began_ = false;
 };
 
-/// Rows that have no meaning are not asked: many programs would end.
+/// The finite rows of a batch; others are not sent: many programs would end.
 class FiniteRows {
  public:
   FiniteRows(const ConstMatrixView& X, const ConstMatrixView& U) {

@@ -22,7 +22,8 @@ struct StartAndSensors {
 /// The state after one control step from state x (dx) under the action u (du). It may throw.
 using Motion = std::function<Vector(const Vector& x, const Vector& u)>;
 
-/// Use it for a robot that a function plays. Its truth is known. One thread. Throws InvalidInput where sizes differ.
+/// Use it for a robot that a function simulates. Its `truth` is known. One thread. Throws InvalidInput where sizes
+/// differ.
 std::unique_ptr<Plant> make_simulated_plant(Motion motion, StartAndSensors around);
 
 }  // namespace rehearse::system

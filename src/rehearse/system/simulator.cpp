@@ -11,7 +11,7 @@
 namespace rehearse::system {
 namespace {
 
-/// Beyond this a state change is no motion of a robot but a simulator that lost its way.
+/// The largest state change; beyond it a simulator has diverged.
 constexpr double kLargestChange = 1e12;
 
 Index blank_failed_rows(MatrixView dX) {

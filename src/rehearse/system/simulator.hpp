@@ -9,7 +9,7 @@
 
 namespace rehearse::system {
 
-/// The simulator cannot be asked any more: this ends a run, where a row that cannot be simulated ends a rollout.
+/// The simulator cannot be used any more: this ends a run, while a row that cannot be simulated ends a rollout.
 class Unavailable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -19,8 +19,8 @@ class Unavailable : public std::runtime_error {
 ///
 /// Laws (checked by testing::check_simulator): `change` may run concurrently; a row depends on that row alone; a row
 /// that cannot be simulated comes back as NaN, or the call throws, and then it is retried row by row; Unavailable and
-/// std::bad_alloc alone go on to the caller: a lack of memory says nothing of a row. It must not run oneTBB tasks of
-/// its own: the calling thread could pick up another batch in the middle of this one.
+/// std::bad_alloc alone go on to the caller: a lack of memory is not the fault of a row. It must not run oneTBB tasks
+/// of its own: the calling thread could pick up another batch in the middle of this one.
 class Simulator {
  public:
   virtual ~Simulator() = default;
@@ -31,7 +31,7 @@ class Simulator {
   /// X: n × dx, U: n × du, phi: values in the order of parameters(), dX: n × dx.
   virtual void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const = 0;
 
-  /// How many rows a call should have so that it is worth its cost, if there are so many; 0: it makes no difference.
+  /// The number of rows that a call should have to be worth its cost, if there are so many; 0: it makes no difference.
   virtual Index rows_at_once() const { return 0; }
 
   /// The simulator of the robot's own states, if this one has actuators in front of it (actuated.hpp); else null.

@@ -25,13 +25,13 @@ constexpr auto angles_of() {
     return std::array<int, 0>{};
 }
 
-/// Which states are angles: Equation::kAngles, or none.
+/// The states that are angles: Equation::kAngles, or none.
 template <class Equation>
 constexpr auto kAnglesOf = angles_of<Equation>();
 template <class Equation>
 constexpr int kAngleCount = static_cast<int>(kAnglesOf<Equation>.size());
 
-/// Whether sines and cosines of the angles are integrated with the state, not turned along: Equation::kIntegrateSines.
+/// True if sines and cosines of the angles are integrated with the state, not turned along: Equation::kIntegrateSines.
 template <class Equation>
 constexpr bool kIntegratesSines = requires {
   requires Equation::kIntegrateSines;

@@ -7,9 +7,9 @@
 namespace rehearse::system {
 namespace {
 
-constexpr Index kCostly = 8;  // faults that one is counted for which takes long
+constexpr Index kCostly = 8;  // faults that one slow fault counts as
 
-/// Which rows are asked for next.
+/// The rows to compute next.
 class Progress {
  public:
   Progress(Index rows, bool row_by_row) : rows_(rows), ask_(rows), row_by_row_(row_by_row) {}
@@ -24,7 +24,7 @@ class Progress {
     if (rows > 0) failures_ = 0;
   }
 
-  /// Whether the first row that is left is to be given up.
+  /// True if the first row that is left is to be given up.
   bool gives_up(bool costly) {
     const bool one = row_by_row_ || count() == 1, all = ask_ == rows_;
     if (++failures_ == 1 && (one || (all && !costly))) return false;  // was it killed from outside?

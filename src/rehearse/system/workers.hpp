@@ -1,5 +1,5 @@
 #pragma once
-// Simulating outside this process, where it may die or hang.
+// Simulation outside this process, by workers that may die or hang.
 
 #include <functional>
 #include <memory>
@@ -19,31 +19,31 @@ struct Faults {
   std::string last;  // for people
 };
 
-/// Somebody outside this process who simulates.
+/// A simulator outside this process.
 class Worker {
  public:
   virtual ~Worker() = default;
 
   /// Writes the changes dX (n × dx) of states X (n × dx) under actions U (n × du). Returns how many rows it answered,
-  /// from the first on; it is of no use any more if that is not all of them.
+  /// from the first on; the worker is unusable if that is not all of them.
   virtual Index change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) = 0;
 
-  /// Why it did not answer, for people.
+  /// The reason why it did not answer, for people.
   virtual std::string problem() const { return {}; }
 
-  /// Whether it kept its caller waiting, or never got ready.
+  /// True if it kept its caller waiting, or never got ready.
   virtual bool costly() const { return false; }
 };
 
-/// As many workers as there are calls at a time, started when they are needed. A row that a worker does not answer is
-/// asked once more of a new one and comes back as NaN if that fails, too: a worker that is killed from outside changes
-/// no number. Where a batch is answered as a whole it is halved until the row is found. Any thread.
+/// A pool of workers, one for each concurrent call, started when they are needed. A row that a worker does not answer
+/// is given once more to a new one and comes back as NaN if that fails, too: a worker that is killed from outside
+/// changes no number. Where a batch is answered as a whole it is halved until the row is found. Any thread.
 class Workers {
  public:
   struct Options {
     std::function<std::unique_ptr<Worker>()> start;
     bool row_by_row = false;  // each row is answered by itself: the first that is missing is to blame
-    Index patience = 0;       // faults in a row before a row is asked that was answered before; 0: endless
+    Index patience = 0;       // consecutive faults before a row is tried that was answered before; 0: endless
   };
   explicit Workers(Options options) : options_(std::move(options)) {}
 

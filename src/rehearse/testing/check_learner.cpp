@@ -12,7 +12,7 @@ namespace {
 using learners::Learner;
 using learners::Proposal;
 
-/// What a run of a learner left behind.
+/// The record of a run of a learner.
 struct Run {
   std::vector<Proposal> proposals;  // of trials 1, 2, …
   std::vector<Episode> episodes;
@@ -115,7 +115,7 @@ class LearnerCheck {
                                  table.rows.cols(), table.columns.size()));
   }
 
-  /// Goes on from what was saved after `told` episodes, to the end.
+  /// Checks that a learner loaded after `told` episodes goes on the same way, to the end.
   void check_loaded(const Run& run, Index told) {
     const auto first = static_cast<std::size_t>(told);
     const auto learner = build(1);
@@ -134,7 +134,7 @@ class LearnerCheck {
     }
   }
 
-  /// Is told the trial whose θ it was given, and asked for the next.
+  /// Checks that a learner given the θ of a trial by `ask_again` goes on the same way.
   void check_asked_again(const Run& run, Index told) {
     const auto k = static_cast<std::size_t>(told);
     const auto learner = build(1);

@@ -58,7 +58,7 @@ std::vector<std::string> check_closed_form(const reward::ClosedForm& form, const
   return {};
 }
 
-/// As many finite numbers as they have bounds.
+/// Checks that a descriptor has as many numbers as bounds, all finite.
 std::vector<std::string> check_descriptor(const Task& task, const Dataset& data) {
   const Index T = data.size() - 1;
   const Vector descriptor = task.descriptor({.states = data.states,

@@ -6,7 +6,7 @@
 
 namespace rehearse::testing {
 
-/// Whether two doubles have the same bits; any NaN is as good as another.
+/// True if two doubles have the same bits; all NaNs count as equal.
 inline bool same(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0 || (a != a && b != b); }
 
 /// The same for all entries of two matrices of the same size.

@@ -9,7 +9,7 @@
 namespace rehearse::testing {
 namespace {
 
-/// What the ranks have in common.
+/// The state shared by the ranks.
 struct Shared {
   explicit Shared(int size) : given(static_cast<std::size_t>(size)), together(size) {}
 

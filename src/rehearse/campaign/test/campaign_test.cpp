@@ -41,7 +41,7 @@ TEST(Campaign, AfterAStopAnywhereGivesTheSameBytes) {
   EXPECT_GE(stops, 40);
 }
 
-/// In a process of its own that kills itself at a learner's call; true if it did.
+/// Runs a campaign in a process of its own that kills itself at a learner's call; true if it did.
 bool run_killed(const fs::path& folder, experiment::fake::Killer killer) {
   const pid_t child = ::fork();
   if (child == 0) {

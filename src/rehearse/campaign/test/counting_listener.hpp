@@ -4,7 +4,7 @@
 
 namespace rehearse::campaign {
 
-/// Counts what a campaign whose runs have two trials tells of.
+/// Counts the events of a campaign whose runs have two trials.
 class CountingListener final : public CampaignListener {
  public:
   Index at_once = -1, begun = 0, progressed = 0, ended = 0;

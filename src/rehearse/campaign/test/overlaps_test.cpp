@@ -12,7 +12,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// Of a file whose tables begin at line 5.
+/// The complaint about a file whose tables begin at line 5.
 std::string complaint_of_tables(const std::string& tables, const std::string& priors = "\"near\"") {
   const std::string head =
       "format = 1\nscenario = \"line\"\nseeds = [4, 2]\nlearners = [\"echo\"]; priors = [" + priors;

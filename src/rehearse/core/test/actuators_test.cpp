@@ -20,7 +20,7 @@ struct Followed {
   Matrix memory;  // before each step, and after the last
 };
 
-/// What becomes of the actions that a policy wants, step by step.
+/// Commands and moving actions for the actions that a policy wants, step by step.
 Followed follow(const Actuators& actuators, const Vector& wanted) {
   Followed followed{Vector(wanted.size()), Vector(wanted.size()), Matrix(wanted.size() + 1, actuators.memory())};
   Matrix X = actuators.start().transpose(), U(1, 1), E(1, 1);

@@ -12,7 +12,7 @@ const Index kFactorSizes[] = {1, 2, 7, 31, 32, 33, 64, 97, 161, 290};
 
 Matrix lower_triangle(Index n) { return positive_definite(n).llt().matrixL(); }
 
-/// As `A`, with NaN above the diagonal: nobody may look there.
+/// The matrix with NaN above the diagonal, which must not be read.
 Matrix hidden_above(Matrix A) {
   A.triangularView<Eigen::StrictlyUpper>().setConstant(kNaN);
   return A;

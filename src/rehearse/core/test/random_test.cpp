@@ -142,7 +142,7 @@ TEST(Random, FillNormalsHasThemInEveryColumn) {
   }
 }
 
-// As above; a uniform has mean 1/2, variance 1/12, and its square deviation a deviation of √(1/180).
+// The same moments; a uniform has mean 1/2, variance 1/12, and its square deviation a deviation of √(1/180).
 TEST(Random, UniformIsUniform) {
   Rng rng(kKey);
   double low = 1, high = 0;

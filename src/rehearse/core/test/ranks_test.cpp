@@ -17,7 +17,7 @@ namespace {
 
 using testing::on_rank_threads;
 
-/// What each rank says, however it ends.
+/// The words of each rank, however it ends.
 class Words {
  public:
   void add(const Ranks& ranks, const std::string& word) {

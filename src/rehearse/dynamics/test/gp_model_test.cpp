@@ -68,7 +68,7 @@ TEST(GpModel, LooksHalfwayAlongThePriorsStepIfAskedTo) {
   EXPECT_EQ(a.variance, b.variance);
 }
 
-// What GPs predict is added to what they were not asked to learn, with a prior and without.
+// Predictions of GPs are added to the integrals that they did not learn, with a prior and without.
 TEST(GpModel, GivesBackTheIntegralsOfTheRates) {
   const Dataset data = swing::data(20, 1);
   const prior::Prior prior = swing::prior_at(Vector{{0.6, 0}});
@@ -107,7 +107,7 @@ TEST(GpModel, NoisyVarianceIsLatentPlusNoise) {
   EXPECT_LT((difference.array() - 0.01).abs().maxCoeff(), 1e-12);
 }
 
-/// Those of DynamicsModel, by differences.
+/// Expects the derivatives of DynamicsModel, which are differences.
 void expect_derivatives(const GpModel& model, const Matrix& X, const Matrix& U) {
   Linearised own, differences;
   model.linearise(X, U, own);

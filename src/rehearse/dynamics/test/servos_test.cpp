@@ -36,7 +36,7 @@ FeatureMap features() {
   return FeatureMap({plain, plain, plain, plain, omitted}, {}, {0, 1});
 }
 
-/// With a gain that can be tuned.
+/// A prior of perfect servos with a tunable gain.
 prior::Prior perfect_servos(double gain = kGain) {
   const ParameterSpace space({Parameter::continuous("gain", gain, {0.1, 2})});
   const auto change = [](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
@@ -75,7 +75,7 @@ Servos servos_of(const Dataset& data, Index second_type = 0) {
   return {data, features(), kinematics(second_type).servos, identification::ResidualGpOptions(), serial_evaluator()};
 }
 
-/// Of where joint j gets to and how fast it is then, as a part of how far it moves.
+/// The error of joint j's position and speed at the end of a step, as a fraction of its motion.
 double error_of(const Servos& servos, const Dataset& data, Index j) {
   Servos::End end;
   servos.means(data.states, data.actions, end);

@@ -132,7 +132,7 @@ class LineModel final : public dynamics::DynamicsModel {
   double gain_;
 };
 
-/// Where a pretending learner kills its own process, to see what is left of its run.
+/// The call at which a pretending learner kills its own process, for tests of what is left of its run.
 struct Killer {
   enum class Place { nowhere, ask, tell, save } place = Place::nowhere;
   Index call = 0;

@@ -10,12 +10,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A run before whose first trial logs are told. What its files have does not matter here.
+/// A run that is told logs before its first trial. The contents of the files do not matter here.
 class KeptTells : public ::testing::Test {
  protected:
   KeptTells() { start_run(fake::catalogue(), fake::line_spec(0), path, {}); }
   static ToldFile file(const std::string& name, const std::string& bytes) { return {"elsewhere/" + name, bytes, ""}; }
-  /// As if so many logs had been told by now.
+  /// Changes the run as if so many logs had been told by now.
   static void change(const RunFolder& run, std::size_t logs) {
     History history = run.load();
     const Episode episode{.states = Matrix::Zero(2, 1),

@@ -63,7 +63,7 @@ TEST(Run, FolderHoldsWhatTheContractSays) {
   EXPECT_TRUE(fs::exists(folder / "done"));
 }
 
-/// A learner that keeps what it is told.
+/// A learner that keeps the episodes it is told.
 class Listener final : public fake::Wrapped {
  public:
   Listener(std::unique_ptr<learners::Learner> inner, std::vector<Episode>* told)
@@ -85,7 +85,7 @@ Catalogue with_listener(std::vector<Episode>& told) {
   return fake::catalogue_of([&told](auto inner) { return std::make_unique<Listener>(std::move(inner), &told); });
 }
 
-// Also what it loads when a run is resumed; the folder tells of the noise-free states in any case.
+// The same holds for the episodes loaded when a run is resumed; the folder has the noise-free states in any case.
 TEST(Run, LearnersAreToldByNoiseFreeOrByMeasuredStates) {
   const fs::path folder = fake::test_folder();
   Spec spec = line_spec(3);

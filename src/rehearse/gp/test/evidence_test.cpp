@@ -87,7 +87,7 @@ TEST(Evidence, AddsKnownNoise) {
   }
 }
 
-/// By central differences.
+/// The slopes of the evidence by central differences.
 Vector slopes(const Inputs& inputs, const Vector& y, const Vector& flat, const Penalties& penalties, double step) {
   Workspace workspace;
   Vector slopes(flat.size());

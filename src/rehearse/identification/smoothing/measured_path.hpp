@@ -14,7 +14,7 @@ struct Block {
   std::vector<Index> before;  // of each row, the measurement of the block that it starts from; it ends in the next one
 };
 
-/// Whether steps of an episode share the measurement between them, or each has two of its own.
+/// The measurement between two steps of an episode: shared by them, or one of its own for each.
 enum class Measurements { shared, own };
 
 /// At most `most` rows each. Rows are steps of one episode where one starts in the state in which the last one ended.

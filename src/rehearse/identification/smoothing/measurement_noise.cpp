@@ -53,7 +53,7 @@ Vector non_negative_least_squares(const Matrix& A) {
 Vector measurement_std(const dynamics::DynamicsModel& model, const Dataset& data, const Vector& noise_variances) {
   Matrix shares = mean_square_slopes(model, data);
   shares.diagonal().array() += 1;
-  // In units of each state's own noise, whose sizes differ by many digits.
+  // The system in units of each state's own noise, whose sizes differ by many digits.
   shares = noise_variances.cwiseInverse().asDiagonal() * shares * noise_variances.asDiagonal();
   return noise_variances.cwiseProduct(non_negative_least_squares(shares)).cwiseSqrt();
 }

@@ -81,7 +81,7 @@ class Smoother {
     });
   }
 
-  /// Whether what was measured is clearly likelier than a rival makes it, and than if every step had errors of its own.
+  /// True if the measurements are clearly likelier than under a rival, and than if every step had errors of its own.
   bool beats(double rival) const { return estimate_.score > std::max(rival, score_of_own_errors_) + margin(); }
 
   /// The log evidence of GPs of the measured rows at this φ, fitted like these and from where these are.
@@ -135,7 +135,7 @@ class Smoother {
     return kernels;
   }
 
-  /// What is believed of the dynamics.
+  /// The current model of the dynamics; none if a row's prior mean is not finite.
   std::optional<dynamics::GpModel> model() const {
     const dynamics::Residuals residuals = problem_.residuals.of(white_);
     const dynamics::Residuals::Rows rows = residuals.at(problem_.prior, estimate_.phi);

@@ -7,7 +7,7 @@
 
 namespace rehearse::identification {
 
-/// The states of episodes as noisy measurements and a model learned from them tell them.
+/// The states of episodes, estimated from noisy measurements and a model learned from them.
 struct Smoothed {
   Dataset data;  // smoothed states, and changes that differ from φ's by white noise and what GPs have to learn
   Fit fit;       // φ, and kernels, fitted to them; the score is the log evidence of the measured rows, nats
@@ -25,10 +25,10 @@ struct Smoothed {
 /// - the variances of v become likelier (the steps of Zhou 2019);
 /// - what is expected of v is subtracted from the measurements;
 /// - each kernel is fitted to r with the covariance that v gives it, the other outputs given.
-/// That is the product of likelihoods climbed by turns: other scores and searches must leave φ where they found it.
+/// These turns climb the product of likelihoods: other scores and searches must leave φ where they found it.
 ///
-/// GPs learn from targets whose white noise would tell as much of g as C does: with what is expected of g, ĝ, and
-/// α = C⁻¹ r they are ĝ + s α, and under noise s the variances of g at the rows are the same on average.
+/// GPs learn from targets whose white noise leaves as much information about g as C does: with what is expected of g,
+/// ĝ, and α = C⁻¹ r they are ĝ + s α, and under noise s the variances of g at the rows are the same on average.
 ///
 /// The misfit of a prior may look like noise, but not like this noise, which is in the step before a measurement and
 /// in the one after. So the evidence must be higher, by the price of dx variances (Schwarz 1978: dx/2 ln n dx), than

@@ -1,4 +1,4 @@
-// What is known of actuators is not learned: models are of the robot behind them.
+// Known actuators are not learned: models are of the robot behind them.
 
 #include <gtest/gtest.h>
 

@@ -130,7 +130,7 @@ TEST(LearnedReward, NoPredictionIsAboveTheCeiling) {
   EXPECT_NEAR(highest(2), 2 * data.rewards.maxCoeff(), 1e-6 * data.rewards.maxCoeff());
 }
 
-// Of what is predicted at 300 other steps, in all: hardly less from 300 steps, far less from 8.
+// The total reward predicted at 300 other steps: hardly less from 300 steps, far less from 8.
 TEST(LearnedReward, CautionCostsLittleWhereThereAreDataAndMuchElsewhere) {
   const Dataset elsewhere = steps(300, 2);
   const auto share_left = [&](Index n) {

@@ -28,7 +28,7 @@ Dataset rows(Index n, Index dx) {
   return data;
 }
 
-/// Of the outputs of a linear model where states are measured with these variances.
+/// The noise of a linear model's outputs where states are measured with these variances.
 Vector noise_of(const Matrix& A, const Vector& variances) {
   const Matrix through = A + Matrix::Identity(A.rows(), A.cols());
   return variances + through.cwiseAbs2() * variances;

@@ -205,7 +205,7 @@ TEST(PhiPosterior, CoversTheTruthAsOftenAsItSaysIfTheKernelIsRight) {
   }
 }
 
-/// Whether the interval of the length holds the truth, from 60 steps and a prior whose friction is wrong and cannot be
+/// True if the interval of the length holds the truth, from 60 steps and a prior whose friction is wrong and cannot be
 /// tuned.
 bool covers_in_spite_of_friction(const Kind& kind, std::uint64_t seed) {
   const Dataset data = data_with_noise(60, seed, 0.02);

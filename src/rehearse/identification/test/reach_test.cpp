@@ -7,7 +7,7 @@
 namespace rehearse::identification {
 namespace {
 
-/// In the unit box, with derivatives by differences.
+/// A problem in the unit box, with derivatives by differences.
 optim::SquaresProblem problem(std::function<Vector(const Vector&)> errors, Index q) {
   const auto derivatives = [errors](const Vector& x, const Vector& r) {
     Matrix J(r.size(), x.size());

@@ -25,7 +25,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kMore = 0.05;  // of what was earned: a policy that promises less more teaches nothing
+constexpr double kMore = 0.05;  // gain worth a trial, as a fraction of the best return
 
 class BlackDrops final : public TrialLearner {
  public:
@@ -79,7 +79,7 @@ class BlackDrops final : public TrialLearner {
       propose_without_model(proposal);
       return proposal;
     }
-    // What an interruption must not leave behind is assigned last.
+    // The learner's state is assigned last: an interruption must leave none of it behind.
     identification::WarmStart state;
     Task task = setting_.task;
     proposal.model_s = seconds([&] {
@@ -235,7 +235,7 @@ void require_start_in_box(const Setting& setting, const Options& options) {
 
 }  // namespace
 
-/// A learner that learns the reward knows neither it nor when the task is solved.
+/// Removes the reward and the test of success from the task of a learner that learns the reward.
 void forget_reward(Task& task) {
   task.reward = nullptr;
   task.cost = nullptr;

@@ -13,7 +13,7 @@ struct Choice {
   double predicted_return = 0;
   std::vector<LimitRisk> risks = {};  // one a limit of the task
   double excess = 0;                  // of these over what is allowed; 0: it is safe
-  double solving = 0;                 // how surely it solves the task, where that decided
+  double solving = 0;                 // the same as in SearchResult, where that decided
 
   void take(const SearchResult& found) {
     theta = found.theta, predicted_return = found.predicted_return;
@@ -21,10 +21,10 @@ struct Choice {
   }
 };
 
-/// Whether the choice solves the task in simulated episodes as often as is enough for a trial.
+/// True if the choice solves the task in simulated episodes often enough for a trial.
 bool often_solves(const Choice& choice);
 
-/// The i-th search more, i = 1, 2, …
+/// Runs the i-th further search, i = 1, 2, …
 using SearchAgain = std::function<SearchResult(Index i)>;
 
 /// Searches for policies that keep the task's limits, where the choice keeps them too rarely or less safe policies
@@ -33,9 +33,9 @@ using SearchAgain = std::function<SearchResult(Index i)>;
 void prefer_safe(TrialSearches& searches, const SafetyOptions& safety, SearchResult& found, Choice& choice);
 
 /// Repeats searches, where the model is sure, until one finds a policy that is expected to solve the task for about the
-/// highest return, `retry.searches` times at most. A policy that solves it becomes the choice, whatever it costs but a
-/// limit kept less often.
-/// `found`: what the search that made the choice has found. Nothing happens where the task cannot say what solves it.
+/// highest return, `retry.searches` times at most. A policy that solves it becomes the choice at any cost in return,
+/// but never if it is less safe. `found`: what the search that made the choice has found. Nothing happens where the
+/// task has no test of success.
 void prefer_solving_where_sure(TrialSearches& searches, const SearchResult& found, const SearchAgain& again,
                                const Retry& retry, Choice& choice);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Random actions: of the first trial without a prior, and where nothing that is safe promises more than was earned.
+// Random actions: for the first trial without a prior, and where no safe policy promises more than was earned.
 
 #include <optional>
 

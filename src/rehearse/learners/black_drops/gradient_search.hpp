@@ -6,8 +6,8 @@
 
 namespace rehearse::learners::black_drops {
 
-/// Where a search by gradient looks: every number of θ in `interval`, from the starts on, and where more descents are
-/// asked for from points uniform in a part of it.
+/// The space of a search by gradient: every number of θ in `interval`. Descents begin at the starts, further ones at
+/// points uniform in a part of it.
 struct GradientSpace {
   Interval interval;
   const std::vector<Vector>& starts;

@@ -21,7 +21,7 @@ SearchOptions in_box_of(const policy::Policy& policy, SearchOptions options) {
   return options;
 }
 
-/// Whether a search climbs along gradients. Where limits are to be kept it does not: no gradient tells how.
+/// True if a search climbs along gradients. Not where limits must be kept, which have no gradient.
 bool climbs(const SearchProblem& problem, const SearchOptions& options) {
   return needs_derivatives(options.method) && !options.constrained && problem.doubted.empty();
 }
@@ -68,7 +68,7 @@ std::vector<Vector> find(SimulatedReturn& objective, const std::vector<Vector>& 
   return in_turn(std::move(climbed), found);
 }
 
-/// With limits any of the policies found may be the only safe one.
+/// The number of finalists: with limits all, since any of the policies found may be the only safe one.
 Index finalists_of(const std::vector<Vector>& found, const SearchProblem& problem, const SearchOptions& options) {
   const auto all = static_cast<Index>(found.size());
   return problem.task.limits.empty() ? std::min(options.finalists, all) : all;

@@ -10,7 +10,7 @@ namespace rehearse::learners::black_drops {
 struct SearchResult {
   Vector theta;
   double predicted_return = 0;
-  double solving = 0;              // how surely it solves the task, where that was asked
+  double solving = 0;              // rate at which it solves the task (best_that_solves), where computed
   std::vector<LimitRisk> risks;    // one a limit of the task
   double excess = 0;               // of these over what the limits allow (safety.hpp); 0: it is safe
   double highest_return = 0;       // of all that were compared, safe or not
@@ -19,7 +19,7 @@ struct SearchResult {
   Index failed_rollouts = 0;
 };
 
-/// Whether the first is the one to choose: the safer one, of those as safe the one of the higher return.
+/// True if `a` is to be chosen: the safer one, of equally safe ones that of the higher return.
 bool better(const SearchResult& a, const SearchResult& b);
 
 /// The policy of the highest expected return in the model, never worse there than `starts`, from which the first
@@ -33,12 +33,12 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
 SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options,
                    const StreamKey& key);
 
-/// How often each policy solves the task in simulated episodes, all policies in the same; 0 if the task does
-/// not say.
+/// The rate at which each policy solves the task in simulated episodes, the same for all policies; 0 if the task has no
+/// test of success.
 Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,
                      const StreamKey& key);
 
-/// Where every number of θ is searched.
+/// The interval in which every number of θ is searched.
 Interval interval_of(const policy::Policy& policy, const SearchOptions& options);
 
 /// θ uniform in the box.

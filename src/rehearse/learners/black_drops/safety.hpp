@@ -14,25 +14,25 @@
 
 namespace rehearse::learners::black_drops {
 
-/// Options for tasks that have limits; no other notices.
+/// Options for tasks that have limits; without effect on others.
 struct SafetyOptions {
   Index rollouts = 400;  // of each policy that is compared: 0.05 is told from 0.02. At least `selection`
   Index searches = 1;    // more, at most, near good policies for safe ones, each evaluation of several rollouts
   double doubt = 0.5;    // before there are data: how far towards anywhere in its box a parameter of the prior may be
-  bool explore = true;   // random actions where nothing safe promises more than was earned, if the task can say that
-                         // it is not solved
+  bool explore = true;   // random actions where no safe policy promises more than was earned, if the task has a test of
+                         // success and is not solved
   void fields(FieldVisitor& v);
 };
 
-/// How far a policy is from safe: the largest excess of a risk's upper end (95 %, Clopper and Pearson 1934) over what
-/// its limit allows; 0: it is safe.
+/// The excess risk of a policy: the most by which a risk's upper end (95 %, Clopper and Pearson 1934) exceeds what its
+/// limit allows; 0: it is safe.
 double excess(const std::vector<LimitRisk>& risks, const std::vector<Limit>& limits);
 
 /// Warnings of a proposal that is not safe: a line for each limit that it may break too often.
 std::vector<std::string> warnings(const std::vector<LimitRisk>& risks, const std::vector<Limit>& limits);
 
-/// The prior as it may be before there are data: each continuous parameter `doubt` of the way from its value to one
-/// uniform in its box, each discrete one any of its choices. Empty where nothing is tunable or there is no doubt.
+/// Draws of the prior before there are data: each continuous parameter `doubt` of the way from its value to one uniform
+/// in its box, each discrete one any of its choices. Empty where nothing is tunable or there is no doubt.
 std::vector<std::shared_ptr<const dynamics::DynamicsModel>> doubted(const prior::Prior& prior, double doubt,
                                                                     StreamKey key);
 

@@ -24,7 +24,7 @@ enum class Method {
   polish,    // the race, from whose best policies descents by gradient begin
 };
 
-/// Whether a method asks the policy for its derivatives (policy::Differentiable).
+/// True if a method needs the derivatives of the policy (policy::Differentiable).
 inline bool needs_derivatives(Method method) { return method == Method::gradient || method == Method::polish; }
 
 /// Each rollout is one noisy measurement of the expected return, which CMA-ES maximises (Chatzilygeroudis 2017).
@@ -50,7 +50,8 @@ struct SearchProblem {
   const Task& task;
   const Evaluator& evaluator;
   const ProgressSink& progress;
-  std::vector<std::shared_ptr<const dynamics::DynamicsModel>> doubted = {};  // if any, episodes go round these instead
+  std::vector<std::shared_ptr<const dynamics::DynamicsModel>> doubted = {};  // if any, episodes use these in turn
+                                                                             // instead
 };
 
 /// Rollouts by which a policy is compared with others: `selection`, or 1 where model, start and measurements are

@@ -1,5 +1,5 @@
 #pragma once
-// Simulated episodes of policies as what a search maximises.
+// The objective of a policy search, from simulated episodes.
 
 #include <cstdint>
 #include <limits>
@@ -18,16 +18,16 @@ struct Measurement {
                      // last step to 1 for one that did in its first
 };
 
-/// The objective of a search: the mean return of simulated episodes, which end where they break a limit. Of a
-/// constrained search that is so where limits are kept often enough; where they are not, it is less than that of any
-/// policy of the batch that does, the less the more often and the earlier they are broken (Deb 2000). It counts
-/// rollouts. References must outlive it.
+/// The objective of a search: the mean return of simulated episodes, which end where they break a limit. In a
+/// constrained search a policy that keeps the limits too rarely has a value below that of any policy of the batch that
+/// keeps them, and the lower the more often and the earlier it breaks them (Deb 2000). It counts rollouts. References
+/// must outlive it.
 class SimulatedReturn {
  public:
   SimulatedReturn(const SearchProblem& problem, const SearchOptions& options, StreamKey key)
       : problem_(problem), options_(options), key_(key) {}
 
-  /// As optim::BatchObjective.
+  /// The objective as an optim::BatchObjective.
   void operator()(const ConstMatrixView& Theta, std::uint64_t first, Index samples, VectorView values);
 
   /// Values of each policy (parameters × policies), from so many evaluations.

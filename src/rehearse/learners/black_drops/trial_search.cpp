@@ -9,7 +9,7 @@ Choice choice_of(const SearchResult& found) {
   return choice;
 }
 
-/// On the prior, before there are data.
+/// The search on the prior, before there are data.
 Choice search_prior(TrialSearches& searches, const Known& known, const Options& options) {
   std::vector<Vector> starts = known.policies;
   SearchResult found;

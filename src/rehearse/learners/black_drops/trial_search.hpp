@@ -11,7 +11,7 @@ namespace rehearse::learners::black_drops {
 /// Knowledge from before the search.
 struct Known {
   std::vector<Vector> policies;  // where descents start
-  bool prior_alone = false;      // no data: the model is the prior, which is taken at its word
+  bool prior_alone = false;      // no data: the model is the prior alone
 };
 
 /// Chooses the policy of a trial: the best of those that keep the task's limits, the safest where none does. References

@@ -8,7 +8,7 @@
 namespace rehearse::learners::black_drops {
 namespace {
 
-constexpr double kMeans = 0.1;  // what it counts to solve the task in the means, beside the rate of simulated episodes
+constexpr double kMeans = 0.1;  // weight of solving the task in the means, beside the rate of simulated episodes
 
 /// Particles of one policy hardly differ there.
 SearchOptions in_means(SearchOptions options) {

@@ -13,7 +13,7 @@ class TrialSearches {
   /// trial: seed, trial and phase of all random numbers.
   TrialSearches(const SearchProblem& problem, const SearchOptions& options, const StreamKey& trial);
 
-  /// The i-th search that meets the model's uncertainty. Its first descents begin at `starts`.
+  /// The i-th search that simulates the model's uncertainty. Its first descents begin at `starts`.
   SearchResult search(const std::vector<Vector>& starts, Index i);
 
   /// The i-th search that follows the mean predictions.
@@ -23,12 +23,12 @@ class TrialSearches {
   /// several rollouts are one evaluation, which tells how often a limit is broken.
   SearchResult search_safe(const std::vector<Vector>& starts, Index i);
 
-  /// A policy's predicted return, and risks, where the model's uncertainty counts.
+  /// A policy's predicted return, and risks, under the model's uncertainty.
   SearchResult judge(const Vector& theta);
 
-  /// The policy of a search that solves the task most often in simulated episodes, of those that are no less safe than
-  /// what it found; among those that never do where
-  /// uncertainty counts, one that does in the means. Empty if none does, or if the task cannot say.
+  /// The policy of a search that solves the task most often in simulated episodes, among those no less safe than its
+  /// result; if none does under uncertainty, one that does in the mean predictions. Empty if none does, or if the task
+  /// has no test of success.
   std::optional<SearchResult> best_that_solves(const SearchResult& found);
 
   bool has_limits() const { return !problem_.task.limits.empty(); }
@@ -46,7 +46,7 @@ class TrialSearches {
   Index rollouts_ = 0, failed_rollouts_ = 0;
 };
 
-/// Whether a policy's predicted return falls short of `expected` by no more than a fraction of it.
+/// True if a policy's predicted return falls short of `expected` by no more than a fraction of it.
 bool within(double tolerance, double expected, double predicted);
 
 }  // namespace rehearse::learners::black_drops

@@ -40,8 +40,7 @@ struct BackwardPass {
 
 /// One step of dynamic programming (Lee 2017; Li 2004): the best feedback within bounds of the actions (Tassa 2014),
 /// and the cost to go before it, `before`. damping: added to the curvature by the actions. Where `uncertainty` is 1
-/// states that the model does not know cost what their variance costs, half tr(S V); 0: nothing. nullopt where the
-/// curvature is not positive.
+/// the model's variance V of a state costs half tr(S V); 0: nothing. nullopt where the curvature is not positive.
 struct BackwardStep {
   Feedback feedback;
   Value before;

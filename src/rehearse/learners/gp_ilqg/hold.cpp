@@ -32,7 +32,7 @@ StepThere step_at(const PlanProblem& problem, const StepCosts& costs, const Vect
   return {std::move(step), at.mean.row(0).transpose()};
 }
 
-/// By (state, actions): the cost of staying there.
+/// Derivatives by (state, actions) of the cost of staying there.
 struct Staying {
   Vector gradient;
   Matrix hessian;

@@ -6,7 +6,7 @@
 
 namespace rehearse::learners::gp_ilqg {
 
-/// How a trial's plan is found.
+/// Options of the search for a trial's plan.
 struct PlanSearch {
   /// Plans minimise minus the reward; minus its logarithm; or first the latter, which is flat nowhere, then the
   /// former.
@@ -14,12 +14,12 @@ struct PlanSearch {
 
   double plan_s = 0;  // seconds that are planned, what follows is held; 0: the whole episode
   Cost cost = Cost::both;
-  double first_costs = 1;     // fraction of the task's costs that the first iterations know
+  double first_costs = 1;     // fraction of the task's costs in the first iterations
   double action_cost = 1e-3;  // of an action at its bound, for a step, beside the reward
-  double uncertainty = 1;     // weight of what the model's variance costs; 0: plans know the mean alone
+  double uncertainty = 1;     // weight of the cost of the model's variance; 0: plans use the mean alone
   bool hold = true;           // plans end with feedback of an infinite horizon, where that is better
   Index starts = 16;          // random actions that plans begin with, beside the last plan
-  double start_size = 0.3;    // of their range, about its middle, that such actions are in
+  double start_size = 0.3;    // fraction of their range, about its middle, for such actions
   double start_hold_s = 0.2;  // how long such an action is held
   Index first_iterations = 60;
   Index finalists = 4;  // plans that are improved further

@@ -75,7 +75,7 @@ class Search {
     return all;
   }
 
-  /// Whether all that is earned from there is positive.
+  /// True if all rewards from these starts are positive.
   bool has_logarithm(const std::vector<Stages>& from) const {
     const StepCosts costs(problem_.task, {.action_cost = 0, .task_costs = 0});
     const ForwardPass forward(problem_, costs, nullptr);

@@ -23,7 +23,7 @@ struct FoundPlan {
 std::optional<FoundPlan> search_plan(const PlanProblem& problem, const PlanSearch& search,
                                      const std::optional<Vector>& last, StreamKey stream, const ProgressSink& progress);
 
-/// How many steps of a task's episode are planned.
+/// The number of steps of a task's episode that are planned.
 Index steps_to_plan(const Task& task, const PlanSearch& search);
 
 }  // namespace rehearse::learners::gp_ilqg

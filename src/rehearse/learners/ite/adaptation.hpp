@@ -20,8 +20,8 @@ struct AdaptationOptions {
   void fields(FieldVisitor& v);
 };
 
-/// Map-based Bayesian optimisation (Cully 2015, methods): a GP over descriptors whose mean function is what an archive
-/// promises, Matérn-5/2, tells what the robot makes of it. A value.
+/// Map-based Bayesian optimisation (Cully 2015, methods): a Matérn-5/2 GP over descriptors, whose mean function is the
+/// archive's performance, predicts the performance on the robot. A value.
 class Adaptation {
  public:
   /// descriptors: D × n, one elite a column; promised: n performances. n ≥ 1, all finite.
@@ -35,7 +35,7 @@ class Adaptation {
   /// Takes the performance that an elite had on the robot. Ignored once stopped.
   void observe(Index elite, double performance);
 
-  /// Why there is nothing more to try; empty: there is.
+  /// The reason to stop; empty: there is more to try.
   const std::string& stopped() const { return stopped_; }
   const Vector& means() const { return means_; }            // n, expected performances
   const Vector& deviations() const { return deviations_; }  // n, their standard deviations, without noise

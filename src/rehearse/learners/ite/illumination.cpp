@@ -18,9 +18,9 @@ namespace {
 
 constexpr const char* kKept = "archive";
 constexpr std::string_view kSeed = "{seed}";  // in the name of a file
-constexpr int kRevision = 1;              // of what an archive is made by; another one makes those kept before stale
-constexpr Index kCheckpointRows = 16384;  // evaluations between two states that are kept
-constexpr Index kTriedAgain = 16;         // elites of an archive that was kept
+constexpr int kRevision = 1;                  // of the code that makes archives; a new one makes kept archives stale
+constexpr Index kCheckpointRows = 16384;      // evaluations between two states that are kept
+constexpr Index kTriedAgain = 16;             // elites of an archive that was kept
 
 /// Rollouts in the prior.
 class Rollouts {
@@ -57,7 +57,7 @@ class Rollouts {
   Task task_;
 };
 
-/// What an archive's file says that it is.
+/// The description of an archive in its file.
 std::string about(const Setting& setting, IlluminationOptions options) {
   std::string text = fmt::format("ite archive {}\nseed = {}\n", kRevision, setting.seed);
   for (const auto& [name, value] : list_fields([&](FieldVisitor& v) { options.fields(v); }))
@@ -86,7 +86,7 @@ class Illumination {
   }
 
  private:
-  /// Those of the policy, and the policy that the run begins with.
+  /// The policy's examples, and the policy that the run begins with.
   Matrix examples() const {
     Matrix all = setting_.policy->examples();
     if (!setting_.start) return all;
@@ -161,7 +161,7 @@ class Illumination {
     if (setting_.store) setting_.store->write(kKept, to_bytes(state(search)));
   }
 
-  /// Whether some elites, spread evenly, do what they did when they were kept: not after the simulator changed.
+  /// True if some elites, spread evenly, perform as when they were kept; false after the simulator changed.
   bool holds(const qd::Search& kept) const {
     const qd::Archive& archive = kept.archive;
     if (archive.parameters() != setting_.policy->parameters() || archive.size() == 0) return false;

@@ -10,7 +10,7 @@
 
 namespace rehearse::learners::ite {
 
-/// How the archive of policies is made.
+/// Options of the archive of policies.
 struct IlluminationOptions {
   std::string file;  // of an archive that was made before and is taken as it is, {seed} in it the run's seed; empty:
                      // one is made
@@ -34,8 +34,8 @@ std::shared_ptr<const qd::Search> illuminate(const Setting& setting, const Illum
 /// The options for a run of this seed, which their file may name.
 IlluminationOptions for_seed(IlluminationOptions options, std::uint64_t seed);
 
-/// A line for everything that the task lacks, or the options and their file cannot do with it and the policy. A file
-/// that names the seed is checked once that is known.
+/// Violations, a line each: what the task lacks, and options or a file that do not fit it or the policy. A file that
+/// names the seed is checked once that is known.
 std::vector<std::string> violations(const IlluminationOptions& options, const Task& task, const policy::Policy& policy);
 
 }  // namespace rehearse::learners::ite

@@ -19,7 +19,7 @@ using nlohmann::json;
 
 constexpr std::uint64_t kUnknown = 0;
 
-/// What a policy can earn at least.
+/// The least return of a policy.
 double floor_of(const Task& task) { return static_cast<double>(task.horizon) * task.reward_floor; }
 
 struct Trial {
@@ -102,7 +102,7 @@ class Ite final : public TrialLearner {
     for (std::size_t trial = 0; trial < trials_.size(); ++trial) adapt(trial);
   }
 
-  /// What was learned of elites by number says nothing about those of another archive.
+  /// Throws if the archive is another than the run's: trials refer to elites by number.
   void check_archive() {
     if (learned_in_ == kUnknown || learned_in_ == files::checksum(*bytes_)) return;
     search_.reset();
@@ -128,7 +128,7 @@ class Ite final : public TrialLearner {
     return table;
   }
 
-  /// Which elite each trial tried, and whether what is expected was learned from it.
+  /// The elite that each trial tried; learned: the expectations use that trial.
   Table tried() const {
     const auto trials = static_cast<Index>(tried_.size());
     Table table{"tried", {"trial", "elite", "promised", "learned"}, Matrix(trials, 4)};

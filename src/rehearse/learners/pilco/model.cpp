@@ -58,7 +58,7 @@ std::vector<moments::MomentTerm> terms(const Matrix& X, const Matrix& Y, const M
   return moments::exact_terms(gp::Posterior(inputs, Y, kernels));
 }
 
-/// GPs are told by `adapt`: each state has one of its own, whose moments are known.
+/// The kind of model. `adapt` sets options of the GPs: each state has one of its own, whose moments are known.
 identification::Kind kind(const ModelOptions& options, const Mean& mean) {
   const auto adapt = [&](auto kind) {
     static_cast<dynamics::GpOptions&>(kind.gp) = {};
@@ -76,9 +76,9 @@ identification::Kind kind(const ModelOptions& options, const Mean& mean) {
   return adapt(identification::ZeroMean{});
 }
 
-/// The rows that moment matching is told.
+/// The training rows of moment matching.
 struct Rows {
-  Matrix X, Y;  // inputs, and what the mean leaves of the changes
+  Matrix X, Y;  // inputs, and changes less the mean
 };
 
 Rows rows_around(const Dataset& data, const FeatureMap& features, const Mean& mean, const Vector& phi) {

@@ -8,7 +8,7 @@
 
 namespace rehearse::learners::pilco {
 
-/// What PILCO learns on the prior (Cutler 2015).
+/// Options of PILCO's learning on the prior (Cutler 2015).
 struct PriorPhaseOptions {
   Index episodes = 40;  // at most; Chatzilygeroudis 2018, on the pendubot
   // The phase ends after so many episodes in a row that taught nothing: they returned what was predicted or more, and
@@ -18,7 +18,7 @@ struct PriorPhaseOptions {
   void fields(FieldVisitor& v);
 };
 
-/// The prior itself as the mean of the GPs, and what the first policy is made for (PI-REM, Saveriano 2017).
+/// Options of PI-REM (Saveriano 2017): the prior itself is the mean of the GPs, and the first policy is made for it.
 struct PiRemOptions {
   moments::Through through = moments::Through::linearised;
   bool identify = false;   // GP-MI's parameters of the prior, found anew before each trial; Saveriano: as given

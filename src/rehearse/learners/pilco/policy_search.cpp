@@ -81,7 +81,7 @@ std::vector<Vector> first_policies(const SearchProblem& problem, const SearchOpt
   return first;
 }
 
-/// So many of the policies, those of the highest value first.
+/// The `count` policies of the highest value, best first.
 std::vector<Vector> best_policies(Objective& objective, const std::vector<Vector>& policies, Index count) {
   std::vector<std::pair<double, const Vector*>> by_value;
   for (const Vector& theta : policies) {

@@ -18,11 +18,11 @@ namespace rehearse::learners::pilco {
 
 struct SearchOptions {
   optim::CautiousBfgsOptions bfgs{.patience = 20, .patience_gain = 0.001};  // PILCO: none
-  // Of each state of the start that policies are made for, at least. Smooths what is searched (PILCO's cart-pole: 0.1),
-  // but may promise what a robot that starts exactly never earns.
+  // The least deviation of each state of the start that policies are made for. It smooths the objective (PILCO's
+  // cart-pole: 0.1), but may promise a return that a robot with an exact start never earns.
   double start_std = 0;
-  // While the last trial has not solved the task so many first policies are starts of searches too, and the best of all
-  // is taken, since searches by gradient stay at local optima. PILCO: none.
+  // The number of first policies that are starts of searches, too, while the last trial has not solved the task; the
+  // best result is taken, since searches by gradient stay at local optima. PILCO: none.
   Index restarts = 2;
   void fields(FieldVisitor& v);
 };

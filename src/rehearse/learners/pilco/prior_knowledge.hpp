@@ -28,7 +28,7 @@ nlohmann::json to_json(const PriorKnowledge& knowledge);
 /// Throws nlohmann::json::exception or InvalidInput where something else was saved.
 PriorKnowledge to_knowledge(const nlohmann::json& j);
 
-/// How it is learned: `learn_on_prior`, or `search_on_prior`.
+/// Learns a PriorKnowledge: `learn_on_prior`, or `search_on_prior`.
 using LearnOnPrior = std::function<PriorKnowledge(const Setting& setting, const Options& options)>;
 
 }  // namespace rehearse::learners::pilco

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr const char* kStored = "prior";
 
-/// Where the phase is.
+/// The state of the phase.
 struct State {
   PriorKnowledge knowledge;  // its counts and notes so far; all of it once the phase is over
   bool over = false;         // the rest no longer matters

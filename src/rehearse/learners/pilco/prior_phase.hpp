@@ -1,5 +1,5 @@
 #pragma once
-// PILCO with priors (Cutler 2015): what PILCO learns on the prior system, before the first trial on the robot.
+// PILCO with priors (Cutler 2015): learning on the prior system, before the first trial on the robot.
 
 #include "rehearse/learners/pilco/prior_knowledge.hpp"
 

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 constexpr const char* kStoredPolicies = "prior";
 
-/// Nothing where something else was kept, as if nothing had been.
+/// The knowledge kept in the store; empty if there is none, or none that fits.
 PriorKnowledge kept_policies(const Setting& setting) {
   const auto bytes = setting.store ? setting.store->read(kStoredPolicies) : std::nullopt;
   if (!bytes) return {};

@@ -1,5 +1,5 @@
 #pragma once
-// PI-REM (Saveriano 2017): what is searched on the prior itself, before the first trial on the robot.
+// PI-REM (Saveriano 2017): policy searches on the prior itself, before the first trial on the robot.
 
 #include "rehearse/learners/pilco/prior_knowledge.hpp"
 

@@ -167,8 +167,8 @@ Model Trials::learn_model() const {
   return pilco::learn({setting_.task, data_, options_.model, *setting_.evaluator, setting_.progress}, state_, mean());
 }
 
-/// From the proposal's θ. A policy that has solved the task is good enough to stay with. One that was tried twice is
-/// worth what it earned: moment matching may promise more than that forever.
+/// Searches from the proposal's θ. A policy that has solved the task is good enough to stay with. One that was tried
+/// twice is worth what it earned: moment matching may promise more than that forever.
 void Trials::search(const Model& model, Proposal& proposal) const {
   Restarts restarts{.key = stream(Stage::search)};
   if (prior_) restarts.policies = prior_->policies;

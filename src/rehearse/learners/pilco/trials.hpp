@@ -8,14 +8,14 @@
 
 namespace rehearse::learners::pilco {
 
-/// Returns that differ by less than this part are the same.
+/// Returns that differ by less than this fraction count as equal.
 inline constexpr double kSameReturn = 0.02;
 
-/// The trials of PILCO on one system, the robot or, before, the prior. With `Options::prior` they begin with what those
-/// on the prior taught, with `Options::pi_rem` with a policy made for the prior, else with random actions.
+/// The trials of PILCO on one system, the robot or, before, the prior. With `Options::prior` they begin with the
+/// knowledge from the prior, with `Options::pi_rem` with a policy made for the prior, else with random actions.
 class Trials final : public TrialLearner {
  public:
-  /// learn_on_prior: asked once where `Options::prior` or `pi_rem` is there.
+  /// learn_on_prior: called once if `Options::prior` or `pi_rem` is set.
   Trials(Setting setting, const Options& options, LearnOnPrior learn_on_prior = {})
       : setting_(std::move(setting)), options_(options), learn_on_prior_(std::move(learn_on_prior)) {}
 

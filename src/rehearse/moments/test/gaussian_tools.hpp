@@ -19,7 +19,7 @@ inline Matrix normals(Index rows, Index columns, std::uint64_t seed) {
   return Matrix::NullaryExpr(rows, columns, [&] { return rng.normal(); });
 }
 
-/// With a covariance of full rank, about `scale` in size.
+/// A Gaussian with a covariance of full rank, about `scale` in size.
 inline Gaussian random_gaussian(Index size, double scale, std::uint64_t seed) {
   const Matrix A = normals(size, size, seed + 1000);
   return {normals(size, 1, seed), scale / static_cast<double>(size) * (A * A.transpose())};

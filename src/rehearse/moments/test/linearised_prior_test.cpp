@@ -9,7 +9,7 @@ namespace {
 
 TEST(LinearisedPrior, OfALineIsTheClosedForm) { priors::expect_exact_of_a_line(Through::linearised); }
 
-// Of a small covariance: what bends within it is below the errors of 200 000 samples.
+// The covariance is small: curvature within it is below the errors of 200 000 samples.
 TEST(LinearisedPrior, OfANarrowGaussianIsThatOfSamples) {
   const Gaussian x = tools::random_gaussian(priors::kInputs, 1e-7, 2);
   const auto change = [](const Vector& at, const Vector&) { return priors::bend(at); };

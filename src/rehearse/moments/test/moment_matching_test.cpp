@@ -19,8 +19,8 @@ void expect_agreement(const MomentMatching& matching, const nlohmann::json& test
   const Transformed result = matched_moments(matching, {reference::vector(test["m"]), reference::matrix(test["s"])});
   EXPECT_LT(reference::error(result.mean, reference::matrix(expected["M"])), tolerance) << test["hyp"] << test["m"];
   const Matrix covariance = reference::matrix(expected["S"]);
-  // Of a known function at a known input only the 1e-6 are left that PILCO adds: what comes before is rounding, of
-  // which PILCO's own number has 2e-12 and ours 1.1e-11 on one processor.
+  // The covariance of a known function at a known input is the 1e-6 that PILCO adds; the rest is rounding, 2e-12 in
+  // PILCO's own number and 1.1e-11 in ours on one processor.
   const double largest = std::max(covariance.cwiseAbs().maxCoeff(), 2e-4);
   EXPECT_LT((result.covariance - covariance).cwiseAbs().maxCoeff(), tolerance * largest) << test["hyp"] << test["m"];
   EXPECT_LT(reference::error(result.gain, reference::matrix(expected["V"])), tolerance) << test["hyp"] << test["m"];
@@ -38,7 +38,7 @@ TEST(MomentMatching, AgreesWithPilco) {
   }
 }
 
-/// By the formulas of moment_term.hpp.
+/// A draw by the formulas of moment_term.hpp.
 Vector draw(const std::vector<MomentTerm>& terms, const Vector& x, const Vector& normals) {
   Vector y = Vector::Zero(2);
   for (const MomentTerm& t : terms) {

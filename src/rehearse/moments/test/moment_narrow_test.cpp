@@ -76,7 +76,7 @@ TEST(MomentNarrow, CovariancesOfNarrowInputsArePositiveAndGrowAsTheSlopesSay) {
   }
 }
 
-/// What is well conditioned is the same by both ways, and so are the slopes.
+/// Well-conditioned moments and their slopes are the same by both ways.
 TEST(MomentNarrow, AgreesWithAllPairs) {
   const gp::Posterior posterior = exact_data(2, 0.3);
   std::vector<MomentTerm> terms = exact_terms(posterior), plain = terms;

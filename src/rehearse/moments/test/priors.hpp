@@ -41,7 +41,7 @@ inline Transformed through(const PriorMoments& prior, const Gaussian& x) {
   return change;
 }
 
-/// In closed form, with rounding over the steps of differences.
+/// Expects the closed form, up to rounding divided by the steps of differences.
 inline void expect_exact_of_a_line(Through way) {
   const Gaussian x = tools::random_gaussian(kInputs, 2, 1);
   const Transformed change = through(*moments(line, way), x);

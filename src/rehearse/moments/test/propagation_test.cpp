@@ -63,7 +63,7 @@ void PropagationTest::expect_linearised(const StepDynamics& dynamics) const {
   EXPECT_EQ(next, next.transpose());
 }
 
-/// Of a model that is sure: this needs every covariance between state, features, action and change.
+/// The model is certain: this needs every covariance between state, features, action and change.
 TEST_F(PropagationTest, OfANearlyKnownStateIsTheLinearisedStep) {
   const StepDynamics sure = gps(mean_terms(posterior_));
   expect_linearised(sure);
@@ -107,7 +107,7 @@ TEST_F(PropagationTest, AdjointAroundAPriorAgreesWithDifferences) {
   }
 }
 
-// In closed form, with C = cov[x̃, Δ] of independent pieces (Saveriano 2017).
+// The closed form, with C = cov[x̃, Δ] of independent pieces (Saveriano 2017).
 TEST_F(PropagationTest, AroundALinearPriorIsTheClosedForm) {
   const Matrix slopes = 0.3 * tools::normals(4, 5, 8);
   const auto change = [=](const ConstMatrixView& X, const ConstMatrixView& U, const Vector&, MatrixView dX) {

@@ -10,7 +10,7 @@
 namespace rehearse::moments {
 namespace {
 
-/// In PILCO's order: sine, cosine of each angle.
+/// Features in PILCO's order: sine, cosine of each angle.
 std::vector<Sine> trigonometry(const nlohmann::json& test) {
   const Vector angles = reference::vector(test["angle_index_1based"]), scale = reference::vector(test["scale_e"]);
   std::vector<Sine> sines;

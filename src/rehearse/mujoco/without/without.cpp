@@ -1,4 +1,4 @@
-// The room where MuJoCo was not found: whoever asks for a model is told so.
+// The room if MuJoCo was not found: its functions throw and say so.
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/mujoco/drawing.hpp"

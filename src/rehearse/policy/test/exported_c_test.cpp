@@ -48,7 +48,7 @@ void write_policy(const fs::path& folder, const Exported& exported) {
   exports::write(folder / "two.h", to_c(exported, "two"));
 }
 
-/// What the program answers.
+/// The program's answers.
 Matrix answers_of(const std::string& runner, const fs::path& program, const Answers& asked, Index actions) {
   const fs::path in = program.parent_path() / "in", out = program.parent_path() / "out";
   exports::write(in, exports::bytes_of(asked));
@@ -80,7 +80,7 @@ TEST(ExportedC, IsThePolicy) {
   for (const Case& each : exports::cases()) check_compiled(each, ways, kManyRows);
 }
 
-/// How programs for 32 bit run here: by themselves, or emulated.
+/// The runner of 32-bit programs: "" if they run by themselves, or an emulator; none if neither works.
 std::optional<std::string> runner_of_32_bit(const std::string& compiler) {
   const std::string program = (test_folder() / "empty").string();
   run(compiler + " " + (test_folder() / "empty.c").string() + " -o " + program);

@@ -26,7 +26,7 @@ std::vector<Case> remembering_cases() {
   const Squash squash{task.action_bounds(), 5, Squash::Shape::tanh};
   std::vector<Case> all;
   const auto add = [&](const std::string& name, const std::shared_ptr<const Policy>& policy) {
-    // Weights so small that a command says little of those long before: rounding is forgotten, too.
+    // Small weights, so that a command depends little on those long before: rounding errors fade, too.
     all.push_back({name, task, policy, 0.2 * fixture::normals(policy->parameters(), 1, 7)});
   };
   add("linear", make_linear({features, scale, squash}));
@@ -55,7 +55,7 @@ Exported commanded_episode(const Case& of) {
   return exports::exported(of, asked);
 }
 
-/// What a program is given: what is measured, and times.
+/// The inputs of a program: measured states, and times.
 Answers measured_in(const Exported& exported, const Case& of) {
   const Index own = of.task.actuators().own_states();
   return {.states = exported.answers.states.leftCols(own), .times_s = exported.answers.times_s, .actions = {}};

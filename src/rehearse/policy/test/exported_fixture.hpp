@@ -143,7 +143,7 @@ inline double apart(const Exported& exported, const Matrix& actions) {
   return largest;
 }
 
-/// Which rows are known: every number of theirs is finite.
+/// True if a row is known: all its numbers are finite.
 inline bool known(const Answers& asked, Index row) {
   return asked.states.row(row).allFinite() && std::isfinite(asked.times_s(row));
 }

@@ -39,7 +39,7 @@ double squared_distance(const std::vector<double>& x, const std::vector<double>&
   return sum;
 }
 
-/// Of a row of linear feedback, without the bounds.
+/// The action of a row of linear feedback, without the bounds.
 double feedback_of(const nlohmann::json& computes, std::size_t row, std::size_t action,
                    const std::vector<double>& state) {
   const double turn = 2 * std::numbers::pi;
@@ -52,7 +52,7 @@ double feedback_of(const nlohmann::json& computes, std::size_t row, std::size_t 
   return u;
 }
 
-/// By the description in docs/export.md alone.
+/// The action by the description in docs/export.md alone.
 double action_of(const nlohmann::json& policy, std::size_t action, const std::vector<double>& state, double t_s) {
   const auto& computes = policy.at("computes");
   const auto row_of = [&](const char* name) { return computes.at(name).at(action).get<std::vector<double>>(); };

@@ -17,7 +17,7 @@ void plain(const ConstMatrixView& X, std::uint64_t, VectorView performances, Mat
   descriptors = X.leftCols(2);
 }
 
-/// Of ten generations, once every niche is filled.
+/// The allocations of ten generations, once every niche is filled.
 long allocations_of(Index batch, Variation::Kind kind) {
   const Niches niches(Cvt{.bounds = {{0, 1}, {0, 1}}, .niches = 50, .samples = 500});
   MapElites search(Archive(niches, 6), {.box = std::vector<Interval>(6, {0, 1})},

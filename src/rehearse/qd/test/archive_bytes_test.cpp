@@ -103,7 +103,8 @@ TEST(ArchiveBytes, EveryChangedByteIsRefused) {
   }
 }
 
-// With a checksum that fits: sizes beyond the file, or that fit by accident, niches out of range or twice, bounds.
+// Contradictions with a right checksum: sizes beyond the file, or that fit by accident, niches out of range or twice,
+// bounds.
 TEST(ArchiveBytes, AFileThatContradictsItselfIsRefused) {
   const std::string bytes = to_bytes(of_grid());
   for (std::size_t field = 24; field < 72; field += 8)  // about, descriptors, parameters, niches, elites, grid

@@ -66,8 +66,8 @@ double distortion(Index iterations) {
   return sum / 10000;
 }
 
-// Of 100 random points it is 1/(100 π) = 0.0032 on average and more at the edges, of hexagons (the best there is)
-// 0.0016.
+// The distortion of 100 random points is 1/(100 π) = 0.0032 on average and more at the edges, that of hexagons (the
+// best) 0.0016.
 TEST(Cvt, SpreadsItsCentroidsEvenly) {
   EXPECT_GT(distortion(0), 0.0025);
   EXPECT_LT(distortion(30), 0.0018);

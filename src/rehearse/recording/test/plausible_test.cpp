@@ -39,7 +39,7 @@ TEST(Bounds, RoundingIsClippedAndMoreIsAProblem) {
   EXPECT_EQ(action.samples[3].value, 0.5);
 }
 
-/// Whether there is a jump, without a rate.
+/// True if there is a jump, judged without a rate.
 bool jumps(const Channel& channel) {
   Problems problems("f");
   check_jumps(channel, nullptr, problems);

@@ -38,7 +38,7 @@ TEST(Recording, ATrialOfARunIsReadToTheSameBytes) {
   EXPECT_TRUE(notes.empty());
 }
 
-// What actuators remember follows from the actions, and is never read.
+// The memory of actuators follows from the actions, and is never read.
 TEST(Recording, HasTheMemoryOfActuators) {
   Task task = swing_task();
   task.actions[0].actuation = {.delay_s = 0.1, .lag_s = 0.03};

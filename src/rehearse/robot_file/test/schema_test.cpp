@@ -22,7 +22,7 @@ Json schema() {
   return Json::parse(file);
 }
 
-/// The example with a key that nobody knows in every part.
+/// The example with an unknown key in every part.
 std::string with_unknown_keys() {
   std::string text = "zzz = 1\n" + example::kSwing;
   for (const char* part : {"[[state]]", "[[action]]", "[reward]", "[success]", "[dynamics.pendulum]", "[plant]"}) {

@@ -24,7 +24,7 @@ constexpr double kSolvedAngle = 10 * kPi / 180;
 const Vector kPolicyScale{{5, 5, 10, 1, 1}};
 constexpr double kSolvedTime = 0.5;  // s, at the end
 
-/// In the order of φ.
+/// The parameters in the order of φ.
 ParameterSpace parameters(const Physics& p) {
   return ParameterSpace({Parameter::fixed("m_pole", p.m_pole, "kg"), Parameter::fixed("m_cart", p.m_cart, "kg"),
                          Parameter::fixed("l", p.l, "m"), Parameter::fixed("b", p.b, "N s/m")});
@@ -40,7 +40,7 @@ void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
       x * (x + 2 * kRewardLength * trig.col(0).array()) + 2 * kRewardLength * kRewardLength * (1 + trig.col(1).array());
 }
 
-/// exp(−(Δθ/3)² − x²), Δθ from the upright (Amadio 2022): it tells far from the goal which way leads there.
+/// exp(−(Δθ/3)² − x²), Δθ from the upright (Amadio 2022): it has a slope far from the goal, too.
 Reward wide_reward() {
   const auto squared_distance = [](const ConstMatrixView& X, VectorView d2) {
     const auto from_hanging = X.col(3).array().unaryExpr([](double angle) { return std::remainder(angle, 2 * kPi); });

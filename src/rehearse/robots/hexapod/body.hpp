@@ -36,7 +36,7 @@ struct SegmentModel {
 };
 SegmentModel model_of(Segment segment);
 
-/// Where the segment's frame is in the frame of what carries it, with a zero angle.
+/// The pose of the segment's frame in that of the body that carries it, with a zero angle.
 Eigen::Isometry3d mount_of(Index leg, Segment segment);
 
 /// The moments of inertia of a solid box about its centre of mass.

@@ -81,7 +81,8 @@ SkeletonPtr make_floor() {
   return floor;
 }
 
-/// Nothing touches but with the floor. DART's own filter, which locks a reference to each skeleton, is slow.
+/// A filter that allows contacts with the floor alone. DART's own filter, which locks a reference to each skeleton, is
+/// slow.
 class FloorOnly final : public dart::collision::CollisionFilter {
  public:
   explicit FloorOnly(const dart::dynamics::ShapeFrame* floor) : floor_(floor) {}

@@ -6,9 +6,9 @@
 
 namespace rehearse::robots::hexapod {
 
-/// How joints get to their targets.
+/// The motion of joints to their targets.
 enum class Joints {
-  servos,  // as fast as it goes, and wait there
+  servos,  // as fast as possible, then at rest
   driven,  // evenly, to be there when the step ends
 };
 

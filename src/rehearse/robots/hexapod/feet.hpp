@@ -1,5 +1,5 @@
 #pragma once
-// Where the hexapod's segments and feet are, from its state.
+// The positions of the hexapod's segments and feet, from its state.
 
 #include "rehearse/core/episode.hpp"
 #include "rehearse/robots/hexapod/state.hpp"

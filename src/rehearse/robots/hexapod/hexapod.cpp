@@ -64,7 +64,7 @@ Task make_task(const Options& options) {
   return task;
 }
 
-/// Damage that contradicts itself would leave a robot that nobody asked for.
+/// Throws InvalidInput if options of the damage contradict each other.
 void check_damage(const Options& options) {
   const bool first = options.damage != Options::Leg::none, second = options.second_damage != Options::Leg::none;
   const bool removed = options.kind == Damage::removed, whole = options.joint == Options::Joint::all;

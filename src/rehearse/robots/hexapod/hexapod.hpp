@@ -15,8 +15,8 @@ struct Options {
   enum class Leg { none, rear_left, mid_left, front_left, front_right, mid_right, rear_right };
   enum class Joint { all, coxa, femur, tibia };
   Hardware plant;
-  Leg damage = Leg::none;         // which leg suffers
-  Leg second_damage = Leg::none;  // and another one, from the same
+  Leg damage = Leg::none;         // the leg that is damaged
+  Leg second_damage = Leg::none;  // another damaged leg, with the same damage
   Damage kind = Damage::removed;
   Joint joint = Joint::all;  // which of its joints is blocked or weak
   double start_noise = 0;    // rad, std of joints and heading at the start of each trial

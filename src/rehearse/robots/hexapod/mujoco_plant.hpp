@@ -11,7 +11,7 @@
 
 namespace rehearse::robots::hexapod {
 
-/// What a robot's servos and sensors are like.
+/// The properties of a robot's servos and sensors.
 struct Hardware {
   double stall_torque = 1.2;   // N m
   double free_speed = 5.8;     // rad/s, at which a servo has no torque left
@@ -19,7 +19,7 @@ struct Hardware {
   double damping = 0.25;       // N m s/rad
   double latency_s = 0.02;     // until a target reaches the servos
   double friction = 0.7;       // of feet on the floor
-  double angle_noise = 0.002;  // rad and m, std of what is measured of angles, rotation and position
+  double angle_noise = 0.002;  // rad and m, std of measured angles, rotation and position
   double speed_noise = 0.02;   // rad/s and m/s, of speeds
   void fields(FieldVisitor& v);
 };

@@ -24,7 +24,7 @@ constexpr double kSolvedDistance = 0.2;
 constexpr double kSolvedTime = 0.5;  // s, at the end
 const Vector kPolicyScale{{10, 10, 1, 1, 1, 1}};
 
-/// In the order of φ.
+/// The parameters in the order of φ.
 ParameterSpace parameters(const Physics& p) {
   return ParameterSpace({Parameter::fixed("m1", p.m1, "kg"), Parameter::fixed("m2", p.m2, "kg"),
                          Parameter::fixed("l1", p.l1, "m"), Parameter::fixed("l2", p.l2, "m"),

@@ -21,7 +21,7 @@ const Vector kPolicyScale{{10, 1, 1}};
 constexpr double kSolvedAngle = 10 * std::numbers::pi / 180;
 constexpr double kSolvedTime = 0.5;  // s, at the end
 
-/// In the order of φ.
+/// The parameters in the order of φ.
 ParameterSpace parameters(const Physics& p) {
   return ParameterSpace(
       {Parameter::fixed("m", p.m, "kg"), Parameter::fixed("l", p.l, "m"), Parameter::fixed("b", p.b, "N m s/rad")});

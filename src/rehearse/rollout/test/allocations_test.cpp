@@ -16,7 +16,7 @@
 namespace rehearse::rollout {
 namespace {
 
-/// Of the second of two calls: a thread's buffers grow once.
+/// The allocations of the second of two calls: a thread's buffers grow once.
 long allocations_of(const dynamics::DynamicsModel& model, const policy::Policy& policy, Task task, Index horizon) {
   task.horizon = horizon;
   const Matrix Theta = Matrix::Constant(policy.parameters(), 60, 0.3);

@@ -198,7 +198,7 @@ TEST(Execute, ARewardThatIsNotFiniteEndsTheEpisodeAtTheFloor) {
 }
 
 TEST(Execute, AnActionThatIsNotFiniteNeverReachesThePlant) {
-  /// Whose fourth action is no number.
+  /// A policy whose fourth action is NaN.
   class Broken final : public policy::Policy {
    public:
     std::string name() const override { return "broken"; }

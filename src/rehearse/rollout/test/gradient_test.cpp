@@ -80,7 +80,7 @@ TEST(ReturnGradients, KnowRewardsOfActionsAndStatesAndCosts) {
   expect_gradients(task, Curved());
 }
 
-// What an early end charges is given, whatever θ.
+// The charge of an early end does not depend on θ.
 TEST(ReturnGradients, OfEpisodesThatEndEarlyStopThere) {
   Task task = cart::task();
   task.start_mean(0) = 1;

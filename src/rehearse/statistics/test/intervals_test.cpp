@@ -56,7 +56,7 @@ TEST(MedianInterval, OfManyValuesDoesNotUnderflow) {
   EXPECT_NEAR(median_interval(values).low, 5000 - 98, 2);  // 1.96 × ½√n
 }
 
-/// How many of the 2^n sign flips of (values − centre) have a sum at least as large as the sum itself.
+/// The number of the 2^n sign flips of (values − centre) whose sum is at least as large as the sum itself.
 int flips_as_large(const std::vector<double>& values, double centre) {
   int count = 0;
   for (unsigned flips = 0; flips < 1u << values.size(); ++flips) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double value(Harm harm) { return static_cast<double>(harm); }
 
-/// Those that end or spoil an answer at once.
+/// The harms that end or spoil an answer at once.
 const std::vector<Harm> kHarms = {Harm::killed,    Harm::failed,  Harm::left,  Harm::wrong_size,
                                   Harm::no_answer, Harm::partial, Harm::flood, Harm::crashed};
 const std::vector<std::string> kEncodings = {"json", "doubles"};

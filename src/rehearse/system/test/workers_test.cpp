@@ -7,7 +7,8 @@
 namespace rehearse::system {
 namespace {
 
-/// Counts what it is asked. It answers no batch that has a row whose state is in `bad`; with `by_row`, all before that.
+/// Counts the rows that it is given. It answers no batch that has a row whose state is in `bad`; with `by_row`, all
+/// before that.
 struct Script {
   std::vector<double> bad;
   bool by_row = false, costly = false;

@@ -8,7 +8,7 @@ namespace {
 
 void nothing() {}
 
-/// What Highway's chooser does.
+/// The work of Highway's chooser.
 void choose() { hwy::GetChosenTarget().Update(hwy::SupportedTargets()); }
 
 template <void (*call)()>

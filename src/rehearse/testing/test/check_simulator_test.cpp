@@ -32,7 +32,7 @@ class MadeSimulator final : public system::Simulator {
 
 const Matrix kX = Matrix::Random(11, 2), kU = Matrix::Random(11, 1);
 
-/// Whether one of the lines holds this text.
+/// True if one of the lines holds this text.
 bool complains(const std::vector<std::string>& lines, const std::string& text) {
   for (const std::string& line : lines)
     if (line.find(text) != std::string::npos) return true;

@@ -92,7 +92,7 @@ std::unique_ptr<LearnerBuilder> reward_builder(const std::string& name, const st
   return learner;
 }
 
-/// Without the reward; a guess of it, twice as wide, where there is one.
+/// The setting without the reward; with `guess` a guess of it, twice as wide.
 Setting without_reward(std::optional<prior::Prior> prior, bool guess) {
   Setting blind = setting(std::move(prior));
   if (guess)

@@ -65,7 +65,7 @@ TEST(KnownPolicies, StartsFromThePolicysExamplesUnlessToldNotTo) {
   EXPECT_GT((first("false") - Vector{{-5, 0}}).norm(), 1e-2);
 }
 
-// As above, from the policy that the run begins with.
+// The same from the policy that the run begins with.
 TEST(KnownPolicies, SearchesStartFromThePolicyThatTheRunBeginsWith) {
   const auto with = builder("mi", "64");
   for (const auto& [name, value] : std::map<std::string, std::string>{{"search.race.descents", "1"},

@@ -96,7 +96,7 @@ Map synthetic_map() {
   return map;
 }
 
-/// As many cells as the map of the original had filled (13 200 of 15 625), drawn by the seed.
+/// The map with as many cells as the original's had filled (13 200 of 15 625), drawn by the seed.
 Map thinned(const Map& map, std::uint64_t seed) {
   Rng rng({.seed = seed, .purpose = Purpose::selection});
   std::vector<Index> kept;
@@ -127,8 +127,8 @@ Outcome adapt(const Map& map, double length, double stop_ratio, std::uint64_t se
   return outcome;
 }
 
-/// How many of seeds 1 to 20 come within 90 % of the best reachable without the stopping rule; prints at which trial
-/// (0: none), and where the rule stops and what it has by then.
+/// The number of seeds 1 to 20 that come within 90 % of the best reachable without the stopping rule; prints the trials
+/// (0: none), and the trial at which the rule stops with the best by then.
 int reached(const char* name, double length, const std::function<Map(std::uint64_t seed)>& map_of) {
   int reached = 0;
   std::string trials, stops;
@@ -144,8 +144,8 @@ int reached(const char* name, double length, const std::function<Map(std::uint64
   return reached;
 }
 
-// What is asked for is 19 of 20. The ρ of the authors' code, 0.4, is two bins: what fails condemns its neighbours,
-// among which the best that is left is. With half a bin it is found by going through them.
+// The requirement is 19 of 20. The ρ of the authors' code, 0.4, is two bins: what fails condemns its neighbours, among
+// which the best that is left is. With half a bin it is found by going through them.
 TEST(Adaptation, FindsWhatWorksOnADamagedRobot) {
   const Map map = synthetic_map();
   const auto whole = [&](std::uint64_t) { return map; };

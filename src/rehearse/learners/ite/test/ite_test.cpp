@@ -97,7 +97,7 @@ TEST(Ite, OnceItStopsTheBestPolicyIsRepeated) {
   EXPECT_EQ(proposals[3].notes[0], "the best policy is tried again from now on: after trial 3: adaptation.max_trials");
 }
 
-/// How the slider went, `offset` more for each step; a task that charges `floor` for steps which a fall leaves out.
+/// The slider with `offset` more reward for each step; a task that charges `floor` for steps which a fall leaves out.
 struct Shifted {
   double offset = 0, floor = 0;
   bool falls = false;  // in the end
@@ -122,7 +122,7 @@ struct Shifted {
   }
 };
 
-/// Whether it stops after one trial, and why.
+/// The notes after one trial: whether it stops, and why.
 std::vector<std::string> notes_after_a_trial(const Shifted& how) {
   const auto learner = builder()->build(how.setting());
   learner->tell(how.trial(learner->ask()));

@@ -107,7 +107,7 @@ TEST(Pilco, SumsUpManyRowsByInducingInputs) {
   EXPECT_NEAR(*exact.predicted_return, *sparse.predicted_return, 0.3);
 }
 
-// Whether the search summed the 12 rows up or not.
+// The same whether or not the search summed the 12 rows up.
 TEST(Pilco, ItsEpisodeByMomentsIsThatOfTheGpsOfAllRows) {
   for (const char* inducing : {"300", "8"}) {
     const auto [proposal, data] = asked_after(1, {{"search.line_searches", "5"}, {"model.inducing", inducing}});

@@ -114,7 +114,7 @@ TEST(PriorPhase, GoesOnFromTheStoreAfterEachEpisode) {
   }
 }
 
-/// What is kept after two of three episodes, with one of them lost.
+/// The state kept after two of three episodes, with one of them lost.
 std::string contradiction() {
   Setting with_store = setting_with_prior();
   const auto store = std::make_shared<MemoryStore>();

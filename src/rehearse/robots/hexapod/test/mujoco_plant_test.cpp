@@ -12,8 +12,8 @@
 namespace rehearse::robots::hexapod {
 namespace {
 
-// Of 40 numbers with std 0.002 (0.02) the mean is beyond 4 standard errors in 6e-5, and the std beyond 1.5 times that
-// in 1e-4, of cases; 6 of each: false alarm below 1e-3, seed 1.
+// The mean of 40 numbers with std 0.002 (0.02) is beyond 4 standard errors in 6e-5 of cases, their std beyond 1.5 times
+// that in 1e-4; 6 of each: false alarm below 1e-3, seed 1.
 TEST(MujocoPlant, AMissingLegIsMeasuredWithTheNoiseOfTheOthers) {
   const Episode walk = tripod_on(without(Leg::mid_left));
   ASSERT_EQ(walk.steps(), 40);
@@ -26,8 +26,8 @@ TEST(MujocoPlant, AMissingLegIsMeasuredWithTheNoiseOfTheOthers) {
     }
 }
 
-/// Root mean square, rad a step, of what the prior without that leg says wrongly of the trunk's rotation in a walk,
-/// told where the joints got to.
+/// Root mean square error, rad a step, of the prior without that leg in the trunk's rotation of a walk, given the
+/// joints' positions.
 double unexplained(const Episode& walk, double missing) {
   static const auto simulator = make_dart_simulator(0.1, Joints::driven);
   const Index T = walk.steps();
