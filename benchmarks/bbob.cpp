@@ -1,5 +1,5 @@
-// How many evaluations BIPOP-CMA-ES needs on functions of the BBOB testbeds, beside the published numbers, and what a
-// generation costs. `bbob [--quick] [--out FOLDER] [--commit HASH]` writes bbob.md and bbob.json.
+// The evaluations that BIPOP-CMA-ES needs on functions of the BBOB testbeds, beside the published numbers, and the cost
+// of a generation. `bbob [--quick] [--out FOLDER] [--commit HASH]` writes bbob.md and bbob.json.
 
 #include <algorithm>
 #include <chrono>

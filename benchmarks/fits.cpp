@@ -1,6 +1,6 @@
-// How far fits of kernels are from the best that many starts find, and what the limit of the signal-to-noise ratio
-// costs: `fits [--quick] [--starts N] [--rows N] [--noisy N] [--exact N]`. Data are seeded: waves, draws from kernels,
-// and the steps of a pendubot under random policies. Processor time on one thread.
+// The gap between fits of kernels and the best of many starts, and the cost of the limit of the signal-to-noise ratio:
+// `fits [--quick] [--starts N] [--rows N] [--noisy N] [--exact N]`. Data are seeded: waves, draws from kernels, and the
+// steps of a pendubot under random policies. Processor time on one thread.
 
 #include <cmath>
 #include <string>

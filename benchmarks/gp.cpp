@@ -1,5 +1,5 @@
-// What a prediction and a fit cost against the BLAS routine that bounds them, in the same process and on one thread.
-// Run with OPENBLAS_CORETYPE unset.
+// The cost of a prediction and of a fit against the BLAS routine that bounds them, in the same process and on one
+// thread. Run with OPENBLAS_CORETYPE unset.
 
 #include <cmath>
 #include <vector>
@@ -75,7 +75,7 @@ BENCHMARK(predict_mean)->Arg(50)->Arg(200)->Arg(500)->Arg(1000);
 /// The triangular products of `predict` by OpenBLAS, 64 columns at a time; each output has its own matrix.
 void predict_dtrmm(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0)), chunk = 64;
-  const std::vector<Matrix> factors(kOutputs, Matrix::Identity(n, n));  // so that products neither grow nor vanish
+  const std::vector<Matrix> factors(kOutputs, Matrix::Identity(n, n));  // products neither grow nor vanish
   Matrix columns = normals(n, chunk, 2);
   const double one = 1;
   for (auto _ : state)

@@ -1,6 +1,6 @@
-// What models of the hexapod without its rear left leg predict of gaits near the tripod that they have not seen: the
-// next step, and whole walks. The leg is known to be missing; what GPs add is learned from the first trials. With
-// --damages: which leg GP-MI says is missing, of robots with any damage.
+// Errors of models of the hexapod without its rear left leg for gaits near the tripod that they have not seen: the next
+// step, and whole walks. The leg is known to be missing; GPs learn from the first trials. With --damages: the leg that
+// GP-MI takes for missing, on robots with any damage.
 
 #include "rehearse/robots/hexapod/hexapod.hpp"
 
@@ -150,7 +150,8 @@ std::vector<std::pair<std::string, Options>> damaged_robots() {
   return robots;
 }
 
-/// For each damage the leg that GP-MI holds for missing after so many walks, with the servos learned and without.
+/// Prints for each damage the leg that GP-MI takes for missing after so many walks, with the servos learned and
+/// without.
 void print_identified(const std::vector<Index>& learned_from) {
   const auto evaluator = make_thread_evaluator(2);
   fmt::print("| damage | walks | GP-MI says missing | with servos = false |\n|---|---|---|---|\n");

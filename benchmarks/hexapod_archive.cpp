@@ -1,5 +1,5 @@
-// How an archive of the hexapod's gaits grows with the rollouts that are spent on it, with the options of the learner
-// ite, and what the robot makes of its best.
+// The growth of an archive of the hexapod's gaits with the rollouts spent on it, with the options of the learner ite,
+// and the returns of its best gaits on the robot.
 
 #include <algorithm>
 #include <cstdint>

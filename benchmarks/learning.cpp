@@ -1,6 +1,6 @@
-// How long the learning of a model takes and what it reaches, against its plain alternatives: fits of four kernels
-// against 300 iterations of Rprop, GP-MI's alternating search against the nested one of the paper, scores against each
-// other. Data are episodes of random policies on the pendubot. Each is run once: every repetition does the same work.
+// The time and the result of learning a model, against its plain alternatives: fits of four kernels against 300
+// iterations of Rprop, GP-MI's alternating search against the nested one of the paper, scores against each other. Data
+// are episodes of random policies on the pendubot. Each is run once: every repetition does the same work.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ scenario::Scenario pendubot(double noise) {
   return robots::pendubot::make(options);
 }
 
-/// What there is to learn from.
+/// The data and the prior of a learning problem.
 struct Problem {
   Problem(const char* prior_name, Index rows, bool noise, std::uint64_t seed) : scenario(pendubot(noise ? 0.01 : 0)) {
     data = random_episodes(scenario, rows, seed);
@@ -87,7 +87,7 @@ void gp_mi(benchmark::State& state, const char* prior, identification::PhiSearch
   learn(state, kind, prior, threads);
 }
 
-/// What a search reached: the score, φ, the time.
+/// The result of a search: the score, the error of φ, the time.
 struct Reached {
   double score, error, cpu_s;
 };

@@ -1,4 +1,4 @@
-// What one expected return with its gradient costs by moment matching: the cases that PILCO's MATLAB code was timed on
+// The cost of one expected return with its gradient by moment matching: the cases that PILCO's MATLAB code was timed on
 // (Octave with OpenBLAS, processor time on one core of a like machine). On one thread; the least of some repetitions.
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-// Whether the 95 % intervals of φ hold the true parameters, over random priors: each tunable parameter starts at 0.5 to
-// 1.6 times the truth, frictions, which cannot be tuned, are right or anywhere from 0 to twice the truth. Data are
-// episodes of random policies: `phi_coverage [--priors N] [--seed S] [--scenario NAME] [--learner NAME] [--noise
-// X] [--friction right|wrong] [--out FILE.csv] [--quick]`.
+// The coverage of the true parameters by the 95 % intervals of φ, over random priors: each tunable parameter starts at
+// 0.5 to 1.6 times the truth, frictions, which cannot be tuned, are right or anywhere from 0 to twice the truth. Data
+// are episodes of random policies: `phi_coverage [--priors N] [--seed S] [--scenario NAME] [--learner NAME] [--noise X]
+// [--friction right|wrong] [--out FILE.csv] [--quick]`.
 
 #include <algorithm>
 #include <cstdio>
@@ -54,7 +54,7 @@ prior::Prior random_prior(const scenario::Scenario& scenario, bool right_frictio
   return {"random", scenario.priors.front().simulator, ParameterSpace(std::move(parameters))};
 }
 
-/// What a posterior says of the truth.
+/// A posterior compared with the truth.
 struct Judged {
   std::vector<bool> covered;
   std::vector<double> widths;
@@ -73,7 +73,7 @@ Judged judge(const identification::PhiPosterior& posterior, const Vector& truth)
   return judged;
 }
 
-/// By default, and as if GPs, or white noise, were all there is to say of what the prior cannot explain.
+/// Posteriors by default, and without the misfit: as if GPs, or white noise, explained all that the prior cannot.
 struct Result {
   Judged with_misfit, classical;
 };

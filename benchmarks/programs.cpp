@@ -1,5 +1,5 @@
 // The pendubot by programs: changes of 1024 rows by one process, by NumPy in both encodings (4 steps of Runge and
-// Kutta's fourth order), and what the way there and back takes alone: cat, which answers what it is asked.
+// Kutta's fourth order), and the time of the way there and back alone: cat, which echoes its input.
 #include <benchmark/benchmark.h>
 
 #include "rehearse/system/process.hpp"

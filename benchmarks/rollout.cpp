@@ -88,7 +88,7 @@ void simulate(const Setup& s, const Evaluator& evaluator) {
       rollout::simulate({*s.model, *s.pendubot.policy, s.pendubot.task, kKey}, s.Theta, {0, 1}, evaluator));
 }
 
-/// As many particles of one policy.
+/// Gradients from as many particles of one policy.
 void differentiate(const Setup& s) {
   benchmark::DoNotOptimize(rollout::return_gradients({*s.model, *s.pendubot.policy, s.pendubot.task, kKey},
                                                      s.Theta.leftCols(1), {0, kCandidates}, serial_evaluator()));
@@ -185,7 +185,7 @@ Part chunked(std::string name, Step step) {
           }};
 }
 
-/// What the parts write.
+/// The outputs of the parts.
 struct Outputs {
   Matrix mean{kRows, 4}, variance{kRows, 4}, U{kRows, 1}, features{kRows, 6};
   Vector reward{kRows};

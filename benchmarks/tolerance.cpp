@@ -1,4 +1,4 @@
-// How far predictions within a tolerance (gp::Posterior) are from exact ones, and how much faster, on models that the
+// The errors and the speed of predictions within a tolerance (gp::Posterior) against exact ones, on models that the
 // learners of every built-in scenario made of real episodes: `tolerance [--quick] [--out FILE.json] [--commit HASH]`.
 // The states compared are those of simulated rollouts of the policies that were tried, of perturbed ones and of random
 // ones.

@@ -1,5 +1,5 @@
 #pragma once
-// Arguments as they were typed, read as what they mean; what is wrong becomes violations.
+// Typed arguments, converted to values; wrong ones become violations.
 
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@ void set_text(const Fields& fields, const std::string& name, const std::optional
 /// The number of --trial, from 1; none if it is not given. Throws InvalidInput.
 std::optional<Index> trial_of(const std::optional<std::string>& text);
 
-/// Throws InvalidInput where a robot is named that there is not, but a file of that name, NAME.toml, is.
+/// Throws InvalidInput where no robot has this name, but there is a file NAME.toml.
 void refuse_file_without_ending(const experiment::Catalogue& catalogue, const std::string& robot);
 
 /// The catalogue with the robot of a file, NAME.toml; a built-in one is there already. Throws InvalidInput.

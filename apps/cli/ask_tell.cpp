@@ -46,7 +46,7 @@ void print_parameters(const TrialRecord& trial, const std::vector<std::string>& 
   for (const std::string& warning : trial.warnings) put("  {}\n", warning);
 }
 
-/// Before the trial; the first is the one that is nearest to what it allows.
+/// Prints the limits' risks before the trial, the one nearest to what it allows first.
 void print_risks(std::vector<experiment::LimitRecord> limits) {
   std::ranges::stable_sort(limits, std::greater(), [](const auto& l) { return l.predicted.value_or(1) / l.allowed; });
   for (const experiment::LimitRecord& limit : limits) {
@@ -107,7 +107,7 @@ void print_trials(const std::vector<TrialRecord>& trials) {
                         : ", not solved");
 }
 
-/// Whether Rehearse drives the plant and has done what it was asked for.
+/// True if Rehearse drives the plant and the run has reached its end.
 bool is_complete(const experiment::Resolved& resolved, const experiment::History& history) {
   if (history.trials.empty() || resolved.spec.trials == 0 || !resolved.scenario.make_plant) return false;
   return resolved.spec.ends_with(history.done(), history.trials.back().solved.value_or(false));

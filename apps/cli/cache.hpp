@@ -4,9 +4,9 @@
 
 namespace rehearse::apps {
 
-/// The folder in which learners keep what other runs can begin with: one of this very program, which need not exist, in
-/// $REHEARSE_CACHE or else the user's cache. Empty: there is none, as $REHEARSE_CACHE = off or none says, or no place
-/// for it. The first call removes the oldest of what the cache has too much of. Any thread.
+/// The folder in which learners keep results for other runs of this very program, in $REHEARSE_CACHE or else the user's
+/// cache; it need not exist. Empty: there is none, because $REHEARSE_CACHE is off or none, or there is no place for it.
+/// The first call removes the oldest files if the cache is too large. Any thread.
 std::filesystem::path cache_folder();
 
 }  // namespace rehearse::apps

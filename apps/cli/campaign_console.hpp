@@ -20,7 +20,7 @@ class CampaignConsole final : public campaign::CampaignListener {
   void progress(std::size_t run, Index trial, const Progress& progress) override;
   void run_ended(std::size_t run, const campaign::RunOutcome& outcome) override;
 
-  /// The tables of results and claims, or of a share what failed.
+  /// Prints the tables of results and claims; for a share, the runs that failed.
   void finished(const campaign::Campaign& campaign);
   void clear_line() { line_.clear(); }
 

@@ -51,7 +51,7 @@ void keep_standard_descriptors() {
       (void)::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY);
 }
 
-/// How a program ends.
+/// The end of the program.
 struct End {
   int code = kSuccess;
   std::string message;

@@ -14,7 +14,7 @@ namespace rehearse::apps {
 /// Shows a run on standard output: one line a trial, and on a terminal a last line that is rewritten as it goes.
 class Console final : public experiment::RunListener {
  public:
-  enum class Begin { said, silent };  // whether a line says what begins
+  enum class Begin { said, silent };  // said: a line is printed at the start
   explicit Console(Begin begin = Begin::said) : begins_(begin) {}
 
   void started(const experiment::Resolved& resolved, const std::filesystem::path& folder, Index done) override;

@@ -85,7 +85,8 @@ void print_summary(const Summary& summary, double task_s, double episode_s) {
     put("all episodes are alike: this plant has no random start and no noise, so one tells as much\n");
 }
 
-/// The rate that is asked for by changed parameter: at the end of the episode, else the median return.
+/// Prints the rate solved at the end of the episode by changed parameter; the median return if the task has no test of
+/// success.
 void print_robustness(const std::vector<experiment::Changed>& all) {
   const bool can_say = all.front().summary.solved_at_end.has_value();
   put("{} by the factor of one parameter at a time\n{:12}", can_say ? "solved at the end, in %," : "median return", "");

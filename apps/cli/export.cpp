@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How a policy is written, by the ending of the file.
+/// The format of an exported policy, by the ending of the file.
 struct Format {
   const char* ending;
   std::string (*text)(const policy::Exported& exported, const fs::path& path);

@@ -120,7 +120,7 @@ void print(const experiment::Catalogue& catalogue, bool with_options) {
   if (!with_options) put("\nOptions for --set, with what they do: {} list NAME\n", program_name());
 }
 
-/// Those that everyone needs, and unless it is asked for them only the number of the others.
+/// Prints the options for everyone; those for experts on request, else their number.
 template <class Builder>
 void print_one(Builder& builder, const std::string& kind, bool with_expert) {
   put("{} {}: {}\n{:{}} {}\n", kind, builder.name(), builder.summary(), "", kind.size() + builder.name().size() + 2,

@@ -7,11 +7,11 @@
 
 namespace rehearse::apps {
 
-/// Columns of the terminal that standard output is; 120 where it is none.
+/// The width in columns of the terminal on standard output; 120 if it is no terminal.
 std::size_t terminal_width();
 
-/// Name, default, what is published where that is another value, the values allowed, and what it does, below one
-/// another and wrapped. Wider than `width` only where names leave no room.
+/// A table with name, default, published value if it differs, allowed values and help of each option, wrapped. Wider
+/// than `width` only where names leave no room.
 std::string options_table(const std::vector<Field>& fields, std::size_t width);
 
 }  // namespace rehearse::apps

@@ -16,12 +16,11 @@ struct OutputFile {
   std::function<bool(std::string_view text)> is_ours;
 };
 
-/// Renames what is there under this name to NAME-001, NAME-002, …, the first that is free, and returns that; none if
-/// nothing is there.
+/// Renames an existing file to NAME-001, NAME-002, …, the first free name, and returns that; none if there is no file.
 std::optional<std::filesystem::path> keep_older(const std::filesystem::path& path);
 
-/// Writes it. Whatever is there under this name and is not ours may be the work of hours: that throws InvalidInput.
-/// Returns whether one of ours was replaced.
+/// Writes the file. Throws InvalidInput if a file of this name exists that this program did not write. Returns true if
+/// one of its own was replaced.
 bool write_output(const OutputFile& file, const std::string& text);
 
 }  // namespace rehearse::apps

@@ -219,7 +219,7 @@ void check_command_name(const CLI::App& app, int argc, char** argv) {
                                  fmt::join(known, ", ")));
 }
 
-/// The first flag that its command does not have, and which may have been meant; else what CLI11 says.
+/// The first unknown flag of a command, with the most similar one; else the message of CLI11.
 std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
   for (const CLI::App* command : app.get_subcommands()) {
     std::vector<std::string> known;

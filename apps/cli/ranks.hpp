@@ -9,7 +9,7 @@
 
 namespace rehearse::apps {
 
-/// How this process was started, as the launcher's variables say; without a launcher it is the only one.
+/// The way this process was started, from the launcher's environment variables; without a launcher it is the only one.
 struct Launch {
   std::string by;  // "mpirun"
   int rank = 0;
@@ -17,7 +17,7 @@ struct Launch {
 };
 Launch launch();
 
-/// A process with --share works alone however it was started: the option says what its part of the work is.
+/// The launch of this process. With --share a process works alone, however it was started.
 Launch launch(int argc, char** argv);
 
 /// The processes that this one works with.
@@ -27,12 +27,12 @@ struct ProcessGroup {
 
   bool leads() const { return !ranks || ranks->rank() == 0; }
 
-  /// Threads of this process; asked: 0 for its share of the cores.
+  /// The threads of this process. asked: the number wanted; 0: its share of the cores.
   int threads(Index asked) const;
 };
 
-/// Throws InvalidInput if the processes that were started together cannot work together; `processes` is there all the
-/// same, so that they end together: mpirun stops the others, and what they had to say, as soon as one ends badly.
+/// Throws InvalidInput if the processes that were started together cannot work together; `processes` is set all the
+/// same, so that they end together: mpirun stops the others, and their output, as soon as one fails.
 void join(ProcessGroup& processes, const Launch& launch, int argc, char** argv);
 
 }  // namespace rehearse::apps

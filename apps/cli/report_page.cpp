@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPage = "report.html";
 
-/// A program of one's own is told where Rehearse was installed, and has its own build folder.
+/// Throws with the commands that build the page. A program of one's own has another build folder, and `share`.
 [[noreturn]] void refuse_without_page(const fs::path& program, const std::string& share) {
   const bool in_build = share.empty() && fs::exists(program / "CMakeCache.txt");
   const std::string command =

@@ -11,10 +11,10 @@ namespace rehearse::apps {
 
 struct Page {
   std::string html;
-  std::vector<report::Problem> problems;  // what of the folder could not be used
+  std::vector<report::Problem> problems;  // parts of the folder that could not be used
 };
 
-/// The page of a run or of a campaign. built_in: of those robots it says what they have to do. share: the folder of the
+/// The page of a run or of a campaign. built_in: the robots whose task the page describes. share: the folder of the
 /// page without data, where it is not beside the program. Throws InvalidInput.
 Page report_page(const experiment::Catalogue& built_in, const std::filesystem::path& folder, const std::string& share);
 

@@ -32,7 +32,7 @@ std::string description(const StateVariable& state) {
   return text;
 }
 
-/// Of an action: ", 0.2 s late".
+/// The actuation of an action in words: ", 0.2 s late".
 std::string description(const Actuation& actuation, const std::string& unit) {
   std::string text;
   if (std::isfinite(actuation.max_rate))

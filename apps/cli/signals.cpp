@@ -32,7 +32,7 @@ void catch_signals() {
   for (const int number : {SIGINT, SIGTERM}) ::sigaction(number, &action, nullptr);
 }
 
-/// On a terminal the line that is being rewritten gives way.
+/// Prints a line; on a terminal in place of the one that is being rewritten.
 void say(const std::string& line) {
   const std::string text =
       fmt::format("{}{}: {}\n", ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "", program_name(), printable(line));

@@ -9,9 +9,9 @@
 namespace rehearse::apps {
 
 /// While it lives the first SIGINT or SIGTERM is remembered and answered on standard error, so that work stops where it
-/// can be continued; a second one ends the process as usual. Work that has not stopped 1 s later (a factorisation, a
-/// simulator's step, memory that is being written) is left as it is, which folders are made for: `last_words` are
-/// printed, and the process ends. One at a time.
+/// can be continued; a second one ends the process as usual. If work has not stopped 1 s later (a factorisation, a
+/// simulator's step, memory that is being written), `last_words` are printed and the process ends; folders survive
+/// that. One object at a time.
 class SignalWatch {
  public:
   /// last_words: called on another thread. Empty: nothing is said, and the process ends when the work does.

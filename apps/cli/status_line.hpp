@@ -13,7 +13,7 @@ class StatusLine {
   /// A line that stays.
   void print(const std::string& line);
 
-  /// Whether `show` would show something: on a terminal, ten times a second.
+  /// True if `show` would draw: on a terminal, at most ten times a second.
   bool is_due() const;
   void show(const std::string& line);
   void clear();

@@ -25,7 +25,7 @@ std::vector<std::string> known_keys(const Fields& a, const Fields& b) {
   return keys;
 }
 
-/// The task without actuators and their memory. Its functions are not asked.
+/// The task without actuators and their memory. Its functions are not called.
 Task robot_alone(Task task) {
   const Index own = task.actuators().own_states();
   task.states.resize(static_cast<std::size_t>(own));

@@ -1,5 +1,5 @@
 #pragma once
-// What `identify` works on: a robot with a prior, options, and logs.
+// The inputs of `identify`: a robot with a prior, options, and logs.
 
 #include <optional>
 #include <string>
@@ -25,7 +25,7 @@ struct IdentifyOptions {
 /// A robot with a prior, and how it is learned.
 struct StudySetup {
   scenario::Scenario scenario;
-  Task robot;                         // of its own states, by what moves it: its actuators are known
+  Task robot;                         // of the robot's own states, without its actuators, which are known
   std::optional<prior::Prior> prior;  // likewise
   IdentifyOptions options;
 

@@ -1,5 +1,5 @@
 // rehearse_reference FOLDER DATE: writes manual pages, completions of shells, and docs/command-line.md into a folder,
-// from what the command line says of itself. DATE: of the release.
+// from the definitions of the command line. DATE: of the release.
 #include <cerrno>
 #include <cstdio>
 #include <exception>

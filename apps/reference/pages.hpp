@@ -1,5 +1,5 @@
 #pragma once
-// Text files made from what the command line and the catalogue say of themselves.
+// Text files generated from the definitions of the command line and the catalogue.
 
 #include <string>
 

@@ -14,7 +14,7 @@ struct NamedThing {
   std::string name, summary;
 };
 
-/// Words by a name that was typed before; those of "any" where none was.
+/// Words, by the name typed before them; those under "any" if there is none.
 using WordsFor = std::map<std::string, std::vector<std::string>>;
 
 /// Names of a build's catalogue.
@@ -29,7 +29,7 @@ Vocabulary vocabulary(const experiment::Catalogue& catalogue);
 /// Kinds of names. Priors and keys depend on the scenario and the learner that were typed before.
 enum class Names { scenarios, learners, presets, priors, keys };
 
-/// Everything that may stand for a value; nothing: numbers and other free text.
+/// All completions of a value; none for numbers and other free text.
 struct Expected {
   std::vector<Names> names;
   bool folders = false, files = false;
@@ -38,7 +38,7 @@ struct Expected {
   bool nothing() const { return names.empty() && !folders && !files; }
 };
 
-/// Throws std::logic_error where it does not know such a value, so that a new kind is not forgotten here.
+/// Throws std::logic_error for an unknown kind of value, so that a new one is not forgotten here.
 Expected expected(const std::string& command, const ReferenceOption& option);
 
 /// The names of options that take a value, or of those that take none, separated by spaces.
@@ -49,7 +49,7 @@ std::string names_of(const std::vector<NamedThing>& things);
 /// A function of bash and zsh that prints the words for a name.
 std::string case_function(const std::string& function, const WordsFor& words);
 
-/// Within '…' of a shell that has no escapes there.
+/// The text within '…', for shells without escapes there.
 std::string single_quoted(const std::string& text);
 
 }  // namespace rehearse::apps

@@ -63,7 +63,7 @@ const char* function(Names names) {
   return "";
 }
 
-/// As an action of _arguments.
+/// The completions as an action of _arguments.
 std::string action(const Expected& expected) {
   std::vector<std::string> calls;
   for (const Names names : expected.names) calls.push_back(function(names));

@@ -13,7 +13,7 @@
 
 enum { VALUES = 21, REPETITIONS = 10, PERTURBATIONS = 50, BELLS = 3, LONGEST_DELAY = 20 };
 
-/* What is not as in the model. */
+/* Differences from the model. */
 struct world {
   struct robot robot;
   double speed_noise, torque_noise, response;

@@ -70,7 +70,7 @@ class RandomSearch final : public TrialLearner {
   Options options_;
   std::uint64_t trials_ = 0;
   Vector best_;        // the θ tried that earned most
-  double earned_ = 0;  // what it earned
+  double earned_ = 0;  // its return
 };
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 namespace rehearse::python {
 
-/// Whether work is to stop: a function of Python failed, or Ctrl-C was pressed, which Python tells the thread that
-/// asks it alone, the one that made this. Any thread may ask.
+/// Tells work to stop: a Python function failed, or Ctrl-C was pressed. Python reports Ctrl-C only to the thread that
+/// made this object. Any thread may call `asked`.
 class Interruption {
  public:
   explicit Interruption(std::shared_ptr<Failure> failure)

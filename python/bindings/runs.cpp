@@ -50,7 +50,8 @@ experiment::Resolved resolved(const experiment::Catalogue& catalogue, const Requ
   return experiment::resolve(catalogue, spec);
 }
 
-/// Does the work. Where Ctrl-C stops it, the exception says how to go on. folder: may become known during the work.
+/// Does the work. If Ctrl-C stops it, the exception has a note on how to go on. folder: may become known during the
+/// work.
 void resumable(const std::filesystem::path& folder, const std::function<void()>& work) {
   try {
     work();
@@ -134,7 +135,7 @@ py::dict take_back(const Robot& robot, const std::string& folder, const Settings
   return py::dict(py::arg("trial") = taken.trial, py::arg("files") = files);
 }
 
-/// What a folder says of its run, beside its tables.
+/// The contents of a run folder, without its tables.
 py::dict describe(const Robot& robot, const std::string& folder) {
   const auto [resolved, history, in_use] = experiment::status_of(robot.to_look(), folder);
   const std::vector<std::string> names = experiment::tunable_names(resolved.prior);
@@ -158,7 +159,7 @@ Policy policy(const Robot& robot, const std::string& folder, std::optional<Index
   return {policy_of(run.trial(trial), run.resolved.scenario), experiment::exported_policy(run, trial)};
 }
 
-/// How a policy is evaluated, and what is different from the run.
+/// The settings of an evaluation, and the options that differ from the run's.
 struct Evaluation {
   std::optional<Index> trial;
   experiment::EvaluationPlan plan;

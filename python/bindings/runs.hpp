@@ -4,7 +4,7 @@
 
 namespace rehearse::python {
 
-/// Functions on run folders: learn, resume, ask, tell, and what reads them.
+/// Functions on run folders: learn, resume, ask, tell, and those that read them.
 void add_runs(pybind11::module_& module);
 
 }  // namespace rehearse::python

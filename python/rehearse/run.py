@@ -80,7 +80,7 @@ class Run:
             raise TypeError(f"robot is {robot!r}, must be the Robot that the run began with")
         self._robot = robot
 
-    # What there is.
+    # Results.
 
     @property
     def trials(self) -> Array:
@@ -123,7 +123,7 @@ class Run:
         """The policy of a trial, by default of the best."""
         return Policy(_core.policy(self._core, str(self.folder), trial))
 
-    # What can be done.
+    # Actions.
 
     def resume(self, trials: Union[int, None] = None, *, threads: int = 0, progress: Progress = show) -> Run:
         """Goes on to the end, or to another number of trials. The same bytes as if it had never stopped."""
