@@ -97,7 +97,7 @@ if(TARGET rehearse_python)
   add_dependencies(rehearse_packaged rehearse_python_package)
 endif()
 
-# What every package of Debian has: who may do what with it, and its version.
+# Files of every Debian package: copyright and changelog.
 execute_process(COMMAND date --utc --rfc-email --date=${REHEARSE_RELEASE_DATE} OUTPUT_VARIABLE rfc_date
   OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 set(changelog ${PROJECT_BINARY_DIR}/packages/changelog)

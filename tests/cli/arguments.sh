@@ -186,7 +186,7 @@ mkdir -p begun/.run.$killed/trajectories
 expect 0 "best return" - learn pendubot --learner gp-mi "${quick[@]}" --out begun/run
 [ "$(ls -A begun)" = run ] || fail "of a beginning that was killed remains $(ls -A begun)"
 
-# What went wrong outside of a run is cured by resuming it, what it computes is not.
+# Failures with a cause outside the run (memory, disk) end by resuming it; failures of its computation do not.
 (
   ulimit -v 3000000
   "$program" list >/dev/null 2>&1 || exit 0  # not with a sanitizer

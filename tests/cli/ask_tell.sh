@@ -32,7 +32,7 @@ told() {
 told pendulum gp-mi "$trials"
 told pendulum black-drops 3
 
-# What is known, what comes next.
+# The status says what is known and what comes next.
 "$program" status gp-mi-told >stdout || fail "status"
 grep -q "next: rehearse ask gp-mi-told" stdout || fail "status does not say what is next: $(cat stdout)"
 "$program" status gp-mi-driven | grep -q "next: rehearse report gp-mi-driven shows it" || fail "status of a run that is complete"

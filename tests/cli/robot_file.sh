@@ -67,7 +67,7 @@ refused "there is no scenario 'many'; the file is many.toml" learn many --learne
 refused "unknown scenario 'pendubut', did you mean 'pendubot'?" check pendubut
 refused "unknown scenario 'xxx" check "$(printf 'x%.0s' {1..300})"
 
-# What can be done so, and is hardly meant, is said.
+# Settings that are valid, but probably not meant, give a warning.
 sed '/^tune = /d' pilco_robot.toml >fixed.toml
 "$program" check fixed.toml >output 2>&1 || fail "check of a fixed prior: $(cat output)"
 grep -q "nothing to tune: gp-mi and mi learn no parameters of it" output || fail "check: $(cat output)"

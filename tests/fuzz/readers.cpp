@@ -88,7 +88,7 @@ void read_table(std::string_view text) {
   (void)report::columns(table, "trials.csv", problems);
 }
 
-/// With a checksum that fits, as whoever means harm would write it.
+/// Reads a checkpoint with a right checksum, as an attacker would write it.
 void read_checkpoint(std::string_view body) {
   (void)experiment::from_checkpoint(files::seal("checkpoint", body), kFingerprint);
 }
@@ -99,7 +99,7 @@ void read_archive(std::string_view bytes) {
   (void)qd::from_bytes(sealed, "archive.bin");
 }
 
-/// The first byte says which answer it is.
+/// Reads an answer; the first byte selects its kind.
 void read_message(std::string_view bytes) {
   if (bytes.empty()) return;
   const std::string_view text = bytes.substr(1);
@@ -128,7 +128,7 @@ std::size_t end_in_pieces(std::string_view written, std::size_t (*end)(std::stri
   return end(written);
 }
 
-/// The first byte says whether the program answers in raw numbers.
+/// Reads an answer; the first byte selects raw numbers or text.
 void read_answer(std::string_view bytes) {
   if (bytes.empty()) return;
   const std::string_view written = bytes.substr(1);

@@ -1,5 +1,5 @@
 #pragma once
-// What reads bytes that others wrote: files of users, of run folders, and what programs say.
+// Readers of foreign bytes: files of users and of run folders, and programs' answers.
 
 #include <functional>
 #include <string>

@@ -27,7 +27,7 @@ void add(Builder& builder, bool of_scenarios, std::vector<PublishedOption>& all)
   }
 }
 
-/// As TOML has it.
+/// The value in TOML.
 std::string value_text(const std::string& text) {
   double number = 0;
   return text == "true" || text == "false" || from_text(text, number) ? text : '"' + text + '"';

@@ -1,5 +1,5 @@
 #pragma once
-// Text for files, made from what the options of all learners and scenarios say is published of them.
+// Text for files, made from the published values of the options of all learners and scenarios.
 
 #include <string>
 #include <vector>

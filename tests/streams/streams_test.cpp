@@ -63,7 +63,7 @@ const Options kFewPlans = {{"search.starts", "3"},     {"search.first_iterations
 using Use = std::tuple<std::uint64_t, std::uint64_t, Phase, Stage, std::uint64_t, Purpose, std::uint64_t, std::uint64_t,
                        std::uint64_t, std::uint64_t>;
 
-/// How often each stream, or step of one, was opened.
+/// The number of times that each stream, or step of one, was opened.
 std::map<Use, int> uses_of(const Case& c) {
   std::map<Use, int> uses;
   std::mutex mutex;

@@ -14,7 +14,7 @@ import type { Panel } from './panels'
 interface Trial {
   trial: number
   elite: number
-  /** By the prior. */
+  /** The return that the prior predicts. */
   promised: number
   /** Just before the trial. */
   expected: number | null
@@ -79,7 +79,7 @@ const PAIRS: [string, string][] = [
   ['all', 'every pair'],
 ]
 
-/** Before and after. */
+/** Returns before the trials, or after them. */
 interface Half {
   title: string
   values: number[]
@@ -130,7 +130,7 @@ function aboutOf({ promised, space }: Archive): Child {
   )
 }
 
-/** What is lower than any return that the prior predicts has the lowest colour. */
+/** A scale whose lowest colour is the lowest return that the prior predicts, and any below it. */
 function scaleOfArchive({ promised, expected }: Archive, trials: Trial[]): Scale {
   const observed = trials.flatMap((trial) => (trial.observed === null ? [] : [trial.observed]))
   return scaleOf(
@@ -143,7 +143,7 @@ function least(values: number[]): number {
   return values.reduce((so, value) => Math.min(so, value), Infinity)
 }
 
-/** Of a grid its own cells; else the fewer elites, the larger cells. */
+/** The axes of the descriptors. Cells are those of a grid; else the fewer elites, the larger the cells. */
 function axesOf({ descriptors, promised, space }: Archive): Axis[] {
   const cells = Math.min(36, Math.max(8, Math.round(0.8 * Math.sqrt(promised.length))))
   return descriptors.map(({ name, values }, d) => ({

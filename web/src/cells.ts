@@ -12,7 +12,7 @@ export interface Axis {
 export interface Cell {
   column: number
   row: number
-  /** Of the points in it. */
+  /** The highest value of the points in it. */
   best: number
   count: number
 }
@@ -31,7 +31,7 @@ export interface Spot {
 export interface CellsOptions {
   width: number
   x: Axis
-  /** None: a strip. */
+  /** Null: the chart is a strip. */
   y: Axis | null
   cells: Cell[]
   spots: Spot[]
@@ -40,7 +40,7 @@ export interface CellsOptions {
 }
 
 const RADIUS = 8
-/** On every colour of the scale, on light pages and dark ones. */
+/** Colours of outlines, visible together on every colour of the scale, on light pages and dark ones. */
 const [LIGHT, DARK] = ['#ffffff', '#1b1f24']
 const STRIP = 60
 const MARGIN = { left: 48, right: 14, top: 26, bottom: 40 }
@@ -66,7 +66,7 @@ function cellAt({ domain: [low, high], cells }: Axis, value: number): number {
   return Math.min(cells - 1, Math.max(0, Math.floor(((value - low) / (high - low)) * cells)))
 }
 
-/** From one end of a cell to the other: 0 its lower end, 1 its upper. */
+/** A place within a cell. part: 0 is its lower end, 1 its upper. */
 function placeIn({ domain: [low, high], cells }: Axis, cell: number, part: number): number {
   return low + ((cell + part) / cells) * (high - low)
 }
@@ -113,7 +113,7 @@ export function cellChart({ width, x, y, cells, spots, scale, tip }: CellsOption
   }) as SVGSVGElement
 }
 
-/** From values to pixels and back. */
+/** A mapping from values to pixels and back. */
 interface Along {
   pixel: (value: number) => number
   value: (pixel: number) => number

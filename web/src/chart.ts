@@ -13,7 +13,7 @@ export interface Point {
   core?: [number, number]
   /** Drawn as a vertical bar. */
   interval?: [number, number]
-  /** What a reader who points at it is told. */
+  /** The text shown when a reader points at it. */
   tip?: string
   hollow?: boolean
 }
@@ -26,7 +26,7 @@ export interface Series {
   dash?: string
   width?: number
   opacity?: number
-  /** Of a symbol, in px. */
+  /** The radius of a symbol, in px. */
   radius?: number
   line?: boolean
   /** Each value holds until the next. */
@@ -128,7 +128,7 @@ export function fit(values: number[], { zero = false, span = 0 } = {}): Domain {
   return { domain: [zero && low === 0 ? 0 : low - room, high + room] }
 }
 
-/** What a series draws up and down. */
+/** The vertical positions that a series draws. */
 export function heights({ points }: { points: Point[] }): number[] {
   return points.flatMap(({ y, band, interval }) => [y, ...(band ?? []), ...(interval ?? [])])
 }
@@ -248,7 +248,7 @@ function ruleMarks({ y, label }: { y: number; label: string }): Plot.Markish[] {
   ]
 }
 
-/** Where time runs to the right: the line that `moveCursor` moves. */
+/** Adds the vertical line that `moveCursor` moves, to plots whose x is time. */
 export function addCursor(plot: SVGSVGElement & Plot.Plot) {
   const scale = plot.scale('x')
   const range = [...(plot.scale('y')?.range ?? [])]

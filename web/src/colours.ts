@@ -25,7 +25,7 @@ export const REAL = 'var(--vermillion)'
 export const PREDICTED = 'var(--blue)'
 export const EXPECTED = 'var(--orange)'
 export const MOMENTS = 'var(--green)'
-/** Of the vertical bars of intervals. */
+/** The opacity of intervals' vertical bars. */
 export const INTERVAL_OPACITY = 0.55
 
 /** Learners that are not in the list take the looks that are free, in order. */
@@ -46,7 +46,7 @@ export interface Scale {
   low: number
   high: number
   colour: (value: number) => string
-  /** That can be read on it. */
+  /** A text colour that is readable on it. */
   inkOn: (value: number) => string
   ramp: string[]
 }

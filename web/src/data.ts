@@ -25,12 +25,12 @@ export interface Run {
   seed: number
   planned: number
   done: boolean
-  /** What the robot has to do, in a line; empty or not there where that is not known. */
+  /** The robot's task, in a line; empty or missing if unknown. */
   task?: string
   /** Logs were told before the first trial, whose model has learned from them. */
   logs?: boolean
   options: [string, string][]
-  /** What could not be read is not there. */
+  /** Tables; those that could not be read are missing. */
   trials?: Columns
   timings?: Columns
   errors?: Columns
@@ -40,9 +40,9 @@ export interface Run {
   /** limits.csv, of a task that has limits. */
   limits?: { names: string[]; numbers: Columns }
   truth?: Record<string, number>
-  /** Of a learner that has one. */
+  /** The archive of a learner that has one. */
   archive?: Archive
-  /** Of a run whose policy was evaluated with other parameters of the robot. */
+  /** The evaluations of a policy with other parameters of the robot, if there are any. */
   robustness?: { parameter: string; columns: Columns }[]
   episodes: Episode[]
 }
@@ -54,7 +54,7 @@ export interface Archive {
   promised: number[]
   /** Returns predicted after the trials. */
   expected: number[]
-  /** Of archive.bin, if that is usable; bins: of a grid. */
+  /** The space in archive.bin, if that is usable; bins: of a grid. */
   space: { niches: number; bounds: [number, number][]; bins?: number[] } | null
   /** elite counts from 1. */
   tried: Columns | null
@@ -69,7 +69,7 @@ export interface Episode {
   motion: Motion | null
 }
 
-/** What has no number is null, or not there. */
+/** The gap between moment matching and samples; unknown numbers are null, or missing. */
 export interface Gap {
   /** The largest difference of means in standard deviations of the samples, and where it is. */
   apart?: number

@@ -6,7 +6,7 @@ import { legend, type LegendEntry } from './legend'
 import { arranged, fill, type Filling, type Layout, type Panel } from './panels'
 
 export interface FigureOptions extends Filling {
-  /** Of the files that are saved. */
+  /** The name of the files that are saved. */
   name: string
   title: string
   about?: Child

@@ -1,4 +1,4 @@
-// What the figures of a campaign have in common: learners × priors × variants, and how each is drawn.
+// Common parts of a campaign's figures: learners × priors × variants, and the look of each.
 import type { Point } from './chart'
 import { DASHES, looks, type Look } from './colours'
 import { present, type Campaign, type Cell, type GroupKey, type Quartiles } from './data'
@@ -48,7 +48,7 @@ interface Quarters {
   quartile_3: Cell
 }
 
-/** The median with its quartiles; none without runs. at: what a reader is told of x. */
+/** The median with its quartiles; none without runs. at: the text for x. */
 export function medianPoint(x: Cell, { quartile_1, median, quartile_3 }: Quarters, at: string, runs: number): Point[] {
   if (!present(x) || !present(median)) return []
   const tip = [

@@ -1,4 +1,4 @@
-// What both kinds of page have: the head, the theme, what went wrong, key figures, sections.
+// Common parts of both kinds of page: the head, the theme, problems, key figures, sections.
 import type { Report } from './data'
 import { h, type Child } from './dom'
 import { count } from './format'

@@ -38,12 +38,12 @@ export function legend(entries: LegendEntry[]): HTMLElement {
   return h('ul', { class: 'legend' }, ...entries.map((entry) => h('li', {}, picture(entry), entry.label)))
 }
 
-/** Of what stands for it. */
+/** The width of the entry's marks. */
 export function widthOf(entry: LegendEntry): number {
   return entry.ramp ? 128 : 28
 }
 
-/** What stands for a series, `widthOf` wide around y = 0. */
+/** The marks for a series, `widthOf` wide around y = 0. */
 export function entryMarks(entry: LegendEntry): SVGElement[] {
   const { ramp } = entry
   if (ramp) {

@@ -1,4 +1,4 @@
-// What moment matching predicts of a trial, beside the samples (docs/pilco.md).
+// Moment matching's predictions of a trial, beside the samples (docs/pilco.md).
 import { chart, fit, heights, type ChartOptions, type Domain, type Point, type Series } from './chart'
 import { MOMENTS, PREDICTED } from './colours'
 import { column, present, type Columns, type Run } from './data'
@@ -9,7 +9,7 @@ import type { Panel } from './panels'
 import { number } from './format'
 import type { LegendEntry } from './legend'
 
-/** From the mean of a Gaussian to its 5 and 95 %, in standard deviations: the band of the samples. */
+/** The distance from the mean of a Gaussian to its 5 and 95 %, in standard deviations: the band of the samples. */
 const REACH = 1.645
 
 export function hasMoments(prediction: Columns | null | undefined): boolean {
@@ -39,7 +39,7 @@ export function momentSwitch(changed: (on: boolean) => void): HTMLElement {
   return h('fieldset', { class: 'choice' }, h('label', {}, box, 'Show moment matching'))
 }
 
-/** Of one trial; empty where it has no moments. */
+/** A sentence on the gap in one trial; empty if it has no moments. */
 export function gapSentence({ episodes }: Run, trial: number): string {
   const gap = episodes.find((one) => one.trial === trial)?.gap
   if (!gap) return ''
@@ -53,7 +53,7 @@ export function gapSentence({ episodes }: Run, trial: number): string {
   return parts.length > 0 ? ` From the robot’s start ${parts.join('; ')}.` : ''
 }
 
-/** From one power of ten to another. */
+/** A domain from one power of ten to another. */
 function decades(values: number[]): Domain {
   if (values.length === 0) return {}
   const low = Math.floor(Math.log10(least(values)))
@@ -61,7 +61,7 @@ function decades(values: number[]): Domain {
   return { domain: [10 ** low, 10 ** high] }
 }
 
-/** How far it is from the samples, trial by trial. */
+/** Charts of the gap to the samples, trial by trial. */
 export function gaps({ episodes }: Run): Child {
   const known = episodes.flatMap(({ trial, gap }) => (gap ? [{ trial, ...gap }] : []))
   if (known.length === 0) return null

@@ -38,7 +38,7 @@ export class Orbit {
     element.addEventListener('wheel', (event) => this.wheel(event), { passive: false })
   }
 
-  /** How far the camera is from its target. */
+  /** The distance of the camera from its target. */
   distance(): number {
     const angle = (this.camera.fov / 2) * (Math.PI / 180)
     return (1.1 * this.size) / Math.sin(angle) / Math.min(1, this.camera.aspect) / this.view.zoom

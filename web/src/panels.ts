@@ -4,23 +4,23 @@ import type { Drawn } from './export'
 
 export interface Panel {
   title: string
-  /** For readers who do not see it, where the title alone does not say what it shows. */
+  /** A description for screen readers, where the title alone is not enough. */
   label?: string
   draw: (width: number) => SVGSVGElement
 }
 
 export interface Filling {
-  /** Of a panel, in px; as many stand side by side as fit, at most `columns`. */
+  /** The least width of a panel, in px; as many stand side by side as fit, at most `columns`. */
   minWidth?: number
   maxWidth?: number
   columns?: number
-  /** So many panels after each other belong together: they stand in one row, or under each other if all fit so. */
+  /** The number of consecutive panels that belong together: in one row, or under each other if all fit so. */
   together?: number
 }
 
 export interface Layout {
   columns: number
-  /** Of a panel, in px. */
+  /** The width of a panel, in px. */
   width: number
   panels: Panel[]
 }

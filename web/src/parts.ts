@@ -1,14 +1,14 @@
-// Body parts of a robot, told from the names of its states and actions (docs/report.md#many-states).
+// Body parts of a robot, recognised by the names of its states and actions (docs/report.md#many-states).
 
 export interface Part {
-  /** As in the names; '' of what belongs to no part: the robot as a whole. */
+  /** The part's name within its variables' names; '' for the robot as a whole. */
   name: string
-  /** In the order of the robot; others: actions, the reward. */
+  /** States in the robot's order; others: actions, the reward. */
   states: string[]
   others: string[]
 }
 
-/** So many panels are about two screens: four rows of two beside the picture of the robot, 900 px high, are one. */
+/** The number of panels on about two screens: four rows of two beside the robot's picture, 900 px high, are one. */
 export const TWO_SCREENS = 16
 
 /** The state whose rate this is, by its name: of `d knee`, `d_knee` and `dknee` it is `knee`. */
@@ -53,7 +53,7 @@ function wordsOf(name: string): string[] {
 
 type Words = Map<string, string[]>
 
-/** By their first words, as many as `depth`; by one more where that leaves more than fits. */
+/** Groups names by their first `depth` words; by one more where a group has more than fits. */
 function grouped(names: string[], words: Words, depth: number): [name: string, members: string[]][] {
   const groups = new Map<string, string[]>()
   for (const name of names) {
@@ -74,7 +74,7 @@ function keyOf(words: string[], depth: number): string {
   return words.length > depth ? words.slice(0, depth).join(' ') : ''
 }
 
-/** A number alone says little: such a part is called by its first variable. */
+/** The label of a part; one with a number alone is called by its first variable. */
 function labelOf(key: string, members: string[], words: Words): string {
   return key.startsWith('#') ? (words.get(members[0] ?? '') ?? []).join(' ') : key
 }

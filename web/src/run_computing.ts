@@ -1,4 +1,4 @@
-// What a run computed: its time, and its simulated episodes.
+// The computing of a run: its time, and its simulated episodes.
 import { chart, fit, heights, type Series } from './chart'
 import { REAL } from './colours'
 import type { Run } from './data'

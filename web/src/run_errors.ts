@@ -1,4 +1,4 @@
-// How wrong the model of a run was, by the length of its predictions.
+// The errors of a run's model, by the length of its predictions.
 import { chart, type Point, type Series } from './chart'
 import { PREDICTED, REAL } from './colours'
 import { parseHeader, present, withUnit, type Columns, type Run, type Variable } from './data'
@@ -53,7 +53,7 @@ export function errors(run: Run): Child {
   }).element
 }
 
-/** What chose the policy of the first trial that there are errors of. */
+/** A label of the first trial with errors: the model that chose its policy. */
 export function firstModel({ logs, prior }: Pick<Run, 'logs' | 'prior'>, trial: number): string {
   if (trial !== 1 || !(logs || prior)) return `trial ${trial}: the first model`
   return `trial 1: ${logs ? 'the model from the logs' : 'the prior as given'}`

@@ -72,7 +72,7 @@ function withIntervals(points: Point[], trials: Columns, column: string): Point[
   })
 }
 
-/** Of the last model: parameters that its data cannot tell apart, or leave uncertain. */
+/** Warnings of the last model: parameters that its data cannot separate, or leave uncertain. */
 function warningList(warnings: Run['identifiability'], trial: Cell | undefined): Child {
   const last = (warnings?.warning ?? []).filter((_, i) => warnings?.trial[i] === trial)
   if (last.length === 0) return null

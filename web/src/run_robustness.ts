@@ -1,4 +1,4 @@
-// How the policy does where one parameter of the robot is another one: robustness.csv.
+// The outcome of the policy on robots with one parameter changed: robustness.csv.
 import { chart, fit, heights, type Point } from './chart'
 import { REAL } from './colours'
 import { present, type Columns, type Run } from './data'

@@ -47,7 +47,7 @@ export class Robot {
     this.way.geometry.setDrawRange(0, Math.floor(frame) + 1)
   }
 
-  /** Where its first body is; null where that is not known. */
+  /** The position of its first body; null if unknown. */
   position(): Vector3 | null {
     return this.group.visible ? (this.meshes[0]?.position ?? null) : null
   }

@@ -91,7 +91,7 @@ function bodies(motion: LineMotion, ends: number[] | null, colour: string): SVGE
   })
 }
 
-/** Where a body hangs on the one before it; the first only if it never moves. */
+/** Circles where a body hangs on the one before it; for the first only if it never moves. */
 function joints(motion: LineMotion, ends: number[] | null, size: number): SVGElement[] {
   if (!ends) return []
   const fixed = motion.frames.every((frame) => frame[0] === motion.frames[0]?.[0] && frame[1] === motion.frames[0]?.[1])

@@ -1,4 +1,4 @@
-// How wrong the model was about each state of a trial, as a part of how far that state moves.
+// The model's error in each state of a trial, as a fraction of that state's range.
 import { column, present, variables, type Cell, type Columns, type Episode } from './data'
 
 export type ByState = Map<string, number>

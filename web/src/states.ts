@@ -27,7 +27,7 @@ export function stateLegend({ trajectory, prediction }: Episode): LegendEntry[] 
   return entries
 }
 
-/** Whether what was measured is not what was true. */
+/** True if measured states differ from the true ones. */
 function isNoisy(trajectory: Columns): boolean {
   return variables(trajectory).states.some(({ name }) => {
     const truth = column(trajectory, `true ${name}`)
@@ -61,7 +61,7 @@ export function statePanels({ trajectory, prediction }: Episode, moments: boolea
   ]
 }
 
-/** Of what is drawn; but a prediction that runs away is cut, so that what happened stays readable. */
+/** The domain of all that is drawn; a prediction that runs away is cut, so that what happened stays readable. */
 function domainOf(series: Series[]): Domain {
   const real = fit(series.filter(({ colour }) => colour === REAL).flatMap(heights)).domain
   const all = fit(series.flatMap(heights)).domain

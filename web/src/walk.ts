@@ -1,4 +1,4 @@
-// Of a robot that walks: when its feet are on the floor, and its way seen from above.
+// Charts of a robot that walks: when its feet are on the floor, and its way seen from above.
 import * as Plot from '@observablehq/plot'
 import { addCursor } from './chart'
 import { PREDICTED, REAL } from './colours'
@@ -64,7 +64,7 @@ function standing({ floor, touching = 0 }: SolidMotion, frames: Frames, t: numbe
   return present(height) ? Number(height - foot.radius - (floor ?? 0) < touching) : null
 }
 
-/** What is seen in a frame holds until the next. */
+/** The stances of all feet; a contact in a frame holds until the next. */
 function stances(motion: SolidMotion, frames: Frames, step: number): Stance[] {
   const all: Stance[] = []
   for (const foot of feetOf(motion))

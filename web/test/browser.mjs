@@ -168,7 +168,7 @@ await open('damaged/report', {}, async (page) => {
   await readArchive(page)
 })
 
-/** What three.js has drawn, without what the page has under, over and around it. */
+/** The canvas of three.js alone, without the page under, over and around it. */
 const ALONE = `* { visibility: hidden !important }
   .stage canvas { visibility: visible !important; outline: none !important; background: gray !important }`
 async function picture(page) {
@@ -176,7 +176,7 @@ async function picture(page) {
   return (await page.locator('.stage canvas').screenshot({ style: ALONE })).toString('base64')
 }
 
-/** What `change` does is seen in the canvas; before: what was seen last. Gives what is seen now. */
+/** Asserts that `change` changes the canvas. before: the last picture. Returns the new one. */
 async function changed(page, before, what, change) {
   await change()
   const now = await picture(page)

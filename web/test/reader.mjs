@@ -7,7 +7,7 @@ import { pathToFileURL } from 'node:url'
 
 /** WebGL without a graphics card; all else is drawn without WebGL, which would take several times as long. */
 const FLAGS = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-compositing']
-/** The driver says this then, whatever a page does. */
+/** A message of the driver, whatever a page does. */
 const OF_THE_DRIVER = /GL Driver Message .*GPU stall due to ReadPixels/
 
 export class Reader {
