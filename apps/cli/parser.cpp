@@ -64,8 +64,8 @@ void add_learn(CLI::App& app, LearnArguments& arguments) {
       "A policy to begin with, as `export` wrote it: searches start from it, too, and without a prior it is the first "
       "trial",
       "FILE.json");
-  add(command, "--trials", arguments.trials, "How often the plant may be used; 0: `ask` and `tell` go on. Default: 10",
-      "N");
+  add(command, "--trials", arguments.trials,
+      "Trials on the plant; 0: none, trials come by `ask` and `tell`. Default: 10", "N");
   command->add_flag("--until-solved", arguments.until_solved, "End before, with a trial that solves the task");
   add(command, "--seed", arguments.seed, "Of all random numbers: the same seed gives the same run. Default: 1", "S");
   add(command, "--threads", arguments.threads,

@@ -23,16 +23,17 @@ struct GpOptions {
   double tolerance = 0.01;  // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
   void fields(FieldVisitor& v) {
     v.group("fit", fit, kExpert);
-    v.boolean("trend", fit.trend, "GPs have a quadratic trend beside what is local", published(false));
+    v.boolean("trend", fit.trend, "the GPs have a quadratic trend beside their squared-exponential kernel",
+              published(false));
     v.boolean("joint_angles", joint_angles, "GPs see the angles between links, too, where the task names them",
               published(false));
     v.boolean("integrate_rates", integrate_rates,
-              "positions follow from their rates by integration; GPs learn what is left", published(false));
-    v.boolean("smooth", smooth, "noisy states are smoothed where that makes what was measured likelier",
+              "positions are integrated from their rates; GPs learn the remaining error", published(false));
+    v.boolean("smooth", smooth, "noisy states are smoothed where that raises the likelihood of the measurements",
               published(false));
     v.number("tolerance", tolerance,
-             "error allowed to predictions to make them fast, as a fraction of the noise; 0: none", between(0, 1),
-             published(0));
+             "largest error of approximate predictions, as a fraction of the noise's standard deviation; 0: exact",
+             between(0, 1), published(0));
     v.choice("variance", variance, "variance of predictions: without the noise of observations, or with it",
              {"latent", "noisy"});
   }

@@ -51,16 +51,18 @@ struct Spec {
   bool ends_with(Index trial, bool solved) const { return trial >= trials || (until_solved && solved); }
 
   void fields(FieldVisitor& v) {
-    v.integer("trials", trials, "how often the plant may be used; 0: never, `ask` and `tell` go on", between(0, 1e6));
+    v.integer("trials", trials, "trials on the plant; 0: none, trials come by `ask` and `tell`", between(0, 1e6));
     v.boolean("until_solved", until_solved, "end before, with a trial that solves the task");
     v.integer("seed", seed, "seed of all random numbers: the same one gives the same run",
               between(0, 9007199254740992.0));  // 2^53: survives every file format
-    v.text("start", start, "parameters of the policy that it begins with");
+    v.text("start", start,
+           "parameters of an initial policy: searches start from it, too; without a prior it is the first trial");
     settable_fields(v);
   }
   /// The fields that --set changes, too.
   void settable_fields(FieldVisitor& v) {
-    v.choice("told_by", told_by, "states by which the learner is told what an episode earned", {"truth", "measured"});
+    v.choice("told_by", told_by, "states that rewards and success are computed from, for the learner: true or measured",
+             {"truth", "measured"});
   }
 };
 

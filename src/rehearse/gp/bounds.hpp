@@ -18,13 +18,13 @@ struct Bounds {
   double min_trend = 1e-10;  // τ_0², and τ_d² × magnitude of x_d squared, ≥ this × scale
   double max_trend = 1e3;    // and ≤ this × scale
   void fields(FieldVisitor& v) {
-    v.number("signal_floor", signal_floor, "σ_f at least, as a fraction of the targets' deviation", above(0));
-    v.number("noise_floor", noise_floor, "σ_n at least, as a fraction of the targets' deviation", above(0));
+    v.number("signal_floor", signal_floor, "smallest σ_f, as a fraction of the targets' standard deviation", above(0));
+    v.number("noise_floor", noise_floor, "smallest σ_n, as a fraction of the targets' standard deviation", above(0));
     v.number("max_snr", max_snr, "σ_f / σ_n at most", above(1));
-    v.number("min_length", min_length, "lengths at least, in spreads of the input", above(0));
-    v.number("max_length", max_length, "lengths at most, in spreads of the input", above(0));
-    v.number("min_trend", min_trend, "a trend's deviations at least, in those of the targets", above(0));
-    v.number("max_trend", max_trend, "a trend's deviations at most, in those of the targets", above(0));
+    v.number("min_length", min_length, "smallest length scale, in standard deviations of the input", above(0));
+    v.number("max_length", max_length, "largest length scale, in standard deviations of the input", above(0));
+    v.number("min_trend", min_trend, "smallest scale of the trend, in standard deviations of the targets", above(0));
+    v.number("max_trend", max_trend, "largest scale of the trend, in standard deviations of the targets", above(0));
   }
 };
 

@@ -23,15 +23,17 @@ struct Penalties {
   double length_deviation = 0;  // s > 0: −½ Σ_d ((ln ℓ_d − ln(length_median std(x_d))) / s)²
   double length_median = 10;
   void fields(FieldVisitor& v) {
-    v.boolean("length", length, "a wall keeps lengths near the inputs' deviations (PILCO)");
-    v.number("length_limit", length_limit, "lengths at most, and 1 / this at least, in the inputs' deviations",
+    v.boolean("length", length, "penalty on length scales far from the inputs' standard deviations (PILCO)");
+    v.number("length_limit", length_limit,
+             "largest length scale, and 1 / smallest, in standard deviations of the input",
              {.low = 1, .low_open = true});
-    v.boolean("snr", snr, "a wall keeps σ_f / σ_n below snr_limit (PILCO)");
+    v.boolean("snr", snr, "penalty on signal-to-noise ratios σ_f / σ_n above snr_limit (PILCO)");
     v.number("snr_limit", snr_limit, "σ_f / σ_n at most (PILCO: 1000)", {.low = 1, .low_open = true});
-    v.number("length_deviation", length_deviation, "deviation of the lengths' log-normal prior [nats]; 0: no prior",
-             at_least(0), published(0));
-    v.number("length_median", length_median, "median of the lengths' log-normal prior, in deviations of the input",
-             above(0));
+    v.number("length_deviation", length_deviation,
+             "standard deviation of the length scales' log-normal prior [nats]; 0: no prior", at_least(0),
+             published(0));
+    v.number("length_median", length_median,
+             "median of the length scales' log-normal prior, in standard deviations of the input", above(0));
   }
 };
 

@@ -31,9 +31,11 @@ struct FitOptions {
     v.choice("method", method, "how the log evidence is maximised", {"rprop", "bfgs"}, published("rprop"));
     v.group("rprop", rprop);
     v.group("bfgs", bfgs);
-    v.integer("starts", starts, "starts: the given one, a noisier one, and points all over", between(1, 1000),
-              published(1, kAuthors));
-    v.integer("part_rows", part_rows, "rows on which all starts are tried, where there are twice as many; 0: all",
+    v.integer("starts", starts,
+              "starting points of a fit: the given one, a noisier one, then points spread over the space",
+              between(1, 1000), published(1, kAuthors));
+    v.integer("part_rows", part_rows,
+              "rows of the subset on which all starts are tried, if there are at least twice as many; 0: all rows",
               between(0, 1e6), published(0, kAuthors));
     v.group("penalties", penalties);
     v.group("bounds", bounds);

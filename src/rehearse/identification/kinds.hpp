@@ -35,9 +35,10 @@ struct ResidualGpOptions : GpOptions {
   }
   void fields(FieldVisitor& v) {
     GpOptions::fields(v);
-    v.boolean("midpoint", midpoint, "inputs of the GPs are those halfway along the step that the prior predicts",
+    v.boolean("midpoint", midpoint, "the GPs' inputs are at the midpoint of the step that the prior predicts",
               published(false));
-    v.boolean("servos", servos, "where servos get to is learned before the prior is asked what follows",
+    v.boolean("servos", servos,
+              "GPs learn the positions that servos reach; the prior predicts the rest of the robot from them",
               published(false));
   }
 };
@@ -81,9 +82,10 @@ struct GpMi {
   GpMi() { gp.fit.starts = 1, gp.fit.part_rows = 0; }  // the alternating search tries other kernels itself
   void fields(FieldVisitor& v) {
     v.group("gp", gp);
-    v.choice("score", score, "how the evidences of the outputs become one score", {"sum", "product", "harmonic"},
-             published("sum"));
-    v.choice("search", search, "kernels and parameters by turns, or kernels fitted anew for each parameter tried",
+    v.choice("score", score, "combination of the outputs' marginal likelihoods into one score",
+             {"sum", "product", "harmonic"}, published("sum"));
+    v.choice("search", search,
+             "kernels and prior parameters optimised in turn, or kernels fitted anew for each parameter value",
              {"alternating", "nested"}, published("nested"));
     v.group("subplex", subplex);
     v.boolean("least_squares_start", least_squares_start,

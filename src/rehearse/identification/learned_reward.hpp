@@ -30,17 +30,20 @@ struct RewardOptions {
   double tolerance = 0.01;                                              // as that of the dynamics (GpOptions)
   RewardOptions() { fit.penalties.length = fit.penalties.snr = true; }  // the authors' code
   void fields(FieldVisitor& v) {
-    v.boolean("learned", learned, "the reward is not told, but learned from what trials earned");
-    v.choice("scale", scale, "a GP of the reward, of its logarithm, or of the likelier of both",
+    v.boolean("learned", learned, "the reward function is learned from the rewards of trials");
+    v.choice("scale", scale, "scale of the reward's GP: linear, logarithmic, or the one of higher evidence",
              {"linear", "logarithmic", "evidence"}, published("linear", kAuthors));
     v.number("floor", floor, expert("added to rewards before the logarithm, as a fraction of the largest; 0: linear"),
              between(0, 1));
     v.number("ceiling", ceiling, expert("predicted reward at most, in largest rewards seen"), at_least(1));
-    v.number("caution", caution, expert("variances taken off the logarithm's mean: 1 the reward's mode, 0 its median"),
+    v.number("caution", caution,
+             expert("predictive variances subtracted from the mean log reward; 1: mode of the reward, 0: median"),
              at_least(0));
     v.group("fit", fit, kExpert);
-    v.number("tolerance", tolerance, expert("error allowed to predictions, as a fraction of the noise; 0: none"),
-             between(0, 1), published(0));
+    v.number(
+        "tolerance", tolerance,
+        expert("largest error of approximate predictions, as a fraction of the noise's standard deviation; 0: exact"),
+        between(0, 1), published(0));
   }
 };
 

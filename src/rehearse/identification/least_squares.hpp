@@ -21,7 +21,8 @@ struct LeastSquares {
   void fields(FieldVisitor& v) {
     v.choice("method", method, "how the least squared error is found", {"gauss-newton", "subplex"},
              published("subplex"));
-    v.integer("starts", starts, "starts of Gauss–Newton, while no fit is exact", between(1, 1000));
+    v.integer("starts", starts, "largest number of starting points of Gauss–Newton; an exact fit ends it",
+              between(1, 1000));
     v.group("subplex", subplex, kExpert);
   }
 };

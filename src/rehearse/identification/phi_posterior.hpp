@@ -41,9 +41,11 @@ struct PhiPosteriorOptions {
   void fields(FieldVisitor& v) {
     v.number("misfit_observations", misfit_observations, expert(kObservations), above(0));
     v.number("misfit_share", misfit_share,
-             expert("standard deviation of the share of what GPs explain that wrong parameters cause"), at_least(0));
+             expert("standard deviation of the fraction of the GPs' correction that wrong parameters cause"),
+             at_least(0));
   }
-  static constexpr const char* kObservations = "observations that a degree of freedom of the prior's misfit counts as";
+  static constexpr const char* kObservations =
+      "observations per degree of freedom of the prior's model error; fewer: wider intervals";
 };
 
 /// Laplace's approximation around the fit with its kernels K_e held: with J_e the derivatives of the prior mean of

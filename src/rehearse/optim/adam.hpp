@@ -14,7 +14,7 @@ struct AdamOptions {
   double floor = 1e-8;  // added to the scale of a coordinate
   void fields(FieldVisitor& v) {
     v.number("step", step, "largest change of a parameter in the first step", above(0));
-    v.number("last_step", last_step, "and in the last; it falls geometrically", above(0));
+    v.number("last_step", last_step, "step size at the end; falls geometrically from `step`", above(0));
     v.number("mean_decay", mean_decay, "decay of the gradient's mean", between(0, 0.999999));
     v.number("square_decay", square_decay, "decay of the gradient's mean square", between(0, 0.999999));
     v.number("floor", floor, "added to the root of the mean square", above(0));

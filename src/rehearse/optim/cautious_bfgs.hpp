@@ -20,12 +20,12 @@ struct CautiousBfgsOptions {
     v.integer("line_evaluations", line_evaluations, expert("evaluations at most, of a line search"), at_least(1));
     v.number("longest_step", longest_step, expert("length of the step that a line search begins with at most"),
              above(0));
-    v.number("slope", slope, expert("how steep a line search may end, as a fraction of the slope before (Wolfe)"),
-             between(1e-3, 0.99));
-    v.integer("patience", patience, "line searches that have to gain patience_gain together; 0: never stops",
+    v.number("slope", slope, expert("curvature constant of the Wolfe conditions"), between(1e-3, 0.99));
+    v.integer("patience", patience,
+              "a search stops if this many line searches together improve by less than patience_gain; 0: never",
               at_least(0));
-    v.number("patience_gain", patience_gain, "gain of so many line searches, as a fraction of the value",
-             between(0, 1));
+    v.number("patience_gain", patience_gain,
+             "smallest improvement by `patience` line searches, as a fraction of the value", between(0, 1));
   }
 };
 

@@ -47,12 +47,12 @@ bool not_improving(const std::vector<double>& history, std::size_t count) {
 
 void CmaesOptions::fields(FieldVisitor& v) {
   v.integer("population", population, "candidates of a generation; 0: 4 + ⌊3 ln n⌋ of n parameters", between(0, 1e6));
-  v.boolean("active", active, "the worse half has negative weights");
+  v.boolean("active", active, "active CMA: negative weights for the worse half");
   v.boolean("elitism", elitism, "the best point so far is evaluated again in every generation");
   v.number("value_tolerance", value_tolerance, "stop when recent best values differ by less", at_least(0));
   v.number("step_tolerance", step_tolerance, "stop when all steps are below this fraction of the first", at_least(0));
-  v.number("max_condition", max_condition, "stop when the covariance is conditioned worse", above(1));
-  v.number("max_growth", max_growth, "stop when the largest step has grown by more", above(1));
+  v.number("max_condition", max_condition, "stop if the covariance's condition number exceeds this", above(1));
+  v.number("max_growth", max_growth, "stop if the largest axis has grown by more than this factor", above(1));
   v.boolean("stagnation", stagnation, "stop when neither best nor median improve any more");
   v.integer("max_generations", max_generations, "stop after so many generations; 0: 100 + 50 (n + 3)² / √population",
             at_least(0));

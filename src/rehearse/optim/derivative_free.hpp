@@ -32,8 +32,8 @@ struct SubplexOptions {
     v.integer("max_evaluations", max_evaluations, "evaluations at most", between(1, 2147483647));  // an int
     v.number("x_tolerance", x_tolerance, expert("stop when steps are smaller, relative to the point"), at_least(0));
     v.number("value_tolerance", value_tolerance, expert("stop when values differ by less, as a fraction"), at_least(0));
-    v.number("first_step", first_step, expert("first step, as a fraction of the box's width"), between(1e-6, 1));
-    v.boolean("repeat", repeat, expert("begin again at the result until that improves it no more"));
+    v.number("first_step", first_step, expert("first step, as a fraction of the bounds' width"), between(1e-6, 1));
+    v.boolean("repeat", repeat, expert("restart at the result until it no longer improves"));
   }
 };
 ScalarResult maximise_subplex(const ScalarObjective& objective, const Vector& start, const std::vector<Interval>& box,

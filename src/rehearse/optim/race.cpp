@@ -140,12 +140,12 @@ class Race {
 
 void RaceOptions::fields(FieldVisitor& v) {
   v.integer("max_evaluations", max_evaluations, "evaluations of a search at most", at_least(1));
-  v.integer("descents", descents, "descents that start and compete", between(1, 1e6));
+  v.integer("descents", descents, "CMA-ES runs that start and compete", between(1, 1e6));
   v.integer("rounds", rounds, expert("rounds, of about equal numbers of evaluations"), at_least(1));
-  v.number("survivors", survivors, expert("fraction of the descents that goes on after each round"), between(0, 1));
-  v.number("sigma", sigma, expert("first step of descents from random points"), above(0));
-  v.number("start_sigma", start_sigma, expert("first step of descents from given points"), above(0));
-  v.integer("judgements", judgements, expert("evaluations of a descent's best point and mean when a round ends"),
+  v.number("survivors", survivors, expert("fraction of the runs kept after each round"), between(0, 1));
+  v.number("sigma", sigma, expert("initial step size of runs from random points"), above(0));
+  v.number("start_sigma", start_sigma, expert("initial step size of runs from given points"), above(0));
+  v.integer("judgements", judgements, expert("evaluations of a run's best point and mean when a round ends"),
             between(1, 1e6));
   v.group("cmaes", cmaes, kExpert);
 }

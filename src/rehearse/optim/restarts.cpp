@@ -245,20 +245,22 @@ void Search::choose() {
 }  // namespace
 
 void SearchOptions::fields(FieldVisitor& v) {
-  v.choice("strategy", strategy, "one descent, restarts of twice the population, or interlaced with small ones",
+  v.choice("strategy", strategy,
+           "one run, IPOP (population doubles at each restart), or BIPOP (alternating with small populations)",
            {"single", "ipop", "bipop"});
-  v.integer("max_evaluations", max_evaluations, "evaluations of all descents together at most", at_least(1));
-  v.number("step", step, "first step of a descent, as a fraction of the box's width", between(1e-6, 10),
+  v.integer("max_evaluations", max_evaluations, "evaluations of all runs together at most", at_least(1));
+  v.number("step", step, "initial step size of a run, as a fraction of the bounds' width", between(1e-6, 10),
            published(0.5, kAuthors));
-  v.number("start_step", start_step, "first step of the descent from the given start; 0: as the others",
+  v.number("start_step", start_step, "initial step size of the run from the given start; 0: as the others",
            between(0, 10));
   v.integer("max_doublings", max_doublings, "doublings of the population at most", between(0, 30));
   v.number("target", target, "stop at this return", any_value());
   v.integer("candidates", candidates, "best points, and as many means, from which the result is chosen",
             between(1, 1e6));
-  v.boolean("means_alone", means_alone, "no best points among the candidates, which with noise are the luckiest",
+  v.boolean("means_alone", means_alone,
+            "candidates are distribution means alone, since best points of noisy objectives are lucky draws",
             published(true, "libcmaes"));
-  v.integer("final_samples", final_samples, "evaluations of each candidate at the end; 0: chosen as they were seen",
+  v.integer("final_samples", final_samples, "re-evaluations of each candidate at the end; 0: the values seen decide",
             between(0, 1e6));
   v.publish("cmaes.elitism", published(true));
   v.group("cmaes", cmaes, kExpert);

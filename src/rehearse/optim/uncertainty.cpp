@@ -77,7 +77,8 @@ std::vector<Index> order_of(const JointRanks& ranks, std::size_t count, const Co
 }  // namespace
 
 void UncertaintyOptions::fields(FieldVisitor& v) {
-  v.boolean("enabled", enabled, "noise is measured by evaluating again, and treated", published(true));
+  v.boolean("enabled", enabled, "uncertainty handling (UH-CMA-ES): noise is estimated by re-evaluation",
+            published(true));
   v.number("reevaluated", reevaluated, "fraction of the candidates that is evaluated twice", between(0.01, 1),
            published(0.1, "libcmaes"));
   v.integer("reevaluated_least", reevaluated_least, "candidates evaluated twice, at least", between(1, 1e6),
@@ -86,12 +87,13 @@ void UncertaintyOptions::fields(FieldVisitor& v) {
            between(0, 1), published(0.2, "libcmaes"));
   v.number("smoothing", smoothing, "weight of the newest measurement of the noise", between(0.01, 1),
            published(1, "libcmaes"));
-  v.integer("max_samples", max_samples, "evaluations of a candidate at most; beyond, steps grow", between(1, 1e6),
+  v.integer("max_samples", max_samples, "evaluations of a candidate at most; beyond, σ grows", between(1, 1e6),
             published(1, "libcmaes"));
-  v.number("samples_growth", samples_growth, "growth of evaluations while there is too much noise; 0: 1 + 2 / (n + 10)",
-           at_least(0));
-  v.number("samples_decay", samples_decay, "power of that growth by which evaluations shrink again", between(0, 1));
-  v.number("sigma_growth", sigma_growth, "growth of steps where evaluations are at their most; 0: 1 + 2 / (n + 10)",
+  v.number("samples_growth", samples_growth,
+           "growth factor of evaluations while there is too much noise; 0: 1 + 2 / (n + 10)", at_least(0));
+  v.number("samples_decay", samples_decay, "exponent of the decay of evaluations, of which samples_growth is the base",
+           between(0, 1));
+  v.number("sigma_growth", sigma_growth, "growth factor of σ once max_samples is reached; 0: 1 + 2 / (n + 10)",
            at_least(0));
 }
 

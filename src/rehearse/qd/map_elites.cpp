@@ -45,7 +45,8 @@ void MapElitesOptions::fields(FieldVisitor& v) {
   v.integer("initial", initial, "policies drawn at random first", between(1, 1e7));
   v.number("examples", examples, "share of the first policies that is near an example, where there is one",
            between(0, 1));
-  v.number("example_sigma", example_sigma, "deviation of these from the example, in widths of the box", at_least(0));
+  v.number("example_sigma", example_sigma, "standard deviation of these from the example, in widths of the bounds",
+           at_least(0));
   v.group("variation", variation);
 }
 

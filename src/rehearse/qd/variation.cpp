@@ -6,12 +6,15 @@
 namespace rehearse::qd {
 
 void Variation::fields(FieldVisitor& v) {
-  v.choice("kind", kind, "a step towards another elite, a step anywhere, or parameters drawn anew",
+  v.choice("kind", kind,
+           "mutation: isotropic plus along the line to another elite, isotropic Gaussian, or random reset",
            {"iso_line", "gaussian", "reset"});
-  v.number("iso_sigma", iso_sigma, "step anywhere, in widths of the box", at_least(0));
-  v.number("line_sigma", line_sigma, "step towards another elite, in distances to it", at_least(0));
+  v.number("iso_sigma", iso_sigma, "standard deviation of the isotropic mutation, in widths of the bounds",
+           at_least(0));
+  v.number("line_sigma", line_sigma,
+           "standard deviation of the mutation along the line to another elite, in distances to it", at_least(0));
   v.number("reset_rate", reset_rate, "probability of a parameter to be drawn anew", between(0, 1));
-  v.number("lattice", lattice, "step of the lattice on which these are drawn, in widths of the box; 0: none",
+  v.number("lattice", lattice, "step of the lattice on which these are drawn, in widths of the bounds; 0: none",
            between(0, 1));
 }
 

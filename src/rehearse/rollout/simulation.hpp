@@ -16,9 +16,10 @@ struct SimulateOptions {
   double measurement_noise = 1;  // times the model's estimate of measurement noise, which is added to the states that
                                  // the policy sees, with samples or without; 0: it sees the true state (the paper)
   void fields(FieldVisitor& v) {
-    v.number("noise_clip", noise_clip, "samples are clipped to so many standard deviations; 0: not clipped",
-             at_least(0), published(1, kAuthors));
-    v.boolean("sample", sample, "rollouts meet the model's uncertainty; false: they follow its mean");
+    v.number("noise_clip", noise_clip,
+             "sampled model noise is clipped to this many standard deviations; 0: not clipped", at_least(0),
+             published(1, kAuthors));
+    v.boolean("sample", sample, "rollouts sample the model's uncertainty; false: they follow its mean");
     v.number("measurement_noise", measurement_noise,
              "noise of measurements in rollouts, in units of what the model learned; 0: none", at_least(0),
              published(0));

@@ -6,14 +6,14 @@
 namespace rehearse::scenario {
 
 void OdeOptions::fields(FieldVisitor& v) {
-  v.number("start_noise", start_noise, "deviation of every state at the start [its unit]", at_least(0));
-  v.number("measurement_noise", measurement_noise, "deviation of every measured state [its unit]", at_least(0));
-  v.number("box_low", box_low, "least value of the prior's parameters that are learned [their unit]", at_least(0));
-  v.number("box_high", box_high, "largest value of the prior's parameters that are learned [their unit]", above(0));
-  v.integer("substeps", substeps, expert("steps of integration of priors and oracle in a control step"),
-            between(1, 1e4));
+  v.number("start_noise", start_noise, "standard deviation of every state at the start [its unit]", at_least(0));
+  v.number("measurement_noise", measurement_noise,
+           "standard deviation of the measurement noise of every state [its unit]", at_least(0));
+  v.number("box_low", box_low, "lower bound of the prior's tunable parameters [their unit]", at_least(0));
+  v.number("box_high", box_high, "upper bound of the prior's tunable parameters [their unit]", above(0));
+  v.integer("substeps", substeps, expert("integration steps per control step, of priors and oracle"), between(1, 1e4));
   v.number("initial_reward_width", initial_reward_width,
-           "width of the guess that stands in for a reward still to be learned; 0: none", at_least(0));
+           "width of the initial guess of the reward when it is learned; 0: no guess", at_least(0));
   v.integer("evaluations", evaluations, "extra episodes for each trial's expected_return; 0: none", between(0, 1e6));
   policy.fields(v);
 }
@@ -24,11 +24,12 @@ void OdeOptions::fields_of_robot(FieldVisitor& v, std::vector<Parameter>& plant)
     v.number("plant." + parameter.name, parameter.value, help.c_str());
   }
   if (measurement_noises.empty())
-    v.number("measurement_noise", measurement_noise, "deviation of every measured state [its unit]", at_least(0));
+    v.number("measurement_noise", measurement_noise,
+             "standard deviation of the measurement noise of every state [its unit]", at_least(0));
   for (Parameter& noise : measurement_noises)
-    v.number("measurement_noise." + noise.name, noise.value, "deviation of the measured state [its unit]", at_least(0));
-  v.integer("substeps", substeps, expert("steps of integration of priors and oracle in a control step"),
-            between(1, 1e4));
+    v.number("measurement_noise." + noise.name, noise.value,
+             "standard deviation of the state's measurement noise [its unit]", at_least(0));
+  v.integer("substeps", substeps, expert("integration steps per control step, of priors and oracle"), between(1, 1e4));
   v.integer("evaluations", evaluations, "extra episodes for each trial's expected_return; 0: none", between(0, 1e6));
   policy.fields(v);
 }

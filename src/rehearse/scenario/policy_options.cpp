@@ -8,8 +8,8 @@ namespace rehearse::scenario {
 void PolicyOptions::fields(FieldVisitor& v) {
   v.choice("policy", policy, "network, radial basis functions, or linear", {"mlp", "rbf", "linear"});
   v.integer("hidden", hidden, "hidden units of the network", between(1, 1e4));
-  v.number("policy_gain", policy_gain, "gain of network and linear policies before they are squashed", above(0));
-  v.choice("policy_squash", policy_squash, "function that keeps actions of these in their bounds", {"tanh", "sine"});
+  v.number("policy_gain", policy_gain, "gain before the squashing function (mlp, linear)", above(0));
+  v.choice("policy_squash", policy_squash, "squashing function of mlp and linear policies", {"tanh", "sine"});
   v.integer("centres", centres, "radial basis functions", between(1, 1e4));
 }
 

@@ -30,7 +30,9 @@ struct Options {
   void fields(FieldVisitor& v) {
     v.text("zeros", zeros, "states whose zero is another in each log, with commas: encoders that count from power-on");
     v.number("zero_range", zero_range, "how far such a zero may be off, in the state's unit", above(0));
-    v.number("zero_s", zero_s, "so much of a held-out log tells its zeros; forecasts begin after it [s]", above(0));
+    v.number("zero_s", zero_s,
+             "the first seconds of a held-out log, from which its zeros are estimated; forecasts begin then [s]",
+             above(0));
     v.number("fit_horizon_s", fit_horizon_s, expert("how far zeros and first parameters are made to predict [s]"),
              above(0));
     v.integer("rows", rows, "control steps that the GPs learn from, evenly spread stretches of the logs", at_least(20));

@@ -96,7 +96,7 @@ class LineBuilder : public scenario::ScenarioBuilder {
   std::vector<std::string> prior_names() const override { return {"near", "far"}; }
   void fields(FieldVisitor& v) override {
     v.number("plant.gain", gain_, "of the cart [1/s]", above(0));
-    v.number("noise", noise_, "deviation of what is measured [m]", at_least(0));
+    v.number("noise", noise_, "standard deviation of the measurement noise [m]", at_least(0));
     v.boolean("breaks", breaks_, "the cart breaks");
     v.integer("evaluations", evaluations_, "extra episodes of a trial", at_least(0));
   }

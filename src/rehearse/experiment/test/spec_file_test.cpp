@@ -24,10 +24,11 @@ TEST(SpecFile, ComesBackAsItWas) {
 TEST(SpecFile, SaysBehindEachOptionWhatItDoes) {
   const Resolved resolved = resolve(fake::catalogue(), spec_of("echo", "near", {{"told_by", "measured"}}));
   const std::string text = to_toml(resolved.spec, resolved.comments);
-  for (const char* line : {"\nseed = 1                                        # seed of all random numbers: the same "
-                           "one gives the same run\n",
-                           "\nnoise = 0.01                                    # deviation of what is measured [m]\n",
-                           "\ntold_by = \"measured\"                            # states by which the learner is told"})
+  for (const char* line :
+       {"\nseed = 1                                        # seed of all random numbers: the same "
+        "one gives the same run\n",
+        "\nnoise = 0.01                                    # standard deviation of the measurement noise [m]\n",
+        "\ntold_by = \"measured\"                            # states that rewards and success are"})
     EXPECT_NE(text.find(line), std::string::npos) << line << " in " << text;
   std::istringstream lines(text.substr(text.find("[scenario]")));
   for (std::string line; std::getline(lines, line);)

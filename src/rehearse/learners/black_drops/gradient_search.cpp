@@ -57,16 +57,16 @@ Vector start_of(Index descent, const policy::Policy& policy, const GradientSpace
 }  // namespace
 
 void GradientOptions::fields(FieldVisitor& v) {
-  v.integer("steps", steps, "steps of a descent that goes on to the end", between(1, 1e6),
+  v.integer("steps", steps, "gradient steps of a run that is kept to the end", between(1, 1e6),
             published(4000, "Amadio 2022"));
-  v.integer("particles", particles, "rollouts of a step, shared by the descents that are left", between(1, 1e6),
+  v.integer("particles", particles, "rollouts per gradient step, divided among the remaining runs", between(1, 1e6),
             published(400, "Amadio 2022"));
-  v.integer("descents", descents, "descents that start", between(1, 1e4), published(1, "Amadio 2022"));
-  v.integer("rounds", rounds, "rounds, after each of which the better half of the descents goes on", between(1, 100));
-  v.number("start", start, "fraction of the box, about its middle, where descents from random points start",
+  v.integer("descents", descents, "gradient runs that start", between(1, 1e4), published(1, "Amadio 2022"));
+  v.integer("rounds", rounds, "rounds, after each of which the better half of the runs is kept", between(1, 100));
+  v.number("start", start, "runs from random points start in this fraction of the parameters' range, around its centre",
            between(0, 1));
-  v.number("dropout", dropout, "fraction of the weights of units that a step leaves out at first; it falls to 0",
-           between(0, 0.9), published(0.25, "Amadio 2022"));
+  v.number("dropout", dropout, "initial dropout rate of the hidden units' output weights; falls to 0", between(0, 0.9),
+           published(0.25, "Amadio 2022"));
   v.group("adam", adam, kExpert);
 }
 

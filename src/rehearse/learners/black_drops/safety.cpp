@@ -27,13 +27,14 @@ Vector drawn(const ParameterSpace& space, double doubt, Rng& rng) {
 }  // namespace
 
 void SafetyOptions::fields(FieldVisitor& v) {
-  v.integer("rollouts", rollouts, "of tasks with limits: rollouts of each policy that is compared", between(1, 1e6));
-  v.integer("searches", searches, "of tasks with limits: more searches at most, near good policies for safe ones",
-            between(0, 1000));
+  v.integer("rollouts", rollouts, "tasks with limits: rollouts of each policy that is compared", between(1, 1e6));
+  v.integer("searches", searches,
+            "tasks with limits: largest number of further searches for safe policies near good ones", between(0, 1000));
   v.number("doubt", doubt,
-           "with limits, before data: how far to anywhere in its box a prior's parameter may be, a fraction",
+           "tasks with limits, before data: range of the prior's parameters, as a fraction of their bounds",
            between(0, 1));
-  v.boolean("explore", explore, "with limits: safe random actions where nothing safe promises more than was earned");
+  v.boolean("explore", explore,
+            "tasks with limits: safe random actions are tried if no safe policy is predicted to improve");
 }
 
 double excess(const std::vector<LimitRisk>& risks, const std::vector<Limit>& limits) {

@@ -5,25 +5,26 @@ namespace rehearse::learners::gp_ilqg {
 void PlanSearch::fields(FieldVisitor& v) {
   constexpr const char* kLee = "Lee 2017";
   v.number("plan_s", plan_s, "time that is planned [s], what follows is held; 0: the whole episode", at_least(0));
-  v.choice("cost", cost, "minus the reward, minus its logarithm, or first the latter",
+  v.choice("cost", cost, "cost that plans minimise: −reward, −log reward, or the latter first",
            {"linear", "logarithmic", "both"}, published("linear", kLee));
-  v.number("first_costs", first_costs, "fraction of the task's costs of steps that the first iterations know",
-           between(0, 1), published(1, kLee));
-  v.number("action_cost", action_cost, "cost of an action at its bound, for a step, beside the reward", above(0));
-  v.number("uncertainty", uncertainty, "weight of what the model's variance costs; 0: plans know the mean alone",
+  v.number("first_costs", first_costs, "weight of the task's step costs in the first iterations", between(0, 1),
+           published(1, kLee));
+  v.number("action_cost", action_cost, "cost per step of an action at its bound, added to the reward's cost", above(0));
+  v.number("uncertainty", uncertainty, "weight of the model's variance in the cost; 0: plans use the mean alone",
            at_least(0));
-  v.boolean("hold", hold, "plans end with feedback of an infinite horizon near a goal, where that is better",
+  v.boolean("hold", hold, "plans end with an infinite-horizon LQR near the goal, where that is better",
             published(false, kLee));
-  v.integer("starts", starts, "random actions that plans begin with, beside the last plan", between(1, 10000));
-  v.number("start_size", start_size, "fraction of their range, about its middle, that such actions are in",
-           between(0, 1));
-  v.number("start_hold_s", start_hold_s, expert("how long such an action is held [s]; 0: a step"), at_least(0));
-  v.integer("first_iterations", first_iterations, expert("iterations for every start"), between(1, 100000));
-  v.integer("finalists", finalists, expert("plans that are improved further"), between(1, 10000));
-  v.integer("iterations", iterations, "iterations at most for these", between(0, 100000));
+  v.integer("starts", starts, "random initial plans, beside the last plan", between(1, 10000));
+  v.number("start_size", start_size,
+           "range of the random initial actions, as a fraction of the full range around its centre", between(0, 1));
+  v.number("start_hold_s", start_hold_s, expert("time that a random initial action is held [s]; 0: one step"),
+           at_least(0));
+  v.integer("first_iterations", first_iterations, expert("iterations for each start"), between(1, 100000));
+  v.integer("finalists", finalists, expert("best plans that are improved further"), between(1, 10000));
+  v.integer("iterations", iterations, "largest number of iterations for finalists", between(0, 100000));
   v.integer("selection", selection, "simulated episodes that plans are compared in", between(1, 100000));
   v.number("tolerance", tolerance,
-           "fraction of the highest return that a plan which solves the task more often may lack", at_least(0),
+           "return that a plan which solves the task more often may lose, as a fraction of the highest", at_least(0),
            published(0, kLee));
 }
 
@@ -33,7 +34,7 @@ void Options::fields(FieldVisitor& v) {
   v.boolean("identify", identify, "the prior's parameters are learned with the GPs, as GP-MI does");
   v.group("model", model);
   v.group("search", search);
-  v.boolean("success_test", success_test, "plans may be chosen by the task's test of success, not by return alone",
+  v.boolean("success_test", success_test, "plans are chosen by the task's success criterion, too, not by return alone",
             published(false));
 }
 

@@ -9,13 +9,13 @@
 namespace rehearse::learners::ite {
 
 void AdaptationOptions::fields(FieldVisitor& v) {
-  v.number("length", length, "length of the GP's Matérn kernel, in bounds of the descriptors", above(0));
+  v.number("length", length, "length scale of the Matérn kernel, in widths of the descriptors' bounds", above(0));
   v.number("signal_variance", signal_variance, "variance of the GP, in squares of the archive's best performance",
            above(0));
   v.number("noise_variance", noise_variance, "variance of an observed performance, in the same unit", at_least(1e-9));
-  v.number("kappa", kappa, "deviations of the upper confidence bound by which policies are chosen", at_least(0));
-  v.number("stop_ratio", stop_ratio, "stop once the best observed is so much of the best predicted; 0: never",
-           between(0, 1));
+  v.number("kappa", kappa, "weight of the standard deviation in the upper confidence bound (UCB)", at_least(0));
+  v.number("stop_ratio", stop_ratio,
+           "stop when the best observed return reaches this fraction of the best predicted; 0: never", between(0, 1));
   v.integer("max_trials", max_trials, "stop after so many trials", at_least(1));
 }
 

@@ -220,14 +220,15 @@ std::optional<std::string> violation_of_file(const std::string& file, const Task
 }  // namespace
 
 void IlluminationOptions::fields(FieldVisitor& v) {
-  v.text("file", file, "file of an archive made before, {seed} in it the run's seed; empty: one is made");
-  v.choice("kind", kind, "niches are those of a tessellation, or of a grid", {"cvt", "grid"},
+  v.text("file", file, "file of an existing archive ({seed} stands for the run's seed); empty: one is made");
+  v.choice("kind", kind, "niches: centroidal Voronoi tessellation (cvt) or regular grid", {"cvt", "grid"},
            published("grid", "Cully 2015"));
   v.integer("niches", niches, "niches of the tessellation", between(1, 1e7));
   v.integer("bins", bins, "bins of the grid, for each descriptor", between(1, 1e6));
   v.integer("evaluations", evaluations, "rollouts in the prior that make the archive", at_least(1),
             published(40000000, "Cully 2015"));
-  v.number("box", box, "parameters of policies are in [−box, box], unless the policy has a box", between(1e-6, 1e6));
+  v.number("box", box, "policy parameters are searched in [−box, box], unless the policy has bounds of its own",
+           between(1e-6, 1e6));
   v.publish("search.examples", published(0, "Cully 2015"));
   v.publish("search.variation.kind", published("reset", "Cully 2015"));
   v.group("search", search, kExpert);

@@ -120,10 +120,10 @@ void ModelOptions::fields(FieldVisitor& v) {
   v.group("fit", fit, kExpert);
   v.boolean("joint_angles", joint_angles, "GPs see the angles between links, too, where the task names them",
             published(false, "PILCO"));
-  v.boolean("smooth", smooth, "noisy states are smoothed where that makes what was measured likelier",
+  v.boolean("smooth", smooth, "noisy states are smoothed where that raises the likelihood of the measurements",
             published(false, "PILCO"));
-  v.integer("inducing", inducing, "more rows than so many are summed up by so many inducing inputs", between(1, 1e5),
-            published(300, "PILCO"));
+  v.integer("inducing", inducing, "number of inducing inputs (FITC), used when there are more rows than this",
+            between(1, 1e5), published(300, "PILCO"));
   v.integer("inducing_line_searches", inducing_line_searches, "line searches that place the inducing inputs",
             at_least(0), published(500, "PILCO"));
 }

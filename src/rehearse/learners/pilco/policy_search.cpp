@@ -100,9 +100,10 @@ std::vector<Vector> best_policies(Objective& objective, const std::vector<Vector
 void SearchOptions::fields(FieldVisitor& v) {
   v.publish("patience", published(0, "PILCO"));
   bfgs.fields(v);
-  v.number("start_std", start_std, "deviation of the start that policies are made for, at least [each state's unit]",
-           between(0, 1e6), published(0.1, "PILCO"));
-  v.integer("restarts", restarts, "other first policies that a search starts from, until a trial solves the task",
+  v.number("start_std", start_std,
+           "smallest standard deviation of the start state in policy searches [each state's unit]", between(0, 1e6),
+           published(0.1, "PILCO"));
+  v.integer("restarts", restarts, "further random initial policies per search, until a trial solves the task",
             between(0, 1000), published(0, "PILCO"));
 }
 

@@ -120,7 +120,7 @@ void Options::fields(FieldVisitor& v) {
   v.group("plant", plant);
   v.number("dt_s", dt_s, "control step [s]", above(0));
   v.integer("horizon", horizon, "steps of an episode", between(1, 1e6));
-  v.number("shaping", shaping, "share of MC-PILCO's wide reward in the reward; learners by moments need 0",
+  v.number("shaping", shaping, "weight of MC-PILCO's wide shaping reward; PILCO learners and PI-REM need 0",
            between(0, 1));
   v.number("track", track, "half the length of the track, a limit of the cart's position; 0: it has no ends [m]",
            at_least(0));

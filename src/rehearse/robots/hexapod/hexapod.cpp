@@ -101,14 +101,15 @@ void Options::fields(FieldVisitor& v) {
   v.choice("damage_kind", kind, "the leg is gone, its joints are stiff, or its servos have a quarter of their torque",
            {"removed", "blocked", "weak"});
   v.choice("damage_joint", joint, "which of the leg's joints is blocked or weak", {"all", "coxa", "femur", "tibia"});
-  v.number("start_noise", start_noise, "deviation of joints and heading at the start of a trial [rad]",
+  v.number("start_noise", start_noise, "standard deviation of joints and heading at the start of a trial [rad]",
            between(0, 0.5));
-  v.number("servo_lag_s", servo_lag_s, "added to the time constant of the prior's servos, π/100 [s]", between(0, 10));
+  v.number("servo_lag_s", servo_lag_s, "addition to the prior's servo time constant, which is π/100 s [s]",
+           between(0, 10));
   v.integer("horizon", horizon, "steps of an episode, 0.1 s each", between(1, 1e6));
-  v.number("drift_m", drift_m, "way to the side beyond which nothing is earned [m]", above(0));
-  v.number("fall_reward", fall_reward, "reward for each step that a fall leaves out [m]", between(-1e6, 0));
-  v.boolean("integral", integral, "earn the way so far in every step, not the way made in it");
-  v.boolean("isolated", isolated, expert("DART runs in processes of its own, which it may end"));
+  v.number("drift_m", drift_m, "lateral drift beyond which the reward is at most 0 [m]", above(0));
+  v.number("fall_reward", fall_reward, "reward for each remaining step after a fall [m]", between(-1e6, 0));
+  v.boolean("integral", integral, "reward of a step: distance so far × 0.1 s, not the distance of that step");
+  v.boolean("isolated", isolated, expert("DART runs in separate processes, which it may crash"));
 }
 
 scenario::Scenario make(const Options& options) {

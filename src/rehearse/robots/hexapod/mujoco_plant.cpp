@@ -179,8 +179,10 @@ void Hardware::fields(FieldVisitor& v) {
   v.number("damping", damping, "damping of the servos' own control [N m s/rad]", at_least(0));
   v.number("latency_s", latency_s, "time until a target reaches the servos [s]", between(0, 0.1));
   v.number("friction", friction, "friction of feet on the floor", above(0));
-  v.number("angle_noise", angle_noise, "deviation of what is measured of angles and position [rad, m]", at_least(0));
-  v.number("speed_noise", speed_noise, "deviation of what is measured of speeds [rad/s, m/s]", at_least(0));
+  v.number("angle_noise", angle_noise, "standard deviation of the measurement noise of angles and position [rad, m]",
+           at_least(0));
+  v.number("speed_noise", speed_noise, "standard deviation of the measurement noise of speeds [rad/s, m/s]",
+           at_least(0));
 }
 
 bool DamagedLegs::suffer(Index joint, Damage what) const {
