@@ -13,6 +13,7 @@ namespace rehearse::optim {
 namespace {
 
 constexpr double kFirstDamping = 1e-6, kLeastDamping = 1e-12;
+constexpr double kFlat = 1e-12;  // of ‖c‖: slopes below are rounding
 constexpr int kMostDampings = 14;
 
 double sum_of_squares(const Vector& r) {
@@ -33,41 +34,95 @@ struct Linear {
   Vector c;
 };
 
-struct Step {
-  Vector d;
-  bool cut = false;  // by the box
-};
-
-/// The d of the least ‖c + R d‖² + damping ‖D d‖², D the lengths of R's columns. Coordinates that would leave the box
-/// go to its border, and the others to what is best then; one that changes nothing stays.
-Step best_step(const Linear& linear, const Vector& low, const Vector& high, double damping) {
-  const Vector lengths = linear.R.colwise().norm().transpose();
-  const Index rows = linear.R.rows();
-  Step step{Vector::Zero(lengths.size())};
-  std::vector<Index> free;
-  for (Index i = 0; i < lengths.size(); ++i)
-    if (lengths(i) > 0 && low(i) < high(i)) free.push_back(i);
-  while (!free.empty()) {
-    const auto q = static_cast<Index>(free.size());
-    step.d(free).setZero();
-    Matrix A = Matrix::Zero(rows + q, q);
-    A.topRows(rows) = linear.R(Eigen::all, free);
-    A.bottomRows(q).diagonal() = std::sqrt(damping) * lengths(free);
-    Vector b = Vector::Zero(rows + q);
-    b.head(rows) = -(linear.c + linear.R * step.d);
-    const Vector solved = A.colPivHouseholderQr().solve(b);
-    step.d(free) = solved;
-    const auto leaves = [&](Index i) { return !(low(i) <= step.d(i) && step.d(i) <= high(i)); };
-    const auto kept = std::stable_partition(free.begin(), free.end(), [&](Index i) { return !leaves(i); });
-    if (kept == free.end()) break;
-    for (auto i = kept; i != free.end(); ++i) {
-      step.d(*i) = std::isfinite(step.d(*i)) ? std::clamp(step.d(*i), low(*i), high(*i)) : 0;
-      step.cut = step.cut || step.d(*i) != 0;
-    }
-    free.erase(kept, free.end());
+/// The d of the least ‖c + R d‖² + damping ‖D d‖² in a box around 0, D the lengths of R's columns; a coordinate that
+/// changes nothing stays. Coordinates are held at the bound that they reach first, and released where the sum falls
+/// inwards (Stark and Parker 1995).
+class BoxStep {
+ public:
+  BoxStep(const Linear& linear, const Vector& low, const Vector& high, double damping)
+      : linear_(linear),
+        low_(low),
+        high_(high),
+        lengths_(linear.R.colwise().norm().transpose()),
+        damping_(damping),
+        d_(Vector::Zero(low.size())) {
+    for (Index i = 0; i < d_.size(); ++i)
+      if (lengths_(i) > 0 && low(i) < high(i)) free_.push_back(i);
   }
-  return step;
-}
+
+  Vector solve() {
+    const Index most_rounds = 10 * (d_.size() + 1);  // against rounding, which may hold and release for ever
+    for (Index round = 0; round < most_rounds; ++round) {
+      const Vector best = best_of_free();
+      if (!best.allFinite()) break;
+      if (!hold_on_the_way(best) && !release()) break;
+    }
+    return d_;
+  }
+
+ private:
+  /// d with the free coordinates at their best, in the box or not.
+  Vector best_of_free() const {
+    Vector best = d_;
+    if (free_.empty()) return best;
+    const auto q = static_cast<Index>(free_.size());
+    const Index rows = linear_.R.rows();
+    best(free_).setZero();
+    Matrix A = Matrix::Zero(rows + q, q);
+    A.topRows(rows) = linear_.R(Eigen::all, free_);
+    A.bottomRows(q).diagonal() = std::sqrt(damping_) * lengths_(free_);
+    Vector b = Vector::Zero(rows + q);
+    b.head(rows) = -(linear_.c + linear_.R * best);
+    const Vector solved = A.colPivHouseholderQr().solve(b);
+    best(free_) = solved;
+    return best;
+  }
+
+  /// Goes towards `best` up to the first bound and holds that coordinate; all the way, and false, if none is met.
+  bool hold_on_the_way(const Vector& best) {
+    double part = 1;
+    auto first = free_.end();
+    for (auto i = free_.begin(); i != free_.end(); ++i) {
+      const double end = at_bound(*i, best(*i));
+      if (end == best(*i)) continue;
+      const double reach = (end - d_(*i)) / (best(*i) - d_(*i));
+      if (first == free_.end() || reach < part) part = reach, first = i;
+    }
+    if (first == free_.end()) {
+      d_ = best;
+      return false;
+    }
+    d_ += part * (best - d_);
+    d_(*first) = at_bound(*first, best(*first));
+    held_.push_back(*first);
+    free_.erase(first);
+    return true;
+  }
+
+  /// Frees the held coordinate along which the sum falls most steeply inwards; false if there is none.
+  bool release() {
+    const Vector slope =
+        linear_.R.transpose() * (linear_.c + linear_.R * d_) + damping_ * lengths_.cwiseAbs2().cwiseProduct(d_);
+    double steepest = kFlat * linear_.c.norm();
+    auto chosen = held_.end();
+    for (auto i = held_.begin(); i != held_.end(); ++i) {
+      const double inwards = (d_(*i) >= high_(*i) ? slope(*i) : -slope(*i)) / lengths_(*i);
+      if (inwards > steepest) steepest = inwards, chosen = i;
+    }
+    if (chosen == held_.end()) return false;
+    free_.push_back(*chosen);
+    held_.erase(chosen);
+    return true;
+  }
+
+  double at_bound(Index i, double value) const { return std::clamp(value, low_(i), high_(i)); }
+
+  const Linear& linear_;
+  const Vector low_, high_, lengths_;
+  const double damping_;
+  Vector d_;
+  std::vector<Index> free_, held_;
+};
 
 class Search {
  public:
@@ -93,11 +148,10 @@ class Search {
     if (!J.allFinite()) return Made::misled;
     const Linear linear(J, r_);
     for (int i = 0; i < kMostDampings; ++i) {
-      const Step to = best_step(linear, problem_.low - x_, problem_.high - x_, damping_);
-      const double promised = linear.gain(to.d);
-      const bool worth = promised > tolerance * value_;
-      if (!worth && !to.cut) return i == 0 ? Made::none : Made::misled;
-      if (worth && move((x_ + to.d).cwiseMax(problem_.low).cwiseMin(problem_.high), promised)) return Made::one;
+      const Vector d = BoxStep(linear, problem_.low - x_, problem_.high - x_, damping_).solve();
+      const double promised = linear.gain(d);
+      if (!(promised > tolerance * value_)) return i == 0 ? Made::none : Made::misled;
+      if (move((x_ + d).cwiseMax(problem_.low).cwiseMin(problem_.high), promised)) return Made::one;
       damping_ = std::max(10 * damping_, kFirstDamping);
     }
     return Made::misled;

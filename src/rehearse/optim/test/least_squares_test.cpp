@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/random.hpp"
+#include "rehearse/optim/box_quadratic.hpp"
 
 namespace rehearse::optim {
 namespace {
@@ -84,6 +86,37 @@ TEST(MinimiseSquares, SaysWhereDerivativesMislead) {
 TEST(MinimiseSquares, RefusesAStartOutsideTheBox) {
   EXPECT_THROW(minimise_squares(problem(rosenbrock_residuals, 2, 1), Vector{{0, 2}}), InvalidInput);
   EXPECT_THROW(minimise_squares(problem(rosenbrock_residuals, 2, 1), Vector{{0}}), InvalidInput);
+}
+
+/// Random linear problems whose minimum is mostly on the border, against the quadratic's own minimiser.
+TEST(MinimiseSquares, FindsTheMinimumOfLinearProblemsInABox) {
+  Rng rng({.purpose = Purpose::test});
+  for (int k = 0; k < 300; ++k) {
+    const Index n = 2 + k % 5;
+    Matrix A(2 * n, n);
+    Vector b(2 * n), first(n);
+    for (double& a : A.reshaped()) a = rng.uniform(-2, 2);
+    for (double& each : b) each = rng.uniform(-4, 4);
+    for (double& each : first) each = k % 3 == 0 ? -1 : rng.uniform(-1, 1);
+    const SquaresProblem linear{[&](const Vector& x) -> Vector { return A * x + b; },
+                                [&](const Vector&, const Vector&) { return A; }, Vector::Constant(n, -1),
+                                Vector::Constant(n, 1)};
+    const SquaresResult found = minimise_squares(linear, first);
+    const auto best = minimise_in_box(A.transpose() * A, A.transpose() * b, linear.low, linear.high, first);
+    ASSERT_TRUE(best);
+    EXPECT_TRUE(found.converged);
+    EXPECT_LT(found.value, (A * best->x + b).squaredNorm() * (1 + 1e-9)) << "problem " << k;
+  }
+}
+
+TEST(MinimiseSquares, LetsACoordinateLeaveItsBound) {
+  const Matrix A{{1, -2}, {0, -2}};
+  const SquaresProblem corner{[&](const Vector& x) -> Vector {
+                                return A * x + Vector{{3, -1}};
+                              },
+                              [&](const Vector&, const Vector&) { return A; }, Vector::Zero(2), Vector::Ones(2)};
+  const SquaresResult found = minimise_squares(corner, Vector::Zero(2));
+  EXPECT_LT((found.x - Vector{{0, 0.5}}).norm(), 1e-5) << found.x;
 }
 
 }  // namespace
