@@ -75,12 +75,14 @@ std::optional<Pivoted> pivoted_cholesky(Matrix C, double remainder, Index most) 
   return pivoted;
 }
 
-/// wᵀRw = wᵀCw − ‖Lᵀw‖² with Cw = y − ρw, and what rounding may have taken from it.
+/// wᵀRw = wᵀCw − ‖Lᵀw‖² with Cw = y − ρw, and what rounding may have taken from it: of the vectors, since w is large
+/// where the noise is small.
 double remaining_energy(const Pivoted& pivoted, double noise_ratio, const ConstVectorView& y,
                         const ConstVectorView& weights) {
   const double all = weights.dot(y - noise_ratio * weights);
   const double explained = (pivoted.L.transpose() * weights(pivoted.order)).squaredNorm();
-  const double rounding = 4 * std::numeric_limits<double>::epsilon() * static_cast<double>(y.size()) * all;
+  const double size = y.norm() + std::sqrt(static_cast<double>(y.size()) * std::max(all, 0.0));
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * weights.norm() * size;
   return std::max(0.0, all - explained) + rounding;
 }
 

@@ -71,6 +71,7 @@ struct Problem {
   /// At flat log hyperparameters; writes the gradient unless null.
   Point at(const Vector& flat, Vector* gradient = nullptr) {
     thread_local Workspace workspace;
+    if (options.before_each) options.before_each();
     ++evaluations;
     const Evidence evidence = gp::evidence(inputs, y, flat, workspace, gradient, noise);
     return {flat, evidence, gp::penalty(inputs, flat, options.penalties, gradient)};
@@ -78,7 +79,7 @@ struct Problem {
 
   /// The best point on the way up from `start`, itself included.
   Point maximise(const Point& start, Index most = std::numeric_limits<Index>::max()) {
-    Point best = start;
+    Point best = options.isotropic ? Point{start.flat} : start;  // the start may have a length for each input
     const optim::Differentiable objective = [&](const Vector& coordinates, Vector& gradient) {
       const Vector free = options.isotropic ? for_each_input(coordinates) : coordinates;
       const Point point = at(bounds.flat(free), &gradient);

@@ -246,6 +246,20 @@ TEST(Fit, OneLengthForAllInputsIsThatOfAFunctionOfAll) {
   EXPECT_NEAR(result.log_evidence, naive::evidence(X, y, result.hyperparameters), 1e-6);
 }
 
+TEST(Fit, OneLengthForAllInputsDoesNotDependOnTheStart) {
+  const Matrix X = naive::normals(100, 20, 1);
+  const Vector y = 0.3 * naive::normals(100, 1, 30).col(0);
+  const Inputs inputs(X);
+  const Fit each = fit(inputs, y, 1, default_start(inputs, y, 1), {});
+  FitOptions isotropic;
+  isotropic.isotropic = true;
+  const Fit cold = fit(inputs, y, 1, default_start(inputs, y, 1), isotropic);
+  const Fit warm = fit(inputs, y, 1, FitStart{each.hyperparameters, {}}, isotropic);
+  const Vector lengths = warm.hyperparameters.lengths().cwiseQuotient(inputs.spread());
+  EXPECT_LT(lengths.maxCoeff() / lengths.minCoeff(), 1 + 1e-6);
+  EXPECT_NEAR(warm.log_evidence, cold.log_evidence, 0.01);
+}
+
 TEST(Fit, ALengthForEachInputIsKeptWhereItIsClearlyLikelier) {
   const Matrix X = naive::normals(150, 20, 1);
   const Vector y = (3 * X.col(0)).array().sin() + 0.01 * naive::normals(150, 1, 2).col(0).array();

@@ -1,5 +1,6 @@
 #include "rehearse/gp/posterior.hpp"
 
+#include <cmath>
 #include <limits>
 #include <thread>
 
@@ -7,6 +8,7 @@
 
 #include "naive.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/random.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -233,6 +235,27 @@ TEST(Posterior, DegenerateTrainingDataNeverGiveNaN) {
       }
     }
   }
+}
+
+/// Targets of a smooth function with little noise: the weights are large, and cancel.
+TEST(Posterior, KeepsToItsToleranceWhereThereIsHardlyNoise) {
+  int summed_up = 0;
+  for (std::uint64_t k = 250; k < 450; ++k) {
+    Rng rng({.seed = k, .purpose = Purpose::test});
+    const Index n = 60 + static_cast<Index>(k % 60);
+    const Matrix X = naive::normals(n, 1, 100 + k);
+    const double noise = std::pow(10, rng.uniform(-3.6, -3)), tolerance = 0.01;
+    const Hyperparameters theta = naive::hyperparameters(1, std::exp(rng.uniform(-1.5, 3)), 1, noise);
+    const double slope = rng.normal();
+    Matrix y = (2 * slope * X).array().sin().matrix() + noise * naive::normals(n, 1, 500 + k);
+    const Inputs inputs(X);
+    const Posterior exact(inputs, y, {theta}), few(inputs, y, {theta}, tolerance);
+    summed_up += few.mean_points(0) < n;
+    const Matrix F = naive::normals(100, 1, 900 + k);
+    const Prediction p = predict(exact, F), q = predict(few, F);
+    EXPECT_LT((p.mean - q.mean).cwiseAbs().maxCoeff(), tolerance * noise * (1 + q.variance.maxCoeff())) << k;
+  }
+  EXPECT_GT(summed_up, 0);
 }
 
 TEST(Posterior, WritesIntoBlocks) {
