@@ -80,6 +80,7 @@ class Checker final : public FieldVisitor {
   void visit(const std::string&, bool&) override {}
   void visit(const std::string&, std::string&) override {}
   void visit(const std::string&, int&, const std::vector<std::string>&) override {}
+  void refuse(const std::string& violation) override { add(violation); }
 
  private:
   void add(std::string line) {

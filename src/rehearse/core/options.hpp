@@ -97,6 +97,11 @@ class FieldVisitor {
     value = static_cast<Enum>(index);
   }
 
+  /// A condition between fields. violation begins with the name of one: "first_step = 9, must be ≤ largest_step = 5".
+  void require(bool holds, const std::string& violation) {
+    if (!holds) refuse(full(violation));
+  }
+
   /// Says what is published of a field that comes later, whatever is said there: for structs that several others have.
   void publish(std::string_view name, Published published) { known_.emplace(full(name), std::move(published)); }
 
@@ -118,6 +123,8 @@ class FieldVisitor {
   virtual void visit(const std::string& name, bool& value) = 0;
   virtual void visit(const std::string& name, std::string& value) = 0;
   virtual void visit(const std::string& name, int& value, const std::vector<std::string>& names) = 0;
+
+  virtual void refuse(const std::string& /*violation*/) {}
 
   // The published value and the help of the field that is visited.
   const Published& published() const { return published_; }
@@ -160,7 +167,7 @@ std::vector<std::pair<std::string, std::string>> list_fields(const Fields& field
 /// Throws InvalidInput if the text is no such value or violates the bound ("cmaes.population = 0, must be ≥ 4").
 bool set_field(const Fields& fields, std::string_view name, std::string_view text);
 
-/// A line for every field that violates its bound.
+/// A line for every field that violates its bound, and for every condition between fields that does not hold.
 std::vector<std::string> field_violations(const Fields& fields);
 
 /// The name most like `name`, for "did you mean".

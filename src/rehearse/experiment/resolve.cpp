@@ -27,11 +27,18 @@ std::string checksum_of(const RobotFile& robot) {
   return fmt::format("{:016x}", files::checksum(bytes));
 }
 
+/// The checks beside those of names and of each value alone.
+struct Check {
+  bool learner = true;     // whether it can do with the task and the policy
+  bool conditions = true;  // between options
+};
+
 /// Resolves one spec, collecting what is wrong with it as far as it can be known.
 class Resolver {
  public:
-  Resolver(const Catalogue& catalogue, const Spec& spec)
+  Resolver(const Catalogue& catalogue, const Spec& spec, Check check)
       : spec_(spec),
+        check_(check),
         scenario_builder_(catalogue.scenario(spec.scenario)),
         learner_builder_(catalogue.learner(spec.learner)),
         default_preset_(default_preset(catalogue, spec.scenario)) {
@@ -42,17 +49,20 @@ class Resolver {
     if (!scenario_builder_ || !learner_builder_) violations_.throw_if_any();
   }
 
-  Resolved resolve(bool ask_learner) {
+  Resolved resolve() {
     set_preferences();
     if (default_preset_) set_defaults(*default_preset_);
     for (const auto& [key, text] : spec_.options) set_option(key, text);
+    if (check_.conditions)
+      for (const Fields& fields : {fields_of(*scenario_builder_), fields_of(*learner_builder_)})
+        for (const std::string& line : field_violations(fields)) violations_.add(line);
     const std::vector<std::string> names = prior_names();
     const auto scenario = contained([&] { return scenario_builder_->build(); });
     if (!scenario) violations_.throw_if_any();
     for (const std::string& line : scenario->task.violations()) violations_.add(line);
     violations_.require(!spec_.until_solved || scenario->task.solved,
                         fmt::format("until_solved: {} cannot say what is solved", spec_.scenario));
-    if (ask_learner && scenario->policy)  // without a policy the learner complains when it is built
+    if (check_.learner && scenario->policy)  // without a policy the learner complains when it is built
       for (const std::string& line : learner_builder_->violations(scenario->task, *scenario->policy))
         violations_.add(line);
 
@@ -193,6 +203,8 @@ class Resolver {
     if (oracle)
       for (const std::string& line : scenario.oracle_lacks)
         warnings.push_back("the oracle is not all of the plant: " + line);
+    for (const std::string& line : learner_builder_->warnings(scenario.task))
+      warnings.push_back(fmt::format("{}: {}", learner_builder_->name(), line));
     return warnings;
   }
 
@@ -219,6 +231,7 @@ class Resolver {
   }
 
   Spec spec_;
+  Check check_;
   Comments comments_;
   std::optional<RobotFile> robot_;
   Violations violations_;
@@ -229,8 +242,14 @@ class Resolver {
 
 }  // namespace
 
-Resolved resolve(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec).resolve(true); }
+Resolved resolve(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec, {}).resolve(); }
 
-Spec completed(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec).resolve(false).spec; }
+Resolved resolve_begun(const Catalogue& catalogue, const Spec& spec) {
+  return Resolver(catalogue, spec, {.conditions = false}).resolve();
+}
+
+Spec completed(const Catalogue& catalogue, const Spec& spec) {
+  return Resolver(catalogue, spec, {.learner = false}).resolve().spec;
+}
 
 }  // namespace rehearse::experiment

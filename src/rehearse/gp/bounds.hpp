@@ -25,6 +25,10 @@ struct Bounds {
     v.number("max_length", max_length, "largest length scale, in standard deviations of the input", above(0));
     v.number("min_trend", min_trend, "smallest scale of the trend, in standard deviations of the targets", above(0));
     v.number("max_trend", max_trend, "largest scale of the trend, in standard deviations of the targets", above(0));
+    v.require(min_length < max_length,
+              "min_length = " + to_text(min_length) + ", must be < max_length = " + to_text(max_length));
+    v.require(min_trend < max_trend,
+              "min_trend = " + to_text(min_trend) + ", must be < max_trend = " + to_text(max_trend));
   }
 };
 

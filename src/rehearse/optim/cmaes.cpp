@@ -20,8 +20,6 @@ Index checked_population(const Vector& mean, double sigma, const std::vector<Int
   Violations violations;
   CmaesOptions copy = options;
   for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("cmaes", copy); })) violations.add(line);
-  if (options.population > 0 && options.population < 4)
-    violations.add(fmt::format("cmaes.population = {}, must be ≥ 4 (or 0 for 4 + 3 ln n)", options.population));
   if (!(sigma > 0 && std::isfinite(sigma))) violations.add(fmt::format("sigma = {}, must be > 0", to_text(sigma)));
   for (const auto& line : box_violations(box, mean.size())) violations.add(line);
   for (const auto& line : start_violations(mean, box)) violations.add(line);
@@ -56,6 +54,7 @@ void CmaesOptions::fields(FieldVisitor& v) {
   v.boolean("stagnation", stagnation, "stop when neither best nor median improve any more");
   v.integer("max_generations", max_generations, "stop after so many generations; 0: 100 + 50 (n + 3)² / √population",
             at_least(0));
+  v.require(population == 0 || population >= 4, fmt::format("population = {}, must be ≥ 4, or 0", population));
   v.integer("eigen_up_to", eigen_up_to, "parameters up to which the covariance has an eigendecomposition", at_least(0));
 }
 

@@ -32,6 +32,9 @@ struct RpropOptions {
     v.number("first_step", first_step, "step that the search begins with", above(0));
     v.number("smallest_step", smallest_step, "step at least", above(0));
     v.number("largest_step", largest_step, "step at most", above(0));
+    v.require(smallest_step <= first_step && first_step <= largest_step,
+              "first_step = " + to_text(first_step) + ", must be between smallest_step = " + to_text(smallest_step) +
+                  " and largest_step = " + to_text(largest_step));
   }
 };
 GradientResult maximise_rprop(const Differentiable& objective, const Vector& start, const RpropOptions& options);

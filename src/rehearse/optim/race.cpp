@@ -36,7 +36,7 @@ class Race {
       const Index end = options_.max_evaluations * (round + 1) / options_.rounds;
       run_round(end);
       const bool last = round + 1 == options_.rounds;
-      if (!last && evaluations_ + judging_cost() > end) continue;  // its share goes to the next
+      if (!last && !can_judge(end)) continue;  // its share goes to the next
       judge(round);
       retire(round);
     }
@@ -46,6 +46,12 @@ class Race {
   }
 
  private:
+  /// True if judging fits into the round, and leaves enough to judge once in the last.
+  bool can_judge(Index end) const {
+    const Index after = evaluations_ + judging_cost();
+    return after <= end && after + 2 * static_cast<Index>(runners_.size()) <= options_.max_evaluations;
+  }
+
   template <class T>
   static bool better(const T& a, const T& b) {
     return a.value > b.value;
@@ -148,6 +154,8 @@ void RaceOptions::fields(FieldVisitor& v) {
   v.integer("judgements", judgements, expert("evaluations of a run's best point and mean when a round ends"),
             between(1, 1e6));
   v.group("cmaes", cmaes, kExpert);
+  v.require(max_evaluations / 2 >= descents,
+            fmt::format("max_evaluations = {}, must be ≥ 2 × descents = {}", max_evaluations, 2 * descents));
 }
 
 RaceResult race(const BatchObjective& objective, const SearchSpace& space, const RaceOptions& options,
@@ -156,9 +164,6 @@ RaceResult race(const BatchObjective& objective, const SearchSpace& space, const
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("race", copy); })) violations.add(line);
   violations.require(!space.box.empty(), "race needs a box");
-  violations.require(options.max_evaluations / 2 >= options.descents,
-                     fmt::format("race.max_evaluations = {}, must be ≥ 2 × race.descents = {}", options.max_evaluations,
-                                 2 * options.descents));
   violations.throw_if_any();
   return Race(objective, space, options, key, evaluator, listener).run();
 }

@@ -18,12 +18,6 @@ Index reserved(const SearchOptions& options) { return 2 * options.candidates * o
 void check(const Vector& start, const std::vector<Interval>& box, SearchOptions options) {
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("search", options); })) violations.add(line);
-  const Index population = options.cmaes.population;
-  if (population > 0 && population < 4)
-    violations.add(fmt::format("search.cmaes.population = {}, must be ≥ 4 (or 0 for 4 + 3 ln n)", population));
-  if (reserved(options) >= options.max_evaluations)
-    violations.add(fmt::format("search.max_evaluations = {}, must be > 2 candidates × final_samples = {}",
-                               options.max_evaluations, reserved(options)));
   violations.require(!box.empty(), "box is empty, must have an interval for each coordinate");
   for (const auto& line : box_violations(box, start.size())) violations.add(line);
   for (const auto& line : start_violations(start, box)) violations.add(line);
@@ -265,6 +259,9 @@ void SearchOptions::fields(FieldVisitor& v) {
   v.publish("cmaes.elitism", published(true));
   v.group("cmaes", cmaes, kExpert);
   v.group("uncertainty", uncertainty, kExpert);
+  v.require(max_evaluations > reserved(*this),
+            fmt::format("max_evaluations = {}, must be > 2 candidates × final_samples = {}", max_evaluations,
+                        reserved(*this)));
 }
 
 SearchResult maximise(const BatchObjective& objective, const Vector& start, const std::vector<Interval>& box,

@@ -12,9 +12,6 @@ void check(const Vector& start, RpropOptions options) {
   Violations violations;
   for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("rprop", options); })) violations.add(line);
   violations.require(start.size() > 0 && start.allFinite(), "start has no coordinates or is not finite");
-  violations.require(options.smallest_step <= options.first_step && options.first_step <= options.largest_step,
-                     "rprop.first_step = " + to_text(options.first_step) +
-                         ", must be between rprop.smallest_step and rprop.largest_step");
   violations.throw_if_any();
 }
 

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace rehearse::optim {
 namespace {
@@ -95,6 +98,8 @@ void UncertaintyOptions::fields(FieldVisitor& v) {
            between(0, 1));
   v.number("sigma_growth", sigma_growth, "growth factor of σ once max_samples is reached; 0: 1 + 2 / (n + 10)",
            at_least(0));
+  for (const auto& [name, growth] : {std::pair("samples_growth", samples_growth), {"sigma_growth", sigma_growth}})
+    v.require(growth == 0 || growth >= 1, fmt::format("{} = {}, must be ≥ 1, or 0", name, to_text(growth)));
 }
 
 UncertaintyHandler::UncertaintyHandler(const UncertaintyOptions& options, Index dimension, Index population)

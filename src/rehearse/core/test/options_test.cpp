@@ -26,6 +26,7 @@ struct Outer {
   void fields(FieldVisitor& v) {
     v.number("width", width, "of the box [m]", above(0));
     v.number("share", share, expert("of the box"), between(0, 1));
+    v.require(!(share > width), "share = " + to_text(share) + ", must be ≤ width = " + to_text(width));
     v.boolean("active", active, "or not");
     v.choice("colour", colour, "of the box", {"red", "green"});
     v.group("cmaes", cmaes, kExpert);
@@ -200,6 +201,15 @@ TEST(Options, ViolationsAreAllReported) {
   const std::vector<std::string> expected = {"width = -1, must be > 0", "share = nan, must be between 0 and 1",
                                              "cmaes.population = 3, must be ≥ 4"};
   EXPECT_EQ(field_violations(fields_of(options)), expected);
+}
+
+TEST(Options, HaveConditionsBetweenThem) {
+  Outer options{.width = 0.1};
+  const Fields nested = [&](FieldVisitor& v) { v.group("box", options); };
+  EXPECT_EQ(field_violations(nested), std::vector<std::string>{"box.share = 0.25, must be ≤ width = 0.1"});
+  EXPECT_TRUE(set_field(nested, "box.share", "0.2")) << "the other may be set next";
+  EXPECT_TRUE(set_field(nested, "box.width", "0.3"));
+  EXPECT_TRUE(field_violations(nested).empty());
 }
 
 TEST(Options, EveryFieldReadsBackExactly) {

@@ -166,5 +166,15 @@ TEST(Uncertainty, AsInLibcmaesWidensAtOnceAndNeverEvaluatesMoreOften) {
   EXPECT_EQ(handler.sigma_factor(), 1);
 }
 
+TEST(Uncertainty, AGrowthIsNoneOrAtLeastOne) {
+  UncertaintyOptions options;
+  const auto violations = [&] { return field_violations([&](FieldVisitor& v) { options.fields(v); }); };
+  EXPECT_TRUE(violations().empty());
+  options.samples_growth = 0.5;
+  options.sigma_growth = 0.9;
+  EXPECT_EQ(violations(), (std::vector<std::string>{"samples_growth = 0.5, must be ≥ 1, or 0",
+                                                    "sigma_growth = 0.9, must be ≥ 1, or 0"}));
+}
+
 }  // namespace
 }  // namespace rehearse::optim
