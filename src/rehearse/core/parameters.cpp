@@ -22,6 +22,15 @@ std::string violation(const Parameter& p, double value) {
   return {};
 }
 
+void check_choices(const Parameter& p, Violations& violations) {
+  violations.require(!p.choices.empty(), fmt::format("parameter {} has no choices", p.name));
+  for (auto i = p.choices.begin(); i != p.choices.end(); ++i) {
+    violations.require(std::isfinite(*i), fmt::format("parameter {}: choice {} must be finite", p.name, *i));
+    violations.require(std::find(p.choices.begin(), i, *i) == i,
+                       fmt::format("parameter {}: choice {} appears twice", p.name, *i));
+  }
+}
+
 }  // namespace
 
 Parameter Parameter::fixed(std::string name, double value, std::string unit) {
@@ -49,8 +58,7 @@ ParameterSpace::ParameterSpace(std::vector<Parameter> parameters) : parameters_(
     if (p.kind == Parameter::Kind::continuous)
       violations.require(std::isfinite(p.box.low) && std::isfinite(p.box.high) && p.box.low < p.box.high,
                          fmt::format("parameter {} needs a finite box with low < high", p.name));
-    if (p.kind == Parameter::Kind::discrete)
-      violations.require(!p.choices.empty(), fmt::format("parameter {} has no choices", p.name));
+    if (p.kind == Parameter::Kind::discrete) check_choices(p, violations);
     const std::string line = violation(p, p.value);
     violations.require(line.empty(), line);
   }

@@ -191,10 +191,12 @@ Task with_memory(Task task) {
   task.memory = actuators.memory();
   const std::vector<StateVariable> memory = actuators.variables();
   task.states.insert(task.states.end(), memory.begin(), memory.end());
-  task.start_mean.conservativeResize(actuators.states());
-  task.start_mean.tail(task.memory) = actuators.start();
-  task.start_std.conservativeResize(actuators.states());
-  task.start_std.tail(task.memory).setZero();
+  const auto extend = [](Vector& start, const Vector& by) {  // one of a wrong size stays wrong
+    start.conservativeResize(start.size() + by.size());
+    start.tail(by.size()) = by;
+  };
+  extend(task.start_mean, actuators.start());
+  extend(task.start_std, Vector::Zero(task.memory));
   return task;
 }
 

@@ -96,6 +96,8 @@ void check(const ConstMatrixView& X, const ConstMatrixView& Y, const ConstMatrix
   violations.require(static_cast<Index>(hyperparameters.size()) == Y.cols(),
                      fmt::format("fitc: {} sets of hyperparameters for {} outputs", hyperparameters.size(), Y.cols()));
   violations.require(ridge >= 0, fmt::format("fitc.ridge = {}, must be ≥ 0", ridge));
+  for (const gp::Hyperparameters& each : hyperparameters)
+    violations.require(!each.has_trend(), "fitc: no moments of a gp with a trend");
   for (std::size_t e = 0; e < hyperparameters.size(); ++e)
     for (auto& line : gp::violations(hyperparameters[e], X.cols(), fmt::format("hyperparameters[{}]", e)))
       violations.add(std::move(line));

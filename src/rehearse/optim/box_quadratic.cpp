@@ -23,7 +23,7 @@ std::vector<Index> indices_of(const Eigen::Array<bool, -1, 1>& mask) {
 
 std::optional<BoxMinimum> minimise_in_box(const Matrix& H, const Vector& g, const Vector& low, const Vector& high,
                                           const Vector& start) {
-  if (Eigen::LLT<Matrix>(H).info() != Eigen::Success || !g.allFinite()) return std::nullopt;
+  if (!H.allFinite() || !g.allFinite() || Eigen::LLT<Matrix>(H).info() != Eigen::Success) return std::nullopt;
   BoxMinimum best{.x = start.cwiseMax(low).cwiseMin(high), .free = {}, .factor_free = Eigen::LLT<Matrix>(Matrix(0, 0))};
   Vector& x = best.x;
   const auto value = [&](const Vector& at) { return at.dot(0.5 * (H * at) + g); };

@@ -75,7 +75,8 @@ class Choice final : public system::Simulator {
         sources.push_back(-1);
         continue;
       }
-      if (!shared(parameter, priors_)) parameter.name += "@" + prior.name;
+      const bool is_choice = parameter.name == joint.front().name;  // of which prior: a name of this choice's own
+      if (is_choice || !shared(parameter, priors_)) parameter.name += "@" + prior.name;
       const auto same = [&](const Parameter& p) { return p.name == parameter.name; };
       const auto found = std::find_if(joint.begin(), joint.end(), same);
       sources.push_back(found - joint.begin());

@@ -8,6 +8,8 @@ namespace rehearse::qd {
 namespace {
 
 constexpr double kBoxesPerPoint = 4;
+// More candidates are those of points that coincide, or lie far from all boxes.
+constexpr std::size_t kCandidatesPerBox = 64, kFewCandidates = 1 << 22;
 
 }  // namespace
 
@@ -32,6 +34,9 @@ NearestTable::NearestTable(const KdTree& tree, Matrix points) : points_(std::mov
     std::sort(near.begin(), near.end());
     candidates_.insert(candidates_.end(), near.begin(), near.end());
     begins_.push_back(static_cast<std::uint32_t>(candidates_.size()));
+    if (candidates_.size() <= std::max(kFewCandidates, kCandidatesPerBox * static_cast<std::size_t>(boxes))) continue;
+    *this = {};
+    return;
   }
 }
 

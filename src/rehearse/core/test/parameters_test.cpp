@@ -74,11 +74,12 @@ TEST(ParameterSpace, BadParametersAreAllReported) {
   const std::string text = message_of<InvalidInput>([] {
     ParameterSpace({Parameter::fixed("", 1), Parameter::fixed("a", 1), Parameter::fixed("a", 2),
                     Parameter::continuous("b", 0, {1, 1}), Parameter::discrete("c", 0, {}),
-                    Parameter::continuous("d", 5, {0, 1})});
+                    Parameter::continuous("d", 5, {0, 1}), Parameter::discrete("e", 1, {1, kNaN, 2, 1})});
   });
   for (const char* line :
        {"parameter 0 has no name", "parameter a appears twice", "parameter b needs a finite box with low < high",
-        "parameter c has no choices", "d = 5, must be between 0 and 1"})
+        "parameter c has no choices", "d = 5, must be between 0 and 1", "parameter e: choice nan must be finite",
+        "parameter e: choice 1 appears twice"})
     EXPECT_NE(text.find(line), std::string::npos) << line << " in\n" << text;
 }
 

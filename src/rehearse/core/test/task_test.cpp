@@ -169,5 +169,28 @@ TEST(Task, AnEmptyOneLacksEverything) {
   EXPECT_EQ(Task().violations().size(), 5u) << "states, actions, dt_s, horizon, reward";
 }
 
+// A start that is missing or too long must not become numbers from nowhere.
+TEST(Task, OfAWrongStartIsWrongWithMemoryToo) {
+  Task task;
+  task.states = {{"x", "m"}, {"v", "m/s"}};
+  task.actions = {{"u", "N", {-1, 1}}};
+  task.actions.front().actuation.delay_s = 0.2;
+  task.dt_s = 0.1;
+  task.horizon = 3;
+  task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView r) {
+    r.setZero();
+  };
+  for (const Index wrong : {0, 1, 3}) {
+    task.start_mean = Vector::Zero(wrong);
+    task.start_std = Vector::Zero(2);
+    EXPECT_EQ(with_memory(task).violations().size(), 1U) << wrong;
+  }
+  task.start_mean = Vector{{1, 2}};
+  const Task right = with_memory(task);
+  EXPECT_TRUE(right.violations().empty());
+  EXPECT_EQ(right.start_mean.head(2), (Vector{{1, 2}}));
+  EXPECT_EQ(right.start_std, Vector::Zero(right.state_size()));
+}
+
 }  // namespace
 }  // namespace rehearse

@@ -56,6 +56,9 @@ TEST(Fitc, RefusesSizesThatDoNotAgree) {
   EXPECT_THROW(fitc_terms(d.X, d.y, d.Z.leftCols(2), {d.theta}), InvalidInput);
   EXPECT_THROW(fitc_terms(d.X, d.y, d.Z, {d.theta, d.theta}), InvalidInput);
   EXPECT_THROW(fitc_terms(d.X, d.y.head(3), d.Z, {d.theta}), InvalidInput);
+  gp::Hyperparameters trend = d.theta;
+  trend.log_trend = Vector::Zero(d.X.cols() + 1);
+  EXPECT_THROW(fitc_terms(d.X, d.y, d.Z, {trend}), InvalidInput);
 }
 
 Transformed moments_of(std::vector<MomentTerm> terms, const Gaussian& x) {

@@ -47,5 +47,10 @@ TEST(BoxQuadratic, SaysWhereThereIsNoMinimum) {
   EXPECT_FALSE(minimise_in_box(Matrix::Identity(2, 2), Vector{{kNaN, 0}}, -one, one, Vector::Zero(2)));
 }
 
+TEST(BoxQuadratic, OfAHessianThatIsNotFiniteThereIsNone) {
+  const Vector one = Vector::Ones(2);
+  EXPECT_FALSE(minimise_in_box(Matrix{{kNaN, 0}, {0, 1}}, one, -one, one, Vector::Zero(2)));
+}
+
 }  // namespace
 }  // namespace rehearse::optim

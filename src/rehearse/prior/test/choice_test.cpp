@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -48,6 +49,21 @@ TEST(Choice, SharesParametersOfTheSameNameAndBox) {
   EXPECT_EQ(both.space.values(), (Vector{{0, 1, 2}})) << "the first prior's values are where the search starts";
   EXPECT_EQ(change_of(both, Vector{{0, 5, 6}}), 56);
   EXPECT_EQ(change_of(both, Vector{{1, 5, 6}}), 65) << "each prior keeps its own order";
+}
+
+TEST(Choice, KeepsAParameterCalledPriorApartFromItsOwn) {
+  const Prior a = prior("a", {tunable("prior", 1), tunable("l", 2)}), b = prior("b", {tunable("prior", 3)});
+  const Prior both = choice({a, b});
+  EXPECT_EQ(both.space.names(), (std::vector<std::string>{"prior", "prior@a", "l", "prior@b"}));
+  EXPECT_EQ(change_of(both, Vector{{0, 5, 6, 7}}), 56);
+  EXPECT_EQ(change_of(both, Vector{{1, 5, 6, 7}}), 7);
+}
+
+TEST(Choice, MayBeAmongChoices) {
+  const Prior z = prior("z", {tunable("m", 1)}), l = prior("l", {tunable("m", 2)}), r = prior("r", {tunable("m", 3)});
+  const Prior all = choice({z, choice({l, r})});
+  EXPECT_EQ(all.space[0].name, "prior");
+  EXPECT_EQ(std::ranges::count(all.space.names(), "prior@l,r"), 1);
 }
 
 TEST(Choice, KeepsParametersOfOtherBoxesApart) {

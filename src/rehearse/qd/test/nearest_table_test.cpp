@@ -39,5 +39,13 @@ TEST(NearestTable, KnowsNothingOutsideTheCube) {
   EXPECT_TRUE(NearestTable().empty());
 }
 
+// Such points are candidates of every box: a table of them would take quadratic memory.
+TEST(NearestTable, OfPointsThatCoincideOrLieFarAwayThereIsNone) {
+  for (const double place : {0.5, 1e6}) {
+    const Matrix points = Matrix::Constant(2, 5000, place);
+    EXPECT_TRUE(NearestTable(KdTree(points), points).empty());
+  }
+}
+
 }  // namespace
 }  // namespace rehearse::qd
