@@ -28,9 +28,9 @@ struct Blocks {
     }
   }
 
-  void shift(Index block, std::size_t part, Index column, double sign) {
+  void shift(Index block, std::size_t part, Index column, double widths) {
     auto numbers = parts[part].col(column).segment(block * n, n);
-    numbers += sign * numbers.unaryExpr(&width_of);
+    numbers += widths * numbers.unaryExpr(&width_of);
   }
 
   void earn(const Task& task, double time_s) {
@@ -78,10 +78,12 @@ void step_slopes(const Task& task, const Steps& steps, Matrix& by) {
   std::array<Index, 5> first = {};  // column of each part in `by`
   for (std::size_t p = 0; p < parts.size(); ++p) first[p + 1] = first[p] + columns[p];
   by.setZero(steps.X.rows(), first.back());
-  // Block 0 is the rows as they are, block 1 with a little more of everything but the states reached.
+  // Block 0 is the rows as they are, block 1 with a little more of everything but the states reached: of each number
+  // another little, because a reward may know differences of two alone.
   blocks.copy(parts, 2 + 2 * columns[kReached]);
+  double widths = 1;
   for (const std::size_t p : {0, 1, 3})
-    for (Index c = 0; c < columns[p]; ++c) blocks.shift(1, p, c, 1);
+    for (Index c = 0; c < columns[p]; ++c, widths += 0.37) blocks.shift(1, p, c, widths);
   surround(kReached, 2, blocks);
   blocks.earn(task, steps.time_s);
   write_slopes(steps.X_next, blocks, 2, by.middleCols(first[kReached], columns[kReached]));

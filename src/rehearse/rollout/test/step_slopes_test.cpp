@@ -19,6 +19,23 @@ TEST(StepSlopes, AreThoseOfRewardLessCost) {
   EXPECT_LT((by - Matrix{{5, 0, 1 - 1, 0, 3 * 64, -10}, {6, 0, 3 + 1, 0, 3, -12}}).cwiseAbs().maxCoeff(), 1e-6) << by;
 }
 
+TEST(StepSlopes, KnowDifferencesOfActions) {
+  Task task;
+  task.reward = [](const ConstMatrixView&, const ConstMatrixView& U, const ConstMatrixView&, VectorView r) {
+    r = U.col(0) - U.col(1);
+  };
+  const Matrix X{{1}}, U{{0.5, -0.25}}, before{{-0.5, 0.75}};
+  Matrix by;
+  step_slopes(task, {X, U, X, Matrix(), 0}, by);
+  EXPECT_LT((by - Matrix{{0, 1, -1, 0}}).cwiseAbs().maxCoeff(), 1e-9) << by;
+  task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView r) {
+    r.setZero();
+  };
+  task.cost = [](const Steps& steps, VectorView c) { c = (steps.U - steps.U_before).rowwise().squaredNorm(); };
+  step_slopes(task, {X, U, X, before, 0}, by);
+  EXPECT_LT((by - Matrix{{0, -2, 2, 0, 2, -2}}).cwiseAbs().maxCoeff(), 1e-9) << by;
+}
+
 TEST(StepSlopes, ARowThatIsNotFiniteDisturbsNoOther) {
   Task task;
   task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next, VectorView r) {
