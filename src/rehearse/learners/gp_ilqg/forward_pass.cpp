@@ -63,7 +63,7 @@ Matrix Trajectory::rows(const Columns& columns) const {
 }
 
 Vector Trajectory::times(const Task& task) const {
-  return Vector::LinSpaced(steps, 0, static_cast<double>(steps - 1) * task.dt_s);
+  return Vector::LinSpaced(steps, begin_s, begin_s + static_cast<double>(steps - 1) * task.dt_s);
 }
 
 Vector ForwardPass::beside_hold(const Trajectory& trajectory) const {

@@ -11,6 +11,7 @@ namespace rehearse::learners::gp_ilqg {
 struct Trajectory {
   Matrix states, actions;  // steps + 1 × dx, steps × du, of the planned steps
   Index steps = 0;         // made before an early end
+  double begin_s = 0;      // when the first step begins
   double cost = kInf;      // as Plan's
   double promise = -kInf;  // as Plan's
 

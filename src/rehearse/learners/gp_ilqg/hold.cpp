@@ -14,6 +14,7 @@ constexpr double kLargestNewtonStep = 0.3;  // of any number: cost and equation 
 constexpr double kStays = 1e-7;             // the largest change of a state that stays
 constexpr double kMostAction = 0.95;        // of its bound: something must be left for the feedback
 constexpr int kMostRiccatiSteps = 20000;
+constexpr double kUnseen = 1e-6;   // of the largest gain: less of it than this is none
 constexpr double kSettled = 1e-9;  // of the cost to go, relative: a step of the recursion changes no more
 
 /// A step from a state under an action, about them.
@@ -22,14 +23,17 @@ struct StepThere {
   Vector change;  // dx, in the model's mean
 };
 
-StepThere step_at(const PlanProblem& problem, const StepCosts& costs, const Vector& state, const Vector& action) {
+/// The second of two alike, so that its action was there before.
+StepThere step_at(const PlanProblem& problem, const StepCosts& costs, const Vector& state, const Vector& action,
+                  double time_s) {
   Trajectory stays;
-  stays.steps = 1;
-  stays.states = state.transpose().replicate(2, 1);
-  stays.actions = action.transpose();
+  stays.steps = 2;
+  stays.begin_s = time_s - problem.task.dt_s;
+  stays.states = state.transpose().replicate(3, 1);
+  stays.actions = action.transpose().replicate(2, 1);
   dynamics::Linearised at;
-  PlannedStep step = planned_steps(problem, costs, stays, at).front();
-  return {std::move(step), at.mean.row(0).transpose()};
+  PlannedStep step = planned_steps(problem, costs, stays, at).back();
+  return {std::move(step), at.mean.row(1).transpose()};
 }
 
 /// Derivatives by (state, actions) of the cost of staying there.
@@ -49,11 +53,11 @@ Staying staying(const PlannedStep& step, const Columns& columns) {
 }
 
 /// Newton's method for the cheapest point that stays: both change at once.
-bool settle(const PlanProblem& problem, const StepCosts& costs, Vector& state, Vector& action) {
+bool settle(const PlanProblem& problem, const StepCosts& costs, double time_s, Vector& state, Vector& action) {
   const Columns& columns = costs.columns();
   const Index dx = columns.dx, du = columns.du, z = dx + du;
   for (int i = 0; i < kMostNewtonSteps; ++i) {
-    const auto [step, change] = step_at(problem, costs, state, action);
+    const auto [step, change] = step_at(problem, costs, state, action, time_s);
     const Staying at = staying(step, columns);
     if (!at.hessian.allFinite() || !step.dynamics.by.allFinite() || !change.allFinite()) return false;
     Matrix by(dx, z);  // of the change
@@ -78,13 +82,24 @@ bool settle(const PlanProblem& problem, const StepCosts& costs, Vector& state, V
   return change.cwiseAbs().maxCoeff() < 10 * kStays && costs.in_half_ranges(action).cwiseAbs().maxCoeff() < kMostAction;
 }
 
+/// Gains by states that a policy does not see become 0 where they hardly matter. False where they do.
+bool needs_only_what_is_seen(const Task& task, Matrix& gain) {
+  const double small = kUnseen * gain.cwiseAbs().maxCoeff();
+  for (Index i = 0; i < gain.cols(); ++i) {
+    if (task.states[static_cast<std::size_t>(i)].kind != StateKind::omitted) continue;
+    if (gain.col(i).cwiseAbs().maxCoeff() > small) return false;
+    gain.col(i).setZero();
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<Hold> find_hold(const PlanProblem& problem, const StepCosts& costs, const Vector& state,
-                              const Vector& action) {
+                              const Vector& action, double time_s) {
   Vector x = state, u = action;
-  if (!settle(problem, costs, x, u)) return std::nullopt;
-  PlannedStep step = step_at(problem, costs, x, u).step;
+  if (!settle(problem, costs, time_s, x, u)) return std::nullopt;
+  PlannedStep step = step_at(problem, costs, x, u, time_s).step;
   step.action.setZero();
   step.cost.gradient.setZero();  // it is the cheapest point that stays
   // Feedback far within the bounds: they are as if they were not there.
@@ -96,8 +111,10 @@ std::optional<Hold> find_hold(const PlanProblem& problem, const StepCosts& costs
     const double change = (before->before.S - value.S).cwiseAbs().maxCoeff(), size = value.S.cwiseAbs().maxCoeff();
     value.S = before->before.S;
     if (!(size < 1e12)) return std::nullopt;
-    if (i > 0 && change <= kSettled * size)
-      return Hold{{u, x, costs.half_ranges().asDiagonal() * before->feedback.gain.leftCols(costs.columns().dx)}, value};
+    if (i == 0 || change > kSettled * size) continue;
+    Matrix gain = costs.half_ranges().asDiagonal() * before->feedback.gain.leftCols(costs.columns().dx);
+    if (!needs_only_what_is_seen(problem.task, gain)) return std::nullopt;
+    return Hold{{u, x, std::move(gain)}, value};
   }
   return std::nullopt;
 }

@@ -123,10 +123,12 @@ class Search {
       if (plan.steps == 0) continue;
       const Matrix actions = actions_of(plan);
       Index cheapest = 0;
-      costs.of_staying(plan.states.topRows(plan.steps), actions).minCoeff(&cheapest);
-      auto hold = find_hold(problem_, costs, plan.states.row(cheapest).transpose(), actions.row(cheapest).transpose());
+      const double end_s = static_cast<double>(plan.stages.size() - 1) * problem_.task.dt_s;
+      costs.of_staying(plan.states.topRows(plan.steps), actions, end_s).minCoeff(&cheapest);
+      auto hold =
+          find_hold(problem_, costs, plan.states.row(cheapest).transpose(), actions.row(cheapest).transpose(), end_s);
       if (!hold) continue;
-      const double cost = costs.of_staying(hold->stage.state.transpose(), hold->stage.action.transpose())(0);
+      const double cost = costs.of_staying(hold->stage.state.transpose(), hold->stage.action.transpose(), end_s)(0);
       if (cost < lowest) lowest = cost, best = std::move(hold);
     }
     return best;

@@ -106,11 +106,11 @@ void StepCosts::add_step_costs(const ConstMatrixView& W, const Vector& times_s, 
   costs += options_.task_costs * some;
 }
 
-Vector StepCosts::of_staying(const ConstMatrixView& states, const ConstMatrixView& actions) const {
+Vector StepCosts::of_staying(const ConstMatrixView& states, const ConstMatrixView& actions, double time_s) const {
   Matrix W(states.rows(), columns_.all());
-  W << states, Matrix::Zero(states.rows(), columns_.before), actions, states;
+  W << states, actions.leftCols(columns_.before), actions, states;
   Vector costs(W.rows());
-  evaluate(W, Vector::Zero(W.rows()), costs);
+  evaluate(W, Vector::Constant(W.rows(), time_s), costs);
   return costs;
 }
 

@@ -58,9 +58,9 @@ class StepCosts {
   /// W: one step a row; times_s: when each begins. A cost that is not finite is infinite.
   void evaluate(const ConstMatrixView& W, const Vector& times_s, VectorView costs) const;
 
-  /// The cost of a first step, with no action before it, that stays in its state (rows × dx) under an action (rows ×
-  /// du).
-  Vector of_staying(const ConstMatrixView& states, const ConstMatrixView& actions) const;
+  /// The cost of a step that begins at a time and stays in its state (rows × dx) under an action (rows × du), which was
+  /// also the action before.
+  Vector of_staying(const ConstMatrixView& states, const ConstMatrixView& actions, double time_s) const;
 
   /// By finite differences, all steps in one batch.
   std::vector<Expansion> expand(const ConstMatrixView& W, const Vector& times_s) const;

@@ -36,7 +36,7 @@ TEST(Hold, IsWhereTheRobotStaysAndEarnsMost) {
   const Task task = pendulum(2, 0);
   const Pendulum model;
   const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-3});
-  const auto hold = find_hold({model, task, serial_evaluator()}, costs, Vector{{0.2, 0.5}}, Vector{{0.4}});
+  const auto hold = find_hold({model, task, serial_evaluator()}, costs, Vector{{0.2, 0.5}}, Vector{{0.4}}, 0);
   ASSERT_TRUE(hold);
   EXPECT_NEAR(hold->stage.state.norm(), 0, 1e-5);
   EXPECT_NEAR(hold->stage.action(0), 0, 1e-5);
@@ -52,7 +52,7 @@ TEST(Hold, MayNeedAnAction) {
   const Task task = pendulum(2, 0.5);
   const Pendulum model;
   const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-6});
-  const auto hold = find_hold({model, task, serial_evaluator()}, costs, Vector{{0.2, 0.5}}, Vector{{0}});
+  const auto hold = find_hold({model, task, serial_evaluator()}, costs, Vector{{0.2, 0.5}}, Vector{{0}}, 0);
   ASSERT_TRUE(hold);
   EXPECT_NEAR(hold->stage.state(0), 0.5, 1e-3);
   EXPECT_NEAR(hold->stage.action(0), -std::sin(0.5), 1e-3);
@@ -62,7 +62,39 @@ TEST(Hold, IsNotThereWhereTheActionsAreTooWeak) {
   const Task task = pendulum(0.1, 1.2);
   const Pendulum model;
   const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-6});
-  EXPECT_FALSE(find_hold({model, task, serial_evaluator()}, costs, Vector{{1.2, 0}}, Vector{{0}}));
+  EXPECT_FALSE(find_hold({model, task, serial_evaluator()}, costs, Vector{{1.2, 0}}, Vector{{0}}, 0));
+}
+
+TEST(Hold, KnowsItsActionBeforeAndTheTime) {
+  Task task = pendulum(2, 0.5);
+  const Pendulum model;
+  const auto hold = [&](double time_s) {
+    const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-6});
+    return find_hold({model, task, serial_evaluator()}, costs, Vector{{0.2, 0.5}}, Vector{{0}}, time_s);
+  };
+  task.cost = [](const Steps& steps, VectorView costs) { costs = 5 * (steps.U - steps.U_before).rowwise().squaredNorm(); };
+  ASSERT_TRUE(hold(3));
+  EXPECT_NEAR(hold(3)->stage.state(0), 0.5, 1e-3) << "an action that stays costs nothing";
+  task.cost = [](const Steps& steps, VectorView costs) {
+    costs = (steps.time_s > 2 ? 5 : 0) * steps.U.rowwise().squaredNorm();
+  };
+  ASSERT_TRUE(hold(3));
+  EXPECT_LT(std::abs(hold(3)->stage.state(0)), 0.3) << "where less action is needed";
+}
+
+TEST(Hold, IsNotOfStatesThatAPolicyDoesNotSee) {
+  Task task = line::task();
+  const line::Model model;
+  const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 0.1});
+  const auto hold = [&] { return find_hold({model, task, serial_evaluator()}, costs, Vector{{0.5, 0}}, Vector{{0}}, 0); };
+  EXPECT_TRUE(hold());
+  task.states[0].kind = StateKind::omitted;
+  EXPECT_FALSE(hold()) << "the place decides the reward";
+  task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& next, VectorView rewards) {
+    rewards = -next.col(1).cwiseAbs2();
+  };
+  ASSERT_TRUE(hold());
+  EXPECT_EQ(hold()->stage.gain(0, 0), 0);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST(Plan, EndsWithAHold) {
   const line::Model model;
   const PlanProblem problem{model, task, serial_evaluator()};
   const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = line::kActionCost});
-  const auto hold = find_hold(problem, costs, Vector{{0.3, -0.2}}, Vector{{1}});
+  const auto hold = find_hold(problem, costs, Vector{{0.3, -0.2}}, Vector{{1}}, 0);
   ASSERT_TRUE(hold);
   EXPECT_NEAR(hold->stage.state.norm(), 0, 1e-5);
   Task longer = task;

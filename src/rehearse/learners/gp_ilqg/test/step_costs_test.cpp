@@ -26,7 +26,7 @@ TEST(StepCosts, AreMinusTheRewardOrItsLogarithm) {
 TEST(StepCosts, OfStayingAreThoseOfAStepThatLeadsBack) {
   const Task task = line::task(4);
   const Vector costs = StepCosts(task, {.scale = CostScale::linear, .action_cost = 0.1})
-                           .of_staying(Matrix{{3, 1}, {0, 0}}, Matrix{{2}, {0}});
+                           .of_staying(Matrix{{3, 1}, {0, 0}}, Matrix{{2}, {0}}, 0);
   EXPECT_NEAR(costs(0), 9 + 0.1 + 0.025, 1e-12);
   EXPECT_EQ(costs(1), 0);
 }
@@ -66,6 +66,9 @@ TEST(StepCosts, KnowTheActionBeforeAndTheTime) {
   EXPECT_NEAR(all[1].value, 12 + 0.1, 1e-12);
   EXPECT_NEAR(all[1].gradient(2), -3 * 4 * 2, 1e-4) << "actions are in units of half their range";
   EXPECT_NEAR(all[1].gradient(3), 3 * 4 * 2 + 0.2, 1e-4);
+  EXPECT_NEAR(costs.of_staying(Matrix::Zero(1, 2), Matrix{{2}}, 3)(0), 0.1, 1e-12) << "its action does not change";
+  task.cost = [](const Steps& steps, VectorView c) { c.setConstant(steps.time_s > 2 ? 7 : 0); };
+  EXPECT_NEAR(costs.of_staying(Matrix::Zero(1, 2), Matrix{{0}}, 3)(0), 7, 1e-12);
 }
 
 }  // namespace
