@@ -24,6 +24,7 @@ struct Entry {
   std::unique_ptr<Learner> (*make)(Setting, Options) = nullptr;
   Options options = {};
   std::vector<std::string> (*violations)(const Options&, const Task&, const policy::Policy&) = nullptr;  // may be null
+  std::vector<std::string> (*warnings)(const Task&) = nullptr;  // may be null
   OptionTexts scenario_defaults = {};  // options of the scenario that suit it, where nobody sets them
 };
 
@@ -43,6 +44,9 @@ class OptionsBuilder final : public LearnerBuilder {
   void fields(FieldVisitor& v) override { entry_.options.fields(v); }
   std::vector<std::string> violations(const Task& task, const policy::Policy& policy) const override {
     return entry_.violations ? entry_.violations(entry_.options, task, policy) : std::vector<std::string>{};
+  }
+  std::vector<std::string> warnings(const Task& task) const override {
+    return entry_.warnings ? entry_.warnings(task) : std::vector<std::string>{};
   }
   std::unique_ptr<Learner> build(Setting setting) const override {
     return entry_.make(std::move(setting), entry_.options);

@@ -46,7 +46,7 @@ TEST(Spec, DefaultsOfAScenarioComeBeforeTheUsersOptions) {
 }
 
 /// A robot whose plant has what its oracle lacks, and a prior without anything to tune.
-struct StiffBuilder final : fake::LineBuilder {
+struct StiffBuilder : fake::LineBuilder {
   scenario::Scenario build() const override {
     scenario::Scenario scenario = LineBuilder::build();
     scenario.priors[1].parameters = scenario.priors[1].parameters.fixed_at(scenario.priors[1].parameters.values());
@@ -55,10 +55,22 @@ struct StiffBuilder final : fake::LineBuilder {
   }
 };
 
+/// The same robot, whose episodes may end early.
+struct FallingBuilder final : StiffBuilder {
+  scenario::Scenario build() const override {
+    scenario::Scenario scenario = StiffBuilder::build();
+    scenario.task.ended = each_state([](const ConstVectorView&) { return false; });
+    return scenario;
+  }
+};
+
 struct TuningBuilder final : fake::EchoBuilder {
   TuningBuilder() : EchoBuilder(true, {}) {}
   std::string name() const override { return "tuning"; }
   bool tunes_prior() const override { return true; }
+  std::vector<std::string> warnings(const Task& task) const override {
+    return task.ended ? std::vector<std::string>{"it ignores `ended`"} : std::vector<std::string>{};
+  }
 };
 
 TEST(Spec, WarnsOfWhatIsHardlyMeant) {
@@ -79,6 +91,9 @@ TEST(Spec, WarnsOfWhatIsHardlyMeant) {
   EXPECT_EQ(warnings("echo", "far"), Lines{});
   EXPECT_EQ(warnings("echo", "oracle"), Lines{"the oracle is not all of the plant: v is late"});
   EXPECT_EQ(warnings("tuning", "oracle"), Lines{"the oracle is not all of the plant: v is late"});
+  catalogue.scenarios = {[] { return std::make_unique<FallingBuilder>(); }};
+  EXPECT_EQ(warnings("tuning", "near"), Lines{"tuning: it ignores `ended`"});
+  EXPECT_EQ(warnings("echo", "near"), Lines{});
 }
 
 /// A learner that prefers two options of the scenario, of which this one has one, and a value that it cannot have.
@@ -107,6 +122,28 @@ TEST(Spec, WhatALearnerPrefersOfAScenarioComesBeforeAllElse) {
   EXPECT_EQ(complete[4].second, "0.4");  // search.step, which is the learner's own
   catalogue.default_presets = {{"line", "format = 1\nset.noise = 0.4\n"}};
   EXPECT_EQ(noise({}), "0.4");
+}
+
+/// A learner with options that contradict each other.
+class Contradictory final : public fake::EchoBuilder {
+ public:
+  Contradictory() : EchoBuilder(true, {}) {}
+  void fields(FieldVisitor& v) override {
+    EchoBuilder::fields(v);
+    v.require(false, "search.step = 0.4, must be ≤ another");
+  }
+};
+
+TEST(Spec, OptionsThatContradictEachOtherAreNoHindranceToLookingAtARun) {
+  Catalogue catalogue = fake::catalogue();
+  catalogue.learner_families = {[] {
+    std::vector<std::unique_ptr<learners::LearnerBuilder>> family;
+    family.push_back(std::make_unique<Contradictory>());
+    return family;
+  }};
+  EXPECT_EQ(fake::message_of<InvalidInput>([&] { resolve(catalogue, spec_of("echo", "near")); }),
+            "search.step = 0.4, must be ≤ another");
+  EXPECT_NO_THROW(resolve_begun(catalogue, spec_of("echo", "near")));
 }
 
 TEST(Spec, SaysWhatIsWrong) {

@@ -10,6 +10,7 @@
 #include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/files/checksum.hpp"
 #include "rehearse/learners/builder.hpp"
+#include "rehearse/learners/start_policy.hpp"
 #include "rehearse/learners/trial_learner.hpp"
 
 namespace rehearse::learners::ite {
@@ -183,6 +184,14 @@ void Options::fields(FieldVisitor& v) {
 std::unique_ptr<Learner> make(Setting setting, Options options) {
   options.archive = for_seed(std::move(options.archive), setting.seed);
   setting = checked(std::move(setting), options, PriorUse::required, violations_with);
+  if (setting.start) {
+    const bool made = options.archive.file.empty();
+    if (!made || options.archive.search.examples == 0)
+      throw InvalidInput(fmt::format("the policy to begin with has no effect: {}",
+                                     made ? "archive.search.examples = 0, so that no solution is drawn near it"
+                                          : "archive.file names an archive that was made before"));
+    require_start_in_box(setting, options.archive.box, "archive.box");
+  }
   return std::make_unique<Ite>(std::move(setting), std::move(options));
 }
 

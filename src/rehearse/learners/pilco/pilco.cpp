@@ -19,6 +19,11 @@ std::vector<std::string> without_moments(const Options& options, const Task& tas
   return moments::without_moments(task, policy, user());
 }
 
+std::vector<std::string> ignored(const Task& task) {
+  if (!task.ended) return {};
+  return {"moment matching ignores the task's `ended`: the expected return counts the steps after an early end, too"};
+}
+
 PriorUse prior_use(const Options& options) {
   return options.prior || options.pi_rem ? PriorUse::required : PriorUse::none;
 }
@@ -31,6 +36,7 @@ Entry<Options> entry(const char* name, const char* summary, const Options& optio
           .make = make,
           .options = options,
           .violations = without_moments,
+          .warnings = ignored,
           .scenario_defaults = {{"policy", "rbf"}}};
 }
 

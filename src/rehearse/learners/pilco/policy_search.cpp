@@ -122,9 +122,10 @@ SearchResult search_with_restarts(const SearchProblem& problem, const Vector& st
   SearchResult best = search(objective, start, options);
   if (earned && best.predicted_return)  // fmax: where the start has no value nothing is known of the model
     *best.predicted_return -= std::fmax(0, objective.at(start) - *earned);
-  const std::vector<Vector> others = restarts.policies.empty()
-                                         ? first_policies(problem, options, restarts.key)
-                                         : best_policies(objective, restarts.policies, options.restarts);
+  std::vector<Vector> others;
+  if (options.restarts > 0)
+    others = restarts.policies.empty() ? first_policies(problem, options, restarts.key)
+                                       : best_policies(objective, restarts.policies, options.restarts);
   for (const Vector& other : others) {
     SearchResult fresh = search(objective, other, options);
     if (fresh.predicted_return > best.predicted_return) best = std::move(fresh);  // none is less than any

@@ -147,11 +147,8 @@ class PriorPhase {
   }
 
   void note_failure(const Episode& episode) {
-    const Index last = episode.steps();
-    const auto& fell = setting_.task.ended;
-    if (last == setting_.task.horizon || (fell && holds(fell, episode.true_states.row(last).transpose()))) return;
-    state_.knowledge.notes.push_back(
-        fmt::format("on the prior, episode {}: its simulator failed at step {}", done() + 1, last + 1));
+    if (episode.failure.empty()) return;
+    state_.knowledge.notes.push_back(fmt::format("on the prior, episode {}: {}", done() + 1, episode.failure));
   }
 
   const Proposal& asked() {

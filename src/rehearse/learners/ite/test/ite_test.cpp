@@ -49,6 +49,22 @@ TEST(Ite, TheFirstPolicyIsTheArchivesBest) {
   EXPECT_GT(search.archive.statistics().coverage, 0.1);
 }
 
+TEST(Ite, BeginsWithAPolicyOnlyWhereThatCanHaveAnEffect) {
+  const auto why = [](const OptionTexts& options, double parameter) -> std::string {
+    Setting with = setting();
+    with.start = Vector::Constant(with.policy->parameters(), parameter);
+    try {
+      (void)builder(options)->build(with);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why({}, 0.5), "");
+  EXPECT_NE(why({{"archive.search.examples", "0"}}, 0.5).find("archive.search.examples = 0, so that"), std::string::npos);
+  EXPECT_NE(why({}, 1e5).find("archive.box: parameter 1 of the policy to begin with is 100000"), std::string::npos);
+}
+
 const Table& table(const std::vector<Table>& tables, const std::string& name) {
   return *std::find_if(tables.begin(), tables.end(), [&](const Table& table) { return table.name == name; });
 }

@@ -19,6 +19,16 @@ namespace {
 using slider::asked_after, slider::builder, slider::learn, slider::linear, slider::rbf, slider::run_trial,
     slider::setting, slider::task;
 
+TEST(Pilco, WarnsOfEarlyEndsThatItIgnores) {
+  Task ending = task();
+  for (const auto& each : builders()) {
+    ending.ended = nullptr;
+    EXPECT_TRUE(each->warnings(ending).empty());
+    ending.ended = each_state([](const ConstVectorView&) { return false; });
+    EXPECT_EQ(each->warnings(ending).size(), 1U);
+  }
+}
+
 std::string refusal(const Setting& setting) {
   try {
     builder()->build(setting);

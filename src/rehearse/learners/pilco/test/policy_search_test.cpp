@@ -66,6 +66,8 @@ TEST(PolicySearch, TakesTheBestOfItsRestarts) {
   SearchOptions none = options;
   none.restarts = 0;
   EXPECT_EQ(search_with_restarts(problem, first_policy(0), none, {key}).theta, all.front().theta);
+  const Restarts known{.key = key, .policies = {first_policy(1), first_policy(2)}};
+  EXPECT_EQ(search_with_restarts(problem, first_policy(0), none, known).evaluations, all.front().evaluations);
 }
 
 // Two of four, those of the highest value on the model.
