@@ -42,7 +42,7 @@ gp::FitOptions fit_options(const GpOptions& options, const dynamics::Residuals& 
 Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, const Smoothed* smoothed) {
   const dynamics::Residuals& residuals = problem.residuals;
   const dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
-  if (!rows.inputs) throw InvalidInput("no row of the data set has a finite prior mean: nothing to learn from");
+  if (!rows.inputs) throw NoUsableRow("no row of the data set has a finite prior mean: nothing to learn from");
   std::optional<dynamics::Mean> mean;
   if (problem.prior) mean = dynamics::Mean{*problem.prior, fit.phi, residuals.midpoint()};
   Learned learned;

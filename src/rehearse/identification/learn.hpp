@@ -8,6 +8,7 @@
 
 #include "rehearse/core/actuators.hpp"
 #include "rehearse/core/episode.hpp"
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/feature_map.hpp"
 #include "rehearse/dynamics/dynamics_model.hpp"
@@ -44,7 +45,13 @@ struct LearningProblem {
   Actuators actuators = {};   // in front of the robot; the data set has their memory
 };
 
-/// Throws InvalidInput if the kind needs a prior and none is given, or the data set has no usable row.
+/// Thrown where the prior's mean is finite in no row of the data set.
+class NoUsableRow : public InvalidInput {
+ public:
+  using InvalidInput::InvalidInput;
+};
+
+/// Throws InvalidInput if the kind needs a prior and none is given, or the data set has no row; NoUsableRow.
 Learned learn(const LearningProblem& problem, const Kind& kind, const WarmStart& start, const Evaluator& evaluator);
 
 }  // namespace rehearse::identification

@@ -43,11 +43,11 @@ identification::WarmStart ModelOfTrials::learn(Proposal& proposal) const {
     proposal.left_out_rows = learned.left_out_rows;
     proposal.notes = std::move(learned.notes);
     return std::move(learned.state);
-  } catch (const InvalidInput& nothing_to_learn_from) {
+  } catch (const InvalidInput& failed) {
     if (!setting_.prior) throw;
     trust_prior(proposal, 0);
-    proposal.left_out_rows = data_.size();
-    proposal.notes.push_back(nothing_to_learn_from.what());
+    if (dynamic_cast<const identification::NoUsableRow*>(&failed)) proposal.left_out_rows = data_.size();
+    proposal.notes.push_back(failed.what());
     return start_;
   }
 }

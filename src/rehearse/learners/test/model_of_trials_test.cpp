@@ -83,5 +83,26 @@ TEST(ModelOfTrials, TrustsThePriorWhereNothingCanBeLearned) {
   EXPECT_EQ(proposal.notes.size(), 1U);
 }
 
+// Rows are left out where the prior fails, and only there.
+TEST(ModelOfTrials, SaysThatRowsAreLeftOutWhereThePriorIsNotFinite) {
+  const auto learned = [](const Setting& setting, identification::GpMi kind) {
+    ModelOfTrials model(setting, std::move(kind));
+    model.add(an_episode(1));
+    Proposal proposal;
+    model.learn(proposal);
+    EXPECT_EQ(proposal.notes.size(), 1U);
+    return proposal.left_out_rows;
+  };
+  Setting broken = slider_setting();
+  broken.prior->simulator = system::make_ode_simulator(
+      [](const Vector&, const Vector&, const Vector&, Vector& dxdt) { dxdt.setConstant(kNaN); }, broken.prior->space,
+      broken.task.dt_s, 1);
+  EXPECT_EQ(learned(broken, {}), 12);
+  identification::GpMi impossible;
+  impossible.gp.fit.method = gp::FitMethod::rprop;
+  impossible.gp.fit.rprop.first_step = 100;
+  EXPECT_EQ(learned(slider_setting(), impossible), 0);
+}
+
 }  // namespace
 }  // namespace rehearse::learners
