@@ -16,6 +16,7 @@
 #include "rehearse/learners/builder.hpp"
 #include "rehearse/learners/json.hpp"
 #include "rehearse/learners/model_of_trials.hpp"
+#include "rehearse/learners/start_policy.hpp"
 #include "rehearse/learners/trial_learner.hpp"
 #include "rehearse/policy/differentiable.hpp"
 #include "rehearse/policy/schedule.hpp"
@@ -25,7 +26,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kMore = 0.05;  // gain worth a trial, as a fraction of the best return
+constexpr std::uint64_t kLongerSearches = 1 << 15;  // the number of the first: random numbers of their own
+constexpr double kMore = 0.05;                      // gain worth a trial, as a fraction of the best return
 
 class BlackDrops final : public TrialLearner {
  public:
@@ -99,16 +101,20 @@ class BlackDrops final : public TrialLearner {
     SearchProblem problem{*proposal.model, *setting_.policy, task, *setting_.evaluator, setting_.progress};
     if (without_data() && !task.limits.empty())
       problem.doubted = doubted(*setting_.prior, options_.search.safety.doubt, stream());
-    TrialSearches searches(problem, options_.search, stream());
+    const Task longer_task = continued(task, options_.search.extra_s);
+    const SearchProblem longer_problem = with_task(problem, longer_task);
+    TrialSearches searches(problem, options_.search, stream()),
+        longer(longer_problem, options_.search, stream(), kLongerSearches);
     std::vector<Vector> known = known_policies(history_, *setting_.policy, options_);
     if (setting_.start) known.insert(known.begin(), *setting_.start);
-    const Choice choice = search_trial(searches, {known, without_data()}, options_);
+    const bool further = longer_task.horizon > task.horizon;
+    const Choice choice = search_trial(searches, further ? &longer : nullptr, {known, without_data()}, options_);
     proposal.theta = choice.theta;
     proposal.predicted_return = choice.predicted_return;
     for (std::string& line : warnings(choice.risks, task.limits)) proposal.notes.push_back(std::move(line));
     proposal.risks = choice.risks;
-    proposal.rollouts = searches.rollouts();
-    proposal.failed_rollouts = searches.failed_rollouts();
+    proposal.rollouts = searches.rollouts() + longer.rollouts();
+    proposal.failed_rollouts = searches.failed_rollouts() + longer.failed_rollouts();
     if (worth_exploring(choice)) explore(problem, proposal);
   }
 
@@ -220,19 +226,6 @@ Entry<Options> entry(const char* name, const char* summary, identification::Kind
           .violations = violations_with};
 }
 
-/// Throws InvalidInput where no search could begin with the policy that the run begins with.
-void require_start_in_box(const Setting& setting, const Options& options) {
-  if (!setting.start || !setting.policy) return;
-  const Interval box = interval_of(*setting.policy, options.search);
-  const Vector& start = *setting.start;
-  for (Index i = 0; i < start.size(); ++i)
-    if (!(start(i) >= box.low && start(i) <= box.high))
-      throw InvalidInput(fmt::format(
-          "{}: parameter {} of the policy to begin with is {}, policies are searched in {} to {}{}",
-          setting.policy->box() ? "policy" : "search.box", i + 1, start(i), box.low, box.high,
-          setting.policy->box() ? "" : fmt::format(": set search.box to {} or more", start.cwiseAbs().maxCoeff())));
-}
-
 }  // namespace
 
 /// Removes the reward and the test of success from the task of a learner that learns the reward.
@@ -244,7 +237,7 @@ void forget_reward(Task& task) {
 
 std::unique_ptr<Learner> make(Setting setting, Options options) {
   setting = checked(std::move(setting), options, prior_use(options), violations_with);
-  require_start_in_box(setting, options);
+  require_start_in_box(setting, options.search.box, "search.box");
   if (options.reward.learned) forget_reward(setting.task);
   if (!options.success_test) setting.task.solved = nullptr;
   if (!setting.task.limits.empty()) options.search.simulate.noise_clip = 0;  // or a model that errs seems to be safe

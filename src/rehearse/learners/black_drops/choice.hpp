@@ -40,7 +40,7 @@ void prefer_solving_where_sure(TrialSearches& searches, const SearchResult& foun
                                const Retry& retry, Choice& choice);
 
 /// Gives up a little of the return (`retry.uncertain_tolerance`), where the model is uncertain, for the policy that
-/// most often solves the task. Where none does so in half of the episodes, searches go on in the means.
+/// most often solves the task. Where none does so often (about half of the episodes), searches go on in the means.
 void prefer_solving_where_uncertain(TrialSearches& searches, const SearchResult& found, const Retry& retry,
                                     Choice& choice);
 

@@ -62,7 +62,8 @@ void GradientOptions::fields(FieldVisitor& v) {
   v.integer("particles", particles, "rollouts per gradient step, divided among the remaining runs", between(1, 1e6),
             published(400, "Amadio 2022"));
   v.integer("descents", descents, "gradient runs that start", between(1, 1e4), published(1, "Amadio 2022"));
-  v.integer("rounds", rounds, "rounds, after each of which the better half of the runs is kept", between(1, 100));
+  v.integer("rounds", rounds, expert("rounds, after each of which the better half of the runs is kept"),
+            between(1, 100));
   v.number("start", start, "runs from random points start in this fraction of the parameters' range, around its centre",
            between(0, 1));
   v.number("dropout", dropout, "initial dropout rate of the hidden units' output weights; falls to 0", between(0, 0.9),
@@ -81,6 +82,7 @@ std::vector<Vector> search_by_gradient(SimulatedReturn& objective, const policy:
   Index step = 0;
   for (Index round = 1; round <= options.rounds; ++round) {
     const Index first = step, end = options.steps * round / options.rounds;
+    if (first == end) continue;  // nothing is known by which descents could be given up
     const auto active = static_cast<Index>(descents.size());
     Matrix Theta(policy.parameters(), active);
     for (GradientDescent& descent : descents) descent.value = 0;

@@ -1,6 +1,7 @@
 #include "rehearse/learners/black_drops/policy_search.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "rehearse/core/stopwatch.hpp"
@@ -144,12 +145,13 @@ SearchResult judge(const SearchProblem& problem, const Vector& theta, const Sear
   return result;
 }
 
-Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,
-                     const StreamKey& key) {
-  Vector rates = Vector::Zero(static_cast<Index>(policies.size()));
-  if (!problem.task.solved) return rates;
+SolvingRates solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies,
+                           const SearchOptions& options, const StreamKey& key) {
+  SolvingRates all{.rates = Vector::Zero(static_cast<Index>(policies.size()))};
+  if (!problem.task.solved) return all;
   const Index rollouts = comparisons(problem, options);
-  problem.evaluator.for_each(rates.size(), [&](Index j) {
+  std::vector<Index> failed(policies.size());
+  problem.evaluator.for_each(all.rates.size(), [&](Index j) {
     const Matrix Theta = policies[static_cast<std::size_t>(j)].transpose().replicate(rollouts, 1);
     rollout::Episodes episodes;
     rollout::simulate_episodes({problem.model, problem.policy, problem.task, key, options.simulate}, Theta, 0, episodes,
@@ -157,13 +159,18 @@ Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& po
     Episode episode;
     Index solved = 0;
     for (Index i = 0; i < episodes.rows(); ++i) {
-      if (episodes.failed[static_cast<std::size_t>(i)]) continue;
+      if (episodes.failed[static_cast<std::size_t>(i)]) {
+        ++failed[static_cast<std::size_t>(j)];
+        continue;
+      }
       episodes.copy(i, episode);
       solved += problem.task.solved(episode);
     }
-    rates(j) = static_cast<double>(solved) / static_cast<double>(rollouts);
+    all.rates(j) = static_cast<double>(solved) / static_cast<double>(rollouts);
   });
-  return rates;
+  all.rollouts = rollouts * all.rates.size();
+  all.failed = std::accumulate(failed.begin(), failed.end(), Index{0});
+  return all;
 }
 
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, StreamKey key) {

@@ -33,10 +33,15 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
 SearchResult judge(const SearchProblem& problem, const Vector& theta, const SearchOptions& options,
                    const StreamKey& key);
 
+struct SolvingRates {
+  Vector rates;  // one a policy
+  Index rollouts = 0;
+  Index failed = 0;  // of these
+};
 /// The rate at which each policy solves the task in simulated episodes, the same for all policies; 0 if the task has no
 /// test of success.
-Vector solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies, const SearchOptions& options,
-                     const StreamKey& key);
+SolvingRates solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies,
+                           const SearchOptions& options, const StreamKey& key);
 
 /// The interval in which every number of θ is searched.
 Interval interval_of(const policy::Policy& policy, const SearchOptions& options);

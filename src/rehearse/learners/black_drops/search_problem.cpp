@@ -1,6 +1,8 @@
 #include "rehearse/learners/black_drops/search_problem.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace rehearse::learners::black_drops {
 
@@ -11,6 +13,9 @@ void SearchOptions::fields(FieldVisitor& v) {
   v.number("box", box, "policy parameters are searched in [−box, box], unless the policy has bounds of its own",
            between(1e-6, 1e6));
   v.integer("particles", particles, "rollouts of one evaluation", between(1, 1e6));
+  v.number("extra_s", extra_s,
+           "simulated episodes are longer than a trial by this, so that policies hold longer [s]",
+           between(0, 1e4));
   v.group("simulate", simulate);
   v.group("race", race);
   v.group("restarts", restarts, kExpert);
@@ -20,6 +25,21 @@ void SearchOptions::fields(FieldVisitor& v) {
   v.integer("selection", selection, "rollouts of each finalist; their mean is the predicted return", between(1, 1e6),
             published(1));
   v.group("safety", safety);
+}
+
+SearchProblem with_task(const SearchProblem& problem, const Task& task) {
+  return {problem.model, problem.policy, task, problem.evaluator, problem.progress, problem.doubted};
+}
+
+Task continued(Task task, double extra_s) {
+  const Index T = task.horizon;
+  task.horizon += static_cast<Index>(std::llround(extra_s / task.dt_s));
+  if (task.horizon > T && task.solved)
+    task.solved = [solved = std::move(task.solved), T](const Episode& episode) {
+      return !episode.ended && episode.steps() > T && solved(episode.part(0, T)) &&
+             solved(episode.part(episode.steps() - T, T));
+    };
+  return task;
 }
 
 Index comparisons(const SearchProblem& problem, const SearchOptions& options) {

@@ -32,6 +32,7 @@ struct SearchOptions {
   Method method = Method::race;
   double box = 5;       // θ in [−box, box] unless the policy has a box of its own; the authors' code
   Index particles = 1;  // rollouts of one evaluation; the paper: 1
+  double extra_s = 0;   // by which simulated episodes are longer than a trial
   rollout::SimulateOptions simulate;
   optim::RaceOptions race;
   optim::SearchOptions restarts{.max_evaluations = 200000};
@@ -53,6 +54,13 @@ struct SearchProblem {
   std::vector<std::shared_ptr<const dynamics::DynamicsModel>> doubted = {};  // if any, episodes use these in turn
                                                                              // instead
 };
+
+/// The same problem of another task.
+SearchProblem with_task(const SearchProblem& problem, const Task& task);
+
+/// The task whose episodes go on so many seconds after their end. An episode solves it if its first steps and its last
+/// steps, as many as the task has, do.
+Task continued(Task task, double extra_s);
 
 /// Rollouts by which a policy is compared with others: `selection`, or 1 where model, start and measurements are
 /// certain; of a task with limits at least `safety.rollouts`.

@@ -10,9 +10,8 @@ Choice choice_of(const SearchResult& found) {
 }
 
 /// The search on the prior, before there are data.
-Choice search_prior(TrialSearches& searches, const Known& known, const Options& options) {
+Choice search_prior(TrialSearches& searches, const Known& known, const Options& options, SearchResult& found) {
   std::vector<Vector> starts = known.policies;
-  SearchResult found;
   for (Index i = 0; i < options.prior_searches; ++i) {
     found = searches.search(starts, i);
     starts = {found.theta};
@@ -24,23 +23,52 @@ Choice search_prior(TrialSearches& searches, const Known& known, const Options& 
   return choice;
 }
 
-Choice search_with_data(TrialSearches& searches, const Known& known, const Options& options) {
-  SearchResult found = searches.search(known.policies, 0);
+Choice search_with_data(TrialSearches& searches, const Known& known, const Options& options, SearchResult& found) {
+  found = searches.search(known.policies, 0);
   Choice choice = choice_of(found);
   prefer_safe(searches, options.search.safety, found, choice);
   prefer_solving_where_uncertain(searches, found, options.retry, choice);
   return choice;
 }
 
+/// True if a policy does not do worse in a trial than the choice.
+bool does_as_well(TrialSearches& searches, const SearchResult& policy, const Choice& choice, const Retry& retry) {
+  if (policy.excess > choice.excess) return false;
+  const Vector solving = searches.compare_solving({policy.theta, choice.theta});
+  if (solving(0) < solving(1)) return false;
+  return solving(1) > 0 || within(retry.tolerance, choice.predicted_return, policy.predicted_return);
+}
+
+/// Exchanges the choice for a policy that is as good in the trial and lasts longer. found: by the searches that made
+/// the choice; half of the descents begin there.
+void prefer_lasting(TrialSearches& searches, TrialSearches& longer, const SearchResult& found, const Options& options,
+                    Choice& choice) {
+  std::vector<Vector> starts = {choice.theta};
+  for (const Vector& other : found.runners_up)
+    if (static_cast<Index>(2 * starts.size()) < options.search.race.descents) starts.push_back(other);
+  const SearchResult further = longer.search(starts, 0);
+  Choice lasting = choice_of(further);
+  const auto again = [&](Index i) {
+    starts.front() = lasting.theta;
+    return longer.search(starts, i);
+  };
+  prefer_solving_where_sure(longer, further, again, options.retry, lasting);
+  const SearchResult judged = searches.judge(lasting.theta);
+  if (does_as_well(searches, judged, choice, options.retry)) choice.take(judged);
+}
+
 }  // namespace
 
-Choice search_trial(TrialSearches& searches, const Known& known, const Options& options) {
-  Choice choice =
-      known.prior_alone ? search_prior(searches, known, options) : search_with_data(searches, known, options);
+Choice search_trial(TrialSearches& searches, TrialSearches* longer, const Known& known, const Options& options) {
+  SearchResult found;
+  Choice choice = known.prior_alone ? search_prior(searches, known, options, found)
+                                    : search_with_data(searches, known, options, found);
+  if (longer) prefer_lasting(searches, *longer, found, options, choice);
   if (!searches.has_limits()) return choice;
-  const SearchResult judged = searches.judge(choice.theta);  // in episodes that did not decide
+  const SearchResult judged = searches.judge_anew(choice.theta);
   choice.risks = judged.risks;
   choice.excess = judged.excess;
+  choice.solving = judged.solving;
   return choice;
 }
 

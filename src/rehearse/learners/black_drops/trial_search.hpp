@@ -15,7 +15,8 @@ struct Known {
 };
 
 /// Chooses the policy of a trial: the best of those that keep the task's limits, the safest where none does. References
-/// must outlive the call.
-Choice search_trial(TrialSearches& searches, const Known& known, const Options& options);
+/// must outlive the call. longer: searches in episodes that go on after a trial's end; a policy that they find is the
+/// choice if it does as well in the trial. Null: none.
+Choice search_trial(TrialSearches& searches, TrialSearches* longer, const Known& known, const Options& options);
 
 }  // namespace rehearse::learners::black_drops

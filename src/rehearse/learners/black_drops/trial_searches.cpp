@@ -33,8 +33,9 @@ SearchOptions for_safety(SearchOptions options, std::size_t starts) {
 
 }  // namespace
 
-TrialSearches::TrialSearches(const SearchProblem& problem, const SearchOptions& options, const StreamKey& trial)
-    : problem_(problem), options_(options), trial_(trial) {}
+TrialSearches::TrialSearches(const SearchProblem& problem, const SearchOptions& options, const StreamKey& trial,
+                             std::uint64_t first)
+    : problem_(problem), options_(options), trial_(trial), first_(first) {}
 
 SearchResult TrialSearches::search(const std::vector<Vector>& starts, Index i) {
   return counted(search_policy(problem_, starts, options_, key(Stage::search, i)));
@@ -52,16 +53,17 @@ SearchResult TrialSearches::judge(const Vector& theta) {
   return counted(black_drops::judge(problem_, theta, options_, key(Stage::judging)));
 }
 
+SearchResult TrialSearches::judge_anew(const Vector& theta) {
+  SearchResult judged = counted(black_drops::judge(problem_, theta, options_, key(Stage::judging, 1)));
+  if (has_limits() && can_tell_solved()) judged.solving = solving({theta}, 1)(0);
+  return judged;
+}
+
 std::optional<SearchResult> TrialSearches::best_that_solves(const SearchResult& found) {
   if (!can_tell_solved()) return std::nullopt;
   std::vector<Vector> policies = found.runners_up;
   policies.insert(policies.begin(), found.theta);
-  SearchOptions means = in_means(options_);
-  means.simulate.measurement_noise = 0;
-  means.selection = means.safety.rollouts = 1;
-  const Vector rates = solving_rates(problem_, policies, options_, key(Stage::solving)) +
-                       kMeans * solving_rates(problem_, policies, means, key(Stage::mean_solving));
-  rollouts_ += rates.size() * (comparisons(problem_, options_) + comparisons(problem_, means));
+  const Vector rates = solving(policies, 0);
   std::vector<Index> order(policies.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::ranges::stable_sort(order, [&](Index a, Index b) { return rates(a) > rates(b); });
@@ -75,10 +77,25 @@ std::optional<SearchResult> TrialSearches::best_that_solves(const SearchResult& 
   return std::nullopt;
 }
 
+Vector TrialSearches::solving(const std::vector<Vector>& policies, Index number) {
+  SearchOptions means = in_means(options_);
+  means.simulate.measurement_noise = 0;
+  means.selection = means.safety.rollouts = 1;
+  const auto rates = [&](const SearchOptions& options, Stage stage) {
+    SolvingRates found = solving_rates(problem_, policies, options, key(stage, number));
+    rollouts_ += found.rollouts;
+    failed_rollouts_ += found.failed;
+    return std::move(found.rates);
+  };
+  Vector all = rates(options_, Stage::solving);
+  all += kMeans * rates(means, Stage::mean_solving);
+  return all;
+}
+
 StreamKey TrialSearches::key(Stage stage, Index search) const {
   StreamKey key = trial_;
   key.stage = stage;
-  key.search = static_cast<std::uint64_t>(search);
+  key.search = first_ + static_cast<std::uint64_t>(search);
   return key;
 }
 

@@ -10,8 +10,9 @@ namespace rehearse::learners::black_drops {
 /// References must outlive it.
 class TrialSearches {
  public:
-  /// trial: seed, trial and phase of all random numbers.
-  TrialSearches(const SearchProblem& problem, const SearchOptions& options, const StreamKey& trial);
+  /// trial: seed, trial and phase of all random numbers. first: the number of the first search of each kind.
+  TrialSearches(const SearchProblem& problem, const SearchOptions& options, const StreamKey& trial,
+                std::uint64_t first = 0);
 
   /// The i-th search that simulates the model's uncertainty. Its first descents begin at `starts`.
   SearchResult search(const std::vector<Vector>& starts, Index i);
@@ -26,10 +27,17 @@ class TrialSearches {
   /// A policy's predicted return, and risks, under the model's uncertainty.
   SearchResult judge(const Vector& theta);
 
+  /// The same in other episodes, which have decided nothing; of a task with limits also how surely it is solved.
+  SearchResult judge_anew(const Vector& theta);
+
   /// The policy of a search that solves the task most often in simulated episodes, among those no less safe than its
   /// result; if none does under uncertainty, one that does in the mean predictions. Empty if none does, or if the task
   /// has no test of success.
   std::optional<SearchResult> best_that_solves(const SearchResult& found);
+
+  /// How surely each policy solves the task, in episodes that decide nothing else; 0 if the task has no test of
+  /// success.
+  Vector compare_solving(const std::vector<Vector>& policies) { return solving(policies, 2); }
 
   bool has_limits() const { return !problem_.task.limits.empty(); }
   bool can_tell_solved() const { return static_cast<bool>(problem_.task.solved); }
@@ -38,11 +46,14 @@ class TrialSearches {
 
  private:
   StreamKey key(Stage stage, Index search = 0) const;
+  /// How surely each policy solves the task: its rate, and a little for the mean predictions.
+  Vector solving(const std::vector<Vector>& policies, Index number);
   SearchResult counted(SearchResult found);
 
   const SearchProblem problem_;
   const SearchOptions& options_;
   const StreamKey trial_;
+  const std::uint64_t first_;
   Index rollouts_ = 0, failed_rollouts_ = 0;
 };
 

@@ -32,20 +32,10 @@ TEST(BlackDrops, HasFourLearners) {
 TEST(BlackDrops, BeginsWithNoPolicyOutsideOfItsBox) {
   Setting far = setting();
   far.start = Vector::Constant(far.policy->parameters(), 7.5);
-  const auto why = [&](const std::string& box) -> std::string {
-    const auto learner = builder("black-drops");
-    EXPECT_TRUE(set_field([&](FieldVisitor& v) { learner->fields(v); }, "search.box", box));
-    try {
-      (void)learner->build(far);
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(why("5"),
-            "search.box: parameter 1 of the policy to begin with is 7.5, policies are searched in -5 to 5: set "
-            "search.box to 7.5 or more");
-  EXPECT_EQ(why("7.5"), "");
+  const auto learner = builder("black-drops");
+  EXPECT_THROW((void)learner->build(far), InvalidInput);
+  EXPECT_TRUE(set_field([&](FieldVisitor& v) { learner->fields(v); }, "search.box", "7.5"));
+  EXPECT_NO_THROW((void)learner->build(far));
 }
 
 class EachLearner : public ::testing::TestWithParam<const char*> {};
@@ -185,6 +175,16 @@ TEST(BlackDrops, RandomActionsFillTheirBoundsAtEveryStep) {
   EXPECT_LE(actions.cwiseAbs().maxCoeff(), 1);
   EXPECT_LT(actions.minCoeff(), -0.3);
   EXPECT_GT(actions.maxCoeff(), 0.3);
+}
+
+TEST(BlackDrops, PromisesTheReturnOfATrialWhereItsSearchLooksFurther) {
+  const auto learner = builder("mi");
+  EXPECT_TRUE(set_field([&](FieldVisitor& v) { learner->fields(v); }, "search.extra_s", "1"));
+  Setting alike = setting();
+  alike.task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView rewards) {
+    rewards.setOnes();
+  };
+  EXPECT_EQ(learner->build(alike)->ask().predicted_return, alike.task.horizon);
 }
 
 TEST(BlackDrops, WithoutAPriorIgnoresTheOneItIsGiven) {

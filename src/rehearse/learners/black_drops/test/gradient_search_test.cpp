@@ -50,6 +50,13 @@ double value(const Vector& theta) {
   return slider::run_trial({.policy = slider::policy(), .theta = theta}, 1).total_reward();
 }
 
+TEST(GradientSearch, GivesNoneUpInARoundWithoutAStep) {
+  GradientOptions once = few_steps(), in_rounds = few_steps();
+  once.steps = in_rounds.steps = once.rounds = 1;
+  in_rounds.rounds = 4;
+  EXPECT_EQ(find(once).policies, find(in_rounds).policies);
+}
+
 TEST(GradientSearch, ClimbsFromRandomPoints) {
   const Found found = find(few_steps());
   ASSERT_EQ(found.policies.size(), 4U) << "those that were given up, too";

@@ -108,8 +108,10 @@ TEST(SolvingRates, CountSimulatedEpisodesThatSolve) {
     task.solved = [beyond](const Episode& e) { return e.true_states(e.steps(), 0) > beyond; };
     SearchOptions options = small();
     options.selection = 1000;
-    return solving_rates({model, *policy, task, evaluator, {}}, {Vector{{-1, 0}}, Vector{{-5, 0}}}, options,
-                         {.stage = Stage::solving});
+    const SolvingRates found = solving_rates({model, *policy, task, evaluator, {}},
+                                             {Vector{{-1, 0}}, Vector{{-5, 0}}}, options, {.stage = Stage::solving});
+    EXPECT_EQ(found.failed, 0);
+    return found.rates;
   };
   const auto middle = [&](Index which) {
     const Vector theta = which == 0 ? Vector{{-1, 0}} : Vector{{-5, 0}};
@@ -122,7 +124,7 @@ TEST(SolvingRates, CountSimulatedEpisodesThatSolve) {
   EXPECT_EQ(rates(sure, serial_evaluator(), beyond - 1e-6)(0), 1);
   EXPECT_EQ(rates(sure, serial_evaluator(), beyond + 1e-6)(0), 0);
   task.solved = nullptr;
-  EXPECT_EQ(solving_rates({sure, *policy, task, serial_evaluator(), {}}, {Vector{{-1, 0}}}, small(), {}),
+  EXPECT_EQ(solving_rates({sure, *policy, task, serial_evaluator(), {}}, {Vector{{-1, 0}}}, small(), {}).rates,
             Vector::Zero(1));
 }
 

@@ -37,5 +37,27 @@ TEST(TrialSearch, SearchesOnThePriorGoOnFromTheBestOfTheOneBefore) {
   EXPECT_GE(*thrice.predicted_return, *once.predicted_return - 0.01);
 }
 
+// The prior is taken at its word, so that returns on it are exact.
+TEST(TrialSearch, LooksFurtherForAPolicyThatLasts) {
+  Setting brief = setting(slider::prior());
+  brief.task.horizon = 4;
+  brief.task.start_std.setZero();
+  const auto proposal = [&](const char* extra_s) {
+    const auto with = builder("mi", "100");
+    EXPECT_TRUE(set_field([&](FieldVisitor& v) { with->fields(v); }, "search.extra_s", extra_s));
+    return with->build(brief)->ask();
+  };
+  const Proposal alone = proposal("0"), lasting = proposal("4");
+  const auto value = [&](const Proposal& of, Index steps) {
+    Task task = brief.task;
+    task.horizon = steps;
+    return rollout::simulate_recorded({*of.model, *of.policy, task, {}}, of.theta, 1).returns(0);
+  };
+  EXPECT_NEAR(*lasting.predicted_return, value(lasting, 4), 1e-12) << "of the trial";
+  EXPECT_GE(value(lasting, 4), 0.94 * value(alone, 4)) << "as good in the trial, but for retry.tolerance";
+  EXPECT_GE(value(lasting, 24), value(alone, 24));
+  EXPECT_GT(lasting.rollouts, alone.rollouts + 50);
+}
+
 }  // namespace
 }  // namespace rehearse::learners::black_drops

@@ -45,6 +45,32 @@ TEST_F(TrialSearchesTest, AllRolloutsAreCounted) {
   EXPECT_EQ(trial.failed_rollouts(), 0);
 }
 
+TEST_F(TrialSearchesTest, FailuresAreCountedWhereverTheyHappen) {
+  const dynamics::SimulatorModel broken({"broken", system::make_ode_simulator(
+                                                       [](const Vector&, const Vector&, const Vector&, Vector& dxdt) {
+                                                         dxdt.setConstant(kNaN);
+                                                       },
+                                                       slider::prior().space, task.dt_s, 1),
+                                         slider::prior().space},
+                                        slider::kTruth);
+  task.solved = [](const Episode&) { return true; };
+  TrialSearches trial({broken, *policy, task, serial_evaluator(), nobody}, options, {.seed = 1, .trial = 2});
+  EXPECT_FALSE(trial.best_that_solves({.theta = Vector::Zero(2)}));
+  EXPECT_GT(trial.rollouts(), 0);
+  EXPECT_EQ(trial.failed_rollouts(), trial.rollouts());
+}
+
+// What is reported of a choice is not what it was chosen for.
+TEST_F(TrialSearchesTest, AChoiceIsJudgedAnewInOtherEpisodes) {
+  TrialSearches trial = searches();
+  const Vector theta{{-3, 0}};
+  EXPECT_NE(trial.judge(theta).predicted_return, trial.judge_anew(theta).predicted_return);
+  EXPECT_EQ(trial.judge_anew(theta).solving, 0);
+  task.solved = [](const Episode&) { return true; };
+  task.limits = {{"end", "", [](const auto&, const auto&, const auto&, VectorView kept) { kept.setOnes(); }}};
+  EXPECT_GT(searches().judge_anew(theta).solving, 1) << "in all episodes, and in the mean predictions";
+}
+
 TEST_F(TrialSearchesTest, OfThePoliciesFoundTheOneThatSolvesMostOftenIsTaken) {
   const Vector still = Vector::Zero(2), pull{{-5, 0}};
   const SearchResult found{.theta = still, .runners_up = {pull}};
