@@ -5,10 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/catalogue.hpp"
+#include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
 #include "apps/cli/options_table.hpp"
 #include "apps/cli/program.hpp"
+#include "apps/cli/study_setup.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/experiment/preset.hpp"
@@ -18,6 +20,14 @@ namespace rehearse::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// The command `identify`, whose options are listed as those of a learner.
+struct IdentifyEntry {
+  IdentifyOptions options;
+  static std::string name() { return "identify"; }
+  static std::string summary() { return "a robot's parameters, and what no parameter explains, from logs"; }
+  void fields(FieldVisitor& v) { options.fields(v); }
+};
 
 template <class Builder>
 std::vector<Field> options_of(Builder& builder) {
@@ -58,6 +68,8 @@ Json as_json(learners::LearnerBuilder& builder) {
   for (const auto& [name, text] : builder.scenario_defaults()) entry["scenario_defaults"][name] = text;
   return entry;
 }
+
+Json as_json(IdentifyEntry& entry) { return described(entry); }
 
 Json as_json(const experiment::Catalogue& catalogue) {
   Json all = {{"scenarios", Json::array()},
@@ -120,9 +132,11 @@ void print(const experiment::Catalogue& catalogue, bool with_options) {
   if (!with_options) put("\nOptions for --set, with what they do: {} list NAME\n", program_name());
 }
 
+std::string remark_of(const IdentifyEntry& /*entry*/) { return "takes a prior, and options of the robot beside these"; }
+
 /// Prints the options for everyone; those for experts on request, else their number.
 template <class Builder>
-void print_one(Builder& builder, const std::string& kind, bool with_expert) {
+void print_one(Builder& builder, const std::string& kind, const std::string& name, bool with_expert) {
   put("{} {}: {}\n{:{}} {}\n", kind, builder.name(), builder.summary(), "", kind.size() + builder.name().size() + 2,
       remark_of(builder));
   std::vector<Field> shown = options_of(builder);
@@ -134,7 +148,7 @@ void print_one(Builder& builder, const std::string& kind, bool with_expert) {
   if (with_expert)
     put("\nFor experts\n{}", options_table(hidden, terminal_width()));
   else
-    put("\n{} more for experts: {} list {} --expert\n", hidden.size(), program_name(), builder.name());
+    put("\n{} more for experts: {} list {} --expert\n", hidden.size(), program_name(), name);
 }
 
 template <class Builder>
@@ -142,7 +156,7 @@ void list_one(Builder& builder, const std::string& kind, const ListArguments& ar
   if (arguments.json)
     fmt::print("{}\n", as_json(builder).dump(2));
   else
-    print_one(builder, kind, arguments.expert || arguments.options);
+    print_one(builder, kind, *arguments.name, arguments.expert || arguments.options);
 }
 
 [[noreturn]] void refuse(const experiment::Catalogue& catalogue, const std::string& name) {
@@ -151,19 +165,25 @@ void list_one(Builder& builder, const std::string& kind, const ListArguments& ar
   std::vector<std::string> known;
   for (const auto& builder : catalogue.scenario_builders()) known.push_back(builder->name());
   for (const auto& builder : catalogue.learner_builders()) known.push_back(builder->name());
+  known.push_back(IdentifyEntry::name());
   throw InvalidInput(experiment::unknown_name("scenario or learner", name, known));
+}
+
+/// name: of an entry, or a robot's file.
+void list_named(const experiment::Catalogue& built_in, const std::string& name, const ListArguments& arguments) {
+  if (const auto learner = built_in.learner(name)) return list_one(*learner, "learner", arguments);
+  if (IdentifyEntry entry; name == entry.name()) return list_one(entry, "command", arguments);
+  const experiment::Catalogue catalogue = with_robot(built_in, name);
+  const auto scenario = catalogue.scenario(catalogue.scenario_name(name));
+  if (!scenario) refuse(catalogue, name);
+  list_one(*scenario, "scenario", arguments);
 }
 
 }  // namespace
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments) {
   if (arguments.name) {
-    if (const auto scenario = catalogue.scenario(*arguments.name))
-      list_one(*scenario, "scenario", arguments);
-    else if (const auto learner = catalogue.learner(*arguments.name))
-      list_one(*learner, "learner", arguments);
-    else
-      refuse(catalogue, *arguments.name);
+    list_named(catalogue, *arguments.name, arguments);
   } else if (arguments.expert) {
     throw InvalidInput(fmt::format("--expert is for one scenario or learner: {} list NAME --expert", program_name()));
   } else if (arguments.schema)

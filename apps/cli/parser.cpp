@@ -21,7 +21,8 @@ CLI::Option* add(Command* command, const std::string& name, T& value, const std:
 void add_list(CLI::App& app, ListArguments& arguments) {
   CLI::App* command =
       app.add_subcommand("list", "Show the scenarios, their priors, and the learners, or the options of one");
-  add(command, "NAME", arguments.name, "A scenario or a learner, to be shown with its options", "");
+  add(command, "NAME", arguments.name,
+      "A scenario, the file of a robot of your own, a learner or `identify`, to be shown with its options", "");
   command->add_flag("--json", arguments.json, "As JSON, with all options");
   command->add_flag("--expert", arguments.expert, "With the options of NAME that only experts need, too");
   command->add_flag("--options", arguments.options,
@@ -152,7 +153,7 @@ void add_identify(CLI::App& app, IdentifyArguments& arguments) {
       "Threads to compute with; results do not depend on it. Default: all cores", "K");
   add(command, "--out", arguments.out,
       "The folder of tables and a page, which must not exist. Default: none is written", "DIR");
-  add(command, "--set", arguments.set, "Set an option of docs/identify.md, or of the robot; may be repeated",
+  add(command, "--set", arguments.set, "Set an option that `list identify` shows, or one of the robot; may be repeated",
       "KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -207,20 +208,42 @@ void add_evaluate(CLI::App& app, EvaluateArguments& arguments) {
 }
 
 /// CLI11 speaks of what it did not expect; we know what was meant.
-void check_command_name(const CLI::App& app, int argc, char** argv) {
+void check_command_name(const CLI::App& app, const std::vector<std::string>& words) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     known.push_back(command->get_name());
-  if (argc < 2)
+  if (words.empty())
     throw InvalidInput(fmt::format("a command is missing ({}); see {} --help", fmt::join(known, ", "), program_name()));
-  const std::string given = argv[1];
+  const std::string& given = words.front();
   if (given.starts_with('-') || is_among(given, known)) return;
   throw InvalidInput(fmt::format("unknown command '{}', did you mean '{}'? (known: {})", given, closest(given, known),
                                  fmt::join(known, ", ")));
 }
 
-/// The first unknown flag of a command, with the most similar one; else the message of CLI11.
+/// The words behind the program's name, `help COMMAND` as `COMMAND --help`.
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
+/// A line for each option that is given more often than it has values.
+std::string repeated_options(const CLI::App& app) {
+  std::string lines;
+  for (const CLI::App* command : app.get_subcommands())
+    for (const CLI::Option* option : command->get_options())
+      if (option->get_items_expected_max() == 1 && option->count() > 1 &&
+          option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw)
+        lines += fmt::format("{}{} is given {} times, must be once", lines.empty() ? "" : "\n", option->get_name(),
+                             option->count());
+  return lines;
+}
+
+/// The options that are given twice, or the first unknown flag with the most similar one; else the message of CLI11.
 std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
+  if (std::string repeated = repeated_options(app); !repeated.empty()) return repeated;
   for (const CLI::App* command : app.get_subcommands()) {
     std::vector<std::string> known;
     for (const CLI::Option* option : command->get_options())
@@ -261,9 +284,10 @@ std::optional<Typed> parse(int argc, char** argv, bool silent) {
   CLI::App app(kAbout, program_name());
   Typed typed;
   define(app, typed);
-  check_command_name(app, argc, argv);
+  const std::vector<std::string> words = words_of(argc, argv);
+  check_command_name(app, words);
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as CLI11 takes them
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) throw InvalidInput(why_not_parsed(app, error));
     if (!silent) app.exit(error);  // --help, --version
