@@ -19,12 +19,10 @@ void set_text(const Fields& fields, const std::string& name, const std::optional
   }
 }
 
-std::optional<Index> trial_of(const std::optional<std::string>& text) {
+std::optional<Index> trial_of(const std::optional<std::string>& text, Violations& violations) {
   Index trial = 0;
-  Violations violations;
   set_text([&](FieldVisitor& v) { v.integer("trial", trial, "which trial, from 1", at_least(1)); }, "trial", text,
            violations);
-  violations.throw_if_any();
   return text ? std::optional<Index>(trial) : std::nullopt;
 }
 

@@ -16,8 +16,8 @@ namespace rehearse::apps {
 void set_text(const Fields& fields, const std::string& name, const std::optional<std::string>& text,
               Violations& violations);
 
-/// The number of --trial, from 1; none if it is not given. Throws InvalidInput.
-std::optional<Index> trial_of(const std::optional<std::string>& text);
+/// The number of --trial, from 1; none if it is not given.
+std::optional<Index> trial_of(const std::optional<std::string>& text, Violations& violations);
 
 /// Throws InvalidInput where no robot has this name, but there is a file NAME.toml.
 void refuse_file_without_ending(const experiment::Catalogue& catalogue, const std::string& robot);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -33,12 +34,23 @@ struct Wanted {
   std::optional<Index> seed;
   Settings settings;
   Index threads = 0;
+  OutputFile table;
 };
+
+OutputFile table_of(const EvaluateArguments& arguments) {
+  const fs::path beside = fs::path(arguments.folder) / (arguments.robustness ? "robustness.csv" : "evaluation.csv");
+  return {.path = arguments.out ? fs::path(*arguments.out) : beside,
+          .kind = "table of Rehearse",
+          .option = "--out FILE.csv",
+          .is_ours = [](std::string_view text) {
+            return text.starts_with("trial,settings,seed,") || text.starts_with("parameter,factor,");
+          }};
+}
 
 Wanted wanted(const EvaluateArguments& arguments) {
   Violations violations;
   Wanted wanted;
-  wanted.trial = trial_of(arguments.trial);
+  wanted.trial = trial_of(arguments.trial, violations);
   Index seed = 1;
   const Fields fields = [&](FieldVisitor& v) {
     v.integer("episodes", wanted.plan.episodes, "episodes on the plant", between(1, 1e6));
@@ -51,6 +63,12 @@ Wanted wanted(const EvaluateArguments& arguments) {
   wanted.threads = threads_of(arguments.threads, violations);
   wanted.settings = settings_of(arguments.set, violations);
   violations.require(!arguments.policy || !arguments.trial, "--trial and --policy name two policies");
+  wanted.table = table_of(arguments);
+  try {
+    if (arguments.out) check_output(wanted.table);
+  } catch (const InvalidInput& error) {
+    violations.add(error);
+  }
   violations.throw_if_any();
   if (arguments.seed) wanted.seed = seed;
   return wanted;
@@ -100,10 +118,10 @@ void print_robustness(const std::vector<experiment::Changed>& all) {
 }
 
 /// An older file of this name is kept under another one.
-void write_table(const fs::path& path, const std::string& text) {
-  if (const auto older = keep_older(path)) put("{} is kept as {}\n", path.string(), older->string());
-  write_output({.path = path, .kind = "", .option = "--out FILE.csv", .is_ours = {}}, text);
-  put("{} has the numbers\n", path.string());
+void write_table(const OutputFile& table, const std::string& text) {
+  const std::string path = table.path.string();
+  if (const auto older = write_beside_older(table, text)) put("{} is kept as {}\n", path, older->string());
+  put("{} has the numbers\n", path);
 }
 
 /// A policy, what is set, and how it is evaluated.
@@ -117,9 +135,9 @@ struct Work {
   std::shared_ptr<const Evaluator> evaluator;
 
   const Task& task() const { return resolved.scenario.task; }
-  double episode_s() const { return experiment::seconds(wanted.plan.steps(task()), task().dt_s); }
-  fs::path out(const std::optional<std::string>& given, const char* name) const {
-    return given ? fs::path(*given) : folder / name;
+  double episode_s() const { return seconds(wanted.plan.steps(task()), task().dt_s); }
+  experiment::EvaluationAbout about() const {
+    return {policy.trial, settings_text(wanted.settings), wanted.plan.seed, episode_s()};
   }
 };
 
@@ -127,6 +145,7 @@ Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& a
   Wanted wanted = apps::wanted(arguments);
   const fs::path folder = arguments.folder;
   const PastRun run = experiment::read_run(catalogue, folder);
+  check_output(wanted.table);  // not after hours of episodes
   TrialRecord policy = policy_wanted(arguments, wanted, run);
   experiment::Learned learned = {policy_of(policy, run.resolved.scenario), policy.theta, policy.trial};
   experiment::Resolved resolved = experiment::read_run(catalogue, folder, wanted.settings).resolved;
@@ -148,15 +167,24 @@ void announce(const Work& work, const EvaluateArguments& arguments) {
       work.wanted.plan.episodes, work.episode_s(), work.wanted.plan.seed, settings.empty() ? "" : ", ", settings);
 }
 
-void evaluate_episodes(const Work& work, const std::optional<std::string>& out) {
-  const experiment::EvaluationPlan& plan = work.wanted.plan;
-  const auto outcomes = experiment::evaluate(work.resolved, work.learned, plan, *work.evaluator);
-  print_summary(experiment::summary_of(outcomes), work.task().episode_s(), work.episode_s());
-  const experiment::EvaluationAbout about{work.policy.trial, settings_text(work.wanted.settings)};
-  write_table(work.out(out, "evaluation.csv"), experiment::evaluation_csv(outcomes, plan, work.task(), about));
+/// A way to policies that hold longer, where this one does not and the learner has one.
+void advise(const Work& work, const Summary& summary) {
+  const Settings& options = work.resolved.spec.options;
+  const bool can =
+      std::ranges::find(options, std::pair<std::string, std::string>("search.extra_s", "0")) != options.end();
+  if (!can || !summary.solved_at_end || summary.solved_at_end->count >= summary.solved->count) return;
+  put("to learn a policy that holds longer: --set search.extra_s=SECONDS (docs/evaluate.md)\n");
 }
 
-void evaluate_robustness(const Work& work, const std::optional<std::string>& out) {
+void evaluate_episodes(const Work& work) {
+  const auto outcomes = experiment::evaluate(work.resolved, work.learned, work.wanted.plan, *work.evaluator);
+  const Summary summary = experiment::summary_of(outcomes);
+  print_summary(summary, work.task().episode_s(), work.episode_s());
+  advise(work, summary);
+  write_table(work.wanted.table, experiment::evaluation_csv(outcomes, work.about()));
+}
+
+void evaluate_robustness(const Work& work) {
   const auto changed = [&](const std::string& key, const std::string& value) {
     Settings settings = work.wanted.settings;
     settings.emplace_back(key, value);
@@ -164,7 +192,7 @@ void evaluate_robustness(const Work& work, const std::optional<std::string>& out
   };
   const auto all = experiment::robustness(changed, work.resolved, work.learned, work.wanted.plan, *work.evaluator);
   print_robustness(all);
-  write_table(work.out(out, "robustness.csv"), experiment::robustness_csv(all));
+  write_table(work.wanted.table, experiment::robustness_csv(all, work.about()));
 }
 
 }  // namespace
@@ -174,7 +202,7 @@ int evaluate(const experiment::Catalogue& catalogue, const EvaluateArguments& ar
   if (work.resolved.scenario.require_ready) work.resolved.scenario.require_ready();
   announce(work, arguments);
   const SignalWatch watch([] { return std::string("interrupted; nothing is written"); });
-  (arguments.robustness ? evaluate_robustness : evaluate_episodes)(work, arguments.out);
+  (arguments.robustness ? evaluate_robustness : evaluate_episodes)(work);
   return kSuccess;
 } catch (const Interrupted&) {
   complain("interrupted; nothing is written");

@@ -27,18 +27,21 @@ constexpr std::array<Format, 3> kFormats = {{
     {".py", [](const policy::Exported& exported, const fs::path&) { return policy::to_numpy(exported); }},
 }};
 
-const Format& format_of(const fs::path& path) {
+const Format& format_of(const fs::path& path, Violations& violations) {
   for (const Format& format : kFormats)
     if (path.extension() == format.ending) return format;
-  throw InvalidInput(fmt::format("--out {}: must end in .h (C), .json or .py (NumPy)", path.string()));
+  violations.add(fmt::format("--out {}: must end in .h (C), .json or .py (NumPy)", path.string()));
+  return kFormats.front();
 }
 
 }  // namespace
 
 int export_policy(const experiment::Catalogue& catalogue, const ExportArguments& arguments) {
   const fs::path path = arguments.out;
-  const Format& format = format_of(path);
-  const auto trial = trial_of(arguments.trial);
+  Violations violations;
+  const Format& format = format_of(path, violations);
+  const auto trial = trial_of(arguments.trial, violations);
+  violations.throw_if_any();
   const policy::Exported exported =
       experiment::exported_policy(experiment::read_run(catalogue, arguments.folder), trial);
   const OutputFile file{.path = path,

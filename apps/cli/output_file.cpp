@@ -1,8 +1,11 @@
 #include "apps/cli/output_file.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/files/write.hpp"
@@ -11,8 +14,14 @@ namespace rehearse::apps {
 
 namespace fs = std::filesystem;
 
-std::optional<fs::path> keep_older(const fs::path& path) {
-  if (!fs::exists(fs::symlink_status(path))) return {};
+namespace {
+
+[[noreturn]] void refuse_output(const OutputFile& file, const std::string& why) {
+  throw InvalidInput(fmt::format("{}; {} names another file", why, file.option));
+}
+
+/// Renames a file to the first free of NAME-001, NAME-002, …
+fs::path keep_older(const fs::path& path) {
   for (int number = 1;; ++number) {
     fs::path older = path;
     older.replace_filename(fmt::format("{}-{:03}{}", path.stem().string(), number, path.extension().string()));
@@ -20,19 +29,44 @@ std::optional<fs::path> keep_older(const fs::path& path) {
   }
 }
 
-bool write_output(const OutputFile& file, const std::string& text) {
+}  // namespace
+
+bool check_output(const OutputFile& file) {
   if (file.path.empty()) throw InvalidInput("--out needs the name of a file");
   std::error_code ignored;
-  const bool there = fs::exists(file.path, ignored);
-  if (there && !(fs::is_regular_file(file.path, ignored) && file.is_ours(files::read_file(file.path))))
-    throw InvalidInput(fmt::format("{} is no {} and is left as it is; {} names another file", file.path.string(),
-                                   file.kind, file.option));
+  const fs::file_status status = fs::symlink_status(file.path, ignored);
+  const auto is_ours = [&] {
+    if (!fs::is_regular_file(status)) return fs::is_symlink(status) && !fs::exists(file.path, ignored);
+    return fs::file_size(file.path, ignored) == 0 || file.is_ours(files::read_file(file.path));
+  };
+  if (fs::exists(status) && !is_ours())
+    refuse_output(file, fmt::format("{} is no {} and is left as it is", file.path.string(), file.kind));
+  const fs::path folder = file.path.has_parent_path() ? file.path.parent_path() : ".";
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    refuse_output(file, fmt::format("cannot write {}: {}", file.path.string(), std::strerror(errno)));
+  return fs::exists(status);
+}
+
+bool write_output(const OutputFile& file, const std::string& text) {
+  const bool there = check_output(file);
   try {
     files::write_file(file.path, text);
   } catch (const std::runtime_error& error) {
-    throw InvalidInput(fmt::format("{}; {} names another file", error.what(), file.option));
+    refuse_output(file, error.what());
   }
   return there;
+}
+
+std::optional<fs::path> write_beside_older(const OutputFile& file, const std::string& text) {
+  if (!check_output(file)) return write_output(file, text), std::nullopt;
+  const fs::path older = keep_older(file.path);
+  try {
+    write_output(file, text);
+  } catch (...) {
+    files::rename_new(older, file.path);
+    throw;
+  }
+  return older;
 }
 
 }  // namespace rehearse::apps

@@ -16,11 +16,15 @@ struct OutputFile {
   std::function<bool(std::string_view text)> is_ours;
 };
 
-/// Renames an existing file to NAME-001, NAME-002, …, the first free name, and returns that; none if there is no file.
-std::optional<std::filesystem::path> keep_older(const std::filesystem::path& path);
+/// Returns true if there is such a file already. Throws InvalidInput if something of this name exists that this program
+/// did not write, or its folder cannot be written.
+bool check_output(const OutputFile& file);
 
-/// Writes the file. Throws InvalidInput if a file of this name exists that this program did not write. Returns true if
-/// one of its own was replaced.
+/// Writes a file that passes check_output, or throws InvalidInput. Returns true if one of its own was replaced.
 bool write_output(const OutputFile& file, const std::string& text);
+
+/// The same, but an existing file is renamed to NAME-001, NAME-002, …, the first free name, which is returned; none if
+/// there is none. Where the new file cannot be written, the existing one has its name again.
+std::optional<std::filesystem::path> write_beside_older(const OutputFile& file, const std::string& text);
 
 }  // namespace rehearse::apps

@@ -37,7 +37,9 @@ int report(const experiment::Catalogue& catalogue, const ReportArguments& argume
 
 int replay(const ReplayArguments& arguments, const std::string& share) {
   const fs::path folder = arguments.folder;
-  const Index trial = *trial_of(arguments.trial);
+  Violations violations;
+  const Index trial = *trial_of(arguments.trial, violations);
+  violations.throw_if_any();
   const fs::path beside = folder / fmt::format("replay-{:03}.html", trial);
   return write_page(folder, replay_page(folder, trial, share, arguments.headline),
                     arguments.out.value_or(beside.string()));

@@ -24,10 +24,39 @@ expect 0 "policy.json (" evaluate run --policy policy.json --episodes 5 --out gi
 cmp first.csv given.csv || fail "a policy of a file does other than that of its trial"
 
 expect 0 "run/robustness.csv has the numbers" evaluate run --robustness --episodes 5
-[ "$(cut -d, -f1 run/robustness.csv | sort | uniq -c | grep -c '^ *5 ')" -ge 1 ] || fail "robustness.csv has $(cat run/robustness.csv)"
+header=trial,settings,seed,seconds,parameter,factor,value,episodes,
+[[ $(head -1 run/robustness.csv) = $header* ]] || fail "robustness.csv begins with $(head -1 run/robustness.csv)"
+[ "$(cut -d, -f5 run/robustness.csv | sort | uniq -c | grep -c '^ *5 ')" -ge 1 ] || fail "robustness.csv has $(cat run/robustness.csv)"
 for file in trials.csv checkpoint spec.toml policy.json; do cmp kept/$file run/$file || fail "evaluations change $file"; done
 
+expect 0 "first-robustness.csv has the numbers" evaluate run --trial 1 --robustness --episodes 2 --seconds 8 --seed 7 \
+  --set measurement_noise=0.01 --out first-robustness.csv
+[ "$(sed 1d first-robustness.csv | cut -d, -f1-4 | uniq)" = 1,measurement_noise=0.01,7,8 ] ||
+  fail "first-robustness.csv has $(cat first-robustness.csv)"
+
+# A table takes the place of tables alone, of one only once the new one is there, and never after the episodes.
+cp run/evaluation.csv one
+echo mine >mine.txt
+for there in run run/checkpoint mine.txt; do
+  expect 2 "$there is no table of Rehearse and is left as it is; --out FILE.csv names another file" \
+    evaluate run --episodes 5 --out $there
+done
+expect 2 "--out needs the name of a file" evaluate run --out ""
+expect 2 "cannot write nodir/x.csv: No such file or directory" evaluate run --out nodir/x.csv
+grep -q "episodes of" said && fail "episodes are run before --out is looked at"
+expect 0 "long.csv is kept as long-001.csv" evaluate run --episodes 5 --out long.csv
+(
+  trap '' XFSZ
+  ulimit -f 8
+  expect 2 "cannot write run/evaluation.csv" evaluate run --episodes 500
+  exit $failures
+) || fail "see above"
+cmp one run/evaluation.csv || fail "a full disk takes the older evaluation"
+for file in trials.csv checkpoint spec.toml policy.json; do cmp kept/$file run/$file || fail "a refused --out changes $file"; done
+
 expect 2 "trial = 3, must be between 1 and 2" evaluate run --trial 3
+expect 2 "--trial = x" evaluate run --trial x --episodes 0 --seconds -1 --out ""
+[ "$(wc -l <said)" = 4 ] || fail "of four wrong arguments it says $(cat said)"
 expect 2 "--trial and --policy name two policies" evaluate run --trial 1 --policy policy.json
 expect 2 "seconds = 0.5, must be between" evaluate run --seconds 0.5
 expect 2 "--episodes = 0, must be between" evaluate run --episodes 0

@@ -1,6 +1,7 @@
 #include "rehearse/core/errors.hpp"
 
 #include <string_view>
+#include <utility>
 
 namespace rehearse {
 namespace {
@@ -24,6 +25,10 @@ std::vector<std::string> InvalidInput::violations() const {
     lines.emplace_back(text.substr(begin, end - begin));
   }
   return lines;
+}
+
+void Violations::add(const InvalidInput& error) {
+  for (std::string& line : error.violations()) add(std::move(line));
 }
 
 void Violations::throw_if_any() const {
