@@ -26,14 +26,19 @@ namespace {
 // of a node, its own operators are replaced by functions that make an operation of two nodes, and so the result of a
 // formula is the node of its value. All other doubles are numbers of the formula.
 constexpr std::uint64_t kBoxed = 0x7FF9'5245'0000'0000, kPayload = 0xFFFF'FFFF;
+constexpr std::uint64_t kCompared = 0x7FF9'5246'0000'0000;  // the value of a < b as it stands in a formula
 
-double boxed(Node node) { return std::bit_cast<double>(kBoxed | static_cast<std::uint32_t>(node)); }
+double boxed(Node node, std::uint64_t kind = kBoxed) {
+  return std::bit_cast<double>(kind | static_cast<std::uint32_t>(node));
+}
+
+bool carries(std::uint64_t kind, double value) { return (std::bit_cast<std::uint64_t>(value) & ~kPayload) == kind; }
 
 thread_local TapeBuilder* current = nullptr;  // of the formula that is compiled
 
 Node unboxed(double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  if ((bits & ~kPayload) == kBoxed) return static_cast<Node>(bits & kPayload);
+  if (carries(kBoxed, value) || carries(kCompared, value))
+    return static_cast<Node>(std::bit_cast<std::uint64_t>(value) & kPayload);
   return current->constant(value);
 }
 
@@ -45,10 +50,16 @@ template <Op op>
 double two(double a, double b) {
   return boxed(current->operation(op, unboxed(a), unboxed(b)));
 }
+/// muParser reads a < b < c as (a < b) < c, which compares 0 or 1.
+template <Op op>
+double compared(double a, double b) {
+  if (carries(kCompared, a) || carries(kCompared, b)) throw InvalidInput("'a < b < c' is written a < b && b < c");
+  return boxed(current->operation(op, unboxed(a), unboxed(b)), kCompared);
+}
 /// a > b is b < a.
 template <Op op>
 double swapped(double a, double b) {
-  return two<op>(b, a);
+  return compared<op>(b, a);
 }
 double where(double condition, double a, double b) {
   return boxed(current->operation(Op::where, unboxed(condition), unboxed(a), unboxed(b)));
@@ -101,8 +112,8 @@ const Operator kOperators[] = {{"+", two<Op::add>, mu::prADD_SUB},
                                {"*", two<Op::multiply>, mu::prMUL_DIV},
                                {"/", two<Op::divide>, mu::prMUL_DIV},
                                {"^", two<Op::power>, mu::prPOW, mu::oaRIGHT},
-                               {"<", two<Op::less>, mu::prCMP},
-                               {"<=", two<Op::less_equal>, mu::prCMP},
+                               {"<", compared<Op::less>, mu::prCMP},
+                               {"<=", compared<Op::less_equal>, mu::prCMP},
                                {">", swapped<Op::less>, mu::prCMP},
                                {">=", swapped<Op::less_equal>, mu::prCMP},
                                {"==", two<Op::equal>, mu::prCMP},
@@ -166,6 +177,13 @@ void refuse_other_spellings(const std::string& formula) {
     if (std::regex_search(formula, spelling)) throw InvalidInput(message);
 }
 
+/// Functions as other languages have them, whose nearest name would mislead.
+const std::map<std::string, const char*, std::less<>> kOtherNames = {
+    {"ln", "'ln(a)' is written log(a)"},
+    {"log10", "'log10(a)' is written log(a) / log(10)"},
+    {"mod", "'mod(a, b)' is written a - b * floor(a / b)"},
+    {"round", "'round(a)' is written floor(a + 0.5)"}};
+
 }  // namespace
 
 const std::vector<std::string>& Formulas::function_names() {
@@ -210,20 +228,29 @@ Node Formulas::named(const std::string& name) {
 
 Node Formulas::compiled(Definition& definition, const std::string& name) {
   if (definition.node != TapeBuilder::kNone) return definition.node;
+  const auto first = std::find(under_way_.begin(), under_way_.end(), name);
+  if (first != under_way_.end())
+    throw InvalidInput(fmt::format("the definition of '{0}' needs itself: {1} → {0}", name,
+                                   fmt::join(first, under_way_.end(), " → ")));
   under_way_.push_back(name);
-  if (definition.begun) {
-    const auto first = std::find(under_way_.begin(), under_way_.end(), name);
-    throw InvalidInput(fmt::format("the definition of '{}' needs itself: {}", name,
-                                   fmt::join(std::vector<std::string>(first, under_way_.end()), " → ")));
+  try {
+    definition.node = compile(definition.formula);
+  } catch (...) {  // another formula may need it, too
+    under_way_.pop_back();
+    throw;
   }
-  definition.begun = true;
-  definition.node = compile(definition.formula);
   under_way_.pop_back();
   return definition.node;
 }
 
+void Formulas::elsewhere(const std::string& name, const std::string& why) { elsewhere_[name] = why; }
+
 void Formulas::throw_unknown(const std::string& name) const {
   if (is_among(name, function_names())) throw InvalidInput(fmt::format("'{0}' is a function: {0}(…)", name));
+  if (const auto found = elsewhere_.find(name); found != elsewhere_.end())
+    throw InvalidInput(fmt::format("'{}' {}", name, found->second));
+  if (const auto found = kOtherNames.find(name); found != kOtherNames.end())
+    throw InvalidInput(fmt::format("unknown name '{}': {}", name, found->second));
   std::vector<std::string> known;
   for (const auto& [input, node] : inputs_) known.push_back(input);
   for (const auto& [definition, formula] : definitions_) known.push_back(definition);
@@ -242,6 +269,9 @@ Node Formulas::compile(const std::string& formula) {
     grammar.SetVarFactory(look_up, &lookup);
     grammar.SetExpr(formula);
     const Node node = unboxed(grammar.Eval());
+    if (grammar.GetNumResults() != 1)
+      throw InvalidInput(
+          fmt::format("'{}': a comma outside of a function's brackets; decimals are written 1.5", formula));
     current = outer;
     return node;
   } catch (const mu::Parser::exception_type& error) {

@@ -20,6 +20,9 @@ class Formulas {
   Node input(const std::string& name, Pace pace);
   void define(const std::string& name, const std::string& formula);
 
+  /// A name that other formulas know. A formula here that uses it is refused: "'NAME' why".
+  void elsewhere(const std::string& name, const std::string& why);
+
   /// Throws InvalidInput with the place in the formula, or the definition, that is wrong.
   Node compile(const std::string& formula);
 
@@ -35,7 +38,6 @@ class Formulas {
   struct Definition {
     std::string formula;
     Node node = TapeBuilder::kNone;
-    bool begun = false;  // to find a definition that refers to itself
   };
 
   void check_name(const std::string& name) const;
@@ -45,6 +47,7 @@ class Formulas {
   TapeBuilder builder_;
   std::map<std::string, Node, std::less<>> inputs_;
   std::map<std::string, Definition, std::less<>> definitions_;
+  std::map<std::string, std::string, std::less<>> elsewhere_;
   std::vector<std::string> under_way_;  // definitions, each needed by the one before
 };
 

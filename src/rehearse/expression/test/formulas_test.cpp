@@ -66,9 +66,47 @@ TEST(Formulas, ErrorsSayWhatIsWrong) {
   EXPECT_EQ(complaint_of("theta1 > 0 and theta1 < 1"), "'a and b' is written a && b");
   EXPECT_EQ(complaint_of("theta1 > 0 or theta1 < 1"), "'a or b' is written a || b");
   EXPECT_EQ(complaint_of("theta1 ** 2"), "'a ** b' is written a ^ b");
+  EXPECT_EQ(complaint_of("ln(theta1)"), "unknown name 'ln': 'ln(a)' is written log(a)");
+  EXPECT_EQ(complaint_of("mod(theta1, 2)"), "unknown name 'mod': 'mod(a, b)' is written a - b * floor(a / b)");
   for (const char* wrong : {"", "1 +", "sin()", "sin(1, 2)", "(theta1", "theta1)", "theta1 theta1", "1..2", "min(1)",
                             "theta1 = 2", "\"text\"", "sin", "broken", "theta1 $ 2", "1 < "})
     EXPECT_NE(complaint_of(wrong), "") << wrong;
+}
+
+// muParser has a result for each of them, the last first.
+TEST(Formulas, ACommaIsNoDecimalPoint) {
+  EXPECT_EQ(complaint_of("1,5 - theta1"),
+            "'1,5 - theta1': a comma outside of a function's brackets; decimals are written 1.5");
+  EXPECT_NE(complaint_of("theta1^2 / 3, 7").find("a comma outside"), std::string::npos);
+  EXPECT_NE(complaint_of("1, 2"), "");
+  EXPECT_NE(complaint_of("(1, 5) - theta1"), "");
+  EXPECT_EQ(complaint_of("max(1, 5) - theta1"), "");
+}
+
+TEST(Formulas, ComparisonsAreNoChains) {
+  for (const char* chain : {"0.9 < theta1 < 1.1", "1 >= theta1 > 0", "1 < 2 < theta1", "theta1 < (theta1 <= 1)"})
+    EXPECT_EQ(complaint_of(chain), "'a < b < c' is written a < b && b < c") << chain;
+  EXPECT_EQ(value_of("0.9 < x && x < y", 1, 2), 1);
+  EXPECT_EQ(value_of("(x < 2) == (y < 2)", 1, 1), 1);
+  Formulas formulas;
+  formulas.input("x", Pace::always);
+  formulas.define("small", "x < 2");
+  EXPECT_EQ(run_tape(formulas.builder().tape({formulas.compile("small > 0.5")}), Matrix{{1}}), (Matrix{{1}}))
+      << "a definition is a number";
+}
+
+TEST(Formulas, NamesOfOtherFormulasAreExplained) {
+  Formulas formulas;
+  formulas.elsewhere("time", "is known to costs alone");
+  formulas.define("phase", "2 * time");
+  for (const char* formula : {"sin(phase)", "phase"}) try {
+      formulas.compile(formula);
+      FAIL();
+    } catch (const InvalidInput& error) {
+      EXPECT_STREQ(error.what(), "'time' is known to costs alone");
+    }
+  formulas.input("time", Pace::always);
+  EXPECT_NO_THROW(formulas.compile("time"));
 }
 
 TEST(Formulas, NamesAreNamesAndGivenOnce) {
