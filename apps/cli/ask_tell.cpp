@@ -15,6 +15,7 @@
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
+#include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/tables.hpp"
 
 namespace rehearse::apps {
@@ -37,10 +38,11 @@ std::string columns(const Variables& variables) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-void print_parameters(const TrialRecord& trial, const std::vector<std::string>& names) {
+void print_parameters(const TrialRecord& trial, const experiment::Resolved& resolved) {
+  const std::vector<std::string> names = experiment::tunable_names(resolved.prior);
   for (std::size_t i = 0; i < std::min(trial.phi.size(), names.size()); ++i) {
     const auto interval = i < trial.phi_intervals.size() ? trial.phi_intervals[i] : std::nullopt;
-    put("  {} = {:.4g}{}\n", names[i], trial.phi[i],
+    put("  {} = {}{}\n", names[i], experiment::phi_text(resolved.spec.prior, i, trial.phi[i]),
         interval ? fmt::format(", 95 %: {:.4g} to {:.4g}", interval->low, interval->high) : "");
   }
   for (const std::string& warning : trial.warnings) put("  {}\n", warning);
@@ -63,7 +65,7 @@ void print_risks(std::vector<experiment::LimitRecord> limits) {
 void print_expected_file(const Task& task, const std::string& folder) {
   const auto own =
       static_cast<std::size_t>(task.actuators().own_states());  // what is remembered follows from the actions
-  put("then: {} tell {} EPISODE.csv\n  columns: time [s], {}, {}\n", program_name(), folder,
+  put("then: {}\n  columns: time [s], {}, {}\n", command_line({"tell", folder, "EPISODE.csv"}),
       columns(std::span(task.states).first(own)), columns(task.actions));
 }
 
@@ -73,13 +75,13 @@ void print_asked(const experiment::Resolved& resolved, const TrialRecord& trial,
   put("trial {}: run the policy of {} for {} steps of {} s\n", trial.trial, files.string(), task.horizon, task.dt_s);
   if (trial.predicted_return) put("  predicted return {:.4g}\n", *trial.predicted_return);
   print_risks(trial.limits);
-  print_parameters(trial, experiment::tunable_names(resolved.prior));
+  print_parameters(trial, resolved);
   for (const std::string& note : trial.notes) put("  {}\n", note);
   print_expected_file(task, folder);
 }
 
 std::string steps_text(const Episode& episode, double dt_s) {
-  return fmt::format("{} steps, {:.4g} s", episode.steps(), experiment::seconds(episode.steps(), dt_s));
+  return fmt::format("{} steps, {:.4g} s", episode.steps(), seconds(episode.steps(), dt_s));
 }
 
 void print_logs(const std::vector<experiment::Log>& logs, const Task& task) {
@@ -95,7 +97,7 @@ void print_told(const experiment::TellResult& told, const std::string& folder) {
   if (told.trial && told.known_before) put("trial {}: return {:.4g}\n", told.trial->trial, told.trial->total_reward);
   if (told.trial)
     for (const std::string& note : told.trial->notes) put("  {}\n", note);
-  put("next: {} ask {}\n", program_name(), folder);
+  put("next: {}\n", command_line({"ask", folder}));
 }
 
 void print_trials(const std::vector<TrialRecord>& trials) {
@@ -117,8 +119,8 @@ bool is_complete(const experiment::Resolved& resolved, const experiment::History
 
 int ask(const experiment::Catalogue& catalogue, const AskArguments& arguments) {
   Console console(Console::Begin::silent);
-  return on_console(arguments.folder, threads_or_throw(arguments.threads), console, "ask " + arguments.folder,
-                    [&](const experiment::RunOptions& options) {
+  return on_console(arguments.folder, threads_or_throw(arguments.threads), console,
+                    command_line({"ask", arguments.folder}), [&](const experiment::RunOptions& options) {
                       const experiment::AskResult asked = experiment::ask_run(catalogue, arguments.folder, options);
                       console.clear_line();
                       print_asked(asked.resolved, asked.trial, arguments.folder, asked.folder);
@@ -128,17 +130,17 @@ int ask(const experiment::Catalogue& catalogue, const AskArguments& arguments) {
 namespace {
 
 int take_back(const experiment::Catalogue& catalogue, const TellArguments& arguments) {
-  if (!arguments.files.empty() || arguments.stopped)
+  if (!arguments.files.empty() || arguments.stopped || arguments.no_fault)
     throw InvalidInput("--undo takes the last file back that was told, and goes with nothing else");
   Console console(Console::Begin::silent);
   return on_console(arguments.folder, threads_or_throw(arguments.threads), console,
-                    "tell " + arguments.folder + " --undo", [&](const experiment::RunOptions& options) {
+                    command_line({"tell", arguments.folder, "--undo"}), [&](const experiment::RunOptions& options) {
                       const auto [trial, files] = experiment::take_back(catalogue, arguments.folder, options);
                       console.clear_line();
                       put("{}\n", trial ? fmt::format("trial {} is taken back, and is to come", *trial)
                                         : std::string("the logs are taken back"));
                       for (const auto& file : files) put("  {} has what was told\n", file.string());
-                      put("next: {} {} {}\n", program_name(), trial ? "tell" : "ask", arguments.folder);
+                      put("next: {}\n", command_line({trial ? "tell" : "ask", arguments.folder}));
                     });
 }
 
@@ -152,8 +154,8 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
   experiment::TellRequest request{.files = {arguments.files.begin(), arguments.files.end()}, .stopped = {}};
   if (arguments.stopped) request.stopped = {*arguments.stopped, !arguments.no_fault};
   Console console(Console::Begin::silent);
-  return on_console(arguments.folder, threads_or_throw(arguments.threads), console, "ask " + arguments.folder,
-                    [&](const experiment::RunOptions& options) {
+  return on_console(arguments.folder, threads_or_throw(arguments.threads), console,
+                    command_line({"ask", arguments.folder}), [&](const experiment::RunOptions& options) {
                       const experiment::TellResult told =
                           experiment::tell_run(catalogue, arguments.folder, request, options);
                       console.clear_line();
@@ -162,7 +164,8 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
 }
 
 int status(const experiment::Catalogue& catalogue, const StatusArguments& arguments) {
-  const auto [resolved, history, in_use] = experiment::status_of(catalogue, arguments.folder);
+  const std::string& folder = arguments.folder;
+  const auto [resolved, history, in_use] = experiment::status_of(catalogue, folder);
   const experiment::Spec& spec = resolved.spec;
   const Task& task = resolved.scenario.task;
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
@@ -174,16 +177,17 @@ int status(const experiment::Catalogue& catalogue, const StatusArguments& argume
     put("best: trial {}, return {:.4g}, after {:.4g} s on the robot in all\n", best.trial, best.total_reward,
         history.trials.back().interaction_s);
   }
-  if (in_use) put("a process is at work on it\n");
-  if (history.asked)
-    print_asked(resolved, *history.asked, arguments.folder, std::filesystem::path(arguments.folder) / "next");
+  if (in_use)
+    put("a process is at work on it\n");
+  else if (history.asked)
+    print_asked(resolved, *history.asked, folder, std::filesystem::path(folder) / "next");
   else if (is_complete(resolved, history))
-    put("next: {0} report {1} shows it; {0} resume {1} --trials {2} goes on\n", program_name(), arguments.folder,
-        2 * history.done());
+    put("next: {} shows it; {} goes on\n", command_line({"report", folder}),
+        command_line({"resume", folder, "--trials", std::to_string(2 * history.done())}));
   else if (spec.trials > history.done())
-    put("next: {0} resume {1}, which drives the plant, or {0} ask {1}\n", program_name(), arguments.folder);
+    put("next: {}, which drives the plant, or {}\n", command_line({"resume", folder}), command_line({"ask", folder}));
   else
-    put("next: {} ask {}{}\n", program_name(), arguments.folder,
+    put("next: {}{}\n", command_line({"ask", folder}),
         history.done() == 0 ? ", or tell it logs of other controllers first" : "");
   return kSuccess;
 }

@@ -72,6 +72,7 @@ grep -q "a cable came off" gp-mi-told/notes.csv || fail "the reason is lost"
 
 # The last file can be taken back.
 refused "goes with nothing else" tell gp-mi-told short.csv --undo
+refused "goes with nothing else" tell gp-mi-told --undo --no-fault
 refused "FILE.csv is required" tell gp-mi-told
 cp -r gp-mi-told kept
 "$program" ask gp-mi-told >/dev/null || fail "ask"
@@ -85,6 +86,17 @@ cmp untold gp-mi-told/checkpoint || fail "the run is not as it was before"
 "$program" tell gp-mi-told short.csv --stopped "a cable came off" --no-fault >stdout 2>stderr || fail "$(cat stderr)"
 diff -r kept gp-mi-told --exclude timings.csv --exclude checkpoint --exclude taken-back --exclude lock ||
   fail "told again, the run is another"
+
+# A run at work gets no advice that would be refused; what is advised can be copied, spaces and all.
+exec 9>>gp-mi-told/lock
+flock 9
+"$program" status gp-mi-told >stdout || fail "status of a run at work"
+grep -q "a process is at work on it" stdout || fail "status does not see the process: $(cat stdout)"
+grep -qE "next:|then:" stdout && fail "status advises what would be refused: $(cat stdout)"
+exec 9>&-
+cp -r gp-mi-told "it's told"
+"$program" status "it's told" >stdout || fail "status of a folder with a space"
+grep -qF "next: rehearse ask 'it'\\''s told'" stdout || fail "what is advised cannot be copied: $(cat stdout)"
 
 # Logs first: the first policy of a learner without a prior is not random any more.
 "$program" learn pendulum --learner black-drops "${short[@]}" --trials 0 --out logs >/dev/null || fail "logs"

@@ -60,6 +60,26 @@ void remove_tell(const RunFolder& run, const fs::path& folder) {
   fs::remove(tells_of(run), not_empty);
 }
 
+/// A file's name so short that file systems take it behind a number or a checksum. Its ending stays.
+std::string cut_name(const std::string& name) {
+  constexpr std::size_t kMost = 200;  // bytes, of 255
+  if (name.size() <= kMost) return name;
+  const std::string ending = fs::path(name).extension().string();
+  const std::string kept = ending.size() < kMost ? ending : "";
+  std::size_t end = kMost - kept.size();
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;  // not within a letter of UTF-8
+  return name.substr(0, end) + kept;
+}
+
+void keep_in(const fs::path& folder, const RunFolder& run, const std::vector<ToldFile>& files) {
+  fs::create_directories(folder / kBefore);
+  fs::create_directories(folder / kFiles);
+  for (const char* name : kDeciding) make_alike(run.path() / name, folder / kBefore / name);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    files::write_file(folder / kFiles / fmt::format("{:03}-{}", i + 1, cut_name(files[i].path.filename().string())),
+                      files[i].bytes, files::Durability::power);
+}
+
 /// True if there was no tell since.
 bool is_untold(const History& before, const History& now) {
   return now.done() == before.done() && now.logs.size() == before.logs.size();
@@ -75,12 +95,12 @@ void keep_tell(const RunFolder& run, const std::vector<ToldFile>& files) {
   }
   const fs::path unfinished = tells_of(run) / ".unfinished";
   fs::remove_all(unfinished);
-  fs::create_directories(unfinished / kBefore);
-  fs::create_directories(unfinished / kFiles);
-  for (const char* name : kDeciding) make_alike(run.path() / name, unfinished / kBefore / name);
-  for (std::size_t i = 0; i < files.size(); ++i)
-    files::write_file(unfinished / kFiles / fmt::format("{:03}-{}", i + 1, files[i].path.filename().string()),
-                      files[i].bytes, files::Durability::power);
+  try {
+    keep_in(unfinished, run, files);
+  } catch (...) {
+    remove_tell(run, unfinished);
+    throw;
+  }
   const Index last = all.empty() ? 0 : tell_number(all.back());
   fs::rename(unfinished, tells_of(run) / fmt::format("{:03}", last + 1));
 }
@@ -110,7 +130,8 @@ std::vector<fs::path> set_aside(const RunFolder& run, const KeptTell& tell) {
   std::vector<fs::path> kept;
   for (const fs::path& file : tell.files) {
     const std::string bytes = files::read_file(file), name = file.filename().string();
-    kept.push_back(folder / fmt::format("{:016x}-{}", files::checksum(bytes), name.substr(name.find('-') + 1)));
+    kept.push_back(folder /
+                   fmt::format("{:016x}-{}", files::checksum(bytes), cut_name(name.substr(name.find('-') + 1))));
     if (!files::holds(kept.back(), bytes)) files::write_file(kept.back(), bytes, files::Durability::power);
   }
   return kept;

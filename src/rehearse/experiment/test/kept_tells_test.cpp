@@ -64,6 +64,30 @@ TEST_F(KeptTells, OneThatNeverCameAboutGivesWay) {
   EXPECT_FALSE(fs::exists(path / "told/001"));
 }
 
+TEST_F(KeptTells, LongNamesAreCut) {
+  const RunFolder run = RunFolder::open(path);
+  std::string umlauts = "a";
+  while (umlauts.size() < 249) umlauts += "ö";
+  keep_tell(run,
+            {file(std::string(245, 'a') + ".csv", "A"), file(umlauts, "B"), file("c." + std::string(240, 'c'), "C")});
+  change(run, 3);
+  const std::vector<fs::path> kept = set_aside(run, last_tell(run));
+  ASSERT_EQ(kept.size(), 3U);
+  EXPECT_TRUE(kept[0].filename().string().ends_with("aaa.csv"));
+  EXPECT_TRUE(kept[1].filename().string().ends_with("ö"));
+  for (std::size_t i : {0U, 1U, 2U}) EXPECT_EQ(files::read_file(kept[i]), std::string(1, "ABC"[i]));
+  const fs::path old = path / "told/001/files" / ("001-" + std::string(235, 'a') + ".csv");  // of an earlier version
+  fs::rename(path / "told/001/files" / last_tell(run).files[0].filename(), old);
+  EXPECT_EQ(set_aside(run, last_tell(run)), kept);
+}
+
+TEST_F(KeptTells, OneThatCannotBeKeptLeavesNothing) {
+  const RunFolder run = RunFolder::open(path);
+  fs::create_symlink("spec.toml", path / "done");  // which is refused
+  EXPECT_THROW(keep_tell(run, {file("a.csv", "A")}), InvalidInput);
+  EXPECT_FALSE(fs::exists(path / "told"));
+}
+
 TEST_F(KeptTells, TheLastOfAThousandIsTheThousandth) {
   const RunFolder run = RunFolder::open(path);
   keep_tell(run, {file("a.csv", "A")});
