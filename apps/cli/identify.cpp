@@ -46,15 +46,16 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
   check_out(arguments.out, violations);
   const StudySetup setup =
       set_up_study(catalogue, {arguments.robot, arguments.prior, settings_of(arguments.set, violations)}, violations);
-  const auto read = [&](const std::vector<std::string>& paths) {
+  ReadLogs read = read_logs(arguments.logs, arguments.held_out, setup, violations);
+  const auto said = [](std::vector<ReadLog>& all) {
     std::vector<study::Log> logs;
-    for (auto& [path, log, notes] : read_logs(paths, setup, violations)) {
+    for (auto& [path, log, notes] : all) {
       for (const std::string& note : notes) put("{}: {}\n", path, note);
       logs.push_back(std::move(log));
     }
     return logs;
   };
-  const std::vector<study::Log> logs = read(arguments.logs), held_out = read(arguments.held_out);
+  const std::vector<study::Log> logs = said(read.logs), held_out = said(read.held_out);
   violations.throw_if_any();
   const study::Problem problem = setup.problem(logs, held_out);
   StatusLine line;

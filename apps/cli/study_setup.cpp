@@ -1,10 +1,13 @@
 #include "apps/cli/study_setup.hpp"
 
 #include <filesystem>
+#include <iterator>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "rehearse/experiment/priors.hpp"
+#include "rehearse/experiment/told_file.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -61,11 +64,15 @@ StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyReque
     else if (!set_one(own, key, text, violations) && !set_one(of_robot, key, text, violations))
       violations.add(experiment::unknown_option(key, known_keys(own, of_robot)));
   }
-  violations.throw_if_any();
-  setup.scenario = builder->build();
+  try {
+    setup.scenario = builder->build();
+  } catch (const InvalidInput& error) {
+    violations.add(error);
+    violations.throw_if_any();
+  }
   std::vector<std::string> names = experiment::split_names(request.prior.value_or(""));
   if (names.empty() && !setup.scenario.priors.empty()) names = {setup.scenario.priors.front().name};
-  if (names.empty()) throw InvalidInput(fmt::format("{} has no prior, whose parameters could be identified", name));
+  violations.require(!names.empty(), fmt::format("{} has no prior, whose parameters could be identified", name));
   experiment::ChosenPriors priors(setup.scenario, names, violations);
   for (const auto& [key, text] : of_prior) priors.set(key, text, violations);
   violations.throw_if_any();
@@ -74,24 +81,47 @@ StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyReque
   return setup;
 }
 
-std::vector<ReadLog> read_logs(const std::vector<std::string>& paths, const StudySetup& setup, Violations& violations) {
-  std::vector<ReadLog> logs;
-  for (const std::string& path : paths) {
+namespace {
+
+ReadLog read_log(const experiment::ToldFile& file, const StudySetup& setup) {
+  const std::string path = file.path.string();
+  const Task& task = setup.scenario.task;
+  recording::ReadOptions plain = setup.options.read;
+  plain.average = false;
+  recording::Recording recording = recording::read_recording(file.bytes, path, task, setup.options.read);
+  const Actuators actuators = task.actuators();
+  const Matrix measured = recording::read_recording(file.bytes, path, task, plain).episode.states;
+  return {path,
+          {file.path.stem().string(), moved(std::move(recording.episode), actuators),
+           measured.leftCols(actuators.own_states())},
+          std::move(recording.notes)};
+}
+
+void name_by_paths(std::vector<ReadLog>& logs) {
+  std::map<std::string, int> times;
+  for (const ReadLog& read : logs) ++times[read.log.name];
+  for (ReadLog& read : logs)
+    if (times[read.log.name] > 1) read.log.name = read.path;
+}
+
+}  // namespace
+
+ReadLogs read_logs(const std::vector<std::string>& logs, const std::vector<std::string>& held_out,
+                   const StudySetup& setup, Violations& violations) {
+  std::vector<std::filesystem::path> paths(logs.begin(), logs.end());
+  paths.insert(paths.end(), held_out.begin(), held_out.end());
+  std::vector<ReadLog> all;
+  for (const experiment::ToldFile& file : experiment::read_told_files(paths, violations, setup.options.read)) {
     try {
-      recording::ReadOptions plain = setup.options.read;
-      plain.average = false;
-      recording::Recording recording = recording::read_file(path, setup.scenario.task, setup.options.read);
-      const Actuators actuators = setup.scenario.task.actuators();
-      const Matrix measured = recording::read_file(path, setup.scenario.task, plain).episode.states;
-      const std::string name = std::filesystem::path(path).stem().string();
-      logs.push_back({path,
-                      {name, moved(std::move(recording.episode), actuators), measured.leftCols(actuators.own_states())},
-                      std::move(recording.notes)});
+      all.push_back(read_log(file, setup));
     } catch (const InvalidInput& error) {
-      for (const std::string& line : error.violations()) violations.add(line);
+      violations.add(error);
     }
   }
-  return logs;
+  name_by_paths(all);
+  if (!violations.empty()) return {std::move(all), {}};
+  const auto middle = std::make_move_iterator(all.begin() + static_cast<std::ptrdiff_t>(logs.size()));
+  return {{std::make_move_iterator(all.begin()), middle}, {middle, std::make_move_iterator(all.end())}};
 }
 
 }  // namespace rehearse::apps

@@ -50,7 +50,13 @@ struct ReadLog {
   std::vector<std::string> notes;  // how the file was read
 };
 
-/// Files that cannot be read become violations.
-std::vector<ReadLog> read_logs(const std::vector<std::string>& paths, const StudySetup& setup, Violations& violations);
+struct ReadLogs {
+  std::vector<ReadLog> logs, held_out;
+};
+
+/// Files that cannot be read, or are there twice, become violations. A log has the name of its file; its path, where
+/// several files have one name.
+ReadLogs read_logs(const std::vector<std::string>& logs, const std::vector<std::string>& held_out,
+                   const StudySetup& setup, Violations& violations);
 
 }  // namespace rehearse::apps

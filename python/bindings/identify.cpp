@@ -25,10 +25,9 @@ struct Texts {
   std::string page;
 };
 
-std::vector<study::Log> read(const Strings& paths, const apps::StudySetup& setup, Violations& violations,
-                             Strings& notes) {
+std::vector<study::Log> with_notes(std::vector<apps::ReadLog>& read, Strings& notes) {
   std::vector<study::Log> logs;
-  for (auto& [path, log, its_notes] : apps::read_logs(paths, setup, violations)) {
+  for (auto& [path, log, its_notes] : read) {
     for (const std::string& note : its_notes) notes.push_back(log.name + ": " + note);
     logs.push_back(std::move(log));
   }
@@ -40,9 +39,9 @@ Texts identify(const Robot& robot, const apps::StudyRequest& request, const File
   work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
     Violations violations;
     const apps::StudySetup setup = apps::set_up_study(own.catalogue(), request, violations);
-    const auto logs = read(files.logs, setup, violations, texts.notes);
-    const auto held_out = read(files.held_out, setup, violations, texts.notes);
+    apps::ReadLogs read = apps::read_logs(files.logs, files.held_out, setup, violations);
     violations.throw_if_any();
+    const auto logs = with_notes(read.logs, texts.notes), held_out = with_notes(read.held_out, texts.notes);
     const study::Problem problem = setup.problem(logs, held_out);
     const study::Study study =
         study::study_logs(problem, setup.options.study, *make_stoppable(options.evaluator, options.stop));

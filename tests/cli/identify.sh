@@ -28,6 +28,19 @@ refused "cannot read none.csv: it is not there" my_robot.toml none.csv
 refused "unknown option 'rowz', did you mean 'rows'" my_robot.toml "$(log 1)" --set rowz=3
 refused "zeros: there is no state 'thet'" my_robot.toml "$(log 1)" --set zeros=thet
 refused "unknown scenario 'my_robo'" my_robo "$(log 1)"
+cp "$(log 1)" copy.csv
+refused "$(log 1) and copy.csv are the same" my_robot.toml "$(log 1)" "$(log 2)" --held-out copy.csv
+refused "units.csv: row 1" my_robot.toml units.csv copy.csv "$(log 1)"
+grep -q "are the same" output || fail "of two wrong things it says $(cat output)"
+refused "must have at most 100" my_robot.toml "$(log 1)" --set read.max_bytes=100
+refused "particles = 0" my_robot.toml "$(log 1)" --set particles=0 --threads 0 --prior nope
+grep -q "unknown prior 'nope'" output && grep -q -- "--threads = 0" output || fail "not all at once: $(cat output)"
+
+# Logs of one name are told apart by their paths.
+mkdir d1 d2 && cp "$(log 1)" d1/log.csv && cp "$(log 2)" d2/log.csv
+"$program" identify my_robot.toml d1/log.csv d2/log.csv "${few[@]}" --out twins >output 2>&1 || fail "twins: $(cat output)"
+head -1 twins/parameters.csv | grep -q "value without d1/log.csv,.*value without d2/log.csv," ||
+  fail "parameters.csv begins with $(head -1 twins/parameters.csv)"
 mkdir never && "$program" identify my_robot.toml "$(log 1)" --out never >output 2>&1
 [ $? = 2 ] && grep -q "never exists already" output || fail "an existing folder: $(cat output)"
 finish

@@ -111,7 +111,9 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Tell
   Reopened reopened(catalogue, path, options);
   const Resolved& resolved = reopened.resolved();
   const History& history = reopened.run().history();
-  const std::vector<ToldFile> files = read_told_files(request.files);
+  Violations violations;
+  const std::vector<ToldFile> files = read_told_files(request.files, violations);
+  violations.throw_if_any();
   std::vector<ToldFile> news;
   for (const ToldFile& file : files)
     if (!known_as(history, file.checksum).known() || is_of_policy_asked_for(file, resolved.scenario, history))
@@ -162,7 +164,7 @@ TakeBackResult take_back(const Catalogue& catalogue, const fs::path& path, const
 
 RunStatus status_of(const Catalogue& built_in, const fs::path& path) {
   auto [spec, history] = RunFolder::read(path);
-  return {resolve(with_robot_of_run(built_in, path), spec), std::move(history), RunFolder::is_in_use(path)};
+  return {resolve_begun(with_robot_of_run(built_in, path), spec), std::move(history), RunFolder::is_in_use(path)};
 }
 
 }  // namespace rehearse::experiment

@@ -1,14 +1,13 @@
 #include "rehearse/experiment/told_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/files/checksum.hpp"
-#include "rehearse/files/regular_file.hpp"
-#include "rehearse/recording/recording.hpp"
 #include "rehearse/rollout/execute.hpp"
 
 namespace rehearse::experiment {
@@ -53,31 +52,33 @@ std::vector<std::string> sentences_on(const Vector& deviations, const Task& task
   return sentences;
 }
 
-std::string cut_short(const ToldFile& file, Index steps, Index horizon) {
+/// notes: what reading left out, which may be why there are too few.
+std::string cut_short(const ToldFile& file, Index steps, Index horizon, const std::vector<std::string>& notes) {
   return fmt::format(
       "{}: {} of {} steps, which take {} rows: the last has the final state, and needs no action. If the "
-      "operator cut the episode short, say why: --stopped \"…\"",
-      file.path.string(), steps, horizon, horizon + 1);
+      "operator cut the episode short, say why: --stopped \"…\"{}{}",
+      file.path.string(), steps, horizon, horizon + 1,
+      notes.empty() ? "" : ". How the file was read: ", fmt::join(notes, "; "));
 }
 
 }  // namespace
 
-std::vector<ToldFile> read_told_files(const std::vector<fs::path>& paths) {
+std::vector<ToldFile> read_told_files(const std::vector<fs::path>& paths, Violations& violations,
+                                      const recording::ReadOptions& options) {
   std::vector<ToldFile> files;
-  Violations violations;
   for (const fs::path& path : paths) {
     try {
-      std::string bytes = files::read_file(path, files::Links::follow);
+      std::string bytes = recording::read_bytes(path, options);
       std::string checksum = fmt::format("{:016x}", files::checksum(bytes));
-      for (const ToldFile& other : files)
-        violations.require(other.checksum != checksum,
-                           fmt::format("{} and {} are the same", other.path.string(), path.string()));
-      files.push_back({path, std::move(bytes), std::move(checksum)});
+      const auto same = std::ranges::find(files, checksum, &ToldFile::checksum);
+      if (same == files.end())
+        files.push_back({path, std::move(bytes), std::move(checksum)});
+      else
+        violations.add(fmt::format("{} and {} are the same", same->path.string(), path.string()));
     } catch (const InvalidInput& error) {
-      for (const std::string& line : error.violations()) violations.add(line);
+      violations.add(error);
     }
   }
-  violations.throw_if_any();
   return files;
 }
 
@@ -91,7 +92,7 @@ std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task) {
       logs.push_back({file.path.filename().string(), file.checksum, rollout::as_measured(std::move(read.episode), task),
                       std::move(read.notes)});
     } catch (const InvalidInput& error) {
-      for (const std::string& line : error.violations()) violations.add(line);
+      violations.add(error);
     }
   }
   violations.throw_if_any();
@@ -123,7 +124,7 @@ ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario,
     told.notes.push_back(fmt::format("the episode ended at step {}: {} steps after it are left out", episode.steps(),
                                      recorded - episode.steps()));
   const bool whole = episode.steps() == task.horizon || episode.ended;
-  if (!whole && !stopped) throw InvalidInput(cut_short(file, episode.steps(), task.horizon));
+  if (!whole && !stopped) throw InvalidInput(cut_short(file, episode.steps(), task.horizon, told.notes));
   if (whole && stopped)
     throw InvalidInput(fmt::format("{}: --stopped is for an episode that was cut short, but this one {}",
                                    file.path.string(), episode.ended ? "ended by itself" : "has all its steps"));

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/record.hpp"
+#include "rehearse/recording/recording.hpp"
 #include "rehearse/scenario/scenario.hpp"
 
 namespace rehearse::experiment {
@@ -23,8 +25,9 @@ struct ToldFile {
   std::string checksum;  // 16 digits
 };
 
-/// Throws InvalidInput for each that cannot be read, or is there twice.
-std::vector<ToldFile> read_told_files(const std::vector<std::filesystem::path>& paths);
+/// The files that can be read, each once; the others become violations.
+std::vector<ToldFile> read_told_files(const std::vector<std::filesystem::path>& paths, Violations& violations,
+                                      const recording::ReadOptions& options = {});
 
 /// Whole files, whatever their length. Rewards are those of the measured states.
 std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task);

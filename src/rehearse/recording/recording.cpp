@@ -123,11 +123,15 @@ Recording read_recording(const std::string& csv_text, const std::string& source,
   return recording;
 }
 
-Recording read_file(const std::filesystem::path& path, const Task& task, const ReadOptions& options) {
+std::string read_bytes(const std::filesystem::path& path, const ReadOptions& options) {
   std::error_code ignored;
   const auto bytes = std::filesystem::file_size(path, ignored);
   if (!ignored) check_size(static_cast<double>(bytes), path.string(), options);
-  return read_recording(files::read_file(path, files::Links::follow), path.string(), task, options);
+  return files::read_file(path, files::Links::follow);
+}
+
+Recording read_file(const std::filesystem::path& path, const Task& task, const ReadOptions& options) {
+  return read_recording(read_bytes(path, options), path.string(), task, options);
 }
 
 }  // namespace rehearse::recording

@@ -47,7 +47,10 @@ struct Recording {
 Recording read_recording(const std::string& csv_text, const std::string& source, const Task& task,
                          const ReadOptions& options = {});
 
-/// The same of a file, which is refused unread if it is too large.
+/// The bytes of a file, which is refused unread if it is too large.
+std::string read_bytes(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// The recording in a file.
 Recording read_file(const std::filesystem::path& path, const Task& task, const ReadOptions& options = {});
 
 }  // namespace rehearse::recording

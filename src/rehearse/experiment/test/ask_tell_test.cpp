@@ -127,6 +127,12 @@ TEST_F(AskTell, WhatIsNotToComeIsRefusedAndChangesNothing) {
   EXPECT_NE(refused({folder / "none.csv"}).find("none.csv"), std::string::npos);
   EXPECT_NE(refused({beginning(trial_of(driven, 1), 6)}).find("5 of 12 steps"), std::string::npos);
   EXPECT_NE(refused({trial_of(driven, 1)}, Stop{"a noise"}).find("has all its steps"), std::string::npos);
+  const std::string whole = files::read_file(trial_of(driven, 1));
+  const fs::path cut = written("cut.csv", whole.substr(0, whole.size() - 1));
+  EXPECT_NE(refused({cut}).find("11 of 12 steps"), std::string::npos);
+  EXPECT_NE(refused({cut}).find("How the file was read: the last row is left out"), std::string::npos);
+  fs::resize_file(cut, std::uintmax_t{1} << 40);  // no memory would hold it
+  EXPECT_NE(refused({cut}).find("must have at most 67108864"), std::string::npos);
   EXPECT_NE(refused({written("bad.csv", "time [s],x [m]\n0,1\n")}).find("bad.csv"), std::string::npos);
   tell(told, {trial_of(driven, 1)});
   EXPECT_NE(message_of<InvalidInput>([&] { tell(told, {trial_of(driven, 2)}); }).find("trial 2 was not asked for"),
