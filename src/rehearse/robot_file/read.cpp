@@ -62,7 +62,9 @@ class Reader {
   }
 
   void read_states() {
-    for (const toml::table* part : file_.list("state")) {
+    const auto parts = file_.list("state");
+    bool seen = false;
+    for (const toml::table* part : parts) {
       Table table(*part, "[[state]]", violations_);
       State state;
       bool angle = false, input = true;
@@ -75,13 +77,20 @@ class Reader {
         v.number("start_noise", state.start_noise, "", at_least(0));
         v.number("scale", state.scale, "", above(0));
       });
+      if (angle && !input)
+        table.wrong("input",
+                    "angle = true says how models and policies see a state, and input = false that they do not");
       state.variable.kind = angle ? StateKind::angle : input ? StateKind::plain : StateKind::omitted;
       table.reader().take("rate", state.variable.rate);
       table.reader().take("parent", state.variable.parent);
       table.finish();
+      seen |= state.variable.kind != StateKind::omitted;
       robot_.states.push_back(state);
     }
     required(!robot_.states.empty(), "[[state]]", "what the robot measures");
+    if (!seen && !parts.empty())
+      violations_.add(files::line_of(*parts.front()),
+                      "every [[state]] has input = false: models and policies would see nothing of the robot");
   }
 
   /// A name that formulas can use.
@@ -236,7 +245,7 @@ class Reader {
       check_prior_name(name, files::line_of(*part));
       Table table(*part, fmt::format("[prior.{}]", name), violations_);
       Variant prior = read_variant(name, table, robot_.dynamics, violations_);
-      tune(table, prior, violations_);
+      tune(table, prior, robot_.dynamics, violations_);
       table.finish();
       robot_.priors.push_back(std::move(prior));
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,7 +31,9 @@ std::optional<Interval> pair_of(const toml::node& node) {
 }
 
 Formula Table::formula_of(const std::string& key, const toml::node& node) {
-  if (node.is_string() || node.is_number()) return {files::text_of(node), files::line_of(node)};
+  if (node.is_string() || node.is_number())
+    if (std::string text = files::text_of(node); text.find_first_not_of(" \t\n") != std::string::npos)
+      return {std::move(text), files::line_of(node)};
   violations_.add(files::line_of(node), fmt::format("{} must be a formula in quotes, or a number", key));
   return {};
 }

@@ -14,32 +14,49 @@ namespace {
 
 using expression::Formulas, expression::Node, expression::Pace, expression::Program;
 
-/// Formulas of the task: their inputs are the states, then the actions.
-Formulas task_formulas(const Robot& robot) {
+constexpr const char* kOnlyOfCosts = "is known to the `cost` of [reward] alone";
+
+enum class Of : std::uint8_t { states, steps };
+
+/// The inputs of formulas: states, and behind them the actions of a step. Names that others know are explained.
+Formulas inputs_of(const Robot& robot, Of of) {
   Formulas formulas;
   for (const std::string& name : robot.task_state_names()) formulas.input(name, Pace::always);
-  for (const std::string& name : robot.action_names()) formulas.input(name, Pace::always);
-  for (const auto& [name, formula] : robot.definitions) formulas.define(name, formula.text);
+  for (const std::string& name : robot.action_names()) {
+    formulas.elsewhere(name + "_before", kOnlyOfCosts);
+    if (of == Of::steps)
+      formulas.input(name, Pace::always);
+    else
+      formulas.elsewhere(name, fmt::format("is an action, and this is a formula of states; the last command is the "
+                                           "state {}_last, with remember = 1 in [[action]]",
+                                           name));
+  }
+  formulas.elsewhere("time", kOnlyOfCosts);
   return formulas;
 }
 
-Program program(const Robot& robot, const std::vector<Formula>& outputs) {
-  Formulas formulas = task_formulas(robot);
+Formulas formulas_of(const Robot& robot, Of of) {
+  Formulas all = inputs_of(robot, of);
+  for (const auto& [name, formula] : robot.definitions) all.define(name, formula.text);
+  return all;
+}
+
+Program program(Formulas of, const std::vector<Formula>& outputs) {
   std::vector<Node> nodes;
-  for (const Formula& output : outputs) nodes.push_back(formulas.compile(output.text));
-  return {formulas, nodes};
+  for (const Formula& output : outputs) nodes.push_back(of.compile(output.text));
+  return {of, nodes};
 }
 
 /// Its further inputs are the actions one step before, and the time since the start.
 Program cost_program(const Robot& robot) {
-  Formulas formulas = task_formulas(robot);
+  Formulas formulas = formulas_of(robot, Of::steps);
   for (const std::string& name : robot.action_names()) formulas.input(name + "_before", Pace::always);
   formulas.input("time", Pace::always);
   return {formulas, {formulas.compile(robot.reward.cost.text)}};
 }
 
-/// The formulas (rows × outputs) of states and actions; columns of X and U are the program's inputs, in this order.
-Matrix evaluate(const Program& program, const ConstMatrixView& X, const ConstMatrixView& U) {
+/// The formulas (rows × outputs) of states and actions; columns of X, then of U, are the program's inputs.
+Matrix evaluate(const Program& program, const ConstMatrixView& X, const ConstMatrixView& U = Matrix()) {
   std::vector<const double*> columns;
   for (Index i = 0; i < X.cols(); ++i) columns.push_back(X.col(i).data());
   for (Index i = 0; i < U.cols(); ++i) columns.push_back(U.col(i).data());
@@ -48,30 +65,23 @@ Matrix evaluate(const Program& program, const ConstMatrixView& X, const ConstMat
   return results;
 }
 
-/// The formulas of one state, where all actions are 0.
-Vector evaluate(const Program& program, const ConstVectorView& x, Index actions) {
-  const Matrix X = x.transpose(), U = Matrix::Zero(1, actions);
-  return evaluate(program, X, U).row(0);
-}
-
 class Checker {
  public:
   Checker(const Robot& robot, files::FileViolations& violations) : robot_(robot), violations_(violations) {}
 
   void check() {
-    Formulas formulas;
-    for (const std::string& name : robot_.task_state_names()) formulas.input(name, Pace::always);
-    for (const std::string& name : robot_.action_names()) formulas.input(name, Pace::always);
-    check_definitions(formulas, robot_.definitions);
-    for (const Formula& distance : robot_.reward.distance) compile(formulas, "reward.distance", distance);
+    Formulas of_steps = inputs_of(robot_, Of::steps);
+    check_definitions(of_steps, robot_.definitions);
     const Functions& functions = robot_.functions;
-    compile(formulas, "reward.formula", robot_.reward.formula, functions.of_steps);
-    compile(formulas, "success.when", robot_.success.when, functions.of_states);
-    compile(formulas, "ended", robot_.ended, functions.of_states);
-    for (const LimitFormula& limit : robot_.limits) compile(formulas, "limit.keep", limit.keep, functions.of_steps);
+    compile(of_steps, "reward.formula", robot_.reward.formula, functions.of_steps);
+    for (const LimitFormula& limit : robot_.limits) compile(of_steps, "limit.keep", limit.keep, functions.of_steps);
+    Formulas of_states = good_ ? formulas_of(robot_, Of::states) : Formulas();
+    for (const Formula& distance : robot_.reward.distance) compile(of_states, "reward.distance", distance);
+    compile(of_states, "success.when", robot_.success.when, functions.of_states);
+    compile(of_states, "ended", robot_.ended, functions.of_states);
     for (const Body& body : robot_.bodies)
       for (const Formula* formula : {&body.from[0], &body.from[1], &body.to[0], &body.to[1]})
-        compile(formulas, fmt::format("body {}", body.name), *formula);
+        compile(of_states, fmt::format("body {}", body.name), *formula);
     if (!robot_.reward.cost.empty() && good_)
       named(
           robot_.reward.cost.line, [&] { cost_program(robot_); }, "reward.cost");
@@ -120,6 +130,7 @@ class Checker {
 
   void check_equations(const Dynamics& dynamics, const Equations& equations) {
     Formulas formulas;
+    formulas.elsewhere("time", kOnlyOfCosts);
     for (const Parameter& parameter : dynamics.parameters)
       named(dynamics.line, [&] { formulas.input(parameter.name, Pace::call); });
     for (const std::string& name : robot_.action_names())
@@ -139,16 +150,17 @@ class Checker {
 /// A formula of the state that a step reaches and the action that took it there.
 Reward of_steps(const Robot& robot, const Formula& formula) {
   if (formula.is_function()) return function_of(robot.functions.of_steps, formula.function());
-  return [program = program(robot, {formula})](const ConstMatrixView&, const ConstMatrixView& U,
-                                               const ConstMatrixView& X_next,
-                                               VectorView values) { values = evaluate(program, X_next, U).col(0); };
+  return [program = program(formulas_of(robot, Of::steps), {formula})](
+             const ConstMatrixView&, const ConstMatrixView& U, const ConstMatrixView& X_next, VectorView values) {
+    values = evaluate(program, X_next, U).col(0);
+  };
 }
 
 Reward reward_of(const Robot& robot) {
   if (!robot.reward.distance.empty()) {
-    const auto squared = [program = program(robot, robot.reward.distance), actions = robot.actions.size()](
+    const auto squared = [program = program(formulas_of(robot, Of::states), robot.reward.distance)](
                              const ConstMatrixView& X_next, VectorView d2) {
-      d2 = evaluate(program, X_next, Matrix::Zero(X_next.rows(), static_cast<Index>(actions))).rowwise().squaredNorm();
+      d2 = evaluate(program, X_next).rowwise().squaredNorm();
     };
     return reward::saturating(squared, robot.reward.width, closed_form(robot));
   }
@@ -165,33 +177,29 @@ StepCost cost_of(const Robot& robot) {
   };
 }
 
-/// A condition on states, where all actions are 0.
 StateCondition of_states(const Robot& robot, const Formula& formula) {
   if (formula.is_function()) return function_of(robot.functions.of_states, formula.function());
-  return [program = program(robot, {formula}), actions = static_cast<Index>(robot.actions.size())](
-             const ConstMatrixView& X, VectorView holds) {
-    holds = evaluate(program, X, Matrix::Zero(X.rows(), actions)).col(0);
+  return [program = program(formulas_of(robot, Of::states), {formula})](const ConstMatrixView& X, VectorView holds) {
+    holds = evaluate(program, X).col(0);
   };
 }
 
-/// The distances with sine and cosine of each angle as inputs of their own, behind states and actions.
+/// The distances with sine and cosine of each angle as inputs of their own, behind the states.
 Program program_of_features(const Robot& robot) {
-  Formulas formulas = task_formulas(robot);
+  Formulas formulas = formulas_of(robot, Of::states);
   for (const State& state : robot.states) {
     if (state.variable.kind != StateKind::angle) continue;
     const Node sine = formulas.builder().input(Pace::always), cosine = formulas.builder().input(Pace::always);
     formulas.builder().known_trigonometry(formulas.named(state.variable.name), sine, cosine);
   }
-  std::vector<Node> nodes;
-  for (const Formula& distance : robot.reward.distance) nodes.push_back(formulas.compile(distance.text));
-  return {formulas, nodes};
+  return program(std::move(formulas), robot.reward.distance);
 }
 
 /// The input of program_of_features that each feature is.
 std::vector<Index> inputs_of_features(const Robot& robot) {
   std::vector<Index> inputs;
   const Index states = robot.actuators().states();
-  Index sine = states + static_cast<Index>(robot.actions.size());
+  Index sine = states;
   for (Index state = 0; state < states; ++state) {
     const auto own = static_cast<std::size_t>(state);
     const StateKind kind = own < robot.states.size() ? robot.states[own].variable.kind : StateKind::plain;
@@ -215,7 +223,7 @@ std::optional<Linear> linear_in_inputs(const Program& program) {
   const Index inputs = program.inputs();
   Matrix X = Matrix::Zero(1 + inputs, inputs);
   X.bottomRows(inputs).setIdentity();
-  const Matrix d = evaluate(program, X, Matrix(X.rows(), 0));
+  const Matrix d = evaluate(program, X);
   if (!d.allFinite()) return {};
   return Linear{(d.bottomRows(inputs).rowwise() - d.row(0)).transpose(), d.row(0)};
 }
@@ -235,7 +243,7 @@ std::optional<reward::ClosedForm> closed_form(const Robot& robot) {
     form.distances.col(static_cast<Index>(f)) = linear->slopes.col(features[f]) / robot.reward.width;
     rest.col(features[f]).setZero();
   }
-  if (rest.cwiseAbs().maxCoeff() > 0) return {};  // an action, an angle as it is, a state that is no feature
+  if (rest.cwiseAbs().maxCoeff() > 0) return {};  // an angle as it is, a state that is no feature
   const Vector wanted = -linear->at_zero / robot.reward.width;
   form.goal = form.distances.completeOrthogonalDecomposition().solve(wanted);
   if ((form.distances * form.goal - wanted).norm() > 1e-9 * (1 + wanted.norm())) return {};
@@ -276,9 +284,9 @@ std::optional<scenario::Drawing> make_drawing(const Robot& robot) {
     drawing.bodies.push_back({body.name, body.width_m});
     ends.insert(ends.end(), {body.from[0], body.from[1], body.to[0], body.to[1]});
   }
-  drawing.lines = [program = program(robot, ends), actions = static_cast<Index>(robot.actions.size()),
+  drawing.lines = [program = program(formulas_of(robot, Of::states), ends),
                    bodies = robot.bodies.size()](const ConstVectorView& state) {
-    const Vector at = evaluate(program, state, actions);
+    const Vector at = evaluate(program, Matrix(state.transpose())).row(0);
     std::vector<scenario::Line> lines;
     for (std::size_t b = 0; b < bodies; ++b) {
       const auto end = at.segment<4>(4 * static_cast<Index>(b));

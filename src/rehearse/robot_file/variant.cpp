@@ -1,6 +1,6 @@
 #include "rehearse/robot_file/variant.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -67,8 +67,11 @@ Parameter tunable(const Parameter& parameter, const toml::node& node, files::Fil
   if (const toml::table* table = node.as_table(); table && table->size() == 1) choices = (*table)["choices"].as_array();
   if (choices) {
     std::vector<double> values;
-    for (const toml::node& choice : *choices) values.push_back(choice.value<double>().value_or(NAN));
-    return Parameter::discrete(parameter.name, parameter.value, values, parameter.unit);
+    bool numbers = true;
+    for (const toml::node& choice : *choices)
+      numbers &=
+          take_number(fmt::format("a choice of tune.{}", parameter.name), choice, values.emplace_back(), violations);
+    return numbers ? Parameter::discrete(parameter.name, parameter.value, values, parameter.unit) : parameter;
   }
   const auto box = pair_of(node);
   if (box && box->low < box->high) return Parameter::continuous(parameter.name, parameter.value, *box, parameter.unit);
@@ -101,9 +104,11 @@ Variant read_variant(const std::string& name, Table& table, const std::vector<Dy
   return variant;
 }
 
-void tune(Table& table, Variant& variant, files::FileViolations& violations) {
+void tune(Table& table, Variant& variant, const std::vector<Dynamics>& dynamics, files::FileViolations& violations) {
   const toml::table* given = table.reader().take_table("tune");
-  if (variant.parameters.size() == 0) return;
+  const auto of = std::ranges::find(dynamics, variant.dynamics, &Dynamics::name);
+  const bool was_read = of != dynamics.end() && std::ssize(of->parameters) == variant.parameters.size();
+  if (!given || !was_read) return;  // where it was not, a violation says so already
   Values values(variant.parameters.all(), violations);
   values.each(given,
               [&](Parameter& parameter, const toml::node& node) { parameter = tunable(parameter, node, violations); });

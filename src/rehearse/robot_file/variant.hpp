@@ -13,7 +13,7 @@ Variant read_variant(const std::string& name, Table& table, const std::vector<Dy
                      files::FileViolations& violations);
 
 /// Makes the parameters that the part tunes tunable: tune.NAME = [low, high] or { choices = […] }.
-void tune(Table& table, Variant& variant, files::FileViolations& violations);
+void tune(Table& table, Variant& variant, const std::vector<Dynamics>& dynamics, files::FileViolations& violations);
 
 /// False, and a violation, if the node is no number.
 bool take_number(const std::string& name, const toml::node& node, double& value, files::FileViolations& violations);

@@ -132,9 +132,40 @@ const Wrong kWrong[] = {
     {"[plant]", "[[body]]\nname = \"rod\"\nfrom = [0, 0]\n[plant]", "a body goes from = [x, y] to = [x, y]"},
     {"[plant]", "[[body]]\nname = \"rod\"\nfrom = [0, 0]\nto = [\"x\", 1]\n[plant]", "body rod: unknown name 'x'"},
     {"dt_s = 0.1", "dt_s = 0.1\nended = \"angle >\"", "ended: 'angle >'"},
+    {"dt_s = 0.1", "dt_s = 0.1\nended = \"abs(u) > 1\"",
+     "line 4: ended: 'u' is an action, and this is a formula of states; the last command is the state u_last"},
+    {"dt_s = 0.1", "dt_s = 0.1\nended = \"time > 1\"",
+     "line 4: ended: 'time' is known to the `cost` of [reward] alone"},
+    {"when = \"height > 0.9\"", "when = \"abs(u) < 0.001\"", "line 29: success.when: 'u' is an action"},
+    {"\"sin(angle)\"]", "\"u\"]", "line 25: reward.distance: 'u' is an action"},
+    {"\"cos(angle)\"\n\n[reward]\ndistance = [\"1 - height\"", "\"u\"\n\n[reward]\ndistance = [\"height\"",
+     "line 25: reward.distance: 'u' is an action"},
+    {"[plant]", "[[body]]\nname = \"rod\"\nfrom = [0, 0]\nto = [\"u\", 1]\n[plant]", "body rod: 'u' is an action"},
+    {"\"sin(angle)\"]", "\"\"]", "line 25: distance must be a formula in quotes, or a number"},
+    {"rate.rate = \"torque / (m * l^2)\"", "rate.rate = \" \"",
+     "line 35: rate must be a formula in quotes, or a number"},
+    {"\"sin(angle)\"]", "\"1,5 - height\"]", "line 25: reward.distance: '1,5 - height': a comma outside"},
+    {"when = \"height > 0.9\"", "when = \"0.9 < height < 1.1\"",
+     "line 29: success.when: 'a < b < c' is written a < b && b < c"},
+    {"tune.m = [0.5, 2]", "tune.m = { choices = [\"1.0\", 1.3] }", "line 41: a choice of tune.m must be a number"},
+    {"tune.m = [0.5, 2]", "tune.m = { choices = [] }", "line 39: parameter m has no choices"},
+    {"[prior.heavy]",
+     "[dynamics.bare]\nrate.rate = \"u\"\n[prior.bare]\ndynamics = \"bare\"\ntune.k = [0, 1]\n[prior.heavy]",
+     "line 43: 'k' is no parameter: the dynamics has none"},
+    {"angle = true", "angle = true\ninput = false",
+     "line 12: angle = true says how models and policies see a state, and input = false that they do not"},
     {"dt_s = 0.1", "dt_s = 0.1 0.2", "line 3: "},
 };
 INSTANTIATE_TEST_SUITE_P(Files, WrongRobot, ::testing::ValuesIn(kWrong));
+
+TEST(ReadRobot, SomethingMustBeSeen) {
+  std::string text = with("angle = true", "input = false");
+  EXPECT_EQ(complaint_of(text), "");
+  const std::string scale = "scale = 10";
+  text.replace(text.find(scale), scale.size(), "input = false");
+  EXPECT_NE(complaint_of(text).find("line 6: every [[state]] has input = false"), std::string::npos)
+      << complaint_of(text);
+}
 
 TEST(ReadRobot, SaysEverythingThatIsWrongAtOnce) {
   std::string text = with("dt_s = 0.1", "dt_s = 0");
