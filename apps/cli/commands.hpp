@@ -13,7 +13,7 @@ namespace rehearse::apps {
 enum ExitCode { kSuccess = 0, kFailed = 1, kWrongInput = 2 };  // and 128 + signal when interrupted
 
 struct ListArguments {
-  std::optional<std::string> name;  // of a scenario or a learner
+  std::optional<std::string> name;  // of a scenario or a learner, or a robot's file
   bool json = false;
   bool options = false;
   bool expert = false;
@@ -98,7 +98,7 @@ struct EvaluateArguments {
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);
 int check(const experiment::Catalogue& catalogue, const CheckArguments& arguments, const std::string& share);
-int make_new(const NewArguments& arguments);
+int make_new(const experiment::Catalogue& catalogue, const NewArguments& arguments);
 int learn(const experiment::Catalogue& catalogue, const LearnArguments& arguments);
 int resume(const experiment::Catalogue& catalogue, const ResumeArguments& arguments);
 int ask(const experiment::Catalogue& catalogue, const AskArguments& arguments);

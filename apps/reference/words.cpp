@@ -70,7 +70,8 @@ Expected expected(const std::string& command, const ReferenceOption& option) {
   if (option.name == "FILE" && command == "campaign") return {.files = true, .ending = ".toml"};
   if (option.value.starts_with("FILE") || option.value.starts_with("LOG.") || option.value == "ROBOT.toml")
     return files_like(option.value);
-  if (option.name == "NAME" && command == "list") return {.names = {Names::scenarios, Names::learners}};
+  if (option.name == "NAME" && command == "list")
+    return {.names = {Names::scenarios, Names::learners}, .files = true, .ending = ".toml"};
   if (option.name == "NAME" && command == "new") return {};
   if (option.name == "--learner") return {.names = {Names::learners}};
   if (option.name == "--prior") return {.names = {Names::priors}};
