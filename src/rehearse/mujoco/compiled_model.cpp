@@ -1,6 +1,7 @@
 #include "rehearse/mujoco/compiled_model.hpp"
 
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -23,7 +24,9 @@ Vector values_of(const std::vector<ModelParameter>& parameters) {
 }  // namespace
 
 CompiledModel::CompiledModel(const ModelDescription& description)
-    : path_(description.path), original_(load(description.path)), start_values_(values_of(description.parameters)) {
+    : file_(std::filesystem::path(description.path).filename().string()),
+      original_(load(description.path)),
+      start_values_(values_of(description.parameters)) {
   Violations violations;
   read_time(description, violations);
   if (!description.keyframe.empty())

@@ -18,8 +18,8 @@ class CompiledModel {
   explicit CompiledModel(const ModelDescription& description);
 
   mjModel& original() const { return *original_; }
-  const std::string& path() const { return path_; }
-  int keyframe() const { return keyframe_; }  // −1: none
+  const std::string& file() const { return file_; }  // its name, for messages
+  int keyframe() const { return keyframe_; }         // −1: none
   Index substeps() const { return substeps_; }
   const States& states() const { return states_; }
   const Parameters& parameters() const { return parameters_; }
@@ -42,7 +42,7 @@ class CompiledModel {
   void read_time(const ModelDescription& description, Violations& violations);
   void find_actions(const std::vector<Action>& actions, Violations& violations);
 
-  std::string path_;
+  std::string file_;
   ModelPointer original_;
   int keyframe_ = -1;
   Index substeps_ = 0;

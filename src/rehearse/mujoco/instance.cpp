@@ -36,7 +36,7 @@ void Instance::apply(const Vector& phi) {
   if (compiled_->parameters().apply(compiled_->original(), phi, *model_)) {
     const auto set_constants = [model = model_.get(), data = data_.get()] { mj_setConst(model, data); };
     if (const char* error = guarded(set_constants))
-      throw InvalidInput(fmt::format("{}: MuJoCo refuses these parameters: {}", compiled_->path(), error));
+      throw InvalidInput(fmt::format("{}: MuJoCo refuses these parameters: {}", compiled_->file(), error));
     start_over();
   }
   phi_ = phi;

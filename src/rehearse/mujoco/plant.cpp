@@ -38,7 +38,7 @@ class ModelPlant final : public system::Plant {
   Vector measured(bool simulated) {
     if (simulated) instance_.read(x_);
     if (!simulated || !x_.allFinite())
-      throw std::runtime_error(fmt::format("MuJoCo's simulation of {} diverged", instance_.compiled().path()));
+      throw std::runtime_error(fmt::format("MuJoCo's simulation of {} diverged", instance_.compiled().file()));
     return around_.measured(x_, *rng_);
   }
 

@@ -11,10 +11,14 @@
 namespace rehearse::rollout {
 namespace {
 
-Vector checked(Vector state, Index size, Index step) {
-  if (state.size() != size || !state.allFinite())
-    throw std::runtime_error(
-        fmt::format("the plant's state at step {} has {} entries, must have {} finite ones", step, state.size(), size));
+Vector checked(Vector state, const Task& task, Index step) {
+  if (state.size() != task.state_size())
+    throw std::runtime_error(fmt::format("the plant's state at step {} has {} entries, must have {}", step,
+                                         state.size(), task.state_size()));
+  for (Index i = 0; i < state.size(); ++i)
+    if (!std::isfinite(state(i)))
+      throw std::runtime_error(fmt::format("the plant's state at step {} has {} = {}, must be finite", step,
+                                           task.states[static_cast<std::size_t>(i)].name, state(i)));
   return state;
 }
 
@@ -91,7 +95,7 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
   const Matrix Theta = theta.transpose();
   Matrix u(1, task.action_size());
   const Actuators actuators = task.actuators();
-  record_state(episode, 0, checked(plant.reset(rng), task.state_size(), 0), plant);
+  record_state(episode, 0, checked(plant.reset(rng), task, 0), plant);
   for (Index t = 0; t < T; ++t) {
     if (before_step) before_step();
     policy.act(Theta, episode.states.middleRows(t, 1), static_cast<double>(t) * task.dt_s, u);
@@ -106,7 +110,7 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
       end(episode, t, task, fmt::format("the state at step {} is not finite", t + 1));
       break;
     }
-    record_state(episode, t + 1, checked(next, task.state_size(), t + 1), plant);
+    record_state(episode, t + 1, checked(next, task, t + 1), plant);
     if (ends_at(episode, t, task)) break;
     if (plant.ended()) {
       end(episode, t + 1, task);

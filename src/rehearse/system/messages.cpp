@@ -14,6 +14,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr int kDeepest = 16;
+
 template <class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> format, Args&&... args) {
   throw std::runtime_error(fmt::format(format, std::forward<Args>(args)...));
@@ -49,8 +51,12 @@ void write_rows(std::string& text, const ConstMatrixView& rows) {
   text += ']';
 }
 
+/// Copies and texts of a value recurse: one that is nested deeply enough would exhaust the stack.
 Json object_of(std::string_view text) {
-  Json json = Json::parse(text, nullptr, false);
+  bool too_deep = false;
+  const auto is_flat = [&](int depth, Json::parse_event_t, const Json&) { return !(too_deep |= depth > kDeepest); };
+  Json json = Json::parse(text, is_flat, false);
+  if (too_deep) refuse("it answered lists within lists, more than {} deep: {}", kDeepest, excerpt(text));
   if (json.is_discarded()) refuse("it answered what is no JSON: {}", excerpt(text));
   if (!json.is_object()) refuse("it answered what is no JSON object: {}", excerpt(text));
   if (const auto error = json.find("error"); error != json.end())

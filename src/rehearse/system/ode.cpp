@@ -63,9 +63,11 @@ Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, cons
   Index evaluations = 0;
   const auto counted = [&evaluations, rhs = rhs_of(ode, u, phi)](const State& at, State& change, double t) mutable {
     if (evaluations++ == kMostEvaluations)
-      throw std::runtime_error(fmt::format(
-          "the equation was evaluated {} times within one step: its parameters are too extreme to follow it",
-          kMostEvaluations));
+      throw std::runtime_error(
+          fmt::format("the equation was evaluated {} times within one step: its parameters are too extreme to follow "
+                      "it, or it jumps "
+                      "(sign, where, floor): write tanh(v / 0.01) for sign(v)",
+                      kMostEvaluations));
     rhs(at, change, t);
   };
   odeint::integrate_adaptive(odeint::make_controlled<Stepper>(tolerance, tolerance), counted, state, 0.0, duration_s,

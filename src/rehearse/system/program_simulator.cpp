@@ -5,6 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "rehearse/core/errors.hpp"
 #include "rehearse/system/conversation.hpp"
 
@@ -105,6 +108,11 @@ std::unique_ptr<Conversation> begun(const Program& program) {
   return conversation;
 }
 
+std::string no_next_state(const Program& program, const Vector& x, const Vector& u) {
+  return fmt::format("the program '{}' has no next state (null) for the state [{:.6g}] and the action [{:.6g}]",
+                     fmt::join(program.command, " "), fmt::join(x, ", "), fmt::join(u, ", "));
+}
+
 }  // namespace
 
 ProgramSimulator::ProgramSimulator(Program program, ParameterSpace parameters)
@@ -128,10 +136,13 @@ std::unique_ptr<Plant> make_program_plant(const Program& program, const Paramete
   if (auto conversation = begun(program); conversation->has_episodes())
     return std::make_unique<EpisodePlant>(program, std::move(conversation), phi.values(), around);
   const auto simulator = std::make_shared<ProgramSimulator>(program, phi);
-  const auto motion = [simulator, phi = phi.values()](const Vector& x, const Vector& u) -> Vector {
+  const auto motion = [simulator, program, phi = phi.values()](const Vector& x, const Vector& u) -> Vector {
     Matrix dX(1, x.size());
+    const Index faults = simulator->faults().count;
     simulator->change(x.transpose(), u.transpose(), phi, dX);
-    if (!dX.allFinite()) throw std::runtime_error(simulator->faults().last);
+    if (!dX.allFinite())
+      throw std::runtime_error(simulator->faults().count > faults ? simulator->faults().last
+                                                                  : no_next_state(program, x, u));
     return x + dX.row(0).transpose();
   };
   return make_simulated_plant(motion, around);

@@ -52,7 +52,12 @@ TEST(ModelPlant, ThrowsWhereItDiverges) {
   Rng rng({.seed = 5});
   EXPECT_THROW(plant->step(Vector{{0}}), std::logic_error);
   plant->reset(rng);
-  EXPECT_THROW(plant->step(Vector{{NAN}}), std::runtime_error);
+  try {
+    plant->step(Vector{{NAN}});
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "MuJoCo's simulation of acrobot.xml diverged") << "the folder may be a temporary one";
+  }
   EXPECT_THROW(plant->step(Vector{{1, 2}}), InvalidInput);
   plant->reset(rng);
   EXPECT_TRUE(plant->step(Vector{{1}}).allFinite());

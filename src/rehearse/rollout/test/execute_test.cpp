@@ -171,13 +171,24 @@ TEST(Execute, APlantThatThrowsReachesTheCaller) {
 }
 
 TEST(Execute, AStateThatIsNoStateIsAnError) {
-  for (const Vector& state : {Vector(Vector::Zero(3)), Vector{{0, std::numeric_limits<double>::quiet_NaN()}},
-                              Vector{{std::numeric_limits<double>::infinity(), 0}}, Vector()}) {
+  const auto why = [](const Vector& state) -> std::string {
     CartPlant plant;
     plant.fails_at = 3;
     plant.failure = [&] { return state; };
-    EXPECT_THROW(execute(plant, *cart::policy(), cart::candidates(1), cart::task(), kRng), std::runtime_error);
-  }
+    try {
+      execute(plant, *cart::policy(), cart::candidates(1), cart::task(), kRng);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string name = cart::task().states[1].name;
+  EXPECT_NE(why(Vector::Zero(3)).find(" has 3 entries, must have 2"), std::string::npos);
+  EXPECT_NE(why(Vector()).find(" has 0 entries, must have 2"), std::string::npos);
+  EXPECT_NE(why(Vector{{0, std::numeric_limits<double>::quiet_NaN()}}).find(" has " + name + " = nan, must be finite"),
+            std::string::npos);
+  EXPECT_NE(why(Vector{{std::numeric_limits<double>::infinity(), 0}}).find(" = inf, must be finite"),
+            std::string::npos);
 }
 
 TEST(Execute, ARewardThatIsNotFiniteEndsTheEpisodeAtTheFloor) {

@@ -50,6 +50,28 @@ TEST(Messages, WrongAnswersSayWhatIsWrong) {
   EXPECT_EQ(read_state("{\"state\":[1,2]}", 2).truth.size(), 0);
 }
 
+// Each of these went into a function that calls itself for every bracket.
+TEST(Messages, DeepAnswersAreRefused) {
+  const std::string deep = std::string(400'000, '[') + std::string(400'000, ']');
+  const auto expect_refused = [](const auto& read) {
+    try {
+      read();
+      FAIL();
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()).find("it answered lists within lists, more than 16 deep: {\""), 0u);
+      EXPECT_LT(std::string(error.what()).size(), 250u);
+    }
+  };
+  const Program program{.states = {"a"}, .actions = {"u"}, .dt_s = 0.1};
+  for (const char* start : {"{\"rehearse\":", "{\"rehearse\":1,\"states\":", "{\"rehearse\":1,\"encoding\":",
+                            "{\"rehearse\":1,\"messages\":[", "{\"error\":"})
+    expect_refused([&] { read_hello(start + deep + "}", program); });
+  Matrix dX(2, 2);
+  expect_refused([&] { read_change("{\"change\":" + deep + "}", dX); });
+  expect_refused([&] { read_change("{\"error\":" + deep, dX); });
+  expect_refused([&] { read_state("{\"state\":" + deep + "}", 2); });
+}
+
 TEST(Messages, ALongLineIsCutAndHasNoEscapes) {
   EXPECT_EQ(excerpt("a\033[31mb"), "a?[31mb");
   EXPECT_LT(excerpt(std::string(1000, 'x')).size(), 130u);

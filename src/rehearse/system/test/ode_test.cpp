@@ -77,7 +77,7 @@ TEST(IntegrateAdaptive, AStepThatCostsTooMuchIsRefusedWithTheReason) {
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(),
                  "the equation was evaluated 1000000 times within one step: its parameters are too extreme to follow "
-                 "it");
+                 "it, or it jumps (sign, where, floor): write tanh(v / 0.01) for sign(v)");
   }
   EXPECT_EQ(evaluations, kMostEvaluations);
 }

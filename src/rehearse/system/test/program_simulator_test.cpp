@@ -204,7 +204,19 @@ TEST(ProgramPlant, ASimulatorPlaysTheRobot) {
   EXPECT_EQ(plant->reset(rng), (Vector{{1, 2, 3}}));
   EXPECT_EQ(plant->step(Vector{{0.5}}), (Vector{{2.75, 4.75, 6.75}}));
   EXPECT_EQ(plant->truth(), (Vector{{2.75, 4.75, 6.75}}));
-  EXPECT_THROW(plant->step(Vector{{value(Harm::left)}}), std::runtime_error);
+  const auto why = [&](Harm harm) -> std::string {
+    try {
+      plant->step(Vector{{value(harm)}});
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(why(Harm::left).find("hostile_program"), std::string::npos);
+  plant->reset(rng);
+  const std::string none = why(Harm::no_row);
+  EXPECT_NE(none.find("' has no next state (null) for the state [1, 2, 3] and the action ["), std::string::npos)
+      << none;
 }
 
 TEST(ProgramPlant, ARobotKeepsItsState) {
