@@ -17,7 +17,6 @@
 #include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/files/write.hpp"
 #include "rehearse/reward/saturating.hpp"
-#include "rehearse/robot_file/robot_file.hpp"
 #include "rehearse/robot_file/try_out.hpp"
 
 namespace rehearse::apps {
@@ -47,9 +46,12 @@ std::span<const StateVariable> own_states(const Task& task) {
   return std::span(task.states).first(static_cast<std::size_t>(task.actuators().own_states()));
 }
 
-void print_task(const scenario::Scenario& scenario) {
+/// summary: of the robot, with its condition of success.
+void print_task(const scenario::Scenario& scenario, const std::string& summary) {
   const Task& task = scenario.task;
-  put("{}: {} steps of {} s, {} s in all\n\nstates\n", scenario.name, task.horizon, task.dt_s, task.episode_s());
+  put("{}: {} steps of {} s, {} s in all\n", scenario.name, task.horizon, task.dt_s, task.episode_s());
+  if (!summary.empty()) put("  {}\n", summary);
+  put("\nstates\n");
   for (std::size_t i = 0; i < own_states(task).size(); ++i)
     put("  {}; starts at {:.4g} ± {:.3g}\n", description(task.states[i]), task.start_mean(static_cast<Index>(i)),
         task.start_std(static_cast<Index>(i)));
@@ -87,6 +89,7 @@ void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried
                  const scenario::Scenario& scenario, const robot_file::Tried& all) {
   put("  {}: {:.2g} rows a second on one thread{}\n", prior.name, tried.rows_per_s,
       tried.failed > 0 ? fmt::format(", {} of {} rows failed", tried.failed, all.steps) : "");
+  for (const std::string& line : prior.lacks) put("    {}\n", line);
   print_parameters(prior.parameters);
   for (std::size_t i = 0; i < own_states(scenario.task).size(); ++i) {
     const auto s = static_cast<Index>(i);
@@ -98,8 +101,9 @@ void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried
 /// A line for everything that a learner would stumble over.
 std::vector<std::string> complaints_of(const robot_file::Tried& tried) {
   std::vector<std::string> complaints = tried.broken;
-  if (!tried.end.empty())
-    complaints.push_back(fmt::format("the plant failed after {} steps: {}", tried.steps, tried.end));
+  if (tried.end)
+    complaints.push_back(fmt::format("the plant failed after {} steps: {}", tried.steps,
+                                     tried.end->empty() ? "it does not say why" : *tried.end));
   for (const robot_file::PriorTried& prior : tried.priors) {
     for (const std::string& name : prior.idle)
       complaints.push_back(
@@ -132,7 +136,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   const auto builder = catalogue.scenario(catalogue.scenario_name(arguments.robot));
   if (!builder) throw InvalidInput(catalogue.why_missing("scenario", arguments.robot));
   const scenario::Scenario scenario = builder->build();
-  print_task(scenario);
+  print_task(scenario, builder->summary());
   if (scenario.require_ready) scenario.require_ready();
   const robot_file::Tried tried = robot_file::try_out(scenario);
   const bool driven = static_cast<bool>(scenario.make_plant);
@@ -145,25 +149,26 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   if (scenario.priors.empty()) put("  none: learners without a prior can be used\n");
   const std::vector<std::string> complaints = complaints_of(tried);
   if (arguments.out && !driven) throw InvalidInput("--out: there is no [plant] that could show its motion");
-  if (arguments.out && tried.end.empty()) write_motion(catalogue, scenario.name, share, *arguments.out);
+  if (arguments.out && !tried.end) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
-  put("\nall is well; to learn: {} learn {} --learner {}{}\n", program_name(), arguments.robot,
-      scenario.priors.empty() ? "black-drops" : "gp-mi", driven ? "" : " --trials 0");
+  put("\nall is well; to learn: {}{}\n",
+      command_line({"learn", arguments.robot, "--learner", scenario.priors.empty() ? "black-drops" : "gp-mi"}),
+      driven ? "" : " --trials 0");
   return kSuccess;
 }
 
-int make_new(const NewArguments& arguments) {
+int make_new(const experiment::Catalogue& catalogue, const NewArguments& arguments) {
   const std::filesystem::path path = arguments.name + ".toml";
   std::string text = robot_template();
   const std::string name = "name = \"pendulum-file\"";
   const std::size_t at = text.find(name);
   text.replace(at, name.size(), fmt::format("name = \"{}\"", arguments.name));
-  robot_file::builder(text, path.string(), [](const std::string&) { return std::nullopt; });  // the name may be none
+  static_cast<void>(catalogue.with_robot(text, path.string(), ""));  // the name may be none, or another's
   if (std::filesystem::exists(path))
     throw InvalidInput(fmt::format("{} exists, and is not overwritten", path.string()));
   files::write_file(path, text);
-  put("{} is a pendulum, to be made your robot. Say what it is, then: {} check {}\n", path.string(), program_name(),
-      path.string());
+  put("{} is a pendulum, to be made your robot. Say what it is, then: {}\n", path.string(),
+      command_line({"check", path.string()}));
   return kSuccess;
 }
 

@@ -11,6 +11,11 @@ grep -q "rehearse check my_robot.toml" output || fail "new does not say what com
 "$program" check my_robot.toml >output 2>&1 || fail "check: $(cat output)"
 grep -q "rehearse learn my_robot.toml --learner gp-mi" output || fail "check does not say what comes next: $(cat output)"
 
+grep -q "solved: .* at the end\|solved: .* for the last" output || fail "check does not say what success is: $(cat output)"
+"$program" list my_robot.toml >output 2>&1 || fail "list of a file: $(cat output)"
+grep -q "^scenario my_robot: .*solved: " output && grep -q "^plant.m " output || fail "list of a file: $(cat output)"
+"$program" list my_robot.toml --json | grep -q '"name": "my_robot"' || fail "list --json of a file"
+
 "$program" check my_robot.toml --out motion.html >output 2>&1 || fail "check --out: $(cat output)"
 grep -q "my_robot: an episode of random actions" motion.html || fail "check --out has another headline"
 
@@ -36,6 +41,11 @@ printf '%s\n' 'format = 1' 'scenario = "many.toml"' 'learners = ["mi"]' 'seeds =
 "$program" campaign c.toml --out campaign --threads 1 >output 2>&1 || fail "campaign again: $(cat output)"
 grep -q "^many-mi-useful-1,many,mi" campaign/campaign.csv || fail "the campaign's table: $(cat campaign/campaign.csv)"
 
+sed -i 's/horizon = 40/horizon = 41/' many.toml
+"$program" campaign c.toml --out campaign --threads 1 >output 2>&1
+[ $? = 1 ] && grep -q "robot many has another robot than this campaign began with" output ||
+  fail "a campaign with another robot: $(cat output)"
+
 "$program" new pilco_robot >/dev/null
 "$program" learn pilco_robot.toml --learner pilco --trials 2 --set search.line_searches=3 --set search.restarts=0 \
   --out pilco >output 2>&1 || fail "pilco: $(cat output)"
@@ -50,7 +60,10 @@ refused() {
 }
 refused "is not overwritten" new pilco_robot
 refused "must be of letters" new "my robot"
+refused "name = 'pendulum' is that of another scenario" new pendulum
+[ -e pendulum.toml ] && fail "a robot that is refused has a file"
 refused "cannot read nowhere.toml" check nowhere.toml
+refused "cannot read nowhere.toml" list nowhere.toml
 printf "format = 1\nname = \"x\"\nhorizon = -1\n" >wrong.toml
 refused "wrong.toml: line 3" check wrong.toml
 sed 's/"pilco_robot"/"pendulum"/' pilco_robot.toml >taken.toml
@@ -60,9 +73,13 @@ refused "misspelt.toml: line [0-9]*: reward.distance" learn misspelt.toml --lear
 sed 's/tune = { m/tune = { b = [0, 1], m/; s/u - b \* dtheta/u/' pilco_robot.toml >idle.toml
 refused "prior useful: b changes no prediction" check idle.toml
 
+sed 's/^horizon = .*/&\nended = "abs(dtheta) > 30"/; s/^distance = .*/formula = "-1"/; /^width = /d' pilco_robot.toml >falls.toml
+refused "steps earn about -1, .*falling pays; set floor to -1 or less" check falls.toml
+
 "$program" check pendubot >output 2>&1 || fail "check of a built-in robot: $(cat output)"
 grep -q "misleading: .* rows a second" output && grep -q "learn pendubot --learner gp-mi" output || fail "check: $(cat output)"
 refused "there is no scenario 'many'; the file is many.toml" check many
+refused "there is no scenario 'many'; the file is many.toml" list many
 refused "there is no scenario 'many'; the file is many.toml" learn many --learner gp-mi
 refused "unknown scenario 'pendubut', did you mean 'pendubot'?" check pendubut
 refused "unknown scenario 'xxx" check "$(printf 'x%.0s' {1..300})"

@@ -25,6 +25,11 @@ std::shared_ptr<const system::Simulator> kept_with(std::shared_ptr<const files::
   return {both, both->made.get()};
 }
 
+/// An error of MuJoCo's reader.
+bool names_a_missing_file(const std::string& error) {
+  return error.find("could not open") != std::string::npos || error.find("FILE_NOT_FOUND") != std::string::npos;
+}
+
 }  // namespace
 
 DynamicsMaker::DynamicsMaker(const Robot& robot) : robot_(robot) {
@@ -107,15 +112,17 @@ std::optional<scenario::Drawing> DynamicsMaker::drawing() const {
   return {};
 }
 
-void DynamicsMaker::check_models(files::FileViolations& violations) const {
-  for (const Dynamics& dynamics : robot_.dynamics) {
+void DynamicsMaker::check_models(Robot& robot, files::FileViolations& violations) {
+  const DynamicsMaker maker(robot);
+  for (Dynamics& dynamics : robot.dynamics) {
     if (!std::holds_alternative<ModelSource>(dynamics.source)) continue;
     try {
-      mujoco::unseen(model(dynamics));
+      dynamics.unseen = mujoco::unseen(maker.model(dynamics));
     } catch (const InvalidInput& error) {
-      const std::string folder = folder_->path().string() + "/";
+      const std::string folder = maker.folder_->path().string() + "/";
       for (std::string line : error.violations()) {
         for (std::size_t at; (at = line.find(folder)) != std::string::npos;) line.erase(at, folder.size());
+        if (names_a_missing_file(line)) line += " (MuJoCo sees only files named in `files = […]`)";
         violations.add(dynamics.line, fmt::format("[dynamics.{}]: {}", dynamics.name, line));
       }
     }

@@ -82,6 +82,7 @@ struct Dynamics {
   Index line = 0;
   std::vector<Parameter> parameters;  // all fixed, at their usual values
   std::variant<Equations, ProgramSource, ModelSource, FunctionSource> source;
+  std::vector<std::string> unseen;  // joints and activations of a model that no state gives
 };
 
 /// Dynamics with values of their own, and which of them may be tuned.

@@ -19,6 +19,14 @@ std::string summary_of(const Robot& robot) {
   return robot.summary.empty() ? solved : robot.summary + "; " + solved;
 }
 
+/// A simulator knows a state alone, and begins each step with the rest of its model as the model has it.
+std::vector<std::string> lines_of_unseen(const Dynamics& dynamics) {
+  std::vector<std::string> lines;
+  for (const std::string& part : dynamics.unseen)
+    lines.push_back("not among the states, so each step begins with it at rest: " + part);
+  return lines;
+}
+
 class Builder final : public scenario::ScenarioBuilder {
  public:
   explicit Builder(Robot robot)
@@ -68,7 +76,10 @@ class Builder final : public scenario::ScenarioBuilder {
       scenario.oracle_lacks = oracle_lacks();
     }
     for (const Variant& prior : robot_.priors)
-      scenario.priors.push_back({prior.name, dynamics.simulator(prior, robot_.options.substeps), prior.parameters});
+      scenario.priors.push_back({.name = prior.name,
+                                 .simulator = dynamics.simulator(prior, robot_.options.substeps),
+                                 .parameters = prior.parameters,
+                                 .lacks = lines_of_unseen(robot_.dynamics_of(prior))});
     if (has_actuators_) put_actuators_in_front(scenario, actuators);
     scenario.faults = dynamics.faults();
     return scenario;
@@ -104,10 +115,10 @@ class Builder final : public scenario::ScenarioBuilder {
       prior.simulator = system::with_actuators(prior.simulator, actuators);
   }
 
-  /// Delays and lags of the plant that its oracle lacks: a simulator sees earlier commands by the task's memory alone,
-  /// which has the size for the task's own delay and lag.
+  /// Parts of the plant's model that no state gives, and delays and lags: a simulator sees earlier commands by the
+  /// task's memory alone, which has the size for the task's own delay and lag.
   std::vector<std::string> oracle_lacks() const {
-    std::vector<std::string> lines;
+    std::vector<std::string> lines = lines_of_unseen(robot_.dynamics_of(robot_.plant));
     for (std::size_t a = 0; a < robot_.actions.size(); ++a) {
       const Actuation &known = robot_.actions[a].actuation, &own = robot_.plant_actuation[a];
       if (known.delay_s != own.delay_s || known.lag_s != own.lag_s)
@@ -143,7 +154,7 @@ std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const 
   files::FileViolations violations(source);
   check_formulas(robot, violations);
   violations.throw_if_any();
-  DynamicsMaker(robot).check_models(violations);
+  DynamicsMaker::check_models(robot, violations);
   for (const std::string& line : make_task(robot).violations()) violations.add(0, line);
   violations.throw_if_any();
   return std::make_unique<Builder>(std::move(robot));

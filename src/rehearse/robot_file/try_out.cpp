@@ -1,11 +1,13 @@
 #include "rehearse/robot_file/try_out.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 
 #include <fmt/format.h>
 
 #include "rehearse/core/episode.hpp"
+#include "rehearse/core/options.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 
@@ -14,7 +16,7 @@ namespace {
 
 struct Steps {
   Matrix X, U, dX;  // measured without noise where the plant knows it
-  std::string end;
+  std::optional<std::string> end;
   Index ended = 0;
 };
 
@@ -119,6 +121,22 @@ PriorTried try_prior(const scenario::NamedPrior& prior, const Steps& steps) {
   return tried;
 }
 
+/// A line where most steps earn less than those that a fall leaves; empty: they do not.
+std::string why_falls_pay(const Task& task, const Steps& steps) {
+  if ((!task.ended && task.limits.empty()) || steps.X.rows() == 0) return {};
+  Vector rewards(steps.X.rows());
+  task.reward(steps.X, steps.U, steps.X + steps.dX, rewards);
+  double sum = 0, least = task.reward_floor;
+  Index below = 0;
+  for (const double reward : rewards)
+    if (reward < task.reward_floor && std::isfinite(reward)) sum += reward, least = std::min(least, reward), ++below;
+  if (2 * below <= rewards.size()) return {};
+  return fmt::format(
+      "steps earn about {:.3g}, and each step that is left after a fall earns reward.floor = {:g}: "
+      "falling pays; set floor to {} or less",
+      sum / static_cast<double>(below), task.reward_floor, to_text(least));
+}
+
 }  // namespace
 
 Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) {
@@ -137,6 +155,7 @@ Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t 
     tried.broken.push_back(fmt::format("the reward of the start is {}, must be a finite number", tried.start_reward));
   if (task.ended && holds(task.ended, task.start_mean))
     tried.broken.emplace_back("an episode ends where it starts: `ended` holds in the start");
+  if (const std::string line = why_falls_pay(task, steps); !line.empty()) tried.broken.push_back(line);
   if (!steps.dX.allFinite())
     tried.broken.emplace_back("the plant comes to states that are not finite");
   else if (again.X.rows() != steps.X.rows() || again.dX != steps.dX)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,12 @@ struct PriorTried {
 };
 
 struct Tried {
-  Index steps = 0;          // of the plant, under random actions
-  Index episodes = 0;       // that were tried
-  Index ended = 0;          // episodes that `ended` before their horizon
-  std::string end;          // why an episode was cut short; empty: none was
-  Vector change;            // of each state: root mean square change in a step
-  double start_reward = 0;  // of the start, without an action
+  Index steps = 0;                 // of the plant, under random actions
+  Index episodes = 0;              // that were tried
+  Index ended = 0;                 // episodes that `ended` before their horizon
+  std::optional<std::string> end;  // why an episode was cut short; empty: none was
+  Vector change;                   // of each state: root mean square change in a step
+  double start_reward = 0;         // of the start, without an action
   std::vector<PriorTried> priors;
   std::vector<std::string> broken;  // laws of plants and simulators, a line each
 };

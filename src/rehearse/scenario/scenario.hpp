@@ -26,6 +26,7 @@ struct NamedPrior {
   // The same, but joints whose targets are the actions move there evenly and are there when the step ends: it predicts
   // the rest of the robot, where GPs learn the joints' positions. Null: there is none.
   std::shared_ptr<const system::Simulator> driven = nullptr;
+  std::vector<std::string> lacks = {};  // parts of what it simulates that the task's states leave out, a line each
 };
 
 /// A task, a plant to do it on, guesses of the plant, and the policy to learn.

@@ -58,6 +58,48 @@ TEST(Dynamics, AProgramThatCannotBeAskedIsSaidBeforeARun) {
   }
 }
 
+constexpr const char* kTwoRods = R"xml(<mujoco>
+  <option timestep="0.01"/>
+  <worldbody>
+    <body>
+      <joint name="hinge" axis="0 1 0"/>
+      <geom type="capsule" fromto="0 0 0 0 0 1" size="0.02"/>
+      <body pos="0 0 1">
+        <joint name="j2" axis="0 1 0"/>
+        <geom type="capsule" fromto="0 0 0 0 0 1" size="0.02"/>
+      </body>
+    </body>
+  </worldbody>
+  <actuator><motor name="motor" joint="hinge"/></actuator>
+</mujoco>)xml";
+
+std::string with_rods() {
+  return example::with("[plant]",
+                       "[dynamics.rods]\nmodel = \"rods.xml\"\nstate.angle = \"hinge\"\naction.u = \"motor\"\n"
+                       "[plant]\ndynamics = \"rods\"\n[prior.rods]\ndynamics = \"rods\"");
+}
+
+TEST(Dynamics, PartsOfAModelThatNoStateGivesAreSaid) {
+  const auto folder = [](const std::string&) -> std::optional<std::string> { return kTwoRods; };
+  const scenario::Scenario scenario = builder(with_rods(), "swing.toml", folder)->build();
+  const std::vector<std::string> lines = {
+      "not among the states, so each step begins with it at rest: position of joint 'j2'",
+      "not among the states, so each step begins with it at rest: velocity of joint 'j2'"};
+  ASSERT_EQ(scenario.priors.size(), 2u);
+  EXPECT_EQ(scenario.priors[0].lacks, lines);
+  EXPECT_TRUE(scenario.priors[1].lacks.empty()) << "equations";
+  EXPECT_EQ(scenario.oracle_lacks, lines);
+}
+
+TEST(Dynamics, AFileThatAModelIncludesMustBeNamed) {
+  const auto folder = [](const std::string&) -> std::optional<std::string> {
+    return "<mujoco><include file=\"more.xml\"/></mujoco>";
+  };
+  const std::string complaint = example::complaint_of(with_rods(), folder);
+  EXPECT_NE(complaint.find("more.xml"), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find("(MuJoCo sees only files named in `files = […]`)"), std::string::npos) << complaint;
+}
+
 TEST(Dynamics, EquationsNeedNobody) {
   EXPECT_FALSE(builder(example::kSwing, "swing.toml", example::no_files)->build().require_ready);
 }

@@ -31,7 +31,7 @@ TEST_P(EachRobotFile, IsInOrder) {
   const scenario::Scenario scenario = example(GetParam());
   const Tried tried = try_out(scenario);
   EXPECT_EQ(tried.broken, std::vector<std::string>{});
-  EXPECT_EQ(tried.end, "");
+  EXPECT_FALSE(tried.end);
   ASSERT_FALSE(tried.priors.empty());
   for (const PriorTried& prior : tried.priors) {
     EXPECT_EQ(prior.failed, 0);

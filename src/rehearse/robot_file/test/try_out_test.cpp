@@ -1,10 +1,12 @@
 #include "rehearse/robot_file/try_out.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "example.hpp"
+#include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::robot_file {
 namespace {
@@ -16,7 +18,7 @@ Tried tried(const std::string& text) { return try_out(builder(text, "swing.toml"
 TEST(TryOut, SaysHowFarPriorAndPlantAreApart) {
   const Tried found = tried(kSwing);
   EXPECT_EQ(found.steps, 60);
-  EXPECT_EQ(found.end, "");
+  EXPECT_FALSE(found.end);
   EXPECT_EQ(found.broken, std::vector<std::string>{});
   EXPECT_NEAR(found.start_reward, std::exp(-2 * (1 - std::cos(3)) / (2 * 0.25)), 1e-12);
   ASSERT_EQ(found.priors.size(), 1u);
@@ -44,6 +46,33 @@ TEST(TryOut, NamesAStartWhereEpisodesEnd) {
   const Tried found = tried(with("dt_s = 0.1", "dt_s = 0.1\nended = \"angle > 2\""));
   EXPECT_EQ(found.broken, std::vector<std::string>{"an episode ends where it starts: `ended` holds in the start"});
   EXPECT_EQ(found.ended, 3);
+}
+
+TEST(TryOut, SaysWhereFallingPays) {
+  const std::string reward = "distance = [\"1 - height\", \"sin(angle)\"]\nwidth = 0.5";
+  const auto with_end = [](std::string text) {
+    const std::string dt = "dt_s = 0.1";
+    return text.replace(text.find(dt), dt.size(), dt + "\nended = \"abs(rate) > 100\"");
+  };
+  const std::string negative = with(reward, "formula = \"-1 - 0.5 * (height > 2)\"");
+  EXPECT_EQ(tried(with_end(negative)).broken,
+            std::vector<std::string>{"steps earn about -1, and each step that is left after a fall earns "
+                                     "reward.floor = 0: falling pays; set floor to -1 or less"});
+  EXPECT_TRUE(tried(negative).broken.empty()) << "nothing ends its episodes";
+  EXPECT_TRUE(tried(with_end(with(reward, "formula = \"-1\"\nfloor = -1"))).broken.empty());
+  EXPECT_TRUE(tried(with_end(kSwing)).broken.empty());
+  EXPECT_FALSE(tried(negative + "[[limit]]\nkeep = \"abs(rate) < 100\"\n").broken.empty());
+}
+
+TEST(TryOut, APlantThatFailsWithoutAWordFails) {
+  scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
+  scenario.make_plant = [] {
+    const auto motion = [](const Vector&, const Vector&) -> Vector { throw std::runtime_error(""); };
+    return system::make_simulated_plant(motion, {Vector::Zero(2), Vector::Zero(2), {}});
+  };
+  const Tried found = try_out(scenario);
+  EXPECT_EQ(found.steps, 0);
+  EXPECT_TRUE(found.end);
 }
 
 TEST(TryOut, NamesAPlantThatLosesItsWay) {
