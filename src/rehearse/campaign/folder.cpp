@@ -87,15 +87,30 @@ bool is_unborn(const std::string& entry, const CampaignPlan& plan) {
          std::any_of(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) { return run.name == *name; });
 }
 
-std::string complaint_about_spec(const fs::path& file, const PlannedRun& run) {
-  try {
-    if (experiment::fingerprint(experiment::from_toml(files::read_file(file), file.string())) ==
-        experiment::fingerprint(run.spec))
-      return {};
-    return fmt::format("{} has other options: it is of another campaign or version", file.string());
-  } catch (const InvalidInput& error) {
-    return error.what();
+/// The options in the plan's order; those that an older version did not have are as planned, which are its defaults:
+/// the campaign's file is the same.
+void complete(experiment::Spec& spec, const experiment::Spec& planned) {
+  auto rest = std::move(spec.options);
+  spec.options = planned.options;
+  for (auto& [key, value] : spec.options) {
+    const auto own = std::ranges::find(rest, key, [](const auto& option) { return option.first; });
+    if (own == rest.end()) continue;
+    value = own->second;
+    rest.erase(own);
   }
+  spec.options.insert(spec.options.end(), rest.begin(), rest.end());
+}
+
+/// The spec of a run's folder. Throws InvalidInput unless it is that of a run of the plan, but for its trials.
+experiment::Spec spec_of(const fs::path& file, const PlannedRun& run) {
+  experiment::Spec spec = experiment::from_toml(files::read_file(file), file.string());
+  complete(spec, run.spec);
+  if (spec.scenario == run.spec.scenario && spec.robot != run.spec.robot)
+    throw InvalidInput(
+        fmt::format("the file of robot {} has another robot than this campaign began with", run.spec.scenario));
+  if (experiment::fingerprint(spec) != experiment::fingerprint(run.spec))
+    throw InvalidInput(fmt::format("{} has other options: it is of another campaign or version", file.string()));
+  return spec;
 }
 
 /// Writes the campaign's file and folders for `plan`, in a folder that is locked.
@@ -157,32 +172,18 @@ CampaignFolder CampaignFolder::join(const fs::path& given, std::string_view text
 
 namespace {
 
-std::string damage_of_checkpoint(const fs::path& file) {
-  try {
-    files::unseal("checkpoint", files::read_file(file));
-    return {};
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-}
-
+/// Throws InvalidInput where the folder is another's or damaged.
 RunOutcome contents_of(const fs::path& folder, const PlannedRun& run) {
   if (!fs::exists(fs::symlink_status(folder))) return {};
-  RunOutcome outcome;
-  const std::string complaint = complaint_about_spec(folder / "spec.toml", run);
-  if (!complaint.empty()) {
-    outcome.fail(complaint);
-    return outcome;
-  }
-  outcome = rows_of(folder / "trials.csv", run.spec.trials);
+  const experiment::Spec spec = spec_of(folder / "spec.toml", run);
+  RunOutcome outcome = rows_of(folder / "trials.csv", run.spec.trials);
+  if (const auto solved_at = outcome.first_success(outcome.done()); solved_at && run.spec.until_solved)
+    outcome = rows_of(folder / "trials.csv", *solved_at);  // what came after it was by hand
   const bool solved = !outcome.solved.empty() && outcome.solved.back().value_or(false);
-  if (!run.spec.ends_with(outcome.done(), solved) || !fs::exists(folder / "done")) return outcome;
-  const std::string damage = damage_of_checkpoint(folder / "checkpoint");
-  if (!damage.empty()) {
-    RunOutcome damaged;
-    damaged.fail(damage);
-    return damaged;
-  }
+  const bool extended =  // by hand; if its end was not reached, ours was
+      spec.trials > run.spec.trials || (run.spec.until_solved && !spec.until_solved);
+  if (!run.spec.ends_with(outcome.done(), solved) || !(extended || fs::exists(folder / "done"))) return outcome;
+  files::unseal("checkpoint", files::read_file(folder / "checkpoint"));
   outcome.state = RunState::done;
   return outcome;
 }
@@ -190,13 +191,15 @@ RunOutcome contents_of(const fs::path& folder, const PlannedRun& run) {
 }  // namespace
 
 RunOutcome CampaignFolder::read(const PlannedRun& run) const {
+  RunOutcome outcome;
   try {
     return contents_of(path_of(run), run);
+  } catch (const InvalidInput& error) {
+    outcome.fail(error.what());
   } catch (const fs::filesystem_error& error) {
-    RunOutcome unreadable;
-    unreadable.fail(fmt::format("cannot read {}: {}", error.path1().string(), error.code().message()));
-    return unreadable;
+    outcome.fail(fmt::format("cannot read {}: {}", error.path1().string(), error.code().message()));
   }
+  return outcome;
 }
 
 std::vector<Skipped> CampaignFolder::strangers(const CampaignPlan& plan) const {

@@ -97,10 +97,12 @@ bool RunFolder::is_in_use(const fs::path& folder) { return files::FolderLock::is
 
 void RunFolder::change_end(Until until, const Comments& comments) {
   if (until.trials == spec_.trials && until.solved == spec_.until_solved) return;
-  spec_.trials = until.trials;
-  spec_.until_solved = until.solved;
+  Spec changed = spec_;
+  changed.trials = until.trials;
+  changed.until_solved = until.solved;
+  files::write_file(path_ / kSpec, to_toml(changed, comments), files::Durability::power);
+  spec_ = std::move(changed);
   mark_unfinished();
-  files::write_file(path_ / kSpec, to_toml(spec_, comments), files::Durability::power);
 }
 
 History RunFolder::load() const { return history_of(path_, spec_); }

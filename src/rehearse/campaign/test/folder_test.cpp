@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "line_campaign.hpp"
+#include "rehearse/experiment/run.hpp"
 #include "rehearse/statistics/table.hpp"
 
 namespace rehearse::campaign {
@@ -57,6 +58,28 @@ TEST(CampaignFolder, DamagedFoldersAreNamedAndLeftAlone) {
   EXPECT_EQ(files::read_file(folder / "runs/line-echo-near-1/checkpoint"), before.substr(0, before.size() / 2));
   EXPECT_EQ(statistics::read_csv(files::read_file(folder / "campaign.csv")).rows.size(), 12u - 4 * 2);
   EXPECT_EQ(summary_of(folder)["groups"][0]["failed"], 2);
+}
+
+TEST(CampaignFolder, ARunThatWasExtendedByHandHasThePlannedTrials) {
+  const fs::path folder = experiment::fake::test_folder() / "campaign", extended = folder / "runs/line-echo-far-1";
+  run(folder);
+  const std::string before = results_of(folder);
+  experiment::resume_run(experiment::fake::catalogue(), extended, experiment::Until(3), {});
+  fs::remove(extended / "done");  // as if it had been interrupted
+  EXPECT_TRUE(run(folder).complete());
+  EXPECT_EQ(results_of(folder), before);
+}
+
+TEST(CampaignFolder, ARunOfAnOlderVersionMayLackAnOption) {
+  const fs::path folder = experiment::fake::test_folder() / "campaign",
+                 spec = folder / "runs/line-echo-near-1/spec.toml";
+  run(folder);
+  const std::string before = results_of(folder), text = files::read_file(spec);
+  const auto line = text.find("search.step"), end = text.find('\n', line);
+  ASSERT_NE(line, std::string::npos);
+  files::write_file(spec, text.substr(0, line) + text.substr(end + 1));
+  EXPECT_TRUE(run(folder).complete());
+  EXPECT_EQ(results_of(folder), before);
 }
 
 TEST(CampaignFolder, AFolderThatCannotBeReadIsAFailedRun) {

@@ -51,6 +51,16 @@ TEST(RunFolder, IsRefusedWhereItIsNone) {
   EXPECT_NE(complaint("run").find("belongs to another spec.toml"), std::string::npos);
 }
 
+TEST(RunFolder, AnEndThatCannotBeWrittenChangesNothing) {
+  const fs::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(1), folder, {});
+  const std::string spec = files::read_file(folder / "spec.toml");
+  fs::create_directory(folder / "spec.toml.tmp");  // in the way, as a full disk is
+  EXPECT_THROW(resume_run(fake::catalogue(), folder, Until(2), {}), std::runtime_error);
+  EXPECT_EQ(files::read_file(folder / "spec.toml"), spec);
+  EXPECT_TRUE(fs::exists(folder / "done"));
+}
+
 TEST(RunFolder, OneProcessAtATime) {
   const fs::path folder = fake::test_folder() / "run";
   start_run(fake::catalogue(), line_spec(1), folder, {});
