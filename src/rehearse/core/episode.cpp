@@ -1,5 +1,7 @@
 #include "rehearse/core/episode.hpp"
 
+#include <cmath>
+
 namespace rehearse {
 namespace {
 
@@ -17,6 +19,8 @@ Episode Episode::part(Index first, Index steps) const {
           .actions = actions.middleRows(first, steps),
           .rewards = rewards.segment(first, steps)};
 }
+
+double seconds(Index steps, double dt_s) { return std::round(static_cast<double>(steps) * dt_s * 1e9) / 1e9; }
 
 void Dataset::append(const Episode& episode) {
   const Index steps = episode.steps();

@@ -25,6 +25,9 @@ struct Episode {
   Episode part(Index first, Index steps) const;
 };
 
+/// The duration of so many control steps, to the nanosecond, so that 3 × 0.05 is 0.15.
+double seconds(Index steps, double dt_s);
+
 /// The training data of models: one row per observed step.
 struct Dataset {
   Matrix states;   // n × dx

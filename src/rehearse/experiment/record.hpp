@@ -76,9 +76,6 @@ struct History {
   Index done() const { return static_cast<Index>(trials.size()); }
 };
 
-/// The duration of so many control steps, to the nanosecond, so that 3 × 0.05 is 0.15.
-double seconds(Index steps, double dt_s);
-
 /// The trial with the highest return, the first of equals. There must be one.
 const TrialRecord& best_trial(const std::vector<TrialRecord>& trials);
 

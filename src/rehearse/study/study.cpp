@@ -24,7 +24,7 @@ class Student {
       const auto steps = std::max<Index>(1, std::llround(horizon_s / problem.task.dt_s));
       if (!plan_.horizons.empty() && plan_.horizons.back() == steps) continue;
       plan_.horizons.push_back(steps);
-      study_.horizons_s.push_back(static_cast<double>(steps) * problem.task.dt_s);
+      study_.horizons_s.push_back(seconds(steps, problem.task.dt_s));
     }
   }
 

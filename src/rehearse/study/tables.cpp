@@ -105,7 +105,7 @@ std::string forecast_csv(const Study& study, const Task& task, const Forecasts& 
   for (Index i = 0; i < at.predicted.rows(); ++i) {
     if (!at.measured.row(i).allFinite()) continue;
     const Index step = forecasts.starts[static_cast<std::size_t>(i)] + forecasts.horizons[h];
-    Row row = {Csv::cell(static_cast<double>(step) * task.dt_s)};
+    Row row = {Csv::cell(seconds(step, task.dt_s))};
     for (Index s = 0; s < at.predicted.cols(); ++s) {
       const double mean = at.predicted(i, s) - offset(s);
       const double half = study.half_band(h, s, at.deviation(i, s));

@@ -33,6 +33,13 @@ TEST(Episode, PartsAreEpisodes) {
   EXPECT_FALSE(part.ended);
 }
 
+TEST(Episode, SecondsAreRoundedToTheNanosecond) {
+  EXPECT_EQ(seconds(3, 0.05), 0.15);
+  EXPECT_NE(3 * 0.05, 0.15);
+  EXPECT_EQ(seconds(3, 1.0 / 3), 1);
+  EXPECT_EQ(seconds(1, 1.4e-9), 1e-9);
+}
+
 TEST(Dataset, TakesTheMeasuredSteps) {
   Dataset data;
   data.append(episode(3, 0));

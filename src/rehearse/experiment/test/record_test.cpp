@@ -5,13 +5,6 @@
 namespace rehearse::experiment {
 namespace {
 
-TEST(Record, SecondsAreRoundedToTheNanosecond) {
-  EXPECT_EQ(seconds(3, 0.05), 0.15);
-  EXPECT_NE(3 * 0.05, 0.15);
-  EXPECT_EQ(seconds(3, 1.0 / 3), 1);
-  EXPECT_EQ(seconds(1, 1.4e-9), 1e-9);
-}
-
 TEST(Record, OfTrialsWithTheSameReturnTheFirstIsBest) {
   std::vector<TrialRecord> trials;
   for (const double value : {1.0, 3.0, -2.0, 3.0})

@@ -35,6 +35,7 @@ TEST(Study, PredictsHeldOutLogsInsideItsBands) {
   const Problem problem = swings.problem();
   const auto files = csv_files(study, problem);
   EXPECT_EQ(files.size(), 5U + 3U);
+  for (const auto& [name, text] : files) EXPECT_EQ(text.find("00000000001,"), std::string::npos) << name << ": 0.7 s";
   const std::vector<Section> sections = summary(study, problem);
   EXPECT_EQ(sections.size(), 5U);
   EXPECT_EQ(lines_of(sections[1]).front().substr(0, 16), "parameter  value");
