@@ -21,8 +21,8 @@ same alone extended "${files[@]}"
 
 # A track of 1 mm: random actions leave it in trial 1, which is stopped and recorded.
 "$program" learn cartpole --learner black-drops --set track=0.001 --trials 1 --threads 1 --out short >output 2>&1 || fail "$(cat output)"
-grep -q "risk not known  broke x" output || fail "no broken limit: $(cat output)"
-grep -q "^1,x,0.05,,,,1$" short/limits.csv || fail "limits.csv: $(cat short/limits.csv)"
+grep -q "risk not known  broke track" output || fail "no broken limit: $(cat output)"
+grep -q "^1,track,0.05,,,,1$" short/limits.csv || fail "limits.csv: $(cat short/limits.csv)"
 [ "$(wc -l <short/trajectories/trial-001.csv)" -lt 42 ] || fail "the episode was not stopped"
 
 "$program" learn fast.toml --learner pilco --out left >output 2>&1

@@ -87,7 +87,8 @@ class Finder {
     if (before > 0) notes_.push_back(fmt::format("{} rows before time 0 are left out", before));
     std::vector<std::string> others;
     for (const Title& title : titles_)
-      if (!wanted_.contains(title.name) && title.name != "reward" && !title.name.starts_with("true "))
+      if (!title.name.empty() && !wanted_.contains(title.name) && title.name != "reward" &&
+          !title.name.starts_with("true "))
         others.push_back(title.name);
     if (!others.empty()) notes_.push_back(fmt::format("columns that are not used: {}", fmt::join(others, ", ")));
   }

@@ -26,6 +26,15 @@ TEST(Columns, AreFoundInAnyOrderAndConverted) {
                                              "columns that are not used: note"}));
 }
 
+TEST(Columns, WithoutANameAreNoneToSpeakOf) {  // an index of pandas, a comma at the end
+  const auto table = statistics::read_csv(",time,dq,q,torque,\n0,0,0,0,0,\n1,0.05,0,0,0,\n");
+  Problems problems("f");
+  std::vector<std::string> notes;
+  find_channels(table, swing_task(), problems, notes);
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(notes, std::vector<std::string>{});
+}
+
 /// The times of the samples of a table's first action.
 std::vector<double> times_in(const std::string& text, Problems& problems) {
   std::vector<std::string> notes;

@@ -84,7 +84,10 @@ Task make_task(const Options& options) {
                                              return std::abs(state(0)) <= kSolvedDistance &&
                                                     -std::cos(state(3)) >= std::cos(kSolvedAngle);
                                            }));
-  if (options.track > 0) task.limits = {scenario::limit_within(task.states[0], 0, options.track, options.risk)};
+  if (options.track > 0) {
+    task.limits = {scenario::limit_within(task.states[0], 0, options.track, options.risk)};
+    task.limits.front().name = "track";
+  }
   return task;
 }
 

@@ -60,6 +60,7 @@ TEST(Cartpole, ATrackIsALimitOfThePosition) {
   EXPECT_TRUE(make({}).task.limits.empty());
   const Task task = make({.track = 0.6, .risk = 0.1}).task;
   ASSERT_EQ(task.limits.size(), 1u);
+  EXPECT_EQ(task.limits[0].name, "track");
   EXPECT_EQ(task.limits[0].text, "abs(x) < 0.6 m");
   EXPECT_EQ(task.limits[0].risk, 0.1);
   EXPECT_TRUE(task.violations().empty());
