@@ -13,7 +13,7 @@
 #include "rehearse/campaign/claims.hpp"
 #include "rehearse/campaign/planner.hpp"
 #include "rehearse/campaign/robot_of.hpp"
-#include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/write.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -70,7 +70,8 @@ int campaign(const experiment::Catalogue& built_in, const CampaignArguments& arg
     if (processes.leads()) print_plan(plan);
     return kSuccess;
   }
-  const std::string folder = arguments.out.value_or("runs/" + std::filesystem::path(arguments.file).stem().string());
+  const std::string named = arguments.out.value_or("runs/" + std::filesystem::path(arguments.file).stem().string());
+  const std::string folder = files::without_slash(named).string();
 
   CampaignConsole console(folder, share);
   const auto run = [&] {

@@ -35,7 +35,7 @@ int run(const experiment::Catalogue& catalogue, const Typed& typed, const Proces
   if (!processes.leads()) return kSuccess;
   if (command == "status") return status(to_look(catalogue), typed.status);
   if (command == "list") return list(catalogue, typed.list);
-  if (command == "new") return make_new(typed.make_new);
+  if (command == "new") return make_new(catalogue, typed.make_new);
   if (command == "check") return check(catalogue, typed.check, share);
   if (command == "evaluate") return evaluate(catalogue, typed.evaluate);
   if (command == "export") return export_policy(to_look(catalogue), typed.export_policy);

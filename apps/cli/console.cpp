@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/cli/program.hpp"
+#include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/tables.hpp"
 
@@ -36,6 +37,7 @@ void Console::started(const experiment::Resolved& resolved, const std::filesyste
   const experiment::Spec& spec = resolved.spec;
   trials_ = spec.trials;
   done_ = done_before_ = done;
+  priors_ = spec.prior;
   phi_names_ = experiment::tunable_names(resolved.prior);
   begin_ = trial_begin_ = phase_begin_ = Clock::now();
   if (begins_ == Begin::silent) return;
@@ -84,20 +86,20 @@ void Console::trial_done(const experiment::TrialRecord& record) {
   if (record.predicted_return) line += fmt::format("  predicted {:8.3f}", *record.predicted_return);
   line += verdict(record.solved) + safety(record.limits);
   for (std::size_t i = 0; i < std::min(phi_names_.size(), record.phi.size()); ++i)
-    line += fmt::format("  {} {:.4g}", phi_names_[i], record.phi[i]);
+    line += fmt::format("  {} {}", phi_names_[i], experiment::phi_text(priors_, i, record.phi[i]));
   line_.print(line);
 }
 
 void Console::finished(const experiment::RunResult& result) {
   for (const std::string& warning : result.warnings) line_.print(warning);
+  const std::string folder = result.folder.string();
   if (result.trials == 0)
-    return line_.print(
-        fmt::format("{0} is ready; the first policy: {1} ask {0}, or logs before it: {1} tell {0} LOG.csv…",
-                    result.folder.string(), program_name()));
+    return line_.print(fmt::format("{} is ready; the first policy: {}, or logs before it: {}", folder,
+                                   command_line({"ask", folder}), command_line({"tell", folder, "LOG.csv…"})));
   const std::string solved = result.solved_at ? fmt::format("solved at trial {}", *result.solved_at)
                                               : fmt::format("not solved in {} trials", result.trials);
-  line_.print(fmt::format("{}, best return {:.3f}, in {}; its page: {} report {}", solved, result.best_return,
-                          result.folder.string(), program_name(), result.folder.string()));
+  line_.print(fmt::format("{}, best return {:.3f}, in {}; its page: {}", solved, result.best_return, folder,
+                          command_line({"report", folder})));
 }
 
 }  // namespace rehearse::apps

@@ -40,6 +40,7 @@ class Console final : public experiment::RunListener {
   Index trials_ = 0;
   std::atomic<Index> done_ = 0;
   Index done_before_ = 0;
+  std::string priors_;
   std::vector<std::string> phi_names_;
   std::string phase_;
   Clock::time_point begin_, trial_begin_, phase_begin_;

@@ -5,6 +5,7 @@
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/on_console.hpp"
+#include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/given_policy.hpp"
 #include "rehearse/experiment/preset_check.hpp"
@@ -95,7 +96,7 @@ Spec resolved_spec(const Catalogue& catalogue, const Spec& spec, const std::opti
 int run_on_console(const std::filesystem::path& folder, Index threads,
                    const std::function<experiment::RunResult(const RunOptions&)>& run) {
   Console console;
-  return on_console(folder, threads, console, "resume " + folder.string(),
+  return on_console(folder, threads, console, command_line({"resume", folder.string()}),
                     [&](const RunOptions& options) { console.finished(run(options)); });
 }
 

@@ -5,7 +5,6 @@
 #include "apps/cli/cache.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
-#include "apps/cli/program.hpp"
 #include "apps/cli/signals.hpp"
 
 namespace rehearse::apps {
@@ -13,8 +12,7 @@ namespace {
 
 std::string advice_after(const experiment::RunFailed& error, const std::filesystem::path& folder,
                          const std::string& again) {
-  if (error.resume_may_help())
-    return fmt::format("what was done is kept; once the cause is gone: {} {}", program_name(), again);
+  if (error.resume_may_help()) return fmt::format("what was done is kept; once the cause is gone: {}", again);
   return fmt::format(
       "what was done is kept in {}; resumed, it would come to the same: learn with other options or "
       "another seed",
@@ -23,7 +21,7 @@ std::string advice_after(const experiment::RunFailed& error, const std::filesyst
 
 std::string interrupted(const Console& console, const std::filesystem::path& folder, const std::string& again) {
   if (!std::filesystem::exists(folder)) return "interrupted before anything was done";
-  return fmt::format("interrupted after {} trials; to continue: {} {}", console.trials_done(), program_name(), again);
+  return fmt::format("interrupted after {} trials; to continue: {}", console.trials_done(), again);
 }
 
 }  // namespace

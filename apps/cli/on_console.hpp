@@ -9,7 +9,8 @@
 namespace rehearse::apps {
 
 /// Works on a run with signals caught and the console listening. Returns the exit code: that of a signal, with a line
-/// on how to go on (`again`: the command), where one came. Throws std::runtime_error with advice where the run failed.
+/// on how to go on (`again`: the command line), where one came. Throws std::runtime_error with advice where the run
+/// failed.
 int on_console(const std::filesystem::path& folder, Index threads, Console& console, const std::string& again,
                const std::function<void(const experiment::RunOptions&)>& work);
 

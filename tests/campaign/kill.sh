@@ -39,7 +39,8 @@ for instant in 1 3 5 7; do
   [ "$(grep -lx mine $run/runs/*/timings.csv 2>/dev/null | wc -l)" = "$finished" ] || fail "$run repeats a finished run"
 done
 
-"$program" campaign c.toml --out one --threads 1 >/dev/null
+"$program" campaign c.toml --out one/ --threads 1 >output
+grep -q "one/campaign.csv" output || fail "the tables are said to be elsewhere: $(cat output)"
 same whole one "${tables[@]}"
 
 "$program" campaign c.toml --out whole --check-claims >/dev/null

@@ -24,6 +24,9 @@ expect 0 "--prior" - learn --help
 for command in list new check learn resume ask tell status campaign identify report replay export evaluate; do
   expect 0 "rehearse $command " - "$command" --help # an example of its own
 done
+expect 0 "Example" - help
+expect 0 "--prior" - help learn
+expect 2 "unknown command 'lern', did you mean 'learn'?" 1 help lern
 expect 0 "misleading" - list
 expect 0 '"takes_prior": true' - list --json
 expect 0 "search.race.max_evaluations = " - list --options
@@ -39,6 +42,7 @@ expect 0 "search.restarts.cmaes.max_condition  " - list gp-mi --expert
 expect 0 "mass of the first link [kg]" - list pendubot
 grep -q '^box_low .* 0 (the ' stdout || fail "'list pendubot' does not say whose box_low is"
 expect 0 '"help": "mass of the first link [kg]"' - list pendubot --json
+expect 0 "zero_range " - list identify
 expect 2 "unknown scenario or learner 'gpmi', did you mean 'gp-mi'?" 1 list gpmi
 expect 2 "--expert is for one scenario or learner" 1 list --expert
 expect 0 '"value": "restarts"' - list --json
@@ -49,6 +53,8 @@ expect 2 "unknown flag '--colour' of list" 1 list --colour
 expect 2 "unknown flag '--prio' of learn, did you mean '--prior'?" 1 learn pendubot --prio=useful
 expect 2 "unknown flag '--trail' of replay, did you mean '--trial'?" 1 replay runs/demo --trail 1
 expect 2 "SCENARIO is required" 1 learn
+expect 2 "--learner is given 2 times, must be once" 1 learn pendubot --learner gp-mi --learner mi
+expect 2 "--seed is given 3 times, must be once" 2 learn pendubot --seed 1 --seed 2 --seed 3 --out a --out b
 expect 2 "DIR is required" 1 resume
 
 expect 2 "no learner is named (known: " 1 learn pendubot

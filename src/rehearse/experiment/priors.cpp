@@ -63,6 +63,12 @@ std::vector<std::string> split_names(const std::string& text) {
   return names;
 }
 
+std::string phi_text(const std::string& names, std::size_t i, double value) {
+  const std::vector<std::string> priors = split_names(names);
+  const bool is_choice = i == 0 && priors.size() > 1 && value >= 0 && value < static_cast<double>(priors.size());
+  return is_choice ? priors[static_cast<std::size_t>(value)] : fmt::format("{:.4g}", value);
+}
+
 ChosenPriors::ChosenPriors(const scenario::Scenario& scenario, const std::vector<std::string>& names,
                            Violations& violations) {
   for (const std::string& name : names) {

@@ -14,6 +14,10 @@ namespace rehearse::experiment {
 /// "a,b,c" → its names; empty text: none.
 std::vector<std::string> split_names(const std::string& text);
 
+/// The value of tunable parameter `i` for people: where `names` are several priors the first is the chosen one, whose
+/// name it is.
+std::string phi_text(const std::string& names, std::size_t i, double value);
+
 /// "unknown option 'x', did you mean 'y'?"
 std::string unknown_option(const std::string& key, const std::vector<std::string>& known);
 

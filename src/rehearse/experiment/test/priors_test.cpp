@@ -23,6 +23,12 @@ TEST(ChosenPriors, ANameIsSetInEveryPriorThatHasIt) {
   EXPECT_EQ(violations.list(), std::vector<std::string>{"prior.gain = much, must be a number"});
 }
 
+TEST(ChosenPriors, TheOneOfAChoiceIsShownByItsName) {
+  EXPECT_EQ(phi_text("near,far", 0, 1), "far");
+  EXPECT_EQ(phi_text("near,far", 1, 1), "1");
+  EXPECT_EQ(phi_text("near", 0, 0.123456), "0.1235");
+}
+
 TEST(ChosenPriors, AreNoneOneOrAChoice) {
   const scenario::Scenario line = fake::LineBuilder().build();
   Violations violations;
