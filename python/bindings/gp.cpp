@@ -5,9 +5,11 @@
 #include <pybind11/stl.h>
 
 #include "python/bindings/calls.hpp"
+#include "python/bindings/interruption.hpp"
 #include "python/bindings/options.hpp"
 #include "python/bindings/pieces.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/processor.hpp"
 #include "rehearse/gp/fit.hpp"
 #include "rehearse/gp/posterior.hpp"
@@ -28,7 +30,29 @@ void require_outputs(const MatrixIn& Y) {
   if (Y.cols() == 0) throw InvalidInput("y has no columns, must have one an output");
 }
 
+std::shared_ptr<Fitted> fitted(const gp::Inputs& inputs, const MatrixIn& Y,
+                               const std::vector<gp::Hyperparameters>& kernels, double tolerance) {
+  gp::Posterior posterior(inputs, Y, kernels, tolerance);
+  const Vector evidence = posterior.log_evidences();
+  return std::make_shared<Fitted>(Fitted{std::move(posterior), evidence});
+}
+
 /// Outputs are fitted one by one on the evaluator's threads.
+std::shared_ptr<Fitted> fit_outputs(const MatrixIn& X, const MatrixIn& Y, double tolerance, gp::FitOptions options,
+                                    const Evaluator& evaluator) {
+  require_processor();
+  options.before_each = [&] { evaluator.stop_if_asked(); };
+  const gp::Inputs inputs(X);
+  std::vector<gp::Hyperparameters> kernels(static_cast<std::size_t>(Y.cols()));
+  evaluator.for_each(Y.cols(), [&](Index e) {
+    const Vector y = Y.col(e);
+    const double scale = gp::usable_scale(gp::standard_deviation(y));
+    const auto start = gp::default_start(inputs, y, scale, options.bounds, options.trend);
+    kernels[static_cast<std::size_t>(e)] = gp::fit(inputs, y, scale, start, options).hyperparameters;
+  });
+  return fitted(inputs, Y, kernels, tolerance);
+}
+
 std::shared_ptr<Fitted> fit(const MatrixIn& X, const MatrixIn& Y, bool trend, double tolerance,
                             const OptionTexts& texts, int threads) {
   gp::FitOptions options;
@@ -36,19 +60,11 @@ std::shared_ptr<Fitted> fit(const MatrixIn& X, const MatrixIn& Y, bool trend, do
   options.trend = trend;
   require_outputs(Y);
   if (X.rows() != Y.rows()) throw InvalidInput(fmt::format("X has {} rows and y {}", X.rows(), Y.rows()));
-  const py::gil_scoped_release unlocked;
-  require_processor();
-  const gp::Inputs inputs(X);
-  std::vector<gp::Hyperparameters> kernels(static_cast<std::size_t>(Y.cols()));
-  make_thread_evaluator(threads)->for_each(Y.cols(), [&](Index e) {
-    const Vector y = Y.col(e);
-    const double scale = gp::usable_scale(gp::standard_deviation(y));
-    const auto start = gp::default_start(inputs, y, scale, options.bounds, trend);
-    kernels[static_cast<std::size_t>(e)] = gp::fit(inputs, y, scale, start, options).hyperparameters;
+  std::shared_ptr<Fitted> gp;
+  do_unlocked(std::make_shared<Failure>(), [&](const std::function<bool()>& stop) {
+    gp = fit_outputs(X, Y, tolerance, options, *make_stoppable(make_thread_evaluator(threads), stop));
   });
-  gp::Posterior posterior(inputs, Y, kernels, tolerance);
-  const Vector evidence = posterior.log_evidences();
-  return std::make_shared<Fitted>(Fitted{std::move(posterior), evidence});
+  return gp;
 }
 
 std::shared_ptr<Fitted> condition(const MatrixIn& X, const MatrixIn& Y, const MatrixIn& log_hyperparameters,
@@ -57,14 +73,12 @@ std::shared_ptr<Fitted> condition(const MatrixIn& X, const MatrixIn& Y, const Ma
   if (log_hyperparameters.rows() != Y.cols())
     throw InvalidInput(
         fmt::format("hyperparameters has {} rows, must have one an output, {}", log_hyperparameters.rows(), Y.cols()));
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   require_processor();
   std::vector<gp::Hyperparameters> kernels;
   for (Index e = 0; e < Y.cols(); ++e)
     kernels.push_back(gp::Hyperparameters::from_flat(Vector(log_hyperparameters.row(e)), X.cols()));
-  gp::Posterior posterior(gp::Inputs(X), Y, kernels, tolerance);
-  const Vector evidence = posterior.log_evidences();
-  return std::make_shared<Fitted>(Fitted{std::move(posterior), evidence});
+  return fitted(gp::Inputs(X), Y, kernels, tolerance);
 }
 
 py::tuple predict(const Fitted& gp, const MatrixIn& X) {
@@ -72,7 +86,7 @@ py::tuple predict(const Fitted& gp, const MatrixIn& X) {
     throw InvalidInput(fmt::format("X has {} columns, must have {}", X.cols(), gp.posterior.dimensions()));
   Matrix mean(X.rows(), gp.posterior.outputs()), variance(X.rows(), gp.posterior.outputs());
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     gp.posterior.predict(X, mean, variance);
   }
   return py::make_tuple(std::move(mean), std::move(variance));
@@ -82,7 +96,7 @@ Matrix predict_mean(const Fitted& gp, const MatrixIn& X) {
   if (X.cols() != gp.posterior.dimensions())
     throw InvalidInput(fmt::format("X has {} columns, must have {}", X.cols(), gp.posterior.dimensions()));
   Matrix mean(X.rows(), gp.posterior.outputs());
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   gp.posterior.predict_mean(X, mean);
   return mean;
 }
@@ -100,7 +114,7 @@ py::tuple match_moments(const Fitted& gp, const Vector& mean, const Matrix& cova
       throw InvalidInput("moments take all points, and some were left out: tolerance must be 0");
   moments::Transformed result;
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const moments::MomentMatching matching(moments::exact_terms(gp.posterior), gp.posterior.outputs());
     moments::MomentTape tape;
     if (!matching.forward({mean, covariance}, tape, result))

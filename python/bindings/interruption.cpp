@@ -1,9 +1,49 @@
 #include "python/bindings/interruption.hpp"
 
+#include "rehearse/core/events.hpp"
+
 namespace rehearse::python {
+namespace {
+
+std::atomic<int> works_in_flight = 0;
+std::atomic<bool> interpreter_ends = false;
+std::thread::id ending_thread;  // functions at its exit may still work there
+
+bool ends_for(std::thread::id worker) { return interpreter_ends && worker != ending_thread; }
+
+constexpr auto kLongestWait = std::chrono::seconds(5);  // for a function of a user that does not return
+
+void wait_for_work() {
+  ending_thread = std::this_thread::get_id();
+  interpreter_ends = true;
+  const auto until = std::chrono::steady_clock::now() + kLongestWait;
+  while (works_in_flight > 0 && std::chrono::steady_clock::now() < until) {
+    {
+      const py::gil_scoped_release unlocked;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+}
+
+}  // namespace
+
+Unlocked::InFlight::InFlight() {
+  if (ends_for(std::this_thread::get_id())) throw Interrupted();
+  ++works_in_flight;
+}
+
+Unlocked::InFlight::~InFlight() { --works_in_flight; }
+
+void stop_work_at_exit() {
+  py::module_::import("atexit").attr("register")(py::cpp_function(&wait_for_work));
+  // No other thread goes on in a child.
+  py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") =
+                                                         py::cpp_function([] { works_in_flight = 0; }));
+}
 
 bool Interruption::asked() {
-  if (asked_ || failure_->any()) return asked_ = true;
+  if (asked_ || ends_for(owner_) || failure_->any()) return asked_ = true;
   if (std::this_thread::get_id() != owner_ || Clock::now() < next_) return false;
   const py::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() != 0) {
@@ -12,6 +52,19 @@ bool Interruption::asked() {
   }
   next_ = Clock::now() + std::chrono::milliseconds(50);
   return asked_;
+}
+
+void do_unlocked(const std::shared_ptr<Failure>& failure,
+                 const std::function<void(const std::function<bool()>& stop)>& work) {
+  const auto interruption = std::make_shared<Interruption>(failure);
+  try {
+    const Unlocked unlocked;
+    work([interruption] { return interruption->asked(); });
+  } catch (...) {
+    failure->raise_if_any();
+    throw;
+  }
+  failure->raise_if_any();
 }
 
 }  // namespace rehearse::python

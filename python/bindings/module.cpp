@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "python/bindings/identify.hpp"
+#include "python/bindings/interruption.hpp"
 #include "python/bindings/pieces.hpp"
 #include "python/bindings/policy.hpp"
 #include "python/bindings/robot.hpp"
@@ -24,7 +25,7 @@ int command_line(std::vector<std::string> arguments, const std::string& share) {
   ::program_invocation_short_name = const_cast<char*>("rehearse");  // messages name it (apps/cli/program.hpp)
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return cli(static_cast<int>(arguments.size()), argv.data(), {}, {}, share.c_str());
 }
 
@@ -44,6 +45,7 @@ PYBIND11_MODULE(_core, module) {
     }
   });
   module.attr("__version__") = REHEARSE_VERSION;
+  python::stop_work_at_exit();
   python::add_robot(module);
   python::add_policy(module);
   python::add_runs(module);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
 
+#include "python/bindings/interruption.hpp"
 #include "rehearse/core/errors.hpp"
 
 namespace rehearse::python {
@@ -17,7 +18,7 @@ py::array_t<double> Policy::act(const py::array_t<double, py::array::f_style | p
   const ConstMatrixView X = Matrix::Map(states.data(), rows, dx);
   Matrix U(rows, policy_->actions());
   {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     policy_->act(exported_.theta.transpose().replicate(rows, 1), X, time_s, U);
     exported_.actuators.command(X, U);
   }

@@ -3,9 +3,11 @@
 #include <pybind11/stl.h>
 
 #include "python/bindings/calls.hpp"
+#include "python/bindings/interruption.hpp"
 #include "python/bindings/options.hpp"
 #include "python/bindings/pieces.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/evaluator.hpp"
 #include "rehearse/core/processor.hpp"
 #include "rehearse/optim/cmaes.hpp"
 #include "rehearse/qd/map_elites.hpp"
@@ -33,7 +35,7 @@ void tell_cmaes(optim::Cmaes& search, const Vector& values) {
   if (values.size() != search.population())
     throw InvalidInput(
         fmt::format("values has {} entries, must have {}, one a candidate", values.size(), search.population()));
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   search.tell(values);
 }
 
@@ -44,11 +46,11 @@ struct Space {
   Index niches = 1000;
 };
 
-qd::Niches niches_of(const Space& space, std::uint64_t seed) {
+qd::Niches niches_of(const Space& space, std::uint64_t seed, const Evaluator& evaluator) {
   if (!space.bins.empty()) return qd::Niches(qd::Grid{intervals(space.bounds), space.bins});
   qd::Cvt cvt{.bounds = intervals(space.bounds), .niches = space.niches, .seed = seed};
   cvt.samples = std::max(cvt.samples, 10 * cvt.niches);
-  return qd::Niches(cvt);
+  return qd::Niches(cvt, evaluator);
 }
 
 qd::MapElites make_map_elites(const Pairs& bounds, const Space& space, std::uint64_t seed, const OptionTexts& texts) {
@@ -56,8 +58,12 @@ qd::MapElites make_map_elites(const Pairs& bounds, const Space& space, std::uint
   qd::MapElitesOptions options;
   set_options([&](FieldVisitor& v) { options.fields(v); }, texts);
   const auto parameters = static_cast<Index>(bounds.size());
-  const py::gil_scoped_release unlocked;
-  return {qd::Archive(niches_of(space, seed), parameters), {.box = intervals(bounds)}, options, {.seed = seed}};
+  std::optional<qd::MapElites> search;
+  do_unlocked(std::make_shared<Failure>(), [&](const std::function<bool()>& stop) {
+    qd::Archive archive(niches_of(space, seed, *make_stoppable(make_thread_evaluator(1), stop)), parameters);
+    search.emplace(std::move(archive), qd::SearchSpace{.box = intervals(bounds)}, options, StreamKey{.seed = seed});
+  });
+  return std::move(*search);
 }
 
 void tell_map_elites(qd::MapElites& search, const Vector& performances, const Matrix& descriptors) {
@@ -66,7 +72,7 @@ void tell_map_elites(qd::MapElites& search, const Vector& performances, const Ma
     throw InvalidInput(fmt::format("performances has {} entries and descriptors is {} × {}, must be {} and {} × {}",
                                    performances.size(), descriptors.rows(), descriptors.cols(), rows, rows,
                                    dimensions));
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   search.tell(performances, descriptors);
 }
 

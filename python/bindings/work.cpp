@@ -68,21 +68,14 @@ class Listener final : public experiment::RunListener {
 void work_with(const Robot& robot, const Settings& settings, const Work& work) {
   require_processor();
   const Robot own = robot.for_work();
-  Failure& failure = *own.failure();
-  const auto interruption = std::make_shared<Interruption>(own.failure());
   Listener listener({shared(settings.listener), "progress", own.failure()});
-  try {
-    const bool heard = !settings.listener.is_none();
-    const py::gil_scoped_release unlocked;
+  const bool heard = !settings.listener.is_none();
+  do_unlocked(own.failure(), [&](const std::function<bool()>& stop) {
     work(own, {.evaluator = make_thread_evaluator(settings.threads),
                .listener = heard ? &listener : nullptr,
-               .stop = [interruption] { return interruption->asked(); },
+               .stop = stop,
                .cache = apps::cache_folder});
-  } catch (...) {
-    failure.raise_if_any();
-    throw;
-  }
-  failure.raise_if_any();
+  });
 }
 
 py::dict trial_of(const experiment::TrialRecord& trial, const std::vector<std::string>& parameters) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "rehearse/gp/bounds.hpp"
@@ -27,6 +28,7 @@ struct FitOptions {
                           // best is continued on all rows; 0: never (the authors)
   Penalties penalties;
   Bounds bounds;
+  std::function<void()> before_each;  // evaluation of the evidence; may throw, to stop. Empty: nothing. No field
   void fields(FieldVisitor& v) {
     v.choice("method", method, "how the log evidence is maximised", {"rprop", "bfgs"}, published("rprop"));
     v.group("rprop", rprop);
