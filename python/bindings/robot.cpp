@@ -5,6 +5,7 @@
 
 #include "apps/catalogue.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/robot_file/read.hpp"
 #include "rehearse/robot_file/robot_file.hpp"
 
 namespace rehearse::python {
@@ -163,6 +164,21 @@ experiment::Catalogue Robot::catalogue(const robot_file::Functions& functions) c
   return text_.empty() ? catalogue : catalogue.with_robot(text_, source_, folder_);
 }
 
+py::dict Robot::about() const {
+  using namespace py::literals;
+  const robot_file::Robot robot = robot_file::read(text_, source_, experiment::files_in(folder_), functions_);
+  py::list states, actions, dynamics;
+  for (const robot_file::State& state : robot.states)
+    states.append(py::dict("name"_a = state.variable.name, "angle"_a = state.variable.kind == StateKind::angle,
+                           "start"_a = state.start, "start_noise"_a = state.start_noise));
+  for (const ActionVariable& action : robot.actions)
+    actions.append(
+        py::dict("name"_a = action.name, "bounds"_a = py::make_tuple(action.bounds.low, action.bounds.high)));
+  for (const robot_file::Dynamics& each : robot.dynamics) dynamics.append(each.name);
+  return py::dict("name"_a = robot.name, "dt_s"_a = robot.dt_s, "horizon"_a = robot.horizon,
+                  "has_plant"_a = robot.has_plant, "states"_a = states, "actions"_a = actions, "dynamics"_a = dynamics);
+}
+
 void add_robot(py::module_& module) {
   py::class_<Robot, std::shared_ptr<Robot>>(module, "Robot")
       .def(py::init<std::string, std::string, std::string>(), py::arg("text"), py::arg("source"), py::arg("folder"))
@@ -170,7 +186,8 @@ void add_robot(py::module_& module) {
       .def("add_step_condition", &Robot::add_step_condition)
       .def("add_state_function", &Robot::add_state_function)
       .def("add_dynamics", &Robot::add_dynamics)
-      .def("add_plant", &Robot::add_plant);
+      .def("add_plant", &Robot::add_plant)
+      .def("about", &Robot::about);
 }
 
 }  // namespace rehearse::python

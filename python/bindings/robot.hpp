@@ -40,6 +40,10 @@ class Robot {
   /// The catalogue to look at a run and simulate nothing: functions may be missing.
   experiment::Catalogue to_look() const;
 
+  /// What the file says of the robot, as keywords of Python's State and Action where it is a list of them. Throws
+  /// InvalidInput.
+  py::dict about() const;
+
   /// Calls each function on a few rows at the start, so that one that cannot be called is known before a folder is
   /// made. Throws what `call` does, and InvalidInput where a prior cannot simulate the start.
   void try_out(const scenario::Scenario& scenario) const;

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Union
 
@@ -11,6 +12,7 @@ import numpy as np
 
 from ._core import InvalidInput
 from .arrays import Array
+from .parts import Action, State
 
 
 class Environment:
@@ -35,6 +37,8 @@ class Environment:
         self._dtype = getattr(space, "dtype", None)
         if space is not None and hasattr(space, "n"):
             raise InvalidInput("the environment chooses among actions by number; its actions must be continuous")
+        if self._shape is not None:
+            task.compare_actions(space)
 
     def reset(self, seed: int) -> Array:
         self._step, self._over = 0, False
@@ -84,25 +88,42 @@ class Environment:
                              "is a state") from None
         if self._task.states and len(numbers) != len(self._task.states):
             raise ValueError(f"{'observe' if self._observe else 'the environment'} gives {len(numbers)} numbers, must be "
-                             f"the states {', '.join(self._task.states)}: observe=f(observation) says how")
+                             f"the states {', '.join(s.name for s in self._task.states)}: observe=f(observation) says how")
         return numbers
 
 
 @dataclass(frozen=True)
 class Task:
-    """What an environment must keep to. states: names; start, spread: mean and deviation of each; empty: not known."""
+    """What an environment must keep to. No states or actions: they are not known."""
 
     horizon: int
-    states: tuple[str, ...] = ()
-    start: tuple[float, ...] = ()
-    spread: tuple[float, ...] = ()
+    states: Sequence[State] = ()
+    actions: Sequence[Action] = ()
 
-    def compare(self, state: Array) -> None:
+    def compare(self, given: Array) -> None:
         """Warns where an episode starts elsewhere than the robot says."""
-        for name, value, mean, spread in zip(self.states, state, self.start, self.spread):
-            if abs(value - mean) > 5 * spread + 1e-3 * (1 + abs(mean)):
-                warnings.warn(f"the environment starts with {name} = {value:.4g}, State('{name}') says start={mean:g}, "
-                              f"start_noise={spread:g}: policies are made for that", stacklevel=2)
+        for state, value in zip(self.states, given):
+            mean, spread = state.start, state.start_noise
+            apart = math.remainder(value - mean, 2 * math.pi) if state.angle and math.isfinite(value) else value - mean
+            if abs(apart) > 5 * spread + 1e-3 * (1 + abs(mean)):
+                warnings.warn(f"the environment starts with {state.name} = {value:.4g}, State('{state.name}') says "
+                              f"start={mean:g}, start_noise={spread:g}: policies are made for that", stacklevel=2)
+
+    def compare_actions(self, space: Any) -> None:
+        """Refuses a space of another size, and warns of other bounds, where the space has some."""
+        size = math.prod(space.shape)
+        if self.actions and size != len(self.actions):
+            raise InvalidInput(f"the environment takes {size} actions (its action_space has the shape "
+                               f"{tuple(space.shape)}), the robot has {len(self.actions)}: "
+                               f"{', '.join(action.name for action in self.actions)}")
+        low, high = (np.broadcast_to(getattr(space, end, end_of_all), space.shape).reshape(-1)
+                     for end, end_of_all in (("low", -np.inf), ("high", np.inf)))
+        for action, *bounds in zip(self.actions, low, high):
+            if any(np.isfinite(theirs) and not np.isclose(theirs, ours, rtol=1e-6)  # they may be of single precision
+                   for theirs, ours in zip(bounds, action.bounds)):
+                warnings.warn(f"the environment's action_space has {action.name} between {bounds[0]:g} and {bounds[1]:g}, "
+                              f"Action('{action.name}') between {action.bounds[0]:g} and {action.bounds[1]:g}: policies "
+                              "use the latter", stacklevel=2)
 
 
 def is_environment(plant: Any) -> bool:

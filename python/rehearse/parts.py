@@ -103,8 +103,8 @@ class Model:
     change: function(states, actions, **parameters) → the changes of the states, n × dx. It is called with thousands of
     rows, by one thread at a time. A row depends on that row alone; one that cannot be simulated is NaN. rates: instead,
     a formula for the derivative of each state by time. parameters: the function's, or the formulas', at the values to
-    start from. tune: those that are learned, between bounds (low, high), or among a list of values. delay_s, lag_s: of a
-    plant's actions by name, where they are others than `Action` says.
+    start from. tune: of a prior, those that are learned, between bounds (low, high), or among a list of values. delay_s,
+    lag_s: of a plant, by action, where they are others than `Action` says.
     """
 
     change: Union[Callable[..., Any], None] = None

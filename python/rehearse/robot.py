@@ -76,16 +76,17 @@ class Robot:
         if success is not None:
             when = self._state_formula("success", success.when)
             parts.append(table("[success]", {"when": when, "last_s": float(success.last_s)}))
-        for limit in limits:
-            parts.append(table("[[limit]]", self._limit(limit)))
+        for number, limit in enumerate(limits, 1):
+            parts.append(table("[[limit]]", self._limit(limit, f"limit {number}" if len(limits) > 1 else "limit")))
         for prior, model in (priors or {}).items():
+            if model.delay_s or model.lag_s:
+                raise _core.InvalidInput(f"{prior}: delay_s and lag_s are of a Model that is the plant; what models know "
+                                         "of them is in Action")
             parts.append(self._dynamics(prior, model))
             tune = {n: {"choices": list(t)} if isinstance(t, list) else [float(b) for b in t]
                     for n, t in model.tune.items()}
             parts.append(table(f"[prior.{value(prior)}]", {"dynamics": prior, "tune": tune}))
-        task = Task(horizon, tuple(s.name for s in states), tuple(s.start for s in states),
-                    tuple(s.start_noise for s in states))
-        parts += self._plant(plant, observe, task, measurement_noise)
+        parts += self._plant(plant, observe, Task(horizon, states, actions), list(priors or {}), measurement_noise)
         parts.append(table("[policy]", dict(policy or {})))
         parts += [table("[[body]]", {"name": b.name, "from": list(b.start), "to": list(b.end), "width_m": b.width_m})
                   for b in bodies]
@@ -100,12 +101,16 @@ class Robot:
         robot.text = Path(path).read_text()
         robot._functions = []
         robot.has_environment = False
-        robot._dt_s = float(_first(robot.text, "dt_s") or 0)
-        robot.name = _name_in(robot.text) or Path(path).stem
+        source, folder = os.fspath(path), os.fspath(Path(path).parent)
+        about = _core.Robot(robot.text, source, folder).about()
+        robot.name, robot._dt_s = about["name"], about["dt_s"]
         if plant is not None:
-            task = Task(_horizon_in(robot.text))
-            robot.text += "\n\n" + "\n".join(robot._plant(plant, observe, task, 0.0))
-        robot._core = robot._make(os.fspath(path), os.fspath(Path(path).parent))
+            if about["has_plant"]:
+                raise _core.InvalidInput(f"{source} has a [plant], and plant= is another: give one of them")
+            task = Task(about["horizon"], [State(**state) for state in about["states"]],
+                        [Action(**action) for action in about["actions"]])
+            robot.text += "\n\n" + "\n".join(robot._plant(plant, observe, task, about["dynamics"], 0.0))
+        robot._core = robot._make(source, folder)
         return robot
 
     def __repr__(self) -> str:
@@ -135,8 +140,9 @@ class Robot:
             return {"distance": of, "width": float(reward.width)}
         return {"formula": self._step_formula("reward", reward)}
 
-    def _limit(self, limit: Limit) -> dict[str, Any]:
-        name = limit.name or (limit.keep if isinstance(limit.keep, str) else limit.keep.__name__)
+    def _limit(self, limit: Limit, nameless: str) -> dict[str, Any]:
+        """nameless: the name of a function that has none."""
+        name = limit.name or (limit.keep if isinstance(limit.keep, str) else getattr(limit.keep, "__name__", nameless))
         keep: Any = limit.keep
         if callable(keep):
             key = self._untaken(name)
@@ -167,14 +173,19 @@ class Robot:
         parameters = {key: float(number) for key, number in model.parameters.items()}
         return table(f"[dynamics.{value(name)}]", {**how, "parameters": parameters})
 
-    def _plant(self, plant: Any, observe: Any, task: Task, noise: Union[float, Mapping[str, float]]) -> list[str]:
+    def _plant(self, plant: Any, observe: Any, task: Task, taken: Sequence[str],
+               noise: Union[float, Mapping[str, float]]) -> list[str]:
+        """taken: names of dynamics; a run's robot keeps the name, so it is "plant" wherever it can be."""
         given: Any = ({key: float(number) for key, number in noise.items()} if isinstance(noise, Mapping)
                       else float(noise) or None)
         if plant is None:
             return []
         if isinstance(plant, Model):
-            return [self._dynamics("plant", plant),
-                    table("[plant]", {"dynamics": "plant", "measurement_noise": given,
+            if plant.tune:
+                raise _core.InvalidInput("plant: tune is of priors; a plant's parameters are what they are")
+            name = "the plant" if "plant" in taken else "plant"  # no prior has a name with a space
+            return [self._dynamics(name, plant),
+                    table("[plant]", {"dynamics": name, "measurement_noise": given,
                                       "delay_s": dict(plant.delay_s), "lag_s": dict(plant.lag_s)})]
         self.has_environment = is_environment(plant)
         self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
@@ -197,26 +208,3 @@ def _action(action: Action) -> str:
     given = {key: getattr(action, key) for key in ("max_rate", "filter_s", "delay_s", "lag_s", "remember")}
     return table("[[action]]", {"name": action.name, "unit": action.unit, "bounds": [float(b) for b in action.bounds],
                                 **{k: v for k, v in given.items() if v != getattr(known, k)}})
-
-
-def _name_in(text: str) -> str:
-    return _first(text, "name").strip("\"'")
-
-
-def _horizon_in(text: str) -> int:
-    horizon = _first(text, "horizon")
-    try:
-        return int(horizon, 0) if horizon else 0  # as TOML has them: 1_000, 0x3E8; C++ says where there is none
-    except ValueError:
-        raise _core.InvalidInput(f"horizon = {horizon}, must be a whole number of control steps") from None
-
-
-def _first(text: str, key: str) -> str:
-    """The value of a key before the first table of a TOML file."""
-    for line in text.splitlines():
-        if line.startswith("["):
-            break
-        name, _, rest = line.partition("=")
-        if name.strip().strip("\"'") == key:
-            return rest.split("#")[0].strip()
-    return ""

@@ -106,7 +106,7 @@ def test_a_file_may_write_its_horizon_as_toml_has_it(tmp_path):
             learn(rehearse.Robot.from_file(file, plant=Environment(limit=10)), tmp_path / "run", learner="black-drops")
         shutil.rmtree(tmp_path / "run", ignore_errors=True)
     file.write_text(FILE.format(horizon="15.5"))
-    with pytest.raises(rehearse.InvalidInput, match="horizon = 15.5, must be a whole number"):
+    with pytest.raises(rehearse.InvalidInput, match="horizon must be a whole number"):
         rehearse.Robot.from_file(file, plant=Environment())
 
 
@@ -116,3 +116,23 @@ def test_an_environment_is_not_asked_for_more_than_its_time(tmp_path):
     with pytest.raises(RuntimeError, match="ended the episode after 15 steps by its own limit of time, and more"):
         run.evaluate(2, seconds=2.0)
     assert len(run.evaluate(2, seconds=1.5).returns) == 2
+
+
+@pytest.mark.parametrize("plant", ["cart(Environment())", "cart()"])
+def test_the_interpreter_may_end_while_a_daemon_thread_learns(tmp_path, plant):
+    script = f"""
+import sys, threading; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
+from robots import Environment, cart
+import rehearse
+
+begun = threading.Event()
+
+def learn():
+    rehearse.learn({plant}, trials=3, out={str(tmp_path / "run")!r}, progress=lambda event: begun.set())
+
+threading.Thread(target=learn, daemon=True).start()
+begun.wait(30)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and "FATAL" not in done.stderr, done.stderr
+    assert len(rehearse.open_run(tmp_path / "run").trials) < 3

@@ -28,6 +28,14 @@ std::vector<std::string> names_of(const std::vector<std::unique_ptr<Builder>>& b
 
 }  // namespace
 
+scenario::ReadFile files_in(const std::filesystem::path& folder) {
+  return [folder](const std::string& path) -> std::optional<std::string> {
+    std::error_code none;  // a text may be too long for a path
+    if (!std::filesystem::is_regular_file(folder / path, none)) return {};
+    return files::read_file(folder / path, files::Links::follow);
+  };
+}
+
 std::vector<std::unique_ptr<scenario::ScenarioBuilder>> Catalogue::scenario_builders() const {
   std::vector<std::unique_ptr<scenario::ScenarioBuilder>> builders;
   for (const auto& make : scenarios) builders.push_back(make());
@@ -52,12 +60,7 @@ std::unique_ptr<learners::LearnerBuilder> Catalogue::learner(const std::string& 
 Catalogue Catalogue::with_robot(const std::string& text, const std::string& source,
                                 const std::filesystem::path& folder) const {
   if (!read_robot) throw InvalidInput(fmt::format("{}: this program reads no robots from files", source));
-  const scenario::ReadFile from_disk = [&](const std::string& path) -> std::optional<std::string> {
-    std::error_code none;  // a text may be too long for a path
-    if (!std::filesystem::is_regular_file(folder / path, none)) return {};
-    return files::read_file(folder / path, files::Links::follow);
-  };
-  const auto builder = read_robot(text, source, from_disk);
+  const auto builder = read_robot(text, source, files_in(folder));
   const std::string name = builder->name();
   if (const RobotFile* same = robot(name)) {
     if (same->text == text) return *this;

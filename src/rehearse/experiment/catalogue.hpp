@@ -31,6 +31,9 @@ struct RobotFile {
   std::vector<scenario::NamedFile> files;  // that it names
 };
 
+/// Reads the files of a folder that a robot's file names.
+scenario::ReadFile files_in(const std::filesystem::path& folder);
+
 /// Makes a scenario of a robot's file.
 using ReadRobot = std::function<std::unique_ptr<scenario::ScenarioBuilder>(
     std::string_view text, const std::string& source, const scenario::ReadFile& read_file)>;
