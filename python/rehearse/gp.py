@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from . import _core
 from .arrays import Array
+from .checks import not_negative, threads_of
 
 
 class GaussianProcess:
@@ -16,13 +17,14 @@ class GaussianProcess:
 
     `fit` maximises the evidence (Rasmussen 2006, eq. 5.8), from several starts; several outputs are independent GPs.
     trend: adds a quadratic trend, which goes on where there are no data. tolerance: predictions from fewer points, with
-    errors up to this fraction of the noise; 0: exact. options: as of `model.gp.fit`, {"starts": 1}.
+    errors up to this fraction of the noise; 0: exact. options: as of `model.gp.fit`, {"starts": 1}. Where there is one
+    input, X may be n numbers instead of n × 1. Ctrl-C stops a fit.
     """
 
     def __init__(self, *, trend: bool = False, tolerance: float = 0.0, threads: int = 0, **options: Any) -> None:
         self.trend = trend
-        self.tolerance = tolerance
-        self.threads = threads
+        self.tolerance = not_negative("tolerance", tolerance)
+        self.threads = threads_of(threads)
         self.options = options
         self._core: Union[_core.FittedGp, None] = None
         self._data: tuple[Array, Array] = (np.empty((0, 0)), np.empty((0, 0)))
@@ -44,7 +46,7 @@ class GaussianProcess:
         """Means (n, or n × E) at X (n × D), and what is asked for of the function, without noise: its standard deviations
         (as the means), or its covariance over the rows of X (n × n, or n × n × E), as scikit-learn has them. The covariance
         is exact, whatever the tolerance."""
-        inputs = np.asfortranarray(X, dtype=float)
+        inputs = _inputs(X)
         if return_std and return_cov:
             raise _core.InvalidInput("return_std and return_cov: only one of them at a time")
         if return_cov:
@@ -61,7 +63,7 @@ class GaussianProcess:
         """R² of the predicted means, 1 at best, as scikit-learn has it: of several outputs the mean."""
         targets = np.asarray(y, dtype=float)
         targets = targets.reshape(len(targets), -1)
-        means = self._fitted.predict_mean(np.asfortranarray(X, dtype=float))
+        means = self._fitted.predict_mean(_inputs(X))
         if targets.shape != means.shape:
             raise _core.InvalidInput(f"y is {targets.shape[0]} × {targets.shape[1]}, must be {means.shape[0]} × "
                                      f"{means.shape[1]}")
@@ -168,11 +170,21 @@ def _factor(covariance: Array, scale: float, jitter: float) -> Array:
     raise _core.InvalidInput("the hyperparameters are too extreme for a covariance")
 
 
+def _inputs(X: npt.ArrayLike) -> Array:
+    """n × D, a copy; n numbers are n × 1."""
+    inputs: Array = np.array(X, dtype=float, order="F")
+    if inputs.ndim == 1:
+        return inputs[:, None]
+    if inputs.ndim != 2:
+        raise _core.InvalidInput(f"X has {inputs.ndim} dimensions, must be n × D, or n numbers where D = 1")
+    return inputs
+
+
 def _arrays(X: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array, bool]:
     """As C++ takes them, copies, since the data are kept; and whether y is of one output."""
-    inputs, targets = np.array(X, dtype=float, order="F"), np.array(y, dtype=float, order="F")
-    if inputs.ndim != 2:
-        raise _core.InvalidInput(f"X has {inputs.ndim} dimensions, must be n × D")
+    inputs, targets = _inputs(X), np.array(y, dtype=float, order="F")
+    if targets.ndim == 0:
+        raise _core.InvalidInput("y is a number, must be n, or n × E")
     return inputs, np.asfortranarray(targets.reshape(len(targets), -1)), targets.ndim == 1
 
 

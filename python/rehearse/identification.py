@@ -14,6 +14,7 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
+from .checks import threads_of
 from .gp import text_of
 from .robot import Robot
 from .run import Robots, robot_of
@@ -67,7 +68,7 @@ def identify(robot: Robots, logs: Sequence[Any], *, held_out: Sequence[Any] = ()
         forecast = as_files(held_out, folder, "held-out")
         core, scenario = robot_of(robot)
         texts = [(name, text_of(value)) for name, value in (options or {}).items()]
-        result = _core.identify(core, scenario, prior, texts, learned_from, forecast, threads)
+        result = _core.identify(core, scenario, prior, texts, learned_from, forecast, threads_of(threads))
     tables = {Path(name).stem: from_csv(text) for name, text in result["tables"]}
     summary = "\n\n".join("\n  ".join([title, *lines]) for title, lines in result["summary"])
     return Identification(tables, summary, result["notes"], result["page"])

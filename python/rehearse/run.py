@@ -6,9 +6,8 @@ import os
 import tempfile
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
-from operator import index
 from pathlib import Path
 from typing import Any, Union
 
@@ -16,6 +15,7 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
+from .checks import threads_of, whole, whole_or_none
 from .gp import text_of
 from .policy import Policy
 from .progress import show
@@ -33,6 +33,7 @@ class Trial:
 
     phi, intervals: parameters of the prior that chose its policy, and their 95 % intervals. limits: risk and outcome of
     each. warnings: what the trials before cannot tell of the parameters. None: does not apply, or is not known.
+    total_reward: NaN of a trial that is to come.
     """
 
     trial: int
@@ -79,6 +80,8 @@ class Run:
         if robot is not None and not isinstance(robot, Robot):
             raise TypeError(f"robot is {robot!r}, must be the Robot that the run began with")
         self._robot = robot
+        #: The trial that `ask` gave the policy of, with what is predicted of it; None before `ask`, and once it is told.
+        self.asked: Union[Trial, None] = None
 
     # Results.
 
@@ -97,11 +100,11 @@ class Run:
 
     def trajectory(self, trial: int) -> Array:
         """What the robot did: time, states measured and true, actions, reward; a row a step."""
-        return read_csv(self.folder / "trajectories" / f"trial-{trial:03}.csv")
+        return self._table_of(trial, "trajectories")
 
     def prediction(self, trial: int) -> Array:
         """What the model expected: mean and quantiles of each state; a row a step."""
-        return read_csv(self.folder / "predictions" / f"trial-{trial:03}.csv")
+        return self._table_of(trial, "predictions")
 
     @property
     def details(self) -> list[Trial]:
@@ -121,18 +124,24 @@ class Run:
 
     def policy(self, trial: Union[int, None] = None) -> Policy:
         """The policy of a trial, by default of the best."""
-        return Policy(_core.policy(self._core, str(self.folder), trial))
+        return Policy(_core.policy(self._core, str(self.folder), whole_or_none("trial", trial)))
 
     # Actions.
 
     def resume(self, trials: Union[int, None] = None, *, threads: int = 0, progress: Progress = show) -> Run:
         """Goes on to the end, or to another number of trials. The same bytes as if it had never stopped."""
-        _core.resume(self._core, str(self.folder), trials, threads, progress)
+        _core.resume(self._core, str(self.folder), whole_or_none("trials", trials), threads_of(threads), progress)
         return self
 
     def ask(self, *, threads: int = 0, progress: Progress = None) -> Policy:
-        """The policy of the next trial, for a robot that you drive. The same until the trial is told."""
-        policy, _ = _core.ask(self._core, str(self.folder), threads, progress)
+        """The policy of the next trial, for a robot that you drive. The same until the trial is told.
+
+        `asked` is then what is predicted of it, the risks of limits too; its notes are warnings.
+        """
+        policy, trial = _core.ask(self._core, str(self.folder), threads_of(threads), progress)
+        self.asked = replace(Trial(**trial), total_reward=float("nan"))
+        for note in self.asked.notes:
+            warnings.warn(note, stacklevel=2)
         return Policy(policy)
 
     def tell(self, *episodes: Any, stopped: Union[str, None] = None, at_fault: bool = True,
@@ -146,7 +155,8 @@ class Run:
         with tempfile.TemporaryDirectory() as folder:
             files = as_files(episodes, folder, "episode")
             with without_path(folder):
-                told = dict(_core.tell(self._core, str(self.folder), files, stopped, at_fault, threads))
+                told = dict(_core.tell(self._core, str(self.folder), files, stopped, at_fault, threads_of(threads)))
+        self.asked = None
         for note in told["notes"]:
             warnings.warn(note, stacklevel=2)
         return told
@@ -154,7 +164,9 @@ class Run:
     def take_back(self, *, threads: int = 0) -> dict[str, Any]:
         """Takes the last `tell` back, when it took the wrong file: the folder is as before, byte for byte, but for
         taken-back, where what was told is kept. Again, it takes back the one before. Returns trial (None: logs) and files."""
-        return dict(_core.take_back(self._core, str(self.folder), threads))
+        taken = dict(_core.take_back(self._core, str(self.folder), threads_of(threads)))
+        self.asked = None
+        return taken
 
     def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None, seconds: float = 0.0, seed: int = 1,
                  options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Evaluation:
@@ -162,8 +174,9 @@ class Run:
         changed, {"plant.m": 0.6}. An environment that is given as an object, not as a function that makes one, is used
         by one thread."""
         texts = [(name, text_of(value)) for name, value in (options or {}).items()]
-        threads = 1 if self._robot is not None and self._robot.has_environment else threads
-        result = _core.evaluate(self._core, str(self.folder), trial, episodes, seconds, seed, texts, threads)
+        threads = 1 if self._robot is not None and self._robot.has_environment else threads_of(threads)
+        result = _core.evaluate(self._core, str(self.folder), whole_or_none("trial", trial), whole("episodes", episodes),
+                                seconds, whole("seed", seed, 0, 2**64 - 1), texts, threads)
         return Evaluation(np.array(result["total_reward"]), result["solved"], result["solved_at_end"],
                           result["ended_s"])
 
@@ -205,6 +218,15 @@ class Run:
     def _core(self) -> Any:
         return self._robot._core if self._robot is not None else _core.Robot("", "", "")
 
+    def _table_of(self, trial: int, kind: str) -> Array:
+        number, done = whole("trial", trial), len(self.trials)
+        if not 1 <= number <= done:
+            raise _core.InvalidInput(f"trial = {number}, must be between 1 and {done}, the trials that are done")
+        path = self.folder / kind / f"trial-{number:03}.csv"
+        if not path.exists():
+            raise _core.InvalidInput(f"trial {number} of {self.folder} has no {kind}")
+        return read_csv(path)
+
     def _describe(self) -> dict[str, Any]:
         return dict(_core.describe(self._core, str(self.folder)))
 
@@ -224,9 +246,7 @@ def learn(robot: Robots, learner: str = "gp-mi", *, prior: Union[str, Sequence[s
     Ctrl-C stops it, and `Run.resume` goes on. An exception of a function of the robot stops it, too, and comes out as
     it is. Raises InvalidInput with a line for everything that is wrong, RunFailed where plant or learner fail.
     """
-    trials, seed, threads = index(trials), index(seed), index(threads)
-    if threads < 0:
-        raise _core.InvalidInput(f"threads = {threads}, must be ≥ 0")
+    trials, seed, threads = whole("trials", trials), whole("seed", seed, 0, 2**53), threads_of(threads)
     core, scenario = robot_of(robot)
     names = ",".join([prior] if isinstance(prior, str) else list(prior or []))
     texts = [(name, text_of(value)) for name, value in (options or {}).items()]

@@ -10,13 +10,20 @@ import numpy.typing as npt
 
 from . import _core
 from .arrays import Array
+from .checks import whole
 from .gp import text_of
 
 
-class Cmaes:
+class _Search:
+    def __reduce__(self) -> Any:
+        raise TypeError(f"a {type(self).__name__} cannot be pickled or copied, since C++ alone knows how far it is: keep "
+                        "its arguments and what it was told, which make the same search again")
+
+
+class Cmaes(_Search):
     """CMA-ES (Hansen 2016). It MAXIMISES.
 
-    mean: where it starts, n. sigma: the first step. bounds: (low, high) of each coordinate; None: unbounded. The same
+    mean: where it starts, n. sigma: the first step. bounds: (low, high) of each coordinate, n × 2; None: unbounded. The same
     seed gives the same candidates. max_evaluations: it stops with the generation that reaches them; None: when it has
     converged. options: as of `search.restarts.cmaes`, population=20.
 
@@ -25,14 +32,12 @@ class Cmaes:
     ...     search.tell(-np.sum(search.ask() ** 2, axis=1))
     """
 
-    def __init__(self, mean: npt.ArrayLike, sigma: float, bounds: Union[Sequence[tuple[float, float]], None] = None, *,
+    def __init__(self, mean: npt.ArrayLike, sigma: float, bounds: Union[npt.ArrayLike, None] = None, *,
                  seed: int = 1, max_evaluations: Union[int, None] = None, **options: Any) -> None:
-        if max_evaluations is not None and max_evaluations < 1:
-            raise _core.InvalidInput(f"max_evaluations = {max_evaluations}, must be ≥ 1")
-        self._max_evaluations = max_evaluations
+        self._max_evaluations = None if max_evaluations is None else whole("max_evaluations", max_evaluations, 1)
         texts = {name: text_of(value) for name, value in options.items()}
-        pairs = [(float(low), float(high)) for low, high in bounds] if bounds else []
-        self._core = _core.Cmaes(np.atleast_1d(np.asarray(mean, float)), sigma, pairs, seed, texts)
+        pairs = [] if bounds is None else _pairs("bounds", bounds)
+        self._core = _core.Cmaes(np.atleast_1d(np.asarray(mean, float)), sigma, pairs, _seed(seed), texts)
 
     def ask(self) -> Array:
         """The candidates of this generation, λ × n; the same until `tell`."""
@@ -70,17 +75,19 @@ class Cmaes:
         return self._core.evaluations
 
 
-class MapElites:
+class MapElites(_Search):
     """MAP-Elites (Mouret 2015): the best solution of each niche of a space of descriptors. It MAXIMISES.
 
     bounds: (low, high) of each parameter of a solution. descriptor_bounds: of each descriptor. niches: of a centroidal
     Voronoi tessellation; bins: instead, of a grid, one number a descriptor. options: batch=512, initial=1024, ….
     """
 
-    def __init__(self, bounds: Sequence[tuple[float, float]], descriptor_bounds: Sequence[tuple[float, float]], *,
+    def __init__(self, bounds: npt.ArrayLike, descriptor_bounds: npt.ArrayLike, *,
                  niches: int = 1000, bins: Union[Sequence[int], None] = None, seed: int = 1, **options: Any) -> None:
         texts = {name: text_of(value) for name, value in options.items()}
-        self._core = _core.MapElites(list(bounds), list(descriptor_bounds), list(bins or []), niches, seed, texts)
+        grid = [] if bins is None else [whole("bins", number) for number in bins]
+        self._core = _core.MapElites(_pairs("bounds", bounds), _pairs("descriptor_bounds", descriptor_bounds), grid,
+                                     whole("niches", niches), _seed(seed), texts)
 
     def ask(self) -> Array:
         """Solutions to evaluate, batch × P; the same until `tell`."""
@@ -94,7 +101,7 @@ class MapElites:
     def elites(self) -> dict[str, Array]:
         """solutions (k × P), descriptors (k × D), performances (k), niches (k)."""
         elites = self._core.elites()
-        return {**elites, "niches": np.asarray(elites["niches"])}
+        return {**elites, "niches": np.asarray(elites["niches"], dtype=np.int64)}
 
     def statistics(self, floor: float = 0.0) -> dict[str, float]:
         """filled niches, coverage, qd_score (sum of performances above floor), best, mean."""
@@ -103,3 +110,14 @@ class MapElites:
     @property
     def evaluations(self) -> int:
         return self._core.evaluations
+
+
+def _pairs(name: str, bounds: npt.ArrayLike) -> list[tuple[float, float]]:
+    array = np.asarray(bounds, dtype=float)
+    if array.size and (array.ndim != 2 or array.shape[1] != 2):
+        raise _core.InvalidInput(f"{name} is an array of shape {array.shape}, must be n × 2: (low, high) of each")
+    return [(float(low), float(high)) for low, high in array.reshape(-1, 2)]
+
+
+def _seed(value: Any) -> int:
+    return whole("seed", value, 0, 2**64 - 1)

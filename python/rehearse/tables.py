@@ -47,24 +47,26 @@ def _column(cells: list[str]) -> Array:
 def to_csv(columns: Any) -> str:
     """An episode as a file: a structured array, a DataFrame, or a dictionary of columns.
 
-    A column may be one shorter than the longest: no action follows the last state.
+    A column may be one shorter than the longest: no action follows the last state. None and what is masked are NaN. What
+    is no column of numbers is written as it is, for the reader to say so where the task has it, else to leave it.
     """
     if isinstance(columns, np.ndarray) and columns.dtype.names:
         named = {name: columns[name] for name in columns.dtype.names}
     elif isinstance(columns, Mapping) or hasattr(columns, "columns"):
-        named = {str(name): np.asarray(columns[name]) for name in columns}
+        named = {str(name): columns[name] for name in columns}
     else:
         raise TypeError(f"{type(columns).__name__}: an episode is a path, a structured array, a DataFrame, or a "
                         "dictionary of columns: time, states and actions by name")
-    named = {name: _numbers(name, column) for name, column in named.items() if _is_numeric(column)}
-    rows = max((len(column) for column in named.values()), default=0)
-    for name, column in named.items():
+    numeric = {name: numbers for name, column in named.items() if (numbers := _numbers(name, column)) is not None}
+    rows = max((len(column) for column in numeric.values()), default=0)
+    for name, column in numeric.items():
         if len(column) < rows - 1:
             raise InvalidInput(f"column {name} has {len(column)} numbers, the longest {rows}")
-    cells = [[name, *(_cell(number, row == rows - 1) for row, number in enumerate(column)), *[""] * (rows - len(column))]
-             for name, column in named.items()]
+    cells = {name: _cells(numeric[name], rows) if name in numeric else _texts(column) for name, column in named.items()}
+    table = [[name, *column, *[""] * (rows - len(column))] for name, column in cells.items()
+             if rows - 1 <= len(column) <= rows]
     out = io.StringIO()
-    csv.writer(out, lineterminator="\n").writerows(zip(*cells))
+    csv.writer(out, lineterminator="\n").writerows(zip(*table))
     return out.getvalue()
 
 
@@ -90,12 +92,16 @@ def without_path(folder: str) -> Iterator[None]:
         raise InvalidInput(str(error).replace(folder + os.sep, "")) from None
 
 
-def _is_numeric(column: Any) -> bool:
-    return np.asarray(column).dtype.kind in "biuf"
-
-
-def _numbers(name: str, column: Any) -> Array:
-    numbers: Array = np.asarray(column, dtype=float)
+def _numbers(name: str, column: Any) -> Union[Array, None]:
+    """None: it holds something else, such as texts, complex numbers or times of day."""
+    try:
+        if np.asarray(column).dtype.kind in "cmM":
+            return None
+        numbers: Array = np.array(column, dtype=float)
+        if isinstance(column, np.ma.MaskedArray):
+            numbers[np.ma.getmaskarray(column)] = np.nan  # type: ignore[no-untyped-call]
+    except (TypeError, ValueError):
+        return None
     if numbers.ndim == 2 and numbers.shape[1] == 1:
         numbers = numbers[:, 0]
     if numbers.ndim != 1:
@@ -103,5 +109,10 @@ def _numbers(name: str, column: Any) -> Array:
     return numbers
 
 
-def _cell(number: float, last: bool) -> str:
-    return "" if last and np.isnan(number) else repr(float(number))  # no action follows the last state
+def _cells(numbers: Array, rows: int) -> list[str]:
+    """The last row may have no action."""
+    return ["" if np.isnan(number) and row == rows - 1 else repr(float(number)) for row, number in enumerate(numbers)]
+
+
+def _texts(column: Any) -> list[str]:
+    return [] if np.ndim(column) == 0 else ["" if value is None else str(value) for value in column]

@@ -1,6 +1,8 @@
 """The pieces alone, against NumPy."""
 
 import pickle
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -191,3 +193,58 @@ def test_runge_and_kutta():
     swing = rehearse.rk4(lambda x, u, w: np.column_stack([x[:, 1], -w**2 * x[:, 0]]), 0.1, substeps=4)
     moved = swing(np.array([[1.0, 0.0]]), np.zeros((1, 0)), w=2.0)
     np.testing.assert_allclose(moved, [[np.cos(0.2) - 1, -2 * np.sin(0.2)]], atol=1e-7)
+
+
+def test_one_input_may_be_numbers_alone():
+    X = np.linspace(-2, 2, 20)
+    gp = rehearse.GaussianProcess().condition(X, np.sin(X), np.log([0.8, 1.2, 0.1]))
+    column = rehearse.GaussianProcess().condition(X[:, None], np.sin(X), np.log([0.8, 1.2, 0.1]))
+    for asked in ({}, {"return_std": True}, {"return_cov": True}):
+        for one, other in zip(gp.predict(X[:5], **asked), column.predict(X[:5, None], **asked)):
+            np.testing.assert_array_equal(one, other)
+    assert gp.score(X, np.sin(X)) == column.score(X[:, None], np.sin(X)) > 0.99
+    assert rehearse.GaussianProcess(starts=1).fit(X, np.sin(X)).predict(X).shape == (20,)
+    for wrong in (0.5, np.zeros((2, 2, 1))):
+        with pytest.raises(rehearse.InvalidInput, match="dimensions, must be n × D, or n numbers where D = 1"):
+            gp.predict(wrong)
+
+
+def test_what_pieces_cannot_use_is_refused_by_name():
+    for tolerance in (-1, np.nan, np.inf):
+        with pytest.raises(rehearse.InvalidInput, match=f"tolerance = {tolerance}, must be finite and ≥ 0"):
+            rehearse.GaussianProcess(tolerance=tolerance)
+    with pytest.raises(rehearse.InvalidInput, match="seed = -1, must be ≥ 0"):
+        rehearse.Cmaes([0.5], 0.3, seed=-1)
+    with pytest.raises(TypeError, match="bins = 3.5, must be a whole number"):
+        rehearse.MapElites([(0, 1)], [(0, 1)], bins=[3.5])
+    with pytest.raises(rehearse.InvalidInput, match=r"bounds is an array of shape \(2,\), must be n × 2"):
+        rehearse.Cmaes([0.5], 0.3, bounds=(0, 1))
+
+
+def test_bounds_may_be_arrays():
+    bounds = np.array([[0.0, 1.0], [0.0, 2.0]])
+    x = rehearse.Cmaes([0.5, 0.5], 0.3, bounds=bounds, seed=4).ask()
+    np.testing.assert_array_equal(x, rehearse.Cmaes([0.5, 0.5], 0.3, bounds=[(0, 1), (0, 2)], seed=4).ask())
+    search = rehearse.MapElites(bounds, bounds[:1], bins=np.array([3]))
+    assert search.elites["niches"].dtype == np.int64 and len(search.elites["niches"]) == 0
+    assert search.ask().max() > 1
+
+
+@pytest.mark.parametrize("work", [
+    "X = rng.normal(size=(1500, 6)); rehearse.GaussianProcess(threads=1, part_rows=0).fit(X, np.sin(X[:, 0]))",
+    "rehearse.MapElites([(0, 1)], [(0, 1)] * 6, niches=50_000)",
+])
+def test_control_c_stops_a_piece(work):
+    script = f"""
+import os, signal, threading, time
+import numpy as np, rehearse
+rng = np.random.default_rng(0)
+threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+begun = time.monotonic()
+try:
+    {work}
+except KeyboardInterrupt:
+    print(time.monotonic() - begun)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+    assert float(done.stdout) < 10, done.stderr

@@ -1,0 +1,37 @@
+"""Numbers that are given, before C++ sees them."""
+
+from __future__ import annotations
+
+import math
+from operator import index
+from typing import Any, Union
+
+from ._core import InvalidInput
+
+
+def whole(name: str, value: Any, least: int = -(2**63), most: int = 2**63 - 1) -> int:
+    try:
+        number = index(value)
+    except TypeError:
+        raise TypeError(f"{name} = {value!r}, must be a whole number") from None
+    if number < least:
+        raise InvalidInput(f"{name} = {number}, must be ≥ {least}")
+    if number > most:
+        raise InvalidInput(f"{name} = {number}, must be ≤ {most}")
+    return number
+
+
+def whole_or_none(name: str, value: Any) -> Union[int, None]:
+    return None if value is None else whole(name, value)
+
+
+def threads_of(value: Any) -> int:
+    """0 are all cores."""
+    return whole("threads", value, 0, 2**31 - 1)
+
+
+def not_negative(name: str, value: Any) -> float:
+    number = float(value)
+    if not (number >= 0 and math.isfinite(number)):
+        raise InvalidInput(f"{name} = {number:g}, must be finite and ≥ 0")
+    return number

@@ -1,0 +1,234 @@
+"""What is given in other forms, and what is given wrong: refused by name, or warned of."""
+
+import functools
+import warnings
+
+import numpy as np
+import pytest
+from robots import QUICK, Environment, cart, change
+
+import rehearse
+
+FILE = """
+format = 1
+{summary}
+name = "cart"
+dt_s = {dt_s}
+horizon = {horizon}
+[[state]]
+name = "velocity"
+[[state]]
+name = "position"
+start = 1.0
+[[action]]
+name = "force"
+bounds = [-5.0, 5.0]
+[reward]
+formula = "exp(-position^2)"
+"""
+PLANT = """
+[dynamics.plant]
+rate = { velocity = "force", position = "velocity" }
+"""
+
+
+def learn(robot, out, **more):
+    return rehearse.learn(robot, out=out, **{"trials": 1, "threads": 2, "progress": None, "options": QUICK, **more})
+
+
+def toml(**changes):
+    return FILE.format(**{"summary": "", "dt_s": 0.1, "horizon": 15, **changes})
+
+
+@pytest.fixture
+def silent():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        yield
+
+
+# Columns of episodes.
+
+
+@pytest.fixture(scope="module")
+def moved(tmp_path_factory):
+    return learn(cart(), tmp_path_factory.mktemp("whole") / "run").trajectory(1)
+
+
+@pytest.fixture
+def run(tmp_path):
+    run = learn(cart(plant=None), tmp_path / "told", trials=0)
+    run.ask()
+    return run
+
+
+@pytest.mark.parametrize("like", [
+    lambda force: [*force[:-1], None],
+    lambda force: force.astype(object),
+    lambda force: np.array([*force[:-1], None], dtype=object),
+    lambda force: force[:-1].astype(str),
+    lambda force: [*map(repr, force[:-1].tolist()), ""],
+    lambda force: np.ma.masked_invalid(np.where(np.isnan(force), np.inf, force)),
+])
+def test_columns_of_other_kinds_are_numbers(moved, run, silent, like):
+    columns = {name: moved[name] for name in ("time", "velocity", "position")}
+    told = run.tell({**columns, "force": like(moved["force"])})
+    assert told["trial"] == 1 and told["notes"] == []
+    assert run.details[0].total_reward == pytest.approx(run.details[0].total_reward)
+    np.testing.assert_array_equal(run.trajectory(1)["force"], moved["force"])
+
+
+@pytest.mark.parametrize("wrong, message", [
+    (["much"] * 16, "force = 'much', must be a finite number"),
+    (np.ones(16) + 1j, r"force = '\(1\+1j\)', must be a finite number"),
+    (np.ma.masked_equal(np.arange(16) % 4, 2), "force = 'nan', must be a finite number"),
+])
+def test_a_column_without_numbers_is_named(moved, run, wrong, message):
+    columns = {name: moved[name] for name in ("time", "velocity", "position")}
+    with pytest.raises(rehearse.InvalidInput, match=message):
+        run.tell({**columns, "force": wrong})
+
+
+def test_what_is_no_column_is_left_out(moved, run, silent):
+    columns = {name: moved[name] for name in ("time", "velocity", "position", "force")}
+    assert run.tell({**columns, "operator": "me", "events": ["started", "stopped"]})["trial"] == 1
+
+
+# Asking.
+
+
+def test_what_is_predicted_of_a_trial_is_kept(moved, run):
+    assert run.asked.trial == 1 and np.isnan(run.asked.total_reward)
+    run.tell(moved)
+    assert run.asked is None
+    run.ask()
+    assert run.asked.trial == 2 and run.asked.predicted_return > 0 and run.asked.phi["mass"] > 1
+    run.take_back()
+    assert run.asked is None
+
+
+def test_notes_of_a_trial_to_come_are_warnings(tmp_path):
+    model = rehearse.Model(rates={"velocity": "(force - friction * velocity) / mass"},
+                           parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": (0.2, 5)})
+    robot = cart(plant=None, success=None, priors={"light": model}, limits=[rehearse.Limit("position < 0.5", "near")])
+    run = learn(robot, tmp_path / "run", trials=0, options={**QUICK, "search.safety.searches": 0})
+    with pytest.warns(UserWarning):
+        run.ask()
+    assert run.asked.limits[0]["name"] == "near" and run.asked.limits[0]["risk"] > 0.05 and run.asked.notes
+
+
+# Robots.
+
+
+def test_a_limit_may_be_anything_that_can_be_called(tmp_path):
+    class Near:
+        def __call__(self, states, actions, following):
+            return following[:, 1] < 100
+
+    part = functools.partial(lambda most, states, actions, following: following[:, 1] < most, 100)
+    run = learn(cart(limits=[rehearse.Limit(part), rehearse.Limit(Near())]), tmp_path / "two")
+    assert [limit["name"] for limit in run.details[0].limits] == ["limit 1", "limit 2"]
+    run = learn(cart(limits=[rehearse.Limit(part)]), tmp_path / "one")
+    assert [limit["name"] for limit in run.details[0].limits] == ["limit"]
+
+
+def test_a_prior_may_be_called_plant(tmp_path):
+    light = rehearse.Model(change, parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": (0.2, 5)})
+    run = learn(cart(priors={"plant": light}), tmp_path / "run")
+    assert run.details[0].total_reward == learn(cart(priors={"light": light}), tmp_path / "same").details[0].total_reward
+
+
+def test_what_a_model_does_not_have_is_refused():
+    given = dict(parameters={"mass": 1.0, "friction": 0.3})
+    with pytest.raises(rehearse.InvalidInput, match="late: delay_s and lag_s are of a Model that is the plant"):
+        cart(priors={"late": rehearse.Model(change, delay_s={"force": 0.1}, **given)})
+    with pytest.raises(rehearse.InvalidInput, match="plant: tune is of priors"):
+        cart(plant=rehearse.Model(change, tune={"mass": (0.2, 5)}, **given))
+
+
+def test_a_file_is_read_as_toml(tmp_path):
+    file = tmp_path / "robot.toml"
+    file.write_text(toml(summary='summary = """\nname = other\nhorizon = 3\n"""', horizon="15.0"))
+    robot = rehearse.Robot.from_file(file, plant=Environment())
+    assert robot.name == "cart"
+    assert len(learn(robot, tmp_path / "run", learner="black-drops").trajectory(1)) == 16
+    file.write_text(toml(dt_s="'a'"))
+    with pytest.raises(rehearse.InvalidInput, match="robot.toml: .*dt_s"):
+        rehearse.Robot.from_file(file, plant=Environment())
+
+
+def test_a_file_has_one_plant(tmp_path):
+    file = tmp_path / "robot.toml"
+    file.write_text(toml() + PLANT + '[plant]\ndynamics = "plant"\n')
+    assert rehearse.Robot.from_file(file).name == "cart"
+    for plant in (Environment(), rehearse.Model(change)):
+        with pytest.raises(rehearse.InvalidInput, match=r"robot.toml has a \[plant\], and plant= is another"):
+            rehearse.Robot.from_file(file, plant=plant)
+    file.write_text(toml() + PLANT)
+    still = rehearse.Model(lambda states, actions: np.zeros_like(states))
+    robot = rehearse.Robot.from_file(file, plant=still)
+    run = learn(robot, tmp_path / "run", learner="black-drops")
+    assert (run.trajectory(1)["position"] == 1).all()
+
+
+# Environments.
+
+
+class Box:
+    def __init__(self, low, high):
+        self.low, self.high = np.array(low, dtype=np.float32), np.array(high, dtype=np.float32)
+        self.shape, self.dtype = self.low.shape, self.low.dtype
+
+
+def boxed(space, **changes):
+    environment = Environment()
+    environment.action_space = space
+    return cart(environment, **changes)
+
+
+def test_an_environment_has_the_actions_of_the_robot(tmp_path, silent):
+    with pytest.raises(rehearse.InvalidInput, match=r"takes 2 actions \(.* shape \(2,\)\), the robot has 1: force"):
+        learn(boxed(Box([-5, -5], [5, 5])), tmp_path / "two")
+    third = [rehearse.Action("force", (-5 / 3, 5 / 3))]
+    learn(boxed(Box([-5 / 3], [5 / 3]), actions=third), tmp_path / "same")
+    learn(boxed(Box([-np.inf], [np.inf])), tmp_path / "unbounded")
+    with pytest.raises(UserWarning, match=r"has force between -1 and 1, Action\('force'\) between -5 and 5"):
+        learn(boxed(Box([-1], [1])), tmp_path / "other")
+
+
+def test_an_angle_may_be_turns_away_from_its_start(tmp_path, silent):
+    turned = Environment()
+    states = [rehearse.State("velocity"), rehearse.State("angle", angle=True, start=1 - 2 * np.pi)]
+    learn(cart(turned, states=states, reward=rehearse.Distance("1 - cos(angle)"), success=None, priors=None),
+          tmp_path / "run", learner="black-drops")
+
+
+# Numbers.
+
+
+def test_numbers_are_refused_by_name(tmp_path):
+    run = learn(cart(), tmp_path / "run", trials=2)
+    calls = [lambda n: run.resume(3, threads=n, progress=None), lambda n: run.evaluate(3, threads=n),
+             lambda n: run.ask(threads=n), lambda n: run.tell(threads=n), lambda n: run.take_back(threads=n),
+             lambda n: rehearse.identify(cart(), [], threads=n), lambda n: rehearse.GaussianProcess(threads=n),
+             lambda n: learn(cart(), tmp_path / "none", threads=n)]
+    for call in calls:
+        with pytest.raises(rehearse.InvalidInput, match="threads = -3, must be ≥ 0"):
+            call(-3)
+        with pytest.raises(TypeError, match="threads = 1.5, must be a whole number"):
+            call(1.5)
+    for call in (run.policy, run.trajectory, run.prediction):
+        with pytest.raises(TypeError, match="trial = 1.0, must be a whole number"):
+            call(1.0)
+        for trial in (-1, 0, 3):
+            with pytest.raises(rehearse.InvalidInput, match=f"trial = {trial}, must be between 1 and 2"):
+                call(trial)
+    with pytest.raises(TypeError, match="trials = 2.5, must be a whole number"):
+        run.resume(2.5)
+    with pytest.raises(rehearse.InvalidInput, match="seed = 9223372036854775808, must be ≤ 9007199254740992"):
+        learn(cart(), tmp_path / "none", seed=2**63)
+    with pytest.raises(rehearse.InvalidInput, match="seed = -1, must be ≥ 0"):
+        run.evaluate(3, seed=-1)
+    with pytest.raises(rehearse.InvalidInput, match="trial 1 of .* has no predictions"):
+        learn(cart(priors=None), tmp_path / "first", learner="black-drops").prediction(1)
+    assert not (tmp_path / "none").exists()
