@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Union
+from typing import Any, Union
 
 import numpy as np
 
 from . import _core
 from .arrays import Array
+from .exported import Exported
 import numpy.typing as npt
 
 
@@ -17,11 +18,29 @@ class Policy:
     """A deterministic policy: states in, actions inside their bounds out. Any thread.
 
     theta: its parameters. kind: "mlp", "rbf", "linear", "schedule". trial: that it was, or is to be, tried in. dt_s:
-    how long an action is held.
+    how long an action is held. Pickle keeps what the JSON file has.
     """
 
-    def __init__(self, core: _core.Policy) -> None:
+    def __init__(self, core: Union[_core.Policy, Exported]) -> None:
         self._core = core
+
+    @classmethod
+    def load(cls, path: Union[str, os.PathLike[str]]) -> Policy:
+        """The policy of a JSON file that `export` wrote. It answers as the original does, but for rounding, and `learn` may
+        begin with it. It can be exported as JSON alone."""
+        return cls(Exported(Path(path).read_text(), str(path)))
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"json": self._core.to_json()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._core = Exported(state["json"], "what was pickled")
+
+    def __copy__(self) -> Policy:
+        return self
+
+    def __deepcopy__(self, known: Any) -> Policy:
+        return self
 
     def act(self, states: npt.ArrayLike, time_s: float = 0.0, memory: Union[Array, None] = None) -> Array:
         """Actions (du, or n × du) for states (dx, or n × dx) at a time since the start. NaN where a state is.

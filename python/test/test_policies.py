@@ -1,0 +1,88 @@
+"""Policies that are loaded, pickled and copied."""
+
+import copy
+import json
+import pickle
+
+import numpy as np
+import pytest
+from robots import QUICK, cart
+
+import rehearse
+
+
+def learn(robot, out, **more):
+    return rehearse.learn(robot, out=out, **{"trials": 2, "threads": 2, "progress": None, "options": QUICK, **more})
+
+
+def runs(tmp_path):
+    """Of every form that a policy has."""
+    late = cart(actions=[rehearse.Action("force", (-5, 5), max_rate=40, delay_s=0.25, lag_s=0.1, filter_s=0.05)])
+    formula = rehearse.Model(rates={"velocity": "(force - friction * velocity) / mass"},
+                             parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": (0.2, 5)})
+    states = [rehearse.State("velocity"), rehearse.State("angle", angle=True, rate="velocity", start=1.0)]
+    turning = dict(states=states, reward=rehearse.Distance(["1 - cos(angle)", "sin(angle)"], width=0.5), success=None,
+                   priors={"light": formula})
+    yield learn(cart(), tmp_path / "linear"), 2
+    yield learn(late, tmp_path / "late"), 2
+    yield learn(cart(policy={"policy": "mlp"}, **turning), tmp_path / "mlp"), 2
+    yield learn(cart(policy={"policy": "rbf"}, **turning), tmp_path / "rbf"), 2
+    yield learn(cart(priors=None), tmp_path / "schedule", learner="black-drops", trials=1), 1
+    yield learn(cart(**turning), tmp_path / "tracking", learner="gp-ilqg", options={}), 2
+
+
+def test_what_is_loaded_or_pickled_answers_as_the_original(tmp_path):
+    forms = set()
+    for run, trial in runs(tmp_path):
+        policy = run.policy(trial)
+        file = policy.export(tmp_path / "policy.json")
+        forms.add(json.loads(file.read_text())["computes"]["form"])
+        x = np.random.default_rng(1).normal(size=(50, 2)) * 3
+        for again in (rehearse.Policy.load(file), pickle.loads(pickle.dumps(policy)), copy.deepcopy(policy)):
+            memory, same = policy.start(50), again.start(50)
+            for t in (0.0, 0.1, 0.13, 0.2, 99.0):
+                np.testing.assert_allclose(again(x, t, same), policy(x, t, memory), rtol=1e-9, atol=1e-9)
+                np.testing.assert_allclose(same, memory, rtol=1e-9, atol=1e-9)
+            one = (np.concatenate([x[0], memory[0]]), 0.1)
+            np.testing.assert_allclose(again(*one), policy(*one), rtol=1e-9, atol=1e-9)
+            assert np.isnan(again(np.full_like(one[0], np.nan), 0.1)).all()
+            assert (again.kind, again.trial, again.dt_s) == (policy.kind, policy.trial, policy.dt_s)
+            np.testing.assert_array_equal(again.theta, policy.theta)
+            assert again.export(tmp_path / "again.json").read_bytes() == file.read_bytes()
+            with pytest.raises(rehearse.InvalidInput, match="states must be an array of"):
+                again([0.0])
+    assert forms == {"layers", "radial", "table", "feedback"}
+
+
+def test_a_run_may_begin_with_a_policy_that_was_loaded(tmp_path):
+    policy = learn(cart(), tmp_path / "before").policy(2)
+    loaded = rehearse.Policy.load(policy.export(tmp_path / "policy.json"))
+    alone = learn(cart(priors=None), tmp_path / "alone", learner="black-drops", policy=loaded, trials=1)
+    np.testing.assert_array_equal(alone.policy(1).theta, policy.theta)
+    with pytest.raises(rehearse.InvalidInput, match="as .json alone"):
+        loaded.export(tmp_path / "policy.h")
+
+
+def test_a_file_that_is_no_policy_is_refused(tmp_path):
+    text = learn(cart(), tmp_path / "run").policy(2).export(tmp_path / "policy.json").read_text()
+    other = tmp_path / "other.json"
+    for wrong in ("", "[]", "{}", '{"format": 1}', text.replace('"layers"', '"lines"'), text.replace('"theta"', '"phi"'),
+                  text.replace('"hidden"', '"output"')):
+        other.write_text(wrong)
+        with pytest.raises(rehearse.InvalidInput, match="other.json is no policy that `export` wrote as JSON"):
+            rehearse.Policy.load(other)
+    file = json.loads(text)
+    file["computes"]["gain"] *= 2
+    other.write_text(json.dumps(file))
+    with pytest.raises(rehearse.InvalidInput, match="does not answer as its test says"):
+        rehearse.Policy.load(other)
+    other.write_text(json.dumps({**file, "format": 2}))
+    with pytest.raises(rehearse.InvalidInput, match="another version"):
+        rehearse.Policy.load(other)
+
+
+def test_searches_say_why_they_are_not_copied():
+    for search in (rehearse.Cmaes([0.0], 1.0), rehearse.MapElites([(0, 1)], [(0, 1)], bins=[3])):
+        for keep in (pickle.dumps, copy.copy, copy.deepcopy):
+            with pytest.raises(TypeError, match=f"a {type(search).__name__} cannot be pickled or copied"):
+                keep(search)
