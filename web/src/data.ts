@@ -42,9 +42,15 @@ export interface Run {
   truth?: Record<string, number>
   /** The archive of a learner that has one. */
   archive?: Archive
-  /** The evaluations of a policy with other parameters of the robot, if there are any. */
-  robustness?: { parameter: string; columns: Columns }[]
+  /** The evaluations of a policy with other parameters of the robot, if there are any. settings: what else was set. */
+  robustness?: Robustness
   episodes: Episode[]
+}
+
+/** robustness.csv by parameter. */
+export interface Robustness {
+  settings: string
+  parameters: { parameter: string; columns: Columns }[]
 }
 
 /** elites.csv and tried.csv; a value an elite. */

@@ -1,15 +1,16 @@
 // The outcome of the policy on robots with one parameter changed: robustness.csv.
 import { chart, fit, heights, type Point } from './chart'
 import { REAL } from './colours'
-import { present, type Columns, type Run } from './data'
+import { present, type Columns, type Robustness, type Run } from './data'
 import type { Child } from './dom'
 import { figure } from './figure'
-import { number, percent } from './format'
+import { count, number, percent } from './format'
 import type { Panel } from './panels'
 
 /** The rate at the end of the episodes; where the task cannot say it, the return. */
-export function robustness({ robustness: parameters }: Run): Child {
-  if (!parameters?.length) return null
+export function robustness({ robustness }: Run): Child {
+  if (!robustness?.parameters.length) return null
+  const { settings, parameters } = robustness
   const known = parameters.some(({ columns }) => (columns['solved_at_end'] ?? []).some(present))
   const of = (columns: Columns) => (known ? rates(columns) : returns(columns))
   const domain = known
@@ -29,19 +30,29 @@ export function robustness({ robustness: parameters }: Run): Child {
   return figure({
     name: 'robustness-by-parameter',
     title: 'Robustness: one parameter of the robot at a time',
-    about: known
-      ? 'How often the policy solves the task, at the end of its episodes, with 95 % intervals (Clopper and Pearson 1934).'
-      : 'The median return of the policy, and its quartiles.',
+    about:
+      (known
+        ? 'How often the policy solves the task, at the end of its episodes, with 95 % intervals (Clopper and Pearson 1934).'
+        : 'The median return of the policy, and its quartiles.') + whichPolicy(robustness),
     panels: () => parameters.map(panel),
     table: () =>
       parameters.flatMap(({ parameter, columns }) =>
         (columns['factor'] ?? []).map((_, i) => ({
           parameter,
+          settings,
           ...Object.fromEntries(Object.entries(columns).map(([name, cells]) => [name, cells[i] ?? null])),
         })),
       ),
     minWidth: 220,
   }).element
+}
+
+/** Says it of files that have it: those of older versions do not. */
+export function whichPolicy({ settings, parameters }: Robustness): string {
+  const [trial, seconds, episodes] = ['trial', 'seconds', 'episodes'].map((name) => parameters[0]?.columns[name]?.[0])
+  if (!present(trial)) return ''
+  const set = settings ? `, with ${settings}` : ''
+  return ` It is the policy of trial ${trial} in ${count(episodes ?? 0, 'episode')} of ${number(seconds)} s for each value${set}.`
 }
 
 function rates(columns: Columns): Point[] {

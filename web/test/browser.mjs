@@ -67,7 +67,11 @@ await open('run/report', {}, async (page) => {
   const changed = (await reader.saved('Save “Robustness: one parameter of the robot at a time” as CSV'))
     .trim()
     .split('\n')
-  assert.match(changed[0], /^parameter,factor,value,episodes,solved,/)
+  assert.match(
+    await robust.textContent(),
+    /policy of trial \d in 6 episodes of 2\.5 s for each value, with measurement_noise=0\.01\./,
+  )
+  assert.match(changed[0], /^parameter,settings,trial,seed,seconds,factor,value,episodes,solved,/)
   assert.equal(changed.length, 1 + 6 * 5)
   const warnings = await identified.locator('.warnings li').allTextContents()
   assert.equal(warnings.at(-1), 'm1 and m2 cannot be told apart by these trials.')

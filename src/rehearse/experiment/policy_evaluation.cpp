@@ -96,14 +96,22 @@ Summary summary_of(const std::vector<Outcome>& outcomes) {
   return summary;
 }
 
-std::string evaluation_csv(const std::vector<Outcome>& outcomes, const EvaluationPlan& plan, const Task& task,
-                           const EvaluationAbout& about) {
-  files::Csv csv({"trial", "settings", "seed", "seconds", "episode", "return", "solved", "solved_at_end", "ended_s"});
-  for (std::size_t i = 0; i < outcomes.size(); ++i)
-    csv.row({files::Csv::cell(about.trial), about.settings, files::Csv::cell(static_cast<Index>(plan.seed)),
-             files::Csv::cell(seconds(plan.steps(task), task.dt_s)), files::Csv::cell(static_cast<Index>(i + 1)),
-             files::Csv::cell(outcomes[i].total_reward), cell(outcomes[i].solved), cell(outcomes[i].solved_at_end),
-             files::Csv::cell(outcomes[i].ended_s)});
+std::vector<std::string> about_cells(const EvaluationAbout& about) {
+  return {files::Csv::cell(about.trial), about.settings, files::Csv::cell(static_cast<Index>(about.seed)),
+          files::Csv::cell(about.seconds)};
+}
+
+std::string evaluation_csv(const std::vector<Outcome>& outcomes, const EvaluationAbout& about) {
+  std::vector<std::string> header = kAboutColumns;
+  header.insert(header.end(), {"episode", "return", "solved", "solved_at_end", "ended_s"});
+  files::Csv csv(header);
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    std::vector<std::string> row = about_cells(about);
+    row.insert(row.end(),
+               {files::Csv::cell(static_cast<Index>(i + 1)), files::Csv::cell(outcomes[i].total_reward),
+                cell(outcomes[i].solved), cell(outcomes[i].solved_at_end), files::Csv::cell(outcomes[i].ended_s)});
+    csv.row(row);
+  }
   return csv.text();
 }
 

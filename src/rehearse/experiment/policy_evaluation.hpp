@@ -56,12 +56,19 @@ struct Summary {
 };
 Summary summary_of(const std::vector<Outcome>& outcomes);
 
-/// evaluation.csv: a row an episode. about: the trial, and what was set.
+/// An evaluation, as its tables name it.
 struct EvaluationAbout {
-  Index trial = 1;
+  Index trial = 1;       // of the policy
   std::string settings;  // "plant.m1=0.6"
+  std::uint64_t seed = 1;
+  double seconds = 0;  // of an episode
 };
-std::string evaluation_csv(const std::vector<Outcome>& outcomes, const EvaluationPlan& plan, const Task& task,
-                           const EvaluationAbout& about);
+
+/// The first columns of a table of an evaluation, and their cells.
+inline const std::vector<std::string> kAboutColumns = {"trial", "settings", "seed", "seconds"};
+std::vector<std::string> about_cells(const EvaluationAbout& about);
+
+/// evaluation.csv: a row an episode.
+std::string evaluation_csv(const std::vector<Outcome>& outcomes, const EvaluationAbout& about);
 
 }  // namespace rehearse::experiment

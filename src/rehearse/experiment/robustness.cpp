@@ -55,12 +55,16 @@ std::vector<Changed> robustness(const std::function<Resolved(const std::string& 
   return all;
 }
 
-std::string robustness_csv(const std::vector<Changed>& all) {
+std::string robustness_csv(const std::vector<Changed>& all, const EvaluationAbout& about) {
   using files::Csv;
-  Csv csv({"parameter", "factor", "value", "episodes", "solved", "solved_low", "solved_high", "solved_at_end",
-           "solved_at_end_low", "solved_at_end_high", "ended", "return_25", "return_50", "return_75"});
+  std::vector<std::string> header = kAboutColumns;
+  header.insert(header.end(),
+                {"parameter", "factor", "value", "episodes", "solved", "solved_low", "solved_high", "solved_at_end",
+                 "solved_at_end_low", "solved_at_end_high", "ended", "return_25", "return_50", "return_75"});
+  Csv csv(header);
   for (const auto& [parameter, factor, value, summary] : all) {
-    std::vector<std::string> row = {parameter, Csv::cell(factor), Csv::cell(value), Csv::cell(summary.ended.of)};
+    std::vector<std::string> row = about_cells(about);
+    row.insert(row.end(), {parameter, Csv::cell(factor), Csv::cell(value), Csv::cell(summary.ended.of)});
     add_rate(row, summary.solved);
     add_rate(row, summary.solved_at_end);
     const auto [min, low, median, high, max] = statistics::five_numbers(summary.returns);

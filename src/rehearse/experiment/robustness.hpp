@@ -27,6 +27,6 @@ std::vector<Changed> robustness(const std::function<Resolved(const std::string& 
                                 const Evaluator& evaluator);
 
 /// robustness.csv: a row a parameter and factor.
-std::string robustness_csv(const std::vector<Changed>& all);
+std::string robustness_csv(const std::vector<Changed>& all, const EvaluationAbout& about);
 
 }  // namespace rehearse::experiment

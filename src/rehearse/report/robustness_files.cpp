@@ -3,33 +3,47 @@
 #include <map>
 
 namespace rehearse::report {
+namespace {
+
+/// The texts of a column, which is taken out of the table; none if there is no such column.
+std::vector<std::string> taken(statistics::Table& table, std::string_view name) {
+  const int place = table.column(name);
+  if (place < 0) return {};
+  std::vector<std::string> texts;
+  table.header.erase(table.header.begin() + place);
+  for (std::vector<std::string>& row : table.rows) {
+    texts.push_back(row[static_cast<std::size_t>(place)]);
+    row.erase(row.begin() + place);
+  }
+  return texts;
+}
+
+}  // namespace
 
 Json robustness_json(const std::filesystem::path& folder, Problems& problems) {
   constexpr const char* kFile = "robustness.csv";
   if (!std::filesystem::exists(folder / kFile)) return {};
-  const auto table = problems.value_or_problem(kFile, [&] {
+  auto table = problems.value_or_problem(kFile, [&] {
     statistics::Table read = read_table(folder / kFile);
     for (const char* name : {"parameter", "factor"})
       if (read.column(name) < 0) throw InvalidInput(std::string("it has no column ") + name);
     return read;
   });
   if (!table) return {};
-  const auto place = static_cast<std::size_t>(table->column("parameter"));
+  if (table->rows.empty()) return {};
+  const std::vector<std::string> settings = taken(*table, "settings");  // not in the files of older versions
+  const std::vector<std::string> parameters = taken(*table, "parameter");
   std::vector<std::string> names;
   std::map<std::string, statistics::Table> of_parameter;
-  for (std::vector<std::string> row : table->rows) {
-    const std::string name = row[place];
-    statistics::Table& part = of_parameter[name];
-    if (part.header.empty())
-      names.push_back(name), part.header = table->header,
-                             part.header.erase(part.header.begin() + static_cast<std::ptrdiff_t>(place));
-    row.erase(row.begin() + static_cast<std::ptrdiff_t>(place));
-    part.rows.push_back(std::move(row));
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    statistics::Table& part = of_parameter[parameters[i]];
+    if (part.header.empty()) names.push_back(parameters[i]), part.header = table->header;
+    part.rows.push_back(table->rows[i]);
   }
   Json all = Json::array();
   for (const std::string& name : names)
     all.push_back({{"parameter", name}, {"columns", columns(of_parameter[name], kFile, problems)}});
-  return all.empty() ? Json() : all;
+  return {{"settings", settings.empty() ? "" : settings.front()}, {"parameters", std::move(all)}};
 }
 
 }  // namespace rehearse::report

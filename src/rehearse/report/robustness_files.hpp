@@ -7,8 +7,8 @@
 
 namespace rehearse::report {
 
-/// A list of {parameter, columns}, in the order of the file. Null if `evaluate --robustness` was not run, or the file
-/// is unusable.
+/// {settings, parameters: a list of {parameter, columns}, in the order of the file}. settings: what was set of the
+/// robot, as text. Null if `evaluate --robustness` was not run, or the file is unusable.
 Json robustness_json(const std::filesystem::path& folder, Problems& problems);
 
 }  // namespace rehearse::report

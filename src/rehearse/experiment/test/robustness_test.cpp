@@ -31,9 +31,10 @@ TEST(Robustness, ChangesOneParameterAtATime) {
 
 TEST(Robustness, IsATable) {
   Summary summary{.ended = {1, 4, {0, 1}}, .returns = {1, 2, 3, 4, 5}};
-  EXPECT_EQ(robustness_csv({{"m", 0.75, 1.5, summary}}),
-            "parameter,factor,value,episodes,solved,solved_low,solved_high,solved_at_end,solved_at_end_low,"
-            "solved_at_end_high,ended,return_25,return_50,return_75\nm,0.75,1.5,4,,,,,,,0.25,2,3,4\n");
+  EXPECT_EQ(robustness_csv({{"m", 0.75, 1.5, summary}}, {3, "noise=0.1", 9, 2.4}),
+            "trial,settings,seed,seconds,parameter,factor,value,episodes,solved,solved_low,solved_high,solved_at_end,"
+            "solved_at_end_low,solved_at_end_high,ended,return_25,return_50,return_75\n"
+            "3,noise=0.1,9,2.4,m,0.75,1.5,4,,,,,,,0.25,2,3,4\n");
 }
 
 TEST(Robustness, NeedsAParameter) {

@@ -8,11 +8,21 @@ namespace {
 class RobustnessFiles : public ReportFolder {};
 
 TEST_F(RobustnessFiles, AreColumnsOfEachParameter) {
-  write(folder_ / "robustness.csv", "parameter,factor,solved\nm,0.75,0.5\nm,1,1\nl,0.75,\n");
+  write(folder_ / "robustness.csv",
+        "trial,settings,parameter,factor,solved\n2,noise=0.1,m,0.75,0.5\n2,noise=0.1,m,1,1\n2,noise=0.1,l,0.75,\n");
   Problems problems;
   const Json all = robustness_json(folder_, problems);
-  EXPECT_EQ(all.dump(), R"([{"parameter":"m","columns":{"factor":[0.75,1],"solved":[0.5,1]}},)"
-                        R"({"parameter":"l","columns":{"factor":[0.75],"solved":[null]}}])");
+  EXPECT_EQ(all.dump(), R"({"settings":"noise=0.1","parameters":[)"
+                        R"({"parameter":"m","columns":{"trial":[2,2],"factor":[0.75,1],"solved":[0.5,1]}},)"
+                        R"({"parameter":"l","columns":{"trial":[2],"factor":[0.75],"solved":[null]}}]})");
+  EXPECT_TRUE(problems.list().empty());
+}
+
+TEST_F(RobustnessFiles, OfOlderVersionsDoNotSayWhatWasSet) {
+  write(folder_ / "robustness.csv", "parameter,factor\nm,1\n");
+  Problems problems;
+  EXPECT_EQ(robustness_json(folder_, problems).dump(),
+            R"({"settings":"","parameters":[{"parameter":"m","columns":{"factor":[1]}}]})");
   EXPECT_TRUE(problems.list().empty());
 }
 
