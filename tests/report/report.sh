@@ -80,6 +80,10 @@ for problem in "${runs[0]}/trials.csv: row 3 is cut short" \
 done
 [ "$(wc -l <stderr)" = 3 ] || fail "the report names other problems: $(cat stderr)"
 
+cp -r campaign partial
+sed -i 's/"claims": \[/"claims": null, "others": [/' partial/summary.json
+refused "partial/summary.json: claims must be a list" "$program" report partial
+
 "$program" learn pendubot --learner ite --prior misleading --trials 3 --set archive.niches=400 \
   --set archive.evaluations=3000 --set adaptation.max_trials=2 --set adaptation.stop_ratio=0 --out ite >/dev/null
 "$program" report ite >/dev/null 2>stderr

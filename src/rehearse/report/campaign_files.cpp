@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/report/json_shape.hpp"
 #include "rehearse/report/run_files.hpp"
 #include "rehearse/statistics/quantiles.hpp"
 
@@ -16,6 +17,26 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Index kFormat = 1;  // of summary.json
+
+/// The keys of docs/campaigns.md that the page and this file need, as check_shape reads them.
+constexpr std::string_view kPromised = R"({
+  "title": "", "scenario": "", "trials": 0, "seeds": [0], "learners": [""], "priors": [""], "variants": [""],
+  "complete": true, "counts": {"runs": 0, "done": 0, "failed": 0},
+  "missing": [{"learner": "", "reason": ""}],
+  "skipped": [{"path": "", "reason": ""}],
+  "runs": [{"run": "", "folder": "", "learner": "", "prior": "", "variant": "", "seed": 0, "state": "", "trials": 0,
+            "first_success?": 0, "best_return?": 0, "reason?": ""}],
+  "groups": [{"learner": "", "prior": "", "variant": "",
+              "trials": [{"trial": 0, "runs": 0, "interaction_s?": 0,
+                          "return": {"quartile_1?": 0, "median?": 0, "quartile_3?": 0},
+                          "best_return": {"quartile_1?": 0, "median?": 0, "quartile_3?": 0},
+                          "solved?": {"runs": 0, "count": 0, "rate?": 0, "low?": 0, "high?": 0},
+                          "solved_by?": {"runs": 0, "count": 0, "rate?": 0, "low?": 0, "high?": 0}}]}],
+  "claims": [{"text": "", "result": "",
+              "parts": [{"learner": "", "priors": [""], "variants": [""], "measure": "", "runs": 0, "of": 0,
+                         "against?": {"learner": "", "priors": [""], "variants": [""]}, "count?": 0, "estimate?": 0,
+                         "low?": 0, "high?": 0, "required": "", "result": "", "reason?": ""}]}]
+})";
 
 using Group = std::tuple<std::string, std::string, std::string>;   // learner, prior, variant
 using ByTrial = std::map<Index, std::vector<double>>;              // values of the runs of a group
@@ -32,6 +53,7 @@ Json read_summary(const fs::path& path) {
   if (summary["format"] != kFormat)
     throw InvalidInput(fmt::format("format {} is that of another version of Rehearse, this one reads {}",
                                    summary["format"].get<Index>(), kFormat));
+  check_shape(summary, Json::parse(kPromised));
   return summary;
 }
 
@@ -44,8 +66,9 @@ Group group_of(const Json& run) {
 void check_runs(const fs::path& folder, const Json& runs, Problems& problems) {
   for (const Json& run : runs) {
     const std::string where = run.at("folder").get<std::string>(), state = run.at("state").get<std::string>();
+    const Json reason = run.value("reason", Json());
     if (state == "failed")
-      problems.add(where, "failed: " + run.at("reason").get<std::string>());
+      problems.add(where, reason.is_string() ? "failed: " + reason.get<std::string>() : "failed");
     else if (fs::exists(folder / where) || state == "done")
       check_run_folder(folder / where, where, run.at("trials").get<Index>(), problems);
   }
@@ -117,25 +140,31 @@ Json samples_json(const Json& summary, const Samples& samples, const char* key) 
   return all;
 }
 
-/// The readable specs, the first of each group: its runs differ in their seeds alone.
-std::map<Group, RunSpec> specs_of(const fs::path& folder, const Json& runs) {
-  std::map<Group, RunSpec> specs;
+/// The readable specs of each group.
+std::map<Group, std::vector<RunSpec>> specs_of(const fs::path& folder, const Json& runs) {
+  std::map<Group, std::vector<RunSpec>> specs;
   for (const Json& run : runs) {
-    if (specs.contains(group_of(run))) continue;
     try {
-      specs[group_of(run)] = read_spec(folder / run.at("folder").get<std::string>());
+      specs[group_of(run)].push_back(read_spec(folder / run.at("folder").get<std::string>()));
     } catch (const InvalidInput&) {  // check_runs has named it
     }
   }
   return specs;
 }
 
+/// The robot's own value where all these runs have the same: a campaign may draw one for each seed.
+std::optional<double> common_truth(const std::vector<RunSpec>& specs, const std::string& name) {
+  if (specs.empty()) return std::nullopt;
+  const auto truth = specs.front().truth(name);
+  const bool same = std::ranges::all_of(specs, [&](const RunSpec& spec) { return spec.truth(name) == truth; });
+  return same ? truth : std::nullopt;
+}
+
 Json parameters_json(const fs::path& folder, const Json& summary, const statistics::Table& table) {
   Json parameters = samples_json(summary, parameter_samples(table), "parameter");
-  const auto specs = specs_of(folder, summary.at("runs"));
+  auto specs = specs_of(folder, summary.at("runs"));
   for (Json& parameter : parameters) {
-    const auto spec = specs.find(group_of(parameter));
-    const auto truth = spec == specs.end() ? std::nullopt : spec->second.truth(parameter.at("parameter"));
+    const auto truth = common_truth(specs[group_of(parameter)], parameter.at("parameter"));
     parameter["truth"] = truth ? rounded(*truth) : Json();
   }
   return parameters;
@@ -164,17 +193,13 @@ Samples time_samples(const fs::path& folder, const Json& runs) {
 
 Json read_campaign(const fs::path& folder, Problems& problems) {
   const Json summary = read_summary(folder / "summary.json");
-  try {
-    check_runs(folder, summary.at("runs"), problems);
-    name_strangers(folder, summary, problems);
-    Json campaign = {{"summary", rounded(summary)}};
-    const auto table = problems.value_or_problem("campaign.csv", [&] { return read_table(folder / "campaign.csv"); });
-    campaign["parameters"] = table ? parameters_json(folder, summary, *table) : Json::array();
-    campaign["times"] = samples_json(summary, time_samples(folder, summary.at("runs")), "part");
-    return campaign;
-  } catch (const Json::exception&) {
-    throw InvalidInput("it lacks what docs/campaigns.md promises");
-  }
+  check_runs(folder, summary.at("runs"), problems);
+  name_strangers(folder, summary, problems);
+  Json campaign = {{"summary", rounded(summary)}};
+  const auto parameters = [&] { return parameters_json(folder, summary, read_table(folder / "campaign.csv")); };
+  campaign["parameters"] = problems.value_or_problem("campaign.csv", parameters).value_or(Json::array());
+  campaign["times"] = samples_json(summary, time_samples(folder, summary.at("runs")), "part");
+  return campaign;
 }
 
 }  // namespace rehearse::report

@@ -31,7 +31,9 @@ Report make_report(const fs::path& folder, const char* kind, const char* file, R
   try {
     json[kind] = read(problems);
   } catch (const InvalidInput& error) {
-    throw InvalidInput(fmt::format("{}: {}", (folder / file).string(), error.what()));
+    std::vector<std::string> lines = error.violations();
+    for (std::string& line : lines) line = fmt::format("{}: {}", (folder / file).string(), line);
+    throw InvalidInput(lines);
   }
   json["problems"] = Json::array();
   for (const auto& [where, what] : problems.list()) json["problems"].push_back({{"where", where}, {"what", what}});

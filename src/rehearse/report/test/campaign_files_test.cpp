@@ -36,6 +36,45 @@ TEST_F(CampaignFiles, ACampaignHasParametersAndTimes) {
             json::parse(R"({"trial":2,"runs":3,"quartile_1":3.5,"median":4,"quartile_3":4.5})"));
 }
 
+TEST_F(CampaignFiles, ATruthIsThatOfAllRunsOrNone) {
+  write_campaign();
+  const auto truth = [&] { return json::parse(read_folder(folder_).json)["campaign"]["parameters"][0]["truth"]; };
+  EXPECT_EQ(truth(), 1.5);
+  const std::string spec = "format = 1\n[run]\nscenario = \"slider\"\n[scenario]\n";
+  write(folder_ / "runs/run-2/spec.toml", spec + "plant.m = 1.4\n");
+  EXPECT_EQ(truth(), nullptr) << "the campaign draws it for each seed";
+  write(folder_ / "runs/run-2/spec.toml", spec);
+  EXPECT_EQ(truth(), nullptr) << "a run does not say it";
+  write(folder_ / "runs/run-2/spec.toml", "format = 9\n");
+  EXPECT_EQ(truth(), 1.5) << "an unreadable run says nothing";
+}
+
+TEST_F(CampaignFiles, ASummaryNeedsWhatThePageShows) {
+  write_campaign();
+  std::ifstream file(folder_ / "summary.json");
+  const json whole = json::parse(file);
+  json bad = whole;
+  bad["claims"] = nullptr;
+  bad.erase("counts");
+  bad["groups"][0]["trials"] = nullptr;
+  bad["runs"][1]["reason"] = 5;
+  write(folder_ / "summary.json", bad.dump());
+  const std::string error = error_of([&] { read_folder(folder_); }), where = (folder_ / "summary.json").string();
+  EXPECT_EQ(error, where + ": counts must be an object\n" + where + ": runs[1].reason must be a text\n" + where +
+                       ": groups[0].trials must be a list\n" + where + ": claims must be a list");
+  bad = whole;
+  bad["runs"][3].erase("reason");
+  write(folder_ / "summary.json", bad.dump());
+  EXPECT_EQ(problems_of(read_folder(folder_)), Lines{"runs/run-4: failed"});
+}
+
+TEST_F(CampaignFiles, ATableWithoutItsColumnsIsNamed) {
+  write_campaign();
+  write(folder_ / "campaign.csv", "run,trial,phi.m\nrun-1,1,2\n");
+  EXPECT_EQ(problems_of(read_folder(folder_)),
+            (Lines{"runs/run-4: failed: the plant failed", "campaign.csv: there is no column learner"}));
+}
+
 TEST_F(CampaignFiles, ACampaignNamesWhatIsWrongInItsFolder) {
   write_campaign();
   EXPECT_EQ(problems_of(read_folder(folder_)), Lines{"runs/run-4: failed: the plant failed"});

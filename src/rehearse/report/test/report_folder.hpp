@@ -79,7 +79,11 @@ class ReportFolder : public ::testing::Test {
 
   /// Four runs: three done, one failed.
   void write_campaign() const {
-    json summary = {{"format", 1}, {"title", "t"}, {"skipped", json::array()}, {"runs", json::array()}};
+    json summary = {{"format", 1},          {"title", "t"},
+                    {"scenario", "slider"}, {"trials", 2},
+                    {"complete", true},     {"counts", {{"runs", 4}, {"done", 3}, {"failed", 1}, {"unfinished", 0}}}};
+    for (const char* list : {"seeds", "learners", "priors", "variants", "missing", "skipped", "runs", "claims"})
+      summary[list] = json::array();
     std::string rows = "run,scenario,learner,prior,variant,seed,trial,phi.m,phi.m.low,phi.m.high\n";
     for (int seed : {1, 2, 3}) {
       const std::string name = fmt::format("run-{}", seed);
@@ -89,7 +93,7 @@ class ReportFolder : public ::testing::Test {
                           1 + 0.1 * seed);
     }
     summary["runs"].push_back(run_entry("run-4", 4, "failed"));
-    summary["groups"] = {{{"learner", "gp-mi"}, {"prior", "light"}, {"variant", ""}}};
+    summary["groups"] = {{{"learner", "gp-mi"}, {"prior", "light"}, {"variant", ""}, {"trials", json::array()}}};
     write(folder_ / "summary.json", summary.dump());
     write(folder_ / "campaign.csv", rows);
   }

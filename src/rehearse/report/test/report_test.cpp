@@ -28,7 +28,7 @@ TEST_F(ReportTest, RefusesWhatIsNoFolderOfRehearse) {
   EXPECT_TRUE(error().ends_with("summary.json: format 2 is that of another version of Rehearse, this one reads 1"))
       << error();
   write(folder_ / "summary.json", R"({"format": 1})");
-  EXPECT_TRUE(error().ends_with("summary.json: it lacks what docs/campaigns.md promises")) << error();
+  EXPECT_TRUE(error().ends_with("summary.json: claims must be a list")) << error();
   write(folder_ / "summary.json", "[]");
   EXPECT_TRUE(error().ends_with("summary.json: it is no summary of a campaign")) << error();
   write(folder_ / "spec.toml", "format = 3\n[run]\n");
