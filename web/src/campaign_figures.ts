@@ -19,6 +19,7 @@ function inFront(series: Series[]): Series[] {
 
 export function returns(campaign: Campaign, style: StyleOf): Child {
   const { groups } = campaign.summary
+  if (!groups.some((group) => group.trials.length > 0)) return null
   let measure: 'return' | 'best_return' = 'return'
   const series = (group: Group): Series => ({
     ...style(group),
@@ -74,7 +75,7 @@ export function success(campaign: Campaign, style: StyleOf): Child {
   if (!groups.some((group) => group.trials.some(({ solved_by }) => solved_by))) return null
   let measure: 'solved_by' | 'solved' = 'solved_by'
   const series = (group: Group, i: number, all: Group[]): Series => {
-    const shift = 0.12 * (i - (all.length - 1) / 2) // so that intervals stand beside each other
+    const shift = besideEachOther(i, all.length)
     return { ...style(group), points: group.trials.flatMap((one) => ratePoint(one.trial, shift, one[measure])) }
   }
   const panel = (prior: string): Panel => ({
@@ -113,6 +114,11 @@ export function success(campaign: Campaign, style: StyleOf): Child {
   return drawn.element
 }
 
+/** The places of the intervals of a trial, so that they stand beside each other and not in the next trial. */
+export function besideEachOther(i: number, of: number): number {
+  return Math.min(0.12, 0.8 / of) * (i - (of - 1) / 2)
+}
+
 function ratePoint(trial: number, shift: number, rate: SuccessRate | null): Point[] {
   if (!rate || !present(rate.rate)) return []
   const tip = [
@@ -133,7 +139,8 @@ export function parameters({ parameters }: Campaign, style: StyleOf): Child {
     const all = parameters.filter((one) => one.parameter === name)
     const shown = all.filter((one) => one.prior === prior)
     if (shown.length === 0) return []
-    const truth = shown.find((one) => present(one.truth))?.truth
+    const truths = [...new Set(shown.map((one) => one.truth))]
+    const truth = truths.length === 1 ? truths[0] : null
     const values = [
       ...all.flatMap((one) => heights({ points: medianPoints(one) })),
       ...all.map((one) => one.truth).filter(present),
@@ -157,7 +164,7 @@ export function parameters({ parameters }: Campaign, style: StyleOf): Child {
     name: 'parameters-by-trial',
     title: 'Identified parameters against the truth',
     about:
-      'Median and quartiles of the values with which the model chose each trial’s policy. A dashed line is the robot’s own value.',
+      'Median and quartiles of the values with which the model chose each trial’s policy. A dashed line is the robot’s own value, where it is that of all runs.',
     legend: legendOf(parameters, style, { band: 0.16 }),
     panels: () => priors.flatMap((prior) => names.flatMap((name) => panel(prior, name))),
     table: () => parameters.flatMap((one) => quartileRows(one, { parameter: one.parameter, truth: one.truth })),

@@ -53,7 +53,7 @@ export function chart(options: ChartOptions): SVGSVGElement {
   const { width, x, y, series, rule } = options
   const points = series.flatMap((one) => one.points.map((point) => ({ ...point, label: one.label })))
   const xs = points.map((point) => point.x)
-  const powers = y.log ? powersOfTen(y.domain ?? points.map((point) => point.y)) : undefined
+  const levels = y.log ? logTicks(y.domain ?? points.map((point) => point.y)) : undefined
   const plot = Plot.plot({
     width,
     height: options.height ?? 240,
@@ -76,10 +76,14 @@ export function chart(options: ChartOptions): SVGSVGElement {
       labelAnchor: 'top',
       labelArrow: 'none',
       grid: true,
-      ...(y.percent ? { tickFormat: '.0%' } : powers ? { ticks: powers, tickFormat: asPower } : {}),
+      ...(y.percent
+        ? { tickFormat: '.0%' }
+        : y.log
+          ? { ...(levels ? { ticks: levels } : {}), tickFormat: plainTick }
+          : {}),
     },
     marks: [
-      ...series.flatMap(bands),
+      ...series.flatMap((one) => bands(one, bandStrength(series))),
       rule ? ruleMarks(rule) : null,
       ...series.flatMap(lines),
       Plot.tip(
@@ -161,14 +165,34 @@ export function powersOfTen(values: number[]): number[] | undefined {
   return Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, i) => 10 ** (low + i * step))
 }
 
-/** 0.001 is 10⁻³. */
-function asPower(value: number): string {
-  const exponent = Math.round(Math.log10(value))
-  if (Math.abs(exponent) <= 2) return number(value, 2)
-  return '10' + [...String(exponent)].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)])).join('')
+/** Powers of ten, or 1, 2, 5, 10, … of these numbers; undefined, which leaves it to Plot, without two. */
+export function logTicks(values: number[]): number[] | undefined {
+  const powers = powersOfTen(values)
+  if (powers) return powers
+  const positive = values.filter((value) => value > 0)
+  const [low, high] = [least(positive), largest(positive)]
+  const first = Math.floor(Math.log10(low))
+  const between = [first, first + 1]
+    .flatMap((exponent) => ['1', '2', '5'].map((digit) => Number(`${digit}e${exponent}`)))
+    .filter((tick) => tick >= low && tick <= high)
+  return between.length > 1 ? between : undefined
 }
 
-function bands({ colour, points, outline }: Series): Plot.Markish[] {
+/** A number of a logarithmic axis without the letters of Plot, to which 0.2 is 200m: 0.002 is 2·10⁻³. */
+export function plainTick(value: number): string {
+  const exponent = Math.floor(Math.log10(value) + 1e-9)
+  if (Math.abs(exponent) <= 2) return number(value)
+  const factor = Number((value / 10 ** exponent).toPrecision(3))
+  const power = '10' + [...String(exponent)].map((c) => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(c)])).join('')
+  return factor === 1 ? power : `${factor}·${power}`
+}
+
+/** Many bands over each other are lighter, so that what lies behind them is seen. */
+export function bandStrength(series: Series[]): number {
+  return Math.min(1, 4 / series.filter(({ points }) => points.some(({ band }) => band)).length)
+}
+
+function bands({ colour, points, outline }: Series, strength: number): Plot.Markish[] {
   if (outline) {
     const some = points.filter((point) => point.band)
     const edge = (side: 0 | 1) =>
@@ -187,7 +211,7 @@ function bands({ colour, points, outline }: Series): Plot.Markish[] {
       clip: true,
     })
   }
-  return [area('band', 0.16), area('core', 0.24)]
+  return [area('band', 0.16 * strength), area('core', 0.24 * strength)]
 }
 
 function lines({

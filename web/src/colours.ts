@@ -38,8 +38,23 @@ export function looks(learners: string[]): (learner: string) => Look {
   }
 }
 
-/** Variants of a learner differ in how their lines are drawn. */
-export const DASHES = ['none', '6 3', '2 3', '8 3 2 3']
+/** Variants of a learner differ in how their lines are drawn, more than four of them in their symbols, too. */
+const DASHES = ['none', '6 3', '2 3', '8 3 2 3']
+
+const SYMBOLS: Symbol[] = ['circle', 'square', 'triangle', 'diamond2', 'star', 'cross', 'wye']
+
+/** The looks of so many variants of a learner. taken: symbols of all learners, which no variant of another one has. */
+export function variantLooks(look: Look, variants: number, taken: Symbol[]): (Look & { dash: string })[] {
+  const symbols = [look.symbol, ...SYMBOLS.filter((symbol) => !taken.includes(symbol))]
+  // Symbols are told apart more easily than dashes, so that many variants have as few dashes as do.
+  const needed = variants <= DASHES.length ? variants : Math.max(2, Math.ceil(variants / symbols.length))
+  const dashes = DASHES.slice(0, needed)
+  return Array.from({ length: variants }, (_, i) => ({
+    ...look,
+    symbol: symbols[Math.floor(i / dashes.length) % symbols.length] as Symbol,
+    dash: dashes[i % dashes.length] as string,
+  }))
+}
 
 /** Colours of numbers, from dark and low to bright and high, which grow in lightness: viridis. */
 export interface Scale {

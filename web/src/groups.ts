@@ -1,6 +1,6 @@
 // Common parts of a campaign's figures: learners × priors × variants, and the look of each.
 import type { Point } from './chart'
-import { DASHES, looks, type Look } from './colours'
+import { looks, variantLooks, type Look } from './colours'
 import { present, type Campaign, type Cell, type GroupKey, type Quartiles } from './data'
 import { count, number } from './format'
 import type { LegendEntry } from './legend'
@@ -12,14 +12,16 @@ export interface Style extends Look {
 
 export type StyleOf = (group: GroupKey) => Style
 
-/** Colour and symbol say the learner, the dash the variant. */
+/** Colour and symbol say the learner, the dash the variant; of more than four variants the symbol does, too. */
 export function styles({ summary }: Campaign): StyleOf {
   const look = looks(summary.learners)
-  return ({ learner, variant }) => ({
-    ...look(learner),
-    label: variant ? `${learner}, ${variant}` : learner,
-    dash: DASHES[Math.max(0, summary.variants.indexOf(variant)) % DASHES.length] ?? 'none',
-  })
+  const taken = summary.learners.map((learner) => look(learner).symbol)
+  const { variants } = summary
+  return ({ learner, variant }) => {
+    const all = variantLooks(look(learner), Math.max(1, variants.length), taken)
+    const own = all[Math.max(0, variants.indexOf(variant))] as (typeof all)[0]
+    return { ...own, label: variant ? `${learner}, ${variant}` : learner }
+  }
 }
 
 /** One entry a style. */

@@ -45,7 +45,7 @@ export function parameters(run: Run): Child {
         'A dashed line is the robot’s own value, where the scenario says it.',
       warningList(identifiability, trials['trial']?.at(-1)),
     ),
-    ...(columns.length > names.length ? { legend: INTERVAL_LEGEND } : {}),
+    ...(hasIntervals(trials, names) ? { legend: INTERVAL_LEGEND } : {}),
     panels: () => names.map(panel),
     table: () => rowsOf(trials, ['trial', ...columns]).map((row) => ({ ...row, ...prefixed('truth.', truth) })),
     minWidth: 220,
@@ -61,6 +61,11 @@ const INTERVAL_LEGEND: LegendEntry[] = [
   { label: 'learned', colour: PREDICTED, symbol: 'circle' },
   { label: '95 % interval', colour: PREDICTED, interval: true, line: false },
 ]
+
+/** False of a learner that never learns an interval, whose cells are all empty. */
+export function hasIntervals(trials: Columns, names: string[]): boolean {
+  return names.some((name) => trials[`${name}.low`]?.some(present))
+}
 
 function withIntervals(points: Point[], trials: Columns, column: string): Point[] {
   return points.map((point) => {

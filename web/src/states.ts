@@ -56,7 +56,7 @@ export function statePanels({ trajectory, prediction }: Episode, moments: boolea
   const predicted = (name: string) => (prediction ? predictions(name, prediction, moments) : [])
   return [
     ...states.map((state) => panel(state, [...predicted(state.name), ...stateSeries(state, times, trajectory)])),
-    ...actions.map((action) => panel(action, [{ ...recorded(action.name), held: true }])),
+    ...actions.map((action) => panel(action, [held(recorded(action.name), times)])),
     panel({ name: 'reward', unit: '' }, [...predicted('reward'), recorded('reward')]),
   ]
 }
@@ -105,6 +105,13 @@ function line(label: string, colour: string, times: Cell[], values: Cell[] | und
     return present(x) && present(y) ? [{ x, y }] : []
   })
   return { label, colour, points }
+}
+
+/** Each value until the next, the last one until the end: the last state of a trajectory has no action. */
+export function held(series: Series, times: Cell[]): Series {
+  const [last, end] = [series.points.at(-1), times.filter(present).at(-1)]
+  const more = last && present(end) && end > last.x ? [{ x: end, y: last.y }] : []
+  return { ...series, points: [...series.points, ...more], held: true }
 }
 
 /** The trajectory, and the prediction beside it. */

@@ -22,8 +22,12 @@ const { partsOf, TWO_SCREENS } = await source('parts')
 const { rangesOf, relativeErrors } = await source('state_errors')
 const { partFolds, partsOfRobot } = await source('part_folds')
 const { firstModel } = await source('run_errors')
-const { firstValues } = await source('run_model')
-const { fit, powersOfTen, wholeTicks } = await source('chart')
+const { firstValues, hasIntervals } = await source('run_model')
+const { bandStrength, fit, logTicks, plainTick, powersOfTen, wholeTicks } = await source('chart')
+const { variantLooks } = await source('colours')
+const { besideEachOther, returns } = await source('campaign_figures')
+const { held } = await source('states')
+const { whichPolicy } = await source('run_robustness')
 const { indexOfMax } = await source('data')
 const { outcome } = await source('limits')
 const { onTheRobot } = await source('run_returns')
@@ -199,4 +203,84 @@ test('figures take more numbers than a function takes arguments', () => {
   assert.equal(wholeTicks(many, 10).at(-1), 299_000)
   assert.deepEqual(powersOfTen(many), [1, 10, 100, 1000, 10_000, 100_000])
   assert.equal(indexOfMax(many), 299_999)
+})
+
+test('logarithmic axes have plain numbers, also where they span little', () => {
+  assert.deepEqual(logTicks([0.002, 3]), [0.01, 0.1, 1])
+  assert.deepEqual(logTicks([0.08, 0.3]), [0.1, 0.2])
+  assert.deepEqual(logTicks([0.0015, 0.006]), [0.002, 0.005])
+  assert.equal(logTicks([0.21, 0.45]), undefined)
+  assert.equal(logTicks([]), undefined)
+  const shown = {
+    0.2: '0.2',
+    0.25: '0.25',
+    0.002: '2·10⁻³',
+    0.00025: '2.5·10⁻⁴',
+    1000: '10³',
+    100: '100',
+    1e-12: '10⁻¹²',
+  }
+  for (const [value, text] of Object.entries(shown)) assert.equal(plainTick(Number(value)), text)
+})
+
+test('intervals of many groups stay in their trial', () => {
+  for (const of of [1, 2, 9, 17, 40]) {
+    const places = Array.from({ length: of }, (_, i) => besideEachOther(i, of))
+    assert.ok(places.every((x) => Math.abs(x) < 0.45))
+    assert.ok(Math.abs(places[0] + places[of - 1]) < 1e-12)
+  }
+  assert.ok(Math.abs(besideEachOther(1, 2) - 0.06) < 1e-12)
+})
+
+test('no two of many variants look the same, nor like one of another learner', () => {
+  const learners = ['circle', 'square'].map((symbol) => ({ colour: 'blue', symbol }))
+  for (const n of [1, 4, 5, 12, 17, 24]) {
+    const all = learners.map((look) => variantLooks(look, n, ['circle', 'square']))
+    for (const some of all) assert.equal(new Set(some.map((look) => JSON.stringify(look))).size, n)
+    assert.ok(all[0].every(({ symbol }) => symbol !== 'square'))
+    if (n <= 4) assert.ok(all[1].every(({ symbol }) => symbol === 'square'))
+  }
+})
+
+test('many bands over each other are lighter', () => {
+  const some = (n) => Array.from({ length: n }, () => ({ points: [{ x: 0, y: 1, band: [0, 2] }] }))
+  assert.equal(bandStrength([]), 1)
+  assert.equal(bandStrength([...some(4), { points: [{ x: 0, y: 1 }] }]), 1)
+  assert.equal(bandStrength(some(16)), 0.25)
+})
+
+test('an action holds until the end of the trial', () => {
+  const points = [
+    { x: 0, y: 1 },
+    { x: 0.1, y: 2 },
+  ]
+  assert.deepEqual(held({ points }, [0, 0.1, 0.2]), { points: [...points, { x: 0.2, y: 2 }], held: true })
+  assert.deepEqual(held({ points }, [0, 0.1]).points, points)
+  assert.deepEqual(held({ points: [] }, [0]).points, [])
+})
+
+test('a legend has intervals where there are some', () => {
+  const empty = { 'phi.m': [1, 1], 'phi.m.low': [null, null], 'phi.m.high': [null, null] }
+  assert.equal(hasIntervals(empty, ['phi.m']), false)
+  assert.equal(hasIntervals({ ...empty, 'phi.m.low': [null, 0.5] }, ['phi.m']), true)
+  assert.equal(hasIntervals({ 'phi.m': [1] }, ['phi.m']), false)
+})
+
+test('a campaign without a trial has no figures of returns', () => {
+  const group = { learner: 'gp-mi', prior: '', variant: '', trials: [] }
+  assert.equal(
+    returns({ summary: { groups: [group] } }, () => ({})),
+    null,
+  )
+})
+
+test('robustness says whose it is', () => {
+  const columns = { trial: [1, 1], seconds: [8, 8], episodes: [100, 100], factor: [0.75, 1] }
+  const parameters = [{ parameter: 'm', columns }]
+  assert.equal(
+    whichPolicy({ settings: 'measurement_noise=0.01', parameters }),
+    ' It is the policy of trial 1 in 100 episodes of 8 s for each value, with measurement_noise=0.01.',
+  )
+  assert.match(whichPolicy({ settings: '', parameters }), /for each value\.$/)
+  assert.equal(whichPolicy({ settings: '', parameters: [{ parameter: 'm', columns: { factor: [1] } }] }), '')
 })
