@@ -57,6 +57,6 @@ function sentence(numbers: Columns): string {
   const broke = (some: typeof all) => some.filter((trial) => trial.broken).length
   return (
     `Of ${count(safe.length, 'trial')} that were expected to be safe, ${broke(safe)} broke a limit; ` +
-    `of the ${others.length} others, ${broke(others)}.`
+    `of the ${count(others.length, 'other')}, ${broke(others)}.`
   )
 }
