@@ -45,7 +45,7 @@ check() {
   is "learn list" rehearse l
   lacks_none || fail "an option is missing"
   is "$scenarios robot.toml folder" rehearse learn ""
-  is "$learners $scenarios" rehearse list ""
+  is "$learners $scenarios robot.toml folder" rehearse list ""
   is "$learners" rehearse learn pendubot --learner ""
   is "pilco pilco-prior" rehearse learn pendubot --learner pil
   is "pilco pilco-prior" rehearse learn pendubot --learner = pil
