@@ -23,7 +23,7 @@ PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder
   auto [spec, history] = RunFolder::read(folder);
   if (history.done() == 0) throw InvalidInput(fmt::format("no trial of {} is done yet", folder.string()));
   spec.options.insert(spec.options.end(), settings.begin(), settings.end());
-  return {resolve(with_robot_of_run(catalogue, folder), spec), std::move(history)};
+  return {resolve_begun(with_robot_of_run(catalogue, folder), spec), std::move(history)};
 }
 
 std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario) {

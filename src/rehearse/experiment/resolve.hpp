@@ -23,6 +23,9 @@ struct Resolved {
 /// Throws InvalidInput with a line for everything that is wrong.
 Resolved resolve(const Catalogue& catalogue, const Spec& spec);
 
+/// The same for looking at a run that has begun, perhaps by an older version: options may contradict each other.
+Resolved resolve_begun(const Catalogue& catalogue, const Spec& spec);
+
 /// The complete spec alone, even where the learner cannot do with the task or the policy that it describes so far.
 Spec completed(const Catalogue& catalogue, const Spec& spec);
 

@@ -127,6 +127,7 @@ RunResult resume_run(const Catalogue& built_in, const std::filesystem::path& pat
     require_ready_again(participants.resolved());
   }
   folder.change_end({extended.trials, extended.until_solved}, participants.resolved().comments);
+  if (!is_over(extended, history)) folder.mark_unfinished();  // also where a change of its end was interrupted
   return with_causes(catalogue, participants.resolved().spec,
                      [&] { return Run(participants, folder, std::move(history)).finish(); });
 }

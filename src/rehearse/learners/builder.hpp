@@ -24,7 +24,7 @@ struct Entry {
   std::unique_ptr<Learner> (*make)(Setting, Options) = nullptr;
   Options options = {};
   std::vector<std::string> (*violations)(const Options&, const Task&, const policy::Policy&) = nullptr;  // may be null
-  std::vector<std::string> (*warnings)(const Task&) = nullptr;  // may be null
+  std::vector<std::string> (*warnings)(const Task&) = nullptr;                                           // may be null
   OptionTexts scenario_defaults = {};  // options of the scenario that suit it, where nobody sets them
 };
 

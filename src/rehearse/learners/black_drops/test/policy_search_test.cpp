@@ -108,8 +108,8 @@ TEST(SolvingRates, CountSimulatedEpisodesThatSolve) {
     task.solved = [beyond](const Episode& e) { return e.true_states(e.steps(), 0) > beyond; };
     SearchOptions options = small();
     options.selection = 1000;
-    const SolvingRates found = solving_rates({model, *policy, task, evaluator, {}},
-                                             {Vector{{-1, 0}}, Vector{{-5, 0}}}, options, {.stage = Stage::solving});
+    const SolvingRates found = solving_rates({model, *policy, task, evaluator, {}}, {Vector{{-1, 0}}, Vector{{-5, 0}}},
+                                             options, {.stage = Stage::solving});
     EXPECT_EQ(found.failed, 0);
     return found.rates;
   };

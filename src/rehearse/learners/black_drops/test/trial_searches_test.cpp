@@ -46,11 +46,10 @@ TEST_F(TrialSearchesTest, AllRolloutsAreCounted) {
 }
 
 TEST_F(TrialSearchesTest, FailuresAreCountedWhereverTheyHappen) {
-  const dynamics::SimulatorModel broken({"broken", system::make_ode_simulator(
-                                                       [](const Vector&, const Vector&, const Vector&, Vector& dxdt) {
-                                                         dxdt.setConstant(kNaN);
-                                                       },
-                                                       slider::prior().space, task.dt_s, 1),
+  const dynamics::SimulatorModel broken({"broken",
+                                         system::make_ode_simulator([](const Vector&, const Vector&, const Vector&,
+                                                                       Vector& dxdt) { dxdt.setConstant(kNaN); },
+                                                                    slider::prior().space, task.dt_s, 1),
                                          slider::prior().space},
                                         slider::kTruth);
   task.solved = [](const Episode&) { return true; };

@@ -72,7 +72,9 @@ TEST(Hold, KnowsItsActionBeforeAndTheTime) {
     const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-6});
     return find_hold({model, task, serial_evaluator()}, costs, Vector{{0.2, 0.5}}, Vector{{0}}, time_s);
   };
-  task.cost = [](const Steps& steps, VectorView costs) { costs = 5 * (steps.U - steps.U_before).rowwise().squaredNorm(); };
+  task.cost = [](const Steps& steps, VectorView costs) {
+    costs = 5 * (steps.U - steps.U_before).rowwise().squaredNorm();
+  };
   ASSERT_TRUE(hold(3));
   EXPECT_NEAR(hold(3)->stage.state(0), 0.5, 1e-3) << "an action that stays costs nothing";
   task.cost = [](const Steps& steps, VectorView costs) {
@@ -86,7 +88,9 @@ TEST(Hold, IsNotOfStatesThatAPolicyDoesNotSee) {
   Task task = line::task();
   const line::Model model;
   const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 0.1});
-  const auto hold = [&] { return find_hold({model, task, serial_evaluator()}, costs, Vector{{0.5, 0}}, Vector{{0}}, 0); };
+  const auto hold = [&] {
+    return find_hold({model, task, serial_evaluator()}, costs, Vector{{0.5, 0}}, Vector{{0}}, 0);
+  };
   EXPECT_TRUE(hold());
   task.states[0].kind = StateKind::omitted;
   EXPECT_FALSE(hold()) << "the place decides the reward";

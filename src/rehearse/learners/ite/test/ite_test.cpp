@@ -61,7 +61,8 @@ TEST(Ite, BeginsWithAPolicyOnlyWhereThatCanHaveAnEffect) {
     return "";
   };
   EXPECT_EQ(why({}, 0.5), "");
-  EXPECT_NE(why({{"archive.search.examples", "0"}}, 0.5).find("archive.search.examples = 0, so that"), std::string::npos);
+  EXPECT_NE(why({{"archive.search.examples", "0"}}, 0.5).find("archive.search.examples = 0, so that"),
+            std::string::npos);
   EXPECT_NE(why({}, 1e5).find("archive.box: parameter 1 of the policy to begin with is 100000"), std::string::npos);
 }
 

@@ -245,7 +245,8 @@ TEST(Hexapod, HostileStatesAreAnsweredWithNaNOrNumbers) {
     for (Index j = 0; j < kStateSize; ++j) X(i, j) = rest()(j) + scale * rng.normal();
     for (Index j = 0; j < kJoints; ++j) U(i, j) = scale * rng.normal();
   }
-  const auto& [name, servos, parameters, driven] = s.priors.front();
+  const auto& servos = s.priors.front().simulator;
+  const auto& driven = s.priors.front().driven;
   for (const auto& [simulator, missing] : {std::pair(servos, -1.0), std::pair(servos, 0.0), std::pair(driven, 0.0)}) {
     simulator->change(X, U, Vector{{missing}}, dX);
     Index numbers = 0;
