@@ -33,7 +33,7 @@ Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string
   try {
     return experiment::with_preset(catalogue, spec, name);
   } catch (const InvalidInput& error) {
-    for (const std::string& line : error.violations()) violations.add(line);
+    violations.add(error);
     return spec;
   }
 }

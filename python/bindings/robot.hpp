@@ -40,7 +40,7 @@ class Robot {
   /// The catalogue to look at a run and simulate nothing: functions may be missing.
   experiment::Catalogue to_look() const;
 
-  /// What the file says of the robot, as keywords of Python's State and Action where it is a list of them. Throws
+  /// Facts of the robot's file, as keywords of Python's State and Action where it is a list of them. Throws
   /// InvalidInput.
   py::dict about() const;
 

@@ -94,7 +94,7 @@ class Environment:
 
 @dataclass(frozen=True)
 class Task:
-    """What an environment must keep to. No states or actions: they are not known."""
+    """The parts of a task that an environment must keep to. No states or actions: they are not known."""
 
     horizon: int
     states: Sequence[State] = ()

@@ -1,4 +1,4 @@
-"""What is given in other forms, and what is given wrong: refused by name, or warned of."""
+"""Inputs in other forms, and wrong ones: refused by name, or warned of."""
 
 import functools
 import warnings

@@ -16,7 +16,7 @@ def learn(robot, out, **more):
 
 
 def runs(tmp_path):
-    """Of every form that a policy has."""
+    """Policies of every form."""
     late = cart(actions=[rehearse.Action("force", (-5, 5), max_rate=40, delay_s=0.25, lag_s=0.1, filter_s=0.05)])
     formula = rehearse.Model(rates={"velocity": "(force - friction * velocity) / mass"},
                              parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": (0.2, 5)})

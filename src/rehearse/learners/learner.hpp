@@ -132,7 +132,7 @@ class LearnerBuilder {
   virtual std::vector<std::string> violations(const Task& /*task*/, const policy::Policy& /*policy*/) const {
     return {};
   }
-  /// What the learner does not know of a task, a line each, where it can do with the task all the same.
+  /// Parts of a task that the learner ignores, a line each; it takes the task all the same.
   virtual std::vector<std::string> warnings(const Task& /*task*/) const { return {}; }
   virtual std::unique_ptr<Learner> build(Setting setting) const = 0;  // throws InvalidInput
 };

@@ -38,6 +38,7 @@ struct SolvingRates {
   Index rollouts = 0;
   Index failed = 0;  // of these
 };
+
 /// The rate at which each policy solves the task in simulated episodes, the same for all policies; 0 if the task has no
 /// test of success.
 SolvingRates solving_rates(const SearchProblem& problem, const std::vector<Vector>& policies,

@@ -59,7 +59,7 @@ TEST_F(TrialSearchesTest, FailuresAreCountedWhereverTheyHappen) {
   EXPECT_EQ(trial.failed_rollouts(), trial.rollouts());
 }
 
-// What is reported of a choice is not what it was chosen for.
+// The reported return and risks of a choice come from episodes that did not choose it.
 TEST_F(TrialSearchesTest, AChoiceIsJudgedAnewInOtherEpisodes) {
   TrialSearches trial = searches();
   const Vector theta{{-3, 0}};
