@@ -27,8 +27,8 @@ std::vector<std::string> InvalidInput::violations() const {
   return lines;
 }
 
-void Violations::add(const InvalidInput& error) {
-  for (std::string& line : error.violations()) add(std::move(line));
+void Violations::add(const std::vector<std::string>& violations) {
+  list_.insert(list_.end(), violations.begin(), violations.end());
 }
 
 void Violations::throw_if_any() const {

@@ -20,7 +20,8 @@ class InvalidInput : public std::runtime_error {
 class Violations {
  public:
   void add(std::string violation) { list_.push_back(std::move(violation)); }
-  void add(const InvalidInput& error);  // each of its violations
+  void add(const std::vector<std::string>& violations);
+  void add(const InvalidInput& error) { add(error.violations()); }
   void require(bool holds, const std::string& violation) {
     if (!holds) add(violation);
   }

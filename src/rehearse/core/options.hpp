@@ -170,6 +170,12 @@ bool set_field(const Fields& fields, std::string_view name, std::string_view tex
 /// A line for every field that violates its bound, and for every condition between fields that does not hold.
 std::vector<std::string> field_violations(const Fields& fields);
 
+/// The same of the fields of one struct, as "group.field".
+template <class Options>
+std::vector<std::string> field_violations(std::string_view group, Options options) {
+  return field_violations([&](FieldVisitor& v) { v.group(group, options); });
+}
+
 /// The name most like `name`, for "did you mean".
 std::string closest(std::string_view name, const std::vector<std::string>& names);
 

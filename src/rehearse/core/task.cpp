@@ -154,8 +154,7 @@ std::vector<std::string> Task::violations() const {
                   fmt::format("action {}: {} must be a state that is no angle, to have it as a target", action.name,
                               action.target_of));
   }
-  for (const ActionVariable& action : actions)
-    for (const std::string& line : Actuators::violations(action, dt_s)) found.add(line);
+  for (const ActionVariable& action : actions) found.add(Actuators::violations(action, dt_s));
   const Index memories = Actuators(actions, dt_s, 0).memory();
   found.require(memory == memories,
                 fmt::format("memory = {}, must be the {} states that its actuators remember", memory, memories));

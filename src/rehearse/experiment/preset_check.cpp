@@ -45,7 +45,7 @@ std::vector<std::string> violations(const Preset& preset, const Catalogue& catal
 Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string& name_or_file) {
   const Preset preset = find_preset(catalogue, name_or_file);
   Violations found;
-  for (const std::string& line : violations(preset, catalogue, spec)) found.add(line);
+  found.add(violations(preset, catalogue, spec));
   found.throw_if_any();
   return with_options(spec, preset.options(spec.scenario, spec.learner));
 }

@@ -42,7 +42,7 @@ class Resolver {
         scenario_builder_(catalogue.scenario(spec.scenario)),
         learner_builder_(catalogue.learner(spec.learner)),
         default_preset_(default_preset(catalogue, spec.scenario)) {
-    for (const auto& line : field_violations([this](FieldVisitor& v) { spec_.fields(v); })) violations_.add(line);
+    violations_.add(field_violations([this](FieldVisitor& v) { spec_.fields(v); }));
     if (!scenario_builder_) violations_.add(catalogue.why_missing("scenario", spec.scenario));
     if (!learner_builder_) violations_.add(catalogue.why_missing("learner", spec.learner));
     check_robot(catalogue.robot(spec.scenario));
@@ -55,11 +55,11 @@ class Resolver {
     for (const auto& [key, text] : spec_.options) set_option(key, text);
     if (check_.conditions)
       for (const Fields& fields : {fields_of(*scenario_builder_), fields_of(*learner_builder_)})
-        for (const std::string& line : field_violations(fields)) violations_.add(line);
+        violations_.add(field_violations(fields));
     const std::vector<std::string> names = prior_names();
     const auto scenario = contained([&] { return scenario_builder_->build(); });
     if (!scenario) violations_.throw_if_any();
-    for (const std::string& line : scenario->task.violations()) violations_.add(line);
+    violations_.add(scenario->task.violations());
     violations_.require(!spec_.until_solved || scenario->task.solved,
                         fmt::format("until_solved: {} cannot say what is solved", spec_.scenario));
     if (check_.learner && scenario->policy)  // without a policy the learner complains when it is built

@@ -90,7 +90,7 @@ Spec extended_spec(Spec spec, const std::filesystem::path& path, std::optional<U
   spec.trials = until->trials;
   spec.until_solved = until->solved;
   Violations violations;
-  for (const auto& line : field_violations([&](FieldVisitor& v) { spec.fields(v); })) violations.add(line);
+  violations.add(field_violations([&](FieldVisitor& v) { spec.fields(v); }));
   violations.require(spec.trials > 0, "trials = 0, must be ≥ 1 where Rehearse drives the plant");
   violations.require(spec.trials >= done,
                      fmt::format("trials = {}, but {} trials of {} are done", spec.trials, done, path.string()));

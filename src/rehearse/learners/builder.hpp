@@ -70,13 +70,10 @@ template <class Options>
 Setting checked(Setting setting, Options& options, PriorUse prior_use,
                 std::vector<std::string> (*violations)(const Options&, const Task&, const policy::Policy&) = nullptr) {
   Violations found;
-  const auto add = [&](const std::vector<std::string>& lines) {
-    for (const std::string& line : lines) found.add(line);
-  };
-  add(field_violations([&](FieldVisitor& v) { options.fields(v); }));
-  add(setting.task.violations());
+  found.add(field_violations([&](FieldVisitor& v) { options.fields(v); }));
+  found.add(setting.task.violations());
   found.require(static_cast<bool>(setting.policy), "this learner needs a policy");
-  if (setting.policy && violations) add(violations(options, setting.task, *setting.policy));
+  if (setting.policy && violations) found.add(violations(options, setting.task, *setting.policy));
   found.require(prior_use == PriorUse::none || setting.prior, "this learner needs a prior");
   found.throw_if_any();
   if (prior_use == PriorUse::none) setting.prior.reset();

@@ -16,9 +16,9 @@ constexpr double kRise = 1e-4, kSlope = 0.9;  // Nocedal and Wright 2006, eq. 3.
 constexpr int kTrials = 20;                   // of a line search
 constexpr double kRounding = 1e3;             // tolerances that a failed line search may leave
 
-void check(const Vector& start, BfgsOptions options) {
+void check(const Vector& start, const BfgsOptions& options) {
   Violations violations;
-  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("bfgs", options); })) violations.add(line);
+  violations.add(field_violations("bfgs", options));
   violations.require(start.size() > 0 && start.allFinite(), "start has no coordinates or is not finite");
   violations.throw_if_any();
 }

@@ -14,9 +14,9 @@ constexpr double kShortestStep = 1e-7;          // ‖Δx‖ that a line search 
 constexpr double kFurther = 1.1, kFarther = 5;  // extrapolation, times the step
 constexpr double kMargin = 0.1;                 // of interpolation, from both ends
 
-void check(const Vector& start, CautiousBfgsOptions options) {
+void check(const Vector& start, const CautiousBfgsOptions& options) {
   Violations violations;
-  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("bfgs", options); })) violations.add(line);
+  violations.add(field_violations("bfgs", options));
   violations.require(start.size() > 0 && start.allFinite(), "start has no coordinates or is not finite");
   violations.throw_if_any();
 }

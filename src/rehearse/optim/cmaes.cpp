@@ -18,11 +18,10 @@ constexpr double worst = -std::numeric_limits<double>::infinity();
 Index checked_population(const Vector& mean, double sigma, const std::vector<Interval>& box,
                          const CmaesOptions& options) {
   Violations violations;
-  CmaesOptions copy = options;
-  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("cmaes", copy); })) violations.add(line);
+  violations.add(field_violations("cmaes", options));
   if (!(sigma > 0 && std::isfinite(sigma))) violations.add(fmt::format("sigma = {}, must be > 0", to_text(sigma)));
-  for (const auto& line : box_violations(box, mean.size())) violations.add(line);
-  for (const auto& line : start_violations(mean, box)) violations.add(line);
+  violations.add(box_violations(box, mean.size()));
+  violations.add(start_violations(mean, box));
   violations.throw_if_any();
   return options.population > 0 ? options.population : default_population(mean.size());
 }

@@ -160,9 +160,8 @@ void RaceOptions::fields(FieldVisitor& v) {
 
 RaceResult race(const BatchObjective& objective, const SearchSpace& space, const RaceOptions& options,
                 const StreamKey& key, const Evaluator& evaluator, const SearchListener& listener) {
-  RaceOptions copy = options;
   Violations violations;
-  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("race", copy); })) violations.add(line);
+  violations.add(field_violations("race", options));
   violations.require(!space.box.empty(), "race needs a box");
   violations.throw_if_any();
   return Race(objective, space, options, key, evaluator, listener).run();

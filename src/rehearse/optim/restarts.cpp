@@ -15,12 +15,12 @@ constexpr double worst = -std::numeric_limits<double>::infinity();
 /// Evaluations kept back for the choice at the end.
 Index reserved(const SearchOptions& options) { return 2 * options.candidates * options.final_samples; }
 
-void check(const Vector& start, const std::vector<Interval>& box, SearchOptions options) {
+void check(const Vector& start, const std::vector<Interval>& box, const SearchOptions& options) {
   Violations violations;
-  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("search", options); })) violations.add(line);
+  violations.add(field_violations("search", options));
   violations.require(!box.empty(), "box is empty, must have an interval for each coordinate");
-  for (const auto& line : box_violations(box, start.size())) violations.add(line);
-  for (const auto& line : start_violations(start, box)) violations.add(line);
+  violations.add(box_violations(box, start.size()));
+  violations.add(start_violations(start, box));
   violations.throw_if_any();
 }
 

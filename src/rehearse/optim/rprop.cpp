@@ -8,9 +8,9 @@
 namespace rehearse::optim {
 namespace {
 
-void check(const Vector& start, RpropOptions options) {
+void check(const Vector& start, const RpropOptions& options) {
   Violations violations;
-  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("rprop", options); })) violations.add(line);
+  violations.add(field_violations("rprop", options));
   violations.require(start.size() > 0 && start.allFinite(), "start has no coordinates or is not finite");
   violations.throw_if_any();
 }

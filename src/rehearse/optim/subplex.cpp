@@ -8,12 +8,12 @@
 namespace rehearse::optim {
 namespace {
 
-void check(const Vector& start, const std::vector<Interval>& box, SubplexOptions options) {
+void check(const Vector& start, const std::vector<Interval>& box, const SubplexOptions& options) {
   Violations violations;
-  for (const auto& line : field_violations([&](FieldVisitor& v) { v.group("subplex", options); })) violations.add(line);
+  violations.add(field_violations("subplex", options));
   violations.require(!box.empty(), "box is empty, must have an interval for each coordinate");
-  for (const auto& line : box_violations(box, start.size())) violations.add(line);
-  for (const auto& line : start_violations(start, box)) violations.add(line);
+  violations.add(box_violations(box, start.size()));
+  violations.add(start_violations(start, box));
   violations.throw_if_any();
 }
 

@@ -20,7 +20,7 @@ Rows part(double* column, Index at, Index rows, Index columns) { return {column 
 void check(const Archive& archive, const SearchSpace& space, const MapElitesOptions& options) {
   Violations violations;
   MapElitesOptions copy = options;
-  for (const auto& line : field_violations([&](FieldVisitor& v) { copy.fields(v); })) violations.add(line);
+  violations.add(field_violations([&](FieldVisitor& v) { copy.fields(v); }));
   const Index P = archive.parameters();
   violations.require(space.box.empty() || static_cast<Index>(space.box.size()) == P,
                      fmt::format("the box has {} sides, must have {}", space.box.size(), P));

@@ -65,7 +65,7 @@ Matrix unit_centroids(const Cvt& cvt, const Evaluator& evaluator) {
 
 void check(const Cvt& cvt) {
   Violations violations;
-  for (const std::string& line : bounds_violations(cvt.bounds)) violations.add(line);
+  violations.add(bounds_violations(cvt.bounds));
   violations.require(cvt.niches >= 1 && static_cast<double>(cvt.niches) <= kMostNiches,
                      fmt::format("niches = {}, must be in [1, {:g}]", cvt.niches, kMostNiches));
   violations.require(cvt.samples >= cvt.niches,
@@ -105,7 +105,7 @@ std::vector<std::string> bounds_violations(const std::vector<Interval>& bounds) 
 
 Niches::Niches(Grid grid) : bounds_(std::move(grid.bounds)), bins_(std::move(grid.bins)) {
   Violations violations;
-  for (const std::string& line : bounds_violations(bounds_)) violations.add(line);
+  violations.add(bounds_violations(bounds_));
   violations.require(bins_.size() == bounds_.size(),
                      fmt::format("bins of {} descriptors, must be of {}", bins_.size(), bounds_.size()));
   double size = 1;
@@ -124,7 +124,7 @@ Niches::Niches(const Cvt& cvt, const Evaluator& evaluator) : Niches(cvt.bounds, 
 Niches::Niches(std::vector<Interval> bounds, Matrix centroids)
     : bounds_(std::move(bounds)), centroids_(std::move(centroids)), size_(centroids_.cols()) {
   Violations violations;
-  for (const std::string& line : bounds_violations(bounds_)) violations.add(line);
+  violations.add(bounds_violations(bounds_));
   violations.require(centroids_.rows() == dimensions() && size_ >= 1 && centroids_.allFinite(),
                      fmt::format("{} centroids of {} descriptors, must be ≥ 1 of {} finite ones", size_,
                                  centroids_.rows(), dimensions()));
