@@ -91,7 +91,7 @@ expect 2 "mine.toml: line 4: unknown option 'serch.box', did you mean 'search.bo
 expect 2 "cannot read nothing.toml" 1 learn nothing.toml
 expect 2 "search.box = 1e+308, must be between 1e-06 and 1000000" 1 learn pendubot --learner gp-mi --set search.box=1e308
 expect 2 "archive.box = 1e+308, must be between 1e-06 and 1000000" 1 learn pendubot --learner ite --set archive.box=1e308
-expect 2 'unknown learner '"'"'\x1b[31mred\x9b\x07'"'" 1 learn pendubot --learner $'\e[31mred\xc2\x9b\a'
+expect 2 'unknown learner '"'"'\x1b[31mred\x9b\x07\xe9é'"'" 1 learn pendubot --learner $'\e[31mred\xc2\x9b\a\xe9é'
 grep -q '[[:cntrl:]]' <(tr -d '\n' <stderr) && fail "escapes of a terminal are printed as they are"
 for command in list "list --json" "list gp-mi" --help --version "learn --help"; do
   "$program" $command >/dev/full 2>stderr

@@ -78,10 +78,18 @@ fs::path checked_run_folder(const fs::path& given) {
   return path;
 }
 
+/// Writing into a folder that is a link would change files outside of the run.
+void refuse_linked_folders(const fs::path& run) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(run))
+    if (entry.is_symlink() && entry.is_directory())
+      throw InvalidInput(fmt::format("{} is a link, must be a folder of the run", entry.path().string()));
+}
+
 }  // namespace
 
 RunFolder RunFolder::open(const fs::path& given) {
   const fs::path path = checked_run_folder(given);
+  refuse_linked_folders(path);
   files::FolderLock lock(path);
   return {path, spec_of(path), std::move(lock)};
 }

@@ -20,7 +20,40 @@ void FileViolations::throw_if_any() const {
   lines.throw_if_any();
 }
 
+namespace {
+
+constexpr Index kDeepest = 256;  // tables in tables; the parser bounds arrays so, and recurses without a bound for keys
+
+/// The most dots between the parts of one key in a line.
+Index dots_of_a_key(std::string_view line) {
+  Index most = 0, dots = 0;
+  for (std::size_t i = 0; i < line.size() && line[i] != '#'; ++i) {
+    const char c = line[i];
+    if ((c == '"' || c == '\'') && line.substr(i, 3) != std::string(3, c)) {
+      do ++i;
+      while (i < line.size() && (line[i] != c || (c == '"' && line[i - 1] == '\\')));
+    } else if (std::string_view(",={}[]").find(c) != std::string_view::npos) {
+      dots = 0;
+    } else if (c == '.') {
+      most = std::max(most, ++dots);
+    }
+  }
+  return most;
+}
+
+void check_depth(std::string_view text, const std::string& source) {
+  for (Index line = 1; !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (dots_of_a_key(text.substr(0, end)) >= kDeepest)
+      throw InvalidInput(in_file(source, line, fmt::format("a key has more than {} parts", kDeepest)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+}  // namespace
+
 toml::table parse_toml(std::string_view text, const std::string& source) {
+  check_depth(text, source);
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {

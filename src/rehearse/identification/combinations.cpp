@@ -80,7 +80,7 @@ std::optional<std::string> combination(const std::string& name, const Vector& va
   return fmt::format("{} = {:.3g}", product(name, others, best.factors), std::exp(known));
 }
 
-/// A combination of each other parameter with those that `bits` chooses; empty if one of them has none.
+/// Combinations of other parameters with those that `bits` chooses, of as many as have one.
 std::vector<std::string> combinations_with(unsigned bits, const std::vector<std::string>& names, const Matrix& points) {
   std::vector<std::string> others;
   std::vector<Index> rows;
@@ -91,8 +91,7 @@ std::vector<std::string> combinations_with(unsigned bits, const std::vector<std:
     if (bits >> i & 1U) continue;
     const auto one =
         combination(names[i], points.row(static_cast<Index>(i)).transpose(), others, points(rows, Eigen::all));
-    if (!one) return {};
-    all.push_back(*one);
+    if (one) all.push_back(*one);
   }
   return all;
 }
@@ -103,13 +102,15 @@ std::vector<std::string> known_combinations(const std::vector<std::string>& name
                                             Index unknown) {
   const std::size_t q = names.size();
   if (q > 10 || points.cols() < 3 * static_cast<Index>(q)) return {};
+  std::vector<std::string> most;
   for (Index pivots = 1; pivots <= unknown && pivots < static_cast<Index>(q); ++pivots)
     for (unsigned bits = 1; bits < 1U << q; ++bits) {
       if (__builtin_popcount(bits) != pivots) continue;
       auto all = combinations_with(bits, names, points);
-      if (!all.empty()) return all;
+      if (all.size() > most.size()) most = std::move(all);
+      if (most.size() + static_cast<std::size_t>(pivots) == q) return most;
     }
-  return {};
+  return most;
 }
 
 }  // namespace rehearse::identification

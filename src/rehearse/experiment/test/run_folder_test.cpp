@@ -51,6 +51,15 @@ TEST(RunFolder, IsRefusedWhereItIsNone) {
   EXPECT_NE(complaint("run").find("belongs to another spec.toml"), std::string::npos);
 }
 
+TEST(RunFolder, WritesIntoNoFolderOfOthers) {
+  const fs::path folder = fake::test_folder(), run = folder / "run", theirs = folder / "theirs";
+  start_run(fake::catalogue(), line_spec(1), run, {});
+  fs::rename(run / "trajectories", theirs);
+  fs::create_directory_symlink(theirs, run / "trajectories");
+  const auto message = fake::message_of<InvalidInput>([&] { resume_run(fake::catalogue(), run, Until(2), {}); });
+  EXPECT_EQ(message, (run / "trajectories").string() + " is a link, must be a folder of the run");
+}
+
 TEST(RunFolder, AnEndThatCannotBeWrittenChangesNothing) {
   const fs::path folder = fake::test_folder() / "run";
   start_run(fake::catalogue(), line_spec(1), folder, {});

@@ -58,6 +58,17 @@ nmae = "d"
             "steps, count, table)");
 }
 
+TEST(Toml, RefusesKeysThatAreTooDeep) {
+  std::string deep = "a";
+  for (int i = 0; i < 50000; ++i) deep += i % 2 ? ".a" : " . \"=\"";
+  const std::string numbers = "x = [" + std::string(1000, ' ') + "0.1, 0.2] # " + std::string(1000, '.') + "\n";
+  EXPECT_EQ(message_of<InvalidInput>([&] { parse_toml(numbers + deep + " = 1\n", "x.toml"); }),
+            "x.toml: line 2: a key has more than 256 parts");
+  EXPECT_EQ(message_of<InvalidInput>([&] { parse_toml("[" + deep + "]\n", "x.toml"); }),
+            "x.toml: line 1: a key has more than 256 parts");
+  EXPECT_EQ(parse_toml(numbers, "x.toml").size(), 1);
+}
+
 TEST(Toml, LeavesKeepTheOrderOfTheFile) {
   const toml::table table = parse_toml("z = 1\na.c = true\n[b]\ny = \"t\"\nx = [1]\n", "x.toml");
   std::string all;

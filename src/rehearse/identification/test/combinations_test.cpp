@@ -44,6 +44,11 @@ TEST(KnownCombinations, NamesWhatTwoUnknownDirectionsLeave) {
   EXPECT_EQ(known_combinations({"a", "b", "c"}, plane, 1), Names{}) << "no more unknown directions than there are";
 }
 
+TEST(KnownCombinations, NamesThoseThatAreSimpleWhereOthersAreNot) {
+  const Matrix all = points(30, [](double a, double b) { return Vector{{a, b, 3 * a, std::sin(9 * a) * b}}; });
+  EXPECT_EQ(known_combinations({"k", "m", "b", "I"}, all, 2), Names{"b/k = 3"});
+}
+
 TEST(KnownCombinations, IsSilentWhereNothingSimpleIsKnown) {
   const Matrix wave = points(30, [](double a, double) { return Vector{{a, std::sin(12 * a)}}; });
   EXPECT_EQ(known_combinations({"a", "b"}, wave, 1), Names{});
