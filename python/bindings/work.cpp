@@ -92,8 +92,8 @@ py::dict trial_of(const experiment::TrialRecord& trial, const std::vector<std::s
                            py::arg("high") = limit.interval.high, py::arg("broken") = limit.broken));
   return py::dict(py::arg("trial") = trial.trial, py::arg("total_reward") = trial.total_reward,
                   py::arg("predicted_return") = trial.predicted_return, py::arg("solved") = trial.solved,
-                  py::arg("phi") = phi, py::arg("intervals") = intervals, py::arg("limits") = limits,
-                  py::arg("warnings") = trial.warnings, py::arg("notes") = trial.notes);
+                  py::arg("cut_short") = trial.cut_short, py::arg("phi") = phi, py::arg("intervals") = intervals,
+                  py::arg("limits") = limits, py::arg("warnings") = trial.warnings, py::arg("notes") = trial.notes);
 }
 
 }  // namespace rehearse::python

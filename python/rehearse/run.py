@@ -32,7 +32,7 @@ class Trial:
     """One trial: what was predicted before it, and what came of it.
 
     phi, intervals: parameters of the prior that chose its policy, and their 95 % intervals. limits: risk and outcome of
-    each. warnings: what the trials before cannot tell of the parameters. None: does not apply, or is not known.
+    each. cut_short: by no fault of the policy, so that the return does not compare. warnings: what the trials before cannot tell of the parameters. None: does not apply, or is not known.
     total_reward: NaN of a trial that is to come.
     """
 
@@ -40,6 +40,7 @@ class Trial:
     total_reward: float
     predicted_return: Union[float, None]
     solved: Union[bool, None]
+    cut_short: bool
     phi: dict[str, float]
     intervals: dict[str, tuple[float, float]]
     limits: list[dict[str, Any]]
@@ -113,9 +114,11 @@ class Run:
 
     @property
     def best(self) -> Union[Trial, None]:
-        """The trial of the highest return, of equals the first; None before there is one."""
+        """The trial of the highest return, of equals the first, none that was cut short unless all were; None before
+        there is one."""
         details = self.details
-        return max(details, key=lambda trial: trial.total_reward) if details else None
+        whole = [trial for trial in details if not trial.cut_short] or details[:1]
+        return max(whole, key=lambda trial: trial.total_reward) if whole else None
 
     @property
     def solved_at(self) -> Union[int, None]:
@@ -210,9 +213,9 @@ class Run:
                 f"<table><tr>{titles}</tr>{''.join(rows)}</table>")
 
     def __repr__(self) -> str:
-        returns = self.trials["return"]
-        best = f", best return {np.max(returns):.4g}" if len(returns) else ""
-        return f"<rehearse.Run {self.folder}: {len(returns)} trials{best}>"
+        trials, best = self.details, self.best
+        earned = f", best return {best.total_reward:.4g}" if best else ""
+        return f"<rehearse.Run {self.folder}: {len(trials)} trials{earned}>"
 
     @property
     def _core(self) -> Any:

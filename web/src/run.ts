@@ -1,6 +1,6 @@
 // The page of one run, and that of one trial of it.
 import { archiveFigures } from './archive'
-import { indexOfMax, present, type Cell, type Report, type Run } from './data'
+import { present, type Cell, type Report, type Run } from './data'
 import { h, type Child } from './dom'
 import { count, duration, number } from './format'
 import { beside, head, problems, sections, tiles, type Tile } from './layout'
@@ -13,6 +13,7 @@ import { evidence, parameters } from './run_model'
 import { returns } from './run_returns'
 import { robustness } from './run_robustness'
 import { notes, options } from './run_tables'
+import { bestRow } from './trials'
 
 export function runPage(report: Report, run: Run): Child[] {
   return [
@@ -61,7 +62,7 @@ function keyFigures({ trials, timings }: Run): Tile[] {
   const at = (name: string, i: number) => trials[name]?.[i]
   const all = trials['return'] ?? []
   const solved = (trials['solved'] ?? []).findIndex((value) => value === 1)
-  const best = indexOfMax(all)
+  const best = bestRow(trials)
   const knowsSolved = (trials['solved'] ?? []).some(present)
   const seconds = sum(timings?.['model_s']) + sum(timings?.['search_s'])
   return [
@@ -87,7 +88,7 @@ function keyFigures({ trials, timings }: Run): Tile[] {
 
 function replay(run: Run): Child {
   const usable = run.episodes.filter((episode) => episode.trajectory)
-  const best = indexOfMax(run.trials?.['return'] ?? []) + 1
+  const best = bestRow(run.trials ?? {}) + 1
   const start = usable.find(({ trial }) => trial === best) ?? usable[0]
   if (!start) return null
   return player(usable, start, (trial) => {

@@ -31,6 +31,7 @@ const { whichPolicy } = await source('run_robustness')
 const { indexOfMax } = await source('data')
 const { outcome } = await source('limits')
 const { onTheRobot } = await source('run_returns')
+const { bestRow } = await source('trials')
 
 const named = (states, others) =>
   Object.fromEntries(partsOf(states, others).map((part) => [part.name, [...part.states, ...part.others].join(', ')]))
@@ -203,6 +204,12 @@ test('figures take more numbers than a function takes arguments', () => {
   assert.equal(wholeTicks(many, 10).at(-1), 299_000)
   assert.deepEqual(powersOfTen(many), [1, 10, 100, 1000, 10_000, 100_000])
   assert.equal(indexOfMax(many), 299_999)
+})
+
+test('a trial that was cut short is not the best, unless all were', () => {
+  assert.equal(bestRow({ return: [-9, -8, -1], cut_short: [0, 0, 1] }), 1)
+  assert.equal(bestRow({ return: [-9, -8, -1] }), 2)
+  assert.equal(bestRow({ return: [-9, -8], cut_short: [1, 1] }), 0)
 })
 
 test('logarithmic axes have plain numbers, also where they span little', () => {

@@ -21,6 +21,10 @@ struct Episode {
   Index steps() const { return actions.rows(); }
   double total_reward() const { return rewards.sum() + charged; }
 
+  /// True if an operator stopped it by no fault of the policy: its return does not compare with those of whole
+  /// episodes.
+  bool is_cut_short(Index horizon) const { return !ended && steps() < horizon; }
+
   /// Steps first to first + steps, as an episode of its own that did not end early.
   Episode part(Index first, Index steps) const;
 };

@@ -76,27 +76,29 @@ std::vector<LimitRecord> to_limits(const json& j) {
 json from_record(const TrialRecord& r) {
   json forecast = json::array();
   for (const ForecastError& f : r.forecast) forecast.push_back(from_forecast(f));
-  return {{"trial", r.trial},
-          {"interaction_s", r.interaction_s},
-          {"return", r.total_reward},
-          {"expected_return", from_optional(r.expected_return)},
-          {"solved", from_optional(r.solved)},
-          {"predicted_return", from_optional(r.predicted_return)},
-          {"limits", from_limits(r.limits)},
-          {"rollouts", r.rollouts},
-          {"failed_rollouts", r.failed_rollouts},
-          {"log_evidence", from_optional(r.log_evidence)},
-          {"phi", r.phi},
-          {"phi_intervals", from_intervals(r.phi_intervals)},
-          {"warnings", r.warnings},
-          {"policy", r.policy},
-          {"theta", to_json(r.theta)},
-          {"forecast", forecast},
-          {"left_out_rows", r.left_out_rows},
-          {"notes", r.notes},
-          {"model_s", r.model_s},
-          {"search_s", r.search_s},
-          {"file", r.file_checksum}};
+  json j = {{"trial", r.trial},
+            {"interaction_s", r.interaction_s},
+            {"return", r.total_reward},
+            {"expected_return", from_optional(r.expected_return)},
+            {"solved", from_optional(r.solved)},
+            {"predicted_return", from_optional(r.predicted_return)},
+            {"limits", from_limits(r.limits)},
+            {"rollouts", r.rollouts},
+            {"failed_rollouts", r.failed_rollouts},
+            {"log_evidence", from_optional(r.log_evidence)},
+            {"phi", r.phi},
+            {"phi_intervals", from_intervals(r.phi_intervals)},
+            {"warnings", r.warnings},
+            {"policy", r.policy},
+            {"theta", to_json(r.theta)},
+            {"forecast", forecast},
+            {"left_out_rows", r.left_out_rows},
+            {"notes", r.notes},
+            {"model_s", r.model_s},
+            {"search_s", r.search_s},
+            {"file", r.file_checksum}};
+  if (r.cut_short) j["cut_short"] = true;
+  return j;
 }
 
 TrialRecord to_record(const json& j) {
@@ -106,6 +108,7 @@ TrialRecord to_record(const json& j) {
   j.at("return").get_to(r.total_reward);
   to_optional(j.value("expected_return", json()), r.expected_return);
   to_optional(j.at("solved"), r.solved);
+  r.cut_short = j.value("cut_short", false);
   to_optional(j.at("predicted_return"), r.predicted_return);
   r.limits = to_limits(j.value("limits", json::array()));
   j.at("rollouts").get_to(r.rollouts);

@@ -5,8 +5,9 @@
 namespace rehearse::experiment {
 
 const TrialRecord& best_trial(const std::vector<TrialRecord>& trials) {
-  return *std::max_element(trials.begin(), trials.end(),
-                           [](const TrialRecord& a, const TrialRecord& b) { return a.total_reward < b.total_reward; });
+  return *std::max_element(trials.begin(), trials.end(), [](const TrialRecord& a, const TrialRecord& b) {
+    return a.cut_short || b.cut_short ? a.cut_short && !b.cut_short : a.total_reward < b.total_reward;
+  });
 }
 
 }  // namespace rehearse::experiment

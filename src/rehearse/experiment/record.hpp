@@ -38,6 +38,7 @@ struct TrialRecord {
   double total_reward = 0;                // trials.csv calls it `return`
   std::optional<double> expected_return;  // over extra episodes of the policy that are no interaction
   std::optional<bool> solved;
+  bool cut_short = false;  // by no fault of the policy: the return does not compare with others, success is not known
   std::optional<double> predicted_return;
   std::vector<LimitRecord> limits;  // one a limit of the task
   Index rollouts = 0;
@@ -76,7 +77,8 @@ struct History {
   Index done() const { return static_cast<Index>(trials.size()); }
 };
 
-/// The trial with the highest return, the first of equals. There must be one.
+/// The trial with the highest return, the first of equals. One that was cut short is it only where all were. There must
+/// be one.
 const TrialRecord& best_trial(const std::vector<TrialRecord>& trials);
 
 }  // namespace rehearse::experiment

@@ -75,6 +75,9 @@ std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector
   if (evaluated) header.push_back("expected_return");
   for (const std::string& name : phi_names)
     for (const char* end : {"", ".low", ".high"}) header.push_back("phi." + name + end);
+  const std::size_t columns = header.size();
+  const bool any_cut_short = std::ranges::any_of(trials, &TrialRecord::cut_short);
+  if (any_cut_short) header.push_back("cut_short");
   files::Csv csv(header);
   for (const TrialRecord& t : trials) {
     Row row = {files::Csv::cell(t.trial),
@@ -87,7 +90,8 @@ std::string trials_csv(const std::vector<TrialRecord>& trials, const std::vector
                files::Csv::cell(t.log_evidence)};
     if (evaluated) row.push_back(files::Csv::cell(t.expected_return));
     add_parameters(row, t);
-    row.resize(header.size());
+    row.resize(columns);
+    if (any_cut_short) row.push_back(files::Csv::cell(Index{t.cut_short}));
     csv.row(row);
   }
   return csv.text();

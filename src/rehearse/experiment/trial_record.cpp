@@ -70,7 +70,8 @@ void add_outcome(TrialRecord& record, const Episode& episode, const Task& task) 
   record.total_reward = episode.total_reward();
   for (LimitRecord& limit : record.limits) limit.broken = std::ranges::count(episode.broken_limits, limit.limit) > 0;
   if (!episode.failure.empty()) record.notes.push_back("the episode ended at the reward floor: " + episode.failure);
-  if (task.solved) record.solved = task.solved(episode);
+  record.cut_short = episode.is_cut_short(task.horizon);
+  if (task.solved && !record.cut_short) record.solved = task.solved(episode);
 }
 
 }  // namespace rehearse::experiment

@@ -21,6 +21,14 @@ TEST(Episode, TotalRewardHoldsWhatWasCharged) {
   EXPECT_EQ(e.total_reward(), -1);
 }
 
+TEST(Episode, ThatIsShorterIsCutShortUnlessItEnded) {
+  Episode e = episode(4, 0);
+  EXPECT_TRUE(e.is_cut_short(5));
+  EXPECT_FALSE(e.is_cut_short(4));
+  e.ended = true;
+  EXPECT_FALSE(e.is_cut_short(5));
+}
+
 TEST(Episode, PartsAreEpisodes) {
   Episode e = episode(5, 0);
   e.charged = -3, e.ended = true;

@@ -12,5 +12,15 @@ TEST(Record, OfTrialsWithTheSameReturnTheFirstIsBest) {
   EXPECT_EQ(best_trial(trials).trial, 2);
 }
 
+TEST(Record, ATrialThatWasCutShortIsNotTheBest) {
+  std::vector<TrialRecord> trials{{.trial = 1, .total_reward = -1, .cut_short = true},
+                                  {.trial = 2, .total_reward = -9},
+                                  {.trial = 3, .total_reward = -8},
+                                  {.trial = 4, .total_reward = -2, .cut_short = true}};
+  EXPECT_EQ(best_trial(trials).trial, 3);
+  trials = {trials[3], trials[0]};
+  EXPECT_EQ(best_trial(trials).trial, 4) << "all were: the first";
+}
+
 }  // namespace
 }  // namespace rehearse::experiment

@@ -33,6 +33,16 @@ TEST(PredictionCsv, HasTheMomentsBesideTheSamples) {
             "0.2,1,3,3,3,3,3,3,,,,2,0,,\n");
 }
 
+TEST(TrialsCsv, SaysWhichTrialsWereCutShortWhereOneWas) {
+  std::vector<TrialRecord> trials{{.trial = 1, .interaction_s = 1, .total_reward = -3, .solved = false},
+                                  {.trial = 2, .interaction_s = 1.5, .total_reward = -1}};
+  EXPECT_EQ(trials_csv(trials, {}, false).find("cut_short"), std::string::npos);
+  trials[1].cut_short = true;
+  EXPECT_EQ(trials_csv(trials, {"m"}, false),
+            "trial,interaction_s,return,solved,predicted_return,rollouts,failed_rollouts,log_evidence,phi.m,phi.m.low,"
+            "phi.m.high,cut_short\n1,1,-3,0,,0,0,,,,,0\n2,1.5,-1,,,0,0,,,,,1\n");
+}
+
 TEST(LimitsCsv, HasARowATrialAndLimit) {
   TrialRecord random{.trial = 1}, second{.trial = 2};
   random.limits = {{.limit = "track", .allowed = 0.05, .broken = true}};

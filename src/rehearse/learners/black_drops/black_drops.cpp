@@ -57,13 +57,13 @@ class BlackDrops final : public TrialLearner {
     const bool explored = tried.policy != setting_.policy && !history_.policies.empty();
     history_.policies.push_back(explored ? Vector() : tried.theta);
     model_.add(episode);
-    history_.returns.push_back(episode.total_reward());
+    history_.earn(episode, setting_.task.horizon);
   }
 
   void restore(const std::vector<Episode>& episodes, const json& state) override {
     model_.restore(episodes, state);
     history_.returns.clear();
-    for (const Episode& episode : episodes) history_.returns.push_back(episode.total_reward());
+    for (const Episode& episode : episodes) history_.earn(episode, setting_.task.horizon);
     history_.policies = to_vectors(state.at("policies"));
     if (history_.policies.size() != episodes.size())
       throw InvalidInput("the learner's state does not fit the episodes");

@@ -1,12 +1,20 @@
 #include "rehearse/learners/black_drops/known_policies.hpp"
 
+#include <limits>
+
 namespace rehearse::learners::black_drops {
+
+constexpr double kIncomparable = -std::numeric_limits<double>::infinity();
+
+void History::earn(const Episode& episode, Index horizon) {
+  returns.push_back(episode.is_cut_short(horizon) ? kIncomparable : episode.total_reward());
+}
 
 std::optional<std::size_t> History::best() const {
   std::optional<std::size_t> best;
   for (std::size_t i = random_first; i < returns.size(); ++i) {
     const bool random = i < policies.size() && policies[i].size() == 0;
-    if (!random && (!best || returns[i] > returns[*best])) best = i;
+    if (!random && returns[i] > (best ? returns[*best] : kIncomparable)) best = i;
   }
   return best;
 }

@@ -10,8 +10,10 @@ namespace rehearse::learners::black_drops {
 /// The policies tried so far and what they earned.
 struct History {
   std::vector<Vector> policies;  // one a trial; empty: random actions
-  std::vector<double> returns;
-  bool random_first = false;  // trial 1 was random actions, not a policy
+  std::vector<double> returns;   // −∞ of an episode that was cut short, which is never the best
+  bool random_first = false;     // trial 1 was random actions, not a policy
+
+  void earn(const Episode& episode, Index horizon);
 
   /// The trial, counted from 0, whose policy earned most; empty before there is one.
   std::optional<std::size_t> best() const;

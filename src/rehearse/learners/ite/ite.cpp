@@ -25,7 +25,8 @@ double floor_of(const Task& task) { return static_cast<double>(task.horizon) * t
 
 struct Trial {
   double total_reward = 0;
-  bool fell = false;
+  bool fell = false, cut_short = false;
+  bool learned = false;  // the expectations use it
 };
 
 class Ite final : public TrialLearner {
@@ -49,7 +50,7 @@ class Ite final : public TrialLearner {
  private:
   void learn(const Proposal&, const Episode& episode) override {
     tried_.push_back(elite_);
-    trials_.push_back({episode.total_reward(), episode.ended});
+    add(episode);
     adapt(trials_.size() - 1);
   }
 
@@ -58,8 +59,12 @@ class Ite final : public TrialLearner {
     learned_in_ = state.value("archive", kUnknown);
     if (tried_.size() != episodes.size()) throw InvalidInput("the learner's state does not fit the episodes");
     trials_.clear();
-    for (const Episode& episode : episodes) trials_.push_back({episode.total_reward(), episode.ended});
+    for (const Episode& episode : episodes) add(episode);
     adaptation_.reset();
+  }
+
+  void add(const Episode& episode) {
+    trials_.push_back({episode.total_reward(), episode.ended, episode.is_cut_short(setting_.task.horizon)});
   }
 
   Proposal propose() override {
@@ -75,7 +80,7 @@ class Ite final : public TrialLearner {
       proposal.rollouts = static_cast<Index>(search_->evaluations);
       proposal.failed_rollouts = static_cast<Index>(search_->failed);
     }
-    if (static_cast<std::size_t>(adaptation_->trials()) == trials_.size() && !adaptation_->stopped().empty())
+    if (!adaptation_->stopped().empty() && trials_.back().learned)
       proposal.notes.push_back("the best policy is tried again from now on: " + adaptation_->stopped());
     return proposal;
   }
@@ -136,7 +141,7 @@ class Ite final : public TrialLearner {
     for (Index trial = 0; trial < trials; ++trial) {
       const Index elite = tried_[static_cast<std::size_t>(trial)];
       table.rows.row(trial) << static_cast<double>(trial + 1), static_cast<double>(elite + 1),
-          search_->archive.performance(elite), trial < adaptation_->trials() ? 1 : 0;
+          search_->archive.performance(elite), trials_[static_cast<std::size_t>(trial)].learned ? 1 : 0;
     }
     return table;
   }
@@ -146,15 +151,19 @@ class Ite final : public TrialLearner {
 
   /// The elite of the trial that earned most, of those that something was learned from. A fall earns what it earns.
   Index best_tried() const {
-    const auto learned = trials_.begin() + adaptation_->trials();
-    const auto less = [](const Trial& a, const Trial& b) { return a.total_reward < b.total_reward; };
-    return tried_[static_cast<std::size_t>(std::max_element(trials_.begin(), learned, less) - trials_.begin())];
+    const auto less = [](const Trial& a, const Trial& b) {
+      return a.learned && b.learned ? a.total_reward < b.total_reward : b.learned && !a.learned;
+    };
+    return tried_[static_cast<std::size_t>(std::ranges::max_element(trials_, less) - trials_.begin())];
   }
 
   void adapt(std::size_t trial) {
     if (tried_[trial] < 0 || tried_[trial] >= search_->archive.size())
       throw InvalidInput(fmt::format("trial {}: the archive has no elite {}", trial + 1, tried_[trial]));
+    if (trials_[trial].cut_short) return;  // its elite stays to be tried
+    const Index before = adaptation_->trials();
     adaptation_->observe(tried_[trial], performance(trials_[trial]) / unit_);
+    trials_[trial].learned = adaptation_->trials() > before;
   }
 
   Setting setting_;

@@ -64,6 +64,11 @@ void Trials::learn(const Proposal& tried, const Episode& episode) {
 
 void Trials::add(const Episode& episode) {
   data_.append(episode);
+  if (episode.is_cut_short(setting_.task.horizon)) {  // it says nothing of what the policy earns
+    repeated_ = solved_ = false;
+    earned_.reset();
+    return;
+  }
   const double earned = episode.total_reward();
   repeated_ = earned_ && std::abs(earned - *earned_) <= kSameReturn * std::abs(*earned_);
   earned_ = earned;

@@ -47,6 +47,16 @@ TEST(KnownPolicies, ARandomFirstTrialIsNeverTheBest) {
   EXPECT_EQ(history.best(), std::nullopt);
 }
 
+TEST(KnownPolicies, AnEpisodeThatWasCutShortIsNeverTheBest) {
+  Episode whole{.states = Matrix::Zero(4, 1), .actions = Matrix::Zero(3, 1), .rewards = Vector::Constant(3, -2)};
+  History history;
+  history.earn(whole.part(0, 1), 3);
+  EXPECT_EQ(history.best(), std::nullopt);
+  history.earn(whole, 3);
+  EXPECT_EQ(history.returns[1], -6);
+  EXPECT_EQ(history.best(), 1u);
+}
+
 // The first descent begins at the example, or at a random point, and is cut off before it gets anywhere else.
 TEST(KnownPolicies, StartsFromThePolicysExamplesUnlessToldNotTo) {
   const auto first = [](const char* from_examples) {

@@ -182,6 +182,21 @@ TEST(Ite, AFallScoresNothingAndIsNotRepeated) {
   EXPECT_EQ(learner->ask().theta, second) << "it earned less than the 0 that the fall scores, and more than the fall";
 }
 
+TEST(Ite, AnEpisodeThatWasCutShortTeachesNothing) {
+  const Shifted negative{.offset = -10, .floor = -20};
+  const auto learner = builder({{"adaptation.max_trials", "2"}})->build(negative.setting());
+  std::vector<Vector> thetas;
+  for (const Index missing : {0, 9, 0, 9}) {
+    thetas.push_back(learner->ask().theta);
+    const Episode episode = negative.trial(learner->ask());
+    learner->tell(episode.part(0, episode.steps() - missing));
+  }
+  EXPECT_EQ(thetas[1], thetas[2]) << "it is tried again";
+  EXPECT_EQ(table(learner->tables(), "tried").rows.col(3), (Vector{{1, 0, 1, 0}}));
+  const Vector best = learner->ask().theta;
+  EXPECT_TRUE(best == thetas[0] || best == thetas[2]);
+}
+
 TEST(Ite, RefusesToGoOnInAnotherArchive) {
   const std::string file = ::testing::TempDir() + "rehearse-other-archive.bin";
   const auto write = [&](std::uint64_t seed) {

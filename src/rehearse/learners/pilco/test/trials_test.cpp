@@ -54,6 +54,19 @@ TEST(Trials, WhatEarnedTheSameTwicePromisesNoMore) {
   EXPECT_LT(promise(-5), uncorrected - 5);
 }
 
+TEST(Trials, AnEpisodeThatWasCutShortSolvesNothing) {
+  const auto rollouts = [](Index steps) {
+    Setting with = setting();
+    with.task.solved = [](const Episode&) { return true; };
+    const auto learner = builder({{"search.line_searches", "10"}, {"search.restarts", "2"}})->build(with);
+    Episode episode = run_trial(learner->ask(), 1);
+    learner->tell(episode.part(0, std::min(steps, episode.steps())));
+    return learner->ask().rollouts;
+  };
+  const Index whole = setting().task.horizon;
+  EXPECT_GT(rollouts(whole - 1), rollouts(whole));
+}
+
 TEST(Trials, TheFirstTrialIsRandomActions) {
   const auto first = [](std::uint64_t seed, const char* hold_s) {
     const Proposal proposal = builder({{"first_trial.hold_s", hold_s}})->build(setting(seed))->ask();
