@@ -94,6 +94,7 @@ void print_logs(const std::vector<experiment::Log>& logs, const Task& task) {
 void print_told(const experiment::TellResult& told, const std::string& folder) {
   if (told.known_before) put("told before, nothing is changed:\n");
   print_logs(told.logs, told.resolved.scenario.task);
+  if (told.dropped) put("the policy that was asked for is dropped: it was made without these logs\n");
   if (told.trial && told.known_before) put("trial {}: return {:.4g}\n", told.trial->trial, told.trial->total_reward);
   if (told.trial)
     for (const std::string& note : told.trial->notes) put("  {}\n", note);

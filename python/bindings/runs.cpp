@@ -122,7 +122,8 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
   if (told->trial) notes = told->trial->notes;
   return py::dict(py::arg("trial") = told->trial ? std::optional(told->trial->trial) : std::nullopt,
                   py::arg("total_reward") = told->trial ? std::optional(told->trial->total_reward) : std::nullopt,
-                  py::arg("logs") = logs, py::arg("known_before") = told->known_before, py::arg("notes") = notes);
+                  py::arg("logs") = logs, py::arg("known_before") = told->known_before,
+                  py::arg("dropped") = told->dropped, py::arg("notes") = notes);
 }
 
 py::dict take_back(const Robot& robot, const std::string& folder, const Settings& settings) {

@@ -66,6 +66,10 @@ refused "is not a folder" ask nowhere
 refused "is not a folder" status nowhere
 refused "goes on by .ask. and .tell." resume gp-mi-told
 "$program" tell gp-mi-told $episode | grep -q "told before, nothing is changed" || fail "a file counts twice"
+for copy in gp-mi-told/trajectories/trial-003.csv windows.csv; do
+  sed 's/$/\r/' $episode >windows.csv
+  "$program" tell gp-mi-told $copy | grep -q "told before, nothing is changed" || fail "$copy counts as another episode"
+done
 cp gp-mi-told/checkpoint untold
 "$program" tell gp-mi-told short.csv --stopped "a cable came off" --no-fault >stdout 2>stderr || fail "$(cat stderr)"
 grep -q "a cable came off" gp-mi-told/notes.csv || fail "the reason is lost"
@@ -76,7 +80,7 @@ refused "goes with nothing else" tell gp-mi-told --undo --no-fault
 refused "FILE.csv is required" tell gp-mi-told
 cp -r gp-mi-told kept
 "$program" ask gp-mi-told >/dev/null || fail "ask"
-sed 's/^0.1,/0.10,/' $episode >wrong.csv
+awk -F, -v OFS=, 'NR == 42 { $3 += 0.001 } 1' $episode >wrong.csv
 "$program" tell gp-mi-told wrong.csv >stdout 2>stderr || fail "tell: $(cat stderr)"
 "$program" tell gp-mi-told --undo >stdout 2>stderr || fail "undo: $(cat stderr)"
 grep -q "trial $((trials + 2)) is taken back" stdout || fail "undo says $(cat stdout)"
@@ -107,6 +111,21 @@ grep -q "log trial-001.csv: " stdout || fail "tell says $(cat stdout)"
 "$program" ask logs >stdout || fail "ask after logs"
 grep -q '"policy": "schedule"' logs/next/policy.json && fail "the first policy is still random"
 grep -q "predicted return" stdout || fail "nothing is predicted after logs"
+
+# Several files are logs after `ask`, too, and all is as if it had not been asked.
+"$program" learn pendulum --learner black-drops "${short[@]}" --trials 0 --out late >/dev/null || fail "late"
+"$program" ask late >/dev/null || fail "ask before logs"
+killed 0.05 tell late black-drops-driven/trajectories/trial-001.csv black-drops-driven/trajectories/trial-002.csv
+grep -q "log trial-002.csv: " stdout || fail "several files after ask are no logs: $(cat stdout)"
+[ ! -e late/next ] || fail "the policy that was dropped is still there"
+"$program" tell late --undo | grep -q "the logs are taken back" || fail "logs after ask cannot be taken back"
+"$program" ask late >/dev/null || fail "ask again"
+"$program" tell late black-drops-driven/trajectories/trial-001.csv black-drops-driven/trajectories/trial-002.csv \
+  >stdout 2>stderr || fail "tell logs after ask: $(cat stderr)"
+grep -q "the policy that was asked for is dropped" stdout || fail "tell says $(cat stdout)"
+[ ! -e late/predictions/trial-001.csv ] || fail "the prediction of the policy that was dropped is still there"
+"$program" ask late >/dev/null || fail "ask after late logs"
+same logs late logs.csv logs/log-001.csv trials.csv next/policy.json predictions/trial-001.csv
 sed $'1s/$/,\xc2\x9b2J/; 2,$s/$/,0/' black-drops-driven/trajectories/trial-002.csv >controls.csv
 "$program" learn pendulum --learner black-drops "${short[@]}" --trials 0 --out controls >/dev/null || fail "controls"
 for command in "tell controls controls.csv" "status controls"; do

@@ -61,40 +61,83 @@ struct KnownAs {
   bool known() const { return trial > 0 || log > 0; }
 };
 
-KnownAs known_as(const History& history, const std::string& checksum) {
-  const auto place = [&](const auto& all) -> Index {
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.file_checksum == checksum; });
+/// By the bytes, or by the numbers: other ends of lines, or the copy in the run's folder, make no other episode.
+KnownAs known_as(const History& history, const ToldFile& file, const Task& task) {
+  const auto place = [](const auto& all, const auto& is) -> Index {
+    const auto found = std::ranges::find_if(all, is);
     return found == all.end() ? 0 : found - all.begin() + 1;
   };
-  return {place(history.trials), place(history.logs)};
+  const auto same_bytes = [&](const auto& one) { return one.file_checksum == file.checksum; };
+  const KnownAs by_bytes{place(history.trials, same_bytes), place(history.logs, same_bytes)};
+  if (by_bytes.known()) return by_bytes;
+  const std::optional<Episode> read = readable(file, task);
+  if (!read) return {};
+  return {place(history.episodes, [&](const Episode& kept) { return repeats(*read, kept, task.horizon); }),
+          place(history.logs, [&](const Log& log) { return repeats(*read, log.episode, read->steps()); })};
 }
 
 /// True if the file follows the policy that was asked for: a robot without noise may do exactly the same again.
 bool is_of_policy_asked_for(const ToldFile& file, const scenario::Scenario& scenario, const History& history) {
-  return history.asked && follows_policy(file, scenario, *history.asked);
+  const std::optional<Episode> read = history.asked ? readable(file, scenario.task) : std::nullopt;
+  return read && follows_policy(*read, scenario, *history.asked);
+}
+
+/// True if files are logs of other controllers: several are it also where the first trial was asked for already.
+bool are_logs(const History& history, const TellRequest& request) {
+  return history.done() == 0 && (!history.asked || request.files.size() > 1);
 }
 
 void check(const History& history, const std::vector<ToldFile>& files, const TellRequest& request) {
-  if (history.asked && files.size() != 1)
-    throw InvalidInput(
-        fmt::format("trial {} is to come, one file tells it, but {} are named", history.asked->trial, files.size()));
-  if (!history.asked && history.done() > 0)
+  if (are_logs(history, request) && request.stopped)
+    throw InvalidInput(fmt::format("--stopped is for the episode of a trial, but {}",
+                                   history.asked ? "several files are logs" : "none was asked for"));
+  if (are_logs(history, request)) return;
+  if (!history.asked)
     throw InvalidInput(fmt::format(
         "{} tells of no trial: trial {} was not asked for. Logs of other controllers are taken before the first trial",
         files.front().path.string(), history.done() + 1));
-  if (!history.asked && request.stopped)
-    throw InvalidInput("--stopped is for the episode of a trial, but none was asked for");
+  if (files.size() != 1)
+    throw InvalidInput(
+        fmt::format("trial {} is to come, one file tells it, but {} are named", history.asked->trial, files.size()));
 }
 
 TellResult already_told(const Resolved& resolved, const History& history, const std::vector<ToldFile>& files) {
   TellResult told{.resolved = resolved, .trial = {}, .logs = {}, .known_before = true};
   for (const ToldFile& file : files) {
-    const KnownAs as = known_as(history, file.checksum);
+    const KnownAs as = known_as(history, file, resolved.scenario.task);
     if (as.trial > 0) told.trial = history.trials[static_cast<std::size_t>(as.trial) - 1];
     if (as.log > 0) told.logs.push_back(history.logs[static_cast<std::size_t>(as.log) - 1]);
   }
   return told;
+}
+
+/// Logs take the place of a policy that was asked for without them.
+TellResult tell_logs(Reopened& reopened, const std::vector<ToldFile>& files) {
+  const Resolved& resolved = reopened.resolved();
+  std::vector<Log> logs = logs_of(files, resolved.scenario.task);
+  const std::optional<TrialRecord> asked = reopened.run().history().asked;
+  if (asked) reopened.run().change_asked({});  // the next `ask` makes it again, if this comes no further
+  keep_tell(reopened.folder(), files);
+  try {
+    reopened.go_on(false, [&](OpenRun& run) { run.add_logs(logs); });
+  } catch (const InvalidInput&) {
+    if (asked) reopened.run().change_asked(asked);
+    forget_tell(reopened.folder());
+    throw;
+  }
+  return {.resolved = resolved, .trial = {}, .logs = std::move(logs), .dropped = asked.has_value()};
+}
+
+TellResult tell_trial(Reopened& reopened, const std::vector<ToldFile>& files, const std::optional<Stop>& stopped) {
+  const Resolved& resolved = reopened.resolved();
+  const History& history = reopened.run().history();
+  const ToldEpisode episode = episode_of(files.front(), resolved.scenario, *history.asked, stopped);
+  keep_tell(reopened.folder(), files);
+  reopened.run().record(episode.episode, files.front().checksum, episode.notes);
+  update_next_files(reopened.folder(), resolved, history);  // before anything can fail: nobody runs an old policy again
+  reopened.go_on(false, [](OpenRun&) {});
+  reopened.extend_to_done();
+  return {.resolved = resolved, .trial = history.trials.back(), .logs = {}};
 }
 
 }  // namespace
@@ -116,7 +159,8 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Tell
   violations.throw_if_any();
   std::vector<ToldFile> news;
   for (const ToldFile& file : files)
-    if (!known_as(history, file.checksum).known() || is_of_policy_asked_for(file, resolved.scenario, history))
+    if (!known_as(history, file, resolved.scenario.task).known() ||
+        (!are_logs(history, request) && is_of_policy_asked_for(file, resolved.scenario, history)))
       news.push_back(file);
   if (news.empty()) {
     reopened.go_on(false, [](OpenRun&) {});  // the tables, where a kill came before them
@@ -124,27 +168,7 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Tell
     return already_told(resolved, history, files);
   }
   check(history, news, request);
-  TellResult told{.resolved = resolved, .trial = {}, .logs = {}};
-  if (!history.asked) {
-    std::vector<Log> logs = logs_of(news, resolved.scenario.task);
-    keep_tell(reopened.folder(), news);
-    try {
-      reopened.go_on(false, [&](OpenRun& run) { run.add_logs(logs); });
-    } catch (const InvalidInput&) {
-      forget_tell(reopened.folder());
-      throw;
-    }
-    told.logs = std::move(logs);
-    return told;
-  }
-  const ToldEpisode episode = episode_of(news.front(), resolved.scenario, *history.asked, request.stopped);
-  keep_tell(reopened.folder(), news);
-  reopened.run().record(episode.episode, news.front().checksum, episode.notes);
-  update_next_files(reopened.folder(), resolved, history);  // before anything can fail: nobody runs an old policy again
-  reopened.go_on(false, [](OpenRun&) {});
-  reopened.extend_to_done();
-  told.trial = history.trials.back();
-  return told;
+  return are_logs(history, request) ? tell_logs(reopened, news) : tell_trial(reopened, news, request.stopped);
 }
 
 TakeBackResult take_back(const Catalogue& catalogue, const fs::path& path, const RunOptions& options) {

@@ -25,7 +25,7 @@ struct AskResult {
 AskResult ask_run(const Catalogue& catalogue, const std::filesystem::path& path, const RunOptions& options);
 
 /// Files of what a robot did (recording/recording.hpp): the episode of the trial that was asked for, or, before
-/// the first one, logs of other controllers.
+/// the first one, logs of other controllers. Several files before the first trial is told are logs, also after `ask`.
 struct TellRequest {
   std::vector<std::filesystem::path> files;
   std::optional<Stop> stopped;  // the trial's episode
@@ -36,11 +36,12 @@ struct TellResult {
   std::optional<TrialRecord> trial;  // the one that the file tells; empty: they are logs
   std::vector<Log> logs;             // these
   bool known_before = false;         // the files were told already, and nothing was changed
+  bool dropped = false;              // the policy that was asked for: it was made without these logs
 };
 
-/// Exactly once: files that were told before change nothing, unless the policy that was asked for says just what they
-/// have (a simulator may repeat itself to the byte). Throws InvalidInput, with nothing changed, where a file
-/// is not what is to come, else RunFailed and Interrupted, which leave the episode told.
+/// Exactly once: files that were told before, or have the same numbers, change nothing, unless the policy that was
+/// asked for says just what they have (a simulator may repeat itself exactly). Throws InvalidInput, with nothing
+/// changed, where a file is not what is to come, else RunFailed and Interrupted, which leave the episode told.
 TellResult tell_run(const Catalogue& catalogue, const std::filesystem::path& path, const TellRequest& request,
                     const RunOptions& options);
 

@@ -112,10 +112,16 @@ std::vector<Episode> OpenRun::as_told(const std::vector<Log>& logs) const {
   return told;
 }
 
+void OpenRun::change_asked(std::optional<TrialRecord> asked) {
+  history_.asked = std::move(asked);
+  folder_.write_checkpoint(history_);
+}
+
 void OpenRun::add_logs(std::vector<Log> logs) {
   parts_.learner().study(as_told(logs));  // which may refuse them
   for (Log& log : logs) history_.logs.push_back(std::move(log));
   folder_.write_checkpoint(history_);
+  folder_.remove_after(history_);  // what a policy predicted that was asked for before
   publish();
 }
 

@@ -22,6 +22,9 @@ class OpenRun {
 
   const History& history() const { return history_; }
 
+  /// Replaces what was asked for, on the disk, too. Empty: the next `propose` makes the same again, unless logs come.
+  void change_asked(std::optional<TrialRecord> asked);
+
   /// Logs for the learner, before the first trial. None may have been asked for. Throws InvalidInput, with nothing
   /// kept, where it cannot learn from logs.
   void add_logs(std::vector<Log> logs);

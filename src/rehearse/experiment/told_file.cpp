@@ -99,17 +99,26 @@ std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task) {
   return logs;
 }
 
-bool follows_policy(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked) {
+std::optional<Episode> readable(const ToldFile& file, const Task& task) {
   try {
-    const Task& task = scenario.task;
-    const auto read = recording::read_recording(file.bytes, file.path.string(), task, {.max_steps = task.horizon});
-    const Vector differences = deviations(read.episode, scenario, asked);
-    for (Index i = 0; i < differences.size(); ++i)
-      if (!is_within(kRounding, differences(i), task.actions[static_cast<std::size_t>(i)])) return false;
-    return true;
+    return recording::read_recording(file.bytes, file.path.string(), task).episode;
   } catch (const InvalidInput&) {
-    return false;
+    return std::nullopt;
   }
+}
+
+bool repeats(const Episode& read, const Episode& kept, Index most_steps) {
+  const Index steps = kept.steps(), left = std::min(read.steps(), most_steps) - steps;
+  if (steps == 0 || left < 0 || (left > 0 && !kept.ended)) return false;
+  return kept.states == read.states.topRows(steps + 1) && kept.actions == read.actions.topRows(steps);
+}
+
+bool follows_policy(const Episode& read, const scenario::Scenario& scenario, const TrialRecord& asked) {
+  const Task& task = scenario.task;
+  const Vector differences = deviations(read.part(0, std::min(read.steps(), task.horizon)), scenario, asked);
+  for (Index i = 0; i < differences.size(); ++i)
+    if (!is_within(kRounding, differences(i), task.actions[static_cast<std::size_t>(i)])) return false;
+  return true;
 }
 
 ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked,

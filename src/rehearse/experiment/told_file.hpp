@@ -32,9 +32,15 @@ std::vector<ToldFile> read_told_files(const std::vector<std::filesystem::path>& 
 /// Whole files, whatever their length. Rewards are those of the measured states.
 std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task);
 
-/// True if the file's actions are those of a trial's policy in the file's states, but for rounding. False if the file
-/// cannot be read.
-bool follows_policy(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked);
+/// A whole file; empty if it cannot be read.
+std::optional<Episode> readable(const ToldFile& file, const Task& task);
+
+/// True if a file that was read so has just the numbers of an episode that is kept, of which so many steps at most were
+/// taken, and none after its end.
+bool repeats(const Episode& read, const Episode& kept, Index most_steps);
+
+/// True if the actions that were read are those of a trial's policy in the states, but for rounding.
+bool follows_policy(const Episode& read, const scenario::Scenario& scenario, const TrialRecord& asked);
 
 struct ToldEpisode {
   Episode episode;

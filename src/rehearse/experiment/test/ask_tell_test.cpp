@@ -101,6 +101,25 @@ TEST_F(AskTell, AFileCountsOnce) {
   EXPECT_TRUE(tell(told, {trial_of(driven, 1)}).known_before) << "though trial 2 is to come";
 }
 
+TEST_F(AskTell, TheSameNumbersCountOnceWhateverTheBytes) {
+  const auto with_windows_ends = [&](Index trial) {
+    std::string text;
+    for (const std::string& line : lines_of(trial_of(driven, trial))) text += line + "\r\n";
+    return written("windows.csv", text);
+  };
+  ask(told);
+  EXPECT_EQ(tell(told, {with_windows_ends(1)}).trial->trial, 1);
+  ask(told);
+  for (const fs::path& file : {trial_of(driven, 1), trial_of(told, 1)}) {
+    const TellResult again = tell(told, {file});
+    EXPECT_TRUE(again.known_before);
+    EXPECT_EQ(again.trial->trial, 1);
+  }
+  EXPECT_FALSE(tell(told, {beginning(trial_of(driven, 1), 6)}, Stop{"a noise"}).known_before) << "it is shorter";
+  ask(told);
+  EXPECT_EQ(tell(told, {with_windows_ends(3)}).trial->trial, 3);
+}
+
 TEST_F(AskTell, AFileThatIsToldAgainCompletesWhatAKillLeftUndone) {
   ask(told);
   const std::string before = files::read_file(told / "next/policy.json");
@@ -122,7 +141,8 @@ TEST_F(AskTell, WhatIsNotToComeIsRefusedAndChangesNothing) {
     EXPECT_EQ(checkpoint(), asked) << message;
     return message;
   };
-  EXPECT_NE(refused({trial_of(driven, 1), trial_of(driven, 2)}).find("one file tells it, but 2 are named"),
+  EXPECT_NE(refused({trial_of(driven, 1), trial_of(driven, 2)}).find("cannot learn from logs"), std::string::npos);
+  EXPECT_NE(refused({trial_of(driven, 1), trial_of(driven, 2)}, Stop{"a noise"}).find("several files are logs"),
             std::string::npos);
   EXPECT_NE(refused({folder / "none.csv"}).find("none.csv"), std::string::npos);
   EXPECT_NE(refused({beginning(trial_of(driven, 1), 6)}).find("5 of 12 steps"), std::string::npos);
@@ -136,6 +156,11 @@ TEST_F(AskTell, WhatIsNotToComeIsRefusedAndChangesNothing) {
   EXPECT_NE(refused({written("bad.csv", "time [s],x [m]\n0,1\n")}).find("bad.csv"), std::string::npos);
   tell(told, {trial_of(driven, 1)});
   EXPECT_NE(message_of<InvalidInput>([&] { tell(told, {trial_of(driven, 2)}); }).find("trial 2 was not asked for"),
+            std::string::npos);
+  ask(told);
+  EXPECT_NE(message_of<InvalidInput>([&] {
+              tell(told, {trial_of(driven, 2), trial_of(driven, 3)});
+            }).find("one file tells it, but 2 are named"),
             std::string::npos);
 }
 
@@ -183,7 +208,7 @@ TEST_F(AskTell, AnEndThatATellMovedIsMovedBack) {
   const auto end = [&] { return std::pair(files::read_file(driven / "spec.toml"), fs::exists(driven / "done")); };
   ask(driven);
   const auto before = end();
-  tell(driven, {trial_of(driven, 2)}).trial.value();
+  tell(driven, {beginning(trial_of(driven, 2), 6)}, Stop{"a noise"}).trial.value();
   EXPECT_NE(end(), before);
   take_back(driven);
   EXPECT_EQ(end(), before);
@@ -210,6 +235,10 @@ TEST_F(AskTell, AnOperatorMayStopAnEpisode) {
   ask(told);
   const TellResult stopped = tell(told, {beginning(trial_of(driven, 2), 6)}, Stop{"the battery", false});
   EXPECT_TRUE(has_note(stopped, "stopped by the operator after 5 of 12 steps, by no fault of the policy: the battery"));
+  EXPECT_TRUE(stopped.trial->cut_short);
+  EXPECT_EQ(stopped.trial->solved, std::nullopt);
+  EXPECT_FALSE(failed.trial->cut_short);
+  EXPECT_EQ(best_trial(status_of(fake::catalogue(), told).history.trials).trial, 1);
 }
 
 TEST_F(AskTell, AnotherPolicyThanTheOneAskedForIsNoted) {
