@@ -104,6 +104,18 @@ void for_each_channel(const Channels& channels, Visit visit) {
     for (const Channel& channel : *group) visit(channel);
 }
 
+double last_gap_s(const Channel& channel) {
+  const Samples& samples = channel.samples;
+  return samples.size() < 2 ? 0 : samples.back().time_s - samples[samples.size() - 2].time_s;
+}
+
+/// How long the last action holds: a step, or as long as rows are apart there, since the last row needs no action.
+double last_hold_s(const Channel& action, const Channels& channels, double dt_s, double max_gap_s) {
+  double apart_s = last_gap_s(action);
+  for (const Channel& state : channels.states) apart_s = std::max(apart_s, last_gap_s(state));
+  return std::max(dt_s, std::min(apart_s, max_gap_s));
+}
+
 }  // namespace
 
 Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& problems) {
@@ -111,7 +123,8 @@ Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& 
   for_each_channel(channels, [&](const Channel& c) { begin_s = std::max(begin_s, c.samples.front().time_s); });
   for (const Channel& state : channels.states) end_s = std::min(end_s, state.samples.back().time_s);
   for (const Channel& truth : channels.truths) end_s = std::min(end_s, truth.samples.back().time_s);
-  for (const Channel& action : channels.actions) end_s = std::min(end_s, action.samples.back().time_s + dt_s);
+  for (const Channel& action : channels.actions)
+    end_s = std::min(end_s, action.samples.back().time_s + last_hold_s(action, channels, dt_s, max_gap_s));
   const double steps = std::floor((end_s - begin_s) / dt_s + kEnd);
   if (!(steps >= 1))
     problems.add(0, "length",

@@ -18,8 +18,9 @@ struct Grid {
   double time(Index k) const { return start_s + static_cast<double>(k) * dt_s; }
 };
 
-/// From where all channels have begun to where a state, or the last action held for a step, ends. A problem if that is
-/// less than a step, or if neighbouring samples are more than `max_gap_s` apart.
+/// From where all channels have begun to where a state ends, or the last action, which holds for a step or, where rows
+/// are further apart, until the next would come. A problem if that is less than a step, or if neighbouring samples are
+/// more than `max_gap_s` apart.
 Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& problems);
 
 /// The episode on the grid (recording.hpp says how). Returns how many steps are not rows of the file as they are.

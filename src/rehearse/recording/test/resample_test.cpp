@@ -40,6 +40,20 @@ TEST(Resample, BetweenRowsStatesAreInterpolatedAndActionsAreMeans) {
   EXPECT_EQ(episode.actions, (Matrix{{1}, {6}}));  // 4 for 0.25 s, 0 for 0.75 s; 0 for 0.25 s, 8 for 0.75 s
 }
 
+TEST(Resample, TheLastActionHoldsUntilTheLastRow) {
+  const auto steps = [](const std::vector<std::pair<double, double>>& x,
+                        const std::vector<std::pair<double, double>>& u) {
+    Problems problems("f");
+    const Channels channels{{with("x", x)}, {with("u", u)}, {}};
+    const Grid grid = grid_of(channels, 0.1, 0.3, problems);
+    EXPECT_TRUE(problems.empty());
+    return grid.steps;
+  };
+  EXPECT_EQ(steps({{0, 1}, {0.2, 1}, {0.4, 1}}, {{0, 1}, {0.2, 1}}), 4);
+  EXPECT_EQ(steps({{0, 1}, {0.19, 1}, {0.4, 1}}, {{0, 1}, {0.19, 1}}), 4) << "rows are not regular";
+  EXPECT_EQ(steps({{0, 1}, {0.1, 1}, {0.2, 1}, {0.3, 1}}, {{0, 1}, {0.1, 1}}), 2) << "the controller stopped before";
+}
+
 TEST(Resample, FastRecordingsAreAveraged) {
   Channel fast{"x", "", {}};
   for (int i = 0; i <= 40; ++i) fast.samples.push_back({0.05 * i, 3 * 0.05 * i + (i % 2 == 0 ? 0.1 : -0.1), i + 2});
