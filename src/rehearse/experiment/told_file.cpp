@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,6 +10,7 @@
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/files/checksum.hpp"
 #include "rehearse/rollout/execute.hpp"
+#include "rehearse/statistics/quantiles.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -48,6 +50,33 @@ std::vector<std::string> sentences_on(const Vector& deviations, const Task& task
           fmt::format("{} differs from what the policy says of the measured states by {:.3g} {} "
                       "(root mean square): another policy, a delay, or a weak motor",
                       action.name, deviations(i), action.unit));
+  }
+  return sentences;
+}
+
+/// A typical change of slope from step to step: of a state at rest some 1.6 standard deviations of its noise.
+double unsteadiness(const ConstVectorView& x) {
+  const Index n = x.size() - 2;
+  if (n < 1) return 0;
+  const Vector bends = (x.head(n) - 2 * x.segment(1, n) + x.tail(n)).cwiseAbs();
+  return statistics::median({bends.begin(), bends.end()});
+}
+
+/// A sentence for each state that begins far from the task's start: by a tenth of its range in the episode, and by more
+/// than the start varies, the state is noisy, and digits that are left out make.
+std::vector<std::string> sentences_on_start(const Episode& episode, const Task& task) {
+  std::vector<std::string> sentences;
+  for (Index i = 0; i < task.actuators().own_states(); ++i) {
+    const StateVariable& state = task.states[static_cast<std::size_t>(i)];
+    const Vector x = episode.states.col(i);
+    const double mean = task.start_mean(i), range = x.maxCoeff() - x.minCoeff();
+    const bool angle = state.kind == StateKind::angle;
+    const double away = angle ? std::remainder(x(0) - mean, 2 * std::numbers::pi) : x(0) - mean;
+    const double usual =
+        std::max({0.1 * range, 6 * task.start_std(i), 4 * unsteadiness(x), 0.01 * std::abs(mean), kRounding});
+    if (std::abs(away) > usual)
+      sentences.push_back(fmt::format("starts at {} = {:.3g} {}, the task at {:.3g} {}", state.name, x(0), state.unit,
+                                      mean, state.unit));
   }
   return sentences;
 }
@@ -142,6 +171,7 @@ ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario,
   else if (stopped)
     told.notes.push_back(fmt::format("stopped by the operator after {} of {} steps, by no fault of the policy: {}",
                                      episode.steps(), task.horizon, stopped->reason));
+  for (std::string& sentence : sentences_on_start(episode, task)) told.notes.push_back(std::move(sentence));
   for (std::string& sentence : sentences_on(deviations(episode, scenario, asked), task))
     told.notes.push_back(std::move(sentence));
   return told;

@@ -126,10 +126,12 @@ void compare_with_rate(const Channel& state, const Channel& rate, std::vector<st
     const double y = b.value - a.value;
     xx += x * x, xy += x * y, yy += y * y;
   }
-  const bool related = xy * xy > 0.5 * xx * yy;
-  if (!related || (xy > 0.5 * xx && xy < 2 * xx)) return;
-  notes.push_back(fmt::format("{} changes {:.3g} times as fast as {} says: is one in another unit, or of another sign?",
-                              state.name, xy / xx, rate.name));
+  const double explained = xy * xy / (xx * yy);                                    // NaN where one never changes
+  const Interval usual = explained > 0.9 ? Interval{0.7, 1.4} : Interval{0.5, 2};  // noisy rates look too fast
+  if (!(explained > 0.5) || (xy > usual.low * xx && xy < usual.high * xx)) return;
+  notes.push_back(fmt::format(
+      "{} changes {:.3g} times as fast as {} says: is one in another unit, of another scale, or of another sign?",
+      state.name, xy / xx, rate.name));
 }
 
 }  // namespace rehearse::recording

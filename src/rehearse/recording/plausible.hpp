@@ -22,7 +22,8 @@ void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::v
 /// as large as the rate ever allows. rate: null, or the channel of the rate.
 void check_jumps(const Channel& state, const Channel* rate, Problems& problems);
 
-/// A note if a state does not change as its rate says: a wrong unit, or a wrong sign.
+/// A note if a state does not change as its rate says: a wrong unit, scale or sign. A rate that explains the changes
+/// well may differ by less than a noisy one.
 void compare_with_rate(const Channel& state, const Channel& rate, std::vector<std::string>& notes);
 
 }  // namespace rehearse::recording

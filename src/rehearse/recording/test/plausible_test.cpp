@@ -76,13 +76,29 @@ TEST(Jumps, SamplesThatAreWrongAreFound) {
 
 TEST(Rates, OtherUnitsAndSignsAreNoted) {
   const Channel state = channel_of("q", 0.05, 60, [](double t) { return std::sin(5 * t); });
-  for (const auto& [factor, notes_expected] : {std::pair{1.0, 0U}, {180 / std::numbers::pi, 1U}, {-1.0, 1U}}) {
+  for (const auto& [factor, notes_expected] : {std::pair{1.0, 0U},
+                                               {0.8, 0U},
+                                               {1.3, 0U},
+                                               {2.0, 1U},
+                                               {0.5, 1U},
+                                               {1.5, 1U},
+                                               {180 / std::numbers::pi, 1U},
+                                               {-1.0, 1U}}) {
     const double f = factor;
     const Channel rate = channel_of("dq", 0.05, 60, [f](double t) { return f * 5 * std::cos(5 * t); });
     std::vector<std::string> notes;
     compare_with_rate(state, rate, notes);
     EXPECT_EQ(notes.size(), notes_expected) << factor;
   }
+}
+
+TEST(Rates, ThatAreNoisyAreNotContradicted) {
+  Rng rng({.seed = 5});
+  const Channel state = channel_of("q", 0.05, 400, [](double t) { return std::sin(5 * t); });
+  const Channel rate = channel_of("dq", 0.05, 400, [&](double t) { return 5 * std::cos(5 * t) + 4 * rng.normal(); });
+  std::vector<std::string> notes;
+  compare_with_rate(state, rate, notes);
+  EXPECT_TRUE(notes.empty()) << notes.front();
 }
 
 }  // namespace
