@@ -249,19 +249,6 @@ TEST_F(AskTell, AnotherPolicyThanTheOneAskedForIsNoted) {
       << other.trial->notes.back();
 }
 
-TEST_F(AskTell, AStartFarFromTheTasksIsNoted) {
-  const auto from = [&](double x) {
-    std::string text = "time [s],x [m],v [m/s]\n";
-    for (int t = 0; t <= 12; ++t) text += fmt::format("{},{},0\n", 0.1 * t, x + (t % 2 == 0 ? 0.01 : -0.01));
-    return written("from.csv", text);
-  };
-  ask(told);
-  EXPECT_TRUE(has_note(tell(told, {from(4)}), "starts at x = 4.01 m, the task at 1 m"));
-  ask(told);
-  for (const std::string& note : tell(told, {from(0.5)}).trial->notes)
-    EXPECT_EQ(note.find("starts at"), std::string::npos) << "starts vary so much";
-}
-
 TEST_F(AskTell, LearnersThatCannotUseLogsSaySoBeforeAnythingIsKept) {
   const std::string before = checkpoint();
   EXPECT_NE(message_of<InvalidInput>([&] { tell(told, {trial_of(driven, 1)}); }).find("cannot learn from logs"),
