@@ -244,6 +244,11 @@ def test_ask_and_tell_are_learn(tmp_path):
     still = {"time": [0, 0.1, 0.2], "position": [1, 1, 1], "velocity": [0, 0, 0], "force": [0, 0]}
     with pytest.warns(UserWarning, match="stopped by the operator: wall"):
         assert run.tell(still, stopped="wall")["trial"] == 3
+    run.ask()
+    with pytest.warns(UserWarning, match="by no fault of the policy: battery"):
+        run.tell({**still, "position": [1, 1, 0.99]}, stopped="battery", at_fault=False)
+    assert [trial.cut_short for trial in run.details] == [False, False, False, True]
+    assert run.details[3].solved is None and run.best.trial < 4
     with pytest.raises(rehearse.InvalidInput, match="no plant that episodes could run on"):
         run.evaluate(1)
 

@@ -18,6 +18,7 @@ History history_of_one() {
                             .interaction_s = 0.1 + 0.2,
                             .total_reward = -0.0,
                             .solved = false,
+                            .cut_short = true,
                             .limits = {{"track", 0.05, 0.1, {0.01, 0.2}, true}, {.limit = "speed", .allowed = 0.5}},
                             .rollouts = 5,
                             .log_evidence = -std::numeric_limits<double>::infinity(),
@@ -52,6 +53,7 @@ TEST(Checkpoint, KeepsEveryBit) {
   EXPECT_EQ(b.interaction_s, a.interaction_s);
   EXPECT_TRUE(std::signbit(b.total_reward));
   EXPECT_EQ(b.solved, a.solved);
+  EXPECT_TRUE(b.cut_short);
   EXPECT_FALSE(b.predicted_return.has_value());
   EXPECT_EQ(b.log_evidence, a.log_evidence);
   EXPECT_EQ(b.phi[0], a.phi[0]);
