@@ -171,7 +171,7 @@ void announce(const Work& work, const EvaluateArguments& arguments) {
 void advise(const Work& work, const Summary& summary) {
   const Settings& options = work.resolved.spec.options;
   const bool can =
-      std::ranges::find(options, std::pair<std::string, std::string>("search.extra_s", "0")) != options.end();
+      std::ranges::find(options, std::pair<std::string, std::string>("learner.search.extra_s", "0")) != options.end();
   if (!can || !summary.solved_at_end || summary.solved_at_end->count >= summary.solved->count) return;
   put("to learn a policy that holds longer: --set search.extra_s=SECONDS (docs/evaluate.md)\n");
 }

@@ -67,6 +67,36 @@ expect 2 "is no policy that" evaluate run --policy run/spec.toml
 expect 0 "best return" learn cartpole --learner gp-mi --trials 1 "${quick[@]}" --out other
 expect 2 "its states are others" evaluate other --policy policy.json
 
+# A robot that drifts past its goal, whatever its policy: where episodes are longer, an option that looks further is named.
+cat >drift.toml <<'TOML'
+format = 1
+name = "drift"
+dt_s = 0.1
+horizon = 10
+[[state]]
+name = "x"
+[[action]]
+name = "u"
+bounds = [-1, 1]
+[reward]
+distance = ["x"]
+width = 1
+[success]
+when = "x < 0.5"
+last_s = 0.5
+[dynamics.pushed]
+rate.x = "0.2 + u / 1000"
+[plant]
+dynamics = "pushed"
+[prior.known]
+dynamics = "pushed"
+TOML
+expect 0 "solved at trial 1" learn drift.toml --learner black-drops --trials 1 --out drift
+advice="--set search.extra_s=SECONDS"
+expect 0 "$advice" evaluate drift --seconds 5 --episodes 2
+expect 0 "solved at 1 s  2 of 2" evaluate drift --episodes 2
+grep -qF -- "$advice" said && fail "episodes of a trial's length are advised on: $(cat said)"
+
 # A robot of a file.
 "$program" new own >/dev/null
 expect 0 "best return" learn own.toml --learner gp-mi --trials 1 "${quick[@]}" --out own
