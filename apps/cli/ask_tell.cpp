@@ -11,6 +11,7 @@
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
+#include "apps/cli/limit_text.hpp"
 #include "apps/cli/on_console.hpp"
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
@@ -56,8 +57,7 @@ void print_risks(std::vector<experiment::LimitRecord> limits) {
       put("  limit {}: its risk is not known\n", limit.limit);
       continue;
     }
-    put("  limit {}: risk {:.2g} % (95 %: {:.2g} to {:.2g}), {:.2g} % is allowed: {}\n", limit.limit,
-        100 * *limit.predicted, 100 * limit.interval.low, 100 * limit.interval.high, 100 * limit.allowed,
+    put("  limit {}: risk {}, {:.3g} % is allowed: {}\n", limit.limit, risk_text(limit, "95 %: "), 100 * limit.allowed,
         limit.safe() ? "safe" : "not safe");
   }
 }
@@ -101,13 +101,16 @@ void print_told(const experiment::TellResult& told, const std::string& folder) {
   put("next: {}\n", command_line({"ask", folder}));
 }
 
+std::string after_comma(const std::string& text) { return text.empty() ? "" : ", " + text; }
+
 void print_trials(const std::vector<TrialRecord>& trials) {
   for (const TrialRecord& trial : trials)
-    put("trial {}: return {:.4g}{}{}\n", trial.trial, trial.total_reward,
+    put("trial {}: return {:.4g}{}{}{}\n", trial.trial, trial.total_reward,
         trial.predicted_return ? fmt::format(", {:.4g} was predicted", *trial.predicted_return) : "",
         !trial.solved   ? ""
         : *trial.solved ? ", solved"
-                        : ", not solved");
+                        : ", not solved",
+        after_comma(broken_text(trial.limits)));
 }
 
 /// True if Rehearse drives the plant and the run has reached its end.

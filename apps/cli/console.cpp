@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/cli/limit_text.hpp"
 #include "apps/cli/program.hpp"
 #include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/resolve.hpp"
@@ -23,11 +24,9 @@ std::string safety(const std::vector<experiment::LimitRecord>& limits) {
   const auto& nearest = *std::ranges::max_element(limits, {}, nearness);
   std::string text = "  risk not known";
   if (nearest.predicted)
-    text = fmt::format("  {}: {} {:.2g} % ({:.2g} to {:.2g})",
-                       std::ranges::all_of(limits, &experiment::LimitRecord::safe) ? "safe" : "not safe", nearest.limit,
-                       100 * *nearest.predicted, 100 * nearest.interval.low, 100 * nearest.interval.high);
-  for (const experiment::LimitRecord& l : limits)
-    if (l.broken) text += fmt::format("  broke {}", l.limit);
+    text = fmt::format("  {}: {} {}", std::ranges::all_of(limits, &experiment::LimitRecord::safe) ? "safe" : "not safe",
+                       nearest.limit, risk_text(nearest));
+  if (const std::string broken = broken_text(limits); !broken.empty()) text += "  " + broken;
   return text;
 }
 

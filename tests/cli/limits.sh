@@ -23,7 +23,14 @@ same alone extended "${files[@]}"
 "$program" learn cartpole --learner black-drops --set track=0.001 --trials 1 --threads 1 --out short >output 2>&1 || fail "$(cat output)"
 grep -q "risk not known  broke track" output || fail "no broken limit: $(cat output)"
 grep -q "^1,track,0.05,,,,1$" short/limits.csv || fail "limits.csv: $(cat short/limits.csv)"
+"$program" status short | grep -q "^trial 1: return .*, broke track$" || fail "status: $("$program" status short)"
 [ "$(wc -l <short/trajectories/trial-001.csv)" -lt 42 ] || fail "the episode was not stopped"
+
+# A limit that every policy breaks: its risk in plain digits.
+sed 's/abs(dtheta) < 3/abs(dtheta) < 1e-6/' fast.toml >still.toml
+"$program" learn still.toml --learner gp-mi --trials 0 "${few[@]}" --out still >/dev/null || fail "still"
+"$program" ask still >output || fail "ask: $(cat output)"
+grep -q "limit speed: risk 100 % (95 %: [0-9.]* to 100), 10 % is allowed: not safe" output || fail "ask says: $(cat output)"
 
 "$program" learn fast.toml --learner pilco --out left >output 2>&1
 [ $? = 2 ] && grep -q "the task has limits, which pilco does not keep: choose the learner black-drops" output ||
