@@ -69,10 +69,22 @@ void print_expected_file(const Task& task, const std::string& folder) {
       columns(std::span(task.states).first(own)), columns(task.actions));
 }
 
+/// Prints the files of a policy with the commands that test them. One that nobody can describe is JSON alone.
+void print_files(const std::filesystem::path& folder) {
+  const auto in = [&](const char* name) { return quoted((folder / name).string()); };
+  if (std::filesystem::exists(folder / "policy.h")) {
+    put("  C: policy.h, its test: cc -std=c99 -DREHEARSE_POLICY_MAIN -x c {} -o {} -lm && {}\n", in("policy.h"),
+        in("test"), in("test"));
+    put("  Python: policy.py, its test: python3 {}\n", in("policy.py"));
+  }
+  put("  numbers: policy.json\n");
+}
+
 void print_asked(const experiment::Resolved& resolved, const TrialRecord& trial, const std::string& folder,
                  const std::filesystem::path& files) {
   const Task& task = resolved.scenario.task;
   put("trial {}: run the policy of {} for {} steps of {} s\n", trial.trial, files.string(), task.horizon, task.dt_s);
+  print_files(files);
   if (trial.predicted_return) put("  predicted return {:.4g}\n", *trial.predicted_return);
   print_risks(trial.limits);
   print_parameters(trial, resolved);

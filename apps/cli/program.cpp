@@ -6,7 +6,6 @@
 #include <string_view>
 
 namespace rehearse::apps {
-namespace {
 
 std::string quoted(const std::string& word) {
   const auto plain = [](unsigned char c) {
@@ -18,8 +17,6 @@ std::string quoted(const std::string& word) {
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";
 }
-
-}  // namespace
 
 std::string program_name() { return ::program_invocation_short_name; }
 

@@ -102,6 +102,14 @@ cp -r gp-mi-told "it's told"
 "$program" status "it's told" >stdout || fail "status of a folder with a space"
 grep -qF "next: rehearse ask 'it'\\''s told'" stdout || fail "what is advised cannot be copied: $(cat stdout)"
 
+# The files of a policy that is asked for are named with commands that run.
+"$program" ask "it's told" >stdout || fail "ask in a folder with a space"
+grep -q "numbers: policy.json" stdout || fail "ask does not name the files: $(cat stdout)"
+of_c=$(sed -n 's/^  C: policy.h, its test: //p' stdout) of_python=$(sed -n 's/^  Python: policy.py, its test: //p' stdout)
+[ -n "$of_c" ] && [ -n "$of_python" ] || fail "ask does not say how policies are tested: $(cat stdout)"
+if command -v cc >/dev/null; then bash -c "$of_c" >said 2>&1 || fail "$of_c: $(cat said)"; fi
+if python3 -c 'import numpy' 2>/dev/null; then bash -c "$of_python" >said 2>&1 || fail "$of_python: $(cat said)"; fi
+
 # Logs first: the first policy of a learner without a prior is not random any more.
 "$program" learn pendulum --learner black-drops "${short[@]}" --trials 0 --out logs >/dev/null || fail "logs"
 "$program" tell logs black-drops-driven/trajectories/trial-001.csv black-drops-driven/trajectories/trial-002.csv \
