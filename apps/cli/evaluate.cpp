@@ -10,6 +10,7 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
 #include "apps/cli/output_file.hpp"
+#include "apps/cli/program.hpp"
 #include "apps/cli/signals.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/events.hpp"
@@ -24,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using experiment::PastRun, experiment::Rate, experiment::Summary, experiment::TrialRecord;
+using experiment::GivenPolicy, experiment::PastRun, experiment::Rate, experiment::Summary, experiment::TrialRecord;
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// The arguments as what they mean.
@@ -80,8 +81,13 @@ std::string settings_text(const Settings& settings) {
   return fmt::format("{}", fmt::join(parts, " "));
 }
 
-TrialRecord policy_wanted(const EvaluateArguments& arguments, const Wanted& wanted, const PastRun& run) {
-  if (!arguments.policy) return run.trial(wanted.trial);
+GivenPolicy policy_wanted(const EvaluateArguments& arguments, const Wanted& wanted, const PastRun& run) {
+  if (!arguments.policy) {
+    const TrialRecord& trial = run.trial(wanted.trial);
+    const bool done = trial.trial <= run.history.done();
+    return {{policy_of(trial, run.resolved.scenario), trial.theta, trial.trial},
+            done ? std::optional(trial.total_reward) : std::nullopt};
+  }
   return experiment::given_policy(files::read_file(*arguments.policy, files::Links::follow), *arguments.policy,
                                   run.resolved.scenario);
 }
@@ -129,42 +135,50 @@ struct Work {
   const experiment::Catalogue& catalogue;
   fs::path folder;
   Wanted wanted;
-  TrialRecord policy;
-  experiment::Learned learned;
+  GivenPolicy policy;
   experiment::Resolved resolved;
   std::shared_ptr<const Evaluator> evaluator;
 
   const Task& task() const { return resolved.scenario.task; }
   double episode_s() const { return seconds(wanted.plan.steps(task()), task().dt_s); }
   experiment::EvaluationAbout about() const {
-    return {policy.trial, settings_text(wanted.settings), wanted.plan.seed, episode_s()};
+    return {policy.learned.trial, settings_text(wanted.settings), wanted.plan.seed, episode_s()};
   }
 };
+
+/// A run keeps its robot, so a plant that the file gets later is of use in another run only.
+void require_plant(const PastRun& run) {
+  if (run.resolved.scenario.make_plant) return;
+  const std::string way =
+      command_line({"learn", "COPY.toml", "--learner", run.resolved.spec.learner, "--trials", "0", "--out", "OTHER"});
+  throw InvalidInput(fmt::format(
+      "{} has no plant that episodes could run on. A copy of its file with [plant], a simulator, has one: {}; "
+      "then: {}",
+      run.resolved.scenario.name, way, command_line({"evaluate", "OTHER", "--policy", "FILE.json"})));
+}
 
 Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments) {
   Wanted wanted = apps::wanted(arguments);
   const fs::path folder = arguments.folder;
   const PastRun run = experiment::read_run(catalogue, folder);
   check_output(wanted.table);  // not after hours of episodes
-  TrialRecord policy = policy_wanted(arguments, wanted, run);
-  experiment::Learned learned = {policy_of(policy, run.resolved.scenario), policy.theta, policy.trial};
+  require_plant(run);
+  GivenPolicy policy = policy_wanted(arguments, wanted, run);
   experiment::Resolved resolved = experiment::read_run(catalogue, folder, wanted.settings).resolved;
   wanted.plan.seed = static_cast<std::uint64_t>(wanted.seed.value_or(resolved.spec.seed));
   const std::shared_ptr<const Evaluator> threads = make_thread_evaluator(static_cast<int>(wanted.threads));
-  return {catalogue,
-          folder,
-          std::move(wanted),
-          std::move(policy),
-          std::move(learned),
-          std::move(resolved),
-          make_stoppable(threads, [] { return caught_signal() != 0; })};
+  return {catalogue,           folder,
+          std::move(wanted),   std::move(policy),
+          std::move(resolved), make_stoppable(threads, [] { return caught_signal() != 0; })};
 }
 
 void announce(const Work& work, const EvaluateArguments& arguments) {
   const std::string settings = settings_text(work.wanted.settings);
-  const std::string whose = arguments.policy ? *arguments.policy : fmt::format("trial {}", work.policy.trial);
-  put("the policy of {} (return {:.4g}): {} episodes of {:g} s, seed {}{}{}\n", whose, work.policy.total_reward,
-      work.wanted.plan.episodes, work.episode_s(), work.wanted.plan.seed, settings.empty() ? "" : ", ", settings);
+  const std::string whose = arguments.policy ? *arguments.policy : fmt::format("trial {}", work.policy.learned.trial);
+  const auto& earned = work.policy.total_reward;
+  put("the policy of {}{}: {} episodes of {:g} s, seed {}{}{}\n", whose,
+      earned ? fmt::format(" (return {:.4g})", *earned) : "", work.wanted.plan.episodes, work.episode_s(),
+      work.wanted.plan.seed, settings.empty() ? "" : ", ", settings);
 }
 
 /// A way to policies that hold longer, where this one does not and the learner has one.
@@ -177,7 +191,7 @@ void advise(const Work& work, const Summary& summary) {
 }
 
 void evaluate_episodes(const Work& work) {
-  const auto outcomes = experiment::evaluate(work.resolved, work.learned, work.wanted.plan, *work.evaluator);
+  const auto outcomes = experiment::evaluate(work.resolved, work.policy.learned, work.wanted.plan, *work.evaluator);
   const Summary summary = experiment::summary_of(outcomes);
   print_summary(summary, work.task().episode_s(), work.episode_s());
   advise(work, summary);
@@ -190,7 +204,8 @@ void evaluate_robustness(const Work& work) {
     settings.emplace_back(key, value);
     return experiment::read_run(work.catalogue, work.folder, settings).resolved;
   };
-  const auto all = experiment::robustness(changed, work.resolved, work.learned, work.wanted.plan, *work.evaluator);
+  const auto all =
+      experiment::robustness(changed, work.resolved, work.policy.learned, work.wanted.plan, *work.evaluator);
   print_robustness(all);
   write_table(work.wanted.table, experiment::robustness_csv(all, work.about()));
 }

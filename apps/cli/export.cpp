@@ -49,8 +49,9 @@ int export_policy(const experiment::Catalogue& catalogue, const ExportArguments&
                         .option = fmt::format("--out FILE{}", format.ending),
                         .is_ours = policy::is_exported};
   const bool replaced = write_output(file, format.text(exported, path));
-  put("{}{}: the policy of trial {} (return {:.3f})\n", path.string(), replaced ? ", which was there, is replaced" : "",
-      exported.origin.trial, exported.origin.total_reward.value_or(0));
+  const auto& earned = exported.origin.total_reward;
+  put("{}{}: the policy of trial {}{}\n", path.string(), replaced ? ", which was there, is replaced" : "",
+      exported.origin.trial, earned ? fmt::format(" (return {:.3f})", *earned) : ", which is to come");
   return kSuccess;
 }
 

@@ -23,6 +23,20 @@ expect 0 "policy.json: the policy" export run --trial 1 --out policy.json
 expect 0 "policy.json (" evaluate run --policy policy.json --episodes 5 --out given.csv
 cmp first.csv given.csv || fail "a policy of a file does other than that of its trial"
 
+# A policy of a file needs no trial; one that is asked for has no return yet.
+expect 0 "fresh is ready" learn pendulum --learner gp-mi "${quick[@]}" --trials 0 --out fresh
+expect 2 "no trial is done yet" evaluate fresh
+expect 0 "policy.json (" evaluate fresh --policy policy.json --episodes 5 --out fresh.csv
+cmp first.csv fresh.csv || fail "a policy of a file does otherwise in a run without trials"
+expect 0 "trial 1: run the policy" ask fresh
+expect 2 "no trial is done yet; trial 1 is asked for" evaluate fresh
+expect 2 "no trial is done yet; trial 1 is asked for" export fresh --out asked.json
+expect 0 "the policy of trial 1: 5 episodes" evaluate fresh --trial 1 --episodes 5 --out asked.csv
+expect 0 "fresh/next/policy.json: 5 episodes" evaluate fresh --policy fresh/next/policy.json --episodes 5 --out next.csv
+cmp asked.csv next.csv || fail "the file of a policy that is asked for does other than that of its trial"
+expect 0 "asked.json: the policy of trial 1, which is to come" export fresh --trial 1 --out asked.json
+cmp asked.json fresh/next/policy.json || fail "export writes another policy than ask"
+
 expect 0 "run/robustness.csv has the numbers" evaluate run --robustness --episodes 5
 header=trial,settings,seed,seconds,parameter,factor,value,episodes,
 [[ $(head -1 run/robustness.csv) = $header* ]] || fail "robustness.csv begins with $(head -1 run/robustness.csv)"
@@ -96,6 +110,12 @@ advice="--set search.extra_s=SECONDS"
 expect 0 "$advice" evaluate drift --seconds 5 --episodes 2
 expect 0 "solved at 1 s  2 of 2" evaluate drift --episodes 2
 grep -qF -- "$advice" said && fail "episodes of a trial's length are advised on: $(cat said)"
+
+# Without a plant there are no episodes, and nothing else is said.
+sed '/^\[plant\]/,+1d' drift.toml >alone.toml
+expect 0 "alone is ready" learn alone.toml --learner black-drops --trials 0 --out alone
+expect 2 "drift has no plant that episodes could run on. A copy of its file with [plant]" evaluate alone
+[ "$(wc -l <said)" = 1 ] || fail "without a plant it says $(cat said)"
 
 # A robot of a file.
 "$program" new own >/dev/null

@@ -21,8 +21,14 @@ policy::Answers in_states_of(const Episode& episode, double dt_s) {
 
 }  // namespace
 
+const Episode* an_episode(const History& history) {
+  if (!history.episodes.empty()) return &history.episodes.back();
+  return history.logs.empty() ? nullptr : &history.logs.front().episode;
+}
+
 policy::Exported exported_policy(const PastRun& run, std::optional<Index> trial) {
   const TrialRecord& record = run.trial(trial);
+  if (record.trial > run.history.done()) return exported_policy(run.resolved, record, an_episode(run.history));
   const Episode& episode = run.history.episodes[static_cast<std::size_t>(record.trial - 1)];
   policy::Exported exported = exported_policy(run.resolved, record, &episode);
   exported.origin.total_reward = record.total_reward;

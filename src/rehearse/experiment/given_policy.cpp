@@ -55,11 +55,10 @@ std::string kind_of(const std::string& text, const std::string& source) try {
 
 }  // namespace
 
-TrialRecord given_policy(const std::string& text, const std::string& source, const scenario::Scenario& scenario) try {
+GivenPolicy given_policy(const std::string& text, const std::string& source, const scenario::Scenario& scenario) try {
   const json file = json::parse(text);
   if (file.at("format") != 1) throw InvalidInput(fmt::format("{}: another version of Rehearse wrote it", source));
   TrialRecord record{.trial = file.at("trial"), .policy = file.at("policy")};
-  if (!file.at("return").is_null()) file.at("return").get_to(record.total_reward);
   record.theta = to_vector(file.at("theta"));
   const Task& task = scenario.task;
   const auto wrong = [&](const std::string& why) {
@@ -79,7 +78,9 @@ TrialRecord given_policy(const std::string& text, const std::string& source, con
         fmt::format("theta has {} numbers, must have {} finite ones", record.theta.size(), policy->parameters()));
   if (!answers_alike(*policy, record.theta, task, file.at("test")))
     throw wrong("the run's options make another policy of its theta");
-  return record;
+  std::optional<double> total_reward;
+  if (const json& earned = file.at("return"); !earned.is_null()) total_reward = earned.get<double>();
+  return {{policy, record.theta, record.trial}, total_reward};
 } catch (const json::exception&) {
   throw no_export(source);
 }
@@ -93,7 +94,7 @@ Spec with_start(const Catalogue& catalogue, Spec spec, const std::string& text, 
   if (kind != known)
     throw InvalidInput(fmt::format("{} is a policy '{}', but learner {} begins with policies '{}' here (option policy)",
                                    source, kind, learner, known));
-  spec.start = start_text(given_policy(text, source, resolved.scenario).theta);
+  spec.start = start_text(given_policy(text, source, resolved.scenario).learned.theta);
   return resolve(catalogue, spec).spec;
 }
 

@@ -17,11 +17,6 @@ std::string name_and_theta(const TrialRecord& asked) {
   return policy.dump(1) + "\n";
 }
 
-const Episode* an_episode(const History& history) {
-  if (!history.episodes.empty()) return &history.episodes.back();
-  return history.logs.empty() ? nullptr : &history.logs.front().episode;
-}
-
 }  // namespace
 
 void update_next_files(const RunFolder& folder, const Resolved& resolved, const History& history) {

@@ -11,17 +11,20 @@
 namespace rehearse::experiment {
 
 const TrialRecord& PastRun::trial(std::optional<Index> number) const {
+  const Index done = history.done();
+  if (history.asked && number == history.asked->trial) return *history.asked;
+  const std::string asked = history.asked ? fmt::format("; trial {} is asked for", history.asked->trial) : "";
+  if (done == 0) throw InvalidInput("no trial is done yet" + asked);
   if (!number) return best_trial(history.trials);
-  if (*number < 1 || *number > history.done())
+  if (*number < 1 || *number > done)
     throw InvalidInput(
-        fmt::format("trial = {}, must be between 1 and {}, the trials that are done", *number, history.done()));
+        fmt::format("trial = {}, must be between 1 and {}, the trials that are done{}", *number, done, asked));
   return history.trials[static_cast<std::size_t>(*number - 1)];
 }
 
 PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder,
                  const std::vector<std::pair<std::string, std::string>>& settings) {
   auto [spec, history] = RunFolder::read(folder);
-  if (history.done() == 0) throw InvalidInput(fmt::format("no trial of {} is done yet", folder.string()));
   spec.options.insert(spec.options.end(), settings.begin(), settings.end());
   return {resolve_begun(with_robot_of_run(catalogue, folder), spec), std::move(history)};
 }

@@ -16,15 +16,15 @@ namespace rehearse::experiment {
 /// A run as its folder has it. Use it to do something with what was learned; `resume_run` continues a run.
 struct PastRun {
   Resolved resolved;
-  History history;  // at least one trial
+  History history;
 
-  /// A trial, or the one with the highest return if none is named. Throws InvalidInput if it is not done.
+  /// A trial that is done or asked for, or the one with the highest return if none is named. Throws InvalidInput if
+  /// there is none.
   const TrialRecord& trial(std::optional<Index> number) const;
 };
 
 /// Reads a folder. It changes nothing and locks nothing, so the run may be going on. settings: options that differ from
-/// the run's, key and value, as in a Spec. Throws InvalidInput if it is no run folder, no trial is done, or an option
-/// is wrong.
+/// the run's, key and value, as in a Spec. Throws InvalidInput if it is no run folder, or an option is wrong.
 PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder,
                  const std::vector<std::pair<std::string, std::string>>& settings = {});
 

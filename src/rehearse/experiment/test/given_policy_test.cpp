@@ -1,5 +1,7 @@
 #include "rehearse/experiment/given_policy.hpp"
 
+#include <regex>
+
 #include <gtest/gtest.h>
 
 #include "line_run.hpp"
@@ -21,10 +23,16 @@ std::string schedule_file() {
 }
 
 TEST(GivenPolicy, IsWhatWasExported) {
-  const TrialRecord record = given_policy(schedule_file(), "it.json", whole_line());
-  EXPECT_EQ(record.policy, "schedule");
-  EXPECT_EQ(record.trial, 1);
-  EXPECT_EQ(record.theta, Vector(Vector::LinSpaced(12, -1, 0.5)));
+  const GivenPolicy given = given_policy(schedule_file(), "it.json", whole_line());
+  EXPECT_EQ(given.learned.policy->name(), "schedule");
+  EXPECT_EQ(given.learned.trial, 1);
+  EXPECT_EQ(given.learned.theta, Vector(Vector::LinSpaced(12, -1, 0.5)));
+  EXPECT_TRUE(given.total_reward);
+}
+
+TEST(GivenPolicy, OfATrialThatIsToComeHasNoReturn) {
+  const std::string file = std::regex_replace(schedule_file(), std::regex("\"return\": [^,]*"), "\"return\": null");
+  EXPECT_FALSE(given_policy(file, "it.json", whole_line()).total_reward);
 }
 
 TEST(GivenPolicy, SaysWhatIsWrong) {

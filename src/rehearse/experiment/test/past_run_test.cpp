@@ -4,6 +4,7 @@
 
 #include "line_run.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/ask_tell.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 
 namespace rehearse::experiment {
@@ -25,6 +26,17 @@ TEST(PastRun, HasTheTrialsOfItsFolder) {
   EXPECT_EQ(message_of<InvalidInput>([&] { run.trial(4); }),
             "trial = 4, must be between 1 and 3, the trials that are done");
   EXPECT_THROW(run.trial(0), InvalidInput);
+}
+
+TEST(PastRun, HasTheTrialThatIsAskedFor) {
+  const fs::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(0), folder, {});
+  EXPECT_EQ(message_of<InvalidInput>([&] { read_run(fake::catalogue(), folder).trial({}); }), "no trial is done yet");
+  const AskResult asked = ask_run(fake::catalogue(), folder, {});
+  const PastRun run = read_run(fake::catalogue(), folder);
+  EXPECT_EQ(run.trial(1).theta, asked.trial.theta);
+  for (const std::optional<Index> number : {std::optional<Index>(), std::optional<Index>(2)})
+    EXPECT_EQ(message_of<InvalidInput>([&] { run.trial(number); }), "no trial is done yet; trial 1 is asked for");
 }
 
 TEST(PastRun, TakesOtherSettings) {
