@@ -283,4 +283,10 @@ Node Formulas::compile(const std::string& formula) {
   }
 }
 
+Node Formulas::compile_condition(const std::string& formula) {
+  const Node node = compile(formula);
+  if (builder_.is_condition(node)) return node;
+  throw InvalidInput(fmt::format("'{0}' is a number and no condition: compare it, as in {0} < 0.5", formula));
+}
+
 }  // namespace rehearse::expression

@@ -26,6 +26,9 @@ class Formulas {
   /// Throws InvalidInput with the place in the formula, or the definition, that is wrong.
   Node compile(const std::string& formula);
 
+  /// The same of a formula that is true or false. Throws InvalidInput, too, if it is a number.
+  Node compile_condition(const std::string& formula);
+
   /// The value of a name: an input or a definition; as `compile`.
   Node named(const std::string& name);
 

@@ -38,6 +38,29 @@ const double* TapeBuilder::constant_of(Node node) const {
   return at(node).kind == Value::Kind::constant ? &at(node).number : nullptr;
 }
 
+bool TapeBuilder::is_condition(Node node) const {
+  const Value& value = at(node);
+  if (value.kind != Value::Kind::operation) return is(node, 0) || is(node, 1);
+  switch (value.op) {
+    case Op::logical_not:
+    case Op::less:
+    case Op::less_equal:
+    case Op::equal:
+    case Op::not_equal:
+    case Op::logical_and:
+    case Op::logical_or:
+      return true;
+    case Op::where:
+      return is_condition(value.b) && is_condition(value.c);
+    case Op::multiply:
+    case Op::minimum:
+    case Op::maximum:
+      return is_condition(value.a) && is_condition(value.b);
+    default:
+      return false;
+  }
+}
+
 bool TapeBuilder::is(Node node, double value) const {
   const double* constant = constant_of(node);
   return constant && *constant == value;

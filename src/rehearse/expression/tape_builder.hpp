@@ -28,6 +28,9 @@ class TapeBuilder {
   /// The constant that a node is; null where it is none.
   const double* constant_of(Node node) const;
 
+  /// True if a node is 0 or 1 by what makes it: a comparison, conditions that are combined, or one of these numbers.
+  bool is_condition(Node node) const;
+
   Tape tape(const std::vector<Node>& outputs) const;
 
   static constexpr Node kNone = -1;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/expression/program.hpp"
+#include "rehearse/robot_file/robot_formulas.hpp"
 #include "rehearse/robot_file/table.hpp"
 #include "rehearse/scenario/ode_scenario.hpp"
 
@@ -14,55 +15,12 @@ namespace {
 
 using expression::Formulas, expression::Node, expression::Pace, expression::Program;
 
-constexpr const char* kOnlyOfCosts = "is known to the `cost` of [reward] alone";
-
-enum class Of : std::uint8_t { states, steps };
-
-/// The inputs of formulas: states, and behind them the actions of a step. Names that others know are explained.
-Formulas inputs_of(const Robot& robot, Of of) {
-  Formulas formulas;
-  for (const std::string& name : robot.task_state_names()) formulas.input(name, Pace::always);
-  for (const std::string& name : robot.action_names()) {
-    formulas.elsewhere(name + "_before", kOnlyOfCosts);
-    if (of == Of::steps)
-      formulas.input(name, Pace::always);
-    else
-      formulas.elsewhere(name, fmt::format("is an action, and this is a formula of states; the last command is the "
-                                           "state {}_last, with remember = 1 in [[action]]",
-                                           name));
-  }
-  formulas.elsewhere("time", kOnlyOfCosts);
-  return formulas;
-}
-
-Formulas formulas_of(const Robot& robot, Of of) {
-  Formulas all = inputs_of(robot, of);
-  for (const auto& [name, formula] : robot.definitions) all.define(name, formula.text);
-  return all;
-}
-
-Program program(Formulas of, const std::vector<Formula>& outputs) {
-  std::vector<Node> nodes;
-  for (const Formula& output : outputs) nodes.push_back(of.compile(output.text));
-  return {of, nodes};
-}
-
 /// Its further inputs are the actions one step before, and the time since the start.
 Program cost_program(const Robot& robot) {
   Formulas formulas = formulas_of(robot, Of::steps);
   for (const std::string& name : robot.action_names()) formulas.input(name + "_before", Pace::always);
   formulas.input("time", Pace::always);
   return {formulas, {formulas.compile(robot.reward.cost.text)}};
-}
-
-/// The formulas (rows × outputs) of states and actions; columns of X, then of U, are the program's inputs.
-Matrix evaluate(const Program& program, const ConstMatrixView& X, const ConstMatrixView& U = Matrix()) {
-  std::vector<const double*> columns;
-  for (Index i = 0; i < X.cols(); ++i) columns.push_back(X.col(i).data());
-  for (Index i = 0; i < U.cols(); ++i) columns.push_back(U.col(i).data());
-  Matrix results(X.rows(), program.outputs());
-  program.run(columns, results);
-  return results;
 }
 
 class Checker {
@@ -73,12 +31,14 @@ class Checker {
     Formulas of_steps = inputs_of(robot_, Of::steps);
     check_definitions(of_steps, robot_.definitions);
     const Functions& functions = robot_.functions;
-    compile(of_steps, "reward.formula", robot_.reward.formula, functions.of_steps);
-    for (const LimitFormula& limit : robot_.limits) compile(of_steps, "limit.keep", limit.keep, functions.of_steps);
+    if (!is_of_program(robot_.reward.formula, functions.of_steps))
+      compile(of_steps, "reward.formula", robot_.reward.formula);
+    for (const LimitFormula& limit : robot_.limits)
+      check_condition(of_steps, "limit.keep", limit.keep, functions.of_steps);
     Formulas of_states = good_ ? formulas_of(robot_, Of::states) : Formulas();
     for (const Formula& distance : robot_.reward.distance) compile(of_states, "reward.distance", distance);
-    compile(of_states, "success.when", robot_.success.when, functions.of_states);
-    compile(of_states, "ended", robot_.ended, functions.of_states);
+    check_condition(of_states, "success.when", robot_.success.when, functions.of_states);
+    check_condition(of_states, "ended", robot_.ended, functions.of_states);
     for (const Body& body : robot_.bodies)
       for (const Formula* formula : {&body.from[0], &body.from[1], &body.to[0], &body.to[1]})
         compile(of_states, fmt::format("body {}", body.name), *formula);
@@ -101,20 +61,25 @@ class Checker {
     }
   }
 
-  void compile(Formulas& formulas, const std::string& what, const Formula& formula) {
+  void compile(Formulas& formulas, const std::string& what, const Formula& formula,
+               Node (Formulas::*as)(const std::string&) = &Formulas::compile) {
     if (!formula.empty() && good_)
       named(
-          formula.line, [&] { formulas.compile(formula.text); }, what);
+          formula.line, [&] { (formulas.*as)(formula.text); }, what);
   }
 
-  /// Compiles a formula, or finds a function of the program.
+  /// True of a function of the program, which must be there, and of no formula.
   template <class Function>
-  void compile(Formulas& formulas, const std::string& what, const Formula& formula,
-               const std::map<std::string, Function>& functions) {
+  bool is_of_program(const Formula& formula, const std::map<std::string, Function>& functions) {
     if (formula.is_function())
       require_function(robot_.functions, functions, formula.function(), formula.line, violations_);
-    else
-      compile(formulas, what, formula);
+    return formula.is_function();
+  }
+
+  template <class Function>
+  void check_condition(Formulas& formulas, const std::string& what, const Formula& formula,
+                       const std::map<std::string, Function>& functions) {
+    if (!is_of_program(formula, functions)) compile(formulas, what, formula, &Formulas::compile_condition);
   }
 
   /// Formulas that use a wrong definition are not compiled: the definition is to blame.

@@ -29,6 +29,19 @@ TEST(TapeBuilder, ConstantsAreComputedAtOnce) {
   EXPECT_EQ(builder.operation(Op::divide, x, builder.constant(1)), x);
 }
 
+TEST(TapeBuilder, KnowsWhatIsACondition) {
+  TapeBuilder builder;
+  const Node x = builder.input(Pace::always), one = builder.constant(1);
+  const Node less = builder.operation(Op::less, x, builder.constant(2)), no = builder.operation(Op::logical_not, x);
+  const Node both = builder.operation(Op::logical_and, less, no);
+  for (const Node node : {one, builder.constant(0), less, no, both, builder.operation(Op::where, x, less, one),
+                          builder.operation(Op::multiply, less, no)})
+    EXPECT_TRUE(builder.is_condition(node)) << node;
+  for (const Node node : {x, builder.constant(2), builder.operation(Op::sine, x), builder.operation(Op::add, less, no),
+                          builder.operation(Op::where, less, x, one), builder.operation(Op::multiply, less, x)})
+    EXPECT_FALSE(builder.is_condition(node)) << node;
+}
+
 TEST(TapeBuilder, SumsOfProductsAreFusedAndWhatNobodyNeedsIsLeftOut) {
   TapeBuilder builder;
   const Node x = builder.input(Pace::always), y = builder.input(Pace::always);
