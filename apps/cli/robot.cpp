@@ -98,6 +98,18 @@ void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried
   }
 }
 
+/// The ends before the horizon: ", 1 of 3 episodes `ended` before their time, 2 of 3 episodes broke the limit track".
+std::string early_ends(const robot_file::Tried& tried, const Task& task) {
+  std::string text;
+  if (tried.ended > 0)
+    text += fmt::format(", {} of {} episodes `ended` before their time", tried.ended, tried.episodes);
+  for (std::size_t l = 0; l < tried.limits.size(); ++l)
+    if (tried.limits[l] > 0)
+      text +=
+          fmt::format(", {} of {} episodes broke the limit {}", tried.limits[l], tried.episodes, task.limits[l].name);
+  return text;
+}
+
 /// A line for everything that a learner would stumble over.
 std::vector<std::string> complaints_of(const robot_file::Tried& tried) {
   std::vector<std::string> complaints = tried.broken;
@@ -142,7 +154,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   const bool driven = static_cast<bool>(scenario.make_plant);
   if (!driven) put("plant\n  none: there is no [plant], so its episodes are told\n");
   put("priors, on {} steps of {} under random actions{}\n", tried.steps, driven ? "the plant" : "the first prior",
-      tried.ended > 0 ? fmt::format(", {} of {} episodes `ended` before their time", tried.ended, tried.episodes) : "");
+      early_ends(tried, scenario.task));
   for (std::size_t i = 0; i < tried.priors.size(); ++i)
     print_prior(scenario.priors[i], tried.priors[i], scenario, tried);
   for (const std::string& line : scenario.oracle_lacks) put("  oracle: not all of the plant. {}\n", line);

@@ -26,8 +26,13 @@ grep -q "^1,track,0.05,,,,1$" short/limits.csv || fail "limits.csv: $(cat short/
 "$program" status short | grep -q "^trial 1: return .*, broke track$" || fail "status: $("$program" status short)"
 [ "$(wc -l <short/trajectories/trial-001.csv)" -lt 42 ] || fail "the episode was not stopped"
 
-# A limit that every policy breaks: its risk in plain digits.
+# A limit that the start breaks is found before anything is learned; one that random actions break is counted.
+sed 's/abs(dtheta) < 3/theta > 3/' fast.toml >wrong_way.toml
+expect 2 "limit speed: the start breaks it, and the first step of every episode" check wrong_way.toml
 sed 's/abs(dtheta) < 3/abs(dtheta) < 1e-6/' fast.toml >still.toml
+expect 0 "3 of 3 episodes broke the limit speed" check still.toml
+
+# A limit that every policy breaks: its risk in plain digits.
 "$program" learn still.toml --learner gp-mi --trials 0 "${few[@]}" --out still >/dev/null || fail "still"
 "$program" ask still >output || fail "ask: $(cat output)"
 grep -q "limit speed: risk 100 % (95 %: [0-9.]* to 100), 10 % is allowed: not safe" output || fail "ask says: $(cat output)"

@@ -18,7 +18,25 @@ struct Steps {
   Matrix X, U, dX;  // measured without noise where the plant knows it
   std::optional<std::string> end;
   Index ended = 0;
+  std::vector<Index> limits, limits_at_once;  // of each limit: episodes that broke it, and in their first step
 };
+
+bool keeps(const Limit& limit, const Matrix& x, const Matrix& u, const Matrix& next) {
+  Vector kept(1);
+  limit.holds(x, u, next, kept);
+  return is_true(kept(0));
+}
+
+/// Counts the limits that the last row's step breaks. Returns true if there are any.
+bool count_broken(const Task& task, Index row, bool first, Steps& steps) {
+  const Matrix x = steps.X.row(row), u = steps.U.row(row), next = x + steps.dX.row(row);
+  bool any = false;
+  for (std::size_t l = 0; l < task.limits.size(); ++l) {
+    if (keeps(task.limits[l], x, u, next)) continue;
+    any = true, ++steps.limits[l], steps.limits_at_once[l] += first;
+  }
+  return any;
+}
 
 /// A random action, as it may be commanded in state x.
 Vector random_action(const Task& task, const Vector& x, Rng& rng) {
@@ -49,7 +67,9 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
               Matrix(episodes * task.horizon, task.action_size()),
               Matrix(episodes * task.horizon, task.state_size()),
               {},
-              0};
+              0,
+              std::vector<Index>(task.limits.size()),
+              std::vector<Index>(task.limits.size())};
   Index row = 0;
   const auto plant = plant_or_prior(scenario);
   const auto state_of = [&](const Vector& measured) {
@@ -64,10 +84,9 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
         const Vector u = random_action(task, x, rng), next = state_of(plant->step(u));
         steps.X.row(row) = x, steps.U.row(row) = u, steps.dX.row(row) = next - x;
         x = next, ++row;
-        if (task.ended && holds(task.ended, x)) {
-          ++steps.ended;
-          break;
-        }
+        const bool fell = task.ended && holds(task.ended, x);
+        steps.ended += fell;
+        if (count_broken(task, row - 1, t == 0, steps) || fell) break;
       }
     }
   } catch (const std::exception& error) {
@@ -121,6 +140,19 @@ PriorTried try_prior(const scenario::NamedPrior& prior, const Steps& steps) {
   return tried;
 }
 
+/// A line for each limit that no policy could keep: the start breaks it, and the first step of every episode.
+std::vector<std::string> hopeless_limits(const Task& task, const Steps& steps, Index episodes) {
+  std::vector<std::string> lines;
+  const Matrix start = task.start_mean.transpose(), none = Matrix::Zero(1, task.action_size());
+  for (std::size_t l = 0; l < task.limits.size(); ++l)
+    if (steps.limits_at_once[l] == episodes && !keeps(task.limits[l], start, none, start))
+      lines.push_back(
+          fmt::format("limit {}: the start breaks it, and the first step of every episode: keep says "
+                      "what must hold",
+                      task.limits[l].name));
+  return lines;
+}
+
 /// A line where most steps earn less than those that a fall leaves; empty: they do not.
 std::string why_falls_pay(const Task& task, const Steps& steps) {
   if ((!task.ended && task.limits.empty()) || steps.X.rows() == 0) return {};
@@ -145,6 +177,7 @@ Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t 
   Tried tried{.steps = steps.X.rows(),
               .episodes = episodes,
               .ended = steps.ended,
+              .limits = steps.limits,
               .end = steps.end,
               .change = root_mean_square(steps.dX)};
   Vector reward(1);
@@ -155,6 +188,7 @@ Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t 
     tried.broken.push_back(fmt::format("the reward of the start is {}, must be a finite number", tried.start_reward));
   if (task.ended && holds(task.ended, task.start_mean))
     tried.broken.emplace_back("an episode ends where it starts: `ended` holds in the start");
+  for (const std::string& line : hopeless_limits(task, steps, episodes)) tried.broken.push_back(line);
   if (const std::string line = why_falls_pay(task, steps); !line.empty()) tried.broken.push_back(line);
   if (!steps.dX.allFinite())
     tried.broken.emplace_back("the plant comes to states that are not finite");

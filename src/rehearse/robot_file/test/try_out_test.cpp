@@ -48,6 +48,17 @@ TEST(TryOut, NamesAStartWhereEpisodesEnd) {
   EXPECT_EQ(found.ended, 3);
 }
 
+TEST(TryOut, CountsEpisodesThatBreakALimitAndNamesOneThatTheStartBreaks) {
+  const Tried found = tried(kSwing + "[[limit]]\nname = \"far\"\nkeep = \"angle < 2\"\n[[limit]]\nkeep = \"u < 9\"\n");
+  EXPECT_EQ(found.broken, std::vector<std::string>{"limit far: the start breaks it, and the first step of every "
+                                                   "episode: keep says what must hold"});
+  EXPECT_EQ(found.limits, (std::vector<Index>{3, 0}));
+  EXPECT_EQ(found.steps, 3) << "a broken limit ends an episode, as it ends a trial";
+  const Tried random = tried(kSwing + "[[limit]]\nkeep = \"abs(u) < 1e-9\"\n");
+  EXPECT_EQ(random.broken, std::vector<std::string>{}) << "actions may be smaller than random ones";
+  EXPECT_EQ(random.limits, std::vector<Index>{3});
+}
+
 TEST(TryOut, SaysWhereFallingPays) {
   const std::string reward = "distance = [\"1 - height\", \"sin(angle)\"]\nwidth = 0.5";
   const auto with_end = [](std::string text) {
