@@ -102,6 +102,7 @@ void print_summary(const Summary& summary, double task_s, double episode_s) {
   if (summary.solved) put("solved at {:g} s  {}\n", task_s, rate_text(*summary.solved));
   if (summary.solved && episode_s > task_s) put("solved at {:g} s  {}\n", episode_s, rate_text(*summary.solved_at_end));
   put("ended early    {}\n", rate_text(summary.ended));
+  for (const auto& [limit, rate] : summary.broke) put("{:14} {}\n", "broke " + limit, rate_text(rate));
   const auto [min, low, median, high, max] = statistics::five_numbers(summary.returns);
   put("return         median {:.4g}, quartiles {:.4g} and {:.4g}, all from {:.4g} to {:.4g}\n", median, low, high, min,
       max);

@@ -8,7 +8,7 @@ cp -r run kept
 
 expect 0 "run/evaluation.csv has the numbers" evaluate run --episodes 20 --threads 1
 grep -qE '^solved at [0-9.]+ s +[0-9]+ of 20 episodes, ' said || fail "no rate: $(cat said)"
-header=trial,settings,seed,seconds,episode,return,solved,solved_at_end,ended_s
+header=trial,settings,seed,seconds,episode,return,solved,solved_at_end,ended_s,broke
 [ "$(head -1 run/evaluation.csv)" = $header ] || fail "evaluation.csv begins with $(head -1 run/evaluation.csv)"
 [ "$(wc -l <run/evaluation.csv)" = 21 ] || fail "evaluation.csv has $(wc -l <run/evaluation.csv) lines"
 cp run/evaluation.csv one

@@ -26,6 +26,9 @@ grep -q "^1,track,0.05,,,,1$" short/limits.csv || fail "limits.csv: $(cat short/
 "$program" status short | grep -q "^trial 1: return .*, broke track$" || fail "status: $("$program" status short)"
 [ "$(wc -l <short/trajectories/trial-001.csv)" -lt 42 ] || fail "the episode was not stopped"
 
+expect 0 "broke track    3 of 3 episodes" evaluate short --episodes 3
+[ "$(grep -c ',track$' short/evaluation.csv)" = 3 ] || fail "evaluation.csv: $(cat short/evaluation.csv)"
+
 # A limit that the start breaks is found before anything is learned; one that random actions break is counted.
 sed 's/abs(dtheta) < 3/theta > 3/' fast.toml >wrong_way.toml
 expect 2 "limit speed: the start breaks it, and the first step of every episode" check wrong_way.toml

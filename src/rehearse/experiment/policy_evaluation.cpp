@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/failures.hpp"
@@ -22,6 +23,7 @@ constexpr double kLongest = 1e6;         // steps
 Outcome outcome_of(const Episode& episode, const Task& task) {
   Outcome outcome{.total_reward = episode.total_reward()};
   if (episode.ended) outcome.ended_s = seconds(episode.steps(), task.dt_s);
+  outcome.broke = episode.broken_limits;
   if (!task.solved) return outcome;
   const Index T = task.horizon;
   const bool lasted = episode.steps() >= T && !(episode.ended && episode.steps() == T);
@@ -92,7 +94,12 @@ Summary summary_of(const std::vector<Outcome>& outcomes) {
                   .solved_at_end = rate_of(outcomes, &Outcome::solved_at_end)};
   const auto fell = [](const Outcome& each) { return each.ended_s.has_value(); };
   summary.ended = rate_of(std::ranges::count_if(outcomes, fell), static_cast<Index>(outcomes.size()));
-  for (const Outcome& each : outcomes) summary.returns.push_back(each.total_reward);
+  std::map<std::string, Index> broke;
+  for (const Outcome& each : outcomes) {
+    summary.returns.push_back(each.total_reward);
+    for (const std::string& limit : each.broke) ++broke[limit];
+  }
+  for (const auto& [limit, count] : broke) summary.broke[limit] = rate_of(count, static_cast<Index>(outcomes.size()));
   return summary;
 }
 
@@ -103,13 +110,14 @@ std::vector<std::string> about_cells(const EvaluationAbout& about) {
 
 std::string evaluation_csv(const std::vector<Outcome>& outcomes, const EvaluationAbout& about) {
   std::vector<std::string> header = kAboutColumns;
-  header.insert(header.end(), {"episode", "return", "solved", "solved_at_end", "ended_s"});
+  header.insert(header.end(), {"episode", "return", "solved", "solved_at_end", "ended_s", "broke"});
   files::Csv csv(header);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     std::vector<std::string> row = about_cells(about);
     row.insert(row.end(),
                {files::Csv::cell(static_cast<Index>(i + 1)), files::Csv::cell(outcomes[i].total_reward),
-                cell(outcomes[i].solved), cell(outcomes[i].solved_at_end), files::Csv::cell(outcomes[i].ended_s)});
+                cell(outcomes[i].solved), cell(outcomes[i].solved_at_end), files::Csv::cell(outcomes[i].ended_s),
+                fmt::format("{}", fmt::join(outcomes[i].broke, "; "))});
     csv.row(row);
   }
   return csv.text();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,7 +34,8 @@ struct Outcome {
   double total_reward = 0;            // of all its steps
   std::optional<bool> solved;         // by its first task.horizon steps, as a trial is; empty: the task cannot say
   std::optional<bool> solved_at_end;  // by its last task.horizon steps, as if a trial were made of them
-  std::optional<double> ended_s;      // when it ended early: a fall
+  std::optional<double> ended_s;      // when it ended early: a fall, or a broken limit
+  std::vector<std::string> broke;     // limits that its last step broke
 };
 
 /// Episodes of a policy on the scenario's plant, each from random numbers of its own. They are spread over threads in
@@ -52,6 +54,7 @@ struct Rate {
 struct Summary {
   std::optional<Rate> solved, solved_at_end;  // empty: the task cannot say
   Rate ended;                                 // early
+  std::map<std::string, Rate> broke;          // by limit; only those that were broken
   std::vector<double> returns;
 };
 Summary summary_of(const std::vector<Outcome>& outcomes);

@@ -70,19 +70,34 @@ TEST(PolicyEvaluation, CountsFalls) {
   EXPECT_LT(summary.returns[0], -20) << "the floor is charged for what is left";
 }
 
+TEST(PolicyEvaluation, NamesTheLimitsThatAreBroken) {
+  Resolved limited = line_where();
+  const StepCondition never = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&,
+                                 VectorView holds) { holds.setZero(); };
+  const StepCondition always = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&,
+                                  VectorView holds) { holds.setOnes(); };
+  limited.scenario.task.limits = {{"hopeless", "", never}, {"easy", "", always}};
+  const auto outcomes = evaluate(limited, slow_policy(), {.episodes = 3}, serial_evaluator());
+  EXPECT_EQ(outcomes[0].broke, std::vector<std::string>{"hopeless"});
+  const Summary summary = summary_of(outcomes);
+  EXPECT_EQ(summary.ended.count, 3);
+  ASSERT_EQ(summary.broke.size(), 1u);
+  EXPECT_EQ(summary.broke.at("hopeless").count, 3);
+}
+
 TEST(PolicyEvaluation, ATaskMayNotSayWhatIsSolved) {
   Resolved silent = line_where();
   silent.scenario.task.solved = {};
   const auto outcomes = evaluate(silent, slow_policy(), {.episodes = 2}, serial_evaluator());
   EXPECT_FALSE(summary_of(outcomes).solved);
-  EXPECT_NE(table_of(outcomes).find(",,,\n"), std::string::npos);
+  EXPECT_NE(table_of(outcomes).find(",,,,\n"), std::string::npos);
 }
 
 TEST(PolicyEvaluation, IsATableOfItsEpisodes) {
-  const std::vector<Outcome> outcomes = {{1.5, true, false, {}}, {-2, false, false, 0.7}};
+  const std::vector<Outcome> outcomes = {{1.5, true, false, {}, {}}, {-2, false, false, 0.7, {"speed", "track"}}};
   EXPECT_EQ(table_of(outcomes),
-            "trial,settings,seed,seconds,episode,return,solved,solved_at_end,ended_s\n"
-            "2,noise=0.1,9,2.4,1,1.5,1,0,\n2,noise=0.1,9,2.4,2,-2,0,0,0.7\n");
+            "trial,settings,seed,seconds,episode,return,solved,solved_at_end,ended_s,broke\n"
+            "2,noise=0.1,9,2.4,1,1.5,1,0,,\n2,noise=0.1,9,2.4,2,-2,0,0,0.7,speed; track\n");
 }
 
 TEST(PolicyEvaluation, RatesHaveExactIntervals) {
