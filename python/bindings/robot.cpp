@@ -55,14 +55,20 @@ class PythonPlant final : public system::Plant {
   bool ended_ = false;
 };
 
-/// Writes what a function returned.
-using Write = void (*)(const py::object& result, const std::string& name, VectorView values);
-
-StepCondition of_steps(const Callable& of, Write write) {
-  return [of, write](const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& X_next,
-                     VectorView values) {
+Reward of_steps(const Callable& of) {
+  return [of](const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& X_next, VectorView values) {
     call(of, [&](const py::object& function) {
-      write(function(to_array(X), to_array(U), to_array(X_next)), of.name, values);
+      write_result(function(to_array(X), to_array(U), to_array(X_next)), of.name, values);
+    });
+  };
+}
+
+StepCondition limit_of(const Callable& of) {
+  return [of](const Steps& steps, VectorView values) {
+    call(of, [&](const py::object& function) {
+      write_truths(function(to_array(steps.X), to_array(steps.U), to_array(steps.X_next), to_array(steps.U_before),
+                            steps.time_s),
+                   of.name, values);
     });
   };
 }
@@ -103,13 +109,13 @@ Robot Robot::for_work() const {
 
 void Robot::add_step_function(const std::string& name, py::object function) {
   add([name, function = shared(std::move(function))](robot_file::Functions& to, const auto& failure) {
-    to.of_steps[name] = of_steps({function, name, failure}, write_result);
+    to.of_steps[name] = of_steps({function, name, failure});
   });
 }
 
 void Robot::add_step_condition(const std::string& name, py::object function) {
   add([name, function = shared(std::move(function))](robot_file::Functions& to, const auto& failure) {
-    to.of_steps[name] = of_steps({function, name, failure}, write_truths);
+    to.limits[name] = limit_of({function, name, failure});
   });
 }
 
@@ -119,6 +125,7 @@ void Robot::try_out(const scenario::Scenario& scenario) const {
   const Matrix X = task.start_mean.transpose().replicate(kRows, 1), U = Matrix::Zero(kRows, task.action_size());
   Vector values(kRows);
   for (const auto& [name, function] : functions_.of_steps) function(X, U, X, values);
+  for (const auto& [name, function] : functions_.limits) function({X, U, X, U, 0}, values);
   for (const auto& [name, function] : functions_.of_states) function(X, values);
   for (const scenario::NamedPrior& prior : scenario.priors) {
     if (!functions_.dynamics.contains(prior.name)) continue;

@@ -21,7 +21,7 @@ class Robot {
 
   /// The reward: function(states, actions, next_states) → n numbers.
   void add_step_function(const std::string& name, py::object function);
-  /// A limit: the same → n truths.
+  /// A limit: function(states, actions, next_states, actions_before, time_s) → n truths.
   void add_step_condition(const std::string& name, py::object function);
   /// ended, success: function(states) → n truths.
   void add_state_function(const std::string& name, py::object function);

@@ -11,6 +11,8 @@ from .arrays import Array
 
 #: function(states, actions, next_states) → n numbers; arrays of n rows
 StepFunction = Callable[[Array, Array, Array], Any]
+#: the same, or function(states, actions, next_states, actions_before, time_s) → n truths
+LimitFunction = Union[StepFunction, Callable[[Array, Array, Array, Array, float], Any]]
 #: function(states) → n truths; states: n × dx
 StateFunction = Callable[[Array], Any]
 
@@ -78,10 +80,11 @@ class Success:
 class Limit:
     """What every step must keep: a formula, or a function of states, actions and the states that the steps reach.
 
-    risk: the largest probability that an episode of a policy breaks it.
+    A function of five arguments is given the actions one step before, too (0 in the first step), and the time since the
+    start when the steps begin, in s. risk: the largest probability that an episode of a policy breaks it.
     """
 
-    keep: Union[str, StepFunction]
+    keep: Union[str, LimitFunction]
     name: str = ""
     risk: float = 0.05
 

@@ -5,6 +5,7 @@ The keys are those of a robot's file (docs/own-robot.md). Where a file has a for
 
 from __future__ import annotations
 
+import inspect
 import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -145,17 +146,9 @@ class Robot:
         name = limit.name or (limit.keep if isinstance(limit.keep, str) else getattr(limit.keep, "__name__", nameless))
         keep: Any = limit.keep
         if callable(keep):
-            key = self._untaken(name)
-            self._functions.append(("add_step_condition", key, keep))
-            keep = "@" + key
+            self._functions.append(("add_step_condition", name, _of_whole_steps(keep)))
+            keep = "@" + name
         return {"name": name, "keep": keep, "risk": float(limit.risk)}
-
-    def _untaken(self, name: str) -> str:
-        """A key for a function of steps that no other has: the reward and all limits share one table."""
-        taken = {key for add, key, *_ in self._functions if add in ("add_step_function", "add_step_condition")}
-        while name in taken:
-            name = "limit " + name
-        return name
 
     def _dynamics(self, name: str, model: Model) -> str:
         if (model.change is None) == (not model.rates):
@@ -190,6 +183,16 @@ class Robot:
         self.has_environment = is_environment(plant)
         self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
         return [table("[plant]", {"function": "plant", "measurement_noise": given})]
+
+
+def _of_whole_steps(keep: Callable[..., Any]) -> Callable[..., Any]:
+    """The function of a limit, with all five arguments."""
+    try:
+        parameters = list(inspect.signature(keep).parameters.values())
+    except (TypeError, ValueError):  # it does not say
+        parameters = []
+    needed = [p for p in parameters if p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
+    return keep if len(needed) == 5 else lambda states, actions, next_states, *_: keep(states, actions, next_states)
 
 
 def _require(given: Any, kind: type, name: str, like: str) -> None:

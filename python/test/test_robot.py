@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from robots import QUICK, Environment, cart
 
@@ -41,6 +42,18 @@ def test_a_limit_may_have_the_name_of_the_reward(tmp_path):
     runs = [learn(cart(limits=[rehearse.Limit(near, name=name)]), tmp_path / name) for name in ("near", "reward")]
     assert runs[0].trials["return"][0] == runs[1].trials["return"][0]
     assert runs[1].details[0].limits[0]["name"] == "reward" and not runs[1].details[0].limits[0]["broken"]
+
+
+def test_a_limit_may_use_the_action_before_and_the_time(tmp_path):
+    def gentle(states, actions, following, before, time_s):
+        assert actions.shape == before.shape and (time_s > 0 or np.all(before == 0))
+        return np.abs(actions - before)[:, 0] < 100 + time_s
+
+    limits = [rehearse.Limit(gentle), rehearse.Limit("abs(force - force_before) < 100 + time")]
+    run = learn(cart(limits=limits), tmp_path / "run")
+    assert [limit["broken"] for limit in run.details[0].limits] == [False, False]
+    run = learn(cart(limits=[rehearse.Limit("time < 0.35", "short")]), tmp_path / "short")
+    assert run.details[0].limits[0]["broken"] and len(run.trajectory(1)) == 6
 
 
 def test_two_threads_may_fail_at_once(tmp_path):

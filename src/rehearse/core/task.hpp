@@ -19,7 +19,7 @@ namespace rehearse {
 using Reward = std::function<void(const ConstMatrixView& X, const ConstMatrixView& U, const ConstMatrixView& X_next,
                                   VectorView rewards)>;
 
-/// Steps of a batch as a cost sees them, one a row.
+/// Steps of a batch as costs and limits see them, one a row.
 struct Steps {
   const ConstMatrixView& X;         // states (rows × dx)
   const ConstMatrixView& U;         // actions (rows × du)
@@ -33,8 +33,8 @@ struct Steps {
 using StepCost = std::function<void(const Steps& steps, VectorView costs)>;
 
 /// A condition on the steps of a batch, one number a row: 0 or NaN where it does not hold. Arguments and promises are
-/// those of a reward.
-using StepCondition = Reward;
+/// those of a cost.
+using StepCondition = StepCost;
 
 /// A condition on the states of a batch (rows × dx), one number a row: 0 or NaN where it does not hold. Promises as a
 /// reward's.

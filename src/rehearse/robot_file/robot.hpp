@@ -49,7 +49,7 @@ struct Success {
   double last_s = 0;
 };
 
-/// A condition on states and actions that every step must keep.
+/// A condition that every step must keep, of what a cost may use.
 struct LimitFormula {
   std::string name;
   Formula keep;

@@ -5,8 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/expression/program.hpp"
-#include "rehearse/robot_file/robot_formulas.hpp"
+#include "rehearse/robot_file/formulas.hpp"
 #include "rehearse/robot_file/table.hpp"
 #include "rehearse/scenario/ode_scenario.hpp"
 
@@ -14,14 +13,6 @@ namespace rehearse::robot_file {
 namespace {
 
 using expression::Formulas, expression::Node, expression::Pace, expression::Program;
-
-/// Its further inputs are the actions one step before, and the time since the start.
-Program cost_program(const Robot& robot) {
-  Formulas formulas = formulas_of(robot, Of::steps);
-  for (const std::string& name : robot.action_names()) formulas.input(name + "_before", Pace::always);
-  formulas.input("time", Pace::always);
-  return {formulas, {formulas.compile(robot.reward.cost.text)}};
-}
 
 class Checker {
  public:
@@ -33,8 +24,10 @@ class Checker {
     const Functions& functions = robot_.functions;
     if (!is_of_program(robot_.reward.formula, functions.of_steps))
       compile(of_steps, "reward.formula", robot_.reward.formula);
+    compile_as_cost("reward.cost", robot_.reward.cost);
     for (const LimitFormula& limit : robot_.limits)
-      check_condition(of_steps, "limit.keep", limit.keep, functions.of_steps);
+      if (!is_of_program(limit.keep, functions.limits))
+        compile_as_cost("limit.keep", limit.keep, &Formulas::compile_condition);
     Formulas of_states = good_ ? formulas_of(robot_, Of::states) : Formulas();
     for (const Formula& distance : robot_.reward.distance) compile(of_states, "reward.distance", distance);
     check_condition(of_states, "success.when", robot_.success.when, functions.of_states);
@@ -42,9 +35,6 @@ class Checker {
     for (const Body& body : robot_.bodies)
       for (const Formula* formula : {&body.from[0], &body.from[1], &body.to[0], &body.to[1]})
         compile(of_states, fmt::format("body {}", body.name), *formula);
-    if (!robot_.reward.cost.empty() && good_)
-      named(
-          robot_.reward.cost.line, [&] { cost_program(robot_); }, "reward.cost");
     for (const Dynamics& dynamics : robot_.dynamics)
       if (const auto* equations = std::get_if<Equations>(&dynamics.source)) check_equations(dynamics, *equations);
   }
@@ -80,6 +70,13 @@ class Checker {
   void check_condition(Formulas& formulas, const std::string& what, const Formula& formula,
                        const std::map<std::string, Function>& functions) {
     if (!is_of_program(formula, functions)) compile(formulas, what, formula, &Formulas::compile_condition);
+  }
+
+  void compile_as_cost(const std::string& what, const Formula& formula,
+                       Node (Formulas::*as)(const std::string&) = &Formulas::compile) {
+    if (formula.empty() || !good_) return;
+    Formulas formulas = formulas_of_costs(robot_);
+    compile(formulas, what, formula, as);
   }
 
   /// Formulas that use a wrong definition are not compiled: the definition is to blame.
@@ -132,14 +129,18 @@ Reward reward_of(const Robot& robot) {
   return of_steps(robot, robot.reward.formula);
 }
 
-StepCost cost_of(const Robot& robot) {
-  if (robot.reward.cost.empty()) return {};
-  return [program = cost_program(robot)](const Steps& steps, VectorView costs) {
+/// A formula of a cost or a limit.
+StepCost cost_of(const Robot& robot, const Formula& formula) {
+  return [program = program(formulas_of_costs(robot), {formula})](const Steps& steps, VectorView values) {
     thread_local Matrix more;
     more.resize(steps.U.rows(), 2 * steps.U.cols() + 1);
     more << steps.U, steps.U_before, Vector::Constant(steps.U.rows(), steps.time_s);
-    costs = evaluate(program, steps.X_next, more).col(0);
+    values = evaluate(program, steps.X_next, more).col(0);
   };
+}
+
+StepCondition limit_of(const Robot& robot, const Formula& keep) {
+  return keep.is_function() ? function_of(robot.functions.limits, keep.function()) : cost_of(robot, keep);
 }
 
 StateCondition of_states(const Robot& robot, const Formula& formula) {
@@ -228,16 +229,16 @@ Task make_task(const Robot& robot) {
   task.actions = robot.actions;
   task.dt_s = robot.dt_s;
   task.horizon = robot.horizon;
-  if (!robot.functions.of_steps.empty() || !robot.functions.of_states.empty())
+  if (!robot.functions.of_steps.empty() || !robot.functions.limits.empty() || !robot.functions.of_states.empty())
     task.rows_at_once = robot.functions.rows_at_once;
   task.reward = reward_of(robot);
   task.reward_floor = robot.reward.floor;
-  task.cost = cost_of(robot);
+  if (!robot.reward.cost.empty()) task.cost = cost_of(robot, robot.reward.cost);
   if (!robot.success.when.empty())
     task.solved = scenario::holds_at_the_end(task, robot.success.last_s, of_states(robot, robot.success.when));
   if (!robot.ended.empty()) task.ended = of_states(robot, robot.ended);
   for (const LimitFormula& limit : robot.limits)
-    task.limits.push_back({limit.name, limit.keep.text, of_steps(robot, limit.keep), limit.risk});
+    task.limits.push_back({limit.name, limit.keep.text, limit_of(robot, limit.keep), limit.risk});
   return with_memory(std::move(task));
 }
 

@@ -28,16 +28,21 @@ void record_state(Episode& episode, Index row, const Vector& measured, const sys
   episode.true_states.row(row) = (truth.size() == measured.size() ? truth : measured).transpose();
 }
 
+/// Calls work(steps) with step t of an episode.
+void with_step(const Task& task, const Episode& episode, Index t, const std::function<void(const Steps&)>& work) {
+  const Matrix none = Matrix::Zero(1, episode.actions.cols());
+  work({episode.true_states.middleRows(t, 1), episode.actions.middleRows(t, 1),
+        episode.true_states.middleRows(t + 1, 1), t > 0 ? episode.actions.middleRows(t - 1, 1) : none.middleRows(0, 1),
+        static_cast<double>(t) * task.dt_s});
+}
+
 /// The step's reward, less its cost.
 double reward_of(const Task& task, const Episode& episode, Index t) {
   Vector reward(1), cost = Vector::Zero(1);
-  const ConstMatrixView x = episode.true_states.middleRows(t, 1), u = episode.actions.middleRows(t, 1),
-                        next = episode.true_states.middleRows(t + 1, 1);
-  task.reward(x, u, next, reward);
-  if (task.cost) {
-    const Matrix before = t > 0 ? Matrix(episode.actions.row(t - 1)) : Matrix::Zero(1, u.cols());
-    task.cost({x, u, next, before, static_cast<double>(t) * task.dt_s}, cost);
-  }
+  with_step(task, episode, t, [&](const Steps& step) {
+    task.reward(step.X, step.U, step.X_next, reward);
+    if (task.cost) task.cost(step, cost);
+  });
   return reward(0) - cost(0);
 }
 
@@ -150,11 +155,12 @@ void fail(Episode& episode, const Task& task, const std::string& why) { end(epis
 std::vector<std::string> limits_broken_by(const Task& task, const Episode& episode, Index t) {
   std::vector<std::string> broken;
   Vector kept(1);
-  for (const Limit& limit : task.limits) {
-    limit.holds(episode.true_states.middleRows(t, 1), episode.actions.middleRows(t, 1),
-                episode.true_states.middleRows(t + 1, 1), kept);
-    if (!is_true(kept(0))) broken.push_back(limit.name);
-  }
+  with_step(task, episode, t, [&](const Steps& step) {
+    for (const Limit& limit : task.limits) {
+      limit.holds(step, kept);
+      if (!is_true(kept(0))) broken.push_back(limit.name);
+    }
+  });
   return broken;
 }
 

@@ -12,10 +12,8 @@ Lockstep::Lockstep(const Simulation& of, Index rows, LockstepMemory& memory)
   for (Matrix* states : {&m_.X, &m_.seen, &m_.next, &m_.noise}) states->resize(rows, task_.state_size());
   m_.U.resize(rows, task_.action_size());
   m_.reward.resize(rows);
-  if (task_.cost) {
-    m_.U_before.setZero(rows, task_.action_size());
-    m_.cost.resize(rows);
-  }
+  if (task_.cost) m_.cost.resize(rows);
+  if (remembers_actions()) m_.U_before.setZero(rows, task_.action_size());
   m_.holds.resize(rows, static_cast<Index>(task_.limits.size()));
   m_.broken.setZero(rows, m_.holds.cols());
   m_.ended.setZero(rows);
@@ -50,19 +48,24 @@ void Lockstep::start() {
 
 void Lockstep::step(Index t, Episodes* record, TapedStep* tape) {
   const Matrix& seen = measured(t);
-  policy_.act(m_.Theta, seen, static_cast<double>(t) * task_.dt_s, m_.U);
+  const double time_s = static_cast<double>(t) * task_.dt_s;
+  policy_.act(m_.Theta, seen, time_s, m_.U);
   actuators_.command(m_.X, m_.U);
   if (tape) {
     tape->seen = seen;
     move(t, *tape);
-    step_slopes(task_, {m_.X, m_.U, m_.next, m_.U_before, static_cast<double>(t) * task_.dt_s}, tape->earned_by);
+    step_slopes(task_, {m_.X, m_.U, m_.next, m_.U_before, time_s}, tape->earned_by);
   } else {
     move(t);
   }
   task_.reward(m_.X, m_.U, m_.next, m_.reward);
-  if (task_.cost) charge(t);
+  if (task_.cost) {
+    task_.cost({m_.X, m_.U, m_.next, m_.U_before, time_s}, m_.cost);
+    m_.reward -= m_.cost;
+  }
   for (Index l = 0; l < m_.holds.cols(); ++l)
-    task_.limits[static_cast<std::size_t>(l)].holds(m_.X, m_.U, m_.next, m_.holds.col(l));
+    task_.limits[static_cast<std::size_t>(l)].holds({m_.X, m_.U, m_.next, m_.U_before, time_s}, m_.holds.col(l));
+  if (remembers_actions()) m_.U_before = m_.U;
   if (task_.ended) task_.ended(m_.next, m_.ended);
   if (record) write(t, *record);
   if (tape) tape->earned = m_.alive;
@@ -136,12 +139,6 @@ void Lockstep::write(Index t, Episodes& record) {
     record.steps[i] += !record.failed[i];
     record.ended[i] = !record.failed[i] && (breaks(row) || ended(row));
   }
-}
-
-void Lockstep::charge(Index t) {
-  task_.cost({m_.X, m_.U, m_.next, m_.U_before, static_cast<double>(t) * task_.dt_s}, m_.cost);
-  m_.reward -= m_.cost;
-  m_.U_before = m_.U;
 }
 
 bool Lockstep::finite(Index row) const { return m_.next.row(row).allFinite() && std::isfinite(m_.reward(row)); }

@@ -55,11 +55,11 @@ class Lockstep {
   void move(Index t);
   void move(Index t, TapedStep& tape);
   void write(Index t, Episodes& record);
-  void charge(Index t);
   bool finite(Index row) const;
   void settle(Index row, Index t);
   bool breaks(Index row) const;
   bool ended(Index row) const { return is_true(m_.ended(row)); }
+  bool remembers_actions() const { return task_.cost || !task_.limits.empty(); }
   bool uncertain() const { return options_.sample && !model_.certain(); }
 
   const dynamics::DynamicsModel& model_;

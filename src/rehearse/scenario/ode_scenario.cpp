@@ -72,9 +72,8 @@ Reward initial_reward(const reward::SquaredDistance& squared_distance, const Ode
 }
 
 Limit limit_within(const StateVariable& state, Index index, double bound, double risk) {
-  const auto holds = [index, bound](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next,
-                                    VectorView kept) {
-    kept = (X_next.col(index).array().abs() < bound).cast<double>();
+  const auto holds = [index, bound](const Steps& steps, VectorView kept) {
+    kept = (steps.X_next.col(index).array().abs() < bound).cast<double>();
   };
   return {state.name, "abs(" + state.name + ") < " + to_text(bound) + " " + state.unit, holds, risk};
 }

@@ -38,7 +38,7 @@ std::vector<std::string> after(F&& spoil) {
 
 TEST(Task, LimitsHaveNamesOfTheirOwnConditionsAndRisks) {
   using Lines = std::vector<std::string>;
-  const Limit good{"speed", "v < 1", task().reward, 0.1};
+  const Limit good{"speed", "v < 1", [](const Steps&, VectorView kept) { kept.setOnes(); }, 0.1};
   EXPECT_EQ(after([&](Task& t) { t.limits = {good}; }), Lines{});
   EXPECT_EQ(after([&](Task& t) { t.limits = {good, good}; }), Lines(2, "limit speed: there must be one of this name"));
   EXPECT_EQ(after([](Task& t) { t.limits = {{.name = "speed", .risk = 0}}; }),

@@ -63,8 +63,8 @@ Functions functions() {
   functions.of_steps["near"] = [](const auto&, const auto&, const auto& X_next, VectorView r) {
     r = (-X_next.col(0).array().square()).exp();
   };
-  functions.of_steps["gentle"] = [](const auto&, const auto& U, const auto&, VectorView holds) {
-    holds = (U.col(0).array().abs() < 1.5).template cast<double>();
+  functions.limits["gentle"] = [](const Steps& steps, VectorView holds) {
+    holds = (steps.U.col(0).array().abs() < 1.5).cast<double>();
   };
   functions.of_states["far"] = each_state([](const ConstVectorView& x) { return x(0) > 3; });
   functions.of_states["there"] = each_state([](const ConstVectorView& x) { return x(0) > 1; });
@@ -90,7 +90,7 @@ TEST(RobotFunctions, StandWhereTheFileNamesThem) {
   EXPECT_DOUBLE_EQ(value(0), std::exp(-0.25));
   EXPECT_TRUE(holds(task.ended, Vector{{4}}));
   EXPECT_FALSE(holds(task.ended, Vector{{2}}));
-  task.limits.front().holds(Matrix{{0.0}}, Matrix{{1.8}}, Matrix{{0.5}}, value);
+  task.limits.front().holds({Matrix{{0.0}}, Matrix{{1.8}}, Matrix{{0.5}}, Matrix{{0.0}}}, value);
   EXPECT_EQ(value(0), 0);
   EXPECT_EQ(task.rows_at_once, 100);
   const scenario::NamedPrior& prior = scenario.priors.front();

@@ -135,7 +135,7 @@ const Wrong kWrong[] = {
     {"dt_s = 0.1", "dt_s = 0.1\nended = \"abs(u) > 1\"",
      "line 4: ended: 'u' is an action, and this is a formula of states; the last command is the state u_last"},
     {"dt_s = 0.1", "dt_s = 0.1\nended = \"time > 1\"",
-     "line 4: ended: 'time' is known to the `cost` of [reward] alone"},
+     "line 4: ended: 'time' is known to the `cost` of [reward], which is subtracted from it, and to the `keep`"},
     {"when = \"height > 0.9\"", "when = \"abs(u) < 0.001\"", "line 29: success.when: 'u' is an action"},
     {"\"sin(angle)\"]", "\"u\"]", "line 25: reward.distance: 'u' is an action"},
     {"\"cos(angle)\"\n\n[reward]\ndistance = [\"1 - height\"", "\"u\"\n\n[reward]\ndistance = [\"height\"",

@@ -141,7 +141,7 @@ TEST(RobotFile, FormulasMayUseWhatIsRemembered) {
   const Matrix X = Matrix::Zero(2, 6), U = Matrix::Zero(2, 1);
   const Matrix reached{{0, 0, 1.0, 0.5, 0, 0}, {0, 0, 1.0, -0.5, 0, 0}};
   Vector kept(2);
-  task.limits[0].holds(X, U, reached, kept);
+  task.limits[0].holds({X, U, reached, U}, kept);
   EXPECT_EQ(kept, (Vector{{1, 0}}));
 }
 

@@ -87,9 +87,21 @@ risk = 0.2
   EXPECT_EQ(task.limits[1].risk, 0.2);
   const Matrix X_next{{4, 0}, {5, 0}, {4, 0}};
   Vector kept(3);
-  task.limits[0].holds(X_next, Matrix{{1.5}, {0}, {1.6}}, X_next, kept);
+  const Matrix U{{1.5}, {0}, {1.6}};
+  task.limits[0].holds({X_next, U, X_next, U}, kept);
   EXPECT_EQ(kept, (Vector{{1, 0, 0}}));
   EXPECT_TRUE(task.violations().empty());
+}
+
+TEST(RobotTask, LimitsSeeActionsBeforeAndTime) {
+  const Task task =
+      make_task(read(kSwing + "[[limit]]\nkeep = \"abs(u - u_before) < 1 + time\"\n", "swing.toml", example::no_files));
+  const Matrix X = Matrix::Zero(3, 2), U{{1}, {2}, {3}}, before{{0.5}, {1}, {-1}};
+  Vector kept(3);
+  task.limits[0].holds({X, U, X, before}, kept);
+  EXPECT_EQ(kept, (Vector{{1, 0, 0}}));
+  task.limits[0].holds({X, U, X, before, 2}, kept);
+  EXPECT_EQ(kept, (Vector{{1, 1, 0}}));
 }
 
 TEST(RobotTask, DistancesOfFeaturesHaveAClosedForm) {

@@ -88,9 +88,8 @@ TEST(ReturnGradients, OfEpisodesThatEndEarlyStopThere) {
   task.ended = each_state([](const ConstVectorView& x) { return x(1) > 1.6; });
   expect_gradients(task, Curved());
   task.ended = nullptr;
-  task.limits = {{"p", "p < 1.6",
-                  [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next, VectorView holds) {
-                    holds = (X_next.col(1).array() < 1.6).cast<double>();
+  task.limits = {{"p", "p < 1.6", [](const Steps& steps, VectorView holds) {
+                    holds = (steps.X_next.col(1).array() < 1.6).cast<double>();
                   }}};
   expect_gradients(task, Curved());
 }

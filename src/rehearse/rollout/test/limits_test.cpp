@@ -12,13 +12,14 @@ namespace {
 using cart::kKey, cart::kUnclipped, cart::Noise, cart::noise_of, cart::simulate_cart, cart::start_of;
 
 Limit above(Index state, double low, const char* name) {
-  const auto holds = [=](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next,
-                         VectorView kept) { kept = (X_next.col(state).array() > low).cast<double>(); };
+  const auto holds = [=](const Steps& steps, VectorView kept) {
+    kept = (steps.X_next.col(state).array() > low).cast<double>();
+  };
   return {name, "", holds, 0.05};
 }
 
 Limit never_judged() {
-  return {"nan", "", [](const auto&, const auto&, const auto&, VectorView kept) { kept.setConstant(std::nan("")); }};
+  return {"nan", "", [](const Steps&, VectorView kept) { kept.setConstant(std::nan("")); }};
 }
 
 /// The first step (from 0) that breaks position > 0.9 or velocity > −0.4; T: none.
@@ -106,6 +107,43 @@ TEST(Limits, EndRecordedEpisodes) {
   simulate_episodes({model, *cart::policy(), task, kKey}, cart::candidates(1).transpose(), 0, episodes);
   EXPECT_EQ(episodes.steps, std::vector<Index>{1});
   EXPECT_TRUE(episodes.ended[0]);
+}
+
+/// Actions, those one step before, and times, of each step that a limit was asked about.
+struct Asked {
+  std::vector<double> actions, before, times;
+
+  Limit limit() {
+    return {"asked", "", [this](const Steps& steps, VectorView kept) {
+              actions.push_back(steps.U(0, 0));
+              before.push_back(steps.U_before(0, 0));
+              times.push_back(steps.time_s);
+              kept.setOnes();
+            }};
+  }
+
+  void expect_all_of_a_step(const Task& task) const {
+    ASSERT_EQ(times.size(), static_cast<std::size_t>(task.horizon));
+    for (std::size_t t = 0; t < times.size(); ++t) {
+      EXPECT_EQ(before[t], t > 0 ? actions[t - 1] : 0) << t;
+      EXPECT_EQ(times[t], static_cast<double>(t) * task.dt_s);
+    }
+  }
+};
+
+TEST(Limits, SeeActionsBeforeAndTime) {
+  Task task = cart::task();
+  Asked simulated, executed;
+  task.limits = {simulated.limit()};
+  Episodes episodes;
+  const cart::Model model;
+  simulate_episodes({model, *cart::policy(), task, kKey}, cart::candidates(1).transpose(), 0, episodes);
+  simulated.expect_all_of_a_step(task);
+  task.limits = {executed.limit()};
+  const auto motion = [](const Vector& x, const Vector& u) -> Vector { return x + Vector{{0.1 * u(0), 0.1 * x(0)}}; };
+  const auto plant = system::make_simulated_plant(motion, {task.start_mean, Vector::Zero(2), {}});
+  execute(*plant, *cart::policy(), cart::candidates(1), task, Rng({.seed = 5}));
+  executed.expect_all_of_a_step(task);
 }
 
 }  // namespace

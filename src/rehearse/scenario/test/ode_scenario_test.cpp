@@ -69,7 +69,8 @@ TEST(LimitWithin, HoldsWhereAStateIsNearerToZero) {
   EXPECT_EQ(limit.risk, 0.1);
   const Matrix X{{9, 0.4}, {9, -0.4}, {9, 0.5}, {9, -0.6}, {9, std::nan("")}};
   Vector kept(5);
-  limit.holds(X, Matrix::Zero(5, 1), X, kept);
+  const Matrix U = Matrix::Zero(5, 1);
+  limit.holds({X, U, X, U}, kept);
   EXPECT_EQ(kept, (Vector{{1, 1, 0, 0, 0}}));
 }
 

@@ -73,8 +73,9 @@ TEST(Choice, PrefersThemWithinAToleranceWhereTheModelIsUncertain) {
 /// A slider that may not come nearer to its goal than to a position: the reward asks for what is forbidden.
 Setting limited(double low) {
   Setting limited = setting(slider::prior(1.5));
-  const auto holds = [low](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next,
-                           VectorView kept) { kept = (X_next.col(0).array() > low).cast<double>(); };
+  const auto holds = [low](const Steps& steps, VectorView kept) {
+    kept = (steps.X_next.col(0).array() > low).cast<double>();
+  };
   limited.task.limits = {{"end", "position > low", holds, 0.05}};
   return limited;
 }

@@ -20,8 +20,9 @@ TEST(RandomActions, AreAFractionOfTheirWayFromTheMiddle) {
 TEST(SafeRandomActions, AreAsLargeAsTheLimitsAllow) {
   Task task = slider::task();
   const auto largest = [&](double reach) -> std::optional<double> {
-    const auto holds = [reach](const ConstMatrixView&, const ConstMatrixView& U, const ConstMatrixView&,
-                               VectorView kept) { kept = (U.col(0).array().abs() <= reach).cast<double>(); };
+    const auto holds = [reach](const Steps& steps, VectorView kept) {
+      kept = (steps.U.col(0).array().abs() <= reach).cast<double>();
+    };
     task.limits = {{"pull", "", holds, 0.05}};
     const dynamics::SimulatorModel model(slider::prior(), slider::kTruth);
     const auto schedule = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);

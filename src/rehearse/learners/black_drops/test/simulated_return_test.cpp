@@ -11,8 +11,9 @@ namespace {
 /// The slider may not go below a position.
 struct SimulatedReturnTest : ::testing::Test {
   void limit(double low) {
-    const auto holds = [low](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next,
-                             VectorView kept) { kept = (X_next.col(0).array() > low).cast<double>(); };
+    const auto holds = [low](const Steps& steps, VectorView kept) {
+      kept = (steps.X_next.col(0).array() > low).cast<double>();
+    };
     task.limits = {{"end", "position > low", holds, 0.05}};
   }
   const dynamics::SimulatorModel model{slider::prior(), slider::kTruth, 0.0004};

@@ -66,7 +66,7 @@ TEST_F(TrialSearchesTest, AChoiceIsJudgedAnewInOtherEpisodes) {
   EXPECT_NE(trial.judge(theta).predicted_return, trial.judge_anew(theta).predicted_return);
   EXPECT_EQ(trial.judge_anew(theta).solving, 0);
   task.solved = [](const Episode&) { return true; };
-  task.limits = {{"end", "", [](const auto&, const auto&, const auto&, VectorView kept) { kept.setOnes(); }}};
+  task.limits = {{"end", "", [](const Steps&, VectorView kept) { kept.setOnes(); }}};
   EXPECT_GT(searches().judge_anew(theta).solving, 1) << "in all episodes, and in the mean predictions";
 }
 
@@ -86,7 +86,7 @@ TEST_F(TrialSearchesTest, OfThePoliciesFoundTheOneThatSolvesMostOftenIsTaken) {
 }
 
 TEST_F(TrialSearchesTest, ASafeSearchEvaluatesPoliciesByEightRollouts) {
-  task.limits = {{"end", "", [](const auto&, const auto&, const auto&, VectorView kept) { kept.setOnes(); }}};
+  task.limits = {{"end", "", [](const Steps&, VectorView kept) { kept.setOnes(); }}};
   options.safety.rollouts = 80;
   TrialSearches trial = searches();
   const Index rollouts = trial.search_safe({Vector{{-5, 0}}, Vector{{-1, 0}}}, 0).rollouts;
@@ -96,9 +96,8 @@ TEST_F(TrialSearchesTest, ASafeSearchEvaluatesPoliciesByEightRollouts) {
 }
 
 TEST_F(TrialSearchesTest, OfThoseThatSolveTheSafeOneIsTaken) {
-  task.limits = {{"end", "position > 0.02",
-                  [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next, VectorView kept) {
-                    kept = (X_next.col(0).array() > 0.02).cast<double>();
+  task.limits = {{"end", "position > 0.02", [](const Steps& steps, VectorView kept) {
+                    kept = (steps.X_next.col(0).array() > 0.02).cast<double>();
                   }}};
   task.solved = [](const Episode& e) { return e.true_states(e.steps(), 0) < 0.6; };
   const Vector to_zero{{-5, 0}}, near{{-0.6, 0}};

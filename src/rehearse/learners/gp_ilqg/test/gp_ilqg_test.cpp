@@ -64,7 +64,7 @@ TEST(GpIlqg, LearnsFromAPriorThatPullsTheWrongWay) {
 
 TEST(GpIlqg, RefusesLimits) {
   Setting limited = setting(1);
-  limited.task.limits = {{.name = "end", .text = "position < 2", .holds = learners::slider::reward}};
+  limited.task.limits = {{.name = "end", .holds = [](const Steps&, VectorView kept) { kept.setOnes(); }}};
   EXPECT_THROW(builder()->build(limited), InvalidInput);
   Setting without = setting(1);
   without.prior.reset();

@@ -226,7 +226,7 @@ TEST(Ite, RefusesATaskThatDoesNotSayHowItWent) {
   EXPECT_NE(refusal(mute).find("not a robot's file or one in Python"), std::string::npos) << refusal(mute);
   EXPECT_EQ(builder()->violations(mute.task, *mute.policy).size(), 1U);
   Setting limited = setting();
-  limited.task.limits = {{"end", "", limited.task.reward}};
+  limited.task.limits = {{"end", "", [](const Steps&, VectorView kept) { kept.setOnes(); }}};
   EXPECT_NE(refusal(limited).find("the task has limits, which ite does not keep"), std::string::npos);
   Setting unbounded = setting();
   unbounded.task.descriptor_bounds.clear();

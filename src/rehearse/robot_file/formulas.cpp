@@ -1,4 +1,4 @@
-#include "rehearse/robot_file/robot_formulas.hpp"
+#include "rehearse/robot_file/formulas.hpp"
 
 #include <fmt/format.h>
 
@@ -32,6 +32,13 @@ Program program(Formulas of, const std::vector<Formula>& outputs) {
   std::vector<Node> nodes;
   for (const Formula& output : outputs) nodes.push_back(of.compile(output.text));
   return {of, nodes};
+}
+
+Formulas formulas_of_costs(const Robot& robot) {
+  Formulas formulas = formulas_of(robot, Of::steps);
+  for (const std::string& name : robot.action_names()) formulas.input(name + "_before", Pace::always);
+  formulas.input("time", Pace::always);
+  return formulas;
 }
 
 Matrix evaluate(const Program& program, const ConstMatrixView& X, const ConstMatrixView& U) {

@@ -1,5 +1,4 @@
 #pragma once
-// Formulas of a robot's task, for the sources of this room.
 
 #include <cstdint>
 #include <vector>
@@ -9,7 +8,9 @@
 
 namespace rehearse::robot_file {
 
-inline constexpr const char* kOnlyOfCosts = "is known to the `cost` of [reward] alone";
+/// Why other formulas do not know the actions before and the time.
+inline constexpr const char* kOnlyOfCosts =
+    "is known to the `cost` of [reward], which is subtracted from it, and to the `keep` of a [[limit]] alone";
 
 enum class Of : std::uint8_t { states, steps };
 
@@ -18,6 +19,9 @@ expression::Formulas inputs_of(const Robot& robot, Of of);
 
 /// The same with the robot's definitions.
 expression::Formulas formulas_of(const Robot& robot, Of of);
+
+/// Formulas of costs and limits. Their further inputs are the actions one step before, and the time since the start.
+expression::Formulas formulas_of_costs(const Robot& robot);
 
 expression::Program program(expression::Formulas of, const std::vector<Formula>& outputs);
 
