@@ -73,6 +73,16 @@ StepCondition limit_of(const Callable& of) {
   };
 }
 
+std::function<double(const Episode&)> of_episodes(const Callable& of) {
+  return [of](const Episode& episode) {
+    double reward = 0;
+    call(of, [&](const py::object& function) {
+      reward = py::float_(function(to_array(episode.true_states), to_array(episode.actions)));
+    });
+    return reward;
+  };
+}
+
 StateCondition of_states(const Callable& of) {
   return [of](const ConstMatrixView& X, VectorView values) {
     call(of, [&](const py::object& function) { write_truths(function(to_array(X)), of.name, values); });
@@ -127,6 +137,8 @@ void Robot::try_out(const scenario::Scenario& scenario) const {
   for (const auto& [name, function] : functions_.of_steps) function(X, U, X, values);
   for (const auto& [name, function] : functions_.limits) function({X, U, X, U, 0}, values);
   for (const auto& [name, function] : functions_.of_states) function(X, values);
+  for (const auto& [name, function] : functions_.of_episodes)
+    function({.states = X, .true_states = X, .actions = U.topRows(kRows - 1), .rewards = Vector::Zero(kRows - 1)});
   for (const scenario::NamedPrior& prior : scenario.priors) {
     if (!functions_.dynamics.contains(prior.name)) continue;
     Matrix dX(kRows, task.state_size());
@@ -139,6 +151,12 @@ void Robot::try_out(const scenario::Scenario& scenario) const {
 void Robot::add_state_function(const std::string& name, py::object function) {
   add([name, function = shared(std::move(function))](robot_file::Functions& to, const auto& failure) {
     to.of_states[name] = of_states({function, name, failure});
+  });
+}
+
+void Robot::add_episode_function(const std::string& name, py::object function) {
+  add([name, function = shared(std::move(function))](robot_file::Functions& to, const auto& failure) {
+    to.of_episodes[name] = of_episodes({function, name, failure});
   });
 }
 
@@ -192,6 +210,7 @@ void add_robot(py::module_& module) {
       .def("add_step_function", &Robot::add_step_function)
       .def("add_step_condition", &Robot::add_step_condition)
       .def("add_state_function", &Robot::add_state_function)
+      .def("add_episode_function", &Robot::add_episode_function)
       .def("add_dynamics", &Robot::add_dynamics)
       .def("add_plant", &Robot::add_plant)
       .def("about", &Robot::about);

@@ -25,6 +25,8 @@ class Robot {
   void add_step_condition(const std::string& name, py::object function);
   /// ended, success: function(states) → n truths.
   void add_state_function(const std::string& name, py::object function);
+  /// The reward of a whole episode: function(states, actions) → a number; T + 1 and T rows.
+  void add_episode_function(const std::string& name, py::object function);
   /// function(states, actions, **parameters) → changes of the states, n × dx.
   void add_dynamics(const std::string& name, py::object function, const std::vector<std::string>& parameters);
   /// make() → an object with reset(seed) → state and step(action) → (state, ended).

@@ -13,6 +13,8 @@ from .arrays import Array
 StepFunction = Callable[[Array, Array, Array], Any]
 #: the same, or function(states, actions, next_states, actions_before, time_s) → n truths
 LimitFunction = Union[StepFunction, Callable[[Array, Array, Array, Array, float], Any]]
+#: function(states, actions) → a number; of a whole episode, T + 1 and T rows
+EpisodeFunction = Callable[[Array, Array], Any]
 #: function(states) → n truths; states: n × dx
 StateFunction = Callable[[Array], Any]
 

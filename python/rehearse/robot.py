@@ -13,7 +13,8 @@ from typing import Any, Union
 
 from . import _core
 from .environment import Task, environment_maker, is_environment
-from .parts import Action, Body, Distance, Limit, Model, State, StateFunction, StepFunction, Success
+from .parts import (Action, Body, Distance, EpisodeFunction, Limit, Model, State, StateFunction, StepFunction,
+                    Success)
 from .toml import table, value
 
 
@@ -22,7 +23,8 @@ class Robot:
 
     name: letters, digits, - and _. dt_s: seconds of a control step. horizon: control steps of an episode.
     reward: what a step earns by the state that it reaches: a `Distance`, a formula, or function(states, actions,
-    next_states) → n numbers. cost: a formula that is subtracted. floor: what every step earns that a fall leaves out.
+    next_states) → n numbers. cost: a formula that is subtracted. episode_reward: what a whole episode adds to
+    its return, a formula (docs/own-robot.md) or function(states, actions) → a number, of T + 1 and T rows. floor: what every step earns that a fall leaves out.
     ended: a fall, a formula or function(states) → n truths (True or False).
     plant: what plays the robot: an environment with `reset` and `step` as Gymnasium has them, a function that makes
     one, a `Model`, or None: the trials are yours (`Run.ask`, `Run.tell`). observe: function(observation) → state, where
@@ -50,6 +52,7 @@ class Robot:
         observe: Union[Callable[[Any], Any], None] = None,
         measurement_noise: Union[float, Mapping[str, float]] = 0.0,
         cost: str = "",
+        episode_reward: Union[str, EpisodeFunction, None] = None,
         floor: float = 0.0,
         define: Union[Mapping[str, str], None] = None,
         policy: Union[Mapping[str, Any], None] = None,
@@ -69,13 +72,15 @@ class Robot:
         self._functions: list[tuple[Any, ...]] = []
         self.has_environment = False  # one object, for one thread
         parts = [table("", {"format": 1, "name": name, "summary": summary, "dt_s": float(dt_s), "horizon": horizon,
-                            "ended": self._state_formula("ended", ended)})]
+                            "ended": self._formula("ended", ended)})]
         parts += [_state(state) for state in states]
         parts += [_action(action) for action in actions]
         parts.append(table("[define]", dict(define or {})))
-        parts.append(table("[reward]", {**self._reward(reward), "cost": cost or None, "floor": float(floor)}))
+        parts.append(table("[reward]", {**self._reward(reward), "cost": cost or None,
+                                      "episode": self._formula("episode_reward", episode_reward, "add_episode_function"),
+                                      "floor": float(floor)}))
         if success is not None:
-            when = self._state_formula("success", success.when)
+            when = self._formula("success", success.when)
             parts.append(table("[success]", {"when": when, "last_s": float(success.last_s)}))
         for number, limit in enumerate(limits, 1):
             parts.append(table("[[limit]]", self._limit(limit, f"limit {number}" if len(limits) > 1 else "limit")))
@@ -123,23 +128,17 @@ class Robot:
             getattr(core, add)(*arguments)
         return core
 
-    def _state_formula(self, name: str, formula: Any) -> Union[str, None]:
+    def _formula(self, name: str, formula: Any, add: str = "add_state_function") -> Union[str, None]:
         if not callable(formula):
             return None if formula is None else str(formula)
-        self._functions.append(("add_state_function", name, formula))
-        return "@" + name
-
-    def _step_formula(self, name: str, formula: Any) -> str:
-        if not callable(formula):
-            return str(formula)
-        self._functions.append(("add_step_function", name, formula))
+        self._functions.append((add, name, formula))
         return "@" + name
 
     def _reward(self, reward: Any) -> dict[str, Any]:
         if isinstance(reward, Distance):
             of = [reward.of] if isinstance(reward.of, str) else list(reward.of)
             return {"distance": of, "width": float(reward.width)}
-        return {"formula": self._step_formula("reward", reward)}
+        return {"formula": self._formula("reward", reward, "add_step_function")}
 
     def _limit(self, limit: Limit, nameless: str) -> dict[str, Any]:
         """nameless: the name of a function that has none."""

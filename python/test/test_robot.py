@@ -56,6 +56,20 @@ def test_a_limit_may_use_the_action_before_and_the_time(tmp_path):
     assert run.details[0].limits[0]["broken"] and len(run.trajectory(1)) == 6
 
 
+def test_a_whole_episode_may_be_rewarded(tmp_path):
+    def farthest(states, actions):
+        assert states.shape[1] == 2 and len(states) == len(actions) + 1
+        return -100 * states[:, 1].max()
+
+    runs = [learn(cart(episode_reward=reward), tmp_path / name)
+            for name, reward in (("function", farthest), ("formula", "-100 * position_max"))]
+    assert runs[0].trials["return"][0] == runs[1].trials["return"][0] < -80
+    with pytest.raises(rehearse.InvalidInput, match="reward of whole episodes"):
+        learn(cart(episode_reward=farthest), tmp_path / "planned", learner="gp-ilqg", options={})
+    with pytest.raises(ValueError):
+        learn(cart(episode_reward=lambda states, actions: "much"), tmp_path / "text")
+
+
 def test_two_threads_may_fail_at_once(tmp_path):
     script = f"""
 import sys, threading, time; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})

@@ -14,12 +14,16 @@ struct Episode {
   Matrix actions;                          // T × du
   Vector rewards;                          // T; rewards(t) is that of the state reached, t+1
   double charged = 0;                      // reward floor charged for the steps that an early end left out
+  double episode_reward = 0;               // Task::episode_reward of all of it
   bool ended = false;                      // by a fall, a broken limit, or by what `failure` says
   std::string failure;                     // "the reward at step 5 is nan"; empty: there was none
   std::vector<std::string> broken_limits;  // names of those that the last step broke
 
   Index steps() const { return actions.rows(); }
-  double total_reward() const { return rewards.sum() + charged; }
+  double total_reward() const {
+    const double of_steps = rewards.sum() + charged;
+    return episode_reward == 0 ? of_steps : of_steps + episode_reward;  // −0 stays −0
+  }
 
   /// True if an operator stopped it by no fault of the policy: its return does not compare with those of whole
   /// episodes.

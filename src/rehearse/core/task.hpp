@@ -68,8 +68,11 @@ struct Task {
   double dt_s = 0;    // control step
   Index horizon = 0;  // steps of an episode, T
   Reward reward;
-  StepCost cost;            // is subtracted from the reward of each step; empty: nothing is
-  Reward initial_reward;    // a guess that stands in while the reward is still to be learned; empty: none
+  StepCost cost;          // is subtracted from the reward of each step; empty: nothing is
+  Reward initial_reward;  // a guess that stands in while the reward is still to be learned; empty: none
+  // Is added to the return at the end of an episode, which may have ended early: what no sum over steps can say. Any
+  // thread; empty: nothing is.
+  std::function<double(const Episode&)> episode_reward;
   Index rows_at_once = 0;   // that a call of its functions should have to be worth its cost; 0: any number
   double reward_floor = 0;  // charged for every step that an early end or a failed simulation leaves out
 

@@ -18,6 +18,7 @@ json to_json(const Episode& e) {
   json j = {{"states", to_json(e.states)},   {"true_states", to_json(e.true_states)},
             {"actions", to_json(e.actions)}, {"rewards", to_json(e.rewards)},
             {"charged", e.charged},          {"ended", e.ended}};
+  if (e.episode_reward != 0) j["episode_reward"] = e.episode_reward;
   if (!e.failure.empty()) j["failure"] = e.failure;
   if (!e.broken_limits.empty()) j["broken_limits"] = e.broken_limits;
   return j;
@@ -48,6 +49,7 @@ Episode to_episode(const json& j) {
   e.actions = to_matrix(j.at("actions"));
   e.rewards = to_vector(j.at("rewards"));
   e.charged = j.at("charged").get<double>();
+  e.episode_reward = j.value("episode_reward", 0.0);
   e.ended = j.at("ended").get<bool>();
   e.failure = j.value("failure", "");
   e.broken_limits = j.value("broken_limits", std::vector<std::string>());

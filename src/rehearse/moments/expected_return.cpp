@@ -43,6 +43,7 @@ void check(const Task& task, const policy::Policy& policy, const StepDynamics& d
                      "the task's reward has no analytic moments: it must be a saturating one of distances that are "
                      "linear in the features (reward::ClosedForm)");
   violations.require(!task.cost, "the task has a cost of steps, whose moments are not known");
+  violations.require(!task.episode_reward, "the task has a reward of whole episodes, whose moments are not known");
   const Index features = task.feature_map().features(), states = task.state_size();
   if (reward)
     violations.require(reward->goal.size() == features && reward->distances.cols() == features &&

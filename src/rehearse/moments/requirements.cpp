@@ -22,6 +22,10 @@ std::vector<std::string> without_moments(const Task& task, const policy::Policy&
                                  policy.name(), who, otherwise));
   violations.require(!task.cost,
                      fmt::format("the task has a cost of steps, whose moments are not known: choose {}", otherwise));
+  violations.require(!task.episode_reward,
+                     fmt::format("the task has a reward of whole episodes ([reward] episode), whose moments are not "
+                                 "known: choose {}",
+                                 otherwise));
   violations.require(task.limits.empty(),
                      fmt::format("the task has limits, which {} does not keep: choose {}", who, otherwise));
   violations.require(

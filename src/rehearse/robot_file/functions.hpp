@@ -16,9 +16,10 @@ namespace rehearse::robot_file {
 /// `function = "NAME"` in [dynamics.NAME] and [plant]. The program alone can use such a file, since no file keeps its
 /// functions. Each must keep the promises of its type.
 struct Functions {
-  std::map<std::string, Reward> of_steps;           // reward.formula
-  std::map<std::string, StepCondition> limits;      // limit.keep
-  std::map<std::string, StateCondition> of_states;  // ended, success.when
+  std::map<std::string, Reward> of_steps;                                    // reward.formula
+  std::map<std::string, StepCondition> limits;                               // limit.keep
+  std::map<std::string, StateCondition> of_states;                           // ended, success.when
+  std::map<std::string, std::function<double(const Episode&)>> of_episodes;  // reward.episode
   std::map<std::string, system::Change> dynamics;
   std::map<std::string, std::function<std::unique_ptr<system::Plant>()>> plants;
   Index rows_at_once = 0;  // that a call should have to be worth its cost (system::Simulator)

@@ -152,6 +152,7 @@ class Reader {
       table.number("width", robot_.reward.width, above(0));
       table.number("floor", robot_.reward.floor);
       robot_.reward.cost = table.formula("cost");
+      robot_.reward.episode = table.formula("episode");
       if (robot_.reward.distance.empty() == robot_.reward.formula.empty())
         violations_.add(files::line_of(*part),
                         "[reward] needs distance = […], what is 0 at the goal, or formula = \"…\"");
@@ -162,8 +163,7 @@ class Reader {
     if (const toml::table* part = file_.reader().take_table("success")) {
       Table table(*part, "[success]", violations_);
       robot_.success.when = table.formula("when");
-      if (robot_.success.when.empty())
-        violations_.add(files::line_of(*part), "[success] needs when = \"…\", a condition");
+      if (robot_.success.when.empty()) table.wrong("when", "[success] needs when = \"…\", a condition");
       table.number("last_s", robot_.success.last_s, at_least(0));
       const double episode_s = robot_.dt_s * static_cast<double>(robot_.horizon);
       if (robot_.success.last_s > episode_s * (1 + 1e-9) && episode_s > 0)

@@ -40,7 +40,8 @@ struct RewardFormulas {
   double width = 1;               // of all of them together
   Formula formula;                // instead of a distance
   double floor = 0;
-  Formula cost;  // of states, actions, actions before (NAME_before) and time; is subtracted
+  Formula cost;     // of states, actions, actions before (NAME_before) and time; is subtracted
+  Formula episode;  // of a whole episode (episode_formula.hpp); is added to the return
 };
 
 /// A condition that has to hold for the last seconds of an episode.

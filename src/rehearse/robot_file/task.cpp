@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/robot_file/episode_formula.hpp"
 #include "rehearse/robot_file/formulas.hpp"
 #include "rehearse/robot_file/table.hpp"
 #include "rehearse/scenario/ode_scenario.hpp"
@@ -28,6 +29,7 @@ class Checker {
     for (const LimitFormula& limit : robot_.limits)
       if (!is_of_program(limit.keep, functions.limits))
         compile_as_cost("limit.keep", limit.keep, &Formulas::compile_condition);
+    check_episode(robot_.reward.episode);
     Formulas of_states = good_ ? formulas_of(robot_, Of::states) : Formulas();
     for (const Formula& distance : robot_.reward.distance) compile(of_states, "reward.distance", distance);
     check_condition(of_states, "success.when", robot_.success.when, functions.of_states);
@@ -77,6 +79,12 @@ class Checker {
     if (formula.empty() || !good_) return;
     Formulas formulas = formulas_of_costs(robot_);
     compile(formulas, what, formula, as);
+  }
+
+  void check_episode(const Formula& episode) {
+    if (!is_of_program(episode, robot_.functions.of_episodes) && !episode.empty() && good_)
+      named(
+          episode.line, [&] { episode_formula(robot_, episode); }, "reward.episode");
   }
 
   /// Formulas that use a wrong definition are not compiled: the definition is to blame.
@@ -229,10 +237,14 @@ Task make_task(const Robot& robot) {
   task.actions = robot.actions;
   task.dt_s = robot.dt_s;
   task.horizon = robot.horizon;
-  if (!robot.functions.of_steps.empty() || !robot.functions.limits.empty() || !robot.functions.of_states.empty())
+  if (!robot.functions.of_steps.empty() || !robot.functions.of_episodes.empty() || !robot.functions.limits.empty() ||
+      !robot.functions.of_states.empty())
     task.rows_at_once = robot.functions.rows_at_once;
   task.reward = reward_of(robot);
   task.reward_floor = robot.reward.floor;
+  if (const Formula& episode = robot.reward.episode; !episode.empty())
+    task.episode_reward = episode.is_function() ? function_of(robot.functions.of_episodes, episode.function())
+                                                : episode_formula(robot, episode);
   if (!robot.reward.cost.empty()) task.cost = cost_of(robot, robot.reward.cost);
   if (!robot.success.when.empty())
     task.solved = scenario::holds_at_the_end(task, robot.success.last_s, of_states(robot, robot.success.when));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/rollout/episodes.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::rollout {
@@ -75,6 +76,15 @@ bool earn(Episode& episode, Index t, const Task& task) {
   return std::isfinite(reward);
 }
 
+/// The reward of the whole episode, after its last step.
+void earn_at_end(Episode& episode, const Task& task) {
+  if (!task.episode_reward) return;
+  episode.episode_reward = task.episode_reward(episode);
+  if (std::isfinite(episode.episode_reward)) return;
+  end(episode, episode.steps(), task, "the reward of the whole episode is not finite");
+  episode.episode_reward = task.reward_floor;
+}
+
 /// The reward of the step to state t+1, and whether the episode ends there.
 bool ends_at(Episode& episode, Index t, const Task& task) {
   if (!earn(episode, t, task)) {
@@ -122,6 +132,7 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
       break;
     }
   }
+  earn_at_end(episode, task);
   return episode;
 }
 
@@ -147,6 +158,7 @@ Episode judged(Episode episode, const Task& task) {
   episode.rewards.resize(episode.steps());
   for (Index t = 0, steps = episode.steps(); t < steps; ++t)
     if (ends_at(episode, t, task)) break;
+  earn_at_end(episode, task);
   return episode;
 }
 
@@ -167,6 +179,7 @@ std::vector<std::string> limits_broken_by(const Task& task, const Episode& episo
 Episode as_measured(Episode episode, const Task& task) {
   episode.true_states = episode.states;
   for (Index t = 0; t < episode.steps(); ++t) earn(episode, t, task);
+  if (task.episode_reward) episode.episode_reward = episode_reward_of(task, episode);
   return episode;
 }
 

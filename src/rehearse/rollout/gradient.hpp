@@ -16,8 +16,8 @@ struct ReturnGradients {
 /// The rollouts that `simulate` makes of the same candidates, and their gradients. Where an episode ends, by a fall, a
 /// broken limit or a failure, the gradient takes the end's step as given: what comes after is charged, and counts
 /// nothing. Draws are taken to be the model's mean and so many deviations of each state by itself, which those of
-/// servos are not. The same bytes for any number of threads. Throws InvalidInput where sizes are wrong, and if the
-/// policy is not policy::Differentiable.
+/// servos are not. Rewards of whole episodes are left out. The same bytes for any number of threads. Throws
+/// InvalidInput where sizes are wrong, and if the policy is not policy::Differentiable.
 ReturnGradients return_gradients(const Simulation& simulation, const ConstMatrixView& Theta,
                                  const Candidates& candidates, const Evaluator& evaluator);
 

@@ -38,17 +38,30 @@ Simulated gathered(const Matrix& results, Index limits, Index particles, Index c
   return simulated;
 }
 
+/// All steps of a chunk from its start, and its returns.
+const Vector& run_steps(Lockstep& chunk, const Task& task, const Evaluator& evaluator, Episodes* record) {
+  chunk.start();
+  if (record) record->begin(task, chunk.states());
+  for (Index t = 0; t < task.horizon; ++t) {
+    evaluator.stop_if_asked();
+    chunk.step(t, record);
+  }
+  if (!record) return chunk.returns();
+  record->finish(task, chunk.returns());
+  return record->returns;
+}
+
 }  // namespace
 
 Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, const Candidates& candidates,
                    const Evaluator& evaluator) {
   const Index particles = candidates.particles;
-  const Index horizon = simulation.task.horizon;
+  const Task& task = simulation.task;
   check_simulation(simulation, Theta.rows(), particles);
   const Index total = Theta.cols() * particles;
-  const Index most = rows_of_chunk(total, std::max(simulation.model.rows_at_once(), simulation.task.rows_at_once));
+  const Index most = rows_of_chunk(total, std::max(simulation.model.rows_at_once(), task.rows_at_once));
   const Index chunks = (total + most - 1) / most;
-  const auto limits = static_cast<Index>(simulation.task.limits.size());
+  const auto limits = static_cast<Index>(task.limits.size());
   Matrix results((1 + limits) * most + 1, chunks);  // returns, limits one by one, and how many failed
   const auto task_of_chunk = [&](Index c) {
     VectorView result = results.col(c);
@@ -59,12 +72,8 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
       chunk.set_row(row, Theta.col(candidate), candidates.first + static_cast<std::uint64_t>(candidate),
                     static_cast<std::uint64_t>(particle));
     }
-    chunk.start();
-    for (Index t = 0; t < horizon; ++t) {
-      evaluator.stop_if_asked();
-      chunk.step(t);
-    }
-    result.head(rows) = chunk.returns();
+    thread_local Episodes episodes;
+    result.head(rows) = run_steps(chunk, task, evaluator, task.episode_reward ? &episodes : nullptr);
     for (Index l = 0; l < limits; ++l) result.segment((1 + l) * most, rows) = chunk.broken().col(l);
     result(result.size() - 1) = static_cast<double>(chunk.failed());
   };
@@ -75,46 +84,35 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
 Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, Index particles,
                            const Evaluator& evaluator) {
   check_simulation(simulation, theta.size(), particles);
-  const Index horizon = simulation.task.horizon;
+  const Task& task = simulation.task;
   LockstepMemory memory;
   Lockstep chunk(simulation, particles, memory);
   for (Index p = 0; p < particles; ++p) chunk.set_row(p, theta, 0, static_cast<std::uint64_t>(p));
   chunk.start();
-  Recorded recorded{.rewards = Matrix(particles, horizon)};
+  Recorded recorded{.rewards = Matrix(particles, task.horizon)};
   recorded.states.push_back(chunk.states());
-  for (Index t = 0; t < horizon; ++t) {
+  Episodes episodes;
+  episodes.begin(task, chunk.states());
+  for (Index t = 0; t < task.horizon; ++t) {
     evaluator.stop_if_asked();
     const Vector before = chunk.returns();
-    chunk.step(t);
+    chunk.step(t, &episodes);
     recorded.rewards.col(t) = chunk.returns() - before;
     recorded.states.push_back(chunk.states());
     for (Index p = 0; p < particles; ++p)
       if (!chunk.alive(p)) recorded.states.back().row(p).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
-  recorded.returns = chunk.returns();
+  episodes.finish(task, chunk.returns());
+  recorded.returns = episodes.returns;
   return recorded;
 }
 
 void simulate_episodes(const Simulation& simulation, const ConstMatrixView& Theta, std::uint64_t first_candidate,
                        Episodes& episodes, const Evaluator& evaluator) {
   check_simulation(simulation, Theta.cols(), 1);
-  const Index rows = Theta.rows(), T = simulation.task.horizon;
-  episodes.states.resize(static_cast<std::size_t>(T + 1));
-  episodes.actions.resize(static_cast<std::size_t>(T));
-  episodes.rewards.resize(rows, T);
-  episodes.reward_floor = simulation.task.reward_floor;
-  episodes.steps.assign(static_cast<std::size_t>(rows), 0);
-  episodes.ended.assign(static_cast<std::size_t>(rows), false);
-  episodes.failed.assign(static_cast<std::size_t>(rows), false);
-  Lockstep chunk(simulation, rows, memory_of_this_thread());
+  Lockstep chunk(simulation, Theta.rows(), memory_of_this_thread());
   chunk.set_rows(Theta, first_candidate);
-  chunk.start();
-  episodes.states.front() = chunk.states();
-  for (Index t = 0; t < T; ++t) {
-    evaluator.stop_if_asked();
-    chunk.step(t, &episodes);
-  }
-  episodes.returns = chunk.returns();
+  run_steps(chunk, simulation.task, evaluator, &episodes);
 }
 
 }  // namespace rehearse::rollout

@@ -20,8 +20,8 @@ struct Simulated {
 /// Simulates episodes of each policy (Theta: parameters × candidates), all rollouts in lockstep within chunks of a
 /// fixed size that the evaluator spreads over threads. Rollout (candidate j, particle p) draws from the stream (key,
 /// candidates.first + j, p): its value does not depend on the batch it is evaluated in, nor on threads. A rollout that
-/// falls, breaks a limit or fails is charged the reward floor for every remaining step. Throws InvalidInput where sizes
-/// are wrong.
+/// falls, breaks a limit or fails is charged the reward floor for every remaining step. Rewards of whole episodes are
+/// of the steps that were made. Throws InvalidInput where sizes are wrong.
 Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, const Candidates& candidates,
                    const Evaluator& evaluator);
 
@@ -30,7 +30,7 @@ Simulated simulate(const Simulation& simulation, const ConstMatrixView& Theta, c
 struct Recorded {
   std::vector<Matrix> states;
   Matrix rewards;  // particles × T: what a step adds to the return, an early end all that is charged for the rest
-  Vector returns;  // particles
+  Vector returns;  // particles, with the rewards of whole episodes
 };
 Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, Index particles,
                            const Evaluator& evaluator = serial_evaluator());

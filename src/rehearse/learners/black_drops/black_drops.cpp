@@ -206,6 +206,14 @@ std::vector<std::string> violations_with(const Options& options, const Task& tas
     return {
         "search.method = gradient or polish, but commands are filtered or limited in their rate, whose derivatives "
         "are not known: choose search.method = race"};
+  if (task.episode_reward && needs_derivatives(options.search.method))
+    return {
+        "search.method = gradient or polish, but the task has a reward of whole episodes ([reward] episode), whose "
+        "derivatives are not known: choose search.method = race"};
+  if (task.episode_reward && options.reward.learned)
+    return {
+        "reward.learned = true, but the task has a reward of whole episodes ([reward] episode), which is not learned: "
+        "leave out one of them"};
   if (!options.reward.learned || prior_use(options) == PriorUse::none || task.initial_reward) return {};
   return {
       "reward.learned = true, but the scenario gives no initial_reward for the first search, on the prior: give it one "

@@ -90,6 +90,9 @@ class GpIlqg final : public TrialLearner {
 
 std::vector<std::string> cannot_do(const Options&, const Task& task, const policy::Policy&) {
   Violations violations;
+  violations.require(!task.episode_reward,
+                     "the task has a reward of whole episodes ([reward] episode), which gp-ilqg does not plan with: "
+                     "choose the learner gp-mi");
   violations.require(task.limits.empty(), "the task has limits, which gp-ilqg does not keep: choose the learner gp-mi");
   violations.require(
       !task.actuators().changes_commands(),

@@ -32,6 +32,8 @@ TEST(Json, AnEpisodeComesBackAsItWas) {
   Episode e{.states = Matrix{{1, 2}, {3, 4}}, .true_states = Matrix{{5, 6}, {7, 8}}, .actions = Matrix{{9}}};
   e.rewards = Vector{{0.5}};
   e.charged = -1.5;
+  EXPECT_FALSE(to_json(e).contains("episode_reward"));
+  e.episode_reward = 0.25;
   e.ended = true;
   EXPECT_FALSE(to_json(e).contains("failure"));
   EXPECT_FALSE(to_json(e).contains("broken_limits"));
@@ -43,6 +45,7 @@ TEST(Json, AnEpisodeComesBackAsItWas) {
   EXPECT_EQ(back.actions, e.actions);
   EXPECT_EQ(back.rewards, e.rewards);
   EXPECT_EQ(back.charged, -1.5);
+  EXPECT_EQ(back.episode_reward, 0.25);
   EXPECT_TRUE(back.ended);
   EXPECT_EQ(back.failure, "it fell");
   EXPECT_EQ(back.broken_limits, e.broken_limits);

@@ -24,13 +24,15 @@ TEST(Requirements, SayEverythingThatHasNoMoments) {
                                               .squash = {task.action_bounds(), 1}});
   task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView) {};
   task.cost = [](const Steps&, VectorView costs) { costs.setZero(); };
+  task.episode_reward = [](const Episode&) { return 1; };
   task.limits.emplace_back();
   const auto all = complaints(task, *with_tanh);
-  ASSERT_EQ(all.size(), 4u);
+  ASSERT_EQ(all.size(), 5u);
   EXPECT_TRUE(all[0].starts_with("policy = linear has no analytic moments, which PILCO needs")) << all[0];
   EXPECT_TRUE(all[1].starts_with("the task has a cost of steps")) << all[1];
-  EXPECT_EQ(all[2], "the task has limits, which PILCO does not keep: choose black-drops");
-  EXPECT_TRUE(all[3].ends_with("or choose black-drops")) << all[3];
+  EXPECT_TRUE(all[2].starts_with("the task has a reward of whole episodes")) << all[2];
+  EXPECT_EQ(all[3], "the task has limits, which PILCO does not keep: choose black-drops");
+  EXPECT_TRUE(all[4].ends_with("or choose black-drops")) << all[4];
 }
 
 TEST(Requirements, AModelOfTooManyInputsIsRefused) {

@@ -143,6 +143,16 @@ TEST(BlackDrops, ALearnedRewardNeedsAnInitialOneWithAPriorOnly) {
   EXPECT_NO_THROW(reward_builder("black-drops")->build(without_reward({}, false)));
 }
 
+TEST(BlackDrops, RefusesARewardOfWholeEpisodesThatItCannotTake) {
+  Setting whole = setting();
+  whole.task.episode_reward = [](const Episode&) { return 1; };
+  const auto learner = builder("black-drops");
+  EXPECT_TRUE(learner->violations(whole.task, *whole.policy).empty());
+  EXPECT_TRUE(set_field([&](FieldVisitor& v) { learner->fields(v); }, "search.method", "polish"));
+  EXPECT_EQ(learner->violations(whole.task, *whole.policy).size(), 1U);
+  EXPECT_EQ(reward_builder("black-drops")->violations(whole.task, *whole.policy).size(), 1U);
+}
+
 TEST(BlackDrops, TheFirstSearchOnAPriorUsesTheInitialReward) {
   const Proposal guessed = reward_builder("mi")->build(without_reward(slider::prior(), true))->ask();
   Setting told = setting();

@@ -62,6 +62,12 @@ TEST(GpIlqg, LearnsFromAPriorThatPullsTheWrongWay) {
     }
 }
 
+TEST(GpIlqg, RefusesRewardsOfWholeEpisodes) {
+  Setting whole = setting(1);
+  whole.task.episode_reward = [](const Episode&) { return 1; };
+  EXPECT_THROW(builder()->build(whole), InvalidInput);
+}
+
 TEST(GpIlqg, RefusesLimits) {
   Setting limited = setting(1);
   limited.task.limits = {{.name = "end", .holds = [](const Steps&, VectorView kept) { kept.setOnes(); }}};
