@@ -4,6 +4,7 @@
 
 #include "rehearse/robot_file/dynamics.hpp"
 #include "rehearse/robot_file/read.hpp"
+#include "rehearse/robot_file/start.hpp"
 #include "rehearse/robot_file/task.hpp"
 #include "rehearse/system/actuated.hpp"
 
@@ -155,7 +156,9 @@ std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const 
   check_formulas(robot, violations);
   violations.throw_if_any();
   DynamicsMaker::check_models(robot, violations);
-  for (const std::string& line : make_task(robot).violations()) violations.add(0, line);
+  const Task task = make_task(robot);
+  for (const std::string& line : task.violations()) violations.add(0, line);
+  check_start(robot, task, violations);
   violations.throw_if_any();
   return std::make_unique<Builder>(std::move(robot));
 }

@@ -38,12 +38,17 @@ TEST(TryOut, NamesAParameterThatChangesNothing) {
 }
 
 TEST(TryOut, NamesARewardThatIsNoNumber) {
-  const Tried found = tried(with("distance = [\"1 - height\", \"sin(angle)\"]\nwidth = 0.5", "formula = \"1 / rate\""));
+  scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
+  scenario.task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& X_next,
+                            VectorView rewards) { rewards = 1 / X_next.col(0).array(); };
+  const Tried found = try_out(scenario);
   EXPECT_EQ(found.broken, std::vector<std::string>{"the reward of the start is inf, must be a finite number"});
 }
 
 TEST(TryOut, NamesAStartWhereEpisodesEnd) {
-  const Tried found = tried(with("dt_s = 0.1", "dt_s = 0.1\nended = \"angle > 2\""));
+  scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
+  scenario.task.ended = each_state([](const ConstVectorView& state) { return state(1) > 2; });
+  const Tried found = try_out(scenario);
   EXPECT_EQ(found.broken, std::vector<std::string>{"an episode ends where it starts: `ended` holds in the start"});
   EXPECT_EQ(found.ended, 3);
 }
@@ -87,7 +92,7 @@ TEST(TryOut, APlantThatFailsWithoutAWordFails) {
 }
 
 TEST(TryOut, NamesAPlantThatLosesItsWay) {
-  const Tried found = tried(with("define.torque = \"u +", "define.torque = \"1 / (angle - angle) +"));
+  const Tried found = tried(with("define.torque = \"u +", "define.torque = \"sqrt(-abs(rate)) +"));
   EXPECT_EQ(found.broken, std::vector<std::string>{"the plant comes to states that are not finite"});
   EXPECT_GT(found.priors[0].failed, 0);
 }
