@@ -1,6 +1,8 @@
 #include "rehearse/files/toml_reader.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -9,6 +11,23 @@
 #include "rehearse/core/names.hpp"
 
 namespace rehearse::files {
+namespace {
+
+/// The fields that stand without quotes, and what each must be.
+class Unquoted final : public FieldVisitor {
+ public:
+  explicit Unquoted(const Fields& fields) { fields(*this); }
+  std::map<std::string, const char*> must_be;
+
+ protected:
+  void visit(const std::string& name, double&, Bound) override { must_be[name] = "a number"; }
+  void visit(const std::string& name, Index&, Bound) override { must_be[name] = "a whole number"; }
+  void visit(const std::string& name, bool&) override { must_be[name] = "true or false"; }
+  void visit(const std::string&, std::string&) override {}
+  void visit(const std::string&, int&, const std::vector<std::string>&) override {}
+};
+
+}  // namespace
 
 std::string in_file(const std::string& source, Index line, const std::string& message) {
   return line > 0 ? fmt::format("{}: line {}: {}", source, line, message) : fmt::format("{}: {}", source, message);
@@ -101,9 +120,15 @@ void TomlReader::wrong(const std::string& key, const std::string& message) {
 }
 
 void TomlReader::take_fields(const Fields& fields) {
+  const Unquoted unquoted(fields);
   for (const auto& [key, text] : list_fields(fields)) {
     const toml::node* node = take(key);
     if (!node) continue;
+    const auto must_be = unquoted.must_be.find(key);
+    if (node->is_string() && must_be != unquoted.must_be.end()) {
+      wrong(key, fmt::format("{} = \"{}\", must be {}, without quotes", key, text_of(*node), must_be->second));
+      continue;
+    }
     try {
       set_field(fields, key, text_of(*node));
     } catch (const InvalidInput& error) {
@@ -122,7 +147,15 @@ bool TomlReader::take(const std::string& key, std::string& value) {
   return true;
 }
 
-bool TomlReader::take(const std::string& key, std::vector<std::string>& values) {
+bool TomlReader::take(const std::string& key, std::vector<std::string>& names) {
+  if (!take_words(key, names)) return false;
+  const std::set<std::string> different(names.begin(), names.end());
+  for (const std::string& name : different)
+    if (std::ranges::count(names, name) > 1) wrong(key, fmt::format("{} names '{}' twice", key, name));
+  return true;
+}
+
+bool TomlReader::take_words(const std::string& key, std::vector<std::string>& words) {
   const toml::node* node = take(key);
   if (!node) return false;
   std::vector<std::string> read;
@@ -131,12 +164,10 @@ bool TomlReader::take(const std::string& key, std::vector<std::string>& values) 
     for (const toml::node& element : *list)
       if (const auto* text = element.as_string()) read.push_back(text->get());
   const bool all_read = node->is_string() || (node->is_array() && node->as_array()->size() == read.size());
-  for (const std::string& name : read)
-    if (std::count(read.begin(), read.end(), name) > 1) wrong(key, fmt::format("{} names '{}' twice", key, name));
   if (!all_read || read.empty())
     wrong(key, fmt::format("{} must be a list of names in quotes", key));
   else
-    values = std::move(read);
+    words = std::move(read);
   return true;
 }
 

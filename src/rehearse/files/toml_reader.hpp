@@ -57,10 +57,11 @@ class TomlReader {
   bool has(const std::string& key) const { return table_.contains(key); }
   Index line() const { return line_of(table_); }
   bool take(const std::string& key, std::string& value);
-  bool take(const std::string& key, std::vector<std::string>& values);  // a list of texts, or one text
-  void take_fields(const Fields& fields);                               // numbers and flags, with their bounds
-  const toml::node* take(const std::string& key);                       // null if it is not there
-  const toml::table* take_table(const std::string& key);                // null, too, if it is no table
+  bool take(const std::string& key, std::vector<std::string>& names);        // a list of texts, or one; none twice
+  bool take_words(const std::string& key, std::vector<std::string>& words);  // likewise, and may repeat: a command
+  void take_fields(const Fields& fields);                                    // with their bounds; texts alone in quotes
+  const toml::node* take(const std::string& key);                            // null if it is not there
+  const toml::table* take_table(const std::string& key);                     // null, too, if it is no table
   void wrong(const std::string& key, const std::string& message);
 
   /// A violation for every key that was not taken.

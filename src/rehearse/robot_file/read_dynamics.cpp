@@ -45,7 +45,7 @@ class DynamicsReader {
     if (table.reader().take("function", function)) {
       require_function(robot_.functions, robot_.functions.dynamics, function, dynamics.line, violations_);
       dynamics.source = FunctionSource{function};
-    } else if (table.reader().take("program", command)) {
+    } else if (table.reader().take_words("program", command)) {
       dynamics.source = read_program(table, std::move(command));
     } else if (table.reader().take("model", model)) {
       dynamics.source = read_model(table, model);

@@ -66,7 +66,41 @@ TEST(Toml, RefusesKeysThatAreTooDeep) {
             "x.toml: line 2: a key has more than 256 parts");
   EXPECT_EQ(message_of<InvalidInput>([&] { parse_toml("[" + deep + "]\n", "x.toml"); }),
             "x.toml: line 1: a key has more than 256 parts");
-  EXPECT_EQ(parse_toml(numbers, "x.toml").size(), 1);
+  EXPECT_EQ(parse_toml(numbers, "x.toml").size(), 1U);
+}
+
+TEST(TomlReader, NumbersAndFlagsStandWithoutQuotes) {
+  const toml::table table = parse_toml("a = \"1\"\nb = \"2\"\nc = \"true\"\nd = \"text\"\ne = \"y\"\n", "x.toml");
+  FileViolations violations("x.toml");
+  TomlReader reader(table, "", violations);
+  double a = 0;
+  Index b = 0;
+  bool c = false;
+  std::string d;
+  enum class E { x, y } e = E::x;
+  reader.take_fields([&](FieldVisitor& v) {
+    v.number("a", a, "");
+    v.integer("b", b, "");
+    v.boolean("c", c, "");
+    v.text("d", d, "");
+    v.choice("e", e, "", {"x", "y"});
+  });
+  EXPECT_EQ(complaint(violations),
+            "x.toml: line 1: a = \"1\", must be a number, without quotes\n"
+            "x.toml: line 2: b = \"2\", must be a whole number, without quotes\n"
+            "x.toml: line 3: c = \"true\", must be true or false, without quotes");
+  EXPECT_EQ(d, "text");
+  EXPECT_EQ(e, E::y);
+}
+
+TEST(TomlReader, WordsOfACommandMayRepeat) {
+  const toml::table table = parse_toml("program = [\"p\", \"1\", \"1\"]\n", "x.toml");
+  FileViolations violations("x.toml");
+  TomlReader reader(table, "", violations);
+  std::vector<std::string> words;
+  EXPECT_TRUE(reader.take_words("program", words));
+  EXPECT_EQ(words, (std::vector<std::string>{"p", "1", "1"}));
+  EXPECT_TRUE(violations.empty());
 }
 
 TEST(Toml, LeavesKeepTheOrderOfTheFile) {

@@ -23,12 +23,12 @@ std::string complaint_of_program(const std::string& lines) {
 }
 
 TEST(ReadDynamics, AProgramHasItsFilesAndItsTimes) {
-  const Robot robot = read(with_program("program = [\"python3\", \"-u\", \"sim.py\", \"0.5\"]\nfiles = "
+  const Robot robot = read(with_program("program = [\"python3\", \"-u\", \"sim.py\", \"0.5\", \"0.5\"]\nfiles = "
                                         "[\"data/masses.csv\"]\nanswer_s = 3\nparameters.k = 2"),
                            "swing.toml", folder);
   ASSERT_EQ(robot.dynamics.size(), 2u);
   const auto& program = std::get<ProgramSource>(robot.dynamics[1].source);
-  EXPECT_EQ(program.command, (std::vector<std::string>{"python3", "-u", "sim.py", "0.5"}));
+  EXPECT_EQ(program.command, (std::vector<std::string>{"python3", "-u", "sim.py", "0.5", "0.5"}));
   EXPECT_EQ(program.answer_s, 3);
   EXPECT_EQ(program.start_s, 30);
   ASSERT_EQ(robot.files.size(), 2u);
