@@ -32,8 +32,10 @@ std::vector<std::string> without_moments(const Task& task, const policy::Policy&
       !task.actuators().changes_commands(),
       fmt::format("the task has max_rate or filter_s of an action, whose moments are not known: choose {}", otherwise));
   violations.require(reward::closed_form(task.reward) != nullptr,
-                     fmt::format("the scenario's reward has no analytic moments, which {} needs: give it a closed "
-                                 "form (reward::saturating), or choose {}",
+                     fmt::format("the scenario's reward has no analytic moments, which {} needs: give it distances "
+                                 "that are sums of multiples of states, and of sines and cosines of angles ([reward] "
+                                 "distance = […] and width in a robot's file, reward::saturating with a closed form in "
+                                 "C++), or choose {}",
                                  who, otherwise));
   const Index inputs = model_features(task, joint_angles).features() + task.action_size();
   violations.require(inputs <= kMostMomentInputs, fmt::format("{} features and actions, {} takes at most {}: choose {}",
