@@ -28,8 +28,11 @@ std::optional<Index> trial_of(const std::optional<std::string>& text, Violations
 
 void refuse_file_without_ending(const experiment::Catalogue& catalogue, const std::string& robot) {
   std::error_code none;
-  if (!robot.empty() && !catalogue.scenario(robot) && std::filesystem::is_regular_file(robot + ".toml", none))
+  if (robot.empty() || robot.ends_with(".toml") || catalogue.scenario(robot)) return;
+  if (std::filesystem::is_regular_file(robot + ".toml", none))
     throw InvalidInput(fmt::format("there is no scenario '{0}'; the file is {0}.toml", robot));
+  if (std::filesystem::is_regular_file(robot, none))
+    throw InvalidInput(fmt::format("there is no scenario '{}'; the name of a robot's file ends in .toml", robot));
 }
 
 experiment::Catalogue with_robot(const experiment::Catalogue& built_in, const std::string& robot) {

@@ -141,6 +141,17 @@ void write_motion(const experiment::Catalogue& catalogue, const std::string& sce
          share);
 }
 
+/// The example under another name; its head is about the new file.
+std::string text_of_new(const std::string& name, const std::string& path) {
+  std::string text = robot_template();
+  text.replace(0, text.find("format = "),
+               fmt::format("# A pendulum whose motor is too weak to lift it, to be made your robot. docs/own-robot.md "
+                           "explains every key.\n# Try it:  {}\n#          {}\n",
+                           command_line({"check", path}), command_line({"learn", path, "--learner", "gp-mi"})));
+  const std::string old_name = "name = \"pendulum-file\"";
+  return text.replace(text.find(old_name), old_name.size(), fmt::format("name = \"{}\"", name));
+}
+
 }  // namespace
 
 int check(const experiment::Catalogue& built_in, const CheckArguments& arguments, const std::string& share) {
@@ -170,11 +181,11 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
 }
 
 int make_new(const experiment::Catalogue& catalogue, const NewArguments& arguments) {
-  const std::filesystem::path path = arguments.name + ".toml";
-  std::string text = robot_template();
-  const std::string name = "name = \"pendulum-file\"";
-  const std::size_t at = text.find(name);
-  text.replace(at, name.size(), fmt::format("name = \"{}\"", arguments.name));
+  const std::string ending = ".toml";
+  const bool ends = arguments.name.ends_with(ending);
+  const std::string name = arguments.name.substr(0, arguments.name.size() - (ends ? ending.size() : 0));
+  const std::filesystem::path path = name + ending;
+  const std::string text = text_of_new(name, path.string());
   static_cast<void>(catalogue.with_robot(text, path.string(), ""));  // the name may be none, or another's
   if (std::filesystem::exists(path))
     throw InvalidInput(fmt::format("{} exists, and is not overwritten", path.string()));

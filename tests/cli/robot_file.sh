@@ -8,6 +8,10 @@ files=(spec.toml robot.toml trials.csv errors.csv policy.json trajectories/trial
 
 "$program" new my_robot >output || fail "new: $(cat output)"
 grep -q "rehearse check my_robot.toml" output || fail "new does not say what comes next: $(cat output)"
+grep -q "Try it:  rehearse check my_robot.toml" my_robot.toml || fail "the head of a new file: $(head -3 my_robot.toml)"
+grep -q "examples/robots\|built-in" my_robot.toml && fail "the head of a new file: $(head -3 my_robot.toml)"
+"$program" new with_ending.toml >output || fail "new with an ending: $(cat output)"
+grep -q '^name = "with_ending"' with_ending.toml || fail "new with an ending has another name"
 "$program" check my_robot.toml >output 2>&1 || fail "check: $(cat output)"
 grep -q "rehearse learn my_robot.toml --learner gp-mi" output || fail "check does not say what comes next: $(cat output)"
 
@@ -81,6 +85,12 @@ grep -q "misleading: .* rows a second" output && grep -q "learn pendubot --learn
 refused "there is no scenario 'many'; the file is many.toml" check many
 refused "there is no scenario 'many'; the file is many.toml" list many
 refused "there is no scenario 'many'; the file is many.toml" learn many --learner gp-mi
+cp many.toml many.txt
+refused "there is no scenario 'many.txt'; the name of a robot's file ends in .toml" check many.txt
+refused "there is no scenario 'many.txt'; the name of a robot's file ends in .toml" learn many.txt --learner gp-mi --out left
+sed 's/^\[plant\]/&\nparameters.m = 0/' pilco_robot.toml >no_mass.toml
+refused "no_mass.toml: line [0-9]*: plant: rate.dtheta: .* is not finite at the start" learn no_mass.toml --learner mi --out left
+refused "no_mass.toml: line [0-9]*: plant: rate.dtheta: .* is not finite at the start" check no_mass.toml
 refused "unknown scenario 'pendubut', did you mean 'pendubot'?" check pendubut
 refused "unknown scenario 'xxx" check "$(printf 'x%.0s' {1..300})"
 
