@@ -133,7 +133,7 @@ def test_a_file_may_write_its_horizon_as_toml_has_it(tmp_path):
             learn(rehearse.Robot.from_file(file, plant=Environment(limit=10)), tmp_path / "run", learner="black-drops")
         shutil.rmtree(tmp_path / "run", ignore_errors=True)
     file.write_text(FILE.format(horizon="15.5"))
-    with pytest.raises(rehearse.InvalidInput, match="horizon must be a whole number"):
+    with pytest.raises(rehearse.InvalidInput, match="horizon = 15.5, must be a whole number"):
         rehearse.Robot.from_file(file, plant=Environment())
 
 

@@ -316,7 +316,7 @@ def test_logs_come_first(tmp_path):
 def test_what_is_wrong_is_said_in_lines(tmp_path):
     with pytest.raises(rehearse.InvalidInput) as raised:
         learn(cart(horizon=0, states=[rehearse.State("velocity", rate="speed")]), tmp_path / "run")
-    assert "horizon must be a whole number of control steps" in str(raised.value)
+    assert "horizon = 0, must be between 1 and 1000000" in str(raised.value)
     with pytest.raises(rehearse.InvalidInput, match="did you mean 'gp-mi'"):
         learn(cart(), tmp_path / "run", learner="gp-m")
     with pytest.raises(rehearse.InvalidInput, match="did you mean 'hidden'|unknown option"):

@@ -16,6 +16,7 @@ namespace {
 
 std::string bound_text(const Bound& bound, const char* both) {
   const bool low = std::isfinite(bound.low), high = std::isfinite(bound.high);
+  if (low && high && bound.low_open) return fmt::format("> {} and ≤ {}", to_text(bound.low), to_text(bound.high));
   if (low && high) return fmt::format(fmt::runtime(both), to_text(bound.low), to_text(bound.high));
   if (high) return fmt::format("≤ {}", to_text(bound.high));
   return low ? fmt::format("{} {}", bound.low_open ? ">" : "≥", to_text(bound.low)) : "";
@@ -198,6 +199,10 @@ std::string closest(std::string_view name, const std::vector<std::string>& names
   const auto best = std::min_element(names.begin(), names.end(),
                                      [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
   return best == names.end() ? std::string{} : *best;
+}
+
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& names) {
+  return names.empty() ? "" : fmt::format(", did you mean '{}'?", closest(name, names));
 }
 
 std::string to_text(double value) { return fmt::format("{}", value); }

@@ -183,8 +183,8 @@ void TomlReader::finish() {
     if (is_among(name, known_)) continue;
     const std::string place = where_.empty() ? "" : " in " + where_;
     violations_.add(static_cast<Index>(key.source().begin.line),
-                    fmt::format("unknown key '{}'{}, did you mean '{}'? (known: {})", name, place,
-                                closest(name, known_), fmt::join(known_, ", ")));
+                    fmt::format("unknown key '{}'{}{} (known: {})", name, place, did_you_mean(name, known_),
+                                known_.empty() ? "none" : fmt::format("{}", fmt::join(known_, ", "))));
   }
 }
 

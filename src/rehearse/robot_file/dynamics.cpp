@@ -30,6 +30,13 @@ bool names_a_missing_file(const std::string& error) {
   return error.find("could not open") != std::string::npos || error.find("FILE_NOT_FOUND") != std::string::npos;
 }
 
+/// The line that a violation of a model is about.
+Index line_of(const Dynamics& dynamics, const std::string& violation) {
+  for (const auto& [beginning, line] : dynamics.lines)
+    if (violation.starts_with(beginning)) return line;
+  return dynamics.line;
+}
+
 }  // namespace
 
 DynamicsMaker::DynamicsMaker(const Robot& robot) : robot_(robot) {
@@ -123,7 +130,7 @@ void DynamicsMaker::check_models(Robot& robot, files::FileViolations& violations
       for (std::string line : error.violations()) {
         for (std::size_t at; (at = line.find(folder)) != std::string::npos;) line.erase(at, folder.size());
         if (names_a_missing_file(line)) line += " (MuJoCo sees only files named in `files = […]`)";
-        violations.add(dynamics.line, fmt::format("[dynamics.{}]: {}", dynamics.name, line));
+        violations.add(line_of(dynamics, line), fmt::format("[dynamics.{}]: {}", dynamics.name, line));
       }
     }
   }

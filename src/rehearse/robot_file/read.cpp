@@ -8,6 +8,7 @@
 #include "rehearse/core/names.hpp"
 #include "rehearse/expression/formulas.hpp"
 #include "rehearse/robot_file/read_dynamics.hpp"
+#include "rehearse/robot_file/read_states.hpp"
 #include "rehearse/robot_file/table.hpp"
 #include "rehearse/robot_file/variant.hpp"
 
@@ -26,7 +27,8 @@ class Reader {
 
   Robot read() {
     read_head();
-    read_states();
+    robot_.states = read_states(file_, names_, violations_);
+    required(!robot_.states.empty(), "[[state]]", "what the robot measures");
     read_actions();
     robot_.definitions = file_.definitions("define");
     read_task();
@@ -51,63 +53,21 @@ class Reader {
     if (!is_word(robot_.name))
       file_.wrong("name", fmt::format("name = '{}', must be of letters, digits, - and _", robot_.name));
     file_.reader().take("summary", robot_.summary);
-    required(file_.number("dt_s", robot_.dt_s, above(0)), "dt_s", "seconds of a control step");
-    const toml::node* horizon = file_.reader().take("horizon");
-    robot_.horizon = horizon ? horizon->value<std::int64_t>().value_or(0) : 0;
-    if (robot_.horizon < 1) file_.wrong("horizon", "horizon must be a whole number of control steps, ≥ 1");
+    required(file_.number("dt_s", robot_.dt_s, {.low = 0, .high = 1e6, .low_open = true}), "dt_s",
+             "seconds of a control step");
+    required(file_.reader().has("horizon"), "horizon", "control steps of an episode");
+    file_.reader().take_fields([&](FieldVisitor& v) { v.integer("horizon", robot_.horizon, "", between(1, 1e6)); });
   }
 
   void required(bool there, const std::string& key, const std::string& what) {
     if (!there) violations_.add(0, fmt::format("{} is missing: {}", key, what));
   }
 
-  void read_states() {
-    const auto parts = file_.list("state");
-    bool seen = false;
-    for (const toml::table* part : parts) {
-      Table table(*part, "[[state]]", violations_);
-      State state;
-      bool angle = false, input = true;
-      take_name(table, state.variable.name, "a state needs a name");
-      table.reader().take("unit", state.variable.unit);
-      table.reader().take_fields([&](FieldVisitor& v) {
-        v.boolean("angle", angle, "");
-        v.boolean("input", input, "");
-        v.number("start", state.start, "");
-        v.number("start_noise", state.start_noise, "", at_least(0));
-        v.number("scale", state.scale, "", above(0));
-      });
-      if (angle && !input)
-        table.wrong("input",
-                    "angle = true says how models and policies see a state, and input = false that they do not");
-      state.variable.kind = angle ? StateKind::angle : input ? StateKind::plain : StateKind::omitted;
-      table.reader().take("rate", state.variable.rate);
-      table.reader().take("parent", state.variable.parent);
-      table.finish();
-      seen |= state.variable.kind != StateKind::omitted;
-      robot_.states.push_back(state);
-    }
-    required(!robot_.states.empty(), "[[state]]", "what the robot measures");
-    if (!seen && !parts.empty())
-      violations_.add(files::line_of(*parts.front()),
-                      "every [[state]] has input = false: models and policies would see nothing of the robot");
-  }
-
-  /// A name that formulas can use.
-  void take_name(Table& table, std::string& name, const char* none) {
-    if (!table.reader().take("name", name)) return table.wrong("name", none);
-    try {
-      names_.input(name, expression::Pace::always);
-    } catch (const InvalidInput& error) {
-      table.wrong("name", error.what());
-    }
-  }
-
   void read_actions() {
     for (const toml::table* part : file_.list("action")) {
       Table table(*part, "[[action]]", violations_);
       ActionVariable action;
-      take_name(table, action.name, "an action needs a name");
+      table.name(action.name, names_, "an action needs a name");
       table.reader().take("unit", action.unit);
       if (!table.interval("bounds", action.bounds)) table.wrong("bounds", "an action needs bounds = [low, high]");
       read_actuation(table, action.actuation);
@@ -153,9 +113,11 @@ class Reader {
       table.number("floor", robot_.reward.floor);
       robot_.reward.cost = table.formula("cost");
       robot_.reward.episode = table.formula("episode");
-      if (robot_.reward.distance.empty() == robot_.reward.formula.empty())
+      if (robot_.reward.distance.empty() && robot_.reward.formula.empty())
         violations_.add(files::line_of(*part),
                         "[reward] needs distance = […], what is 0 at the goal, or formula = \"…\"");
+      if (!robot_.reward.distance.empty() && !robot_.reward.formula.empty())
+        table.wrong("formula", "[reward] has distance and formula, must have one of them");
       table.finish();
     } else {
       required(false, "[reward]", "what each step earns");

@@ -34,6 +34,8 @@ class DynamicsReader {
     Dynamics dynamics{.name = name, .line = files::line_of(part)};
     read_parameters(table, dynamics);
     read_source(table, dynamics);
+    if (const auto* model = std::get_if<ModelSource>(&dynamics.source))
+      dynamics.lines = lines_of_model(part, *model, robot_.action_names());
     table.finish();
     robot_.dynamics.push_back(std::move(dynamics));
   }
@@ -42,6 +44,7 @@ class DynamicsReader {
   void read_source(Table& table, Dynamics& dynamics) {
     std::vector<std::string> command;
     std::string model, function;
+    refuse_several_sources(table);
     if (table.reader().take("function", function)) {
       require_function(robot_.functions, robot_.functions.dynamics, function, dynamics.line, violations_);
       dynamics.source = FunctionSource{function};
@@ -52,6 +55,15 @@ class DynamicsReader {
     } else {
       dynamics.source = read_equations(table, dynamics.line);
     }
+  }
+
+  void refuse_several_sources(Table& table) {
+    std::vector<std::string> given;
+    for (const std::string key : {"function", "program", "model", "rate"})
+      if (table.reader().has(key)) given.push_back(key);
+    if (given.size() < 2) return;
+    for (const std::string& key : given) table.reader().take(key);
+    table.wrong(given.back(), fmt::format("a dynamics has {}, must have one of them", fmt::join(given, " and ")));
   }
 
   ModelSource read_model(Table& table, const std::string& path) {
@@ -79,8 +91,8 @@ class DynamicsReader {
         entry.finish();
       } else if (is_model) {
         violations_.add(files::line_of(*node), fmt::format("parameter {} must say what it sets or scales", name));
-      } else if (!take_number(name, *node, value, violations_)) {
-        continue;
+      } else {
+        take_number(name, *node, value, violations_);
       }
       dynamics.parameters.push_back(Parameter::fixed(name, value, unit));
     }
@@ -92,8 +104,8 @@ class DynamicsReader {
     const std::vector<std::string> states = robot_.state_names();
     for (const auto& [name, formula] : given)
       if (!is_among(name, states))
-        violations_.add(formula.line, fmt::format("rate.{}: there is no state '{}', did you mean '{}'?", name, name,
-                                                  states.empty() ? "" : closest(name, states)));
+        violations_.add(formula.line,
+                        fmt::format("rate.{}: there is no state '{}'{}", name, name, did_you_mean(name, states)));
     for (const State& state : robot_.states) equations.rates.push_back(rate_of(state, given, line));
     return equations;
   }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/names.hpp"
+#include "rehearse/robot_file/variant.hpp"
 
 namespace rehearse::robot_file {
 namespace {
@@ -56,8 +57,8 @@ class ModelReader {
     if (!given) return;
     for (const auto& [name, node] : in_order(*given))
       if (!is_among(name, names))
-        violations_.add(files::line_of(*node), fmt::format("there is no {} '{}', did you mean '{}'?", what, name,
-                                                           names.empty() ? "" : closest(name, names)));
+        violations_.add(files::line_of(*node),
+                        fmt::format("there is no {} '{}'{}", what, name, did_you_mean(name, names)));
   }
 
   /// A state that is the rate of another is the velocity of the same joints, if nothing else is said.
@@ -106,7 +107,8 @@ class ModelReader {
       for (const toml::node& name : *names) terms.push_back({name.value<std::string>().value_or(""), 1, component});
     if (const toml::table* factors = node.as_table())
       for (const auto& [name, factor] : in_order(*factors))
-        terms.push_back({name, factor->value<double>().value_or(0), component});
+        if (double value = 0; take_number(fmt::format("the factor of {}", name), *factor, value, violations_))
+          terms.push_back({name, value, component});
     if (terms.empty())
       violations_.add(files::line_of(node),
                       fmt::format("state.{} must be a name, a list of names, or names with factors", state));
@@ -187,6 +189,22 @@ ModelSource model_of(Table& table, const Robot& robot, files::FileViolations& vi
   model.states = reader.states(table.reader().take_table("state"));
   model.actions = reader.actions(table.reader().take_table("action"));
   return model;
+}
+
+std::map<std::string, Index> lines_of_model(const toml::table& part, const ModelSource& model,
+                                            const std::vector<std::string>& actions) {
+  std::map<std::string, Index> lines;
+  const auto add = [&](const std::string& beginning, const toml::node* node) {
+    if (node) lines.emplace(beginning, files::line_of(*node));
+  };
+  for (const mujoco::State& state : model.states)
+    add(fmt::format("state '{}'", state.name), part["state"][state.name].node());
+  for (std::size_t a = 0; a < actions.size(); ++a)
+    add(fmt::format("action '{}'", model.actions[a].element), part["action"][actions[a]].node());
+  for (const mujoco::ModelParameter& parameter : model.parameters)
+    add(fmt::format("parameter '{}'", parameter.name), part["parameters"][parameter.name].node());
+  add("keyframe", part["keyframe"].node());
+  return lines;
 }
 
 mujoco::ModelParameter moved_by(Table& entry, mujoco::ModelParameter parameter, files::FileViolations& violations) {

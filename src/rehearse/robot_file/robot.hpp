@@ -1,6 +1,7 @@
 #pragma once
 // A robot as a file describes it, before anything is made of it.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -83,7 +84,8 @@ struct Dynamics {
   Index line = 0;
   std::vector<Parameter> parameters;  // all fixed, at their usual values
   std::variant<Equations, ProgramSource, ModelSource, FunctionSource> source;
-  std::vector<std::string> unseen;  // joints and activations of a model that no state gives
+  std::map<std::string, Index> lines;  // that violations of a model are about, by their beginnings
+  std::vector<std::string> unseen;     // joints and activations of a model that no state gives
 };
 
 /// Dynamics with values of their own, and which of them may be tuned.

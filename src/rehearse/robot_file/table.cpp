@@ -1,6 +1,7 @@
 #include "rehearse/robot_file/table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -60,6 +61,15 @@ Definitions Table::definitions(const std::string& key) {
   return definitions;
 }
 
+void Table::name(std::string& name, expression::Formulas& taken, const char* none) {
+  if (!reader_.take("name", name)) return wrong("name", none);
+  try {
+    taken.input(name, expression::Pace::always);
+  } catch (const InvalidInput& error) {
+    wrong("name", error.what());
+  }
+}
+
 bool Table::number(const std::string& key, double& value, Bound bound) {
   const bool there = table_.contains(key);
   reader_.take_fields([&](FieldVisitor& v) { v.number(key, value, "", bound); });
@@ -74,6 +84,8 @@ bool Table::interval(const std::string& key, Interval& value) {
     wrong(key, fmt::format("{} must be [low, high]", key));
   else if (value = *pair; !(value.low < value.high))
     wrong(key, fmt::format("{} = [{}, {}], must be [low, high] with low < high", key, value.low, value.high));
+  else if (!std::isfinite(value.low) || !std::isfinite(value.high))
+    wrong(key, fmt::format("{} = [{}, {}], must be finite", key, value.low, value.high));
   return true;
 }
 

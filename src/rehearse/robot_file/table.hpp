@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/expression/formulas.hpp"
 #include "rehearse/files/toml_reader.hpp"
 #include "rehearse/robot_file/robot.hpp"
 
@@ -22,6 +23,7 @@ class Table {
   Formula formula(const std::string& key);                // text or a number; empty: it is not there
   std::vector<Formula> formulas(const std::string& key);  // a list of them, or one
   Definitions definitions(const std::string& key);        // a table of them
+  void name(std::string& name, expression::Formulas& taken, const char* none);  // that formulas can use
   bool number(const std::string& key, double& value, Bound bound = {});
   bool interval(const std::string& key, Interval& value);
 

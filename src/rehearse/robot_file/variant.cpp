@@ -1,6 +1,7 @@
 #include "rehearse/robot_file/variant.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -32,16 +33,26 @@ class Values {
   void each(const toml::table* table, Set set) {
     if (!table) return;
     for (const auto& [name, node] : in_order(*table))
-      if (Parameter* parameter = find(name, *node)) set(*parameter, *node);
+      if (Parameter* parameter = find(name, *node)) {
+        set(*parameter, *node);
+        lines_[name] = files::line_of(*node);
+      }
   }
 
+  /// Empty, and violations, where a parameter is wrong. line: of those that have none of their own.
   ParameterSpace space(Index line) const {
-    try {
-      return ParameterSpace(parameters_);
-    } catch (const InvalidInput& error) {
-      for (const std::string& message : error.violations()) violations_.add(line, message);
-      return {};
+    bool right = true;
+    for (const Parameter& parameter : parameters_) {
+      try {
+        ParameterSpace({parameter});
+      } catch (const InvalidInput& error) {
+        right = false;
+        const auto own = lines_.find(parameter.name);
+        for (const std::string& message : error.violations())
+          violations_.add(own == lines_.end() ? line : own->second, message);
+      }
     }
+    return right ? ParameterSpace(parameters_) : ParameterSpace();
   }
 
  private:
@@ -59,6 +70,7 @@ class Values {
   }
 
   std::vector<Parameter> parameters_;
+  std::map<std::string, Index> lines_;
   files::FileViolations& violations_;
 };
 

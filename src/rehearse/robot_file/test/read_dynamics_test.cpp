@@ -50,7 +50,8 @@ TEST(ReadDynamics, WhatIsWrongWithAProgramIsSaid) {
   expect("program = [\"python3\", \"../sim.py\"]", "'../sim.py' is no file");
   expect("program = [\"sim\"]\nfiles = [\"none\"]", "'none' is no file");
   expect("program = [\"sim\"]\nanswer_s = 0", "answer_s = 0, must be > 0");
-  expect("program = [\"sim\"]\nrate.angle = \"1\"", "unknown key 'rate'");
+  expect("program = [\"sim\"]\nrate.angle = \"1\"", "line 44: a dynamics has program and rate, must have one of them");
+  expect("program = [\"sim\"]\nmodel = \"m.xml\"", "line 44: a dynamics has program and model, must have one of them");
   expect("progam = [\"sim\"]", "unknown key 'progam' in [dynamics.other], did you mean 'program'?");
 }
 

@@ -82,10 +82,11 @@ TEST(ReadModel, WhatIsWrongIsSaidWithItsLine) {
     EXPECT_EQ(complaint.rfind("swing.toml: line ", 0), 0u) << complaint;
     EXPECT_EQ(complaint.find("/tmp"), std::string::npos) << complaint;
   };
-  expect("state.angle = \"hing\"\naction.u = \"motor\"", "hinge");
+  expect("state.angle = \"hing\"\naction.u = \"motor\"",
+         "line 44: [dynamics.rod]: state 'angle': there is no joint 'hing', did you mean 'hinge'?");
   expect("state.angel = \"hinge\"\naction.u = \"motor\"", "there is no state 'angel', did you mean 'angle'?");
   expect("state.angle = \"hinge\"\naction.v = \"motor\"", "there is no action 'v', did you mean 'u'?");
-  expect("state.angle = \"hinge\"\naction.u = \"moto\"", "motor");
+  expect("state.angle = \"hinge\"\naction.u = \"moto\"", "line 45: [dynamics.rod]: action 'moto'");
   expect("state.angle = \"hinge\"", "no actuator");
   expect("state.angle = 3", "must be the name of a joint");
   expect("state.angle = { velocity = \"hinge\", position = \"hinge\" }", "must be one of position, velocity");
@@ -93,10 +94,13 @@ TEST(ReadModel, WhatIsWrongIsSaidWithItsLine) {
   expect(kRod + "\nparameters.k = { value = 2, sets = \"mass of rod\" }",
          "there is no kind 'mass', did you mean 'body'?");
   expect(kRod + "\nparameters.k = { value = 2, sets = \"body rod\" }", "KIND ELEMENT FIELD");
-  expect(kRod + "\nparameters.k = { value = 2, sets = \"body rot mass\" }", "rod");
+  expect(kRod + "\nparameters.k = { value = 2, sets = \"body rot mass\" }", "line 47: [dynamics.rod]: parameter 'k'");
   expect(kRod + "\nparameters.k = { value = 2, sets = \"body rod maas\" }", "mass");
   expect(kRod + "\nsubsteps = 0", "substeps = 0, must be");
-  expect(kRod + "\nkeyframe = \"up\"", "keyframe");
+  expect(kRod + "\nkeyframe = \"up\"", "line 47: [dynamics.rod]: keyframe");
+  expect("state.angle = { position = { hinge = \"2\" } }\naction.u = \"motor\"",
+         "line 44: the factor of hinge must be a number");
+  expect("state.angle = { position = \"hinge\", component = 4 }\naction.u = \"motor\"", "line 44");
   expect(kRod + "\nfiles = [\"mesh.stl\"]", "'mesh.stl' is no file");
 }
 

@@ -58,23 +58,30 @@ const Wrong kWrong[] = {
     {"[define]", "[[limit]]\nname = \"a\"\n[define]", "line 21: a limit needs keep = \"…\""},
     {"[define]", "[[limit]]\nkeep = \"abs(x) < 1\"\n[define]", "line 22: limit.keep: unknown name 'x'"},
     {"[define]", "[[limit]]\nkeep = \"u < 1\"\nrisk = 0\n[define]", "line 23: risk = 0, must be between"},
-    {"dt_s = 0.1", "dt_s = 0", "line 3: dt_s = 0, must be > 0"},
+    {"dt_s = 0.1", "dt_s = 0", "line 3: dt_s = 0, must be > 0 and ≤ 1000000"},
     {"dt_s = 0.1", "", "dt_s is missing"},
+    {"dt_s = 0.1", "dt_s = 1e300", "line 3: dt_s = 1e+300, must be > 0 and ≤ 1000000"},
     {"dt_s = 0.1", "dt_s = \"fast\"", "line 3: dt_s = \"fast\", must be a number, without quotes"},
-    {"horizon = 20", "horizon = 0", "line 4: horizon must be a whole number of control steps"},
-    {"horizon = 20", "horizon = 2.5", "horizon must be a whole number"},
+    {"horizon = 20", "horizon = 0", "line 4: horizon = 0, must be between 1 and 1000000"},
+    {"horizon = 20", "horizon = 99999999999", "line 4: horizon = 99999999999, must be between"},
+    {"horizon = 20", "horizon = true", "line 4: horizon = true, must be a whole number"},
+    {"horizon = 20", "horizon = \"20\"", "line 4: horizon = \"20\", must be a whole number, without quotes"},
+    {"horizon = 20", "", "horizon is missing: control steps of an episode"},
+    {"horizon = 20", "horizon = 2.5", "horizon = 2.5, must be a whole number"},
     {"name = \"rate\"", "", "a state needs a name"},
     {"name = \"angle\"", "name = \"rate\"", "the name 'rate' is given twice"},
     {"name = \"rate\"", "name = \"sin\"", "'sin' is a function"},
     {"scale = 10", "scale = -1", "scale = -1, must be > 0"},
     {"scale = 10", "skale = 10", "unknown key 'skale' in [[state]], did you mean 'scale'?"},
-    {"rate = \"rate\"", "rate = \"speed\"", "unknown name 'speed'"},
+    {"rate = \"rate\"", "rate = \"rat\"",
+     "line 12: state angle: its rate 'rat' is not another state, did you mean 'rate'?"},
     {"angle = true", "angle = 1", "angle = 1"},
     {"start = 3", "start = \"up\"", "start = \"up\", must be a number"},
     {"start_noise = 0.1", "start_noise = -0.1", "start_noise = -0.1, must be ≥ 0"},
     {"bounds = [-2, 2]", "bounds = [2, -2]", "bounds = [2, -2], must be [low, high] with low < high"},
     {"bounds = [-2, 2]", "bounds = 2", "bounds must be [low, high]"},
     {"bounds = [-2, 2]", "", "an action needs bounds = [low, high]"},
+    {"bounds = [-2, 2]", "bounds = [-inf, inf]", "line 19: bounds = [-inf, inf], must be finite"},
     {"unit = \"N m\"", "max_rate = 0", "line 18: max_rate = 0, must be > 0"},
     {"unit = \"N m\"", "filter_s = -1", "line 18: filter_s = -1, must be ≥ 0"},
     {"unit = \"N m\"", "delay_s = 11", "line 18: delay_s = 11, must be between 0 and 10"},
@@ -96,6 +103,7 @@ const Wrong kWrong[] = {
     {"distance = [\"1 - height\", \"sin(angle)\"]", "", "[reward] needs distance = […]"},
     {"\"sin(angle)\"]", "\"sin angle\"]", "reward.distance: 'sin' is a function: sin(…)"},
     {"\"sin(angle)\"]", "\"sin(angle\"]", "reward.distance: 'sin(angle'"},
+    {"width = 0.5", "formula = \"height\"", "line 26: [reward] has distance and formula, must have one of them"},
     {"width = 0.5", "width = 0", "width = 0, must be > 0"},
     {"[reward]", "[rewards]", "unknown key 'rewards', did you mean 'reward'?"},
     {"when = \"height > 0.9\"", "", "[success] needs when"},
@@ -120,7 +128,7 @@ const Wrong kWrong[] = {
     {"[plant]", "[plant]\nparameters.mass = 1", "unknown parameter 'mass', did you mean 'm'? (known: m, l)"},
     {"[plant]", "[plant]\ntune.m = [0, 1]", "unknown key 'tune' in [plant]"},
     {"tune.m = [0.5, 2]", "tune.m = [2, 0.5]", "tune.m = [2, 0.5], must be [low, high] with low < high"},
-    {"tune.m = [0.5, 2]", "tune.m = [0.5, 1]", "m"},
+    {"tune.m = [0.5, 2]", "tune.m = [0.5, 1]", "line 41: m = 1.3, must be between 0.5 and 1"},
     {"tune.m = [0.5, 2]", "tune.m = 2", "tune.m must be [low, high]"},
     {"tune.m = [0.5, 2]", "tune.n = [0.5, 2]", "unknown parameter 'n', did you mean 'm'?"},
     {"[prior.heavy]", "[prior.\"../../p/q\"]", "line 39: the name of prior '../../p/q' must be of letters, digits"},
@@ -152,7 +160,7 @@ const Wrong kWrong[] = {
     {"when = \"height > 0.9\"", "when = \"0.9 < height < 1.1\"",
      "line 29: success.when: 'a < b < c' is written a < b && b < c"},
     {"tune.m = [0.5, 2]", "tune.m = { choices = [\"1.0\", 1.3] }", "line 41: a choice of tune.m must be a number"},
-    {"tune.m = [0.5, 2]", "tune.m = { choices = [] }", "line 39: parameter m has no choices"},
+    {"tune.m = [0.5, 2]", "tune.m = { choices = [] }", "line 41: parameter m has no choices"},
     {"[prior.heavy]",
      "[dynamics.bare]\nrate.rate = \"u\"\n[prior.bare]\ndynamics = \"bare\"\ntune.k = [0, 1]\n[prior.heavy]",
      "line 43: 'k' is no parameter: the dynamics has none"},
@@ -177,6 +185,10 @@ TEST(ReadRobot, SaysEverythingThatIsWrongAtOnce) {
   const std::string complaint = complaint_of(text);
   EXPECT_NE(complaint.find("dt_s = 0"), std::string::npos);
   EXPECT_NE(complaint.find("unknown key 'polcy'"), std::string::npos);
+}
+
+TEST(ReadRobot, WhatFollowsFromAnErrorIsNotSaid) {
+  EXPECT_EQ(complaint_of(with("m = 1, l", "m = \"1\", l")), "swing.toml: line 33: m must be a number");
 }
 
 }  // namespace
