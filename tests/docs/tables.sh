@@ -14,7 +14,7 @@ fail() {
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 mkdir "$copy"/{scripts,results}
-cp "$root"/scripts/{tables,runs.py} "$copy"/scripts
+cp "$root"/scripts/{tables,columns.py,runs.py} "$copy"/scripts
 cp "$root"/results/*.csv "$copy"/results
 cp -r "$root"/docs "$copy"
 document=$copy/docs/results/priors.md
@@ -32,6 +32,24 @@ sed -i '0,/<!-- table: nosie -->/s//<!-- table: noise -->/; 0,/<!-- \/table -->/
 cp "$root"/docs/results/noise.md "$document"
 sed -i '/<!-- table: noise -->/,/<!-- \/table -->/d' "$document"
 "$copy"/scripts/tables --check 2>/dev/null && fail "a table that no document has is not noticed"
+
+python3 - "$root" <<'END' || fail "the median trial of solved and unsolved runs"
+import os, sys
+sys.path.insert(0, os.path.join(sys.argv[1], "scripts"))
+from columns import median_first
+from runs import Run
+
+def runs(*trials):  # each first solved at one of these; None: never
+    for seed, first in enumerate(trials):
+        run = Run(("gp-mi", "useful", "", seed))
+        run.trials = [{"solved": "1" if k == first else "0"} for k in range(1, 10)]
+        yield run
+
+for trials, text in [((8, 6, 7, 7, 8, 8), "7.5 (7 to 8)"), ((2, 2, 2, None), "2 (2 to –)"), ((None, 3), "– (– to –)"),
+                     ((4,), "4 (4 to 4)"), ((1, 2, 3, None, None), "3 (2 to –)")]:
+    said = median_first("")[1](list(runs(*trials)))
+    assert said == text, f"{trials}: {said}, not {text}"
+END
 
 echo "$failures failures"
 exit $((failures > 0))
