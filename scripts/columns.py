@@ -31,6 +31,12 @@ def firsts(heading, seeds):
     return heading, text
 
 
+def firsts_of(prior, seeds):
+    """The same of the runs with this prior alone."""
+    text = firsts(prior, seeds)[1]
+    return prior, lambda runs: text([run for run in runs if run.prior == prior])
+
+
 def counts(heading):
     """How many runs first solved the task at trial 1, 2, 3, …"""
 
@@ -88,6 +94,29 @@ def each(heading, digits, mark=""):
     def text(runs):
         return " ".join(number(float(t["return"]), digits) + (mark if t["solved"] == "1" else "")
                         for t in runs[0].trials)
+
+    return heading, text
+
+
+# Of lines without trials.
+
+
+def in_order(heading, name):
+    """A column of the lines of a row, one after the other."""
+    return heading, lambda lines: " ".join(getattr(line, name) for line in lines)
+
+
+def holds(heading, name, good, of="/"):
+    """How many lines have a number in this column that is good."""
+    return heading, lambda lines: f"{sum(good(float(getattr(line, name))) for line in lines)}{of}{len(lines)}"
+
+
+def percent(heading, part, whole, chosen):
+    """The share of the sums of two columns, over the lines that are chosen."""
+
+    def text(lines):
+        parts, wholes = (sum(int(getattr(line, name)) for line in filter(chosen, lines)) for name in (part, whole))
+        return number(100 * parts / wholes, 0)
 
     return heading, text
 

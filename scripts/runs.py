@@ -2,6 +2,7 @@
 import csv
 import math
 import os
+from types import SimpleNamespace
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
@@ -33,12 +34,15 @@ class Run:
 
 
 def read_runs(name):
-    """In the order of results/NAME."""
-    runs = {}
+    """In the order of results/NAME. A file without trials has lines instead, whose columns are attributes."""
     with open(os.path.join(ROOT, "results", name), encoding="utf-8", newline="") as file:
-        for row in csv.DictReader(file):
-            key = (row["learner"], row["prior"], row["variant"], int(row["seed"]))
-            runs.setdefault(key, Run(key)).trials.append(row)
+        lines = list(csv.DictReader(file))
+    if "trial" not in lines[0]:
+        return [SimpleNamespace(**line) for line in lines]
+    runs = {}
+    for line in lines:
+        key = (line["learner"], line["prior"], line["variant"], int(line["seed"]))
+        runs.setdefault(key, Run(key)).trials.append(line)
     return list(runs.values())
 
 
