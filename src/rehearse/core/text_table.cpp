@@ -19,6 +19,15 @@ std::string first_characters(const std::string& text, std::size_t most) {
           std::find_if(text.begin(), text.end(), [&](char c) { return begins_character(c) && ++begun > most; })};
 }
 
+std::size_t character_at(std::string_view text, std::size_t at) {
+  const auto first = static_cast<unsigned char>(text[at]);
+  if (first < 0x80) return 1;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  const std::size_t size = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  const std::string_view rest = text.substr(at + 1, size - 1);
+  return rest.size() + 1 == size && std::none_of(rest.begin(), rest.end(), begins_character) ? size : 0;
+}
+
 std::vector<std::string> aligned(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {

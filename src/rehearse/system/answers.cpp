@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
+
+#include <fmt/format.h>
 
 namespace rehearse::system {
 namespace {
@@ -53,6 +56,16 @@ std::size_t frame_end(std::string_view written, Index rows, Index dx) {
   const std::size_t known = std::min(written.size(), sizeof expected), size = frame_size(rows, dx);
   if (written.size() > size || std::memcmp(written.data(), &expected, known) != 0) return kNoAnswer;
   return written.size() == size ? size : 0;
+}
+
+std::string frame_fault(std::string_view written, Index rows, Index dx) {
+  constexpr std::int64_t kMost = 1 << 30;  // letters as a number are larger
+  std::int64_t answered = 0;
+  if (written.size() < sizeof answered) return {};
+  std::memcpy(&answered, written.data(), sizeof answered);
+  if (answered == rows) return fmt::format("it wrote more than the {} bytes of n = {}", frame_size(rows, dx), rows);
+  if (std::abs(answered) > kMost) return {};
+  return fmt::format("it answered n = {}, asked for {}", answered, rows);
 }
 
 void read_frame(std::string_view answer, MatrixView dX) {

@@ -32,15 +32,20 @@ bool Conversation::wrong(const std::string& why) {
   return false;
 }
 
+std::string Conversation::is_other(std::string_view written) {
+  return fmt::format("it wrote something else than the answer: {}", messages::excerpt(written));
+}
+
 /// Sends, and waits for an answer; it stands in the process.
-bool Conversation::hear(std::string_view message, const Process::Complete& complete, Process::Limits limits) {
+bool Conversation::hear(std::string_view message, const Process::Complete& complete, Process::Limits limits,
+                        const Fault& fault) {
   switch (process_->exchange(message, complete, limits)) {
     case Process::Outcome::answered:
       return true;
     case Process::Outcome::ended:
       return wrong(process_->end());
     case Process::Outcome::wrong:
-      return wrong(fmt::format("it wrote something else than the answer: {}", messages::excerpt(process_->unused())));
+      return wrong(fault(process_->unused()));
     case Process::Outcome::unasked:
       return wrong(fmt::format("it wrote an answer that nobody asked for: {}", messages::excerpt(process_->unused())));
     case Process::Outcome::flooded:
@@ -81,7 +86,11 @@ bool Conversation::change_in_doubles(const ConstMatrixView& X, const ConstMatrix
                                      MatrixView dX) {
   write_frame(message_, X, U, phi);
   const auto complete = [&](std::string_view written) { return frame_end(written, dX.rows(), dX.cols()); };
-  if (!hear(message_, complete, {program_.answer_s, frame_size(dX.rows(), dX.cols())})) return false;
+  const auto fault = [&](std::string_view written) {
+    const std::string why = frame_fault(written, dX.rows(), dX.cols());
+    return why.empty() ? is_other(written) : why;
+  };
+  if (!hear(message_, complete, {program_.answer_s, frame_size(dX.rows(), dX.cols())}, fault)) return false;
   read_frame(process_->answer(), dX);
   return true;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The exchange of messages with one running program. For the sources of this room.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,7 +31,10 @@ class Conversation {
   std::optional<messages::State> step(const Vector& u);
 
  private:
-  bool hear(std::string_view message, const Process::Complete& complete, Process::Limits limits);
+  using Fault = std::function<std::string(std::string_view written)>;  // why that is no answer, for people
+  static std::string is_other(std::string_view written);
+  bool hear(std::string_view message, const Process::Complete& complete, Process::Limits limits,
+            const Fault& fault = is_other);
   bool greet();
   template <class Read>
   bool ask(std::string_view message, Process::Limits limits, Read read);

@@ -1,5 +1,6 @@
 #include "rehearse/system/messages.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -8,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+
+#include "rehearse/core/text_table.hpp"
 
 namespace rehearse::system::messages {
 namespace {
@@ -51,12 +54,34 @@ void write_rows(std::string& text, const ConstMatrixView& rows) {
   text += ']';
 }
 
-/// Copies and texts of a value recurse: one that is nested deeply enough would exhaust the stack.
-Json object_of(std::string_view text) {
+/// Discarded where it is no JSON. Copies and texts of a value recurse: one that is nested deeply enough would exhaust
+/// the stack.
+Json parsed(std::string_view text) {
   bool too_deep = false;
   const auto is_flat = [&](int depth, Json::parse_event_t, const Json&) { return !(too_deep |= depth > kDeepest); };
   Json json = Json::parse(text, is_flat, false);
   if (too_deep) refuse("it answered lists within lists, more than {} deep: {}", kDeepest, excerpt(text));
+  return json;
+}
+
+/// A text whose numbers that are none, as Python's json writes them, are null.
+std::string with_nulls(std::string_view text) {
+  std::string json;
+  bool quoted = false;
+  while (!text.empty()) {
+    std::size_t taken = quoted && text.starts_with('\\') ? 2 : 1;
+    if (text.starts_with('"')) quoted = !quoted;
+    for (const std::string_view number : {"NaN", "-Infinity", "Infinity"})
+      if (!quoted && text.starts_with(number)) taken = number.size();
+    json += taken > 2 ? "null" : text.substr(0, taken);
+    text.remove_prefix(std::min(taken, text.size()));
+  }
+  return json;
+}
+
+Json object_of(std::string_view text) {
+  Json json = parsed(text);
+  if (json.is_discarded()) json = parsed(with_nulls(text));
   if (json.is_discarded()) refuse("it answered what is no JSON: {}", excerpt(text));
   if (!json.is_object()) refuse("it answered what is no JSON object: {}", excerpt(text));
   if (const auto error = json.find("error"); error != json.end())
@@ -70,13 +95,18 @@ const Json& member(const Json& object, const char* key, std::string_view text) {
   return *found;
 }
 
-double number_of(const Json& json) { return json.is_number() ? json.get<double>() : kNaN; }
+double number_of(const Json& json, const char* key) {
+  if (json.is_null()) return kNaN;
+  if (!json.is_number())
+    refuse("\"{}\" of its answer has {}, which is neither a number nor null", key, excerpt(json.dump()));
+  return json.get<double>();
+}
 
 Vector vector_of(const Json& json, const char* key, Index size) {
   if (!json.is_array() || static_cast<Index>(json.size()) != size)
     refuse("\"{}\" of its answer must be a list of {} numbers", key, size);
   Vector values(size);
-  for (Index i = 0; i < size; ++i) values(i) = number_of(json[static_cast<std::size_t>(i)]);
+  for (Index i = 0; i < size; ++i) values(i) = number_of(json[static_cast<std::size_t>(i)], key);
   return values;
 }
 
@@ -110,8 +140,11 @@ void read_messages(const Json& object, Hello& hello) {
 std::string excerpt(std::string_view text) {
   constexpr std::size_t kMost = 120;
   std::string line(text.substr(0, std::min(text.find('\n'), kMost)));
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t size = character_at(line, at);
+    if (size == 0 || (size == 1 && (static_cast<unsigned char>(line[at]) < 32 || line[at] == 127))) line[at] = '?';
+    at += std::max<std::size_t>(size, 1);
+  }
   return line + (text.size() > line.size() + 1 ? " …" : "");
 }
 

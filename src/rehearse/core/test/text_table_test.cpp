@@ -14,6 +14,14 @@ TEST(TextTable, ColumnsStandBelowOneAnother) {
 
 TEST(TextTable, CharactersAreNotBytes) { EXPECT_EQ(characters("≥ 1 °"), 5U); }
 
+TEST(TextTable, BytesThatAreNoCharacterAreFound) {
+  EXPECT_EQ(character_at("a≥°", 0), 1U);
+  EXPECT_EQ(character_at("a≥°", 1), 3U);
+  EXPECT_EQ(character_at("a≥°", 2), 0U) << "within a character";
+  EXPECT_EQ(character_at("\xe2\x89", 0), 0U) << "cut";
+  EXPECT_EQ(character_at("\xff", 0), 0U);
+}
+
 TEST(TextTable, TheFirstCharactersAreWhole) {
   EXPECT_EQ(first_characters("a≥°", 0), "");
   EXPECT_EQ(first_characters("a≥°", 2), "a≥");

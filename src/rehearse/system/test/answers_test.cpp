@@ -56,5 +56,13 @@ TEST(Answers, FramesOfOtherSizesAreNone) {
   EXPECT_EQ(frame_end("Warning: …", 3, 2), kNoAnswer);
 }
 
+TEST(Answers, FramesOfOtherSizesSayWhichTheyHave) {
+  const std::string answer = answer_of(Matrix::Ones(3, 2));
+  EXPECT_EQ(frame_fault(answer, 4, 2), "it answered n = 3, asked for 4");
+  EXPECT_EQ(frame_fault(answer + "!", 3, 2), "it wrote more than the 56 bytes of n = 3");
+  EXPECT_EQ(frame_fault("Warning: …", 3, 2), "");
+  EXPECT_EQ(frame_fault("No", 3, 2), "");
+}
+
 }  // namespace
 }  // namespace rehearse::system

@@ -46,8 +46,32 @@ TEST(Messages, WrongAnswersSayWhatIsWrong) {
   EXPECT_EQ(why("{\"changes\":[]}"), "its answer has no \"change\": {\"changes\":[]}");
   EXPECT_EQ(why("{\"change\":[[1,2],[3,"), "it answered what is no JSON: {\"change\":[[1,2],[3,");
   EXPECT_EQ(why("{\"error\":\"no\"}"), "it answered an error: no");
+  EXPECT_EQ(why("{\"change\":[[1,2],[3,\"4\"]]}"),
+            "\"change\" of its answer has \"4\", which is neither a number nor null");
+  EXPECT_EQ(why("{\"change\":[[1,2],[true,4]]}"),
+            "\"change\" of its answer has true, which is neither a number nor null");
+  EXPECT_THROW(read_state("{\"state\":[1,\"b\"]}", 2), std::runtime_error);
   EXPECT_THROW(read_state("{\"state\":[1]}", 2), std::runtime_error);
   EXPECT_EQ(read_state("{\"state\":[1,2]}", 2).truth.size(), 0);
+}
+
+// Python's json writes these.
+TEST(Messages, NumbersThatAreNoneAreNull) {
+  Matrix dX(3, 2);
+  read_change("{\"note\":\"NaN \\\" Infinity\",\"change\":[[NaN,-Infinity],[1,Infinity],[-2,3]]}", dX);
+  EXPECT_TRUE(dX.row(0).array().isNaN().all());
+  EXPECT_EQ(dX(1, 0), 1);
+  EXPECT_TRUE(std::isnan(dX(1, 1)));
+  EXPECT_EQ(dX.row(2), (Eigen::RowVector2d(-2, 3)));
+  EXPECT_TRUE(std::isnan(read_state("{\"state\":[NaN]}", 1).measured(0)));
+  try {
+    read_change("{\"error\":\"NaN \\\" Infinity\",\"change\":NaN}", dX);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "it answered an error: NaN \" Infinity");
+  }
+  for (const char* text : {"{\"change\":[Nan]}", "{\"change\":[NaN}", "{\"change\":\"NaN", "{\"change\":\"\\"})
+    EXPECT_THROW(read_change(text, dX), std::runtime_error) << text;
 }
 
 // Each of these went into a function that calls itself for every bracket.
@@ -74,6 +98,7 @@ TEST(Messages, DeepAnswersAreRefused) {
 
 TEST(Messages, ALongLineIsCutAndHasNoEscapes) {
   EXPECT_EQ(excerpt("a\033[31mb"), "a?[31mb");
+  EXPECT_EQ(excerpt("θ\xff\xce"), "θ??");
   EXPECT_LT(excerpt(std::string(1000, 'x')).size(), 130u);
 }
 
