@@ -96,7 +96,10 @@ std::string Catalogue::why_missing(const std::string& kind, const std::string& n
     if (missing.name == name) return fmt::format("{} '{}' is not built: {}", kind, name, missing.reason);
   const auto known = kind == "scenario" ? names_of(scenario_builders()) : names_of(learner_builders());
   if (name.empty()) return fmt::format("no {} is named (known: {})", kind, fmt::join(known, ", "));
-  return unknown_name(kind, name, known);
+  return unknown_name(kind, name, known) +
+         (of_run ? fmt::format("; a {} in C++ is known only to the program that began the run",
+                               kind == "scenario" ? "robot" : kind)
+                 : "");
 }
 
 std::string unknown_name(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {

@@ -48,6 +48,7 @@ struct Catalogue {
   std::vector<RobotFile> robots;           // whose scenarios are there, too
   std::vector<NamedText> presets;          // "as-published"
   std::vector<NamedText> default_presets;  // each under the name of its scenario, where it applies unasked
+  bool of_run = false;                     // a run that is there is read, which another program may have begun
 
   std::vector<std::unique_ptr<scenario::ScenarioBuilder>> scenario_builders() const;
   std::vector<std::unique_ptr<learners::LearnerBuilder>> learner_builders() const;

@@ -8,8 +8,10 @@ namespace fs = std::filesystem;
 
 Catalogue with_robot_of_run(const Catalogue& catalogue, const fs::path& folder) {
   const fs::path file = folder / kRobotFile;
-  if (!fs::exists(file)) return catalogue;
-  return catalogue.with_robot(files::read_file(file), file.string(), folder / kRobotFolder);
+  Catalogue of_run =
+      fs::exists(file) ? catalogue.with_robot(files::read_file(file), file.string(), folder / kRobotFolder) : catalogue;
+  of_run.of_run = true;
+  return of_run;
 }
 
 void keep_robot(const RobotFile& robot, const fs::path& folder) {

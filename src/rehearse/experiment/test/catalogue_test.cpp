@@ -31,6 +31,8 @@ TEST(Catalogue, MakesNewBuildersForEveryCall) {
 TEST(Catalogue, SaysWhyThereIsNone) {
   EXPECT_EQ(fake::catalogue().why_missing("learner", "pilco"), "learner 'pilco' is not built: not written yet");
   EXPECT_EQ(Catalogue{}.why_missing("learner", "echo"), "unknown learner 'echo': there are none");
+  EXPECT_EQ(Catalogue{.of_run = true}.why_missing("scenario", "cart"),
+            "unknown scenario 'cart': there are none; a robot in C++ is known only to the program that began the run");
   EXPECT_EQ(unknown_name("robot", "lien", {"arm", "line"}),
             "unknown robot 'lien', did you mean 'line'? (known: arm, line)");
 }
