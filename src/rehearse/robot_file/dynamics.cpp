@@ -37,6 +37,23 @@ Index line_of(const Dynamics& dynamics, const std::string& violation) {
   return dynamics.line;
 }
 
+/// Last words of programs in Python and JavaScript.
+bool misses_a_file(const std::string& error) {
+  for (const char* words : {"No module named", "can't open file", "FileNotFoundError", "Cannot find module"})
+    if (error.find(words) != std::string::npos) return true;
+  return false;
+}
+
+void require_with_files(const system::Program& program) {
+  try {
+    system::require_program(program);
+  } catch (const InvalidInput& error) {
+    if (!misses_a_file(error.what())) throw;
+    throw InvalidInput(
+        fmt::format("{}\n`files = […]` names what else of the robot's folder a program needs", error.what()));
+  }
+}
+
 }  // namespace
 
 DynamicsMaker::DynamicsMaker(const Robot& robot) : robot_(robot) {
@@ -154,7 +171,7 @@ std::function<void()> DynamicsMaker::require_ready() const {
     if (std::holds_alternative<ProgramSource>(dynamics.source)) programs.push_back(program(dynamics));
   if (programs.empty()) return nullptr;
   return [programs, folder = folder_] {
-    for (const system::Program& program : programs) system::require_program(program);
+    for (const system::Program& program : programs) require_with_files(program);
   };
 }
 

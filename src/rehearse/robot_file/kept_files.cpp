@@ -1,5 +1,6 @@
 #include "rehearse/robot_file/kept_files.hpp"
 
+#include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
@@ -19,7 +20,10 @@ bool KeptFiles::keep(const std::string& path) {
 }
 
 void KeptFiles::require(Table& table, const std::string& key, const std::string& path) {
-  if (!keep(path)) table.wrong(key, fmt::format("'{}' is no file in the folder of the robot's file", path));
+  if (keep(path)) return;
+  const bool may_be_a_folder = !std::filesystem::path(path).has_extension();
+  table.wrong(key, fmt::format("'{}' is no file in the folder of the robot's file{}", path,
+                               may_be_a_folder ? "; of a folder, each file is named" : ""));
 }
 
 void KeptFiles::take_files(Table& table) {

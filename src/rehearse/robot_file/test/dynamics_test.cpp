@@ -55,6 +55,7 @@ TEST(Dynamics, AProgramThatCannotBeAskedIsSaidBeforeARun) {
     FAIL();
   } catch (const InvalidInput& error) {
     EXPECT_NE(std::string(error.what()).find("no_such_module"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("\n`files = […]` names"), std::string::npos) << error.what();
   }
 }
 

@@ -45,6 +45,8 @@ TEST(ReadDynamics, WhatIsWrongWithAProgramIsSaid) {
   };
   expect("program = []", "a program and its arguments");
   expect("program = 3", "program");
+  expect("program = [\"cat\"]\nfiles = [\"data\"]",
+         "'data' is no file in the folder of the robot's file; of a folder, each file is named");
   expect("program = [\"python3\", \"simm.py\"]", "'simm.py' is no file in the folder of the robot's file");
   expect("program = [\"./sim\"]", "'./sim' is no file");
   expect("program = [\"python3\", \"../sim.py\"]", "'../sim.py' is no file");
