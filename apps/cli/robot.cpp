@@ -46,8 +46,12 @@ std::span<const StateVariable> own_states(const Task& task) {
   return std::span(task.states).first(static_cast<std::size_t>(task.actuators().own_states()));
 }
 
+void print_lines(std::string_view indent, const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) put("{}{}\n", indent, line);
+}
+
 /// summary: of the robot, with its condition of success.
-void print_task(const scenario::Scenario& scenario, const std::string& summary) {
+void print_task(const scenario::Scenario& scenario, const std::string& summary, const scenario::Details& details) {
   const Task& task = scenario.task;
   put("{}: {} steps of {} s, {} s in all\n", scenario.name, task.horizon, task.dt_s, task.episode_s());
   if (!summary.empty()) put("  {}\n", summary);
@@ -65,6 +69,8 @@ void print_task(const scenario::Scenario& scenario, const std::string& summary) 
   put("reward\n  {}\n", reward::closed_form(task.reward)
                             ? "saturating distance of features, as moment matching (PILCO) needs it"
                             : "a formula; PILCO needs distances that are sums of multiples of features");
+  print_lines("  ", details.reward);
+  if (task.ended) put("early end\n  {}\n", details.ended.empty() ? "the task says when" : details.ended);
   put("success\n  {}\n", task.solved ? "the task says when it is solved" : "nobody can say: there is no [success]");
   if (!task.limits.empty()) put("limits\n");
   for (const Limit& limit : task.limits)
@@ -74,6 +80,7 @@ void print_task(const scenario::Scenario& scenario, const std::string& summary) 
 }
 
 void print_parameters(const ParameterSpace& parameters) {
+  std::vector<std::string> fixed;
   if (std::ranges::none_of(parameters.all(), &Parameter::tunable))
     put("    nothing to tune: gp-mi and mi learn no parameters of it\n");
   for (const Parameter& parameter : parameters.all()) {
@@ -82,19 +89,25 @@ void print_parameters(const ParameterSpace& parameters) {
           parameter.box.high);
     else if (parameter.kind == Parameter::Kind::discrete)
       put("    {} = {:g}, one of {}\n", parameter.name, parameter.value, fmt::join(parameter.choices, ", "));
+    else
+      fixed.push_back(fmt::format("{} = {:g}", parameter.name, parameter.value));
   }
+  if (!fixed.empty()) put("    fixed: {}\n", fmt::join(fixed, ", "));
 }
 
 void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried& tried,
-                 const scenario::Scenario& scenario, const robot_file::Tried& all) {
+                 const scenario::Scenario& scenario, const robot_file::Tried& all,
+                 const std::vector<std::string>& details) {
   put("  {}: {:.2g} rows a second on one thread{}\n", prior.name, tried.rows_per_s,
       tried.failed > 0 ? fmt::format(", {} of {} rows failed", tried.failed, all.steps) : "");
-  for (const std::string& line : prior.lacks) put("    {}\n", line);
+  print_lines("    ", details);
+  print_lines("    ", prior.lacks);
   print_parameters(prior.parameters);
   for (std::size_t i = 0; i < own_states(scenario.task).size(); ++i) {
     const auto s = static_cast<Index>(i);
-    put("    {}: a step changes it by {:.3g}, the prior errs by {:.3g}\n", scenario.task.states[i].name, all.change(s),
-        tried.error(s));
+    put("    {}: a step changes it by {:.3g}, {}\n", scenario.task.states[i].name, all.change(s),
+        std::isnan(tried.error(s)) ? "the prior has no prediction"
+                                   : fmt::format("the prior errs by {:.3g}", tried.error(s)));
   }
 }
 
@@ -118,8 +131,13 @@ std::vector<std::string> complaints_of(const robot_file::Tried& tried) {
                                      tried.end->empty() ? "it does not say why" : *tried.end));
   for (const robot_file::PriorTried& prior : tried.priors) {
     for (const std::string& name : prior.idle)
-      complaints.push_back(
-          fmt::format("prior {}: {} changes no prediction, so it cannot be learned", prior.name, name));
+      complaints.push_back(fmt::format(
+          "prior {}: {} changes no prediction on the {} states tried, so it cannot be learned; is its name right where "
+          "it is used? If it acts farther off alone, let [[state]] start or start_noise lead there; `learn` takes it "
+          "all "
+          "the same",
+          prior.name, name, prior.states));
+    if (!prior.broken.empty()) complaints.push_back(fmt::format("prior {}: {}", prior.name, prior.broken));
     if (prior.failed > 0)
       complaints.push_back(
           fmt::format("prior {}: {} of {} rows have no prediction", prior.name, prior.failed, tried.steps));
@@ -159,17 +177,22 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   const auto builder = catalogue.scenario(catalogue.scenario_name(arguments.robot));
   if (!builder) throw InvalidInput(catalogue.why_missing("scenario", arguments.robot));
   const scenario::Scenario scenario = builder->build();
-  print_task(scenario, builder->summary());
+  const scenario::Details details = builder->details();
+  print_task(scenario, builder->summary(), details);
   if (scenario.require_ready) scenario.require_ready();
   const robot_file::Tried tried = robot_file::try_out(scenario);
   const bool driven = static_cast<bool>(scenario.make_plant);
   if (!driven) put("plant\n  none: there is no [plant], so its episodes are told\n");
+  if (!details.plant.empty()) put("plant\n");
+  print_lines("  ", details.plant);
   put("priors, on {} steps of {} under random actions{}\n", tried.steps, driven ? "the plant" : "the first prior",
       early_ends(tried, scenario.task));
   for (std::size_t i = 0; i < tried.priors.size(); ++i)
-    print_prior(scenario.priors[i], tried.priors[i], scenario, tried);
+    print_prior(scenario.priors[i], tried.priors[i], scenario, tried,
+                i < details.priors.size() ? std::vector{details.priors[i]} : std::vector<std::string>());
   for (const std::string& line : scenario.oracle_lacks) put("  oracle: not all of the plant. {}\n", line);
   if (scenario.priors.empty()) put("  none: learners without a prior can be used\n");
+  if (scenario.faults) print_lines("  ", scenario.faults());
   const std::vector<std::string> complaints = complaints_of(tried);
   if (arguments.out && !driven) throw InvalidInput("--out: there is no [plant] that could show its motion");
   if (arguments.out && !tried.end) write_motion(catalogue, scenario.name, share, *arguments.out);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/robot_file/details.hpp"
 #include "rehearse/robot_file/dynamics.hpp"
 #include "rehearse/robot_file/read.hpp"
 #include "rehearse/robot_file/start.hpp"
@@ -87,6 +88,10 @@ class Builder final : public scenario::ScenarioBuilder {
   }
 
   std::vector<scenario::NamedFile> files() const override { return robot_.files; }
+
+  scenario::Details details() const override {
+    return details_of(robot_, plant_, robot_.options.measurement_std(robot_.actuators().own_states()));
+  }
 
  private:
   /// Start and noise of the robot's own states.

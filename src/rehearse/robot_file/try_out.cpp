@@ -1,8 +1,10 @@
 #include "rehearse/robot_file/try_out.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -98,9 +100,11 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
   return steps;
 }
 
+/// Of each column's finite numbers; NaN where there are none.
 Vector root_mean_square(const Matrix& rows) {
-  if (rows.rows() == 0) return Vector::Zero(rows.cols());
-  return (rows.colwise().squaredNorm() / static_cast<double>(rows.rows())).cwiseSqrt().transpose();
+  const auto finite = rows.array().isFinite();
+  const auto sums = finite.select(rows.array().square(), 0).colwise().sum();
+  return (sums / finite.cast<double>().colwise().sum()).sqrt().transpose();
 }
 
 /// Values of a tunable parameter that are far from where it starts.
@@ -110,33 +114,102 @@ std::vector<double> others(const Parameter& parameter) {
           parameter.box.low + 0.75 * (parameter.box.high - parameter.box.low)};
 }
 
-std::vector<std::string> idle_parameters(const scenario::NamedPrior& prior, const Steps& steps, const Matrix& usual) {
-  std::vector<std::string> idle;
-  Matrix changed(usual.rows(), usual.cols());
-  for (Index i = 0; i < prior.parameters.size(); ++i) {
-    if (!prior.parameters[i].tunable()) continue;
-    bool moves = false;
-    for (const double value : others(prior.parameters[i])) {
-      Vector phi = prior.parameters.values();
-      phi(i) = value;
-      system::change_contained(*prior.simulator, steps.X, steps.U, phi, changed);
-      moves |= !((changed.array() == usual.array()) || (changed.array().isNaN() && usual.array().isNaN())).all();
-    }
-    if (!moves) idle.push_back(prior.parameters[i].name);
-  }
-  return idle;
+/// Distances of predictions; infinite where one of both is none.
+Matrix apart(const Matrix& one, const Matrix& other) {
+  return one.binaryExpr(other, [](double a, double b) {
+    if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b) ? 0 : kInf;
+    return std::abs(a - b);
+  });
 }
 
-PriorTried try_prior(const scenario::NamedPrior& prior, const Steps& steps) {
-  PriorTried tried{.name = prior.name};
+/// Distances up to which predictions dX of states X may be the same but for rounding, one a state. A parameter that
+/// cancels leaves some 1e-16 of state and change, which integration multiplies; one that changes less cannot be
+/// learned.
+Vector rounding(const Matrix& X, const Matrix& dX) {
+  const auto largest = [](const Matrix& rows) -> Vector {
+    return rows.array().isFinite().select(rows, 0).cwiseAbs().colwise().maxCoeff().transpose();
+  };
+  return 1e-14 * largest(X) + 1e-10 * largest(dX);
+}
+
+/// The rows and the state that are further apart than tolerated, for people; empty: there are none.
+std::string difference(const Task& task, const Matrix& distances, const Vector& tolerated) {
+  const Matrix excess = distances.rowwise() - tolerated.transpose();
+  Index row = 0, state = 0;
+  if (excess.maxCoeff(&row, &state) <= 0) return {};
+  const std::string by = std::isfinite(distances(row, state)) ? fmt::format("by {:.2g}", distances(row, state))
+                                                              : "from a prediction to none";
+  return fmt::format("{} of {} rows, {} {}", (excess.rowwise().maxCoeff().array() > 0).count(), excess.rows(),
+                     task.states[static_cast<std::size_t>(state)].name, by);
+}
+
+/// States around those of the steps, ever wider, and random actions: contacts are seldom reached from the start.
+Steps spread(const Task& task, const Steps& steps, Rng& rng) {
+  constexpr std::array kWider = {1, 3, 10};
+  Steps wide = steps;
+  const Vector range = (steps.X.colwise().maxCoeff() - steps.X.colwise().minCoeff()).transpose();
+  for (Index row = 0; row < wide.X.rows(); ++row) {
+    const double wider = kWider[static_cast<std::size_t>(row) % kWider.size()];
+    for (Index i = 0; i < task.actuators().own_states(); ++i) {
+      const bool angle = task.states[static_cast<std::size_t>(i)].kind == StateKind::angle;
+      const double width = angle ? std::numbers::pi : range(i) > 0 ? range(i) : 1;
+      wide.X(row, i) += wider * width * rng.uniform(-1, 1);
+    }
+    wide.U.row(row) = random_action(task, wide.X.row(row).transpose(), rng).transpose();
+  }
+  return wide;
+}
+
+Matrix predictions(const scenario::NamedPrior& prior, const Steps& steps, const Vector& phi) {
   Matrix predicted(steps.X.rows(), steps.X.cols());
-  system::change_contained(*prior.simulator, steps.X, steps.U, prior.parameters.values(), predicted);  // it may start
+  system::change_contained(*prior.simulator, steps.X, steps.U, phi, predicted);
+  return predicted;
+}
+
+/// True if a parameter changes a prediction.
+bool moves(const scenario::NamedPrior& prior, Index parameter, const Steps& steps) {
+  const Matrix usual = predictions(prior, steps, prior.parameters.values());
+  const Vector tolerated = rounding(steps.X, usual);
+  Vector phi = prior.parameters.values();
+  for (const double value : others(prior.parameters[parameter])) {
+    phi(parameter) = value;
+    const Matrix distances = apart(predictions(prior, steps, phi), usual);
+    if ((distances.rowwise() - tolerated.transpose()).maxCoeff() > 0) return true;
+  }
+  return false;
+}
+
+/// A line where predictions depend on more than the row.
+std::string broken_law(const Task& task, const scenario::NamedPrior& prior, const Steps& steps, const Matrix& before) {
+  const Vector phi = prior.parameters.values();
+  const Matrix predicted = predictions(prior, steps, phi);
+  const std::string again = difference(task, apart(before, predicted), Vector::Zero(before.cols()));
+  if (!again.empty())
+    return fmt::format(
+        "predicts something else from the same states and actions a second time ({}), so no run of it "
+        "can be repeated",
+        again);
+  const Steps turned{.X = steps.X.colwise().reverse(), .U = steps.U.colwise().reverse()};
+  const Matrix place = apart(predictions(prior, turned, phi).colwise().reverse(), predicted);
+  const std::string moved = difference(task, place, rounding(steps.X, predicted));
+  return moved.empty() ? moved
+                       : fmt::format(
+                             "predicts something else where the rows of a batch stand in reverse ({}): a row's "
+                             "prediction must depend on that row alone",
+                             moved);
+}
+
+PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const Steps& steps, const Steps& wide) {
+  PriorTried tried{.name = prior.name, .states = steps.X.rows() + wide.X.rows()};
+  Matrix predicted = predictions(prior, steps, prior.parameters.values());  // it may start
   const Stopwatch watch;
   tried.failed = system::change_contained(*prior.simulator, steps.X, steps.U, prior.parameters.values(), predicted);
   tried.rows_per_s = watch.per_s(steps.X.rows());
-  const Matrix errors = predicted - steps.dX;
-  tried.error = root_mean_square(errors.array().isNaN().select(0, errors));
-  tried.idle = idle_parameters(prior, steps, predicted);
+  tried.error = root_mean_square(predicted - steps.dX);
+  tried.broken = broken_law(task, prior, steps, predicted);
+  for (Index i = 0; i < prior.parameters.size(); ++i)
+    if (prior.parameters[i].tunable() && !moves(prior, i, steps) && !moves(prior, i, wide))
+      tried.idle.push_back(prior.parameters[i].name);
   return tried;
 }
 
@@ -194,8 +267,10 @@ Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t 
     tried.broken.emplace_back("the plant comes to states that are not finite");
   else if (again.X.rows() != steps.X.rows() || again.dX != steps.dX)
     tried.broken.emplace_back("the plant does other things from the same start and the same random numbers");
-  if (steps.X.rows() > 0)
-    for (const scenario::NamedPrior& prior : scenario.priors) tried.priors.push_back(try_prior(prior, steps));
+  if (steps.X.rows() == 0) return tried;
+  Rng rng({.seed = seed, .trial = static_cast<std::uint64_t>(episodes) + 1, .purpose = Purpose::start_state});
+  const Steps wide = spread(task, steps, rng);
+  for (const scenario::NamedPrior& prior : scenario.priors) tried.priors.push_back(try_prior(task, prior, steps, wide));
   return tried;
 }
 

@@ -11,10 +11,12 @@ namespace rehearse::robot_file {
 /// The errors of a prior on the plant's steps.
 struct PriorTried {
   std::string name;
-  Vector error;                   // of each state: root mean square error of its change in a step
+  Index states = 0;               // on which parameters were tried: those of the steps, and others around them
+  Vector error;                   // of each state: root mean square error of its change in a step; NaN: no prediction
   Index failed = 0;               // rows without a prediction
   double rows_per_s = 0;          // on one thread
   std::vector<std::string> idle;  // tunable parameters that change no prediction
+  std::string broken;             // the law of simulators that it breaks; empty: none
 };
 
 struct Tried {

@@ -45,6 +45,14 @@ struct Scenario {
                           // interaction: their mean return is recorded as expected_return; 0: none
 };
 
+/// The functions of a scenario in words, for people.
+struct Details {
+  std::vector<std::string> reward;  // lines
+  std::string ended;                // the condition
+  std::vector<std::string> plant;   // lines: dynamics, values, noise
+  std::vector<std::string> priors;  // one a prior: its dynamics
+};
+
 /// A file that a robot's file names, by its path from there.
 struct NamedFile {
   std::string path, bytes;
@@ -63,6 +71,7 @@ class ScenarioBuilder {
   virtual void fields(FieldVisitor& v) = 0;                    // plant.NAME, noise, …
   virtual Scenario build() const = 0;                          // throws InvalidInput
   virtual std::vector<NamedFile> files() const { return {}; }  // what it is made of beside the robot's file
+  virtual Details details() const { return {}; }               // parts may be empty
 };
 
 }  // namespace rehearse::scenario

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "example.hpp"
+#include "rehearse/core/random.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::robot_file {
@@ -35,6 +36,72 @@ TEST(TryOut, NamesAParameterThatChangesNothing) {
   const std::string unused = with("m = 1, l", "m = 1, k = 3, l");
   const Tried found = tried(unused + "tune.k = [1, 5]\n");
   EXPECT_EQ(found.priors[0].idle, std::vector<std::string>{"k"});
+}
+
+// 9.81 · 0.3 k / (0.3 k) has other last bits for another k.
+TEST(TryOut, AParameterThatCancelsChangesNothing) {
+  std::string text = with("m = 1, l", "m = 1, k = 3, l");
+  const std::string gravity = "9.81";
+  text.replace(text.find(gravity), gravity.size(), "(9.81 * 0.3 * k / (k * 0.3))");
+  EXPECT_EQ(tried(text + "tune.k = [1, 5]\n").priors[0].idle, std::vector<std::string>{"k"});
+}
+
+TEST(TryOut, AParameterThatActsFarFromTheStartIsFound) {
+  const std::string contact = with("define.torque = \"u +", "define.torque = \"u - where(abs(rate) > 40, k, 0) +");
+  std::string text = contact;
+  const std::string values = "m = 1, l";
+  text.replace(text.find(values), values.size(), "m = 1, k = 3, l");
+  const Tried found = tried(text + "tune.k = [1, 5]\n");
+  EXPECT_EQ(found.priors[0].idle, std::vector<std::string>{});
+  EXPECT_EQ(found.priors[0].states, 2 * found.steps);
+}
+
+/// The swing with a prior of its own.
+Tried tried_with(system::Change change) {
+  scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
+  scenario.priors[0].simulator = system::make_simulator(scenario.priors[0].parameters, std::move(change));
+  return try_out(scenario);
+}
+
+TEST(TryOut, APriorMustRepeatItself) {
+  Rng noise({.seed = 1});
+  const Tried found = tried_with([&](const auto& X, const auto&, const auto&, MatrixView dX) {
+    dX = X;
+    dX(0, 1) += noise.uniform();
+  });
+  const std::string start =
+      "predicts something else from the same states and actions a second time (1 of 60 rows, angle by ";
+  EXPECT_EQ(found.priors[0].broken.find(start), 0u) << found.priors[0].broken;
+  EXPECT_EQ(tried(kSwing).priors[0].broken, "");
+}
+
+TEST(TryOut, APriorsRowsMustNotKnowTheirPlace) {
+  const auto with_place = [](double weight) {
+    return tried_with([=](const auto& X, const auto&, const auto&, MatrixView dX) {
+             dX = X;
+             for (Index i = 0; i < X.rows(); ++i) dX(i, 0) += weight * static_cast<double>(i);
+           })
+        .priors[0]
+        .broken;
+  };
+  const std::string start =
+      "predicts something else where the rows of a batch stand in reverse (60 of 60 rows, rate by ";
+  EXPECT_EQ(with_place(0.1).find(start), 0u) << with_place(0.1);
+  EXPECT_EQ(with_place(1e-16), "") << "NumPy's last bits depend on the place, too";
+}
+
+TEST(TryOut, ErrorsAreOfTheRowsThatSucceed) {
+  const auto error_where = [](Index every) {
+    const Tried found = tried_with([=](const auto& X, const auto&, const auto&, MatrixView dX) {
+      dX.setConstant(1e6);
+      for (Index i = 0; i < X.rows(); ++i)
+        if (i % 4 < every) dX.row(i).setConstant(kNaN);
+    });
+    EXPECT_EQ(found.priors[0].failed, 15 * every);
+    return found.priors[0].error;
+  };
+  EXPECT_NEAR(error_where(3)(0), 1e6, 100) << "a quarter of the rows";
+  EXPECT_TRUE(error_where(4).array().isNaN().all());
 }
 
 TEST(TryOut, NamesARewardThatIsNoNumber) {

@@ -1,0 +1,67 @@
+#include "rehearse/robot_file/details.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace rehearse::robot_file {
+namespace {
+
+std::vector<std::string> details_of_reward(const RewardFormulas& reward) {
+  std::vector<std::string> lines, distances;
+  for (const Formula& distance : reward.distance) distances.push_back(distance.text);
+  if (distances.empty())
+    lines.push_back("formula: " + reward.formula.text);
+  else
+    lines.push_back(fmt::format("distance: {}; width {:g}", fmt::join(distances, ", "), reward.width));
+  if (!reward.cost.empty()) lines.push_back("cost: " + reward.cost.text);
+  lines.push_back(fmt::format("floor {:g}", reward.floor));
+  return lines;
+}
+
+std::string source_of(const Dynamics& dynamics) {
+  if (const auto* program = std::get_if<ProgramSource>(&dynamics.source))
+    return fmt::format("the program '{}'", fmt::join(program->command, " "));
+  if (const auto* model = std::get_if<ModelSource>(&dynamics.source))
+    return fmt::format("the model {}", model->path);
+  if (const auto* function = std::get_if<FunctionSource>(&dynamics.source))
+    return fmt::format("the function {}", function->name);
+  return "equations";
+}
+
+std::string values_of(const std::vector<Parameter>& parameters) {
+  std::vector<std::string> values;
+  for (const Parameter& each : parameters)
+    values.push_back(fmt::format("{} = {:g}{}{}", each.name, each.value, each.unit.empty() ? "" : " ", each.unit));
+  return fmt::format("{}", fmt::join(values, ", "));
+}
+
+std::vector<std::string> details_of_plant(const Robot& robot, const std::vector<Parameter>& plant,
+                                          const Vector& noise) {
+  if (!robot.plant_function.empty()) return {"the function " + robot.plant_function};
+  if (!robot.has_plant) return {};
+  const Dynamics& dynamics = robot.dynamics_of(robot.plant);
+  std::vector<std::string> lines{fmt::format("dynamics {}, {}", dynamics.name, source_of(dynamics))};
+  if (!plant.empty()) lines.push_back(values_of(plant));
+  std::vector<std::string> noises;
+  for (Index i = 0; i < noise.size(); ++i)
+    if (noise(i) > 0)
+      noises.push_back(fmt::format("{} ± {:g}", robot.states[static_cast<std::size_t>(i)].variable.name, noise(i)));
+  lines.push_back(noises.empty() ? "measured without noise"
+                                 : fmt::format("measured with noise: {}", fmt::join(noises, ", ")));
+  return lines;
+}
+
+}  // namespace
+
+scenario::Details details_of(const Robot& robot, const std::vector<Parameter>& plant, const Vector& noise) {
+  scenario::Details details{.reward = details_of_reward(robot.reward),
+                            .ended = robot.ended.text,
+                            .plant = details_of_plant(robot, plant, noise)};
+  for (const Variant& prior : robot.priors) {
+    const Dynamics& dynamics = robot.dynamics_of(prior);
+    details.priors.push_back(fmt::format("dynamics {}, {}", dynamics.name, source_of(dynamics)));
+  }
+  return details;
+}
+
+}  // namespace rehearse::robot_file
