@@ -76,4 +76,26 @@ refused "'no-python' cannot be started" 's/"python3"/"no-python"/'
 refused "exit status 1; its standard error ends with" 's/"tired.py", /"-c", "import nothing", /'
 rm count.repaired
 
+# check_prior CHANGE: `check` of a prior in Python with this change of the first state.
+check_prior() {
+  printf '%s\n' 'import json, random, sys' 'print(json.dumps({"rehearse": 1}), flush=True)' 'sys.stdin.readline()' \
+    'for line in sys.stdin:' '    asked = json.loads(line)["change"]' \
+    "    rows = [[$1, 0.1 * x[0]] for i, (x, u) in enumerate(zip(asked['states'], asked['actions']))]" \
+    '    print(json.dumps({"change": rows}), flush=True)' >own.py
+  sed 's/"tired.py".*/"own.py"]/' tired.toml >own.toml
+  timeout 120 "$program" check own.toml >output 2>&1
+  status=$?
+}
+check_prior 'u[0]'
+[ $status = 0 ] && grep -q "dynamics slow, the program 'python3 own.py'" output || fail "check: $(cat output)"
+check_prior 'u[0] + random.random()'
+[ $status = 2 ] && grep -q "prior slow: predicts something else .* a second time" output || fail "a noisy prior: $(cat output)"
+check_prior 'u[0] + 0.1 * i'
+[ $status = 2 ] && grep -q "prior slow: .* rows of a batch stand in reverse" output || fail "a place in the batch: $(cat output)"
+check_prior 'u[0] if i > 3 else float("nan")'
+[ $status = 2 ] && grep -q "prior slow: 4 of [0-9]* rows have no prediction" output || fail "NaN: $(cat output)"
+grep -q "processes were replaced" output && fail "NaN costs processes: $(cat output)"
+check_prior 'str(u[0])'
+[ $status = 1 ] && grep -q "which is neither a number nor null" output || fail "texts: $(cat output)"
+
 finish
