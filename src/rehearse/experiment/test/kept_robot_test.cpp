@@ -19,6 +19,7 @@ TEST(KeptRobot, IsThereWithItsFiles) {
 TEST(KeptRobot, ARunOfABuiltInRobotHasNone) {
   const files::TemporaryFolder folder;
   EXPECT_TRUE(with_robot_of_run({}, folder.path()).robots.empty());
+  EXPECT_TRUE(with_robot_of_run({}, folder.path()).of_run);
 }
 
 }  // namespace
