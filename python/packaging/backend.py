@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import io
+import os
 import re
 import subprocess
 import sys
@@ -47,25 +49,60 @@ def build_wheel(wheel_directory: str, config_settings: Optional[dict[str, Any]] 
 
 def build_sdist(sdist_directory: str, config_settings: Optional[dict[str, Any]] = None) -> str:
     name = f"rehearse-{_version()}"
-    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True)
     with tarfile.open(Path(sdist_directory) / f"{name}.tar.gz", "w:gz") as archive:
-        for path in listed.stdout.splitlines():
+        for path in _sources():
             archive.add(ROOT / path, f"{name}/{path}")
+        info = tarfile.TarInfo(f"{name}/PKG-INFO")
+        info.size = len(_metadata().encode())
+        archive.addfile(info, io.BytesIO(_metadata().encode()))
     return f"{name}.tar.gz"
+
+
+def _sources() -> list[str]:
+    """Files of the repository; where there is none, as in an unpacked archive, those that no build made."""
+    if (ROOT / ".git").exists():
+        return _run(["git", "ls-files"], cwd=ROOT).splitlines()
+    left_out = {"PKG-INFO", "build", "runs", "__pycache__", "node_modules", ".cache"}
+    paths = (path.relative_to(ROOT) for path in sorted(ROOT.rglob("*")) if path.is_file())
+    return [str(path) for path in paths if not left_out.intersection(path.parts)]
 
 
 def _built() -> Path:
     """The build folder, built."""
-    suffix = sysconfig.get_config_var("EXT_SUFFIX")
+    module = f"python/rehearse/_core{sysconfig.get_config_var('EXT_SUFFIX')}"
     shared = ROOT / "build/release"
-    if not (shared / "python/rehearse" / f"_core{suffix}").exists():
+    if not (shared / module).exists():
         shared = ROOT / "build/python"
-        subprocess.run(["cmake", "-S", ROOT, "-B", shared, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DREHEARSE_TESTS=OFF", "-DREHEARSE_BENCHMARKS=OFF", f"-DPython_EXECUTABLE={sys.executable}"],
-                       check=True)
-    subprocess.run(["cmake", "--build", shared, "--target", "rehearse_python_package"], check=True)
-    subprocess.run(["cmake", "--build", shared, "--target", "page"], check=False)  # without npm there is none
+        configure(shared)
+    subprocess.run(["cmake", "--build", shared, "--target", "rehearse_python_package"], check=True, env=_environment())
+    if not (shared / module).exists():
+        raise RuntimeError(f"{shared} has no module for {sys.executable}: remove that folder")
+    subprocess.run(["cmake", "--build", shared, "--target", "page"], check=False, env=_environment())  # without npm: none
     return shared
+
+
+def configure(build: Path, python: str = sys.executable) -> None:
+    """Makes a build folder that has the module. Raises RuntimeError that says what is not installed."""
+    said = _run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DREHEARSE_TESTS=OFF",
+                 "-DREHEARSE_BENCHMARKS=OFF", f"-DPython_EXECUTABLE={python}"])
+    missing = re.search("The Python module is not built: (.*)", said)
+    if missing:
+        raise RuntimeError(f"the module cannot be built for {python}: {missing[1]}")
+
+
+def _run(command: list[Any], cwd: Optional[Path] = None) -> str:
+    try:
+        done = subprocess.run(command, cwd=cwd, env=_environment(), stdout=subprocess.PIPE, text=True)
+    except FileNotFoundError:
+        raise RuntimeError(f"{command[0]} is not installed: scripts/install-dependencies python") from None
+    if done.returncode != 0:
+        raise RuntimeError(f"{done.stdout}{command[0]} failed, see above")
+    return done.stdout
+
+
+def _environment() -> dict[str, str]:
+    """Without pip's build isolation, which hides NumPy from the Python that CMake asks."""
+    return {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "PYTHONNOUSERSITE")}
 
 
 def _version() -> str:
