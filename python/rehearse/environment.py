@@ -20,7 +20,7 @@ class Environment:
 
     `reset` may take a seed, and returns an observation or (observation, info). `step` returns an observation, four
     things (observation, reward, done, info), or five (…, terminated, truncated, info). Its reward is not used: a reward
-    must be known for states that nobody has been in.
+    must be known for states that nobody has been in. An angle that it keeps inside of one turn is counted on.
     """
 
     def __init__(self, environment: Any, observe: Union[Callable[[Any], Any], None], task: Task) -> None:
@@ -32,6 +32,9 @@ class Environment:
         self._task = task
         self._step = 0
         self._over = False  # the environment's own limit of time was reached
+        self._angles = np.array([state.angle for state in task.states], dtype=bool)
+        self._last: Union[Array, None] = None  # as it was given
+        self._turns = np.zeros(len(task.states))
         space = getattr(environment, "action_space", None)
         self._shape = getattr(space, "shape", None)
         self._dtype = getattr(space, "dtype", None)
@@ -41,7 +44,8 @@ class Environment:
             task.compare_actions(space)
 
     def reset(self, seed: int) -> Array:
-        self._step, self._over = 0, False
+        self._step, self._over, self._last = 0, False, None
+        self._turns = np.zeros(len(self._task.states))
         try:
             result = self._environment.reset(seed=seed)
         except TypeError as error:
@@ -89,7 +93,18 @@ class Environment:
         if self._task.states and len(numbers) != len(self._task.states):
             raise ValueError(f"{'observe' if self._observe else 'the environment'} gives {len(numbers)} numbers, must be "
                              f"the states {', '.join(s.name for s in self._task.states)}: observe=f(observation) says how")
-        return numbers
+        return self._continued(numbers) if self._angles.any() else numbers
+
+    def _continued(self, given: Array) -> Array:
+        """Angles without jumps: a turn more or less where one leaves [-π, π], or [0, 2π], and comes in on the other side."""
+        if self._last is not None:
+            both = np.array([self._last, given])
+            inside = [((both >= low - 1e-9) & (both <= low + 2 * math.pi + 1e-9)).all(axis=0) for low in (-math.pi, 0.0)]
+            jump = given - self._last
+            wrapped = self._angles & (inside[0] | inside[1]) & (np.abs(jump) > math.pi)
+            self._turns -= np.where(wrapped, np.sign(jump), 0.0)
+        self._last = given
+        return given + 2 * math.pi * self._turns
 
 
 @dataclass(frozen=True)

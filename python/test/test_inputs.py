@@ -8,6 +8,8 @@ import pytest
 from robots import QUICK, Environment, cart, change
 
 import rehearse
+from rehearse import environment
+from rehearse.environment import Task
 
 FILE = """
 format = 1
@@ -201,6 +203,42 @@ def test_an_angle_may_be_turns_away_from_its_start(tmp_path, silent):
     states = [rehearse.State("velocity"), rehearse.State("angle", angle=True, start=1 - 2 * np.pi)]
     learn(cart(turned, states=states, reward=rehearse.Distance("1 - cos(angle)"), success=None, priors=None),
           tmp_path / "run", learner="black-drops")
+
+
+class Wheel:
+    """Turns by 1 rad a step, there and back; its angle is between low and low + 2 π."""
+
+    def __init__(self, low):
+        self.low = low
+
+    def shown(self):
+        return [(self.angle - self.low) % (2 * np.pi) + self.low]
+
+    def reset(self, seed=None):
+        self.angle = 0.5
+        return self.shown()
+
+    def step(self, action):
+        self.angle += float(action[0])
+        return self.shown()
+
+
+@pytest.mark.parametrize("low", [-np.pi, 0, -np.inf])
+def test_an_angle_inside_of_one_turn_is_counted_on(low, silent):
+    wheel = Wheel(low)
+    wheel.shown = (lambda: [wheel.angle]) if np.isinf(low) else wheel.shown
+    task = Task(30, [rehearse.State("angle", angle=True, start=0.5)])
+    played = environment.Environment(wheel, None, task)
+    for _ in range(2):
+        states = [played.reset(1)] + [played.step(np.array([rate]))[0] for rate in [1.0] * 10 + [-1.0] * 20]
+        np.testing.assert_allclose(np.diff(states, axis=0)[:, 0], [1.0] * 10 + [-1.0] * 20)
+    fast = environment.Environment(wheel, None, task)
+    fast.reset(1)
+    if np.isinf(low):
+        np.testing.assert_allclose(fast.step(np.array([20.0]))[0], 20.5)
+    plain = environment.Environment(Wheel(-np.pi), None, Task(30, [rehearse.State("angle", start=0.5)]))
+    plain.reset(1)
+    assert plain.step(np.array([3.0]))[0] == pytest.approx(3.5 - 2 * np.pi)
 
 
 # Numbers.
