@@ -1,5 +1,6 @@
 #include "python/bindings/calls.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,14 +18,22 @@ std::string shape_of(const py::array& array) {
   return fmt::format("({}{})", shape, array.ndim() == 1 ? "," : "");
 }
 
-/// Raises ValueError where NumPy makes no array of a result.
+[[noreturn]] void refuse(const std::string& name, const std::string& result) {
+  PyErr_Clear();
+  throw py::value_error(fmt::format("{} returned {}, must be an array of numbers", name, result));
+}
+
+bool is_masked(const py::object& result) { return py::hasattr(result, "filled"); }
+
+/// Raises ValueError where NumPy makes no array of a result. What is masked is NaN.
 template <class Array>
 Array array_of(const py::object& result, const std::string& name) {
-  const Array array = Array::ensure(result);
-  if (array) return array;
-  PyErr_Clear();
-  throw py::value_error(fmt::format("{} returned {}, must be an array of numbers", name,
-                                    std::string(py::str(py::type::of(result).attr("__name__")))));
+  if (result.is_none()) refuse(name, "None");
+  const py::array given = py::array::ensure(
+      is_masked(result) ? result.attr("astype")("float64").attr("filled")(py::float_(std::nan(""))) : result);
+  if (given && given.dtype().kind() == 'c') refuse(name, "complex numbers");
+  if (const Array array = Array::ensure(given)) return array;
+  refuse(name, py::str(py::type::of(result).attr("__name__")));
 }
 
 }  // namespace
@@ -98,6 +107,7 @@ void write_result(const py::object& result, const std::string& name, VectorView 
 }
 
 void write_truths(const py::object& result, const std::string& name, VectorView values) {
+  if (is_masked(result)) throw py::value_error(name + " returned a masked array, must be truths");
   if (array_of<py::array>(result, name).dtype().kind() != 'b')
     throw py::value_error(name + " returned numbers, must be truths, one a row: states[:, 0] > 1");
   write_result(result, name, values);

@@ -6,7 +6,10 @@ import math
 from operator import index
 from typing import Any, Union
 
+import numpy as np
+
 from ._core import InvalidInput
+from .arrays import Array
 
 
 def whole(name: str, value: Any, least: int = -(2**63), most: int = 2**63 - 1) -> int:
@@ -35,3 +38,13 @@ def not_negative(name: str, value: Any) -> float:
     if not (number >= 0 and math.isfinite(number)):
         raise InvalidInput(f"{name} = {number:g}, must be finite and ≥ 0")
     return number
+
+
+def numbers(name: str, given: Any) -> Array:
+    """A new array of doubles; what is masked is NaN."""
+    if np.asarray(given).dtype.kind == "c":
+        raise InvalidInput(f"{name} has complex numbers, must have real ones")
+    array: Array = np.array(given, dtype=float, order="F")
+    if isinstance(given, np.ma.MaskedArray):
+        array[np.ma.getmaskarray(given)] = np.nan  # type: ignore[no-untyped-call]
+    return array

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Union
 
@@ -12,6 +12,7 @@ import numpy as np
 
 from ._core import InvalidInput
 from .arrays import Array
+from .checks import numbers
 from .parts import Action, State
 
 
@@ -52,6 +53,8 @@ class Environment:
             if "seed" not in str(error):
                 raise
             result = self._environment.reset()
+        if result is None:
+            raise ValueError("reset returned None, must be an observation, or (observation, info)")
         two = isinstance(result, tuple) and len(result) == 2 and isinstance(result[1], dict)
         state = self._state(result[0] if two else result)
         self._task.compare(state)
@@ -66,13 +69,15 @@ class Environment:
         if self._shape is not None:
             action = action.reshape(self._shape).astype(self._dtype or float)
         result = self._environment.step(action)
+        if result is None:
+            raise ValueError("step returned None, must be an observation, four things or five")
         if not isinstance(result, tuple):
             return self._state(result), False
         if len(result) == 5:
             observation, _, terminated, truncated, _ = result
         elif len(result) == 4:
             observation, _, done, info = result
-            truncated = bool(done and info.get("TimeLimit.truncated", False))
+            truncated = bool(done and isinstance(info, Mapping) and info.get("TimeLimit.truncated", False))
             terminated = done and not truncated
         else:
             raise ValueError(f"step returned {len(result)} things, must be an observation, four or five")
@@ -85,15 +90,19 @@ class Environment:
 
     def _state(self, observation: Any) -> Array:
         state = self._observe(observation) if self._observe else observation
+        if state is None:
+            raise ValueError(f"{'observe returned None' if self._observe else 'an observation is None'}, must be the states")
         try:
-            numbers: Array = np.asarray(state, dtype=float).reshape(-1)
+            given = numbers("an observation", state).reshape(-1)
+        except InvalidInput:
+            raise
         except (TypeError, ValueError):
             raise ValueError(f"an observation is a {type(observation).__name__}: observe=f(observation) must say how it "
                              "is a state") from None
-        if self._task.states and len(numbers) != len(self._task.states):
-            raise ValueError(f"{'observe' if self._observe else 'the environment'} gives {len(numbers)} numbers, must be "
+        if self._task.states and len(given) != len(self._task.states):
+            raise ValueError(f"{'observe' if self._observe else 'the environment'} gives {len(given)} numbers, must be "
                              f"the states {', '.join(s.name for s in self._task.states)}: observe=f(observation) says how")
-        return self._continued(numbers) if self._angles.any() else numbers
+        return self._continued(given) if self._angles.any() else given
 
     def _continued(self, given: Array) -> Array:
         """Angles without jumps: a turn more or less where one leaves [-π, π], or [0, 2π], and comes in on the other side."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Union
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from .arrays import Array
-from .checks import not_negative, threads_of
+from .checks import not_negative, numbers, threads_of
 
 
 class GaussianProcess:
@@ -61,8 +62,7 @@ class GaussianProcess:
 
     def score(self, X: npt.ArrayLike, y: npt.ArrayLike) -> float:
         """R² of the predicted means, 1 at best, as scikit-learn has it: of several outputs the mean."""
-        targets = np.asarray(y, dtype=float)
-        targets = targets.reshape(len(targets), -1)
+        targets, _ = _targets(y)
         means = self._fitted.predict_mean(_inputs(X))
         if targets.shape != means.shape:
             raise _core.InvalidInput(f"y is {targets.shape[0]} × {targets.shape[1]}, must be {means.shape[0]} × "
@@ -172,7 +172,7 @@ def _factor(covariance: Array, scale: float, jitter: float) -> Array:
 
 def _inputs(X: npt.ArrayLike) -> Array:
     """n × D, a copy; n numbers are n × 1."""
-    inputs: Array = np.array(X, dtype=float, order="F")
+    inputs = numbers("X", X)
     if inputs.ndim == 1:
         return inputs[:, None]
     if inputs.ndim != 2:
@@ -180,12 +180,23 @@ def _inputs(X: npt.ArrayLike) -> Array:
     return inputs
 
 
-def _arrays(X: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array, bool]:
-    """As C++ takes them, copies, since the data are kept; and whether y is of one output."""
-    inputs, targets = _inputs(X), np.array(y, dtype=float, order="F")
+def _targets(y: npt.ArrayLike) -> tuple[Array, bool]:
+    """n × E, a copy, and whether y is of one output."""
+    targets = numbers("y", y)
     if targets.ndim == 0:
         raise _core.InvalidInput("y is a number, must be n, or n × E")
-    return inputs, np.asfortranarray(targets.reshape(len(targets), -1)), targets.ndim == 1
+    return np.asfortranarray(targets.reshape(len(targets), math.prod(targets.shape[1:]))), targets.ndim == 1
+
+
+def _arrays(X: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array, bool]:
+    """As C++ takes them, copies, since the data are kept; and whether y is of one output."""
+    inputs, (targets, one) = _inputs(X), _targets(y)
+    if len(inputs) == 0:
+        raise _core.InvalidInput("X has no rows, must have one or more")
+    for name, array in (("X", inputs), ("y", targets)):
+        for row, column in np.argwhere(~np.isfinite(array))[:1]:
+            raise _core.InvalidInput(f"{name} has {array[row, column]} in row {row}, must be finite")
+    return inputs, targets, one
 
 
 def text_of(value: Any) -> str:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from .arrays import Array
-from .checks import whole
+from .checks import numbers, whole
 from .gp import text_of
 
 
@@ -37,7 +37,7 @@ class Cmaes(_Search):
         self._max_evaluations = None if max_evaluations is None else whole("max_evaluations", max_evaluations, 1)
         texts = {name: text_of(value) for name, value in options.items()}
         pairs = [] if bounds is None else _pairs("bounds", bounds)
-        self._core = _core.Cmaes(np.atleast_1d(np.asarray(mean, float)), sigma, pairs, _seed(seed), texts)
+        self._core = _core.Cmaes(np.atleast_1d(numbers("mean", mean)), sigma, pairs, _seed(seed), texts)
 
     def ask(self) -> Array:
         """The candidates of this generation, λ × n; the same until `tell`."""
@@ -45,7 +45,7 @@ class Cmaes(_Search):
 
     def tell(self, values: npt.ArrayLike) -> None:
         """Their values, λ; what is not finite is the worst."""
-        self._core.tell(np.asarray(values, float))
+        self._core.tell(numbers("values", values))
 
     @property
     def stop(self) -> Union[str, None]:
@@ -95,7 +95,7 @@ class MapElites(_Search):
 
     def tell(self, performances: npt.ArrayLike, descriptors: npt.ArrayLike) -> None:
         """What they were worth (batch), and how they did it (batch × D)."""
-        self._core.tell(np.asarray(performances, float), np.asarray(descriptors, float))
+        self._core.tell(numbers("performances", performances), numbers("descriptors", descriptors))
 
     @property
     def elites(self) -> dict[str, Array]:
@@ -113,7 +113,7 @@ class MapElites(_Search):
 
 
 def _pairs(name: str, bounds: npt.ArrayLike) -> list[tuple[float, float]]:
-    array = np.asarray(bounds, dtype=float)
+    array = numbers(name, bounds)
     if array.size and (array.ndim != 2 or array.shape[1] != 2):
         raise _core.InvalidInput(f"{name} is an array of shape {array.shape}, must be n × 2: (low, high) of each")
     return [(float(low), float(high)) for low, high in array.reshape(-1, 2)]

@@ -15,6 +15,7 @@ import numpy as np
 
 from ._core import InvalidInput
 from .arrays import Array
+from .checks import numbers
 
 
 def from_csv(text: str) -> Array:
@@ -37,11 +38,11 @@ def read_csv(path: Union[str, os.PathLike[str]]) -> Array:
 
 def _column(cells: list[str]) -> Array:
     try:
-        numbers = np.array([float(cell) if cell else np.nan for cell in cells])
+        values = np.array([float(cell) if cell else np.nan for cell in cells])
     except ValueError:
         return np.array(cells, dtype=str) if cells else np.empty(0, dtype="U1")
     whole = cells and all(cell.lstrip("-").isdigit() for cell in cells)
-    return numbers.astype(np.int64) if whole else numbers
+    return values.astype(np.int64) if whole else values
 
 
 def to_csv(columns: Any) -> str:
@@ -57,7 +58,7 @@ def to_csv(columns: Any) -> str:
     else:
         raise TypeError(f"{type(columns).__name__}: an episode is a path, a structured array, a DataFrame, or a "
                         "dictionary of columns: time, states and actions by name")
-    numeric = {name: numbers for name, column in named.items() if (numbers := _numbers(name, column)) is not None}
+    numeric = {name: array for name, column in named.items() if (array := _numbers(name, column)) is not None}
     rows = max((len(column) for column in numeric.values()), default=0)
     for name, column in numeric.items():
         if len(column) < rows - 1:
@@ -95,23 +96,21 @@ def without_path(folder: str) -> Iterator[None]:
 def _numbers(name: str, column: Any) -> Union[Array, None]:
     """None: it holds something else, such as texts, complex numbers or times of day."""
     try:
-        if np.asarray(column).dtype.kind in "cmM":
+        if np.asarray(column).dtype.kind in "mM":
             return None
-        numbers: Array = np.array(column, dtype=float)
-        if isinstance(column, np.ma.MaskedArray):
-            numbers[np.ma.getmaskarray(column)] = np.nan  # type: ignore[no-untyped-call]
+        array = numbers(name, column)
     except (TypeError, ValueError):
         return None
-    if numbers.ndim == 2 and numbers.shape[1] == 1:
-        numbers = numbers[:, 0]
-    if numbers.ndim != 1:
-        raise InvalidInput(f"column {name} is an array of shape {numbers.shape}, must be one number a row")
-    return numbers
+    if array.ndim == 2 and array.shape[1] == 1:
+        array = array[:, 0]
+    if array.ndim != 1:
+        raise InvalidInput(f"column {name} is an array of shape {array.shape}, must be one number a row")
+    return array
 
 
-def _cells(numbers: Array, rows: int) -> list[str]:
+def _cells(column: Array, rows: int) -> list[str]:
     """The last row may have no action."""
-    return ["" if np.isnan(number) and row == rows - 1 else repr(float(number)) for row, number in enumerate(numbers)]
+    return ["" if np.isnan(number) and row == rows - 1 else repr(float(number)) for row, number in enumerate(column)]
 
 
 def _texts(column: Any) -> list[str]:

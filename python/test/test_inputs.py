@@ -241,6 +241,23 @@ def test_an_angle_inside_of_one_turn_is_counted_on(low, silent):
     assert plain.step(np.array([3.0]))[0] == pytest.approx(3.5 - 2 * np.pi)
 
 
+@pytest.mark.parametrize("returned, message", [
+    ((None, {}), "an observation is None, must be the states"),
+    (None, "reset returned None, must be an observation"),
+])
+def test_what_an_environment_leaves_out_is_named(returned, message):
+    env = Environment()
+    env.reset = lambda **_: returned
+    played = environment.Environment(env, None, Task(3))
+    with pytest.raises(ValueError, match=message):
+        played.reset(1)
+    env.step = lambda _: None
+    with pytest.raises(ValueError, match="step returned None, must be an observation, four things or five"):
+        played.step(np.zeros(1))
+    env.step = lambda _: ([0.0], 0.0, True, None)
+    assert played.step(np.zeros(1)) == ([0.0], True)
+
+
 # Numbers.
 
 

@@ -221,6 +221,26 @@ def test_what_pieces_cannot_use_is_refused_by_name():
         rehearse.Cmaes([0.5], 0.3, bounds=(0, 1))
 
 
+def test_data_that_are_no_numbers_are_refused_by_name():
+    X, y = data(10)
+    gp, search = rehearse.GaussianProcess(starts=1), rehearse.Cmaes([0.5], 0.3, population=4)
+    archive = rehearse.MapElites([(0, 1)], [(0, 1)], bins=[3], initial=4, batch=4)
+    for wrong, message in (((np.zeros((0, 2)), []), "^X has no rows, must have one or more$"),
+                           ((X, np.where(np.arange(10) == 3, np.nan, y)), "^y has nan in row 3, must be finite$"),
+                           ((np.ma.masked_array(X, X == X[4]), y), "^X has nan in row 4, must be finite$"),
+                           ((X + 1j, y), "^X has complex numbers, must have real ones$")):
+        with pytest.raises(rehearse.InvalidInput, match=message):
+            gp.fit(*wrong)
+        with pytest.raises(rehearse.InvalidInput, match=message):
+            gp.condition(*wrong, np.zeros((1, 4)))
+    for tell in (lambda: search.tell(np.zeros(4) + 1j), lambda: archive.tell(np.zeros(4), np.zeros((4, 1)) + 1j)):
+        with pytest.raises(rehearse.InvalidInput, match="has complex numbers"):
+            tell()
+    x = search.ask()
+    search.tell(np.ma.masked_array([4.0, 3.0, 2.0, 1.0], mask=[True, False, False, False]))
+    np.testing.assert_array_equal(search.best_x, x[1])
+
+
 def test_bounds_may_be_arrays():
     bounds = np.array([[0.0, 1.0], [0.0, 2.0]])
     x = rehearse.Cmaes([0.5, 0.5], 0.3, bounds=bounds, seed=4).ask()

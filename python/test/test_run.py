@@ -163,17 +163,22 @@ def test_an_exception_of_a_function_comes_out_and_the_run_goes_on(tmp_path):
     (lambda x, u, n: np.zeros(3), r"reward returned an array of shape \(3,\), must be \(\d+,\)"),
     (lambda x, u, n: "much", "reward returned str, must be an array of numbers"),
     (lambda x, u: np.zeros(len(x)), "positional arguments"),
-    (lambda x, u, n: None, "reward returned"),
+    (lambda x, u, n: None, "reward returned None, must be an array of numbers"),
+    (lambda x, u, n: n[:, 1] + 1j, "reward returned complex numbers, must be an array of numbers"),
 ])
 def test_wrong_results_say_what_they_must_be(tmp_path, wrong, message):
     with pytest.raises((ValueError, TypeError), match=message):
         learn(cart(reward=wrong), tmp_path / "run")
 
 
-def test_rows_that_are_nan_end_their_rollouts_alone(tmp_path):
+@pytest.mark.parametrize("masked", [False, True])
+def test_rows_that_are_nan_end_their_rollouts_alone(tmp_path, masked):
     def holes(states, actions, mass, friction):
         moved = change(states, actions, mass=mass, friction=friction)
-        moved[states[:, 0] < -1.5] = np.nan
+        left_out = states[:, 0] < -1.5
+        if masked:
+            return np.ma.masked_array(moved, mask=np.column_stack([left_out, left_out]))
+        moved[left_out] = np.nan
         return moved
 
     prior = rehearse.Model(holes, parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": (0.2, 5)})
@@ -335,6 +340,10 @@ def test_what_is_wrong_is_said_in_lines(tmp_path):
         learn(cart(success=rehearse.Success("velocity > 1", 9)), tmp_path / "none")
     with pytest.raises(ValueError, match="success returned numbers, must be truths"):
         learn(cart(success=rehearse.Success(lambda states: states[:, 0])), tmp_path / "none")
+    with pytest.raises(ValueError, match="success returned None, must be an array of numbers"):
+        learn(cart(success=rehearse.Success(lambda states: None)), tmp_path / "none")
+    with pytest.raises(ValueError, match="success returned a masked array, must be truths"):
+        learn(cart(success=rehearse.Success(lambda states: np.ma.masked_array(states[:, 0] > 1))), tmp_path / "none")
     with pytest.raises(ValueError, match="success returned list, must be an array of numbers"):
         learn(cart(success=rehearse.Success(lambda states: [[True], [True, False]])), tmp_path / "none")
     with pytest.raises(rehearse.InvalidInput, match="is not a run folder"):
