@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
+#include <pybind11/stl.h>
 
 #include "python/bindings/interruption.hpp"
+#include "python/bindings/robot.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/resolve.hpp"
 
 namespace rehearse::python {
 
@@ -33,9 +36,32 @@ Matrix Policy::remember(const Matrix& states, const Matrix& actions) const {
   return next.rightCols(actuators.memory());
 }
 
+Policy Policy::with_theta(const Vector& theta) const {
+  policy::Exported other = policy::with_theta(exported_, *policy_, theta);
+  other.origin.total_reward.reset();
+  return {policy_, std::move(other)};
+}
+
+namespace {
+
+/// The policy that a robot's learners search for, at θ; no θ: zeros.
+Policy policy_for(const Robot& robot, const std::string& scenario,
+                  const std::vector<std::pair<std::string, std::string>>& options, const std::optional<Vector>& theta) {
+  const experiment::Resolved resolved = experiment::resolve(
+      robot.to_look(), {.scenario = scenario, .learner = "black-drops", .options = options});  // needs no prior
+  const auto& policy = resolved.scenario.policy;
+  const Task& task = resolved.scenario.task;
+  const policy::Answers asked{.states = task.start_mean.transpose(), .times_s = Vector::Zero(1), .actions = {}};
+  return {policy, policy::make_exported({.robot = scenario, .learner = "a program of its own"}, task, *policy,
+                                        theta.value_or(Vector::Zero(policy->parameters())), asked)};
+}
+
+}  // namespace
+
 void add_policy(py::module_& module) {
   py::class_<Policy>(module, "Policy")
       .def("act", &Policy::act, py::arg("states"), py::arg("time_s") = 0.0)
+      .def("with_theta", &Policy::with_theta, py::arg("theta"))
       .def("start", [](const Policy& p) { return p.exported().actuators.start(); })
       .def("remember", &Policy::remember, py::arg("states"), py::arg("actions"))
       .def_property_readonly("theta", [](const Policy& p) { return p.exported().theta; })
@@ -46,6 +72,7 @@ void add_policy(py::module_& module) {
            [](const Policy& p, const std::string& name) { return to_c(p.exported(), policy::identifier(name)); })
       .def("to_json", [](const Policy& p) { return to_json(p.exported()); })
       .def("to_numpy", [](const Policy& p) { return to_numpy(p.exported()); });
+  module.def("policy_for", &policy_for, py::arg("robot"), py::arg("scenario"), py::arg("options"), py::arg("theta"));
 }
 
 }  // namespace rehearse::python

@@ -22,6 +22,9 @@ class Policy {
   /// The memory (n × its size) after steps from states (n × dx) under commands (n × du).
   Matrix remember(const Matrix& states, const Matrix& actions) const;
 
+  /// The same at another θ, which nobody has tried yet. Throws InvalidInput where θ is of another size or not finite.
+  Policy with_theta(const Vector& theta) const;
+
   const policy::Exported& exported() const { return exported_; }
 
  private:

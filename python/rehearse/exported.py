@@ -90,6 +90,10 @@ class Exported:
         memory: Array = after[:, self._own :]
         return memory
 
+    def with_theta(self, theta: Array) -> Any:
+        raise InvalidInput("a policy that was loaded knows its own theta alone; that of a run, or Policy.of(robot), may "
+                           "have another")
+
     def to_json(self) -> str:
         return self._text
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
 from .arrays import Array
+from .checks import numbers
 from .exported import Exported
-import numpy.typing as npt
+from .gp import text_of
 
 
 class Policy:
@@ -29,6 +32,21 @@ class Policy:
         """The policy of a JSON file that `export` wrote. It answers as the original does, but for rounding, and `learn` may
         begin with it. It can be exported as JSON alone."""
         return cls(Exported(Path(path).read_text(), str(path)))
+
+    @classmethod
+    def of(cls, robot: Any, theta: Union[npt.ArrayLike, None] = None, *,
+           options: Union[Mapping[str, Any], None] = None) -> Policy:
+        """The policy that learners of a robot search for, at any θ; None: zeros. robot: as in `learn`; options: of the
+        policy, {"policy": "mlp", "hidden": 8}. docs/python.md has the order of θ."""
+        from .run import robot_of
+
+        core, scenario = robot_of(robot)
+        texts = [(name, text_of(value)) for name, value in (options or {}).items()]
+        return cls(_core.policy_for(core, scenario, texts, None if theta is None else numbers("theta", theta)))
+
+    def with_theta(self, theta: npt.ArrayLike) -> Policy:
+        """The same with other parameters."""
+        return Policy(self._core.with_theta(numbers("theta", theta)))
 
     def __getstate__(self) -> dict[str, Any]:
         return {"json": self._core.to_json()}
@@ -68,18 +86,22 @@ class Policy:
 
     @property
     def theta(self) -> Array:
+        """Its parameters."""
         return self._core.theta
 
     @property
     def kind(self) -> str:
+        """Its name: mlp, rbf, linear, schedule, …"""
         return self._core.kind
 
     @property
     def trial(self) -> int:
+        """The trial that it was, or is to be, tried in."""
         return self._core.trial
 
     @property
     def dt_s(self) -> float:
+        """How long an action is held [s]."""
         return self._core.dt_s
 
     def export(self, path: Union[str, os.PathLike[str]]) -> Path:

@@ -63,6 +63,35 @@ def test_a_run_may_begin_with_a_policy_that_was_loaded(tmp_path):
         loaded.export(tmp_path / "policy.h")
 
 
+def test_a_policy_may_have_another_theta(tmp_path):
+    x = np.random.default_rng(2).normal(size=(5, 2))
+    for run, trial in runs(tmp_path):
+        policy = run.policy(trial)
+        other = policy.with_theta(0.5 * policy.theta)
+        np.testing.assert_array_equal(other.theta, 0.5 * policy.theta)
+        loaded = rehearse.Policy.load(other.export(tmp_path / "other.json"))
+        np.testing.assert_allclose(loaded(x, 0.1, loaded.start(5)), other(x, 0.1, other.start(5)), rtol=1e-9, atol=1e-9)
+        with pytest.raises(rehearse.InvalidInput, match="theta has .* numbers, must have"):
+            policy.with_theta([*policy.theta, 0.0])
+        with pytest.raises(rehearse.InvalidInput, match="knows its own theta alone"):
+            loaded.with_theta(policy.theta)
+
+
+def test_a_policy_needs_no_run(tmp_path):
+    robot = cart(policy={"policy": "mlp"})
+    still = rehearse.Policy.of(robot, options={"hidden": 3})
+    assert still.kind == "mlp" and len(still.theta) == 13 and (still([[1.0, 2.0]]) == 0).all()
+    theta = np.random.default_rng(1).normal(size=13)
+    policy, (hidden, output) = rehearse.Policy.of(robot, theta, options={"hidden": 3}), np.split(theta, [9])
+    units = np.tanh(hidden.reshape(3, 3) @ [1.0, 2.0, 1.0])
+    np.testing.assert_allclose(policy([1.0, 2.0]), [5 * np.tanh(output @ [*units, 1.0])])
+    run = learn(cart(policy={"policy": "mlp", "hidden": 3}, priors=None), tmp_path / "run", learner="black-drops",
+                policy=policy, trials=1)
+    np.testing.assert_array_equal(run.policy(1).theta, theta)
+    with pytest.raises(rehearse.InvalidInput, match="unknown option"):
+        rehearse.Policy.of(robot, options={"hiden": 3})
+
+
 def test_a_file_that_is_no_policy_is_refused(tmp_path):
     text = learn(cart(), tmp_path / "run").policy(2).export(tmp_path / "policy.json").read_text()
     other = tmp_path / "other.json"

@@ -6,20 +6,27 @@ namespace rehearse::policy {
 
 Exported make_exported(const Origin& origin, const Task& task, const Policy& policy, const Vector& theta,
                        const Answers& asked) {
-  Exported exported{.origin = origin,
-                    .states = task.states,
-                    .actions = task.actions,
-                    .actuators = task.actuators(),
-                    .dt_s = task.dt_s,
-                    .kind = policy.name(),
-                    .theta = theta,
-                    .description = describe(policy, theta),
-                    .answers = asked};
-  exported.answers.actions.resize(asked.states.rows(), policy.actions());
+  return with_theta({.origin = origin,
+                     .states = task.states,
+                     .actions = task.actions,
+                     .actuators = task.actuators(),
+                     .dt_s = task.dt_s,
+                     .kind = policy.name(),
+                     .theta = {},
+                     .description = {},
+                     .answers = asked},
+                    policy, theta);
+}
+
+Exported with_theta(Exported exported, const Policy& policy, const Vector& theta) {
+  exported.description = describe(policy, theta);
+  exported.theta = theta;
+  Answers& answers = exported.answers;
+  answers.actions.resize(answers.states.rows(), policy.actions());
   const Matrix Theta = theta.transpose();
-  for (Index i = 0; i < asked.states.rows(); ++i)
-    policy.act(Theta, asked.states.middleRows(i, 1), asked.times_s(i), exported.answers.actions.middleRows(i, 1));
-  exported.actuators.command(asked.states, exported.answers.actions);
+  for (Index i = 0; i < answers.states.rows(); ++i)
+    policy.act(Theta, answers.states.middleRows(i, 1), answers.times_s(i), answers.actions.middleRows(i, 1));
+  exported.actuators.command(answers.states, answers.actions);
   return exported;
 }
 

@@ -42,6 +42,9 @@ struct Exported {
 Exported make_exported(const Origin& origin, const Task& task, const Policy& policy, const Vector& theta,
                        const Answers& asked);
 
+/// The same at another θ. policy: that of `exported`. Throws InvalidInput as `describe` does.
+Exported with_theta(Exported exported, const Policy& policy, const Vector& theta);
+
 /// The three texts below carry the memory of actuators, if there is any, from step to step, and answer with commands.
 /// They answer a state or a time that is not finite with NaN for every action.
 ///

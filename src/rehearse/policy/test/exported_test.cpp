@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "exported_fixture.hpp"
+#include "rehearse/core/errors.hpp"
 
 namespace rehearse::policy {
 namespace {
@@ -14,6 +15,16 @@ TEST(Exported, HasTheAnswersOfThePolicy) {
     each.policy->act(each.theta.transpose(), exported.answers.states.middleRows(4, 1), exported.answers.times_s(4), U);
     EXPECT_EQ(exported.answers.actions.row(4), U.row(0)) << each.name;
     EXPECT_EQ(exported.kind, each.policy->name());
+  }
+}
+
+TEST(Exported, AtAnotherThetaIsWhatItWouldHaveBeen) {
+  for (exports::Case each : exports::cases()) {
+    const Exported first = exports::exported(each, exports::asked(5, 0.1));
+    each.theta = 0.5 * each.theta;
+    const Exported other = with_theta(first, *each.policy, each.theta);
+    EXPECT_EQ(to_json(other), to_json(exports::exported(each, exports::asked(5, 0.1)))) << each.name;
+    EXPECT_THROW(with_theta(first, *each.policy, Vector::Zero(each.theta.size() + 1)), InvalidInput);
   }
 }
 
