@@ -1,14 +1,20 @@
+# %% [markdown]
 """An environment as Gymnasium has them is the robot: reset() and step(), whoever wrote it.
 
 The learner does not use the environment's reward: it needs one for states that nobody has been in. The prior is
 formulas here; it knows nothing of the friction.
 """
 
+# %%
 import numpy as np
 
 import rehearse
 
+# %% [markdown]
+"""The environment, which may be anybody's: `gymnasium.make` is a function that makes one, too."""
 
+
+# %%
 class Pendulum:
     """A pendulum with friction; observations are cosine and sine of its angle, and its rate."""
 
@@ -27,6 +33,10 @@ class Pendulum:
         return np.array([np.cos(self.angle), np.sin(self.angle), self.rate])
 
 
+# %% [markdown]
+"""The robot. `observe` makes states of observations; turns of the angle are counted on."""
+
+# %%
 robot = rehearse.Robot(
     "pendulum-environment",
     dt_s=0.05,
@@ -49,6 +59,10 @@ robot = rehearse.Robot(
     },
 )
 
+# %% [markdown]
+"""Learning."""
+
+# %%
 if __name__ == "__main__":
     run = rehearse.learn(robot, trials=5, until_solved=True)
     print("solved at trial", run.solved_at)

@@ -1,14 +1,20 @@
+# %% [markdown]
 """A robot with a control loop of its own: ask for a policy, run it, tell what happened.
 
 Days may lie between two steps, and each may be another process: everything is in the run's folder.
 """
 
+# %%
 import numpy as np
 from own_robot import options, pendulum, robot
 
 import rehearse
 
+# %% [markdown]
+"""The robot's side: a loop that measures, asks the policy, and sends what it answers."""
 
+
+# %%
 def run_on_the_robot(policy, steps=30):
     """Stands for your control loop: here, the pendulum with a little noise of measurement."""
     noise = np.random.default_rng(policy.trial)
@@ -22,6 +28,10 @@ def run_on_the_robot(policy, steps=30):
     return {"time": time, "rate": rate, "angle": angle, "torque": torque[:-1]}
 
 
+# %% [markdown]
+"""Three trials at most; `ask` and `tell` may be in different processes."""
+
+# %%
 if __name__ == "__main__":
     run = rehearse.learn(robot, trials=0, options=options, out="runs/hardware", progress=None)  # makes the folder alone
     for _ in range(3):

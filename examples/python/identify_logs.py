@@ -1,11 +1,17 @@
+# %% [markdown]
 """A robot from logs alone: parameters with intervals, and how far predictions hold."""
 
+# %%
 import numpy as np
 from own_robot import pendulum, robot
 
 import rehearse
 
+# %% [markdown]
+"""The logs."""
 
+
+# %%
 def log(seed, steps=100):
     """A log of whatever moved the robot; yours is a CSV file, a DataFrame, or a dictionary like this one."""
     random = np.random.default_rng(seed)
@@ -18,6 +24,10 @@ def log(seed, steps=100):
     return dict(zip(("time", "rate", "angle", "torque"), np.array(rows).T))
 
 
+# %% [markdown]
+"""What two of them tell, and how well that forecasts the third. In a notebook `found.plot()` is a figure."""
+
+# %%
 if __name__ == "__main__":
     found = rehearse.identify(robot, [log(1), log(2)], held_out=[log(3)])
     print(found)

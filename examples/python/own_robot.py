@@ -1,13 +1,19 @@
+# %% [markdown]
 """A robot of your own in Python: a pendulum whose motor is too weak to lift it at once.
 
 Its mass is 0.3 kg. We guess 0.2 kg, and let a learner find the mass and a policy that swings it up.
 """
 
+# %%
 import numpy as np
 
 import rehearse
 
+# %% [markdown]
+"""The equation: how fast the states change, and the change over a control step."""
 
+
+# %%
 def rates(states, actions, m, l, b):
     """Derivatives of (rate, angle) by time, a row a state; the angle is 0 when it hangs."""
     rate, angle, torque = states[:, 0], states[:, 1], actions[:, 0]
@@ -16,6 +22,10 @@ def rates(states, actions, m, l, b):
 
 pendulum = rehearse.rk4(rates, dt_s=0.1, substeps=4)
 
+# %% [markdown]
+"""The robot: what it measures, what moves it, its task, what plays it, and what we guess of it."""
+
+# %%
 robot = rehearse.Robot(
     "weak-pendulum",
     dt_s=0.1,
@@ -34,6 +44,10 @@ robot = rehearse.Robot(
 # Simulated episodes a search: for a pendulum a fifth of the default is enough.
 options = {"search.race.max_evaluations": 20000}
 
+# %% [markdown]
+"""Learning, in a new folder below runs. In a notebook `run` alone is a table, and `run.plot()` a figure."""
+
+# %%
 if __name__ == "__main__":
     run = rehearse.learn(robot, learner="gp-mi", trials=4, until_solved=True, options=options)
     print(run.trials)
