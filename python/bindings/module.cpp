@@ -37,6 +37,12 @@ PYBIND11_MODULE(_core, module) {
   namespace py = pybind11;
   py::register_exception<InvalidInput>(module, "InvalidInput", PyExc_ValueError);
   py::register_exception<experiment::RunFailed>(module, "RunFailed", PyExc_RuntimeError);
+  const auto present = [&](const char* name, const char* text) {
+    module.attr(name).attr("__module__") = "rehearse";  // where users find it
+    module.attr(name).attr("__doc__") = text;
+  };
+  present("InvalidInput", "What was given cannot be used: a line for everything that is wrong, with its bound.");
+  present("RunFailed", "The plant or the learner failed. What was done is kept, and `resume` goes on.");
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -113,7 +113,8 @@ class Environment:
             wrapped = self._angles & (inside[0] | inside[1]) & (np.abs(jump) > math.pi)
             self._turns -= np.where(wrapped, np.sign(jump), 0.0)
         self._last = given
-        return given + 2 * math.pi * self._turns
+        continued: Array = given + 2 * math.pi * self._turns
+        return continued
 
 
 @dataclass(frozen=True)

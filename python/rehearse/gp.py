@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Union
+from typing import Any, Literal, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -31,6 +31,29 @@ class GaussianProcess:
         self._data: tuple[Array, Array] = (np.empty((0, 0)), np.empty((0, 0)))
         self._one, self._inputs = True, 0
 
+    def get_params(self, deep: bool = True) -> dict[str, Any]:
+        """The arguments, as scikit-learn has them."""
+        return {"trend": self.trend, "tolerance": self.tolerance, "threads": self.threads, **self.options}
+
+    def set_params(self, **arguments: Any) -> GaussianProcess:
+        """Other arguments, for the next fit."""
+        other = GaussianProcess(**{**self.get_params(), **arguments})
+        self.trend, self.tolerance, self.threads = other.trend, other.tolerance, other.threads
+        self.options = other.options
+        return self
+
+    def __repr__(self) -> str:
+        known = GaussianProcess().get_params()
+        given = ", ".join(f"{name}={value!r}" for name, value in self.get_params().items() if value != known.get(name))
+        return f"GaussianProcess({given})"
+
+    @property
+    def n_features_in_(self) -> int:
+        """The inputs, D, once there are data; as scikit-learn has it."""
+        if self._core is None:
+            raise AttributeError("n_features_in_: the GP has no data yet")
+        return self._inputs
+
     def fit(self, X: npt.ArrayLike, y: npt.ArrayLike) -> GaussianProcess:
         """X: n × D inputs; y: n targets, or n × E."""
         X, Y, one = _arrays(X, y)
@@ -43,6 +66,15 @@ class GaussianProcess:
         logs = np.atleast_2d(np.asarray(log_hyperparameters, float))
         return self._knowing(_core.condition_gp(X, Y, logs, self.tolerance), X, Y, one)
 
+    @overload
+    def predict(self, X: npt.ArrayLike, return_std: Literal[False] = False,
+                return_cov: Literal[False] = False) -> Array: ...
+    @overload
+    def predict(self, X: npt.ArrayLike, return_std: Literal[True],
+                return_cov: Literal[False] = False) -> tuple[Array, Array]: ...
+    @overload
+    def predict(self, X: npt.ArrayLike, return_std: Literal[False] = False, *,
+                return_cov: Literal[True]) -> tuple[Array, Array]: ...
     def predict(self, X: npt.ArrayLike, return_std: bool = False, return_cov: bool = False) -> Any:
         """Means (n, or n × E) at X (n × D), and what is asked for of the function, without noise: its standard deviations
         (as the means), or its covariance over the rows of X (n × n, or n × n × E), as scikit-learn has them. The covariance

@@ -37,16 +37,24 @@ class Identification:
 
     @property
     def parameters(self) -> Array:
+        """Value and 95 % interval of each, and those without a log; a row a parameter."""
         return self.tables["parameters"]
 
     @property
     def accuracy(self) -> Array:
+        """Errors and coverage of forecasts, a row a horizon and state."""
         return self.tables["accuracy"]
 
     def report(self, path: Union[str, os.PathLike[str]]) -> Path:
         """Writes the page, which opens in a browser."""
         Path(path).write_text(self.page)
         return Path(path)
+
+    def plot(self) -> Any:
+        """A Matplotlib figure: each parameter with its 95 % interval and the prior's value."""
+        from .plots import plot_parameters
+
+        return plot_parameters(self.parameters)
 
     def _repr_html_(self) -> str:
         return f"<pre>{escape(self.summary)}</pre>"

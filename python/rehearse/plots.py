@@ -4,8 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Union
 
+from .arrays import Array
+
 if TYPE_CHECKING:
     from .run import Run
+
+
+def plot_parameters(parameters: Array) -> Any:
+    import matplotlib.pyplot as plt
+
+    if len(parameters) == 0:
+        raise ValueError("the prior has no parameters to tune")
+    figure, axes = plt.subplots(len(parameters), 1, figsize=(7, 0.6 + 0.9 * len(parameters)), squeeze=False)
+    for axis, row in zip(axes[:, 0], parameters):
+        axis.plot([row["low"], row["high"]], [0, 0], "|-", markersize=12, label="95 % interval")
+        axis.plot(row["value"], 0, "o", color="C0", label="value")
+        axis.plot(row["prior"], 0, "x", color="C1", label="the prior's")
+        axis.set(yticks=[], ylabel=row["parameter"], xlabel=str(row["unit"]) if isinstance(row["unit"], str) else "")
+    axes[0, 0].legend(loc="best", fontsize="small")
+    figure.tight_layout()
+    return figure
 
 
 def plot_run(run: Run, trial: Union[int, None]) -> Any:

@@ -20,7 +20,7 @@ from .gp import text_of
 from .policy import Policy
 from .progress import show
 from .robot import Robot
-from .tables import as_files, read_csv, without_path
+from .tables import as_files, html_table, read_csv, without_path
 
 Robots = Union[Robot, str, os.PathLike[str]]
 PathLike = Union[str, os.PathLike[str]]
@@ -60,6 +60,21 @@ class Evaluation:
     def __repr__(self) -> str:
         return (f"<rehearse.Evaluation of {len(self.returns)} episodes: median return {np.median(self.returns):.4g}, "
                 f"success rate {self.success_rate:.3g}>")
+
+    @property
+    def table(self) -> Array:
+        """A row an episode: return, solved and solved_at_end (1, 0, or NaN), ended_s; pandas.DataFrame takes it."""
+        columns: dict[str, Any] = {"return": self.returns, "solved": self.solved, "solved_at_end": self.solved_at_end,
+                   "ended_s": self.ended_s}
+        table = np.empty(len(self.returns), dtype=[(name, float) for name in columns])
+        for name, column in columns.items():
+            table[name] = np.array(column, dtype=float)
+        return table
+
+    def _repr_html_(self) -> str:
+        quantiles = np.quantile(self.returns, [0.05, 0.5, 0.95])  # of one episode at least
+        cells = [len(self.returns), *(f"{value:.4g}" for value in quantiles), f"{self.success_rate:.3g}"]
+        return html_table(["episodes", "return 5%", "median", "95%", "success rate"], [cells])
 
     @property
     def success_rate(self) -> float:
@@ -207,10 +222,8 @@ class Run:
             cells = [trial["trial"], _number(trial["total_reward"]), _number(trial["predicted_return"]),
                      {True: "yes", False: "no", None: ""}[trial["solved"]],
                      *(_number(trial["phi"].get(name)) for name in names)]
-            rows.append("<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in cells) + "</tr>")
-        titles = "".join(f"<th>{escape(name)}</th>" for name in columns)
-        return (f"<p>{escape(head)}, seed {about['seed']}, in {escape(str(self.folder))}</p>"
-                f"<table><tr>{titles}</tr>{''.join(rows)}</table>")
+            rows.append(cells)
+        return f"<p>{escape(head)}, seed {about['seed']}, in {escape(str(self.folder))}</p>{html_table(columns, rows)}"
 
     def __repr__(self) -> str:
         trials, best = self.details, self.best

@@ -55,23 +55,33 @@ class Cmaes(_Search):
         return self._core.stop
 
     @property
+    def population(self) -> int:
+        """λ, the candidates of a generation."""
+        return self._core.population
+
+    @property
     def best_x(self) -> Array:
+        """The best candidate that was told, n."""
         return self._core.best_x
 
     @property
     def best_value(self) -> float:
+        """Its value."""
         return self._core.best_value
 
     @property
     def mean(self) -> Array:
+        """The middle of the next candidates, n: where noise is large, a better answer than the best one."""
         return self._core.mean
 
     @property
     def sigma(self) -> float:
+        """The step."""
         return self._core.sigma
 
     @property
     def evaluations(self) -> int:
+        """Candidates that were told."""
         return self._core.evaluations
 
 
@@ -109,6 +119,7 @@ class MapElites(_Search):
 
     @property
     def evaluations(self) -> int:
+        """Solutions that were told."""
         return self._core.evaluations
 
 

@@ -8,6 +8,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from html import escape
 from pathlib import Path
 from typing import Any, Union
 
@@ -82,6 +83,12 @@ def as_files(episodes: Iterable[Any], folder: Union[str, os.PathLike[str]], name
         path.write_text(to_csv(episode))
         files.append(str(path))
     return files
+
+
+def html_table(titles: Iterable[str], rows: Iterable[Iterable[Any]]) -> str:
+    head = "".join(f"<th>{escape(title)}</th>" for title in titles)
+    body = "".join("<tr>" + "".join(f"<td>{escape(str(cell))}</td>" for cell in row) + "</tr>" for row in rows)
+    return f"<table><tr>{head}</tr>{body}</table>"
 
 
 @contextmanager

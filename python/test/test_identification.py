@@ -28,6 +28,12 @@ def test_arrays_tell_the_mass(tmp_path):
     assert found.report(tmp_path / "page.html").read_text().startswith("<!")
 
 
+def test_parameters_have_a_figure():
+    pytest.importorskip("matplotlib").use("Agg")
+    found = rehearse.identify(cart(plant=None), [log(1)], options={"beyond": "nothing"})
+    assert [axis.get_ylabel() for axis in found.plot().axes] == ["mass"]
+
+
 def test_a_summary_is_text_in_a_notebook():
     found = rehearse.Identification({}, "p < 0.05 & <b>mass</b>", [], "")
     assert found._repr_html_() == "<pre>p &lt; 0.05 &amp; &lt;b&gt;mass&lt;/b&gt;</pre>"

@@ -173,6 +173,11 @@ def test_a_file_has_one_plant(tmp_path):
     assert (run.trajectory(1)["position"] == 1).all()
 
 
+def test_messages_are_of_the_module():
+    assert rehearse.InvalidInput.__module__ == rehearse.RunFailed.__module__ == "rehearse"
+    assert "a line for everything that is wrong" in rehearse.InvalidInput.__doc__ and rehearse.RunFailed.__doc__
+
+
 # Environments.
 
 

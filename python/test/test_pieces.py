@@ -103,6 +103,19 @@ def test_a_gp_scores_and_is_copied():
     assert pickle.loads(pickle.dumps(rehearse.GaussianProcess(starts=2))).options == {"starts": 2}
 
 
+def test_a_gp_has_the_manners_of_scikit_learn():
+    gp = rehearse.GaussianProcess(trend=True, starts=1)
+    assert gp.get_params() == {"trend": True, "tolerance": 0.0, "threads": 0, "starts": 1}
+    assert repr(gp) == "GaussianProcess(trend=True, starts=1)" and repr(rehearse.GaussianProcess()) == "GaussianProcess()"
+    assert not hasattr(gp, "n_features_in_")
+    assert gp.set_params(trend=False, starts=2) is gp and gp.get_params()["starts"] == 2 and not gp.trend
+    with pytest.raises(rehearse.InvalidInput, match="tolerance"):
+        gp.set_params(tolerance=-1)
+    assert gp.fit(*data(20)).n_features_in_ == 2
+    sklearn = pytest.importorskip("sklearn.base")
+    assert sklearn.clone(gp).get_params() == gp.get_params()
+
+
 def test_what_a_gp_refuses_leaves_it_as_it_was():
     X, y = data()
     gp = rehearse.GaussianProcess().condition(X, y, np.log([0.8, 1.5, 1.2, 0.1]))
@@ -154,6 +167,7 @@ def test_cmaes_finds_the_top_of_a_ridge():
         search.tell(-(100 * (x[:, 1] - x[:, 0] ** 2) ** 2 + (1 - x[:, 0]) ** 2 + x[:, 2] ** 2))
     np.testing.assert_allclose(search.best_x, [1, 1, 0], atol=1e-4)
     inside = rehearse.Cmaes([0.5], 0.3, bounds=[(0, 1)], population=8)
+    assert inside.population == 8
     for _ in range(20):
         x = inside.ask()
         assert (x >= 0).all() and (x <= 1).all() and len(x) == 8

@@ -115,7 +115,11 @@ def test_an_environment_is_the_plant(tmp_path):
     assert run.trials["return"][1] == pytest.approx(simulated.trials["return"][1], abs=1e-6)
     assert environment.seeds[0] != environment.seeds[1]
     assert {action.shape for action in environment.actions} == {(1,)}
-    assert run.evaluate(3).success_rate in (0.0, 1.0)
+    evaluation = run.evaluate(3)
+    assert evaluation.success_rate in (0.0, 1.0)
+    np.testing.assert_array_equal(evaluation.table["return"], evaluation.returns)
+    assert evaluation.table.dtype.names == ("return", "solved", "solved_at_end", "ended_s")
+    assert np.isnan(evaluation.table["ended_s"]).all() and "<td>3</td>" in evaluation._repr_html_()
 
 
 def test_an_environment_must_fit_the_robot(tmp_path):
