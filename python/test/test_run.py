@@ -1,11 +1,14 @@
 """Runs from Python: the laws, and what functions of Python may do."""
 
+import gc
+import os
 import pathlib
 import re
 import signal
 import subprocess
 import sys
 import time
+import weakref
 
 import numpy as np
 import pytest
@@ -388,3 +391,22 @@ def test_a_policy_can_be_taken_along(tmp_path):
     assert re.search(r"push_act", (tmp_path / "push.h").read_text())
     with pytest.raises(ValueError, match="must end with"):
         policy.export(tmp_path / "push.txt")
+
+
+@pytest.mark.skipif("asan" in os.environ.get("LD_PRELOAD", ""), reason="the sanitizer keeps memory that was freed")
+def test_memory_does_not_grow_with_runs(tmp_path):
+    status = pathlib.Path("/proc/self/statm")
+    if not status.exists():
+        pytest.skip("no /proc")
+    kept, sizes = [], []
+    for number in range(int(os.environ.get("REHEARSE_RUNS", "50"))):
+        held = np.ones(250_000)  # 2 MB, which the reward holds
+        reward = lambda x, u, following, held=held: np.exp(-following[:, 1] ** 2) * held[0]  # noqa: E731
+        kept.append(weakref.ref(reward))
+        run = learn(cart(reward=reward), tmp_path / str(number), learner="mi", trials=1, threads=1,
+                    options={"search.race.max_evaluations": 200, "retry.searches": 0})
+        del reward, run, held
+        gc.collect()
+        sizes.append(int(status.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20)
+    assert all(reward() is None for reward in kept)
+    assert max(sizes) < sizes[9] + 10, sizes[9::10]  # MB: a tenth of what is held, and 250 kB a run of C++
