@@ -21,8 +21,7 @@ std::vector<std::string> details_of_reward(const RewardFormulas& reward) {
 std::string source_of(const Dynamics& dynamics) {
   if (const auto* program = std::get_if<ProgramSource>(&dynamics.source))
     return fmt::format("the program '{}'", fmt::join(program->command, " "));
-  if (const auto* model = std::get_if<ModelSource>(&dynamics.source))
-    return fmt::format("the model {}", model->path);
+  if (const auto* model = std::get_if<ModelSource>(&dynamics.source)) return fmt::format("the model {}", model->path);
   if (const auto* function = std::get_if<FunctionSource>(&dynamics.source))
     return fmt::format("the function {}", function->name);
   return "equations";

@@ -23,19 +23,20 @@ struct Steps {
   std::vector<Index> limits, limits_at_once;  // of each limit: episodes that broke it, and in their first step
 };
 
-bool keeps(const Limit& limit, const Matrix& x, const Matrix& u, const Matrix& next) {
+bool keeps(const Limit& limit, const rehearse::Steps& step) {
   Vector kept(1);
-  limit.holds(x, u, next, kept);
+  limit.holds(step, kept);
   return is_true(kept(0));
 }
 
-/// Counts the limits that the last row's step breaks. Returns true if there are any.
-bool count_broken(const Task& task, Index row, bool first, Steps& steps) {
+/// Counts the limits that the last row's step breaks, step t of its episode. Returns true if there are any.
+bool count_broken(const Task& task, Index row, Index t, Steps& steps) {
   const Matrix x = steps.X.row(row), u = steps.U.row(row), next = x + steps.dX.row(row);
+  const Matrix before = t > 0 ? Matrix(steps.U.row(row - 1)) : Matrix::Zero(1, u.cols());
   bool any = false;
   for (std::size_t l = 0; l < task.limits.size(); ++l) {
-    if (keeps(task.limits[l], x, u, next)) continue;
-    any = true, ++steps.limits[l], steps.limits_at_once[l] += first;
+    if (keeps(task.limits[l], {x, u, next, before, static_cast<double>(t) * task.dt_s})) continue;
+    any = true, ++steps.limits[l], steps.limits_at_once[l] += t == 0;
   }
   return any;
 }
@@ -88,7 +89,7 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
         x = next, ++row;
         const bool fell = task.ended && holds(task.ended, x);
         steps.ended += fell;
-        if (count_broken(task, row - 1, t == 0, steps) || fell) break;
+        if (count_broken(task, row - 1, t, steps) || fell) break;
       }
     }
   } catch (const std::exception& error) {
@@ -218,7 +219,7 @@ std::vector<std::string> hopeless_limits(const Task& task, const Steps& steps, I
   std::vector<std::string> lines;
   const Matrix start = task.start_mean.transpose(), none = Matrix::Zero(1, task.action_size());
   for (std::size_t l = 0; l < task.limits.size(); ++l)
-    if (steps.limits_at_once[l] == episodes && !keeps(task.limits[l], start, none, start))
+    if (steps.limits_at_once[l] == episodes && !keeps(task.limits[l], {start, none, start, none}))
       lines.push_back(
           fmt::format("limit {}: the start breaks it, and the first step of every episode: keep says "
                       "what must hold",

@@ -10,9 +10,7 @@ namespace {
 using example::kSwing, example::with;
 using Lines = std::vector<std::string>;
 
-scenario::Details details(const std::string& text) {
-  return builder(text, "swing.toml", example::no_files)->details();
-}
+scenario::Details details(const std::string& text) { return builder(text, "swing.toml", example::no_files)->details(); }
 
 TEST(Details, SayWhatTheFileSays) {
   const scenario::Details found = details(kSwing);
