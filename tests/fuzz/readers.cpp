@@ -12,7 +12,9 @@
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/files/seal.hpp"
+#include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/files/toml_reader.hpp"
+#include "rehearse/mujoco/simulator.hpp"
 #include "rehearse/qd/archive_bytes.hpp"
 #include "rehearse/recording/recording.hpp"
 #include "rehearse/report/files.hpp"
@@ -45,6 +47,13 @@ void read_robot(std::string_view text) {
   for (const robot_file::Dynamics& dynamics : robot.dynamics)
     if (std::holds_alternative<robot_file::ProgramSource>(dynamics.source)) return;
   (void)robot_file::builder(text, "robot.toml", file_beside)->build();
+}
+
+/// A model without states and actions: the file alone is read.
+void read_mjcf(std::string_view text) {
+  static const files::TemporaryFolder folder;
+  folder.add("model.xml", text);
+  (void)mujoco::unseen({.path = (folder.path() / "model.xml").string(), .dt_s = 0.01, .substeps = 1});
 }
 
 void read_campaign(std::string_view text) {
@@ -167,7 +176,7 @@ const std::vector<Reader>& readers() {
       {"recording", refusing<InvalidInput>(read_recording)}, {"table", refusing<InvalidInput>(read_table)},
       {"policy", refusing<InvalidInput>(read_policy)},       {"checkpoint", refusing<InvalidInput>(read_checkpoint)},
       {"archive", refusing<InvalidInput>(read_archive)},     {"message", refusing<std::runtime_error>(read_message)},
-      {"answer", refusing<std::runtime_error>(read_answer)},
+      {"answer", refusing<std::runtime_error>(read_answer)}, {"mjcf", refusing<InvalidInput>(read_mjcf)},
   };
   return all;
 }

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "rehearse/core/options.hpp"
+#include "rehearse/mujoco/pitfalls.hpp"
 
 namespace rehearse::mujoco {
 namespace {
@@ -100,6 +101,7 @@ const char* guarded(void (*work)(void*), void* data) {
 }
 
 ModelPointer load(const std::string& path) {
+  refuse_pitfalls(path);
   take_over_errors();
   std::array<char, 1000> error{};
   try {  // no guard: MuJoCo's reader is C++, which longjmp must not leave
