@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -192,9 +193,11 @@ std::vector<std::string> field_violations(const Fields& fields) {
 }
 
 std::string closest(std::string_view name, const std::vector<std::string>& names) {
-  // A capital letter is a smaller mistake than another letter.
+  // Groups that are left out are a smaller mistake than a letter, and a capital letter than another one.
+  const std::string last_parts = fmt::format(".{}", name);
   const auto distance = [&](std::string_view other) {
-    return std::pair(edit_distance(in_lower_case(name), in_lower_case(other)), edit_distance(name, other));
+    return std::tuple(!other.ends_with(last_parts), edit_distance(in_lower_case(name), in_lower_case(other)),
+                      edit_distance(name, other));
   };
   const auto best = std::min_element(names.begin(), names.end(),
                                      [&](const auto& a, const auto& b) { return distance(a) < distance(b); });

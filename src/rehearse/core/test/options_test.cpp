@@ -247,6 +247,8 @@ TEST(Closest, IsTheNameMeant) {
   EXPECT_EQ(closest("M", {"b", "m"}), "m");
   EXPECT_EQ(closest("c", {"m", "C", "c"}), "c");
   EXPECT_EQ(closest("anything", {}), "");
+  EXPECT_EQ(closest("identify", {"centres", "model.identify", "model.gp.identify"}), "model.identify");
+  EXPECT_EQ(closest("gp.tolerance", {"gp.centres", "model.gp.tolerance"}), "model.gp.tolerance");
   EXPECT_EQ(did_you_mean("sed", names), ", did you mean 'seed'?");
   EXPECT_EQ(did_you_mean("sed", {}), "");
 }
