@@ -34,9 +34,9 @@ install(DIRECTORY examples/robots examples/models examples/programs campaigns pr
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${shown} COMPONENT documentation)
 install(DIRECTORY docs DESTINATION ${shown} COMPONENT documentation
   FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
-install(DIRECTORY examples/own_robot examples/own_learner examples/python examples/contest DESTINATION ${shown}/examples
-  COMPONENT documentation FILES_MATCHING PATTERN "*.?pp" PATTERN "*.c" PATTERN "*.py" PATTERN "CMakeLists.txt"
-  PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY examples/own_robot examples/own_learner examples/python examples/contest examples/same_robot
+  DESTINATION ${shown}/examples COMPONENT documentation FILES_MATCHING PATTERN "*.?pp" PATTERN "*.[ch]" PATTERN "*.py"
+  PATTERN "*.toml" PATTERN "*.xml" PATTERN "CMakeLists.txt" PATTERN "__pycache__" EXCLUDE)
 install(PROGRAMS examples/contest/score DESTINATION ${shown}/examples/contest COMPONENT documentation)
 
 if(TARGET rehearse_python)

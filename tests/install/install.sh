@@ -67,7 +67,8 @@ examples=prefix/share/doc/rehearse/examples
 says 0 "^pendulum-file: 40 steps" prefix/bin/rehearse check $examples/robots/pendulum.toml
 says 0 "18 runs" prefix/bin/rehearse campaign $examples/campaigns/pendubot-short.toml --dry-run
 for file in man/man1/rehearse-learn.1.gz bash-completion/completions/rehearse zsh/vendor-completions/_rehearse \
-  fish/vendor_completions.d/rehearse.fish rehearse/schemas/robot.json doc/rehearse/docs/install.md; do
+  fish/vendor_completions.d/rehearse.fish rehearse/schemas/robot.json doc/rehearse/docs/install.md \
+  doc/rehearse/examples/contest/robot.h doc/rehearse/examples/same_robot/model.toml; do
   [ -s prefix/share/$file ] || { echo "share/$file is not installed" >&2; exit 1; }
 done
 [ ! -e prefix/lib/python3 ] || { echo "the module of Python is installed unasked" >&2; exit 1; }
