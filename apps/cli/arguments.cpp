@@ -26,6 +26,12 @@ std::optional<Index> trial_of(const std::optional<std::string>& text, Violations
   return text ? std::optional<Index>(trial) : std::nullopt;
 }
 
+void require_page(const std::optional<std::string>& out, Violations& violations) {
+  const std::string ending = std::filesystem::path(out.value_or("")).extension().string();
+  violations.require(ending.empty() || ending == ".html" || ending == ".htm",
+                     fmt::format("--out {}: it is a page, must end in .html or .htm", out.value_or("")));
+}
+
 void refuse_file_without_ending(const experiment::Catalogue& catalogue, const std::string& robot) {
   std::error_code none;
   if (robot.empty() || robot.ends_with(".toml") || catalogue.scenario(robot)) return;

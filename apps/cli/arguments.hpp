@@ -19,6 +19,9 @@ void set_text(const Fields& fields, const std::string& name, const std::optional
 /// The number of --trial, from 1; none if it is not given.
 std::optional<Index> trial_of(const std::optional<std::string>& text, Violations& violations);
 
+/// A violation if --out, the name of a page, has the ending of something else.
+void require_page(const std::optional<std::string>& out, Violations& violations);
+
 /// Throws InvalidInput where no robot has this name, but there is a file NAME.toml.
 void refuse_file_without_ending(const experiment::Catalogue& catalogue, const std::string& robot);
 

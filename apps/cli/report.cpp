@@ -31,6 +31,9 @@ int write_page(const fs::path& folder, const Page& page, const fs::path& out) {
 
 int report(const experiment::Catalogue& catalogue, const ReportArguments& arguments, const std::string& share) {
   const fs::path folder = arguments.folder;
+  Violations violations;
+  require_page(arguments.out, violations);
+  violations.throw_if_any();
   return write_page(folder, report_page(catalogue, folder, share),
                     arguments.out.value_or((folder / "report.html").string()));
 }
@@ -39,6 +42,7 @@ int replay(const ReplayArguments& arguments, const std::string& share) {
   const fs::path folder = arguments.folder;
   Violations violations;
   const Index trial = *trial_of(arguments.trial, violations);
+  require_page(arguments.out, violations);
   violations.throw_if_any();
   const fs::path beside = folder / fmt::format("replay-{:03}.html", trial);
   return write_page(folder, replay_page(folder, trial, share, arguments.headline),

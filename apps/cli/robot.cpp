@@ -173,6 +173,9 @@ std::string text_of_new(const std::string& name, const std::string& path) {
 }  // namespace
 
 int check(const experiment::Catalogue& built_in, const CheckArguments& arguments, const std::string& share) {
+  Violations violations;
+  require_page(arguments.out, violations);
+  violations.throw_if_any();
   const experiment::Catalogue catalogue = with_robot(built_in, arguments.robot);
   const auto builder = catalogue.scenario(catalogue.scenario_name(arguments.robot));
   if (!builder) throw InvalidInput(catalogue.why_missing("scenario", arguments.robot));
