@@ -7,6 +7,8 @@ namespace {
 
 constexpr const char* kIntroduction = R"(# The command line
 
+This page has every argument of every command.
+
 `rehearse COMMAND --help` says the same of one command, and so does `man rehearse-COMMAND` where a package is
 [installed](install.md). Shells complete commands, options, names and files. Options for `--set` are on
 [a page of their own](options.md).

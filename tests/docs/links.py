@@ -2,7 +2,7 @@
 """links.py ROOT: every relative link and #anchor of README.md, CONTRIBUTING.md, CHANGELOG.md and docs/**.md leads somewhere.
 
 Anchors are those that GitHub makes of headings: lower case, spaces are hyphens, punctuation is left out, the second of two equal ones
-ends in -1. Every page of docs/ has a place in the menu of mkdocs.yml.
+ends in -1. Every page of docs/ has a place in the menu of mkdocs.yml. Every page begins with a paragraph.
 """
 import functools
 import pathlib
@@ -42,10 +42,18 @@ def wrong(page):
                 yield f"{page.relative_to(ROOT)}:{number}: {target}: no such heading"
 
 
+def without_purpose(page):
+    """A page begins with a paragraph, whose first sentence says its purpose; the change log is a list."""
+    title, *rest = (line for line in page.read_text().split("\n") if line.strip())
+    if not title.startswith("# ") or not re.match(r"[\w`\[(\"]|\*\*", "".join(rest[:1])):
+        yield f"{page.relative_to(ROOT)}: no paragraph follows the title: say the page's purpose in its first sentence"
+
+
 def main():
     docs = sorted((ROOT / "docs").rglob("*.md"))
     pages = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")] + docs
     found = [text for page in pages for text in wrong(page)]
+    found += [text for page in pages if page.name != "CHANGELOG.md" for text in without_purpose(page)]
     menu = set(re.findall(r"[\w./-]+\.md", (ROOT / "mkdocs.yml").read_text()))
     found += [f"docs/{name} is not in the menu of mkdocs.yml"
               for name in (str(page.relative_to(ROOT / "docs")) for page in docs) if name not in menu]

@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kIntroduction =
     "# Options\n\n"
+    "This page has every option of runs, scenarios and learners.\n\n"
     "`--set OPTION=VALUE` sets one, and so do files of presets ([presets.md](presets.md)) and campaigns\n"
     "([campaigns.md](campaigns.md)). `rehearse list gp-mi` shows those of a learner, `rehearse list pendubot` those of "
     "a\n"
