@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 """blocks.py PROGRAM ROOT [PAGE…]: every code block of README.md, CONTRIBUTING.md and docs/**.md does what its page says.
 
-How a block is recognised. A fence names its language (python, toml, cpp, sh, json, text). An indented block is, in this order, TOML, JSON
+How a block is recognised. A fence names its language, one of those in FENCES; another is an error. An indented block is, in this order, TOML, JSON
 or Python if it parses as such, C++ if a line ends in ; or {, a formula or a drawing if it has their signs outside comments, else commands
 of a shell. So a misspelt command is a failure, not another language.
 
     TOML     parsed. A whole robot is given to `rehearse check`, a whole campaign to `rehearse campaign --dry-run`.
              Keys of a part of a robot's file must be in the schema of `rehearse list --schema`.
     JSON     parsed.
-    Python   compiled. Calls are not made: tests of the module, and examples/python, do that.
-    C++, C, CMake   not compiled: a compiler takes too long. examples/ has whole programs, which tests/install compiles.
+    Python   compiled, and where the module is built (PYTHONPATH) run: a page's blocks in one namespace, in its folder, after its
+             other blocks, with small budgets and names that stand for a reader's own (small_module.py), within 60 s.
+    CSV      has as many values in each line as in the first.
+    C++, C, CMake   not compiled: a unit takes a compiler ten seconds and more, and most blocks are parts of a program. Their whole
+             programs are: examples/own_robot and own_learner by tests/install, examples/same_robot by tests/examples,
+             exported policies by tests/cli/export.sh.
     text, formulas, drawings    passed over.
     shell    run by bash, each page's blocks in one folder of their own, in order, with `set -e`.
 
@@ -42,6 +46,7 @@ import small_budget  # noqa: E402
 
 STANDS_FOR = {"S": "1", "P": "useful", "N": "100", "FILE": "examples/robots/pendulum.toml", "FILE.toml": "examples/robots/pendulum.toml",
               "RUN": "runs/demo"}
+FENCES = {"python", "toml", "cpp", "c", "cmake", "sh", "bash", "json", "csv", "text"}
 PLACEHOLDER = re.compile(r"(?<=[ =])(FILE\.toml|FILE|RUN|S|P|N)(?=[ ;]|$)", re.M)
 IDLE = ["cmake", "ctest", "mpirun", "npm", "pip", "sbatch", "srun"]
 SHARED = ["bin", "build", "scripts"]  # the same for all pages
@@ -57,7 +62,7 @@ def blocks(path):
     at, marked = 0, False
     while at < len(lines):
         line, begin = lines[at], at
-        if fence := re.match(r" *(```+)(\w*)", line):
+        if fence := re.match(r" *(```+) *([^\s{]*)", line):
             at += 1
             while at < len(lines) and lines[at].strip() != fence[1]:
                 at += 1
@@ -148,6 +153,7 @@ def fixtures(program, root, folder):
 class Checker:
     def __init__(self, program, root, ready):
         self.program, self.root, self.ready = program, root, ready
+        self.module = subprocess.run([sys.executable, "-c", "import rehearse"], capture_output=True).returncode == 0
         self.keys = set()
         self.collect(json.loads(say(program, "list", "--schema")))
 
@@ -162,7 +168,7 @@ class Checker:
 
     def page(self, path):
         """What is wrong with a page, and how many blocks of each kind it has."""
-        wrong, counts = [], {}
+        wrong, counts, python = [], {}, []
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name) / "page"
             for line, language, text, marked in blocks(path):
@@ -171,6 +177,10 @@ class Checker:
                     counts[what] = counts.get(what, 0) + 1
                     if message := self.block(what, part, folder):
                         wrong.append(f"{path.relative_to(self.root)}:{at}: {message}")
+                    elif what == "python":
+                        python.append((at if language else at - 1, part))  # lines before it
+            if python and self.module and (message := self.run_python(path.name, python, folder)):
+                wrong.append(message)
         return wrong, counts
 
     def block(self, what, text, folder):
@@ -178,20 +188,37 @@ class Checker:
             return self.shell(text, folder)
         if what == "toml":
             return self.toml(text, folder)
+        if what not in FENCES | {"signs", "not run"}:
+            return f"no language of a block: {what}"
         try:
             if what == "python":
                 compile(text, "block", "exec")
+            elif what == "csv" and len({line.count(",") for line in text.split("\n")}) > 1:
+                return "lines of different lengths"
             elif what == "json":
                 [json.loads(line) for line in text.split("\n")]
         except (SyntaxError, ValueError) as error:
             return str(error)
         return None
 
-    def shell(self, text, folder):
+    def furnish(self, folder):
         if not folder.exists():
             shutil.copytree(self.ready, folder, symlinks=True, ignore=shutil.ignore_patterns(*SHARED))
             for name in SHARED:
                 (folder / name).symlink_to(self.ready / name)
+
+    def run_python(self, page, python, folder):
+        self.furnish(folder)
+        script = pathlib.Path(__file__).with_name("small_module.py")
+        try:
+            done = subprocess.run([sys.executable, script, page], input=json.dumps(python), cwd=folder, capture_output=True, text=True,
+                                  timeout=60, env={**os.environ, "MPLBACKEND": "agg"})
+        except subprocess.TimeoutExpired:
+            return f"{page}: Python blocks take more than 60 s"
+        return f"{page}: Python blocks:\n{done.stderr[-1500:]}" if done.returncode else None
+
+    def shell(self, text, folder):
+        self.furnish(folder)
         text = PLACEHOLDER.sub(lambda match: STANDS_FOR[match[1]], text)
         there = {**os.environ, "PROGRAM": self.program, "PATH": f"{folder}/bin:{os.environ['PATH']}", "REHEARSE_CACHE": "off",
                  "REHEARSE": f"{folder}/bin/rehearse"}
@@ -231,6 +258,7 @@ def main():
             total[what] = total.get(what, 0) + count
     wrong = [text for found, _ in results for text in found]
     print("\n\n".join(wrong))
+    print("Python is run" if checker.module else "Python is compiled alone: its module is not built")
     print(f"{len(pages)} pages, blocks: " + ", ".join(f"{count} {what}" for what, count in sorted(total.items())) + f"; {len(wrong)} wrong")
     return 1 if wrong else 0
 
