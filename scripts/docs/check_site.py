@@ -43,9 +43,9 @@ def wrong(pages):
 
 
 def main():
-    ours = [path for path in sorted(SITE.rglob("*.html")) if path.relative_to(SITE).parts[0] != "cpp"]
-    found = sorted(set(wrong({path: Page(path) for path in ours})))
-    print("\n".join(found[:50]) or f"{len(ours)} pages: every link leads somewhere, nothing comes from a network")
+    pages = {path: Page(path) for path in sorted(SITE.rglob("*.html"))}
+    found = sorted(set(wrong(pages)))
+    print("\n".join(found[:50]) or f"{len(pages)} pages: every link leads somewhere, nothing comes from a network")
     return 1 if found else 0
 
 
