@@ -212,7 +212,7 @@ class Checker:
         script = pathlib.Path(__file__).with_name("small_module.py")
         try:
             done = subprocess.run([sys.executable, script, page], input=json.dumps(python), cwd=folder, capture_output=True, text=True,
-                                  timeout=60, env={**os.environ, "MPLBACKEND": "agg"})
+                                  timeout=60, env={**os.environ, "MPLBACKEND": "agg", "PYTHONDONTWRITEBYTECODE": "1"})
         except subprocess.TimeoutExpired:
             return f"{page}: Python blocks take more than 60 s"
         return f"{page}: Python blocks:\n{done.stderr[-1500:]}" if done.returncode else None
