@@ -72,10 +72,8 @@ TEST(PolicyEvaluation, CountsFalls) {
 
 TEST(PolicyEvaluation, NamesTheLimitsThatAreBroken) {
   Resolved limited = line_where();
-  const StepCondition never = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&,
-                                 VectorView holds) { holds.setZero(); };
-  const StepCondition always = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&,
-                                  VectorView holds) { holds.setOnes(); };
+  const StepCondition never = [](const Steps&, VectorView holds) { holds.setZero(); };
+  const StepCondition always = [](const Steps&, VectorView holds) { holds.setOnes(); };
   limited.scenario.task.limits = {{"hopeless", "", never}, {"easy", "", always}};
   const auto outcomes = evaluate(limited, slow_policy(), {.episodes = 3}, serial_evaluator());
   EXPECT_EQ(outcomes[0].broke, std::vector<std::string>{"hopeless"});
