@@ -191,7 +191,9 @@ def _of_whole_steps(keep: Callable[..., Any]) -> Callable[..., Any]:
     except (TypeError, ValueError):  # it does not say
         parameters = []
     needed = [p for p in parameters if p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
-    return keep if len(needed) == 5 else lambda states, actions, next_states, *_: keep(states, actions, next_states)
+    if len(needed) == 5:
+        return keep
+    return lambda states, actions, next_states, *_: keep(states, actions, next_states)
 
 
 def _require(given: Any, kind: type, name: str, like: str) -> None:
