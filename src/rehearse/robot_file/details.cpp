@@ -14,6 +14,7 @@ std::vector<std::string> details_of_reward(const RewardFormulas& reward) {
   else
     lines.push_back(fmt::format("distance: {}; width {:g}", fmt::join(distances, ", "), reward.width));
   if (!reward.cost.empty()) lines.push_back("cost: " + reward.cost.text);
+  if (!reward.episode.empty()) lines.push_back("of the whole episode: " + reward.episode.text);
   lines.push_back(fmt::format("floor {:g}", reward.floor));
   return lines;
 }

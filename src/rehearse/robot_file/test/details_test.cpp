@@ -22,10 +22,11 @@ TEST(Details, SayWhatTheFileSays) {
 
 TEST(Details, OfAFormulaWithACostAndAnEnd) {
   std::string text = with("distance = [\"1 - height\", \"sin(angle)\"]\nwidth = 0.5",
-                          "formula = \"-rate\"\ncost = \"0.1 * u^2\"\nfloor = -2");
+                          "formula = \"-rate\"\ncost = \"0.1 * u^2\"\nepisode = \"angle_max\"\nfloor = -2");
   const std::string horizon = "horizon = 20";
   text.replace(text.find(horizon), horizon.size(), horizon + "\nended = \"angle > 9\"");
-  EXPECT_EQ(details(text).reward, (Lines{"formula: -rate", "cost: 0.1 * u^2", "floor -2"}));
+  EXPECT_EQ(details(text).reward,
+            (Lines{"formula: -rate", "cost: 0.1 * u^2", "of the whole episode: angle_max", "floor -2"}));
   EXPECT_EQ(details(text).ended, "angle > 9");
 }
 
