@@ -8,6 +8,7 @@ Begin with `Robot` and `learn`. `Run` is what they give, and what `open_run` fin
 """
 
 from ._core import InvalidInput, RunFailed, __version__
+from .evaluation import Evaluation
 from .gp import GaussianProcess
 from .identification import Identification, identify
 from .integrate import rk4
@@ -15,7 +16,7 @@ from .parts import Action, Body, Distance, Limit, Model, State, Success
 from .policy import Policy
 from .progress import show
 from .robot import Robot
-from .run import Evaluation, Run, Trial, learn, learners, open_run, resume, robots
+from .run import Run, Trial, learn, learners, open_run, resume, robots
 from .search import Cmaes, MapElites
 
 __all__ = [

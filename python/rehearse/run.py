@@ -16,6 +16,7 @@ import numpy as np
 from . import _core
 from .arrays import Array
 from .checks import threads_of, whole, whole_or_none
+from .evaluation import Evaluation
 from .gp import text_of
 from .policy import Policy
 from .progress import show
@@ -32,8 +33,8 @@ class Trial:
     """One trial: what was predicted before it, and what came of it.
 
     phi, intervals: parameters of the prior that chose its policy, and their 95 % intervals. limits: risk and outcome of
-    each. cut_short: by no fault of the policy, so that the return does not compare. warnings: what the trials before cannot tell of the parameters. None: does not apply, or is not known.
-    total_reward: NaN of a trial that is to come.
+    each. cut_short: by no fault of the policy, so that the return does not compare. warnings: what the trials before
+    cannot tell of the parameters. None: does not apply, or is not known. total_reward: NaN of a trial that is to come.
     """
 
     trial: int
@@ -46,41 +47,6 @@ class Trial:
     limits: list[dict[str, Any]]
     warnings: list[str]
     notes: list[str]
-
-
-@dataclass(frozen=True)
-class Evaluation:
-    """Episodes of one policy: returns (n), and solved, solved_at_end and ended_s of each; None: does not apply."""
-
-    returns: Array
-    solved: list[Union[bool, None]]
-    solved_at_end: list[Union[bool, None]]
-    ended_s: list[Union[float, None]]
-
-    def __repr__(self) -> str:
-        return (f"<rehearse.Evaluation of {len(self.returns)} episodes: median return {np.median(self.returns):.4g}, "
-                f"success rate {self.success_rate:.3g}>")
-
-    @property
-    def table(self) -> Array:
-        """A row an episode: return, solved and solved_at_end (1, 0, or NaN), ended_s; pandas.DataFrame takes it."""
-        columns: dict[str, Any] = {"return": self.returns, "solved": self.solved, "solved_at_end": self.solved_at_end,
-                   "ended_s": self.ended_s}
-        table = np.empty(len(self.returns), dtype=[(name, float) for name in columns])
-        for name, column in columns.items():
-            table[name] = np.array(column, dtype=float)
-        return table
-
-    def _repr_html_(self) -> str:
-        quantiles = np.quantile(self.returns, [0.05, 0.5, 0.95])  # of one episode at least
-        cells = [len(self.returns), *(f"{value:.4g}" for value in quantiles), f"{self.success_rate:.3g}"]
-        return html_table(["episodes", "return 5%", "median", "95%", "success rate"], [cells])
-
-    @property
-    def success_rate(self) -> float:
-        """Of the end of the episodes; NaN where the task cannot say."""
-        known = [solved for solved in self.solved_at_end if solved is not None]
-        return float(np.mean(known)) if known else float("nan")
 
 
 class Run:
@@ -131,9 +97,7 @@ class Run:
     def best(self) -> Union[Trial, None]:
         """The trial of the highest return, of equals the first, none that was cut short unless all were; None before
         there is one."""
-        details = self.details
-        whole = [trial for trial in details if not trial.cut_short] or details[:1]
-        return max(whole, key=lambda trial: trial.total_reward) if whole else None
+        return _best_of(self.details)
 
     @property
     def solved_at(self) -> Union[int, None]:
@@ -226,7 +190,8 @@ class Run:
         return f"<p>{escape(head)}, seed {about['seed']}, in {escape(str(self.folder))}</p>{html_table(columns, rows)}"
 
     def __repr__(self) -> str:
-        trials, best = self.details, self.best
+        trials = self.details
+        best = _best_of(trials)
         earned = f", best return {best.total_reward:.4g}" if best else ""
         return f"<rehearse.Run {self.folder}: {len(trials)} trials{earned}>"
 
@@ -301,6 +266,11 @@ def robot_of(robot: Robots) -> tuple[Any, str]:
     if os.fspath(robot).endswith(".toml"):
         return robot_of(Robot.from_file(robot))
     return _core.Robot("", "", ""), os.fspath(robot)
+
+
+def _best_of(trials: list[Trial]) -> Union[Trial, None]:
+    compared = [trial for trial in trials if not trial.cut_short] or trials[:1]
+    return max(compared, key=lambda trial: trial.total_reward) if compared else None
 
 
 def _number(value: Union[float, None]) -> str:
