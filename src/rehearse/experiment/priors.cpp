@@ -49,8 +49,7 @@ void set_value(scenario::NamedPrior& prior, const std::string& parameter, double
 }  // namespace
 
 std::string unknown_option(const std::string& key, const std::vector<std::string>& known) {
-  if (known.empty()) return fmt::format("unknown option '{}'", key);
-  return fmt::format("unknown option '{}', did you mean '{}'?", key, closest(key, known));
+  return fmt::format("unknown option '{}'{}", key, did_you_mean(key, known));
 }
 
 std::vector<std::string> split_names(const std::string& text) {

@@ -5,8 +5,8 @@
 
 namespace rehearse::robot_file {
 
-/// What the functions of a robot's scenario do, as its file says it. plant: the values of its parameters; noise: std of
-/// every measured state.
+/// Lines of text about a scenario's reward, end, plant and priors, as the robot's file has them. plant: the values of
+/// its parameters; noise: std of every measured state.
 scenario::Details details_of(const Robot& robot, const std::vector<Parameter>& plant, const Vector& noise);
 
 }  // namespace rehearse::robot_file

@@ -76,10 +76,7 @@ class StartChecker {
       : robot_(robot), task_(task), violations_(violations) {}
 
   void check_task() {
-    StartValues values;
-    add_states(values, task_.state_size());
-    add_actions(values);
-    values.define(robot_.definitions);
+    const StartValues values = values_of_step();
     const RewardFormulas& reward = robot_.reward;
     require_finite(values, "reward.formula", reward.formula);
     for (const Formula& distance : reward.distance) require_finite(values, "reward.distance", distance);
@@ -105,13 +102,18 @@ class StartChecker {
  private:
   /// In the first step there is no action before, and no time is past.
   void check_cost() {
+    StartValues values = values_of_step();
+    for (const ActionVariable& action : robot_.actions) values.input(action.name + "_before", 0, action.unit);
+    values.input("time", 0, "s");
+    require_finite(values, "reward.cost", robot_.reward.cost);
+  }
+
+  StartValues values_of_step() const {
     StartValues values;
     add_states(values, task_.state_size());
     add_actions(values);
     values.define(robot_.definitions);
-    for (const ActionVariable& action : robot_.actions) values.input(action.name + "_before", 0, action.unit);
-    values.input("time", 0, "s");
-    require_finite(values, "reward.cost", robot_.reward.cost);
+    return values;
   }
 
   void add_states(StartValues& values, Index count) const {

@@ -101,7 +101,7 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
   return steps;
 }
 
-/// Of each column's finite numbers; NaN where there are none.
+/// A number for each column, of its finite numbers; NaN where there are none.
 Vector root_mean_square(const Matrix& rows) {
   const auto finite = rows.array().isFinite();
   const auto sums = finite.select(rows.array().square(), 0).colwise().sum();
@@ -167,9 +167,8 @@ Matrix predictions(const scenario::NamedPrior& prior, const Steps& steps, const 
   return predicted;
 }
 
-/// True if a parameter changes a prediction.
-bool moves(const scenario::NamedPrior& prior, Index parameter, const Steps& steps) {
-  const Matrix usual = predictions(prior, steps, prior.parameters.values());
+/// True if a parameter changes a prediction. usual: those of its usual value.
+bool moves(const scenario::NamedPrior& prior, Index parameter, const Steps& steps, const Matrix& usual) {
   const Vector tolerated = rounding(steps.X, usual);
   Vector phi = prior.parameters.values();
   for (const double value : others(prior.parameters[parameter])) {
@@ -180,10 +179,9 @@ bool moves(const scenario::NamedPrior& prior, Index parameter, const Steps& step
   return false;
 }
 
-/// A line where predictions depend on more than the row.
-std::string broken_law(const Task& task, const scenario::NamedPrior& prior, const Steps& steps, const Matrix& before) {
-  const Vector phi = prior.parameters.values();
-  const Matrix predicted = predictions(prior, steps, phi);
+/// A line where predictions depend on more than the row. before, predicted: of these steps, one after the other.
+std::string broken_law(const Task& task, const scenario::NamedPrior& prior, const Steps& steps, const Matrix& before,
+                       const Matrix& predicted) {
   const std::string again = difference(task, apart(before, predicted), Vector::Zero(before.cols()));
   if (!again.empty())
     return fmt::format(
@@ -191,7 +189,7 @@ std::string broken_law(const Task& task, const scenario::NamedPrior& prior, cons
         "can be repeated",
         again);
   const Steps turned{.X = steps.X.colwise().reverse(), .U = steps.U.colwise().reverse()};
-  const Matrix place = apart(predictions(prior, turned, phi).colwise().reverse(), predicted);
+  const Matrix place = apart(predictions(prior, turned, prior.parameters.values()).colwise().reverse(), predicted);
   const std::string moved = difference(task, place, rounding(steps.X, predicted));
   return moved.empty() ? moved
                        : fmt::format(
@@ -202,15 +200,20 @@ std::string broken_law(const Task& task, const scenario::NamedPrior& prior, cons
 
 PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const Steps& steps, const Steps& wide) {
   PriorTried tried{.name = prior.name, .states = steps.X.rows() + wide.X.rows()};
-  Matrix predicted = predictions(prior, steps, prior.parameters.values());  // it may start
+  const Matrix before = predictions(prior, steps, prior.parameters.values());  // it may start
+  Matrix predicted(steps.X.rows(), steps.X.cols());
   const Stopwatch watch;
   tried.failed = system::change_contained(*prior.simulator, steps.X, steps.U, prior.parameters.values(), predicted);
   tried.rows_per_s = watch.per_s(steps.X.rows());
   tried.error = root_mean_square(predicted - steps.dX);
-  tried.broken = broken_law(task, prior, steps, predicted);
+  tried.broken = broken_law(task, prior, steps, before, predicted);
+  std::vector<Index> unmoved;
   for (Index i = 0; i < prior.parameters.size(); ++i)
-    if (prior.parameters[i].tunable() && !moves(prior, i, steps) && !moves(prior, i, wide))
-      tried.idle.push_back(prior.parameters[i].name);
+    if (prior.parameters[i].tunable() && !moves(prior, i, steps, predicted)) unmoved.push_back(i);
+  if (unmoved.empty()) return tried;
+  const Matrix usual = predictions(prior, wide, prior.parameters.values());
+  for (const Index i : unmoved)
+    if (!moves(prior, i, wide, usual)) tried.idle.push_back(prior.parameters[i].name);
   return tried;
 }
 

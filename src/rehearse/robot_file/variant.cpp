@@ -19,7 +19,7 @@ const Dynamics* named_dynamics(Table& table, const std::vector<Dynamics>& dynami
     known.push_back(each.name);
   }
   if (!known.empty())
-    table.wrong("dynamics", fmt::format("there is no [dynamics.{}], did you mean '{}'?", name, closest(name, known)));
+    table.wrong("dynamics", fmt::format("there is no [dynamics.{}]{}", name, did_you_mean(name, known)));
   return nullptr;
 }
 

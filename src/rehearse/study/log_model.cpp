@@ -51,7 +51,7 @@ std::vector<Index> states_named(const std::string& names, const Task& task) {
   for (std::string name; std::getline(all, name, ',');) {
     const auto found = std::ranges::find(known, name);
     if (found == known.end())
-      throw InvalidInput(fmt::format("zeros: there is no state '{}', did you mean '{}'?", name, closest(name, known)));
+      throw InvalidInput(fmt::format("zeros: there is no state '{}'{}", name, did_you_mean(name, known)));
     states.push_back(found - known.begin());
   }
   return states;

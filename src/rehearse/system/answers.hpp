@@ -29,7 +29,7 @@ std::size_t frame_size(Index rows, Index dx);
 /// The bytes of that answer at the beginning of `written`; 0: it is not all there; kNoAnswer: it is another's, or more.
 std::size_t frame_end(std::string_view written, Index rows, Index dx);
 
-/// What is wrong, for people, with an answer that begins with `written`; empty: it is no frame at all.
+/// A sentence that says why an answer that begins with `written` is wrong; empty: it is no frame at all.
 std::string frame_fault(std::string_view written, Index rows, Index dx);
 
 /// The changes dX of such an answer, all of whose bytes are there.
