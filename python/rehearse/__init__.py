@@ -3,11 +3,12 @@
 >>> import rehearse
 >>> run = rehearse.learn("pendubot", learner="gp-mi", prior="misleading", trials=5)
 
-Begin with `Robot` and `learn`. `Run` is what they give, and what `open_run` finds in a folder. The pieces alone are
+Begin with `Robot` and `learn`. `Run` is what they give, and what `open_run` finds in a folder; `campaign` does many. The pieces alone are
 `GaussianProcess`, `Cmaes`, `MapElites` and `identify`.
 """
 
 from ._core import InvalidInput, RunFailed, __version__
+from .campaigns import Campaign, campaign, open_campaign
 from .evaluation import Evaluation
 from .gp import GaussianProcess
 from .identification import Identification, identify
@@ -20,7 +21,8 @@ from .run import Run, Trial, learn, learners, open_run, resume, robots
 from .search import Cmaes, MapElites
 
 __all__ = [
-    "Action", "Body", "Cmaes", "Distance", "Evaluation", "GaussianProcess", "Identification", "InvalidInput", "Limit",
-    "MapElites", "Model", "Policy", "Robot", "Run", "RunFailed", "State", "Success", "Trial", "identify", "learn",
-    "learners", "open_run", "resume", "rk4", "robots", "show", "__version__",
+    "Action", "Body", "Campaign", "Cmaes", "Distance", "Evaluation", "GaussianProcess", "Identification",
+    "InvalidInput", "Limit", "MapElites", "Model", "Policy", "Robot", "Run", "RunFailed", "State", "Success", "Trial",
+    "campaign", "identify", "learn", "learners", "open_campaign", "open_run", "resume", "rk4", "robots", "show",
+    "__version__",
 ]

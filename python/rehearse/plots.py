@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Union
 from .arrays import Array
 
 if TYPE_CHECKING:
+    from .campaigns import Campaign
     from .run import Run
 
 
@@ -54,5 +55,24 @@ def plot_run(run: Run, trial: Union[int, None]) -> Any:
         axis.step(moved["time"], moved[name], where="post")
         axis.set(xlabel="time [s]", ylabel=f"{name} [{unit}]" if unit else name)
     axes[1].legend()
+    figure.tight_layout()
+    return figure
+
+
+def plot_campaign(campaign: Campaign) -> Any:
+    import matplotlib.pyplot as plt
+
+    figure, axis = plt.subplots(figsize=(7, 4))
+    for group in campaign.summary["groups"]:
+        trials = [trial["trial"] for trial in group["trials"]]
+        low, median, high = ([trial["return"][which] for trial in group["trials"]]
+                             for which in ("quartile_1", "median", "quartile_3"))
+        label = " ".join(part for part in (group["learner"], group["prior"], group["variant"]) if part)
+        (line,) = axis.plot(trials, median, "o-", label=label)
+        axis.fill_between(trials, low, high, alpha=0.2, color=line.get_color())
+    axis.set(xlabel="trial", ylabel="return: median and quartiles", title=campaign.summary["title"])
+    axis.xaxis.get_major_locator().set_params(integer=True)
+    if campaign.summary["groups"]:
+        axis.legend()
     figure.tight_layout()
     return figure

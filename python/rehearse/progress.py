@@ -12,13 +12,17 @@ def show(event: dict[str, Any]) -> None:
     Give another function(event) as `progress=`, or None. An event is a dictionary whose `kind` is
     "started" (robot, learner, prior, seed, trials, done, folder),
     "progress" (trial, phase, done from 0 to 1, best predicted return, rollouts, rollouts_per_s), at most ten a second, or
-    "trial" (what `Trial` has).
+    "trial" (what `Trial` has). Of a campaign there are
+    "campaign" (title, robot, trials, runs, ended: how many of these before, notes), "progress" with the name of its run, and
+    "run" at the end of each (run, learner, prior, variant, seed, failed: why or None, trials, first_success, best_return,
+    ended, runs).
     """
     kind = event["kind"]
     live = sys.stdout.isatty() or "ipykernel" in sys.modules
     if kind == "progress" and live:
         best = f", best predicted return {event['best']:.3f}" if event["rollouts"] else ""
-        text = f"trial {event['trial']}: {event['phase']} {100 * event['done']:.0f} %{best}"
+        run = f"{event['run']}: " if "run" in event else ""
+        text = f"{run}trial {event['trial']}: {event['phase']} {100 * event['done']:.0f} %{best}"
         print(f"\r{text[:100]:100}", end="", flush=True)
     elif kind == "trial":
         predicted = event["predicted_return"]
@@ -33,3 +37,12 @@ def show(event: dict[str, Any]) -> None:
         prior = f" from prior {event['prior']}" if event["prior"] else ""
         print(f"{event['robot']} learned by {event['learner']}{prior}, seed {event['seed']}, in {event['folder']}",
               flush=True)
+    elif kind == "campaign":
+        print(f"{event['title']}: {event['runs']} runs, {event['ended']} done already", flush=True)
+        for note in event["notes"]:
+            print(f"  {note}", flush=True)
+    elif kind == "run":
+        solved = "not solved" if event["first_success"] is None else f"solved at trial {event['first_success']}"
+        text = f"[{event['ended']}/{event['runs']}] {event['run']}: "
+        text += f"FAILED: {event['failed']}" if event["failed"] else f"{solved}, best return {event['best_return']:.3f}"
+        print(f"\r{text:100}" if live else text, flush=True)

@@ -164,11 +164,7 @@ class Run:
 
     def report(self, out: Union[PathLike, None] = None) -> Path:
         """Writes the page of the run, by default report.html in its folder."""
-        from .__main__ import share
-
-        path = Path(out) if out else self.folder / "report.html"
-        path.write_text(_core.report(str(self.folder), str(share())))
-        return path
+        return write_report(self.folder, out)
 
     def plot(self, trial: Union[int, None] = None) -> Any:
         """A Matplotlib figure: returns by trial, and the states of one of them as predicted and as they were."""
@@ -266,6 +262,15 @@ def robot_of(robot: Robots) -> tuple[Any, str]:
     if os.fspath(robot).endswith(".toml"):
         return robot_of(Robot.from_file(robot))
     return _core.Robot("", "", ""), os.fspath(robot)
+
+
+def write_report(folder: Path, out: Union[PathLike, None]) -> Path:
+    """The page of a run or of a campaign."""
+    from .__main__ import share
+
+    path = Path(out) if out else folder / "report.html"
+    path.write_text(_core.report(str(folder), str(share())))
+    return path
 
 
 def _best_of(trials: list[Trial]) -> Union[Trial, None]:

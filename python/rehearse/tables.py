@@ -6,7 +6,7 @@ import csv
 import io
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from html import escape
 from pathlib import Path
@@ -19,29 +19,46 @@ from .arrays import Array
 from .checks import numbers
 
 
-def from_csv(text: str) -> Array:
-    """A structured array, a field a column: whole numbers, numbers (NaN where a cell is empty), or texts.
-
-    Names are those of the header without their units; pandas.DataFrame takes it as it is.
-    """
-    rows = list(csv.reader(io.StringIO(text)))
-    header = [re.sub(r" \[[^\]]*\]$", "", name) for name in rows[0]] if rows else []
-    columns = [_column([row[i] for row in rows[1:]]) for i in range(len(header))]
-    table = np.empty(max(len(rows) - 1, 0), dtype=[(name, column.dtype) for name, column in zip(header, columns)])
-    for name, column in zip(header, columns):
+def structured(columns: Mapping[str, Array]) -> Array:
+    """Columns of one length, by name, as a structured array; pandas.DataFrame takes it as it is."""
+    rows = max((len(column) for column in columns.values()), default=0)
+    table = np.empty(rows, dtype=[(name, column.dtype) for name, column in columns.items()])
+    for name, column in columns.items():
         table[name] = column
     return table
 
 
-def read_csv(path: Union[str, os.PathLike[str]]) -> Array:
-    return from_csv(Path(path).read_text())
+def column(values: Sequence[Any]) -> Array:
+    """Texts, whole numbers, or numbers, of which None is NaN."""
+    if any(isinstance(value, str) for value in values):
+        return np.array(values, dtype=str)
+    return np.array(values, dtype=float if None in values or not values else None)
+
+
+def from_csv(text: str, texts: Collection[str] = ()) -> Array:
+    """A structured array, a field a column: whole numbers, numbers (NaN where a cell is empty), or texts.
+
+    Names are those of the header without their units. texts: columns that are texts, whatever is in them.
+    """
+    rows = list(csv.reader(io.StringIO(text)))
+    header = [re.sub(r" \[[^\]]*\]$", "", name) for name in rows[0]] if rows else []
+    cells = {name: [row[i] for row in rows[1:]] for i, name in enumerate(header)}
+    return structured({name: _texts_of(column) if name in texts else _column(column) for name, column in cells.items()})
+
+
+def read_csv(path: Union[str, os.PathLike[str]], texts: Collection[str] = ()) -> Array:
+    return from_csv(Path(path).read_text(), texts)
+
+
+def _texts_of(cells: list[str]) -> Array:
+    return np.array(cells, dtype=str) if cells else np.empty(0, dtype="U1")
 
 
 def _column(cells: list[str]) -> Array:
     try:
         values = np.array([float(cell) if cell else np.nan for cell in cells])
     except ValueError:
-        return np.array(cells, dtype=str) if cells else np.empty(0, dtype="U1")
+        return _texts_of(cells)
     whole = cells and all(cell.lstrip("-").isdigit() for cell in cells)
     return values.astype(np.int64) if whole else values
 

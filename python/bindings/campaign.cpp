@@ -1,0 +1,149 @@
+#include "python/bindings/campaign.hpp"
+
+#include <chrono>
+#include <future>
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "apps/cli/cache.hpp"
+#include "python/bindings/work.hpp"
+#include "rehearse/campaign/campaign.hpp"
+#include "rehearse/campaign/planner.hpp"
+#include "rehearse/campaign/robot_of.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/events.hpp"
+#include "rehearse/core/processor.hpp"
+#include "rehearse/experiment/resolve.hpp"
+#include "rehearse/system/simulator.hpp"
+
+namespace rehearse::python {
+namespace {
+
+using campaign::CampaignPlan, campaign::RunState;
+
+/// A campaign that is to be done, or gone on with.
+struct CampaignRequest {
+  std::string text, source;  // of its file
+  std::string scenario;      // of the robot that Python gives; empty: the file says which
+  std::string out;
+};
+
+/// Tells a function of Python. What it raises is kept, and stops the campaign where that can be continued.
+class CampaignTeller final : public campaign::CampaignListener {
+ public:
+  explicit CampaignTeller(const Callable& function) : function_(function) {}
+
+  void started(const campaign::Campaign& begun, Index /*at_once*/) override {
+    plan_ = begun.plan;
+    ended_ = begun.count(RunState::done) + begun.count(RunState::failed);
+    std::vector<std::string> notes;
+    for (const auto& [name, reason] : plan_.missing) notes.push_back("missing: " + reason);
+    for (const auto& [path, reason] : begun.skipped) notes.push_back(fmt::format("skipped: {}: {}", path, reason));
+    for (std::size_t i = 0; i < begun.runs.size(); ++i)
+      if (begun.runs[i].state == RunState::failed)
+        notes.push_back(fmt::format("skipped: {}: {}", plan_.runs[i].name, begun.runs[i].reason));
+    tell([&] {
+      return py::dict(py::arg("kind") = "campaign", py::arg("title") = plan_.title, py::arg("robot") = plan_.scenario,
+                      py::arg("trials") = plan_.trials, py::arg("runs") = plan_.runs.size(), py::arg("ended") = ended_,
+                      py::arg("notes") = notes);
+    });
+  }
+
+  void progress(std::size_t run, Index trial, const Progress& progress) override {
+    if (Clock::now() < next_) return;
+    next_ = Clock::now() + std::chrono::milliseconds(100);
+    tell([&] {
+      return py::dict(py::arg("kind") = "progress", py::arg("run") = plan_.runs[run].name, py::arg("trial") = trial,
+                      py::arg("phase") = progress.phase, py::arg("done") = progress.done,
+                      py::arg("best") = progress.best, py::arg("rollouts") = progress.rollouts,
+                      py::arg("rollouts_per_s") = progress.rollouts_per_s);
+    });
+  }
+
+  void run_ended(std::size_t run, const campaign::RunOutcome& outcome) override {
+    ++ended_;
+    const campaign::PlannedRun& planned = plan_.runs[run];
+    const campaign::CampaignGroup& group = plan_.groups[planned.group];
+    const bool failed = outcome.state == RunState::failed;
+    tell([&] {
+      return py::dict(
+          py::arg("kind") = "run", py::arg("run") = planned.name, py::arg("learner") = group.learner,
+          py::arg("prior") = group.prior, py::arg("variant") = group.variant, py::arg("seed") = planned.spec.seed,
+          py::arg("failed") = failed ? std::optional(outcome.reason) : std::nullopt, py::arg("trials") = outcome.done(),
+          py::arg("first_success") = outcome.first_success(plan_.trials),
+          py::arg("best_return") = outcome.done() > 0 ? std::optional(outcome.best_return(plan_.trials)) : std::nullopt,
+          py::arg("ended") = ended_, py::arg("runs") = plan_.runs.size());
+    });
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  template <class Event>
+  void tell(Event event) {
+    if (function_.failure->any()) return;
+    try {
+      call(function_, [&](const py::object& function) { function(event()); });
+    } catch (const system::Unavailable&) {  // the exception is kept
+    }
+  }
+
+  Callable function_;
+  CampaignPlan plan_;
+  Index ended_ = 0;
+  Clock::time_point next_ = Clock::now();
+};
+
+/// Refuses a file about another robot than the one that is given, and calls its functions once, before there is a
+/// folder.
+void try_out_campaign(const Robot& robot, const experiment::Catalogue& catalogue, const CampaignRequest& request) {
+  const CampaignPlan plan = campaign::plan_campaign(catalogue, request.text, request.source);
+  if (plan.scenario != request.scenario)
+    throw InvalidInput(fmt::format("{}: scenario = '{}', but the robot that is given is '{}'", request.source,
+                                   plan.scenario, request.scenario));
+  if (!plan.runs.empty()) robot.try_out(experiment::resolve(catalogue, plan.runs.front().spec).scenario);
+}
+
+/// Does the work in a thread of its own. Python tells this one of Ctrl-C, and it must not be busy, or wait for runs.
+campaign::Campaign watched(const std::function<bool()>& stop, const std::function<campaign::Campaign()>& work) {
+  auto done = std::async(std::launch::async, work);
+  while (done.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) stop();
+  return done.get();
+}
+
+void do_campaign(const Robot& robot, const CampaignRequest& request, const Settings& settings) {
+  require_processor();
+  const Robot own = robot.for_work();
+  CampaignTeller teller({shared(settings.listener), "progress", own.failure()});
+  const bool heard = !settings.listener.is_none();
+  do_unlocked(own.failure(), [&](const std::function<bool()>& stop) {
+    const bool given = !request.scenario.empty();
+    const experiment::Catalogue catalogue =
+        given ? own.catalogue() : campaign::with_robot_of(own.catalogue(), request.text, request.source);
+    if (given) try_out_campaign(own, catalogue, request);
+    const campaign::Campaign done = watched(stop, [&] {
+      return campaign::run_campaign(catalogue, request.text, request.source, request.out,
+                                    {.threads = settings.threads,
+                                     .listener = heard ? &teller : nullptr,
+                                     .stop = stop,
+                                     .cache = apps::cache_folder});
+    });
+    if (done.count(RunState::unfinished) > 0) throw Interrupted();
+  });
+}
+
+}  // namespace
+
+void add_campaign(py::module_& module) {
+  using namespace py::literals;
+  module.def(
+      "campaign",
+      [](const Robot& robot, const std::string& text, const std::string& source, const std::string& scenario,
+         const std::string& out, int threads, py::object listener) {
+        do_campaign(robot, {text, source, scenario, out}, {threads, std::move(listener)});
+      },
+      "robot"_a, "text"_a, "source"_a, "scenario"_a, "out"_a, "threads"_a, "listener"_a);
+}
+
+}  // namespace rehearse::python
