@@ -6,6 +6,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import threading
 import time
 import weakref
 
@@ -81,6 +82,7 @@ def test_a_robot_with_functions_in_any_number_of_threads(tmp_path):
     single = rehearse.learn(cart(), seed=2, trials=2, out=tmp_path / "run", options=QUICK, progress=None)
     assert files(one.run("cart-gp-mi-light-2"), ["trials.csv"]) == files(single, ["trials.csv"])
     np.testing.assert_array_equal(one.trials["return"][2:], single.trials["return"])
+    assert one.trials["variant"].tolist() == [""] * 4
     longer = one.run("cart-gp-mi-light-2").resume(3, progress=None)
     assert len(longer.trials) == 3 and len(campaign(cart(), one.folder).trials) == 4
 
@@ -196,6 +198,29 @@ rehearse.campaign(cart(), learners="gp-mi", seeds="1-2", trials=2, out={str(tmp_
     assert files(rest) == files(campaign(cart(), tmp_path / "whole", seeds="1-2", set=options))
 
 
+def test_control_c_is_seen_while_another_thread_has_the_last_run(tmp_path):
+    script = f"""
+import sys, threading, time; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
+from robots import QUICK, cart, reward
+import rehearse
+
+def slow_elsewhere(*arguments):
+    if threading.current_thread() is not threading.main_thread():
+        time.sleep(0.2)
+    return reward(*arguments)
+
+rehearse.campaign(cart(reward=slow_elsewhere), learners="gp-mi", seeds="1-2", out={str(tmp_path / "out")!r}, threads=2,
+                  set=QUICK, trials=1, progress=lambda event: print(event["kind"], flush=True))
+"""
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "campaign\n"
+    time.sleep(2)
+    begun = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=60)
+    assert time.monotonic() - begun < 3 and "the same call goes on" in error
+
+
 def test_an_exception_comes_out_and_the_same_call_goes_on(tmp_path):
     calls = []
 
@@ -252,12 +277,16 @@ def test_a_run_that_fails_does_not_stop_the_others(tmp_path):
 def test_one_environment_is_used_by_one_run_at_a_time(tmp_path):
     class Watched(Environment):
         def reset(self, **arguments):
-            self.busy = True
+            self.user = threading.get_ident()
             return super().reset(**arguments)
 
-    environment = Watched()
-    shared = campaign(cart(environment), tmp_path / "shared")
-    assert environment.busy and files(shared) == files(campaign(cart(Environment), tmp_path / "each"))
+        def step(self, action):
+            time.sleep(0.01)  # another run may come here
+            assert self.user == threading.get_ident()
+            return super().step(action)
+
+    shared = campaign(cart(Watched()), tmp_path / "shared")
+    assert files(shared) == files(campaign(cart(Environment), tmp_path / "each"))
 
 
 def test_what_is_wrong_is_said_and_leaves_no_folder(tmp_path):

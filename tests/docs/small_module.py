@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """small_module.py PAGE: runs the Python blocks of a page, a JSON list of [line, text] on standard input, in one namespace.
 
-`rehearse.learn` and `identify` have small budgets here, as small_budget.py gives them to commands. The names that a page takes for
-the reader's own are below. Errors name the line of the page.
+`rehearse.learn`, `campaign` and `identify` have small budgets here, as small_budget.py gives them to commands. The names that a page
+takes for the reader's own are below. Errors name the line of the page.
 """
 import functools
 import json
@@ -19,6 +19,16 @@ def small(function, given):
     @functools.wraps(function)
     def with_small_budget(*arguments, options=None, **more):
         return function(*arguments, options={**given, **(options or {})}, **more)
+    return with_small_budget
+
+
+def small_campaign(function, given):
+    """The same of campaigns whose keys are given; a file is as it stands."""
+    @functools.wraps(function)
+    def with_small_budget(*arguments, seeds=None, trials=None, set=None, **more):
+        if seeds is None:
+            return function(*arguments, **more)
+        return function(*arguments, seeds="1-2", trials=1, set={**given, **(set or {})}, **more)
     return with_small_budget
 
 
@@ -41,7 +51,9 @@ def theirs():
 
 def main():
     warnings.simplefilter("ignore")
-    rehearse.learn = small(rehearse.learn, dict(option.split("=") for option in small_budget.SMALL))
+    budget = dict(option.split("=") for option in small_budget.SMALL)
+    rehearse.learn = small(rehearse.learn, budget)
+    rehearse.campaign = small_campaign(rehearse.campaign, budget)
     rehearse.identify = small(rehearse.identify, {"rows": 30, "particles": 5})
     sys.path.insert(0, "")  # policy.py of `export`
     namespace = theirs()
