@@ -107,7 +107,11 @@ void try_out_campaign(const Robot& robot, const experiment::Catalogue& catalogue
 
 /// Does the work in a thread of its own. Python tells this one of Ctrl-C, and it must not be busy, or wait for runs.
 campaign::Campaign watched(const std::function<bool()>& stop, const std::function<campaign::Campaign()>& work) {
-  auto done = std::async(std::launch::async, work);
+  auto done = std::async(std::launch::async, [&] {
+    const py::gil_scoped_acquire kept;  // Python's state of this thread: made anew, it costs each call 10 µs
+    const py::gil_scoped_release unlocked;
+    return work();
+  });
   while (done.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) stop();
   return done.get();
 }

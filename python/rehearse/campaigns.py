@@ -180,9 +180,10 @@ def _given(given: Robots, robot: Union[Robots, None],
 
 
 def _text(keys: Mapping[str, Any]) -> str:
-    """A campaign's file: values first, then tables."""
+    """A campaign's file: values first, then tables, and lists of tables."""
     tables = {key: entry for key, entry in keys.items() if isinstance(entry, Mapping)}
-    lists = {key: entry for key, entry in keys.items() if key in ("variant", "claim")}
+    lists = {key: entry for key, entry in keys.items()
+             if isinstance(entry, (list, tuple)) and all(isinstance(each, Mapping) for each in entry)}
     parts = [table("", {key: entry for key, entry in keys.items() if key not in tables and key not in lists})]
     parts += [table(f"[{key}]", entry) for key, entry in tables.items()]
     parts += [table(f"[[{key}]]", each) for key, entries in lists.items() for each in entries]
