@@ -1,9 +1,12 @@
-"""Numbers that are given, before C++ sees them."""
+"""What is given, before C++ sees it."""
 
 from __future__ import annotations
 
 import math
+import os
+from collections.abc import Mapping
 from operator import index
+from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
@@ -33,18 +36,91 @@ def threads_of(value: Any) -> int:
     return whole("threads", value, 0, 2**31 - 1)
 
 
+def number(name: str, value: Any) -> float:
+    try:
+        if not isinstance(value, (str, bytes)):
+            return float(value)
+    except (TypeError, ValueError):
+        pass
+    raise TypeError(f"{name} = {value!r}, must be a number")
+
+
 def not_negative(name: str, value: Any) -> float:
-    number = float(value)
-    if not (number >= 0 and math.isfinite(number)):
-        raise InvalidInput(f"{name} = {number:g}, must be finite and ≥ 0")
-    return number
+    given = number(name, value)
+    if not (given >= 0 and math.isfinite(given)):
+        raise InvalidInput(f"{name} = {given:g}, must be finite and ≥ 0")
+    return given
+
+
+def truth(name: str, value: Any) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} = {value!r}, must be True or False")
+    return bool(value)
+
+
+def text(name: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{name} = {value!r}, must be a text")
+    return value
+
+
+def mapping(name: str, value: Any) -> Mapping[str, Any]:
+    if not isinstance(value, Mapping):
+        raise TypeError(f"{name} is a {type(value).__name__}, must be a dictionary")
+    return value
+
+
+def function_or_none(name: str, value: Any) -> Any:
+    if value is not None and not callable(value):
+        raise TypeError(f"{name} = {value!r}, must be a function or None")
+    return value
 
 
 def numbers(name: str, given: Any) -> Array:
-    """A new array of doubles; what is masked is NaN."""
-    if np.asarray(given).dtype.kind == "c":
+    """A new array of doubles; what is masked, or NA of pandas, is NaN."""
+    array: Array = np.asarray(given)
+    if array.dtype.kind == "c":
         raise InvalidInput(f"{name} has complex numbers, must have real ones")
-    array: Array = np.array(given, dtype=float, order="F")
+    if array.dtype.kind in "mM":
+        raise InvalidInput(f"{name} has times of the calendar or spans of it, must have numbers")
+    if array.dtype.kind == "O" and hasattr(given, "isna"):
+        given = np.where(given.isna(), np.nan, array)
+    array = np.array(given, dtype=float, order="F")
     if isinstance(given, np.ma.MaskedArray):
         array[np.ma.getmaskarray(given)] = np.nan  # type: ignore[no-untyped-call]
     return array
+
+
+def vector(name: str, given: Any) -> Array:
+    """n numbers, or a column of them."""
+    array = numbers(name, given)
+    if array.ndim != 1 and not (array.ndim == 2 and array.shape[1] == 1):
+        raise InvalidInput(f"{name} is an array of shape {array.shape}, must be n numbers")
+    return array.reshape(-1)
+
+
+def option_text(value: Any) -> str:
+    """An option's value as `--set` has it."""
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value))
+    return str(value)
+
+
+def option_texts(options: Union[Mapping[str, Any], None]) -> list[tuple[str, str]]:
+    return [(text("a name in options", name), option_text(value))
+            for name, value in mapping("options", options or {}).items()]
+
+
+def read_text(path: Union[str, os.PathLike[str]]) -> str:
+    """The text of a file of ours, which is UTF-8 whatever the locale."""
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise InvalidInput(f"{os.fspath(path)} is no text: it has bytes that are not UTF-8") from None
+
+
+def write_text(path: Union[str, os.PathLike[str]], content: str) -> Path:
+    Path(path).write_text(content, encoding="utf-8")
+    return Path(path)

@@ -11,7 +11,7 @@ from .arrays import Array
 from .tables import html_table
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Evaluation:
     """Episodes of one policy: returns (n), and solved, solved_at_end and ended_s of each; None: does not apply."""
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from .arrays import Array
-from .checks import not_negative, numbers, threads_of
+from .checks import not_negative, numbers, option_text, threads_of
 
 
 class GaussianProcess:
@@ -57,7 +57,7 @@ class GaussianProcess:
     def fit(self, X: npt.ArrayLike, y: npt.ArrayLike) -> GaussianProcess:
         """X: n × D inputs; y: n targets, or n × E."""
         X, Y, one = _arrays(X, y)
-        options = {name: text_of(value) for name, value in self.options.items()}
+        options = {name: option_text(value) for name, value in self.options.items()}
         return self._knowing(_core.fit_gp(X, Y, self.trend, self.tolerance, options, self.threads), X, Y, one)
 
     def condition(self, X: npt.ArrayLike, y: npt.ArrayLike, log_hyperparameters: npt.ArrayLike) -> GaussianProcess:
@@ -229,12 +229,3 @@ def _arrays(X: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array, bool]:
         for row, column in np.argwhere(~np.isfinite(array))[:1]:
             raise _core.InvalidInput(f"{name} has {array[row, column]} in row {row}, must be finite")
     return inputs, targets, one
-
-
-def text_of(value: Any) -> str:
-    """An option's value as `--set` has it."""
-    if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    return str(value)

@@ -14,14 +14,13 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
-from .checks import threads_of
-from .gp import text_of
+from .checks import option_texts, threads_of, write_text
 from .robot import Robot
 from .run import Robots, robot_of
 from .tables import as_files, from_csv, without_path
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Identification:
     """What logs tell of a robot (docs/identify.md).
 
@@ -47,8 +46,7 @@ class Identification:
 
     def report(self, path: Union[str, os.PathLike[str]]) -> Path:
         """Writes the page, which opens in a browser."""
-        Path(path).write_text(self.page)
-        return Path(path)
+        return write_text(path, self.page)
 
     def plot(self) -> Any:
         """A Matplotlib figure: each parameter with its 95 % interval and the prior's value."""
@@ -58,6 +56,11 @@ class Identification:
 
     def _repr_html_(self) -> str:
         return f"<pre>{escape(self.summary)}</pre>"
+
+    def __repr__(self) -> str:
+        found = ", ".join(f"{row['parameter']} {row['value']:.4g} ({row['low']:.4g} to {row['high']:.4g})"
+                          for row in self.parameters)
+        return f"<rehearse.Identification: {found or 'no parameters'}>"
 
     def __str__(self) -> str:
         return self.summary
@@ -75,8 +78,7 @@ def identify(robot: Robots, logs: Sequence[Any], *, held_out: Sequence[Any] = ()
         learned_from = as_files(logs, folder, "log")
         forecast = as_files(held_out, folder, "held-out")
         core, scenario = robot_of(robot)
-        texts = [(name, text_of(value)) for name, value in (options or {}).items()]
-        result = _core.identify(core, scenario, prior, texts, learned_from, forecast, threads_of(threads))
+        result = _core.identify(core, scenario, prior, option_texts(options), learned_from, forecast, threads_of(threads))
     tables = {Path(name).stem: from_csv(text) for name, text in result["tables"]}
     summary = "\n\n".join("\n  ".join([title, *lines]) for title, lines in result["summary"])
     return Identification(tables, summary, result["notes"], result["page"])

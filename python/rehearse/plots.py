@@ -30,10 +30,10 @@ def plot_parameters(parameters: Array) -> Any:
 def plot_run(run: Run, trial: Union[int, None]) -> Any:
     import matplotlib.pyplot as plt
 
-    trials = run.trials
-    if len(trials) == 0:
+    trials, best = run.trials, run.best
+    if best is None:
         raise ValueError(f"{run.folder} has no trial yet")
-    number = int(trials["trial"][trials["return"].argmax()]) if trial is None else trial
+    number = best.trial if trial is None else trial
     moved = run.trajectory(number)
     about = run._describe()
     panels = 1 + len(about["states"]) + len(about["actions"])

@@ -12,9 +12,8 @@ import numpy.typing as npt
 
 from . import _core
 from .arrays import Array
-from .checks import numbers
+from .checks import number, option_texts, read_text, vector, write_text
 from .exported import Exported
-from .gp import text_of
 
 
 class Policy:
@@ -31,7 +30,7 @@ class Policy:
     def load(cls, path: Union[str, os.PathLike[str]]) -> Policy:
         """The policy of a JSON file that `export` wrote. It answers as the original does, but for rounding, and `learn` may
         begin with it. It can be exported as JSON alone."""
-        return cls(Exported(Path(path).read_text(), str(path)))
+        return cls(Exported(read_text(path), str(path)))
 
     @classmethod
     def of(cls, robot: Any, theta: Union[npt.ArrayLike, None] = None, *,
@@ -41,12 +40,12 @@ class Policy:
         from .run import robot_of
 
         core, scenario = robot_of(robot)
-        texts = [(name, text_of(value)) for name, value in (options or {}).items()]
-        return cls(_core.policy_for(core, scenario, texts, None if theta is None else numbers("theta", theta)))
+        given = None if theta is None else vector("theta", theta)
+        return cls(_core.policy_for(core, scenario, option_texts(options), given))
 
     def with_theta(self, theta: npt.ArrayLike) -> Policy:
         """The same with other parameters."""
-        return Policy(self._core.with_theta(numbers("theta", theta)))
+        return Policy(self._core.with_theta(vector("theta", theta)))
 
     def __getstate__(self) -> dict[str, Any]:
         return {"json": self._core.to_json()}
@@ -67,7 +66,7 @@ class Policy:
         before the first step. It holds the last commands, and is changed: act once each time step. Without it the
         states must have its columns, too, as trajectories do.
         """
-        x = np.asarray(states, dtype=float)
+        x, time_s = np.asarray(states, dtype=float), number("time_s", time_s)
         if memory is None:
             return self._core.act(x, time_s)
         x = np.concatenate([x, memory], axis=-1)
@@ -111,8 +110,7 @@ class Policy:
         texts = {".h": lambda: self._core.to_c(name), ".json": self._core.to_json, ".py": self._core.to_numpy}
         if path.suffix not in texts:
             raise ValueError(f"{path}: must end with {', '.join(texts)}")
-        path.write_text(texts[path.suffix]())
-        return path
+        return write_text(path, texts[path.suffix]())
 
     def __repr__(self) -> str:
         return f"<rehearse.Policy {self.kind}, {len(self.theta)} parameters, trial {self.trial}>"

@@ -15,9 +15,9 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
-from .checks import threads_of, whole, whole_or_none
+from .checks import (function_or_none, number, option_texts, read_text, text, threads_of, truth, whole, whole_or_none,
+                     write_text)
 from .evaluation import Evaluation
-from .gp import text_of
 from .policy import Policy
 from .progress import show
 from .robot import Robot
@@ -112,7 +112,8 @@ class Run:
 
     def resume(self, trials: Union[int, None] = None, *, threads: int = 0, progress: Progress = show) -> Run:
         """Goes on to the end, or to another number of trials. The same bytes as if it had never stopped."""
-        _core.resume(self._core, str(self.folder), whole_or_none("trials", trials), threads_of(threads), progress)
+        _core.resume(self._core, str(self.folder), whole_or_none("trials", trials), threads_of(threads),
+                     function_or_none("progress", progress))
         return self
 
     def ask(self, *, threads: int = 0, progress: Progress = None) -> Policy:
@@ -120,7 +121,7 @@ class Run:
 
         `asked` is then what is predicted of it, the risks of limits too; its notes are warnings.
         """
-        policy, trial = _core.ask(self._core, str(self.folder), threads_of(threads), progress)
+        policy, trial = _core.ask(self._core, str(self.folder), threads_of(threads), function_or_none("progress", progress))
         self.asked = replace(Trial(**trial), total_reward=float("nan"))
         for note in self.asked.notes:
             warnings.warn(note, stacklevel=2)
@@ -137,7 +138,8 @@ class Run:
         with tempfile.TemporaryDirectory() as folder:
             files = as_files(episodes, folder, "episode")
             with without_path(folder):
-                told = dict(_core.tell(self._core, str(self.folder), files, stopped, at_fault, threads_of(threads)))
+                told = dict(_core.tell(self._core, str(self.folder), files, stopped, truth("at_fault", at_fault),
+                                        threads_of(threads)))
         self.asked = None
         for note in told["notes"]:
             warnings.warn(note, stacklevel=2)
@@ -155,10 +157,10 @@ class Run:
         """Episodes of a policy on the plant that are no trials. seconds: of an episode; 0: the task's. options: what is
         changed, {"plant.m": 0.6}. An environment that is given as an object, not as a function that makes one, is used
         by one thread."""
-        texts = [(name, text_of(value)) for name, value in (options or {}).items()]
         threads = 1 if self._robot is not None and self._robot.has_environment else threads_of(threads)
         result = _core.evaluate(self._core, str(self.folder), whole_or_none("trial", trial), whole("episodes", episodes),
-                                seconds, whole("seed", seed, 0, 2**64 - 1), texts, threads)
+                                number("seconds", seconds), whole("seed", seed, 0, 2**64 - 1),
+                                option_texts(options), threads)
         return Evaluation(np.array(result["total_reward"]), result["solved"], result["solved_at_end"],
                           result["ended_s"])
 
@@ -226,10 +228,10 @@ def learn(robot: Robots, learner: str = "gp-mi", *, prior: Union[str, Sequence[s
     trials, seed, threads = whole("trials", trials), whole("seed", seed, 0, 2**53), threads_of(threads)
     core, scenario = robot_of(robot)
     names = ",".join([prior] if isinstance(prior, str) else list(prior or []))
-    texts = [(name, text_of(value)) for name, value in (options or {}).items()]
-    begin = policy._core.to_json() if isinstance(policy, Policy) else Path(policy).read_text() if policy else ""
-    folder = _core.learn(core, scenario, learner, names, preset, begin, trials, until_solved, seed, texts,
-                         os.fspath(out) if out else "", threads, progress)
+    begin = policy._core.to_json() if isinstance(policy, Policy) else read_text(policy) if policy else ""
+    folder = _core.learn(core, scenario, text("learner", learner), names, text("preset", preset), begin, trials,
+                         truth("until_solved", until_solved), seed, option_texts(options), os.fspath(out) if out else "",
+                         threads, function_or_none("progress", progress))
     return Run(folder, robot if isinstance(robot, Robot) else None)
 
 
@@ -269,8 +271,7 @@ def write_report(folder: Path, out: Union[PathLike, None]) -> Path:
     from .__main__ import share
 
     path = Path(out) if out else folder / "report.html"
-    path.write_text(_core.report(str(folder), str(share())))
-    return path
+    return write_text(path, _core.report(str(folder), str(share())))
 
 
 def _best_of(trials: list[Trial]) -> Union[Trial, None]:

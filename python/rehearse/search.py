@@ -10,11 +10,17 @@ import numpy.typing as npt
 
 from . import _core
 from .arrays import Array
-from .checks import numbers, whole
-from .gp import text_of
+from .checks import number, numbers, option_text, vector, whole
 
 
 class _Search:
+    @property
+    def evaluations(self) -> int:
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return f"<rehearse.{type(self).__name__} after {self.evaluations} evaluations>"
+
     def __reduce__(self) -> Any:
         raise TypeError(f"a {type(self).__name__} cannot be pickled or copied, since C++ alone knows how far it is: keep "
                         "its arguments and what it was told, which make the same search again")
@@ -35,9 +41,10 @@ class Cmaes(_Search):
     def __init__(self, mean: npt.ArrayLike, sigma: float, bounds: Union[npt.ArrayLike, None] = None, *,
                  seed: int = 1, max_evaluations: Union[int, None] = None, **options: Any) -> None:
         self._max_evaluations = None if max_evaluations is None else whole("max_evaluations", max_evaluations, 1)
-        texts = {name: text_of(value) for name, value in options.items()}
+        texts = {name: option_text(value) for name, value in options.items()}
         pairs = [] if bounds is None else _pairs("bounds", bounds)
-        self._core = _core.Cmaes(np.atleast_1d(numbers("mean", mean)), sigma, pairs, _seed(seed), texts)
+        self._core = _core.Cmaes(vector("mean", np.atleast_1d(numbers("mean", mean))), number("sigma", sigma), pairs,
+                                 _seed(seed), texts)
 
     def ask(self) -> Array:
         """The candidates of this generation, λ × n; the same until `tell`."""
@@ -45,7 +52,7 @@ class Cmaes(_Search):
 
     def tell(self, values: npt.ArrayLike) -> None:
         """Their values, λ; what is not finite is the worst."""
-        self._core.tell(numbers("values", values))
+        self._core.tell(vector("values", values))
 
     @property
     def stop(self) -> Union[str, None]:
@@ -94,8 +101,8 @@ class MapElites(_Search):
 
     def __init__(self, bounds: npt.ArrayLike, descriptor_bounds: npt.ArrayLike, *,
                  niches: int = 1000, bins: Union[Sequence[int], None] = None, seed: int = 1, **options: Any) -> None:
-        texts = {name: text_of(value) for name, value in options.items()}
-        grid = [] if bins is None else [whole("bins", number) for number in bins]
+        texts = {name: option_text(value) for name, value in options.items()}
+        grid = [] if bins is None else [whole("bins", each) for each in bins]
         self._core = _core.MapElites(_pairs("bounds", bounds), _pairs("descriptor_bounds", descriptor_bounds), grid,
                                      whole("niches", niches), _seed(seed), texts)
 
@@ -105,7 +112,7 @@ class MapElites(_Search):
 
     def tell(self, performances: npt.ArrayLike, descriptors: npt.ArrayLike) -> None:
         """What they were worth (batch), and how they did it (batch × D)."""
-        self._core.tell(numbers("performances", performances), numbers("descriptors", descriptors))
+        self._core.tell(vector("performances", performances), np.atleast_1d(numbers("descriptors", descriptors)))
 
     @property
     def elites(self) -> dict[str, Array]:

@@ -16,7 +16,7 @@ import numpy as np
 
 from ._core import InvalidInput
 from .arrays import Array
-from .checks import numbers
+from .checks import numbers, read_text, write_text
 
 
 def structured(columns: Mapping[str, Array]) -> Array:
@@ -47,7 +47,7 @@ def from_csv(text: str, texts: Collection[str] = ()) -> Array:
 
 
 def read_csv(path: Union[str, os.PathLike[str]], texts: Collection[str] = ()) -> Array:
-    return from_csv(Path(path).read_text(), texts)
+    return from_csv(read_text(path), texts)
 
 
 def _texts_of(cells: list[str]) -> Array:
@@ -66,13 +66,17 @@ def _column(cells: list[str]) -> Array:
 def to_csv(columns: Any) -> str:
     """An episode as a file: a structured array, a DataFrame, or a dictionary of columns.
 
-    A column may be one shorter than the longest: no action follows the last state. None and what is masked are NaN. What
-    is no column of numbers is written as it is, for the reader to say so where the task has it, else to leave it.
+    An index with a name is a column, too. A column may be one shorter than the longest: no action follows the last state.
+    None and what is masked are NaN. What is no column of numbers is written as it is, for the reader to say so where the
+    task has it, else to leave it.
     """
     if isinstance(columns, np.ndarray) and columns.dtype.names:
         named = {name: columns[name] for name in columns.dtype.names}
     elif isinstance(columns, Mapping) or hasattr(columns, "columns"):
         named = {str(name): columns[name] for name in columns}
+        index: Any = getattr(columns, "index", None)  # of pandas, where times may stand
+        if getattr(index, "name", None) is not None:
+            named.setdefault(str(index.name), index)
     else:
         raise TypeError(f"{type(columns).__name__}: an episode is a path, a structured array, a DataFrame, or a "
                         "dictionary of columns: time, states and actions by name")
@@ -96,9 +100,7 @@ def as_files(episodes: Iterable[Any], folder: Union[str, os.PathLike[str]], name
         if isinstance(episode, (str, os.PathLike)):
             files.append(os.fspath(episode))
             continue
-        path = Path(folder) / f"{name}-{number}.csv"
-        path.write_text(to_csv(episode))
-        files.append(str(path))
+        files.append(str(write_text(Path(folder) / f"{name}-{number}.csv", to_csv(episode))))
     return files
 
 
@@ -120,8 +122,6 @@ def without_path(folder: str) -> Iterator[None]:
 def _numbers(name: str, column: Any) -> Union[Array, None]:
     """None: it holds something else, such as texts, complex numbers or times of day."""
     try:
-        if np.asarray(column).dtype.kind in "mM":
-            return None
         array = numbers(name, column)
     except (TypeError, ValueError):
         return None

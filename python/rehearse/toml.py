@@ -9,6 +9,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+
 from ._core import InvalidInput
 
 
@@ -16,7 +17,7 @@ def value(given: Any) -> str:
     """A value as TOML has it; also a key in quotes."""
     if hasattr(given, "tolist"):  # of NumPy
         given = given.tolist()
-    if isinstance(given, (bool,)):
+    if isinstance(given, bool):
         return "true" if given else "false"
     if isinstance(given, numbers.Integral):
         return str(int(given))
@@ -33,9 +34,16 @@ def value(given: Any) -> str:
     raise InvalidInput(f"{given!r} must be a text, a number, a truth, or a list or dictionary of them")
 
 
+def _line(head: str, key: str, entry: Any) -> str:
+    try:
+        return f"{_key(key)} = {value(entry)}"
+    except InvalidInput as error:
+        raise InvalidInput(f"{head} {key}: {error}".lstrip()) from None
+
+
 def table(head: str, entries: Mapping[str, Any]) -> str:
     """A table with its head; what is None or an empty text or dictionary is left out."""
-    lines = [f"{_key(key)} = {value(entry)}" for key, entry in entries.items()
+    lines = [_line(head, key, entry) for key, entry in entries.items()
              if entry is not None and not (isinstance(entry, (str, Mapping)) and not entry)]
     if head and not lines:
         return "" if head in ("[define]", "[policy]") else head
