@@ -6,6 +6,7 @@ import math
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Union
 
 import numpy as np
@@ -156,11 +157,15 @@ def is_environment(plant: Any) -> bool:
     return hasattr(plant, "reset") and hasattr(plant, "step") and not isinstance(plant, type)
 
 
+def _made(make: Callable[[], Any], observe: Any, task: Task) -> Environment:
+    return Environment(make(), observe, task)
+
+
 def environment_maker(plant: Any, observe: Any, task: Task) -> Callable[[], Environment]:
     """Makes what plays the robot: of an environment, or of a function that makes one."""
     if is_environment(plant):
-        return lambda: Environment(plant, observe, task)
+        return partial(Environment, plant, observe, task)
     if callable(plant):
-        return lambda: Environment(plant(), observe, task)
+        return partial(_made, plant, observe, task)
     raise InvalidInput(f"plant is a {type(plant).__name__}, must be an environment with reset and step, a function that "
                        "makes one, or a Model")

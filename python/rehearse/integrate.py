@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from .arrays import Array
+from .checks import number, whole
 
 
 def rk4(rates: Callable[..., Any], dt_s: float, substeps: int = 4) -> Callable[..., Array]:
@@ -15,17 +17,23 @@ def rk4(rates: Callable[..., Any], dt_s: float, substeps: int = 4) -> Callable[.
 
     It takes `substeps` steps of Runge and Kutta's fourth order in a control step, the action held.
     """
-    h = dt_s / substeps
+    return _Change(rates, number("dt_s", dt_s), whole("substeps", substeps, 1))
 
-    def change(states: Array, actions: Array, **parameters: float) -> Array:
-        x = states
-        for _ in range(substeps):
-            k1 = np.asarray(rates(x, actions, **parameters))
-            k2 = np.asarray(rates(x + 0.5 * h * k1, actions, **parameters))
-            k3 = np.asarray(rates(x + 0.5 * h * k2, actions, **parameters))
-            k4 = np.asarray(rates(x + h * k3, actions, **parameters))
+
+@dataclass(frozen=True)
+class _Change:
+    """What `rk4` gives; pickle keeps it where it keeps rates."""
+
+    rates: Callable[..., Any]
+    dt_s: float  # a Robot compares it with its own
+    substeps: int
+
+    def __call__(self, states: Array, actions: Array, /, **parameters: float) -> Array:
+        h, x = self.dt_s / self.substeps, states
+        for _ in range(self.substeps):
+            k1 = np.asarray(self.rates(x, actions, **parameters))
+            k2 = np.asarray(self.rates(x + 0.5 * h * k1, actions, **parameters))
+            k3 = np.asarray(self.rates(x + 0.5 * h * k2, actions, **parameters))
+            k4 = np.asarray(self.rates(x + h * k3, actions, **parameters))
             x = x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
         return x - states
-
-    change.dt_s = dt_s  # type: ignore[attr-defined]  # a Robot compares it with its own
-    return change

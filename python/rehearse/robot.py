@@ -8,10 +8,15 @@ from __future__ import annotations
 import inspect
 import os
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, Union
 
+import numpy as np
+
 from . import _core
+from .arrays import Array
+from .checks import mapping, number, read_text
 from .environment import Task, environment_maker, is_environment
 from .parts import (Action, Body, Distance, EpisodeFunction, Limit, Model, State, StateFunction, StepFunction,
                     Success)
@@ -68,62 +73,72 @@ class Robot:
             raise TypeError(f"priors is a {type(priors).__name__}, must be a dictionary: {{\"guess\": Model(…)}}")
         _require(list((priors or {}).values()), Model, "priors", "{\"guess\": Model(…)}")
         self.name = name
-        self._dt_s = float(dt_s)
+        self._dt_s = number("dt_s", dt_s)
         self._functions: list[tuple[Any, ...]] = []
         self.has_environment = False  # one object, for one thread
-        parts = [table("", {"format": 1, "name": name, "summary": summary, "dt_s": float(dt_s), "horizon": horizon,
+        parts = [table("", {"format": 1, "name": name, "summary": summary, "dt_s": self._dt_s, "horizon": horizon,
                             "ended": self._formula("ended", ended)})]
         parts += [_state(state) for state in states]
         parts += [_action(action) for action in actions]
-        parts.append(table("[define]", dict(define or {})))
+        parts.append(table("[define]", mapping("define", define or {})))
         parts.append(table("[reward]", {**self._reward(reward), "cost": cost or None,
                                       "episode": self._formula("episode_reward", episode_reward, "add_episode_function"),
-                                      "floor": float(floor)}))
+                                      "floor": number("floor", floor)}))
         if success is not None:
             when = self._formula("success", success.when)
-            parts.append(table("[success]", {"when": when, "last_s": float(success.last_s)}))
-        for number, limit in enumerate(limits, 1):
-            parts.append(table("[[limit]]", self._limit(limit, f"limit {number}" if len(limits) > 1 else "limit")))
-        for prior, model in (priors or {}).items():
+            parts.append(table("[success]", {"when": when, "last_s": number("last_s", success.last_s)}))
+        for count, limit in enumerate(limits, 1):
+            parts.append(table("[[limit]]", self._limit(limit, f"limit {count}" if len(limits) > 1 else "limit")))
+        for prior, model in {str(key): each for key, each in (priors or {}).items()}.items():
             if model.delay_s or model.lag_s:
                 raise _core.InvalidInput(f"{prior}: delay_s and lag_s are of a Model that is the plant; what models know "
                                          "of them is in Action")
             parts.append(self._dynamics(prior, model))
-            tune = {n: {"choices": list(t)} if isinstance(t, list) else [float(b) for b in t]
-                    for n, t in model.tune.items()}
+            tune = {n: {"choices": t} if isinstance(t, list) else _bounds(f"{prior}: tune of {n}", t)
+                    for n, t in mapping(f"{prior}: tune", model.tune).items()}
             parts.append(table(f"[prior.{value(prior)}]", {"dynamics": prior, "tune": tune}))
-        parts += self._plant(plant, observe, Task(horizon, states, actions), list(priors or {}), measurement_noise)
-        parts.append(table("[policy]", dict(policy or {})))
+        parts += self._plant(plant, observe, Task(horizon, states, actions), list(map(str, priors or {})),
+                             measurement_noise)
+        parts.append(table("[policy]", mapping("policy", policy or {})))
         parts += [table("[[body]]", {"name": b.name, "from": list(b.start), "to": list(b.end), "width_m": b.width_m})
                   for b in bodies]
         self.text = "\n".join(part for part in parts if part)
-        self._core = self._make(f"robot {name}", "")
+        self._source, self._folder = f"robot {name}", ""
+        self._core = self._make()
 
     @classmethod
     def from_file(cls, path: Union[str, os.PathLike[str]], *, plant: Any = None,
                   observe: Union[Callable[[Any], Any], None] = None) -> Robot:
         """The robot of a TOML file (docs/own-robot.md). plant: an environment, where the file has no [plant]."""
         robot = cls.__new__(cls)
-        robot.text = Path(path).read_text()
+        robot.text = read_text(path)
         robot._functions = []
         robot.has_environment = False
-        source, folder = os.fspath(path), os.fspath(Path(path).parent)
-        about = _core.Robot(robot.text, source, folder).about()
+        robot._source, robot._folder = os.fspath(path), os.path.abspath(Path(path).parent)
+        about = robot._make().about()
         robot.name, robot._dt_s = about["name"], about["dt_s"]
         if plant is not None:
             if about["has_plant"]:
-                raise _core.InvalidInput(f"{source} has a [plant], and plant= is another: give one of them")
+                raise _core.InvalidInput(f"{robot._source} has a [plant], and plant= is another: give one of them")
             task = Task(about["horizon"], [State(**state) for state in about["states"]],
                         [Action(**action) for action in about["actions"]])
             robot.text += "\n\n" + "\n".join(robot._plant(plant, observe, task, about["dynamics"], 0.0))
-        robot._core = robot._make(source, folder)
+        robot._core = robot._make()
         return robot
 
     def __repr__(self) -> str:
         return f"<rehearse.Robot {self.name}>"
 
-    def _make(self, source: str, folder: str) -> Any:
-        core = _core.Robot(self.text, source, folder)
+    def __getstate__(self) -> dict[str, Any]:
+        """For pickle and copy: its text and its functions, which pickle must know, too: no lambdas."""
+        return {name: part for name, part in self.__dict__.items() if name != "_core"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._core = self._make()
+
+    def _make(self) -> Any:
+        core = _core.Robot(self.text, self._source, self._folder)
         for add, *arguments in self._functions:
             getattr(core, add)(*arguments)
         return core
@@ -137,7 +152,7 @@ class Robot:
     def _reward(self, reward: Any) -> dict[str, Any]:
         if isinstance(reward, Distance):
             of = [reward.of] if isinstance(reward.of, str) else list(reward.of)
-            return {"distance": of, "width": float(reward.width)}
+            return {"distance": of, "width": number("width", reward.width)}
         return {"formula": self._formula("reward", reward, "add_step_function")}
 
     def _limit(self, limit: Limit, nameless: str) -> dict[str, Any]:
@@ -147,7 +162,7 @@ class Robot:
         if callable(keep):
             self._functions.append(("add_step_condition", name, _of_whole_steps(keep)))
             keep = "@" + name
-        return {"name": name, "keep": keep, "risk": float(limit.risk)}
+        return {"name": name, "keep": keep, "risk": number("risk", limit.risk)}
 
     def _dynamics(self, name: str, model: Model) -> str:
         if (model.change is None) == (not model.rates):
@@ -162,14 +177,14 @@ class Robot:
         if model.change is not None:
             how = {"function": name}
             self._functions.append(("add_dynamics", name, model.change, list(model.parameters)))
-        parameters = {key: float(number) for key, number in model.parameters.items()}
+        parameters = {key: number(f"{name}: {key}", of) for key, of in mapping(f"{name}: parameters", model.parameters).items()}
         return table(f"[dynamics.{value(name)}]", {**how, "parameters": parameters})
 
     def _plant(self, plant: Any, observe: Any, task: Task, taken: Sequence[str],
                noise: Union[float, Mapping[str, float]]) -> list[str]:
         """taken: names of dynamics; a run's robot keeps the name, so it is "plant" wherever it can be."""
-        given: Any = ({key: float(number) for key, number in noise.items()} if isinstance(noise, Mapping)
-                      else float(noise) or None)
+        given: Any = ({key: number(f"measurement_noise of {key}", of) for key, of in noise.items()}
+                      if isinstance(noise, Mapping) else number("measurement_noise", noise) or None)
         if plant is None:
             return []
         if isinstance(plant, Model):
@@ -193,7 +208,17 @@ def _of_whole_steps(keep: Callable[..., Any]) -> Callable[..., Any]:
     needed = [p for p in parameters if p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
     if len(needed) == 5:
         return keep
-    return lambda states, actions, next_states, *_: keep(states, actions, next_states)
+    return partial(_of_three, keep)
+
+
+def _of_three(keep: Callable[..., Any], states: Array, actions: Array, next_states: Array, *_: Any) -> Any:
+    return keep(states, actions, next_states)
+
+
+def _bounds(name: str, given: Any) -> list[float]:
+    if not isinstance(given, (list, tuple, np.ndarray)):
+        raise TypeError(f"{name} = {given!r}, must be (low, high)")
+    return [number(name, bound) for bound in given]
 
 
 def _require(given: Any, kind: type, name: str, like: str) -> None:
@@ -210,5 +235,5 @@ def _state(state: State) -> str:
 def _action(action: Action) -> str:
     known = Action("", (0.0, 0.0))
     given = {key: getattr(action, key) for key in ("max_rate", "filter_s", "delay_s", "lag_s", "remember")}
-    return table("[[action]]", {"name": action.name, "unit": action.unit, "bounds": [float(b) for b in action.bounds],
+    return table("[[action]]", {"name": action.name, "unit": action.unit, "bounds": _bounds(f"bounds of {action.name}", action.bounds),
                                 **{k: v for k, v in given.items() if v != getattr(known, k)}})
