@@ -1,5 +1,7 @@
 #include "rehearse/experiment/run_folder.hpp"
 
+#include <mutex>
+
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
@@ -37,6 +39,8 @@ RunFolder::RunFolder(fs::path path, Spec spec, files::FolderLock lock)
 RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comments& comments,
                             const std::optional<RobotFile>& robot) {
   const fs::path path = files::without_slash(given);
+  static std::mutex beginning;  // the unborn folder has the name of the process, which another thread would share
+  const std::lock_guard one_at_a_time(beginning);
   if (fs::exists(fs::symlink_status(path))) throw InvalidInput(already_exists(path));
   const fs::path unborn = make_unborn(path);
   try {

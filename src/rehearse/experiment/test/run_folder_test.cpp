@@ -1,6 +1,10 @@
 #include "rehearse/experiment/run_folder.hpp"
 
+#include <array>
+#include <barrier>
+#include <exception>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +29,33 @@ TEST(RunFolder, AnExistingFolderIsNeverOverwritten) {
     EXPECT_NE(message.find("already exists"), std::string::npos) << name;
   }
   EXPECT_EQ(files::read_file(folder / "file"), "mine");
+}
+
+TEST(RunFolder, TwoThreadsDoNotMakeOneFolder) {
+  const fs::path folder = fake::test_folder();
+  for (int i = 0; i < 20; ++i) {
+    const fs::path run = folder / std::to_string(i);
+    std::array<std::string, 2> refusals;
+    std::array<std::exception_ptr, 2> failures;
+    std::barrier both(2);
+    const auto make = [&](std::size_t thread) {
+      both.arrive_and_wait();
+      try {
+        RunFolder::create(run, line_spec(1), {}, {});
+      } catch (const InvalidInput& error) {
+        refusals[thread] = error.what();
+      } catch (...) {
+        failures[thread] = std::current_exception();
+      }
+    };
+    std::thread other(make, 1);
+    make(0);
+    other.join();
+    for (const std::exception_ptr& failure : failures) EXPECT_FALSE(failure);
+    EXPECT_NE((refusals[0] + refusals[1]).find("already exists"), std::string::npos);
+    EXPECT_NE(refusals[0].empty(), refusals[1].empty());
+    EXPECT_TRUE(fs::exists(run / "checkpoint"));
+  }
 }
 
 TEST(RunFolder, IsRefusedWhereItIsNone) {
