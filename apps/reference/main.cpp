@@ -1,5 +1,6 @@
-// rehearse_reference FOLDER DATE: writes manual pages, completions of shells, and docs/command-line.md into a folder,
-// from the definitions of the command line. DATE: of the release.
+// rehearse_reference FOLDER DATE: writes manual pages, completions of shells, and docs/command-line.md and
+// docs/robot-file.md into a folder, from the definitions of the command line and the schema of robots' files. DATE: of
+// the release.
 #include <cerrno>
 #include <cstdio>
 #include <exception>
@@ -21,6 +22,7 @@ void write_all(const std::filesystem::path& folder, const std::string& date) {
   for (const ReferenceCommand& command : all.commands)
     write_file(folder / "man" / ("rehearse-" + command.name + ".1"), man_page(all, command, date));
   write_file(folder / "command-line.md", markdown_page(all));
+  write_file(folder / "robot-file.md", robot_page(robot_schema()));
   write_file(folder / "bash/rehearse", bash_completion(all, words));
   write_file(folder / "zsh/_rehearse", zsh_completion(all, words));
   write_file(folder / "fish/rehearse.fish", fish_completion(all, words));

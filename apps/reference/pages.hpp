@@ -14,6 +14,9 @@ std::string man_page(const Reference& reference, const ReferenceCommand& command
 /// docs/command-line.md.
 std::string markdown_page(const Reference& reference);
 
+/// docs/robot-file.md. schema: of robots' files, JSON.
+std::string robot_page(const std::string& schema);
+
 /// Completions for shells.
 std::string bash_completion(const Reference& reference, const Vocabulary& words);
 std::string zsh_completion(const Reference& reference, const Vocabulary& words);

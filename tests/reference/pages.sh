@@ -1,13 +1,19 @@
 #!/usr/bin/env bash
-# pages.sh PROGRAM REFERENCE ROOT: docs/command-line.md is what the command line says of itself; every command has a manual
-# page with all of its options, in which groff and mandoc find nothing wrong.
+# pages.sh PROGRAM REFERENCE ROOT: docs/command-line.md is what the command line says of itself, docs/robot-file.md what the
+# schema of robots' files says; every command has a manual page with all of its options, in which groff and mandoc find
+# nothing wrong.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 reference=$2 root=$3
 . "$here/../prelude.sh"
 . "$here/said.sh"
 
-diff "$root/docs/command-line.md" "$reference/command-line.md" || fail "docs/command-line.md: scripts/published makes it anew"
+for page in command-line robot-file; do
+  diff "$root/docs/$page.md" "$reference/$page.md" || fail "docs/$page.md: scripts/published makes it anew"
+done
+for key in $("$program" list --schema | grep -oE '"[a-z_]+": \{' | tr -d '": {' | grep -vx -e items -e properties -e not | sort -u); do
+  grep -qE "[.\`[]$key(\.NAME)?[]\`]" "$root/docs/robot-file.md" || fail "docs/robot-file.md lacks $key"
+done
 [ "$(commands_said | wc -l)" -gt 10 ] || fail "--help shows few commands: $(commands_said)"
 
 has_all() { # COMMAND PAGE: its options, as bold words

@@ -4,11 +4,13 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/robot_file/robot.hpp"
 #include "rehearse/robot_file/test/example.hpp"
 
 namespace rehearse::robot_file {
@@ -101,6 +103,66 @@ TEST(Schema, HasTheKeysThatAreRead) {
   EXPECT_EQ(properties(dynamics), all);
   EXPECT_EQ(properties(dynamics.at("properties").at("state").at("additionalProperties").at("anyOf").at(1)),
             known.at("state.rate"));
+}
+
+TEST(Schema, RequiresWhatMustBeThere) {
+  const std::vector<std::pair<std::string, std::string>> parts = {
+      {"format", "format = 1"},
+      {"name", "name = \"told\""},
+      {"dt_s", "dt_s = 0.1"},
+      {"horizon", "horizon = 5"},
+      {"state", "[[state]]\nname = \"x\""},
+      {"action", "[[action]]\nname = \"u\"\nbounds = [-1, 1]"},
+      {"reward", "[reward]\nformula = \"-x^2\""},
+  };
+  const auto file_without = [&](const std::string& left_out) {
+    std::string text;
+    for (const auto& [key, part] : parts)
+      if (key != left_out) text += part + "\n";
+    return text;
+  };
+  const auto none = [](const std::string&) { return std::optional<std::string>(); };
+  EXPECT_NO_THROW(builder(file_without(""), "told.toml", none));
+  std::set<std::string> needed;
+  for (const auto& [key, part] : parts) {
+    EXPECT_THROW(builder(file_without(key), "told.toml", none), InvalidInput) << key;
+    needed.insert(key);
+  }
+  EXPECT_EQ(robot_file::schema().at("required").get<std::set<std::string>>(), needed);
+}
+
+TEST(Schema, HasTheDefaults) {
+  const Json schema = robot_file::schema();
+  const Json& parts = schema.at("properties");
+  const auto in = [&](const std::string& part, const std::string& key) {
+    const Json& node = parts.at(part);
+    const Json& table = node.contains("items") ? node.at("items")
+                        : part == "dynamics"   ? node.at("additionalProperties")
+                                               : node;
+    return table.at("properties").at(key).at("default");
+  };
+  const Actuation actuation;
+  const std::vector<std::tuple<std::string, std::string, Json>> defaults = {
+      {"state", "start", State().start},
+      {"state", "start_noise", State().start_noise},
+      {"state", "scale", State().scale},
+      {"state", "angle", State().variable.kind == StateKind::angle},
+      {"action", "filter_s", actuation.filter_s},
+      {"action", "delay_s", actuation.delay_s},
+      {"action", "lag_s", actuation.lag_s},
+      {"action", "remember", actuation.remember},
+      {"reward", "width", RewardFormulas().width},
+      {"reward", "floor", RewardFormulas().floor},
+      {"success", "last_s", Success().last_s},
+      {"limit", "risk", LimitFormula().risk},
+      {"dynamics", "start_s", ProgramSource().start_s},
+      {"dynamics", "answer_s", ProgramSource().answer_s},
+      {"policy", "hidden", scenario::PolicyOptions().hidden},
+      {"policy", "policy_gain", scenario::PolicyOptions().policy_gain},
+      {"policy", "centres", scenario::PolicyOptions().centres},
+      {"body", "width_m", Body().width_m},
+  };
+  for (const auto& [part, key, value] : defaults) EXPECT_EQ(in(part, key), value) << part << "." << key;
 }
 
 }  // namespace
