@@ -13,7 +13,7 @@ of a shell. So a misspelt command is a failure, not another language.
     CSV      has as many values in each line as in the first.
     C++, C, CMake   not compiled: a unit takes a compiler ten seconds and more, and most blocks are parts of a program. Their whole
              programs are: examples/own_robot and own_learner by tests/install, examples/same_robot by tests/examples,
-             exported policies by tests/cli/export.sh.
+             exported policies by tests/cli/export.sh. cpp.py compiles blocks of C++ at night.
     text, formulas, drawings    passed over.
     shell    run by bash, each page's blocks in one folder of their own, in order, with `set -e`.
 

@@ -1,0 +1,3 @@
+#include "rehearse/learners/builder.hpp"
+
+//: CONTRIBUTING.md learners::NAME

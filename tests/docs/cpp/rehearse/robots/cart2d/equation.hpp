@@ -1,0 +1,1 @@
+//: CONTRIBUTING.md struct Equation
