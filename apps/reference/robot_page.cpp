@@ -158,7 +158,7 @@ std::string section_of(const std::string& key, const Json& node, bool required) 
   if (const std::size_t at = text.find("`.NAME`"); at != std::string::npos) text.replace(at, 7, "`NAME`");
   std::string description = node.value("description", "");
   if (!description.empty()) description[0] = static_cast<char>(std::toupper(description[0]));
-  return fmt::format("\n## {}\n\n{}{}.\n{}{}", head, description, required ? "; must be there" : "", kHead, text);
+  return fmt::format("\n## `{}`\n\n{}{}.\n{}{}", head, description, required ? "; must be there" : "", kHead, text);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ def filled(template, known, used):
         used.add(found[0][:2])
         return found[0][2]
 
-    return re.sub(r"^//: (.+)$", block, template.read_text(), flags=re.M)
+    return re.sub(r"^ *//: (.+)$", block, template.read_text(), flags=re.M)
 
 
 def main():
