@@ -248,7 +248,10 @@ void Formulas::elsewhere(const std::string& name, const std::string& why) { else
 void Formulas::throw_unknown(const std::string& name) const {
   if (is_among(name, function_names())) throw InvalidInput(fmt::format("'{0}' is a function: {0}(…)", name));
   if (const auto found = elsewhere_.find(name); found != elsewhere_.end())
-    throw InvalidInput(fmt::format("'{}' {}", name, found->second));
+    throw InvalidInput(
+        fmt::format("'{}'{} {}", name,
+                    under_way_.empty() ? "" : fmt::format(", which the definition of '{}' uses,", under_way_.back()),
+                    found->second));
   if (const auto found = kOtherNames.find(name); found != kOtherNames.end())
     throw InvalidInput(fmt::format("unknown name '{}': {}", name, found->second));
   std::vector<std::string> known;

@@ -1,6 +1,10 @@
 #include "rehearse/robot_file/formulas.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+
+#include "rehearse/core/names.hpp"
 
 namespace rehearse::robot_file {
 
@@ -8,17 +12,25 @@ using expression::Formulas, expression::Node, expression::Pace, expression::Prog
 
 Formulas inputs_of(const Robot& robot, Of of) {
   Formulas formulas;
+  const std::vector<std::string> actions = robot.action_names();
   for (const std::string& name : robot.task_state_names()) formulas.input(name, Pace::always);
-  for (const std::string& name : robot.action_names()) {
-    formulas.elsewhere(name + "_before", kOnlyOfCosts);
-    if (of == Of::steps)
-      formulas.input(name, Pace::always);
-    else
+  for (const std::string& name : actions)
+    if (of == Of::states)
       formulas.elsewhere(name, fmt::format("is an action, and this is a formula of states; the last command is the "
                                            "state {}_last, with remember = 1 in [[action]]",
                                            name));
-  }
-  formulas.elsewhere("time", kOnlyOfCosts);
+    else
+      formulas.input(name, Pace::always);
+  const auto only_of_costs = [&](const std::string& name) {
+    if (of != Of::costs)
+      formulas.elsewhere(name, kOnlyOfCosts);
+    else if (is_own_name(robot, name))
+      formulas.builder().input(Pace::always);
+    else
+      formulas.input(name, Pace::always);
+  };
+  for (const std::string& name : actions) only_of_costs(name + "_before");
+  only_of_costs("time");
   return formulas;
 }
 
@@ -34,11 +46,9 @@ Program program(Formulas of, const std::vector<Formula>& outputs) {
   return {of, nodes};
 }
 
-Formulas formulas_of_costs(const Robot& robot) {
-  Formulas formulas = formulas_of(robot, Of::steps);
-  for (const std::string& name : robot.action_names()) formulas.input(name + "_before", Pace::always);
-  formulas.input("time", Pace::always);
-  return formulas;
+bool is_own_name(const Robot& robot, const std::string& name) {
+  return is_among(name, robot.task_state_names()) || is_among(name, robot.action_names()) ||
+         std::ranges::any_of(robot.definitions, [&](const auto& definition) { return definition.first == name; });
 }
 
 Matrix evaluate(const Program& program, const ConstMatrixView& X, const ConstMatrixView& U) {

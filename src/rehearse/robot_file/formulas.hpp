@@ -12,16 +12,20 @@ namespace rehearse::robot_file {
 inline constexpr const char* kOnlyOfCosts =
     "is known to the `cost` of [reward], which is subtracted from it, and to the `keep` of a [[limit]] alone";
 
-enum class Of : std::uint8_t { states, steps };
+enum class Of : std::uint8_t {
+  states,
+  steps,  // of states and actions
+  costs   // costs and limits: of actions one step before, and of the time since the start, too
+};
 
-/// The inputs of formulas: states, and behind them the actions of a step. Names that others know are explained.
+/// The inputs of formulas, in that order. Names that others know are explained.
 expression::Formulas inputs_of(const Robot& robot, Of of);
 
-/// The same with the robot's definitions.
+/// The same with the robot's definitions. A definition may use what the formula that uses it may.
 expression::Formulas formulas_of(const Robot& robot, Of of);
 
-/// Formulas of costs and limits. Their further inputs are the actions one step before, and the time since the start.
-expression::Formulas formulas_of_costs(const Robot& robot);
+/// True of a name that a state, an action or a definition has: it hides an action before, or the time.
+bool is_own_name(const Robot& robot, const std::string& name);
 
 expression::Program program(expression::Formulas of, const std::vector<Formula>& outputs);
 

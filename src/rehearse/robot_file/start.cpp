@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "rehearse/expression/program.hpp"
+#include "rehearse/robot_file/formulas.hpp"
 
 namespace rehearse::robot_file {
 namespace {
@@ -103,8 +104,11 @@ class StartChecker {
   /// In the first step there is no action before, and no time is past.
   void check_cost() {
     StartValues values = values_of_step();
-    for (const ActionVariable& action : robot_.actions) values.input(action.name + "_before", 0, action.unit);
-    values.input("time", 0, "s");
+    const auto zero = [&](const std::string& name, const std::string& unit) {
+      if (!is_own_name(robot_, name)) values.input(name, 0, unit);
+    };
+    for (const ActionVariable& action : robot_.actions) zero(action.name + "_before", action.unit);
+    zero("time", "s");
     require_finite(values, "reward.cost", robot_.reward.cost);
   }
 

@@ -20,15 +20,16 @@ class Checker {
   Checker(const Robot& robot, files::FileViolations& violations) : robot_(robot), violations_(violations) {}
 
   void check() {
-    Formulas of_steps = inputs_of(robot_, Of::steps);
-    check_definitions(of_steps, robot_.definitions);
+    Formulas of_costs = inputs_of(robot_, Of::costs);  // no formula may use more
+    check_definitions(of_costs, robot_.definitions);
     const Functions& functions = robot_.functions;
+    Formulas of_steps = good_ ? formulas_of(robot_, Of::steps) : Formulas();
     if (!is_of_program(robot_.reward.formula, functions.of_steps))
       compile(of_steps, "reward.formula", robot_.reward.formula);
-    compile_as_cost("reward.cost", robot_.reward.cost);
+    compile(of_costs, "reward.cost", robot_.reward.cost);
     for (const LimitFormula& limit : robot_.limits)
       if (!is_of_program(limit.keep, functions.limits))
-        compile_as_cost("limit.keep", limit.keep, &Formulas::compile_condition);
+        compile(of_costs, "limit.keep", limit.keep, &Formulas::compile_condition);
     check_episode(robot_.reward.episode);
     Formulas of_states = good_ ? formulas_of(robot_, Of::states) : Formulas();
     for (const Formula& distance : robot_.reward.distance) compile(of_states, "reward.distance", distance);
@@ -72,13 +73,6 @@ class Checker {
   void check_condition(Formulas& formulas, const std::string& what, const Formula& formula,
                        const std::map<std::string, Function>& functions) {
     if (!is_of_program(formula, functions)) compile(formulas, what, formula, &Formulas::compile_condition);
-  }
-
-  void compile_as_cost(const std::string& what, const Formula& formula,
-                       Node (Formulas::*as)(const std::string&) = &Formulas::compile) {
-    if (formula.empty() || !good_) return;
-    Formulas formulas = formulas_of_costs(robot_);
-    compile(formulas, what, formula, as);
   }
 
   void check_episode(const Formula& episode) {
@@ -139,7 +133,7 @@ Reward reward_of(const Robot& robot) {
 
 /// A formula of a cost or a limit.
 StepCost cost_of(const Robot& robot, const Formula& formula) {
-  return [program = program(formulas_of_costs(robot), {formula})](const Steps& steps, VectorView values) {
+  return [program = program(formulas_of(robot, Of::costs), {formula})](const Steps& steps, VectorView values) {
     thread_local Matrix more;
     more.resize(steps.U.rows(), 2 * steps.U.cols() + 1);
     more << steps.U, steps.U_before, Vector::Constant(steps.U.rows(), steps.time_s);

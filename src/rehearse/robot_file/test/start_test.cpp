@@ -39,6 +39,9 @@ TEST(RobotStart, RatesHaveTheParametersOfPlantAndPriors) {
 TEST(RobotStart, FormulasThatAvoidTheirPolesAreTaken) {
   EXPECT_EQ(complaint_of(with("\"sin(angle)\"]", "\"where(rate == 0, 1, sin(rate) / rate)\"]")), "");
   EXPECT_EQ(complaint_of(with("unit = \"N m\"", "delay_s = 0.2\nlag_s = 0.05")), "");
+  std::string text = with("width = 0.5", "width = 0.5\ncost = \"1 / time\"");
+  text.replace(text.find("[define]"), 8, "[define]\ntime = \"3\"");
+  EXPECT_EQ(complaint_of(text), "") << "the time of the file, which is not 0";
 }
 
 }  // namespace

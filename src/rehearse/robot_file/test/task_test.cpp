@@ -104,6 +104,21 @@ TEST(RobotTask, LimitsSeeActionsBeforeAndTime) {
   EXPECT_EQ(kept, (Vector{{1, 1, 0}}));
 }
 
+TEST(RobotTask, DefinitionsOfActionsBeforeAreForCostsAndLimits) {
+  const std::string define = "[define]";
+  std::string text = kSwing + "[[limit]]\nkeep = \"jerk < 1\"\n";
+  text.replace(text.find(define), define.size(), define + "\njerk = \"abs(u - u_before)\"");
+  const Task task = make_task(read(text, "swing.toml", example::no_files));
+  const Matrix X = Matrix::Zero(2, 2), U{{1}, {2}}, before{{0.5}, {0.5}};
+  Vector kept(2);
+  task.limits[0].holds({X, U, X, before}, kept);
+  EXPECT_EQ(kept, (Vector{{1, 0}}));
+  text.replace(text.find("height > 0.9"), 12, "jerk < 0.1");
+  EXPECT_NE(example::complaint_of(text).find("success.when: 'u', which the definition of 'jerk' uses, is an action"),
+            std::string::npos)
+      << example::complaint_of(text);
+}
+
 TEST(RobotTask, DistancesOfFeaturesHaveAClosedForm) {
   const auto form = closed_form(read(kSwing, "swing.toml", example::no_files));
   ASSERT_TRUE(form);
