@@ -17,7 +17,7 @@ std::string violation(const Parameter& p, double value) {
   if (p.kind == Parameter::Kind::continuous && (value < p.box.low || value > p.box.high))
     return fmt::format("{} = {}, must be between {} and {}", p.name, to_text(value), to_text(p.box.low),
                        to_text(p.box.high));
-  if (p.kind == Parameter::Kind::discrete && std::find(p.choices.begin(), p.choices.end(), value) == p.choices.end())
+  if (!p.choices.empty() && std::find(p.choices.begin(), p.choices.end(), value) == p.choices.end())
     return fmt::format("{} = {}, must be one of {}", p.name, to_text(value), fmt::join(p.choices, ", "));
   return {};
 }

@@ -172,7 +172,8 @@ void refuse_other_spellings(const std::string& formula) {
       {std::regex(R"(\?)"), "'a ? b : c' is written where(a, b, c)"},
       {std::regex(R"(\band\b)"), "'a and b' is written a && b"},
       {std::regex(R"(\bor\b)"), "'a or b' is written a || b"},
-      {std::regex(R"(\*\*)"), "'a ** b' is written a ^ b"}};
+      {std::regex(R"(\*\*)"), "'a ** b' is written a ^ b"},
+      {std::regex(R"((^|[^=<>!])=([^=]|$))"), "'a = b' is written a == b"}};
   for (const auto& [spelling, message] : kSpellings)
     if (std::regex_search(formula, spelling)) throw InvalidInput(message);
 }

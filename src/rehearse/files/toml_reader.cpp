@@ -110,7 +110,7 @@ std::vector<std::pair<std::string, const toml::node*>> leaves(const toml::table&
 }
 
 const toml::node* TomlReader::take(const std::string& key) {
-  known_.push_back(key);
+  if (!is_among(key, known_)) known_.push_back(key);
   return table_.get(key);
 }
 

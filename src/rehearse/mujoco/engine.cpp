@@ -144,8 +144,12 @@ int find_scalar_joint(const mjModel& model, const std::string& name, const std::
   if (id < 0) return -1;
   const int type = model.jnt_type[id];
   if (type == mjJNT_HINGE || type == mjJNT_SLIDE) return id;
-  violations.add(fmt::format("{}: '{}' is a {} joint, must be a hinge or a slide: others are not supported yet", where,
-                             name, type == mjJNT_FREE ? "free" : "ball"));
+  const bool is_free = type == mjJNT_FREE;
+  violations.add(
+      fmt::format("{}: '{}' is a {} joint, must be a hinge or a slide: put {} in its place in the model, or "
+                  "read the body by {{ sensor = … }} or {{ body = … }}",
+                  where, name, is_free ? "free" : "ball",
+                  is_free ? "three slides and three hinges (in a plane two and one)" : "three hinges"));
   return -1;
 }
 

@@ -63,6 +63,7 @@ class DynamicsReader {
       if (table.reader().has(key)) given.push_back(key);
     if (given.size() < 2) return;
     for (const std::string& key : given) table.reader().take(key);
+    table.reader().take("define");  // what equations may have, too
     table.wrong(given.back(), fmt::format("a dynamics has {}, must have one of them", fmt::join(given, " and ")));
   }
 

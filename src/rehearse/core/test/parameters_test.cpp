@@ -76,6 +76,7 @@ TEST(ParameterSpace, BadParametersAreAllReported) {
                     Parameter::continuous("b", 0, {1, 1}), Parameter::discrete("c", 0, {}),
                     Parameter::continuous("d", 5, {0, 1}), Parameter::discrete("e", 1, {1, kNaN, 2, 1})});
   });
+  EXPECT_EQ(text.find("must be one of \n"), std::string::npos) << text;
   for (const char* line :
        {"parameter 0 has no name", "parameter a appears twice", "parameter b needs a finite box with low < high",
         "parameter c has no choices", "d = 5, must be between 0 and 1", "parameter e: choice nan must be finite",

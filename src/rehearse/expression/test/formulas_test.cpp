@@ -66,6 +66,9 @@ TEST(Formulas, ErrorsSayWhatIsWrong) {
   EXPECT_EQ(complaint_of("theta1 > 0 and theta1 < 1"), "'a and b' is written a && b");
   EXPECT_EQ(complaint_of("theta1 > 0 or theta1 < 1"), "'a or b' is written a || b");
   EXPECT_EQ(complaint_of("theta1 ** 2"), "'a ** b' is written a ^ b");
+  EXPECT_EQ(complaint_of("theta1 = 2"), "'a = b' is written a == b");
+  for (const char* right : {"theta1 == 2", "theta1 <= 2", "theta1 >= 2", "theta1 != 2"})
+    EXPECT_EQ(complaint_of(right), "") << right;
   EXPECT_EQ(complaint_of("ln(theta1)"), "unknown name 'ln': 'ln(a)' is written log(a)");
   EXPECT_EQ(complaint_of("mod(theta1, 2)"), "unknown name 'mod': 'mod(a, b)' is written a - b * floor(a / b)");
   for (const char* wrong : {"", "1 +", "sin()", "sin(1, 2)", "(theta1", "theta1)", "theta1 theta1", "1..2", "min(1)",
@@ -99,12 +102,17 @@ TEST(Formulas, NamesOfOtherFormulasAreExplained) {
   Formulas formulas;
   formulas.elsewhere("time", "is known to costs alone");
   formulas.define("phase", "2 * time");
-  for (const char* formula : {"sin(phase)", "phase"}) try {
+  const auto expect = [&](const char* formula, const char* said) {
+    try {
       formulas.compile(formula);
       FAIL();
     } catch (const InvalidInput& error) {
-      EXPECT_STREQ(error.what(), "'time' is known to costs alone");
+      EXPECT_STREQ(error.what(), said);
     }
+  };
+  expect("2 * time", "'time' is known to costs alone");
+  for (const char* formula : {"sin(phase)", "phase"})
+    expect(formula, "'time', which the definition of 'phase' uses, is known to costs alone");
   formulas.input("time", Pace::always);
   EXPECT_NO_THROW(formulas.compile("time"));
 }

@@ -46,6 +46,7 @@ nmae = "d"
     v.integer("count", count, "a count", at_least(0));
   });
   EXPECT_FALSE(reader.take_table("table"));
+  EXPECT_FALSE(reader.take_table("missing")) << "asked for twice, it is listed once";
   reader.finish();
   EXPECT_EQ(name + " " + text + " " + missing, "a before before");
   EXPECT_EQ(steps, 2.5);

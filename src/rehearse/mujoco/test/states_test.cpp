@@ -81,7 +81,8 @@ TEST(States, PositionsMustTellTheJointsApart) {
 
 TEST(States, FreeJointsAreNoStates) {
   EXPECT_EQ(states_complaint({{"x", State::Kind::position, {{"sea"}}, 0}}, "loose.xml"),
-            "state 'x': 'sea' is a free joint, must be a hinge or a slide: others are not supported yet");
+            "state 'x': 'sea' is a free joint, must be a hinge or a slide: put three slides and three hinges "
+            "(in a plane two and one) in its place in the model, or read the body by { sensor = … } or { body = … }");
 }
 
 }  // namespace

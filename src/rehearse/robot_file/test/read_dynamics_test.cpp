@@ -54,6 +54,9 @@ TEST(ReadDynamics, WhatIsWrongWithAProgramIsSaid) {
   expect("program = [\"sim\"]\nanswer_s = 0", "answer_s = 0, must be > 0");
   expect("program = [\"sim\"]\nrate.angle = \"1\"", "line 44: a dynamics has program and rate, must have one of them");
   expect("program = [\"sim\"]\nmodel = \"m.xml\"", "line 44: a dynamics has program and model, must have one of them");
+  EXPECT_EQ(complaint_of_program("program = [\"sim\"]\ndefine.a = \"1\"\nrate.angle = \"a\"").find("unknown key"),
+            std::string::npos)
+      << "what either of both may have is not wrong";
   expect("progam = [\"sim\"]", "unknown key 'progam' in [dynamics.other], did you mean 'program'?");
 }
 

@@ -147,7 +147,7 @@ const Wrong kWrong[] = {
     {"when = \"height > 0.9\"", "when = \"abs(u) < 0.001\"", "line 29: success.when: 'u' is an action"},
     {"\"sin(angle)\"]", "\"u\"]", "line 25: reward.distance: 'u' is an action"},
     {"\"cos(angle)\"\n\n[reward]\ndistance = [\"1 - height\"", "\"u\"\n\n[reward]\ndistance = [\"height\"",
-     "line 25: reward.distance: 'u' is an action"},
+     "line 25: reward.distance: 'u', which the definition of 'height' uses, is an action"},
     {"[plant]", "[[body]]\nname = \"rod\"\nfrom = [0, 0]\nto = [\"u\", 1]\n[plant]", "body rod: 'u' is an action"},
     {"\"sin(angle)\"]", "\"\"]", "line 25: distance must be a formula in quotes, or a number"},
     {"rate.rate = \"torque / (m * l^2)\"", "rate.rate = \" \"",
