@@ -7,18 +7,11 @@
 namespace rehearse::expression {
 namespace {
 
-/// The value of a slot as a function of the inputs: the same for all, a constant plus multiples of them, or another.
-enum class Degree { constant, affine, other };
+int product(int a, int b) { return std::min(a + b, Program::kNoPolynomial); }
 
-Degree product(Degree a, Degree b) {
-  if (a == Degree::constant) return b;
-  return b == Degree::constant ? a : Degree::other;
-}
-
-Degree degree_of(const Instruction& i, const std::vector<Degree>& slots) {
+int degree_of(const Instruction& i, const std::vector<int>& slots) {
   const auto degree = [&](std::int32_t slot) { return slots[static_cast<std::size_t>(slot)]; };
-  const Degree a = degree(i.a), b = arguments_of(i.op) > 1 ? degree(i.b) : Degree::constant,
-               c = arguments_of(i.op) > 2 ? degree(i.c) : Degree::constant;
+  const int a = degree(i.a), b = arguments_of(i.op) > 1 ? degree(i.b) : 0, c = arguments_of(i.op) > 2 ? degree(i.c) : 0;
   switch (i.op) {
     case Op::negate:
       return a;
@@ -28,12 +21,12 @@ Degree degree_of(const Instruction& i, const std::vector<Degree>& slots) {
     case Op::multiply:
       return product(a, b);
     case Op::divide:
-      return b == Degree::constant ? a : Degree::other;
+      return b == 0 ? a : Program::kNoPolynomial;
     case Op::multiply_add:
     case Op::negative_multiply_add:
       return std::max(product(a, b), c);
     default:
-      return std::max({a, b, c}) == Degree::constant ? Degree::constant : Degree::other;
+      return std::max({a, b, c}) == 0 ? 0 : Program::kNoPolynomial;
   }
 }
 
@@ -42,13 +35,14 @@ Degree degree_of(const Instruction& i, const std::vector<Degree>& slots) {
 Program::Program(const Formulas& formulas, const std::vector<Node>& outputs)
     : tape_(formulas.builder().tape(outputs)) {}
 
-bool Program::is_affine() const {
-  std::vector<Degree> slots(static_cast<std::size_t>(tape_.slots), Degree::constant);
-  for (Index i = 0; i < inputs(); ++i) slots[static_cast<std::size_t>(tape_.input_slot(i))] = Degree::affine;
+int Program::degree() const {
+  std::vector<int> slots(static_cast<std::size_t>(tape_.slots), 0);
+  for (Index i = 0; i < inputs(); ++i) slots[static_cast<std::size_t>(tape_.input_slot(i))] = 1;
   for (const std::vector<Instruction>& code : tape_.code)
     for (const Instruction& i : code) slots[static_cast<std::size_t>(i.out)] = degree_of(i, slots);
-  return std::ranges::all_of(tape_.outputs,
-                             [&](std::int32_t slot) { return slots[static_cast<std::size_t>(slot)] != Degree::other; });
+  int degree = 0;
+  for (const std::int32_t slot : tape_.outputs) degree = std::max(degree, slots[static_cast<std::size_t>(slot)]);
+  return degree;
 }
 
 void Program::run(const std::vector<const double*>& columns, MatrixView results) const {

@@ -14,8 +14,10 @@ class Program {
   /// `outputs` of the formulas; all inputs of the formulas are inputs here, in the order in which they were made.
   Program(const Formulas& formulas, const std::vector<Node>& outputs);
 
-  /// True if every output, as written, is a constant plus multiples of inputs; x * x / x is not.
-  bool is_affine() const;
+  /// The largest degree of the outputs as polynomials of the inputs, as they are written: 0 of constants, 1 where all
+  /// else is multiples of inputs, 2 of their products; kNoPolynomial of more, and of all else, such as x * x / x.
+  int degree() const;
+  static constexpr int kNoPolynomial = 3;
 
   Index inputs() const { return tape_.inputs; }
   Index outputs() const { return static_cast<Index>(tape_.outputs.size()); }

@@ -61,6 +61,10 @@ bool TapeBuilder::is_condition(Node node) const {
   }
 }
 
+Node TapeBuilder::argument_of(Op op, Node node) const {
+  return at(node).kind == Value::Kind::operation && at(node).op == op ? at(node).a : kNone;
+}
+
 bool TapeBuilder::is(Node node, double value) const {
   const double* constant = constant_of(node);
   return constant && *constant == value;

@@ -33,9 +33,9 @@ std::vector<std::string> without_moments(const Task& task, const policy::Policy&
       fmt::format("the task has max_rate or filter_s of an action, whose moments are not known: choose {}", otherwise));
   violations.require(reward::closed_form(task.reward) != nullptr,
                      fmt::format("the scenario's reward has no analytic moments, which {} needs: give it distances "
-                                 "that are sums of multiples of states, and of sines and cosines of angles ([reward] "
-                                 "distance = […] and width in a robot's file, reward::saturating with a closed form in "
-                                 "C++), or choose {}",
+                                 "that are sums of multiples of states, and of sines and cosines of angles (in a "
+                                 "robot's file [reward] distance = […] and width, or a formula exp(-(…)^2 - …); in C++ "
+                                 "reward::saturating with a closed form), or choose {}",
                                  who, otherwise));
   const Index inputs = model_features(task, joint_angles).features() + task.action_size();
   violations.require(inputs <= kMostMomentInputs, fmt::format("{} features and actions, {} takes at most {}: choose {}",

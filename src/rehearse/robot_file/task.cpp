@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/robot_file/closed_form.hpp"
 #include "rehearse/robot_file/episode_formula.hpp"
 #include "rehearse/robot_file/formulas.hpp"
 #include "rehearse/robot_file/table.hpp"
@@ -128,6 +129,13 @@ Reward reward_of(const Robot& robot) {
     };
     return reward::saturating(squared, robot.reward.width, closed_form(robot));
   }
+  if (auto form = closed_form(robot)) {
+    const auto squared = [program = *exponent_of(robot, robot.reward.formula)](const ConstMatrixView& X_next,
+                                                                               VectorView d2) {
+      d2 = -2 * evaluate(program, X_next).col(0);
+    };
+    return reward::saturating(squared, 1, std::move(form));
+  }
   return of_steps(robot, robot.reward.formula);
 }
 
@@ -152,71 +160,9 @@ StateCondition of_states(const Robot& robot, const Formula& formula) {
   };
 }
 
-/// The distances with sine and cosine of each angle as inputs of their own, behind the states.
-Program program_of_features(const Robot& robot) {
-  Formulas formulas = formulas_of(robot, Of::states);
-  for (const State& state : robot.states) {
-    if (state.variable.kind != StateKind::angle) continue;
-    const Node sine = formulas.builder().input(Pace::always), cosine = formulas.builder().input(Pace::always);
-    formulas.builder().known_trigonometry(formulas.named(state.variable.name), sine, cosine);
-  }
-  return program(std::move(formulas), robot.reward.distance);
-}
-
-/// The input of program_of_features that each feature is.
-std::vector<Index> inputs_of_features(const Robot& robot) {
-  std::vector<Index> inputs;
-  const Index states = robot.actuators().states();
-  Index sine = states;
-  for (Index state = 0; state < states; ++state) {
-    const auto own = static_cast<std::size_t>(state);
-    const StateKind kind = own < robot.states.size() ? robot.states[own].variable.kind : StateKind::plain;
-    if (kind == StateKind::plain) inputs.push_back(state);
-    if (kind == StateKind::angle) {
-      inputs.insert(inputs.end(), {sine + 1, sine});  // features have the cosine first
-      sine += 2;
-    }
-  }
-  return inputs;
-}
-
-struct Linear {
-  Matrix slopes;   // outputs × inputs
-  Vector at_zero;  // one an output
-};
-
-/// Empty where the program is not linear in its inputs.
-std::optional<Linear> linear_in_inputs(const Program& program) {
-  if (!program.is_affine()) return {};
-  const Index inputs = program.inputs();
-  Matrix X = Matrix::Zero(1 + inputs, inputs);
-  X.bottomRows(inputs).setIdentity();
-  const Matrix d = evaluate(program, X);
-  if (!d.allFinite()) return {};
-  return Linear{(d.bottomRows(inputs).rowwise() - d.row(0)).transpose(), d.row(0)};
-}
-
 }  // namespace
 
 void check_formulas(const Robot& robot, files::FileViolations& violations) { Checker(robot, violations).check(); }
-
-std::optional<reward::ClosedForm> closed_form(const Robot& robot) {
-  const std::optional<Linear> linear = linear_in_inputs(program_of_features(robot));
-  if (!linear) return {};
-  const std::vector<Index> features = inputs_of_features(robot);
-  reward::ClosedForm form;
-  form.distances = Matrix(linear->slopes.rows(), static_cast<Index>(features.size()));
-  Matrix rest = linear->slopes;
-  for (std::size_t f = 0; f < features.size(); ++f) {
-    form.distances.col(static_cast<Index>(f)) = linear->slopes.col(features[f]) / robot.reward.width;
-    rest.col(features[f]).setZero();
-  }
-  if (rest.cwiseAbs().maxCoeff() > 0) return {};  // an angle as it is, a state that is no feature
-  const Vector wanted = -linear->at_zero / robot.reward.width;
-  form.goal = form.distances.completeOrthogonalDecomposition().solve(wanted);
-  if ((form.distances * form.goal - wanted).norm() > 1e-9 * (1 + wanted.norm())) return {};
-  return form;
-}
 
 Task make_task(const Robot& robot) {
   Task task;

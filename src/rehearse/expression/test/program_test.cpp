@@ -26,17 +26,20 @@ TEST(Program, ComputesAllRowsWhateverTheirNumber) {
   }
 }
 
-TEST(Program, IsAffineAsItIsWritten) {
+TEST(Program, HasTheDegreeThatIsWritten) {
   Formulas formulas;
   formulas.input("x", Pace::always);
   formulas.input("y", Pace::call);
-  const auto is_affine = [&](const char* formula) {
-    return Program(formulas, {formulas.compile(formula)}).is_affine();
-  };
-  for (const char* formula : {"3", "y", "2 * x - y / 4 + 1e9", "-(x + sin(1) * y)", "x * (2 - 1) + where(1, 2, 3)"})
-    EXPECT_TRUE(is_affine(formula)) << formula;
-  for (const char* formula : {"x * y", "1 / x", "abs(x)", "max(x - 5, 0)", "x ^ 2", "sin(y)", "where(x > 9, x, 0)"})
-    EXPECT_FALSE(is_affine(formula)) << formula;
+  const auto degree = [&](const char* formula) { return Program(formulas, {formulas.compile(formula)}).degree(); };
+  EXPECT_EQ(degree("3 + sin(1)"), 0);
+  for (const char* formula : {"y", "2 * x - y / 4 + 1e9", "-(x + sin(1) * y)", "x * (2 - 1) + where(1, 2, 3)"})
+    EXPECT_EQ(degree(formula), 1) << formula;
+  for (const char* formula : {"x * y", "x ^ 2", "3 - (x - 2 * y)^2 / 0.5^2", "x - y * x"})
+    EXPECT_EQ(degree(formula), 2) << formula;
+  for (const char* formula : {"1 / x", "abs(x)", "max(x - 5, 0)", "x ^ 3", "sin(y)", "where(x > 9, x, 0)", "x * x / x",
+                              "abs(x) * 0.5", "x ^ 2 * y"})
+    EXPECT_EQ(degree(formula), Program::kNoPolynomial) << formula;
+  EXPECT_EQ(Program(formulas, {formulas.compile("x"), formulas.compile("x * y")}).degree(), 2);
 }
 
 }  // namespace

@@ -119,32 +119,6 @@ TEST(RobotTask, DefinitionsOfActionsBeforeAreForCostsAndLimits) {
       << example::complaint_of(text);
 }
 
-TEST(RobotTask, DistancesOfFeaturesHaveAClosedForm) {
-  const auto form = closed_form(read(kSwing, "swing.toml", example::no_files));
-  ASSERT_TRUE(form);
-  const Vector goal{{0.0, 1.0, 0.0}};  // rate, cos, sin
-  EXPECT_LT((form->distances * (form->goal - goal)).norm(), 1e-12);
-  const Vector features{{2, std::cos(1), std::sin(1)}};
-  const double d2 = (form->distances * (features - form->goal)).squaredNorm();
-  EXPECT_NEAR(d2, (std::pow(1 - std::cos(1), 2) + std::pow(std::sin(1), 2)) / 0.25, 1e-12);
-}
-
-TEST(RobotTask, LargeDistancesHaveAClosedForm) {
-  const auto form =
-      closed_form(read(with("\"sin(angle)\"]", "\"3e7 * sin(angle) + 2e8\"]"), "swing.toml", example::no_files));
-  ASSERT_TRUE(form);
-  const Vector features{{2, std::cos(1), std::sin(1)}};
-  EXPECT_NEAR((form->distances * (features - form->goal)).tail(1)(0), (3e7 * std::sin(1) + 2e8) / 0.5, 1e-4);
-}
-
-TEST(RobotTask, OtherDistancesHaveNone) {
-  for (const char* distance :
-       {"angle", "height^2", "sin(2 * angle)", "rate * height", "abs(rate)", "max(rate - 5, 0)", "abs(rate + 3)"})
-    EXPECT_FALSE(closed_form(
-        read(with("\"sin(angle)\"]", "\"" + std::string(distance) + "\"]"), "swing.toml", example::no_files)))
-        << distance;
-}
-
 TEST(RobotTask, BodiesAreDrawn) {
   EXPECT_FALSE(make_drawing(read(kSwing, "swing.toml", example::no_files)));
   const auto drawing =
