@@ -14,9 +14,9 @@ namespace {
 
 using expression::Formulas, expression::Node, expression::Op, expression::Pace, expression::Program;
 
-constexpr double kRounding = 1e-9;    // of numbers that should be the same
+constexpr double kRounding = 1e-9;      // of numbers that should be the same
 constexpr double kNoCurvature = 1e-13;  // of the largest
-constexpr double kReward = 1e-6;      // error of rewards
+constexpr double kReward = 1e-6;        // error of rewards
 
 /// Formulas of states with sine and cosine of each angle as inputs of their own, behind the states.
 Formulas formulas_of_features(const Robot& robot) {

@@ -18,10 +18,6 @@ Index steps_of(double time_s, const Task& task) {
   return std::max<Index>(1, static_cast<Index>(std::llround(time_s / task.dt_s)));
 }
 
-ZeroProblem zero_problem(const prior::Prior& prior, const Task& task, const Options& options) {
-  return {prior, states_named(options.zeros, task), options.zero_range, steps_of(options.fit_horizon_s, task)};
-}
-
 /// Around the prior at the φ of the zeros, but for GP-MI, which moves it.
 identification::Learned learned_beyond(const LogModel& model, const Task& task, const prior::Prior& prior,
                                        const Options& options, const Evaluator& evaluator) {
@@ -55,6 +51,10 @@ std::vector<Index> states_named(const std::string& names, const Task& task) {
     states.push_back(found - known.begin());
   }
   return states;
+}
+
+ZeroProblem zero_problem(const prior::Prior& prior, const Task& task, const Options& options) {
+  return {prior, states_named(options.zeros, task), options.zero_range, steps_of(options.fit_horizon_s, task)};
 }
 
 Dataset spread_rows(const std::vector<Episode>& logs, Index rows, Index length) {

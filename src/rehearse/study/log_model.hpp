@@ -12,6 +12,9 @@ namespace rehearse::study {
 /// The states that `zeros` names. Throws InvalidInput if there is no such state.
 std::vector<Index> states_named(const std::string& names, const Task& task);
 
+/// The zeros and parameters that these options look for. The prior must outlive it.
+ZeroProblem zero_problem(const prior::Prior& prior, const Task& task, const Options& options);
+
 /// A model learned from logs.
 struct LogModel {
   Zeros zeros;

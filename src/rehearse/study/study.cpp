@@ -45,6 +45,7 @@ class Student {
       tested->of_prior = accuracy(tested->prior_as_given, study_.calibration);
     }
     study_.steps = step_errors();
+    if (moves(study_.model)) study_.hints = hints();
     return std::move(study_);
   }
 
@@ -112,6 +113,13 @@ class Student {
     Options options = options_;
     options.beyond = beyond;
     return learn_logs(episodes, problem_.task, problem_.prior, options, evaluator_);
+  }
+
+  std::vector<Hint> hints() const {
+    say("zeros and delays");
+    std::vector<Episode> episodes;
+    for (const Log& log : problem_.logs) episodes.push_back(log.episode);
+    return find_hints(episodes, problem_.task, problem_.prior, options_, evaluator_);
   }
 
   void test(const Log& log, const LogModel& model, std::size_t number, Tested& tested) const {

@@ -7,6 +7,7 @@
 
 #include "rehearse/core/events.hpp"
 #include "rehearse/study/bands.hpp"
+#include "rehearse/study/hints.hpp"
 #include "rehearse/study/log_model.hpp"
 
 namespace rehearse::study {
@@ -47,6 +48,7 @@ struct Study {
   Beyond beyond = Beyond::nothing;   // what was learned beyond the prior's parameters
   std::optional<double> gps_worsen;  // where that was chosen: errors with GPs over those without (geometric mean)
   StepErrors steps;
+  std::vector<Hint> hints;  // none of logs in which nothing moves
 
   /// Half of the 95 % band of a state's forecast, whose deviation by the model is this.
   double half_band(std::size_t horizon, Index state, double deviation) const {

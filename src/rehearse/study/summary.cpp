@@ -9,6 +9,7 @@
 #include "rehearse/identification/identifiability.hpp"
 
 namespace rehearse::study {
+
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -30,6 +31,7 @@ Section logs(const Study& study, const Problem& problem) {
         lines.push_back(fmt::format("{}: {:+.3g} {} are added to {}", problem.logs[i].name, offset,
                                     problem.task.states[s].unit, problem.task.states[s].name));
     }
+  for (const Hint& hint : study.hints) lines.push_back(line_of(hint, problem.task));
   return {"Logs", {}, lines};
 }
 

@@ -117,11 +117,12 @@ std::string forecast_csv(const Study& study, const Task& task, const Forecasts& 
   return csv.text();
 }
 
-std::string warnings_csv(const Study& study) {
+std::string warnings_csv(const Study& study, const Problem& problem) {
   Csv csv({"kind", "text"});
   if (study.model.learned.posterior)
     for (const std::string& line : identification::identifiability_warnings(*study.model.learned.posterior))
       csv.row({"parameters", line});
+  for (const Hint& hint : study.hints) csv.row({"logs", line_of(hint, problem.task)});
   for (const std::string& line : study.model.learned.notes) csv.row({"model", line});
   return csv.text();
 }
@@ -133,7 +134,7 @@ std::vector<std::pair<std::string, std::string>> csv_files(const Study& study, c
                                                           {"zeros.csv", zeros_csv(study, problem)},
                                                           {"accuracy.csv", accuracy_csv(study, problem)},
                                                           {"steps.csv", steps_csv(study, problem)},
-                                                          {"warnings.csv", warnings_csv(study)}};
+                                                          {"warnings.csv", warnings_csv(study, problem)}};
   const Tested& tested = study.held_out.logs.empty() ? study.left_out_logs : study.held_out;
   for (std::size_t i = 0; i < tested.logs.size(); ++i)
     for (std::size_t h = 0; h < study.horizons_s.size(); ++h)

@@ -156,8 +156,12 @@ Zeros find_zeros(const std::vector<Episode>& logs, const ZeroProblem& problem, c
   const Vector phi = errors.phi(z);
   const Matrix left = n > 0 ? covariance(errors.fitted(z)) : Matrix();
   const Vector upwards = Vector::Constant(n, 0.5) + left.diagonal().cwiseSqrt();
-  return {phi, errors.offsets(z), errors.offsets(upwards), posterior_of(left, problem.prior.space, phi),
-          errors.phi(closest)};
+  return {phi,
+          errors.offsets(z),
+          errors.offsets(upwards),
+          posterior_of(left, problem.prior.space, phi),
+          errors.phi(closest),
+          Errors::usual(errors.raw(z))};
 }
 
 Episode moved(Episode log, const Vector& offset) {

@@ -25,6 +25,7 @@ struct Zeros {
   Matrix deviations;  // logs × dx, how sure the offsets are
   std::optional<identification::PhiPosterior> posterior = {};  // of φ
   Vector closest_phi = {};                                     // of the least errors, wherever the logs leave it
+  Vector left = {};                                            // dx, the median magnitudes of errors that are left
 };
 
 /// The offsets, and the prior's continuous parameters, of the least errors over the horizon, from some 150 states of

@@ -45,9 +45,9 @@ TEST(ClosedForm, OtherDistancesHaveNone) {
 }
 
 TEST(ClosedForm, OfAFormulaIsThatOfItsExponent) {
-  for (const char* formula : {"exp(-((1 - height)^2 + sin(angle)^2) / (2 * 0.5^2))",
-                              "exp(-0.5 * (rate / 3 - height)^2)", "exp(-(rate - 2)^2 - 3 * (cos(angle) + rate - 4)^2)",
-                              "exp(-(rate^2 - 4 * rate + 4))"}) {
+  for (const char* formula :
+       {"exp(-((1 - height)^2 + sin(angle)^2) / (2 * 0.5^2))", "exp(-0.5 * (rate / 3 - height)^2)",
+        "exp(-(rate - 2)^2 - 3 * (cos(angle) + rate - 4)^2)", "exp(-(rate^2 - 4 * rate + 4))"}) {
     const Robot robot = rewarded(formula);
     const auto form = closed_form(robot);
     ASSERT_TRUE(form) << formula;
@@ -65,9 +65,10 @@ TEST(ClosedForm, OfAFormulaIsThatOfItsExponent) {
 }
 
 TEST(ClosedForm, OfOtherFormulasThereIsNone) {
-  for (const char* formula : {"height", "1 - exp(-rate^2)", "2 * exp(-rate^2)", "exp(rate^2)", "exp(-rate)", "exp(-1 - rate^2)",
-                              "exp(-angle^2)", "exp(-angle * height)", "exp(-rate^2 - u^2)", "exp(-abs(rate)^2)",
-                              "exp(-rate^4)", "exp(-rate^2 + height^2)", "exp(-rate^2 - height)", "exp(-1)"}) {
+  for (const char* formula :
+       {"height", "1 - exp(-rate^2)", "2 * exp(-rate^2)", "exp(rate^2)", "exp(-rate)", "exp(-1 - rate^2)",
+        "exp(-angle^2)", "exp(-angle * height)", "exp(-rate^2 - u^2)", "exp(-abs(rate)^2)", "exp(-rate^4)",
+        "exp(-rate^2 + height^2)", "exp(-rate^2 - height)", "exp(-1)"}) {
     EXPECT_FALSE(closed_form(rewarded(formula))) << formula;
     EXPECT_FALSE(reward::closed_form(make_task(rewarded(formula)).reward)) << formula;
   }

@@ -70,6 +70,21 @@ TEST(Study, SaysWhatMovesNothing) {
   for (const std::string& note : parameters.notes) EXPECT_EQ(note.find("do not overlap"), std::string::npos) << note;
 }
 
+TEST(Study, SaysThatAnEncoderHasNoZero) {
+  Case swings;
+  swings.options.zeros = "";
+  swings.options.beyond = Beyond::nothing;
+  const Study study = swings.run();
+  ASSERT_FALSE(study.hints.empty());
+  const std::string line = line_of(study.hints[0], swings.task);
+  EXPECT_NE(line.find("--set zeros=q"), std::string::npos) << line;
+  EXPECT_EQ(summary(study, swings.problem())[0].notes.back(), line);
+  bool in_tables = false;
+  for (const auto& [name, text] : csv_files(study, swings.problem()))
+    in_tables |= name == "warnings.csv" && text.find("--set zeros=q") != std::string::npos;
+  EXPECT_TRUE(in_tables);
+}
+
 TEST(Study, WrongInputIsRefused) {
   Case swings;
   swings.options.zeros = "qq";

@@ -1,0 +1,113 @@
+#include "rehearse/study/hints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rehearse/study/log_model.hpp"
+
+namespace rehearse::study {
+namespace {
+
+constexpr double kMuchBetter = 0.8;     // errors, of those as the logs are read
+constexpr double kSure = 2;             // deviations of a zero that is off
+constexpr Index kMostDelay = 10;        // control steps
+constexpr std::size_t kMostLogs = 4;
+
+/// The geometric mean over the states.
+double ratio_of(const Vector& errors, const Vector& as_read) {
+  double sum = 0, n = 0;
+  for (Index s = 0; s < errors.size(); ++s)
+    if (errors(s) > 0 && as_read(s) > 0) sum += std::log(errors(s) / as_read(s)), n += 1;
+  return std::exp(sum / std::max(n, 1.0));
+}
+
+/// The log as if actions acted so many steps later. The actions before its beginning, or behind its end, are unknown.
+Episode late(const Episode& log, Index steps) {
+  const Index left = log.steps() - std::abs(steps);
+  Episode part = log.part(std::max<Index>(steps, 0), left);
+  part.actions = log.actions.middleRows(std::max<Index>(-steps, 0), left);
+  return part;
+}
+
+class HintFinder {
+ public:
+  HintFinder(const std::vector<Episode>& logs, const Task& task, ZeroProblem problem, const Evaluator& evaluator)
+      : task_(task), problem_(std::move(problem)), evaluator_(evaluator) {
+    for (const Episode& log : logs)
+      if (logs_.size() < kMostLogs && log.steps() >= problem_.horizon + kMostDelay) logs_.push_back(log);
+  }
+
+  std::vector<Hint> find() {
+    if (logs_.empty()) return {};
+    as_read_ = find_zeros(logs_, problem_, evaluator_).left;
+    std::vector<Hint> all = {zeros(), delay()};
+    std::erase_if(all, [](const Hint& hint) { return !(hint.errors < kMuchBetter); });
+    std::ranges::stable_sort(all, {}, &Hint::errors);
+    return all;
+  }
+
+ private:
+  /// Of positions: states that have a rate.
+  Hint zeros() const {
+    ZeroProblem problem = problem_;
+    std::vector<Index> more;
+    for (Index s = 0; s < task_.state_size(); ++s)
+      if (!task_.states[static_cast<std::size_t>(s)].rate.empty() && !std::ranges::count(problem.states, s))
+        more.push_back(s);
+    if (more.empty()) return {};
+    problem.states.insert(problem.states.end(), more.begin(), more.end());
+    const Zeros found = find_zeros(logs_, problem, evaluator_);
+    Hint hint{.errors = ratio_of(found.left, as_read_)};
+    for (const Index s : more)
+      if ((found.offsets.col(s).cwiseAbs().array() > kSure * found.deviations.col(s).array()).any())
+        hint.states.push_back(s);
+    return hint.states.empty() ? Hint{} : hint;
+  }
+
+  Hint delay() const {
+    Hint best;
+    for (const Index direction : {1, -1})
+      for (Index k = 1; k <= kMostDelay; ++k) {
+        const double errors = errors_with(k * direction);
+        if (!(errors < best.errors)) break;
+        best = {.delay_s = static_cast<double>(k * direction) * task_.dt_s, .errors = errors};
+      }
+    return best;
+  }
+
+  double errors_with(Index delay) const {
+    std::vector<Episode> delayed;
+    for (const Episode& log : logs_) delayed.push_back(late(log, delay));
+    return ratio_of(find_zeros(delayed, problem_, evaluator_).left, as_read_);
+  }
+
+  std::vector<Episode> logs_;
+  const Task& task_;
+  ZeroProblem problem_;
+  const Evaluator& evaluator_;
+  Vector as_read_;
+};
+
+}  // namespace
+
+std::string line_of(const Hint& hint, const Task& task) {
+  std::vector<std::string> names;
+  for (const Index s : hint.states) names.push_back(task.states[static_cast<std::size_t>(s)].name);
+  const std::string what =
+      names.empty() ? fmt::format("actions seem to act {:.3g} s {} than their rows say (--set read.action_delay_s)",
+                                  std::abs(hint.delay_s), hint.delay_s > 0 ? "later" : "earlier")
+                    : fmt::format("the zero of {} seems to be off (--set zeros={})", fmt::join(names, " and of "),
+                                  fmt::join(names, ","));
+  return fmt::format("{}: short forecasts would have {:.2f} times the errors", what, hint.errors);
+}
+
+std::vector<Hint> find_hints(const std::vector<Episode>& logs, const Task& task, const prior::Prior& prior,
+                             const Options& options, const Evaluator& evaluator) {
+  return HintFinder(logs, task, zero_problem(prior, task, options), evaluator).find();
+}
+
+}  // namespace rehearse::study

@@ -1,0 +1,27 @@
+#pragma once
+// What may be wrong with logs that no parameter explains: encoders without a zero, and actions that act late.
+
+#include <string>
+#include <vector>
+
+#include "rehearse/core/task.hpp"
+#include "rehearse/study/options.hpp"
+#include "rehearse/study/zeros.hpp"
+
+namespace rehearse::study {
+
+/// Another reading of the logs, with which the parameters would predict them much better.
+struct Hint {
+  std::vector<Index> states = {};  // whose zeros are off; none: actions act at another time
+  double delay_s = 0;              // of the actions, added to what they have; negative: they act earlier
+  double errors = 1;               // over the fit's horizon, of those that are left as the logs are read
+};
+
+/// "actions seem to act 0.06 s later than …", with the option to try.
+std::string line_of(const Hint& hint, const Task& task);
+
+/// The better readings, the best first, found from the first four logs.
+std::vector<Hint> find_hints(const std::vector<Episode>& logs, const Task& task, const prior::Prior& prior,
+                             const Options& options, const Evaluator& evaluator);
+
+}  // namespace rehearse::study

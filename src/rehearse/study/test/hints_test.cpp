@@ -1,0 +1,53 @@
+#include "rehearse/study/hints.hpp"
+
+#include <gtest/gtest.h>
+
+#include "rehearse/study/test/swings.hpp"
+
+namespace rehearse::study {
+namespace {
+
+/// The log of a robot whose actions act so many steps after their rows.
+Episode delayed_swing(std::uint64_t seed, Index delay) {
+  Episode log = swinging_log(seed, 0).episode;
+  Matrix sent = Matrix::Zero(log.steps(), 1);
+  sent.topRows(log.steps() - delay) = log.actions.bottomRows(log.steps() - delay);
+  log.actions = sent;
+  return log;
+}
+
+std::vector<Hint> hints_of(const std::vector<Episode>& logs, const std::string& zeros = "") {
+  Options options;
+  options.zeros = zeros;
+  return find_hints(logs, swinging_task(), swinging_prior(), options, serial_evaluator());
+}
+
+TEST(Hints, ThereIsNoneOfGoodLogs) {
+  EXPECT_TRUE(hints_of({swinging_log(1, 0).episode, swinging_log(2, 0).episode}).empty());
+  EXPECT_TRUE(hints_of({swinging_log(1, 0.1).episode, swinging_log(2, -0.1).episode}, "q").empty());
+}
+
+TEST(Hints, NameTheEncoderWithoutAZero) {
+  const std::vector<Hint> hints = hints_of({swinging_log(1, 0.1).episode, swinging_log(2, -0.1).episode});
+  ASSERT_FALSE(hints.empty());
+  EXPECT_EQ(hints[0].states, std::vector<Index>{1});
+  EXPECT_LT(hints[0].errors, 0.7);
+  EXPECT_EQ(line_of({.states = {1, 0}, .errors = 0.5}, swinging_task()),
+            "the zero of q and of dq seems to be off (--set zeros=q,dq): short forecasts would have 0.50 times the "
+            "errors");
+}
+
+TEST(Hints, NameTheDelay) {
+  const std::vector<Hint> hints = hints_of({delayed_swing(1, 5), delayed_swing(2, 5)});
+  ASSERT_FALSE(hints.empty());
+  EXPECT_TRUE(hints[0].states.empty());
+  EXPECT_NEAR(hints[0].delay_s, 0.1, 0.021);
+  EXPECT_EQ(line_of({.delay_s = -0.06, .errors = 0.25}, swinging_task()),
+            "actions seem to act 0.06 s earlier than their rows say (--set read.action_delay_s): short forecasts would "
+            "have 0.25 times the errors");
+}
+
+TEST(Hints, ShortLogsHaveNone) { EXPECT_TRUE(hints_of({swinging_log(1, 0.1).episode.part(0, 15)}).empty()); }
+
+}  // namespace
+}  // namespace rehearse::study
