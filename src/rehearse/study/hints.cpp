@@ -12,10 +12,11 @@
 namespace rehearse::study {
 namespace {
 
-constexpr double kMuchBetter = 0.8;     // errors, of those as the logs are read
-constexpr double kSure = 2;             // deviations of a zero that is off
-constexpr Index kMostDelay = 10;        // control steps
+constexpr double kMuchBetter = 0.8;  // errors, of those as the logs are read
+constexpr double kSure = 2;          // deviations of a zero that is off
+constexpr Index kMostDelay = 10;     // control steps
 constexpr std::size_t kMostLogs = 4;
+constexpr Index kStarts = 50;  // of predictions in a log
 
 /// The geometric mean over the states.
 double ratio_of(const Vector& errors, const Vector& as_read) {
@@ -37,6 +38,7 @@ class HintFinder {
  public:
   HintFinder(const std::vector<Episode>& logs, const Task& task, ZeroProblem problem, const Evaluator& evaluator)
       : task_(task), problem_(std::move(problem)), evaluator_(evaluator) {
+    problem_.starts = kStarts;
     for (const Episode& log : logs)
       if (logs_.size() < kMostLogs && log.steps() >= problem_.horizon + kMostDelay) logs_.push_back(log);
   }

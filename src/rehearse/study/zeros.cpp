@@ -16,8 +16,7 @@
 namespace rehearse::study {
 namespace {
 
-constexpr Index kStarts = 150;  // of a log
-constexpr double kUsual = 3;    // times the usual error: beyond, errors count by their logarithm
+constexpr double kUsual = 3;  // times the usual error: beyond, errors count by their logarithm
 constexpr double kMedianOfNormal = 0.6745;
 constexpr double kFailed = 10;  // usual errors, of what cannot be predicted
 
@@ -34,7 +33,7 @@ class Errors {
         evaluator_(evaluator),
         coordinates_(problem.prior.space, problem.prior.space.values()) {
     for (const Episode& log : logs) {
-      const Index last = log.steps() - problem.horizon, every = std::max<Index>(1, log.steps() / kStarts);
+      const Index last = log.steps() - problem.horizon, every = std::max<Index>(1, log.steps() / problem.starts);
       starts_.emplace_back();
       for (Index t = 0; t <= last && last >= 0; t += every) starts_.back().push_back(t);
       rows_ += std::ssize(starts_.back());

@@ -17,6 +17,7 @@ struct ZeroProblem {
   std::vector<Index> states;  // whose zeros are unknown; others are right
   double range = 0;           // how far off they may be
   Index horizon = 1;          // control steps, over which predictions are compared with what was measured
+  Index starts = 150;         // of predictions, about so many of each log
 };
 
 struct Zeros {
@@ -28,7 +29,7 @@ struct Zeros {
   Vector left = {};                                            // dx, the median magnitudes of errors that are left
 };
 
-/// The offsets, and the prior's continuous parameters, of the least errors over the horizon, from some 150 states of
+/// The offsets, and the prior's continuous parameters, of the least errors over the horizon, from some states of
 /// each log; errors beyond three usual ones count by their logarithm. Parameters that the logs do not tell stay near
 /// the prior's values, and zeros where they are. Gauss and Newton's method from the prior's values. Throws InvalidInput
 /// if no log is longer than the horizon.
