@@ -181,14 +181,16 @@ py::dict evaluate(const Robot& robot, const std::string& folder, const Evaluatio
   std::vector<double> returns;
   std::vector<std::optional<bool>> solved, solved_at_end;
   std::vector<std::optional<double>> ended_s;
+  std::vector<std::vector<std::string>> broke;
   for (const experiment::Outcome& outcome : outcomes) {
     returns.push_back(outcome.total_reward);
     solved.push_back(outcome.solved);
     solved_at_end.push_back(outcome.solved_at_end);
     ended_s.push_back(outcome.ended_s);
+    broke.push_back(outcome.broke);
   }
   return py::dict(py::arg("total_reward") = returns, py::arg("solved") = solved,
-                  py::arg("solved_at_end") = solved_at_end, py::arg("ended_s") = ended_s);
+                  py::arg("solved_at_end") = solved_at_end, py::arg("ended_s") = ended_s, py::arg("broke") = broke);
 }
 
 py::dict known() {

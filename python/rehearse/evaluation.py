@@ -13,12 +13,14 @@ from .tables import html_table
 
 @dataclass(frozen=True, eq=False)
 class Evaluation:
-    """Episodes of one policy: returns (n), and solved, solved_at_end and ended_s of each; None: does not apply."""
+    """Episodes of one policy: returns (n), and solved, solved_at_end, ended_s and broke (the limits that ended it) of
+    each; None: does not apply."""
 
     returns: Array
     solved: list[Union[bool, None]]
     solved_at_end: list[Union[bool, None]]
     ended_s: list[Union[float, None]]
+    broke: list[list[str]]
 
     def __repr__(self) -> str:
         return (f"<rehearse.Evaluation of {len(self.returns)} episodes: median return {np.median(self.returns):.4g}, "
@@ -26,12 +28,15 @@ class Evaluation:
 
     @property
     def table(self) -> Array:
-        """A row an episode: return, solved and solved_at_end (1, 0, or NaN), ended_s; pandas.DataFrame takes it."""
+        """A row an episode: return, solved and solved_at_end (1, 0, or NaN), ended_s, broke (separated by "; ");
+        pandas.DataFrame takes it."""
         columns: dict[str, Any] = {"return": self.returns, "solved": self.solved, "solved_at_end": self.solved_at_end,
                    "ended_s": self.ended_s}
-        table = np.empty(len(self.returns), dtype=[(name, float) for name in columns])
+        broke = np.array(["; ".join(limits) for limits in self.broke])
+        table = np.empty(len(self.returns), dtype=[*((name, float) for name in columns), ("broke", broke.dtype)])
         for name, column in columns.items():
             table[name] = np.array(column, dtype=float)
+        table["broke"] = broke
         return table
 
     def _repr_html_(self) -> str:

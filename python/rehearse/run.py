@@ -162,7 +162,7 @@ class Run:
                                 number("seconds", seconds), whole("seed", seed, 0, 2**64 - 1),
                                 option_texts(options), threads)
         return Evaluation(np.array(result["total_reward"]), result["solved"], result["solved_at_end"],
-                          result["ended_s"])
+                          result["ended_s"], result["broke"])
 
     def report(self, out: Union[PathLike, None] = None) -> Path:
         """Writes the page of the run, by default report.html in its folder."""

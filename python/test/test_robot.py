@@ -54,6 +54,8 @@ def test_a_limit_may_use_the_action_before_and_the_time(tmp_path):
     assert [limit["broken"] for limit in run.details[0].limits] == [False, False]
     run = learn(cart(limits=[rehearse.Limit("time < 0.35", "short")]), tmp_path / "short")
     assert run.details[0].limits[0]["broken"] and len(run.trajectory(1)) == 6
+    evaluation = run.evaluate(2)
+    assert evaluation.broke == [["short"], ["short"]] and list(evaluation.table["broke"]) == ["short", "short"]
 
 
 def test_a_whole_episode_may_be_rewarded(tmp_path):

@@ -121,7 +121,8 @@ def test_an_environment_is_the_plant(tmp_path):
     evaluation = run.evaluate(3)
     assert evaluation.success_rate in (0.0, 1.0)
     np.testing.assert_array_equal(evaluation.table["return"], evaluation.returns)
-    assert evaluation.table.dtype.names == ("return", "solved", "solved_at_end", "ended_s")
+    assert evaluation.table.dtype.names == ("return", "solved", "solved_at_end", "ended_s", "broke")
+    assert evaluation.broke == [[], [], []] and list(evaluation.table["broke"]) == ["", "", ""]
     assert np.isnan(evaluation.table["ended_s"]).all() and "<td>3</td>" in evaluation._repr_html_()
 
 
