@@ -93,7 +93,8 @@ void print_asked(const experiment::Resolved& resolved, const TrialRecord& trial,
 }
 
 std::string steps_text(const Episode& episode, double dt_s) {
-  return fmt::format("{} steps, {:.4g} s", episode.steps(), seconds(episode.steps(), dt_s));
+  return fmt::format("{} step{}, {:.4g} s", episode.steps(), episode.steps() == 1 ? "" : "s",
+                     seconds(episode.steps(), dt_s));
 }
 
 void print_logs(const std::vector<experiment::Log>& logs, const Task& task) {

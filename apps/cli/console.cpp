@@ -13,6 +13,8 @@
 namespace rehearse::apps {
 namespace {
 
+std::string count_of_trials(Index trials) { return fmt::format("{} trial{}", trials, trials == 1 ? "" : "s"); }
+
 using Seconds = std::chrono::duration<double>;
 
 std::string verdict(const std::optional<bool>& solved) { return !solved ? "" : *solved ? "  solved" : "  not solved"; }
@@ -35,6 +37,7 @@ std::string safety(const std::vector<experiment::LimitRecord>& limits) {
 void Console::started(const experiment::Resolved& resolved, const std::filesystem::path& folder, Index done) {
   const experiment::Spec& spec = resolved.spec;
   trials_ = spec.trials;
+  says_when_solved_ = resolved.scenario.task.solved != nullptr;
   done_ = done_before_ = done;
   priors_ = spec.prior;
   phi_names_ = experiment::tunable_names(resolved.prior);
@@ -42,8 +45,8 @@ void Console::started(const experiment::Resolved& resolved, const std::filesyste
   if (begins_ == Begin::silent) return;
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
   const std::string trials =
-      spec.trials == 0 ? "" : fmt::format("{}{} ", spec.until_solved ? "up to " : "", spec.trials);
-  line_.print(fmt::format("{} learned by {}{}, seed {}: {}trials of {} s in {}", spec.scenario, spec.learner, prior,
+      spec.trials == 0 ? "trials" : (spec.until_solved ? "up to " : "") + count_of_trials(spec.trials);
+  line_.print(fmt::format("{} learned by {}{}, seed {}: {} of {} s in {}", spec.scenario, spec.learner, prior,
                           spec.seed, trials, resolved.scenario.task.episode_s(), folder.string()));
   for (const std::string& warning : resolved.warnings) line_.print("warning: " + warning);
   if (done > 0) line_.print(fmt::format("continuing after trial {}", done));
@@ -95,8 +98,9 @@ void Console::finished(const experiment::RunResult& result) {
   if (result.trials == 0)
     return line_.print(fmt::format("{} is ready; the first policy: {}, or logs before it: {}", folder,
                                    command_line({"ask", folder}), command_line({"tell", folder, "LOG.csv…"})));
-  const std::string solved = result.solved_at ? fmt::format("solved at trial {}", *result.solved_at)
-                                              : fmt::format("not solved in {} trials", result.trials);
+  const std::string solved = result.solved_at
+                                 ? fmt::format("solved at trial {}", *result.solved_at)
+                                 : (says_when_solved_ ? "not solved in " : "") + count_of_trials(result.trials);
   line_.print(fmt::format("{}, best return {:.3f}, in {}; its page: {}", solved, result.best_return, folder,
                           command_line({"report", folder})));
 }

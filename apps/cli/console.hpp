@@ -40,6 +40,7 @@ class Console final : public experiment::RunListener {
   Index trials_ = 0;
   std::atomic<Index> done_ = 0;
   Index done_before_ = 0;
+  bool says_when_solved_ = true;  // the task does
   std::string priors_;
   std::vector<std::string> phi_names_;
   std::string phase_;

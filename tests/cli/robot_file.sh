@@ -24,7 +24,11 @@ grep -q "^scenario my_robot: .*solved: " output && grep -q "^plant.m " output ||
 grep -q "my_robot: an episode of random actions" motion.html || fail "check --out has another headline"
 
 "$program" learn my_robot.toml --learner gp-mi --trials 2 "${few[@]}" --out alone >output 2>&1 || fail "learn: $(cat output)"
-"$program" learn my_robot.toml --learner gp-mi --trials 1 "${few[@]}" --out extended >/dev/null || fail "one trial"
+"$program" learn my_robot.toml --learner gp-mi --trials 1 "${few[@]}" --out extended >output 2>&1 || fail "one trial"
+grep -q "seed 1: 1 trial of 4 s in extended" output || fail "a trial is none of several: $(cat output)"
+sed '/^\[success\]/,/^last_s/d' my_robot.toml >endless.toml
+"$program" learn endless.toml --learner gp-mi --trials 1 "${few[@]}" --out endless >output 2>&1 || fail "endless: $(cat output)"
+grep -q "^1 trial, best return" output || fail "nobody can say whether it is solved: $(cat output)"
 echo "name = \"another\"" >my_robot.toml # what is done to the file later does not matter
 "$program" resume extended --trials 2 --threads 1 >output 2>&1 || fail "resume: $(cat output)"
 same alone extended "${files[@]}"

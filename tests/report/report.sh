@@ -46,7 +46,7 @@ refused "needs the name of a file" "$program" report run --out ""
 cmp -s kept run/checkpoint || fail "a report takes the place of a checkpoint"
 [ -z "$(find . -name '*.tmp')" ] || fail "reports that cannot be written leave $(find . -name '*.tmp')"
 
-echo '2,"m1 and m2 cannot be told apart by these trials"' >>run/identifiability.csv
+echo '2,"m1 and m2 cannot be told apart by these data"' >>run/identifiability.csv
 "$program" report run >stdout 2>stderr
 [ ! -s stderr ] || fail "the report of a whole run complains: $(cat stderr)"
 "$program" report moments >/dev/null

@@ -74,7 +74,7 @@ await open('run/report', {}, async (page) => {
   assert.match(changed[0], /^parameter,settings,trial,seed,seconds,factor,value,episodes,solved,/)
   assert.equal(changed.length, 1 + 6 * 5)
   const warnings = await identified.locator('.warnings li').allTextContents()
-  assert.equal(warnings.at(-1), 'm1 and m2 cannot be told apart by these trials.')
+  assert.equal(warnings.at(-1), 'm1 and m2 cannot be told apart by these data.')
   const parameters = await reader.saved('Save “Parameters of the prior” as CSV')
   assert.match(parameters, /^trial,phi\.m1,phi\.m1\.low,phi\.m1\.high,phi\.m2,/)
 })

@@ -92,10 +92,9 @@ class Warnings {
     for (const Index i : group) names.push_back(of(i).name);
     if (names.size() == 1) {
       const Interval range = intervals_[static_cast<std::size_t>(group.front())];
-      return fmt::format("{} is not determined by these trials: {:.3g} to {:.3g}", names.front(), range.low,
-                         range.high);
+      return fmt::format("{} is not determined by these data: {:.3g} to {:.3g}", names.front(), range.low, range.high);
     }
-    const std::string apart = fmt::format("{} cannot be told apart by these trials", list(names));
+    const std::string apart = fmt::format("{} cannot be told apart by these data", list(names));
     if (posterior_.alternatives.size() == 0) return apart;
     const auto known =
         known_combinations(names, posterior_.alternatives(group, Eigen::all), posterior_.unknown_directions);

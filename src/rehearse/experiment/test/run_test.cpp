@@ -46,9 +46,9 @@ TEST(Run, FolderHoldsWhatTheContractSays) {
   EXPECT_EQ(lines_of(folder / "errors.csv").size(), 1u + 3 * 4);
   EXPECT_EQ(lines_of(folder / "notes.csv")[1], "1,\"a note, with a comma\"");
   EXPECT_EQ(lines_of(folder / "identifiability.csv"),
-            (std::vector<std::string>{"trial,warning", "2,gain is not determined by these trials: 0.1 to 4",
-                                      "3,gain is not determined by these trials: 0.1 to 4"}));
-  EXPECT_EQ(result.warnings, std::vector<std::string>{"gain is not determined by these trials: 0.1 to 4"});
+            (std::vector<std::string>{"trial,warning", "2,gain is not determined by these data: 0.1 to 4",
+                                      "3,gain is not determined by these data: 0.1 to 4"}));
+  EXPECT_EQ(result.warnings, std::vector<std::string>{"gain is not determined by these data: 0.1 to 4"});
 
   const auto memories = lines_of(folder / "memories.csv");  // the learner's own
   ASSERT_EQ(memories.size(), 3u);

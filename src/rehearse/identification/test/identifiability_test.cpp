@@ -23,21 +23,21 @@ PhiPosterior three(const Vector& deviations, const Matrix& correlations) {
 TEST(IdentifiabilityWarnings, NameWhatIsUnsureAlone) {
   EXPECT_EQ(identifiability_warnings(three(Vector{{0.01, 0.01, 0.01}}, Matrix::Identity(3, 3))), Sentences{});
   EXPECT_EQ(identifiability_warnings(three(Vector{{0.01, 0.1, 0.01}}, Matrix::Identity(3, 3))),
-            Sentences{"b is not determined by these trials: 0.304 to 0.696"});
+            Sentences{"b is not determined by these data: 0.304 to 0.696"});
 }
 
 TEST(IdentifiabilityWarnings, NamePairsAndLargerGroups) {
   Matrix pair = Matrix::Identity(3, 3);
   pair(0, 2) = pair(2, 0) = -0.98;
-  EXPECT_EQ(identifiability_warnings(three(Vector{{0.1, 0.1, 0.2}}, pair)),
-            (Sentences{"a and c cannot be told apart by these trials",
-                       "b is not determined by these trials: 0.304 to 0.696"}));
+  EXPECT_EQ(
+      identifiability_warnings(three(Vector{{0.1, 0.1, 0.2}}, pair)),
+      (Sentences{"a and c cannot be told apart by these data", "b is not determined by these data: 0.304 to 0.696"}));
   EXPECT_EQ(identifiability_warnings(three(Vector{{0.01, 0.01, 0.02}}, pair)), Sentences{})
       << "sure of both all the same";
   Matrix sum = Matrix::Constant(3, 3, -0.499);  // only a + b + c is known
   sum.diagonal().setOnes();
   EXPECT_EQ(identifiability_warnings(three(Vector{{0.2, 0.2, 0.2}}, sum)),
-            Sentences{"a, b and c cannot be told apart by these trials"});
+            Sentences{"a, b and c cannot be told apart by these data"});
 }
 
 TEST(IdentifiabilityWarnings, IntervalsEndWithTheBoxAndWarningsSayWhereThatIs) {
@@ -63,7 +63,7 @@ TEST(IdentifiabilityWarnings, AParameterThatMovesNothingCouldBeAnything) {
     EXPECT_GT(interval.high - interval.low, 2.2) << "half the box and more, wherever its mean is";
     const Sentences warnings = identifiability_warnings(*posterior);
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_TRUE(warnings[0].starts_with("colour is not determined by these trials: ")) << warnings[0];
+    EXPECT_TRUE(warnings[0].starts_with("colour is not determined by these data: ")) << warnings[0];
   }
 }
 
@@ -93,7 +93,7 @@ TEST(IdentifiabilityWarnings, ParametersThatOnlyActTogetherCannotBeToldApart) {
   EXPECT_NEAR((*learned.state.phi)(2) * (*learned.state.phi)(3), 1, 0.1);
   ASSERT_EQ(identifiability_warnings(*learned.posterior).size(), 1u);
   EXPECT_TRUE(identifiability_warnings(*learned.posterior)[0].starts_with(
-      "gear and motor cannot be told apart by these trials; known is motor·gear = "))
+      "gear and motor cannot be told apart by these data; known is motor·gear = "))
       << identifiability_warnings(*learned.posterior)[0];
 }
 

@@ -57,7 +57,7 @@ TEST(PhiPosterior, OnAnExactRidgeIntervalsHoldTheTruthAndTheKnownIsNamed) {
       EXPECT_TRUE(m2.low < 0.22 && m2.high > 1.11) << label << ": " << m2.low << " to " << m2.high;
       EXPECT_EQ(identifiability_warnings(*learned.posterior),
                 std::vector<std::string>{
-                    "m1, m2, r2 and I1 cannot be told apart by these trials; known are m1 + m2 = 1.24, r2·m2 = "
+                    "m1, m2, r2 and I1 cannot be told apart by these data; known are m1 + m2 = 1.24, r2·m2 = "
                     "0.105 and I1 + 0.09·m2 = 0.111"})
           << label;
       Matrix mean(other.size(), 4), variance(other.size(), 4);

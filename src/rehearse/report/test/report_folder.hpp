@@ -52,7 +52,7 @@ class ReportFolder : public ::testing::Test {
     write(run / "timings.csv", fmt::format("trial,model_s,search_s,rollouts_per_s\n1,0.5,2,10\n2,1,{},10\n", 2 + seed));
     write(run / "errors.csv", "trial,horizon,compared,failed,rms x [m]\n2,1,50,0,0.01\n");
     write(run / "notes.csv", "trial,note\n2,\"a fit, failed\"\n");
-    write(run / "identifiability.csv", "trial,warning\n2,m is not determined by these trials\n");
+    write(run / "identifiability.csv", "trial,warning\n2,m is not determined by these data\n");
     for (int trial : {1, 2})
       write(run / fmt::format("trajectories/trial-00{}.csv", trial),
             "time [s],x [m],true x [m],u [N],reward\n0,0,0,1,\n0.1,0.5,0.4,,1\n");

@@ -37,7 +37,7 @@ TEST_F(RunFiles, ARunHasItsTablesAsColumns) {
   EXPECT_EQ(run["truth"], json::parse(R"({"m": 1.5})"));  // k is not the plant's
   EXPECT_EQ(run["notes"]["note"], json::parse(R"(["a fit, failed"])"));
   EXPECT_EQ(run["trials"]["phi.m.high"], json::parse("[null, 1.6]"));
-  EXPECT_EQ(run["identifiability"]["warning"], json::parse(R"(["m is not determined by these trials"])"));
+  EXPECT_EQ(run["identifiability"]["warning"], json::parse(R"(["m is not determined by these data"])"));
   ASSERT_EQ(run["episodes"].size(), 2u);
   EXPECT_EQ(run["episodes"][0]["trajectory"]["true x [m]"], json::parse("[0, 0.4]"));
   EXPECT_TRUE(run["episodes"][0]["prediction"].is_null());
