@@ -154,7 +154,7 @@ def test_a_wrong_part_of_a_robot_is_named(changes, message):
 def test_a_wrong_value_of_a_file_is_said_with_its_key():
     with pytest.raises(rehearse.InvalidInput, match=r"^\[reward\] cost: <function .* must be a text, a number"):
         cart(cost=lambda states: states)
-    with pytest.raises(rehearse.InvalidInput, match=r"^\[\[action\]\] bounds: -inf is no number"):
+    with pytest.raises(rehearse.InvalidInput, match=r"^\[\[action\]\] bounds: -inf must be a finite number"):
         cart(actions=[rehearse.Action("force", (-np.inf, 5))])
 
 
