@@ -105,7 +105,7 @@ void try_out_campaign(const Robot& robot, const experiment::Catalogue& catalogue
   if (!plan.runs.empty()) robot.try_out(experiment::resolve(catalogue, plan.runs.front().spec).scenario);
 }
 
-/// Does the work in a thread of its own. Python tells this one of Ctrl-C, and it must not be busy, or wait for runs.
+/// Does the work in a thread of its own. Python tells only the thread that calls of Ctrl-C, so that one must be free.
 campaign::Campaign watched(const std::function<bool()>& stop, const std::function<campaign::Campaign()>& work) {
   auto done = std::async(std::launch::async, [&] {
     const py::gil_scoped_acquire kept;  // Python's state of this thread: made anew, it costs each call 10 µs

@@ -3,8 +3,8 @@
 >>> import rehearse
 >>> run = rehearse.learn("pendubot", learner="gp-mi", prior="misleading", trials=5)
 
-Begin with `Robot` and `learn`. `Run` is what they give, and what `open_run` finds in a folder; `campaign` does many. The pieces alone are
-`GaussianProcess`, `Cmaes`, `MapElites` and `identify`.
+Begin with `Robot` and `learn`. `Run` is what they give, and what `open_run` finds in a folder; `campaign` does many.
+The pieces alone are `GaussianProcess`, `Cmaes`, `MapElites` and `identify`.
 """
 
 from ._core import InvalidInput, RunFailed, __version__

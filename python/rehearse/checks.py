@@ -1,4 +1,4 @@
-"""What is given, before C++ sees it."""
+"""Arguments, checked before C++ sees them."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ def rk4(rates: Callable[..., Any], dt_s: float, substeps: int = 4) -> Callable[.
 
 @dataclass(frozen=True)
 class _Change:
-    """What `rk4` gives; pickle keeps it where it keeps rates."""
+    """The function that `rk4` gives; pickle keeps it where it keeps rates."""
 
     rates: Callable[..., Any]
     dt_s: float  # a Robot compares it with its own

@@ -12,10 +12,11 @@ def show(event: dict[str, Any]) -> None:
     Give another function(event) as `progress=`, or None. An event is a dictionary whose `kind` is
     "started" (robot, learner, prior, seed, trials, done, folder),
     "progress" (trial, phase, done from 0 to 1, best predicted return, rollouts, rollouts_per_s), at most ten a second, or
-    "trial" (what `Trial` has). Of a campaign there are
-    "campaign" (title, robot, trials, runs, ended: how many of these before, notes), "progress" with the name of its run, and
-    "run" at the end of each (run, learner, prior, variant, seed, failed: why or None, trials, first_success, best_return,
-    ended, runs).
+    "trial" (what `Trial` has). A campaign has
+    "campaign" at its start (title, robot, trials, runs, ended: how many of these before, notes),
+    "progress" with `run`, the name of its run, at most ten a second of all runs, and
+    "run" at the end of each (run, learner, prior, variant, seed, failed: why or None, trials, first_success,
+    best_return, ended, runs).
     """
     kind = event["kind"]
     live = sys.stdout.isatty() or "ipykernel" in sys.modules

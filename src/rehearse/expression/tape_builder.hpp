@@ -31,7 +31,7 @@ class TapeBuilder {
   /// True if a node is 0 or 1 by what makes it: a comparison, conditions that are combined, or one of these numbers.
   bool is_condition(Node node) const;
 
-  /// What the operation `op` of one number is done to, where that makes the node; else kNone.
+  /// The argument of the operation that makes the node, where that is `op`, an operation of one number; else kNone.
   Node argument_of(Op op, Node node) const;
 
   Tape tape(const std::vector<Node>& outputs) const;

@@ -53,7 +53,7 @@ class HintFinder {
   }
 
  private:
-  /// Of positions: states that have a rate.
+  /// The zeros of positions, which are states that have a rate.
   Hint zeros() const {
     ZeroProblem problem = problem_;
     std::vector<Index> more;

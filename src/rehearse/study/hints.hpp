@@ -1,5 +1,5 @@
 #pragma once
-// What may be wrong with logs that no parameter explains: encoders without a zero, and actions that act late.
+// Faults of logs that no parameter explains: encoders without a zero, and actions that act late.
 
 #include <string>
 #include <vector>

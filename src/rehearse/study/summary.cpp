@@ -9,7 +9,6 @@
 #include "rehearse/identification/identifiability.hpp"
 
 namespace rehearse::study {
-
 namespace {
 
 using Lines = std::vector<std::string>;
