@@ -10,12 +10,9 @@ from html import escape
 from pathlib import Path
 from typing import Any, Union
 
-import numpy as np
-
 from . import _core
 from .arrays import Array
 from .checks import option_texts, threads_of, write_text
-from .robot import Robot
 from .run import Robots, robot_of
 from .tables import as_files, from_csv, without_path
 

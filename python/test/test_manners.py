@@ -1,4 +1,4 @@
-"""What Python expects of objects: copies, representations, errors by name, any locale."""
+"""Manners that Python expects of objects: copies, representations, errors by name, any locale."""
 
 import copy
 import functools
