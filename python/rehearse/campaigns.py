@@ -13,11 +13,11 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
-from .checks import threads_of, whole
+from .checks import function_or_none, read_text, threads_of, whole
 from .progress import show
 from .robot import Robot
-from .run import PathLike, Progress, Robots, Run, robot_of, write_report
-from .tables import column, html_table, read_csv, structured
+from .run import PathLike, Progress, Robots, Run, begun_with, name_of, robot_of, write_report
+from .tables import column_of, html_table, read_csv, structured
 from .toml import table
 
 Options = Mapping[str, Any]
@@ -36,7 +36,7 @@ class Campaign:
         self.folder = Path(folder)
         if not (self.folder / "summary.json").exists():
             raise _core.InvalidInput(f"{folder} is not the folder of a campaign")
-        self._robot = robot
+        self._robot = begun_with(robot)
 
     @property
     def trials(self) -> Array:
@@ -47,7 +47,7 @@ class Campaign:
     @property
     def summary(self) -> dict[str, Any]:
         """summary.json, as docs/campaigns.md describes it."""
-        return dict(json.loads((self.folder / "summary.json").read_text(encoding="utf-8")))
+        return dict(json.loads(read_text(self.folder / "summary.json")))
 
     @property
     def runs(self) -> Array:
@@ -144,7 +144,7 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
             for key, entry in keys.items() if entry is not None}
     text, source, scenario, core, own = _given(given, robot, keys)
     folder = os.fspath(out) if out else f"runs/{Path(source).stem}"
-    threads = threads_of(threads)
+    threads, progress = threads_of(threads), function_or_none("progress", progress)
     if own is not None and own.has_environment:
         threads = 1
     try:
@@ -165,7 +165,7 @@ def _given(given: Robots, robot: Union[Robots, None],
            keys: dict[str, Any]) -> tuple[bytes, str, str, Any, Union[Robot, None]]:
     """The campaign file's text and source, and the robot: the name of its scenario, for C++, and as it was given. Names
     and robots are empty where the file alone says which."""
-    name = "" if isinstance(given, Robot) else os.fspath(given)
+    name = "" if isinstance(given, Robot) else name_of(given)
     if name.endswith(".toml") and not keys:
         core, scenario = (_core.Robot("", "", ""), "") if robot is None else robot_of(robot)
         return Path(name).read_bytes(), name, scenario, core, robot if isinstance(robot, Robot) else None
@@ -191,7 +191,7 @@ def _text(keys: Mapping[str, Any]) -> str:
 
 
 def _table_of(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> Array:
-    return structured({name: column([row[name] for row in rows]) for name in names})
+    return structured({name: column_of([row[name] for row in rows]) for name in names})
 
 
 def _of_group(group: Mapping[str, Any]) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import Any, Union
 import numpy as np
 
 from .arrays import Array
-from .tables import html_table
+from .tables import html_table, structured
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,13 +31,9 @@ class Evaluation:
         """A row an episode: return, solved and solved_at_end (1, 0, or NaN), ended_s, broke (separated by "; ");
         pandas.DataFrame takes it."""
         columns: dict[str, Any] = {"return": self.returns, "solved": self.solved, "solved_at_end": self.solved_at_end,
-                   "ended_s": self.ended_s}
-        broke = np.array(["; ".join(limits) for limits in self.broke])
-        table = np.empty(len(self.returns), dtype=[*((name, float) for name in columns), ("broke", broke.dtype)])
-        for name, column in columns.items():
-            table[name] = np.array(column, dtype=float)
-        table["broke"] = broke
-        return table
+                                   "ended_s": self.ended_s}
+        numbers = {name: np.array(column, dtype=float) for name, column in columns.items()}
+        return structured({**numbers, "broke": np.array(["; ".join(limits) for limits in self.broke], dtype=str)})
 
     def _repr_html_(self) -> str:
         quantiles = np.quantile(self.returns, [0.05, 0.5, 0.95])  # of one episode at least

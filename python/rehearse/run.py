@@ -59,9 +59,7 @@ class Run:
         self.folder = Path(folder)
         if not (self.folder / "spec.toml").exists():
             raise _core.InvalidInput(f"{folder} is not a run folder")
-        if robot is not None and not isinstance(robot, Robot):
-            raise TypeError(f"robot is {robot!r}, must be the Robot that the run began with")
-        self._robot = robot
+        self._robot = begun_with(robot)
         #: The trial that `ask` gave the policy of, with what is predicted of it; None before `ask`, and once it is told.
         self.asked: Union[Trial, None] = None
 
@@ -198,12 +196,12 @@ class Run:
         return self._robot._core if self._robot is not None else _core.Robot("", "", "")
 
     def _table_of(self, trial: int, kind: str) -> Array:
-        number, done = whole("trial", trial), len(self.trials)
-        if not 1 <= number <= done:
-            raise _core.InvalidInput(f"trial = {number}, must be between 1 and {done}, the trials that are done")
-        path = self.folder / kind / f"trial-{number:03}.csv"
+        given, done = whole("trial", trial), len(self.trials)
+        if not 1 <= given <= done:
+            raise _core.InvalidInput(f"trial = {given}, must be between 1 and {done}, the trials that are done")
+        path = self.folder / kind / f"trial-{given:03}.csv"
         if not path.exists():
-            raise _core.InvalidInput(f"trial {number} of {self.folder} has no {kind}")
+            raise _core.InvalidInput(f"trial {given} of {self.folder} has no {kind}")
         return read_csv(path)
 
     def _describe(self) -> dict[str, Any]:
@@ -261,9 +259,24 @@ def robot_of(robot: Robots) -> tuple[Any, str]:
     """The robot for C++, and the name of its scenario."""
     if isinstance(robot, Robot):
         return robot._core, robot.name
-    if os.fspath(robot).endswith(".toml"):
-        return robot_of(Robot.from_file(robot))
-    return _core.Robot("", "", ""), os.fspath(robot)
+    name = name_of(robot)
+    if name.endswith(".toml"):
+        return robot_of(Robot.from_file(name))
+    return _core.Robot("", "", ""), name
+
+
+def name_of(robot: PathLike) -> str:
+    """The name or the path of a robot that is no object."""
+    if not isinstance(robot, (str, os.PathLike)):
+        raise TypeError(f"robot = {robot!r}, must be a Robot, the name of a built-in one, or a path")
+    return os.fspath(robot)
+
+
+def begun_with(robot: Any) -> Union[Robot, None]:
+    """The robot that a folder is opened with, or None."""
+    if robot is not None and not isinstance(robot, Robot):
+        raise TypeError(f"robot is {robot!r}, must be the Robot that the folder began with")
+    return robot
 
 
 def write_report(folder: Path, out: Union[PathLike, None]) -> Path:

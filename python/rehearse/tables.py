@@ -28,7 +28,7 @@ def structured(columns: Mapping[str, Array]) -> Array:
     return table
 
 
-def column(values: Sequence[Any]) -> Array:
+def column_of(values: Sequence[Any]) -> Array:
     """Texts, whole numbers, or numbers, of which None is NaN."""
     if any(isinstance(value, str) for value in values):
         return np.array(values, dtype=str)
@@ -43,7 +43,7 @@ def from_csv(text: str, texts: Collection[str] = ()) -> Array:
     rows = list(csv.reader(io.StringIO(text)))
     header = [re.sub(r" \[[^\]]*\]$", "", name) for name in rows[0]] if rows else []
     cells = {name: [row[i] for row in rows[1:]] for i, name in enumerate(header)}
-    return structured({name: _texts_of(column) if name in texts else _column(column) for name, column in cells.items()})
+    return structured({name: _texts_of(column) if name in texts else _parsed(column) for name, column in cells.items()})
 
 
 def read_csv(path: Union[str, os.PathLike[str]], texts: Collection[str] = ()) -> Array:
@@ -54,7 +54,8 @@ def _texts_of(cells: list[str]) -> Array:
     return np.array(cells, dtype=str) if cells else np.empty(0, dtype="U1")
 
 
-def _column(cells: list[str]) -> Array:
+def _parsed(cells: list[str]) -> Array:
+    """Numbers where all cells are, else texts."""
     try:
         values = np.array([float(cell) if cell else np.nan for cell in cells])
     except ValueError:

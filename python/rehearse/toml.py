@@ -9,7 +9,6 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-
 from ._core import InvalidInput
 
 
@@ -34,9 +33,9 @@ def value(given: Any) -> str:
     raise InvalidInput(f"{given!r} must be a text, a number, a truth, or a list or dictionary of them")
 
 
-def _line(head: str, key: str, entry: Any) -> str:
+def _line(head: str, key: Any, entry: Any) -> str:
     try:
-        return f"{_key(key)} = {value(entry)}"
+        return f"{_key(str(key))} = {value(entry)}"
     except InvalidInput as error:
         raise InvalidInput(f"{head} {key}: {error}".lstrip()) from None
 

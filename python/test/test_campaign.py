@@ -39,7 +39,7 @@ TABLES = ["campaign.csv", "summary.json", "campaign.toml"]
 
 
 def campaign(given, out, *arguments, **more):
-    """Of the cart, with a quick search, where keys are given."""
+    """A campaign of the cart with a quick search, where keys are given."""
     if not str(given).endswith(".toml"):
         more = {"learners": "gp-mi", "seeds": [1, 2], "trials": 2, "set": QUICK, **more}
     return rehearse.campaign(given, *arguments, out=out, **{"threads": 2, "progress": None, **more})
@@ -304,6 +304,9 @@ def test_what_is_wrong_is_said_and_leaves_no_folder(tmp_path):
     refused("learners is missing", cart(), learners=[])
     refused("nan must be a finite number", cart(), set={"plant.mass": float("nan")})
     refused("threads = -1, must be ≥ 0", cart(), threads=-1)
+    refused("^progress = 3, must be a function or None$", cart(), TypeError, progress=3)
+    refused("unknown option '1'", cart(), set={1: 3})
+    refused("^robot = 3, must be a Robot, the name of a built-in one, or a path$", 3, TypeError)
     refused("prior lost changes the start", cart(priors={"lost": rehearse.Model(lambda x, u: np.full_like(x, np.nan))}))
     refused("division", cart(reward=lambda states, actions, following: 1 / 0), ZeroDivisionError)
     with pytest.raises(rehearse.InvalidInput, match="learners is missing"):
@@ -322,4 +325,6 @@ def test_what_is_wrong_is_said_and_leaves_no_folder(tmp_path):
         campaign(cart(), tmp_path / "out", seeds=1, trials=1, set={**QUICK, "search.selection": 11})
     with pytest.raises(rehearse.InvalidInput, match="has no run 'x' .known: cart-gp-mi-light-1"):
         done.run("x")
+    with pytest.raises(TypeError, match="^robot is 'cart', must be the Robot that the folder began with$"):
+        rehearse.open_campaign(done.folder, "cart")
     assert json.loads(files(done)[1])["complete"]

@@ -88,6 +88,7 @@ def test_results_are_short_in_a_terminal(tmp_path):
     assert repr(found).startswith("<rehearse.Identification: mass 1.6 (1.6 to ") and len(repr(found)) < 80
     assert repr(rehearse.Cmaes([0.0], 1.0)) == "<rehearse.Cmaes after 0 evaluations>"
     assert "after 0 evaluations" in repr(rehearse.MapElites([(0, 1)], [(0, 1)], bins=[3]))
+    assert rehearse.Evaluation(np.empty(0), [], [], [], []).table["broke"].dtype.kind == "U"
     evaluated = run.evaluate(2, threads=1)
     assert evaluated == evaluated and evaluated != run.evaluate(2, threads=1) and len({evaluated, found}) == 2
 
@@ -177,6 +178,7 @@ def test_a_wrong_argument_is_named(tmp_path):
             (lambda: learn(cart(), tmp_path / "none", options={1: 2}), "a name in options = 1, must be a text"),
             (lambda: learn(cart(), tmp_path / "none", learner=None), "learner = None, must be a text"),
             (lambda: learn(cart(), tmp_path / "none", until_solved="no"), "until_solved = 'no', must be True or False"),
+            (lambda: learn(3, tmp_path / "none"), "robot = 3, must be a Robot, the name of a built-in one, or a path"),
             (lambda: learn(cart(), tmp_path / "none", progress=3), "progress = 3, must be a function or None"),
             (lambda: run.evaluate(2, seconds=None), "seconds = None, must be a number"),
             (lambda: run.tell({}, at_fault=0), "at_fault = 0, must be True or False"),
