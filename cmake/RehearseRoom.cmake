@@ -19,7 +19,7 @@ option(REHEARSE_TOGETHER "Compile several sources at once; OFF for tools that lo
 # Compiles the sources of a target several at once: what takes the compiler long in them are headers and templates, which
 # they share. Names of helpers are unique in the target.
 function(rehearse_together target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${REHEARSE_TOGETHER} UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${REHEARSE_TOGETHER} UNITY_BUILD_BATCH_SIZE 16)
 endfunction()
 
 # The same, and optimises them little.

@@ -13,7 +13,7 @@
 namespace rehearse::apps {
 namespace {
 
-std::size_t terminal_width() {
+std::size_t line_width() {
   winsize size{};
   return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1u : 79u;
 }
@@ -40,7 +40,7 @@ bool StatusLine::is_due() const { return terminal_ && Clock::now() - last_ >= st
 void StatusLine::show(const std::string& line) {
   if (!is_due()) return;
   last_ = Clock::now();
-  fmt::print("\r\033[K{}", first_characters(printable(line), terminal_width()));
+  fmt::print("\r\033[K{}", first_characters(printable(line), line_width()));
   std::fflush(stdout);
   shown_ = true;
 }

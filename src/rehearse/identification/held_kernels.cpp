@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kGain = 1e-3;  // nats: steps that promise or gain less are not made
 constexpr double kLeastDamping = 1e-9, kFirstDamping = 1e-6;
-constexpr int kMostSteps = 30, kMostDampings = 10;
+constexpr int kMostHeldSteps = 30, kMostDampings = 10;
 
 optim::SubplexOptions subplex(Index parameters) {
   return {.max_evaluations = 50 * parameters, .x_tolerance = 1e-6, .value_tolerance = 1e-8, .first_step = 0.01};
@@ -23,7 +23,7 @@ class Climb {
   explicit Climb(const HeldKernels& held) : held_(held), z_(held.start()), at_(held.at(z_)) {}
 
   void run() {
-    for (int i = 0; i < kMostSteps && std::isfinite(at_.score); ++i) {
+    for (int i = 0; i < kMostHeldSteps && std::isfinite(at_.score); ++i) {
       const double before = at_.score;
       const Made made = step();
       if (made == Made::none) return;

@@ -7,7 +7,7 @@ namespace rehearse::identification {
 namespace {
 
 constexpr double kFirstStep = 1e-3, kLargestStep = 0.1, kLeastStep = 5e-4;  // fractions of the box
-constexpr Index kMostSteps = 20;                                            // of the others, each time
+constexpr Index kMostReachSteps = 20;                                       // of the others, each time
 constexpr double kNear = 0.1;                                               // of the tolerance: as good as the minimum
 
 class Walk {
@@ -53,7 +53,7 @@ class Walk {
     guess(i) = to;
     optim::SquaresProblem held = problem_;
     held.low(i) = held.high(i) = to;
-    return optim::minimise_squares(held, guess, {.max_steps = kMostSteps});
+    return optim::minimise_squares(held, guess, {.max_steps = kMostReachSteps});
   }
 
   optim::SquaresProblem problem_;

@@ -8,7 +8,7 @@
 namespace rehearse::identification {
 namespace {
 
-constexpr int kMostSteps = 60, kMostHalvings = 20;
+constexpr int kMostScoreSteps = 60, kMostHalvings = 20;
 constexpr double kGain = 1e-6;  // nats: a smaller one ends the search
 
 struct Ascent {
@@ -69,7 +69,7 @@ Vector best_step(const Quadratics& quadratics, Score score, const Vector& low, c
     return score_of(quadratics.at(x), score) - 0.5 * x.dot(penalty.cwiseProduct(x));
   };
   double value = objective(d);
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMostScoreSteps; ++i) {
     Ascent ascent = ascent_at(quadratics, score, d);
     ascent.gradient -= penalty.cwiseProduct(d);
     ascent.curvature.diagonal() += penalty;
