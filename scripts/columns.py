@@ -1,6 +1,7 @@
 """Kinds of columns for scripts/tables: (heading, text of the runs of a row)."""
 import math
 
+from rates import rate
 from runs import quantile
 
 NONE, NOT_RUN = "–", "?"
@@ -94,6 +95,16 @@ def each(heading, digits, mark=""):
     def text(runs):
         return " ".join(number(float(t["return"]), digits) + (mark if t["solved"] == "1" else "")
                         for t in runs[0].trials)
+
+    return heading, text
+
+
+def broken(heading, said):
+    """How many of the trials that were said to be so (scripts/limits) broke a limit."""
+
+    def text(runs):
+        trials = [trial for run in runs for trial in run.trials if trial["said"] == said]
+        return rate(sum(trial["broken"] == "1" for trial in trials), len(trials))
 
     return heading, text
 
