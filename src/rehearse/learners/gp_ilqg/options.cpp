@@ -14,6 +14,8 @@ void PlanSearch::fields(FieldVisitor& v) {
            at_least(0));
   v.boolean("hold", hold, "plans end with an infinite-horizon LQR near the goal, where that is better",
             published(false, kLee));
+  v.boolean("soften", soften, "plans with higher action costs compete where measurement noise shakes the actions",
+            published(false, kLee));
   v.integer("starts", starts, "random initial plans, beside the last plan", between(1, 10000));
   v.number("start_size", start_size,
            "range of the random initial actions, as a fraction of the full range around its centre", between(0, 1));

@@ -18,6 +18,7 @@ struct PlanSearch {
   double action_cost = 1e-3;  // of an action at its bound, for a step, beside the reward
   double uncertainty = 1;     // weight of the cost of the model's variance; 0: plans use the mean alone
   bool hold = true;           // plans end with feedback of an infinite horizon, where that is better
+  bool soften = true;         // plans with less feedback compete where noise of measurements shakes the actions
   Index starts = 16;          // random actions that plans begin with, beside the last plan
   double start_size = 0.3;    // fraction of their range, about its middle, for such actions
   double start_hold_s = 0.2;  // how long such an action is held

@@ -13,6 +13,8 @@ namespace rehearse::learners::gp_ilqg {
 namespace {
 
 constexpr double kSamePromise = 1e-3;  // relative
+constexpr double kShaken = 0.01;       // of half an action's range, by the noise of measurements: a gain is too large
+constexpr double kSofter = 10, kSoftest = 100;  // of the action cost
 
 using Stages = std::vector<policy::FeedbackStage>;
 
@@ -39,10 +41,13 @@ class Search {
       std::move(as_it_is.begin(), as_it_is.end(), std::back_inserter(plans));
     }
     const bool to_linear = search_.cost != PlanSearch::Cost::logarithmic;
-    const PlanOptions further = options(by_logarithm && !to_linear, 1, search_.iterations);
-    std::vector<Plan> finals = improved(stages_of(plans), further);
-    if (const auto hold = search_.hold ? best_hold(finals, further) : std::nullopt)
-      for (Plan& plan : improved(stages_of(finals), further, &*hold)) finals.push_back(std::move(plan));
+    PlanOptions further = options(by_logarithm && !to_linear, 1, search_.iterations);
+    std::vector<Plan> finals = finished(plans, further), softer = finals;
+    for (double factor = kSofter; factor <= kSoftest && are_shaken(softer); factor *= kSofter) {
+      further.cost.action_cost = factor * search_.action_cost;
+      softer = finished(plans, further);
+      finals.insert(finals.end(), softer.begin(), softer.end());
+    }
     return chosen(finals);
   }
 
@@ -96,6 +101,29 @@ class Search {
     });
     std::erase_if(plans, [](const Plan& plan) { return !std::isfinite(plan.cost); });
     return plans;
+  }
+
+  /// Improved to the end, and again towards a hold.
+  std::vector<Plan> finished(const std::vector<Plan>& plans, const PlanOptions& further) const {
+    std::vector<Plan> finals = improved(stages_of(plans), further);
+    if (const auto hold = search_.hold ? best_hold(finals, further) : std::nullopt)
+      for (Plan& plan : improved(stages_of(finals), further, &*hold)) finals.push_back(std::move(plan));
+    return finals;
+  }
+
+  /// True if feedback passes so much of the measurements' noise on to the actions that plans with less of it may earn
+  /// more. The passes, which know no such noise, cannot tell.
+  bool are_shaken(const std::vector<Plan>& plans) const {
+    const Vector noise = problem_.model.measurement_std();
+    if (!search_.soften || noise.size() == 0) return false;
+    const Vector half = StepCosts(problem_.task, {}).half_ranges();
+    return std::ranges::any_of(plans, [&](const Plan& plan) {
+      Vector variance = Vector::Zero(half.size());
+      for (const policy::FeedbackStage& stage : plan.stages)
+        variance += (stage.gain * noise.asDiagonal()).rowwise().squaredNorm();
+      const Vector shaken = (variance / static_cast<double>(plan.stages.size())).cwiseSqrt();
+      return (shaken.array() > kShaken * half.array()).any();
+    });
   }
 
   static std::vector<Stages> stages_of(const std::vector<Plan>& plans) {

@@ -58,6 +58,43 @@ TEST(PlanSearch, PrefersWhatSolvesTheTask) {
   EXPECT_TRUE(search(task, kSmall, serial_evaluator()));
 }
 
+/// The line, measured with noise.
+class Shaky final : public dynamics::DynamicsModel {
+ public:
+  explicit Shaky(double noise) : std_(Vector::Constant(2, noise)) {}
+  void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
+               MatrixView variance) const override {
+    line_.predict(X, U, mean, variance);
+  }
+  const Vector& measurement_std() const override { return std_; }
+
+ private:
+  line::Model line_{1e-4};
+  Vector std_;
+};
+
+double mean_gain(const Task& task, const FoundPlan& plan) {
+  const auto stages = policy::to_stages(task, plan.theta);
+  double sum = 0;
+  for (const policy::FeedbackStage& stage : stages) sum += stage.gain.norm();
+  return sum / static_cast<double>(stages.size());
+}
+
+TEST(PlanSearch, FeedbackIsSofterWhereMeasurementsAreNoisy) {
+  const Task task = line::task(20);
+  PlanSearch eager = kSmall;
+  eager.action_cost = 1e-3;
+  const auto found_with = [&](double noise) {
+    const Shaky model(noise);
+    return search_plan({model, task, serial_evaluator()}, eager, {}, {.trial = 1}, {});
+  };
+  const auto exact = found_with(1e-6), noisy = found_with(0.3);
+  ASSERT_TRUE(exact && noisy);
+  EXPECT_LT(mean_gain(task, *noisy), 0.9 * mean_gain(task, *exact));
+  EXPECT_EQ(exact->theta, search(task, eager, serial_evaluator())->theta)
+      << "noise that shakes nothing changes nothing";
+}
+
 TEST(PlanSearch, SaysWhenNoPlanIsFinite) {
   Task task = line::task(2);
   task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView rewards) {
