@@ -14,7 +14,7 @@ fail() {
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
 mkdir "$copy"/{scripts,results}
-cp "$root"/scripts/{tables,columns.py,runs.py} "$copy"/scripts
+cp "$root"/scripts/{tables,*.py} "$copy"/scripts
 cp "$root"/results/*.csv "$copy"/results
 cp -r "$root"/docs "$copy"
 document=$copy/docs/results/priors.md
