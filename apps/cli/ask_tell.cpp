@@ -93,8 +93,7 @@ void print_asked(const experiment::Resolved& resolved, const TrialRecord& trial,
 }
 
 std::string steps_text(const Episode& episode, double dt_s) {
-  return fmt::format("{} step{}, {:.4g} s", episode.steps(), episode.steps() == 1 ? "" : "s",
-                     seconds(episode.steps(), dt_s));
+  return fmt::format("{}, {:.4g} s", counted(episode.steps(), "step"), seconds(episode.steps(), dt_s));
 }
 
 void print_logs(const std::vector<experiment::Log>& logs, const Task& task) {

@@ -18,10 +18,6 @@ using campaign::Campaign, campaign::CampaignGroup, campaign::ClaimPart, campaign
     campaign::RunOutcome, campaign::RunState, campaign::TrialStatistics, campaign::Verdict;
 using Seconds = std::chrono::duration<double>;
 
-std::string counted(std::size_t number, const char* what) {
-  return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
-}
-
 std::string label_of(const CampaignGroup& group) {
   std::string label = group.learner;
   for (const std::string& part : {group.prior, group.variant})
@@ -123,7 +119,7 @@ void print_claims(const Campaign& campaign) {
 std::string headline(const campaign::CampaignPlan& plan) {
   return fmt::format("{}: {} ({} × {}) of {}{}", plan.title, counted(plan.runs.size(), "run"),
                      counted(plan.groups.size(), "group"), counted(plan.seeds.size(), "seed"),
-                     plan.until_solved ? "up to " : "", counted(static_cast<std::size_t>(plan.trials), "trial"));
+                     plan.until_solved ? "up to " : "", counted(plan.trials, "trial"));
 }
 
 }  // namespace
@@ -147,8 +143,7 @@ void CampaignConsole::started(const Campaign& campaign, Index at_once) {
     line_.print(fmt::format("{} in {}", headline(plan_), folder_));
   else
     line_.print(fmt::format("{}: share {} of {}, {} of {} in {}", plan_.title, share_.number, share_.of,
-                            counted(plan_.runs.size(), "run"), counted(static_cast<std::size_t>(plan_.trials), "trial"),
-                            folder_));
+                            counted(plan_.runs.size(), "run"), counted(plan_.trials, "trial"), folder_));
   for (const auto& [name, reason] : plan_.missing) line_.print(fmt::format("missing: {}", reason));
   for (const auto& [path, reason] : campaign.skipped) line_.print(fmt::format("skipped: {}: {}", path, reason));
   for (std::size_t i = 0; i < campaign.runs.size(); ++i)

@@ -13,8 +13,6 @@
 namespace rehearse::apps {
 namespace {
 
-std::string count_of_trials(Index trials) { return fmt::format("{} trial{}", trials, trials == 1 ? "" : "s"); }
-
 using Seconds = std::chrono::duration<double>;
 
 std::string verdict(const std::optional<bool>& solved) { return !solved ? "" : *solved ? "  solved" : "  not solved"; }
@@ -45,7 +43,7 @@ void Console::started(const experiment::Resolved& resolved, const std::filesyste
   if (begins_ == Begin::silent) return;
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
   const std::string trials =
-      spec.trials == 0 ? "trials" : (spec.until_solved ? "up to " : "") + count_of_trials(spec.trials);
+      spec.trials == 0 ? "trials" : (spec.until_solved ? "up to " : "") + counted(spec.trials, "trial");
   line_.print(fmt::format("{} learned by {}{}, seed {}: {} of {} s in {}", spec.scenario, spec.learner, prior,
                           spec.seed, trials, resolved.scenario.task.episode_s(), folder.string()));
   for (const std::string& warning : resolved.warnings) line_.print("warning: " + warning);
@@ -100,7 +98,7 @@ void Console::finished(const experiment::RunResult& result) {
                                    command_line({"ask", folder}), command_line({"tell", folder, "LOG.csv…"})));
   const std::string solved = result.solved_at
                                  ? fmt::format("solved at trial {}", *result.solved_at)
-                                 : (says_when_solved_ ? "not solved in " : "") + count_of_trials(result.trials);
+                                 : (says_when_solved_ ? "not solved in " : "") + counted(result.trials, "trial");
   line_.print(fmt::format("{}, best return {:.3f}, in {}; its page: {}", solved, result.best_return, folder,
                           command_line({"report", folder})));
 }

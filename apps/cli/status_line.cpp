@@ -26,6 +26,10 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
+std::string counted(std::int64_t number, const char* what) {
+  return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
 // mpirun shows rank 0 a terminal even where its own output goes to a file.
 StatusLine::StatusLine() : terminal_(::isatty(STDOUT_FILENO) == 1 && launch().size == 1) {}
 

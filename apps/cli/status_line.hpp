@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 namespace rehearse::apps {
@@ -28,5 +29,8 @@ class StatusLine {
 
 /// "45 s", "12 min", "3.1 h"
 std::string duration_text(double seconds);
+
+/// "1 trial", "3 trials"
+std::string counted(std::int64_t number, const char* what);
 
 }  // namespace rehearse::apps
