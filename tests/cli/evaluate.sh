@@ -106,7 +106,7 @@ dynamics = "pushed"
 dynamics = "pushed"
 TOML
 expect 0 "solved at trial 1" learn drift.toml --learner black-drops --trials 1 --out drift
-advice="--set search.extra_s=SECONDS"
+advice="--set search.extra_s=SECONDS or search.hand_over=true"
 expect 0 "$advice" evaluate drift --seconds 5 --episodes 2
 expect 0 "solved at 1 s  2 of 2" evaluate drift --episodes 2
 grep -qF -- "$advice" said && fail "episodes of a trial's length are advised on: $(cat said)"

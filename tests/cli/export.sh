@@ -5,6 +5,7 @@ source "$(dirname "$0")/../prelude.sh"
 quick=(--set search.race.max_evaluations=100 --set search.race.descents=1 --set search.selection=2)
 expect 0 "best return" learn pendulum --learner black-drops --trials 2 "${quick[@]}" --out mlp
 expect 0 "best return" learn pendulum --learner gp-mi --trials 1 "${quick[@]}" --set policy=linear --out linear
+expect 0 "best return" learn pendulum --learner gp-mi --trials 1 "${quick[@]}" --set search.hand_over=true --out near
 expect 0 "best return" learn pendulum --learner pilco --trials 2 --set search.restarts=0 --out rbf
 
 # works FILE: its own test passes
@@ -19,7 +20,7 @@ works() {
 endings=(json)
 command -v cc >/dev/null && endings+=(h)
 python3 -c 'import numpy' 2>/dev/null && endings+=(py)
-for run in mlp linear rbf; do
+for run in mlp linear near rbf; do
   for ending in "${endings[@]}"; do
     expect 0 "$run.$ending: the policy of trial " export $run --out $run.$ending
     works $run.$ending >said 2>&1 || fail "$run.$ending: $(cat said)"
@@ -55,6 +56,9 @@ theta() { tr -d ' \n' <"$1" | grep -o '"theta":\[[^]]*\]'; }
 [ -n "$(theta begun.json)" ] && [ "$(theta begun.json)" = "$(theta mlp.json)" ] || fail "the first trial is another policy"
 expect 0 "best return" learn begun/spec.toml --out repeated
 same begun repeated trials.csv policy.json spec.toml
+expect 0 "best return" learn pendulum --learner black-drops --trials 1 "${quick[@]}" --policy near.json --out begun_elsewhere
+grep -q '"near"' near.json || fail "the policy of the hand-over has no feedback"
+expect 0 "of 3" evaluate near --episodes 3
 expect 2 "rbf.json: learner pilco cannot begin with a policy" learn pendulum --learner pilco --policy rbf.json --out refused
 expect 2 "mlp.json: learner pilco cannot begin with a policy" learn pendulum --learner pilco --policy mlp.json --out refused
 expect 2 "linear.json is a policy 'linear', but learner gp-mi begins with policies 'mlp' here" learn pendulum --learner gp-mi --policy linear.json --out refused

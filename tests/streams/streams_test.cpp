@@ -113,6 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
     Learners, Streams,
     ::testing::Values(Case{"black-drops", "pendulum", kSmallSearch},
                       Case{"black-drops-prior", "pendubot", kSmallSearch}, Case{"gp-mi", "pendubot", kSmallSearch},
+                      Case{"gp-mi", "pendubot", with(kSmallSearch, {{"search.hand_over", "true"}})},
                       Case{"mi", "pendubot", kSmallSearch}, Case{"gp-mi", "pendubot", kSmallRestarts},
                       Case{"black-drops", "pendulum", kSmallGradient}, Case{"gp-mi", "pendubot", kSmallGradient},
                       Case{"gp-mi", "cartpole",

@@ -27,6 +27,7 @@ enum class Purpose : std::uint8_t {
   test = 12,
   doubt = 13,    // parameters that a prior may have as well as its own
   dropout = 14,  // weights that a step of a search by gradient leaves out
+  states = 15,   // from which feedback is tried
 };
 
 /// The system that a learner's trials run on.
@@ -46,6 +47,7 @@ enum class Stage : std::uint8_t {
   prediction = 6,    // what the model expects of the policy that is tried
   evaluation = 7,    // extra episodes on the plant
   safe_search = 8,   // of a policy, where the search before found none that keeps the limits
+  goal = 9,          // where feedback holds the robot, and from where
 };
 
 /// The name of a stream: a field for every thing that its numbers depend on. Streams whose keys differ in any field are

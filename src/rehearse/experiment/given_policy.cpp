@@ -7,6 +7,7 @@
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/learners/json.hpp"
+#include "rehearse/policy/hand_over.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -91,10 +92,11 @@ Spec with_start(const Catalogue& catalogue, Spec spec, const std::string& text, 
   if (!resolved.learner->takes_start())
     throw InvalidInput(fmt::format("{}: learner {} cannot begin with a policy", source, learner));
   const std::string kind = kind_of(text, source);
-  if (kind != known)
+  if (kind != known && kind != policy::kHandOver)
     throw InvalidInput(fmt::format("{} is a policy '{}', but learner {} begins with policies '{}' here (option policy)",
                                    source, kind, learner, known));
-  spec.start = start_text(given_policy(text, source, resolved.scenario).learned.theta);
+  const Vector theta = given_policy(text, source, resolved.scenario).learned.theta;
+  spec.start = start_text(theta.head(resolved.scenario.policy->parameters()));  // without the feedback
   return resolve(catalogue, spec).spec;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -54,8 +55,20 @@ struct Feedback {
   std::vector<bool> angles;  // which states are
 };
 
+/// Near a state: where (x − state)ᵀ shape (x − state) < 1, u = action + gain · (x − state), moved into its bounds,
+/// whatever the form says. Differences of angles are those of Feedback.
+struct Near {
+  Vector action, state;
+  Matrix gain;   // actions × states
+  Matrix shape;  // states × states
+  std::vector<bool> angles;
+};
+
 /// A policy at one θ as plain numbers, for exports (exported.hpp).
-using Description = std::variant<Layers, Radial, Table, Feedback>;
+struct Description {
+  std::variant<Layers, Radial, Table, Feedback> form;
+  std::optional<Near> near = {};
+};
 
 /// A policy that can be described as numbers. A Policy of one's own that is to be exported implements it, too.
 class Describable {

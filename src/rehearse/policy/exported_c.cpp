@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/policy/exported_commands.hpp"
+#include "rehearse/policy/exported_near.hpp"
 #include "rehearse/policy/exported_text.hpp"
 
 namespace rehearse::policy {
@@ -193,14 +194,14 @@ void add_memory(const Exported& exported, const std::string& name, Values& value
   values["MEMORY_ARGUMENT"] = " memory,";
   for (const auto& [part, text] : kMemory) values[part] = filled(text, values);
   const auto remembered = [own = measured(exported)](Index state) { return fmt::format("memory[{}]", state - own); };
-  const auto action = [](Index a) { return fmt::format("action[{}]", a); };
-  values["COMMANDS"] = "  /* Commands follow from the last ones, and are remembered. */\n" +
-                       command_lines(exported.actuators, {.action = action,
-                                                          .before = remembered,
-                                                          .after = remembered,
-                                                          .limited = name + "_limit({0}, {1}, {2})",
-                                                          .end = ";",
-                                                          .indent = "  "});
+  values["COMMANDS"] =
+      "  /* Commands follow from the last ones, and are remembered. */\n" +
+      command_lines(exported.actuators, {.action = [](Index a) { return fmt::format("action[{}]", a); },
+                                         .before = remembered,
+                                         .after = remembered,
+                                         .limited = name + "_limit({0}, {1}, {2})",
+                                         .end = ";",
+                                         .indent = "  "});
 }
 
 /// NUMBERS and COMPUTE of a description.
@@ -292,8 +293,8 @@ std::string to_c(const Exported& exported, const std::string& name) {
   for (char& c : values["UPPER"]) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   for (const std::string& line : explanation(exported)) values["WHERE_FROM"] += " * " + line + "\n";
   add_memory(exported, name, values);
-  Body body(exported, values);
-  std::visit(body, exported.description);
+  std::visit(Body(exported, values), exported.description.form);
+  values["COMPUTE"] += near_in_c(exported, name);
   return filled(kFrame, values);
 }
 

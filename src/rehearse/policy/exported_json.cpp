@@ -62,6 +62,17 @@ Json to_form(const Feedback& feedback) {
           {"angles", feedback.angles}};
 }
 
+Json computes(const Description& description) {
+  Json all = std::visit([](const auto& form) { return to_form(form); }, description.form);
+  if (const auto& near = description.near)
+    all["near"] = {{"action", list(near->action)},
+                   {"state", list(near->state)},
+                   {"gain", lists(near->gain)},
+                   {"shape", lists(near->shape)},
+                   {"angles", near->angles}};
+  return all;
+}
+
 /// The conversion of each action to a command, and its memory: docs/export.md.
 Json commands(const Actuators& actuators) {
   Json all = Json::array();
@@ -100,7 +111,7 @@ std::string to_json(const Exported& exported) {
               {"actions", actions},
               {"policy", exported.kind},
               {"theta", list(exported.theta)},
-              {"computes", std::visit([](const auto& form) { return to_form(form); }, exported.description)},
+              {"computes", computes(exported.description)},
               {"test",
                {{"states", lists(exported.answers.states)},
                 {"times_s", list(exported.answers.times_s)},

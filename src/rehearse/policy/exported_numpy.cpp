@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rehearse/policy/exported_commands.hpp"
+#include "rehearse/policy/exported_near.hpp"
 #include "rehearse/policy/exported_text.hpp"
 
 namespace rehearse::policy {
@@ -209,7 +210,8 @@ std::string to_numpy(const Exported& exported) {
       {"TEST_ACTIONS", table(exported.answers.actions)}};
   for (const std::string& line : explanation(exported)) values["WHERE_FROM"] += "# " + line + "\n";
   add_memory(exported, values);
-  std::visit(Body(values), exported.description);
+  std::visit(Body(values), exported.description.form);
+  values["COMPUTE"] += near_in_numpy(exported);
   return filled(kFrame, values);
 }
 

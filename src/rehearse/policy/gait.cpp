@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -73,7 +74,7 @@ class Gait final : public Policy, public Describable {
     const Matrix Theta = theta.transpose(), X = Matrix::Zero(1, 1);
     for (Index i = 0; i < kSamples; ++i)
       act(Theta, X, static_cast<double>(i) / kSamples, table.actions.middleRows(i, 1));
-    return table;
+    return {std::move(table)};
   }
 
  private:

@@ -124,10 +124,10 @@ class Network : public Base, public Describable, public Differentiable {
     const auto layer_of = [&](Index first, Index outputs, Index columns) -> Matrix {
       return theta.segment(first, outputs * columns).reshaped(columns, outputs).transpose();
     };
-    return Layers{.inputs = inputs_of(features_, scale_),
-                  .hidden = layer_of(0, hidden_, inputs + 1),
-                  .output = layer_of(of_hidden, actions(), (hidden_ == 0 ? inputs : hidden_) + 1),
-                  .squash = squash_};
+    return {Layers{.inputs = inputs_of(features_, scale_),
+                   .hidden = layer_of(0, hidden_, inputs + 1),
+                   .output = layer_of(of_hidden, actions(), (hidden_ == 0 ? inputs : hidden_) + 1),
+                   .squash = squash_}};
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
@@ -155,7 +156,7 @@ class RbfNetwork final : public Rbf, public Describable, public Differentiable {
         radial.lengths(a, i) = std::exp(std::clamp(theta(a * inputs + i), -kLargestLogLength, kLargestLogLength));
       radial.weights.row(a) = solved_weights(radial.centres, radial.lengths.row(a), noise, targets).transpose();
     }
-    return radial;
+    return {std::move(radial)};
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ class Schedule final : public Policy, public Describable {
   Schedule(std::vector<Interval> bounds, double dt_s, Index steps)
       : bounds_(std::move(bounds)), dt_s_(dt_s), steps_(steps) {}
 
-  std::string name() const override { return "schedule"; }
+  std::string name() const override { return kSchedule; }
   Index parameters() const override { return steps_ * actions(); }
   Index actions() const override { return static_cast<Index>(bounds_.size()); }
 
@@ -41,7 +42,7 @@ class Schedule final : public Policy, public Describable {
       const auto [low, high] = bounds_[static_cast<std::size_t>(a)];
       table.actions.col(a) = table.actions.col(a).cwiseMax(low).cwiseMin(high).eval();
     }
-    return table;
+    return {std::move(table)};
   }
 
  private:

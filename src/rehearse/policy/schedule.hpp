@@ -15,6 +15,9 @@ namespace rehearse::policy {
 /// there are no bounds.
 std::shared_ptr<const Policy> make_schedule(std::vector<Interval> bounds, double dt_s, Index steps);
 
+/// The name of the schedule.
+inline constexpr const char* kSchedule = "schedule";
+
 enum class RandomActions {
   uniform,   // in their bounds
   extremes,  // one bound or the other: a random binary signal, which moves a system most

@@ -50,11 +50,11 @@ class Tracking final : public Policy, public Describable {
   Description describe(const ConstVectorView& theta) const override {
     const Index dx = states(), du = actions();
     const Matrix by_stage = theta.reshaped(numbers(), stages_).transpose();
-    return Feedback{.actions = by_stage.leftCols(du),
-                    .states = by_stage.middleCols(du, dx),
-                    .gains = by_stage.rightCols(du * dx),
-                    .per_s = 1 / dt_s_,
-                    .angles = angle_};
+    return {Feedback{.actions = by_stage.leftCols(du),
+                     .states = by_stage.middleCols(du, dx),
+                     .gains = by_stage.rightCols(du * dx),
+                     .per_s = 1 / dt_s_,
+                     .angles = angle_}};
   }
 
  private:

@@ -1,11 +1,15 @@
 #include "rehearse/rollout/forecast.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 
 namespace rehearse::rollout {
 namespace {
+
+constexpr Index kFollowedAtOnce = 64;  // rows of a task of the evaluator
 
 /// The predicted states; failed ones, which are no input for a model, replaced by states of the episode.
 Matrix known_states(const Matrix& predicted, const Episode& episode) {
@@ -38,6 +42,32 @@ std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode
     }
     arrived.push_back(predicted);
   }
+  return arrived;
+}
+
+Matrix follow(const dynamics::DynamicsModel& model, const Task& task, const FixedPolicy& policy, const Matrix& states,
+              Index steps, const Evaluator& evaluator) {
+  Matrix arrived = states;
+  const Actuators actuators = task.actuators();
+  const Index chunks = (states.rows() + kFollowedAtOnce - 1) / kFollowedAtOnce;
+  evaluator.for_each(chunks, [&](Index chunk) {
+    const Index first = chunk * kFollowedAtOnce, rows = std::min(kFollowedAtOnce, states.rows() - first);
+    const Matrix from = states.middleRows(first, rows), Theta = policy.theta.transpose().replicate(rows, 1);
+    Matrix now = from, known(rows, states.cols()), change(rows, states.cols()), actions(rows, task.action_size());
+    for (Index t = 0; t < steps; ++t) {
+      evaluator.stop_if_asked();
+      known = now;
+      for (Index i = 0; i < rows; ++i)
+        if (!now.row(i).allFinite()) known.row(i) = from.row(i);  // no input for a model or a policy
+      policy.policy.act(Theta, known, static_cast<double>(t) * task.dt_s, actions);
+      actuators.command(known, actions);
+      model.predict_mean(known, actions, change);
+      now += change;
+    }
+    for (Index i = 0; i < rows; ++i)
+      if (!now.row(i).allFinite()) now.row(i).setConstant(kNaN);
+    arrived.middleRows(first, rows) = now;
+  });
   return arrived;
 }
 

@@ -55,6 +55,10 @@ TEST(PastRun, PoliciesAreThoseOfTheirTrials) {
   const PastRun run = read_run(fake::catalogue(), folder);
   EXPECT_EQ(policy_of(run.trial(1), run.resolved.scenario)->name(), "schedule");
   EXPECT_EQ(policy_of(run.trial(2), run.resolved.scenario)->name(), "line");
+  TrialRecord handing_over = run.trial(2);
+  handing_over.policy = "hand-over";
+  const auto elsewhere = run.resolved.scenario.policy;
+  EXPECT_GT(policy_of(handing_over, run.resolved.scenario)->parameters(), elsewhere->parameters());
   TrialRecord unknown = run.trial(1);
   unknown.policy = "mlp";
   EXPECT_THROW(policy_of(unknown, run.resolved.scenario), InvalidInput);

@@ -10,6 +10,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/learners/black_drops/exploration.hpp"
+#include "rehearse/learners/black_drops/hand_over.hpp"
 #include "rehearse/learners/black_drops/known_policies.hpp"
 #include "rehearse/learners/black_drops/policy_search.hpp"
 #include "rehearse/learners/black_drops/trial_search.hpp"
@@ -19,6 +20,7 @@
 #include "rehearse/learners/start_policy.hpp"
 #include "rehearse/learners/trial_learner.hpp"
 #include "rehearse/policy/differentiable.hpp"
+#include "rehearse/policy/hand_over.hpp"
 #include "rehearse/policy/schedule.hpp"
 
 namespace rehearse::learners::black_drops {
@@ -54,8 +56,10 @@ class BlackDrops final : public TrialLearner {
 
  private:
   void learn(const Proposal& tried, const Episode& episode) override {
-    const bool explored = tried.policy != setting_.policy && !history_.policies.empty();
-    history_.policies.push_back(explored ? Vector() : tried.theta);
+    const bool explored = tried.policy->name() == policy::kSchedule && !history_.policies.empty();
+    const bool hands_over = tried.policy->name() == policy::kHandOver;
+    const Vector theta = hands_over ? tried.theta.head(setting_.policy->parameters()) : tried.theta;
+    history_.policies.push_back(explored ? Vector() : theta);
     model_.add(episode);
     history_.earn(episode, setting_.task.horizon);
   }
@@ -88,17 +92,31 @@ class BlackDrops final : public TrialLearner {
       state = model_.learn(proposal);
       if (options_.reward.learned) learn_reward(proposal, task);
     });
-    if (known && known->policy != setting_.policy->name()) proposal.policy = schedule();  // it explored
-    if (known)
+    if (known) {
+      proposal.policy = policy_named(known->policy);
       proposal.theta = known->theta;
-    else
+    } else
       proposal.search_s = seconds([&] { search(proposal, task); });
     model_.keep(std::move(state));
     return proposal;
   }
 
+  std::shared_ptr<const policy::Policy> policy_named(const std::string& name) const {
+    if (name == setting_.policy->name()) return setting_.policy;
+    if (name == policy::kHandOver) return policy::make_hand_over(setting_.task, setting_.policy);
+    return schedule();  // it explored
+  }
+
+  std::optional<policy::HandOver> goal_of(const dynamics::DynamicsModel& model, const Task& task) const {
+    if (!options_.search.hand_over) return std::nullopt;
+    return find_goal({model, task, *setting_.evaluator}, stream());
+  }
+
   void search(Proposal& proposal, const Task& task) const {
-    SearchProblem problem{*proposal.model, *setting_.policy, task, *setting_.evaluator, setting_.progress};
+    const auto goal = goal_of(*proposal.model, task);
+    if (options_.search.hand_over && !goal) proposal.notes.emplace_back(kNoGoal);
+    const auto searched = goal ? policy::with_hand_over(task, setting_.policy, *goal) : setting_.policy;
+    SearchProblem problem{*proposal.model, *searched, task, *setting_.evaluator, setting_.progress};
     if (without_data() && !task.limits.empty())
       problem.doubted = doubted(*setting_.prior, options_.search.safety.doubt, stream());
     const Task longer_task = continued(task, options_.search.extra_s);
@@ -109,7 +127,8 @@ class BlackDrops final : public TrialLearner {
     if (setting_.start) known.insert(known.begin(), *setting_.start);
     const bool further = longer_task.horizon > task.horizon;
     const Choice choice = search_trial(searches, further ? &longer : nullptr, {known, without_data()}, options_);
-    proposal.theta = choice.theta;
+    proposal.theta = goal ? policy::to_theta(choice.theta, *goal) : choice.theta;
+    if (goal) proposal.policy = policy_named(policy::kHandOver);
     proposal.predicted_return = choice.predicted_return;
     for (std::string& line : warnings(choice.risks, task.limits)) proposal.notes.push_back(std::move(line));
     proposal.risks = choice.risks;
@@ -206,6 +225,7 @@ std::vector<std::string> violations_with(const Options& options, const Task& tas
     return {
         "search.method = gradient or polish, but commands are filtered or limited in their rate, whose derivatives "
         "are not known: choose search.method = race"};
+  if (auto violations = hand_over_violations(options.search, task); !violations.empty()) return violations;
   if (task.episode_reward && needs_derivatives(options.search.method))
     return {
         "search.method = gradient or polish, but the task has a reward of whole episodes ([reward] episode), whose "

@@ -15,6 +15,7 @@ void SearchOptions::fields(FieldVisitor& v) {
   v.integer("particles", particles, "rollouts of one evaluation", between(1, 1e6));
   v.number("extra_s", extra_s, "simulated episodes are longer than a trial by this, so that policies hold longer [s]",
            between(0, 1e4));
+  v.boolean("hand_over", hand_over, "policies hand over to linear feedback (LQR) near a goal where the robot can stay");
   v.group("simulate", simulate);
   v.group("race", race);
   v.group("restarts", restarts, kExpert);

@@ -30,9 +30,10 @@ inline bool needs_derivatives(Method method) { return method == Method::gradient
 /// Each rollout is one noisy measurement of the expected return, which CMA-ES maximises (Chatzilygeroudis 2017).
 struct SearchOptions {
   Method method = Method::race;
-  double box = 5;       // θ in [−box, box] unless the policy has a box of its own; the authors' code
-  Index particles = 1;  // rollouts of one evaluation; the paper: 1
-  double extra_s = 0;   // by which simulated episodes are longer than a trial
+  double box = 5;          // θ in [−box, box] unless the policy has a box of its own; the authors' code
+  Index particles = 1;     // rollouts of one evaluation; the paper: 1
+  double extra_s = 0;      // by which simulated episodes are longer than a trial
+  bool hand_over = false;  // near a goal in which the robot can stay, policies hand over to linear feedback
   rollout::SimulateOptions simulate;
   optim::RaceOptions race;
   optim::SearchOptions restarts{.max_evaluations = 200000};

@@ -1,22 +1,13 @@
 #include "rehearse/learners/gp_ilqg/forward_pass.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "rehearse/core/episode.hpp"
 #include "rehearse/rollout/simulate.hpp"
 
 namespace rehearse::learners::gp_ilqg {
 
-Vector state_difference(const Task& task, const ConstVectorView& a, const ConstVectorView& b) {
-  Vector difference = a - b;
-  for (Index i = 0; i < difference.size(); ++i)
-    if (task.states[static_cast<std::size_t>(i)].kind == StateKind::angle)
-      difference(i) = std::remainder(difference(i), 2 * std::numbers::pi);
-  return difference;
-}
-
-ForwardPass::ForwardPass(const PlanProblem& problem, const StepCosts& costs, const Hold* hold)
+ForwardPass::ForwardPass(const lqr::Problem& problem, const lqr::StepCosts& costs, const lqr::Hold* hold)
     : problem_(problem), costs_(costs), hold_(hold), from_mean_start_(problem.task) {
   from_mean_start_.start_std.setZero();
 }
@@ -50,27 +41,11 @@ std::vector<Trajectory> ForwardPass::follow(const std::vector<std::vector<policy
   return all;
 }
 
-Matrix Trajectory::rows(const Columns& columns) const {
-  Matrix W(steps, columns.all());
-  W.leftCols(columns.dx) = states.topRows(steps);
-  if (columns.before > 0 && steps > 0) {
-    W.row(0).segment(columns.dx, columns.before).setZero();
-    W.block(1, columns.dx, steps - 1, columns.before) = actions.topRows(steps - 1);
-  }
-  W.middleCols(columns.action(), columns.du) = actions;
-  W.rightCols(columns.dx) = states.bottomRows(steps);
-  return W;
-}
-
-Vector Trajectory::times(const Task& task) const {
-  return Vector::LinSpaced(steps, begin_s, begin_s + static_cast<double>(steps - 1) * task.dt_s);
-}
-
 Vector ForwardPass::beside_hold(const Trajectory& trajectory) const {
-  const Columns& columns = costs_.columns();
+  const lqr::Columns& columns = costs_.columns();
   Vector beside(columns.planner_state());
   beside.head(columns.dx) =
-      state_difference(problem_.task, trajectory.states.row(trajectory.steps).transpose(), hold_->stage.state);
+      lqr::state_difference(problem_.task, trajectory.states.row(trajectory.steps).transpose(), hold_->stage.state);
   if (columns.before > 0)
     beside.tail(columns.before) = (trajectory.actions.row(trajectory.steps - 1).transpose() - hold_->stage.action)
                                       .cwiseQuotient(costs_.half_ranges());

@@ -54,7 +54,7 @@ class GpIlqg final : public TrialLearner {
   }
 
   void search(Proposal& proposal) const {
-    const PlanProblem problem{*proposal.model, setting_.task, *setting_.evaluator};
+    const lqr::Problem problem{*proposal.model, setting_.task, *setting_.evaluator};
     const StreamKey stream{.seed = setting_.seed, .trial = trials_ + 1, .phase = setting_.phase};
     if (const auto found = search_plan(problem, options_.search, plan_, stream, setting_.progress)) {
       proposal.theta = found->theta;

@@ -2,7 +2,7 @@
 
 #include "rehearse/core/options.hpp"
 #include "rehearse/identification/kinds.hpp"
-#include "rehearse/learners/gp_ilqg/step_costs.hpp"
+#include "rehearse/lqr/step_costs.hpp"
 
 namespace rehearse::learners::gp_ilqg {
 

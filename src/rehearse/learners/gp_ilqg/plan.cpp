@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "rehearse/learners/gp_ilqg/forward_pass.hpp"
-#include "rehearse/learners/gp_ilqg/linear_steps.hpp"
+#include "rehearse/lqr/linear_steps.hpp"
 
 namespace rehearse::learners::gp_ilqg {
 namespace {
@@ -16,8 +16,8 @@ constexpr int kPatience = 3;          // such gains one after the other end the 
 
 class Improvement {
  public:
-  Improvement(const PlanProblem& problem, const PlanOptions& options, std::vector<policy::FeedbackStage> stages,
-              const Hold* hold)
+  Improvement(const lqr::Problem& problem, const PlanOptions& options, std::vector<policy::FeedbackStage> stages,
+              const lqr::Hold* hold)
       : problem_(problem),
         options_(options),
         hold_(hold),
@@ -53,9 +53,9 @@ class Improvement {
     }
   }
 
-  void linearise() { planned_ = planned_steps(problem_, costs_, now_, at_); }
+  void linearise() { planned_ = lqr::planned_steps(problem_, costs_, now_, at_); }
 
-  Value end() const {
+  lqr::Value end() const {
     const Index n = costs_.columns().planner_state();
     if (!hold_ || now_.steps + 1 < static_cast<Index>(stages_.size())) return {Vector::Zero(n), Matrix::Zero(n, n)};
     return {hold_->value.S * forward_.beside_hold(now_), hold_->value.S};
@@ -64,7 +64,7 @@ class Improvement {
   /// The best of all step lengths, with more damping until one is better than the plan. False: none is.
   bool improve() {
     for (; damping_ <= kMostDamping; damping_ *= kDampingFactor) {
-      const auto pass = backward_pass(planned_, end(), damping_, options_.uncertainty);
+      const auto pass = lqr::backward_pass(planned_, end(), damping_, options_.uncertainty);
       if (!pass) continue;
       std::vector<std::vector<policy::FeedbackStage>> candidates;
       double length = 1;
@@ -87,7 +87,7 @@ class Improvement {
     return false;
   }
 
-  std::vector<policy::FeedbackStage> with(const BackwardPass& pass, double length) const {
+  std::vector<policy::FeedbackStage> with(const lqr::BackwardPass& pass, double length) const {
     std::vector<policy::FeedbackStage> stages = stages_;
     const Vector& half = costs_.half_ranges();
     for (std::size_t t = 0; t < pass.feedback.size(); ++t) {
@@ -98,7 +98,7 @@ class Improvement {
   }
 
   /// The gain by the robot's state alone; 0 by what a policy does not see of it.
-  Matrix gain_of(const Feedback& feedback) const {
+  Matrix gain_of(const lqr::Feedback& feedback) const {
     Matrix gain = costs_.half_ranges().asDiagonal() * feedback.gain.leftCols(costs_.columns().dx);
     for (Index i = 0; i < gain.cols(); ++i)
       if (problem_.task.states[static_cast<std::size_t>(i)].kind == StateKind::omitted) gain.col(i).setZero();
@@ -106,7 +106,8 @@ class Improvement {
   }
 
   /// The cost of the model's variance along a trajectory, with the costs to go of one pass.
-  double cost_of_uncertainty(const Trajectory& trajectory, const Matrix& variance, const BackwardPass& pass) const {
+  double cost_of_uncertainty(const Trajectory& trajectory, const Matrix& variance,
+                             const lqr::BackwardPass& pass) const {
     double sum = 0;
     const Index steps = std::min(trajectory.steps, static_cast<Index>(pass.feedback.size()));
     for (Index t = 0; t < steps; ++t)
@@ -115,7 +116,7 @@ class Improvement {
     return options_.uncertainty * sum;
   }
 
-  double cost_of_uncertainty(const Trajectory& trajectory, const BackwardPass& pass) const {
+  double cost_of_uncertainty(const Trajectory& trajectory, const lqr::BackwardPass& pass) const {
     if (problem_.model.certain() || options_.uncertainty == 0) return 0;
     Matrix mean(trajectory.steps, problem_.task.state_size()), variance = mean;
     problem_.model.predict(trajectory.states.topRows(trajectory.steps), trajectory.actions, mean, variance);
@@ -125,30 +126,30 @@ class Improvement {
   /// Gains about where the plan ended up, not about the one before.
   void give_gains() {
     linearise();
-    std::optional<BackwardPass> pass;
+    std::optional<lqr::BackwardPass> pass;
     for (double damping = kLeastDamping; !pass && damping <= kMostDamping; damping *= kDampingFactor)
-      pass = backward_pass(planned_, end(), damping, options_.uncertainty);
+      pass = lqr::backward_pass(planned_, end(), damping, options_.uncertainty);
     if (!pass) return;
     for (std::size_t t = 0; t < steps(); ++t) stages_[t].gain = gain_of(pass->feedback[t]);
     if (!hold_) stages_.back() = stages_[stages_.size() - 2];
   }
 
-  const PlanProblem& problem_;
+  const lqr::Problem& problem_;
   const PlanOptions& options_;
-  const Hold* hold_;
-  StepCosts costs_;
+  const lqr::Hold* hold_;
+  lqr::StepCosts costs_;
   ForwardPass forward_;
   std::vector<policy::FeedbackStage> stages_;
   Trajectory now_;
   dynamics::Linearised at_;
-  std::vector<PlannedStep> planned_;
+  std::vector<lqr::PlannedStep> planned_;
   double damping_ = kFirstDamping;
 };
 
 }  // namespace
 
-Plan improve(const PlanProblem& problem, const PlanOptions& options, std::vector<policy::FeedbackStage> stages,
-             const Hold* hold) {
+Plan improve(const lqr::Problem& problem, const PlanOptions& options, std::vector<policy::FeedbackStage> stages,
+             const lqr::Hold* hold) {
   return Improvement(problem, options, std::move(stages), hold).run();
 }
 

@@ -2,13 +2,12 @@
 
 #include <vector>
 
-#include "rehearse/learners/gp_ilqg/plan_problem.hpp"
-#include "rehearse/learners/gp_ilqg/step_costs.hpp"
+#include "rehearse/lqr/hold.hpp"
 
 namespace rehearse::learners::gp_ilqg {
 
 struct PlanOptions {
-  CostOptions cost;
+  lqr::CostOptions cost;
   double uncertainty = 1;
   Index iterations = 100;
 };
@@ -25,7 +24,7 @@ struct Plan {
 /// Iterative LQG with bounds of the actions: improves a plan until nothing is left to gain (Li 2004; Tassa 2014; with
 /// the model's uncertainty, Lee 2017). The policy is followed in the model's mean with its feedback, ten step lengths
 /// at once. `stages` holds where to begin. hold: null, or where the plan is to end. Deterministic; any thread.
-Plan improve(const PlanProblem& problem, const PlanOptions& options, std::vector<policy::FeedbackStage> stages,
-             const Hold* hold = nullptr);
+Plan improve(const lqr::Problem& problem, const PlanOptions& options, std::vector<policy::FeedbackStage> stages,
+             const lqr::Hold* hold = nullptr);
 
 }  // namespace rehearse::learners::gp_ilqg

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "rehearse/learners/gp_ilqg/forward_pass.hpp"
-#include "rehearse/learners/gp_ilqg/hold.hpp"
+#include "rehearse/lqr/hold.hpp"
 #include "rehearse/policy/schedule.hpp"
 #include "rehearse/rollout/simulate.hpp"
 
@@ -26,7 +26,7 @@ struct Judged {
 
 class Search {
  public:
-  Search(const PlanProblem& problem, const PlanSearch& search, StreamKey stream)
+  Search(const lqr::Problem& problem, const PlanSearch& search, StreamKey stream)
       : problem_(problem), search_(search), stream_(stream) {}
 
   std::optional<FoundPlan> run(const std::optional<Vector>& last) {
@@ -53,7 +53,7 @@ class Search {
 
  private:
   PlanOptions options(bool logarithmic, double task_costs, Index iterations) const {
-    return {.cost = {.scale = logarithmic ? CostScale::logarithmic : CostScale::linear,
+    return {.cost = {.scale = logarithmic ? lqr::CostScale::logarithmic : lqr::CostScale::linear,
                      .action_cost = search_.action_cost,
                      .task_costs = task_costs},
             .uncertainty = search_.uncertainty,
@@ -82,7 +82,7 @@ class Search {
 
   /// True if all rewards from these starts are positive.
   bool has_logarithm(const std::vector<Stages>& from) const {
-    const StepCosts costs(problem_.task, {.action_cost = 0, .task_costs = 0});
+    const lqr::StepCosts costs(problem_.task, {.action_cost = 0, .task_costs = 0});
     const ForwardPass forward(problem_, costs, nullptr);
     double least = kInf;
     for (const Trajectory& trajectory : forward.follow(from)) {
@@ -93,7 +93,8 @@ class Search {
     return least > 0 && least < kInf;
   }
 
-  std::vector<Plan> improved(std::vector<Stages> from, const PlanOptions& options, const Hold* hold = nullptr) const {
+  std::vector<Plan> improved(std::vector<Stages> from, const PlanOptions& options,
+                             const lqr::Hold* hold = nullptr) const {
     std::vector<Plan> plans(from.size());
     problem_.evaluator.for_each(static_cast<Index>(from.size()), [&](Index i) {
       const auto k = static_cast<std::size_t>(i);
@@ -116,7 +117,7 @@ class Search {
   bool are_shaken(const std::vector<Plan>& plans) const {
     const Vector noise = problem_.model.measurement_std();
     if (!search_.soften || noise.size() == 0) return false;
-    const Vector half = StepCosts(problem_.task, {}).half_ranges();
+    const Vector half = lqr::StepCosts(problem_.task, {}).half_ranges();
     return std::ranges::any_of(plans, [&](const Plan& plan) {
       Vector variance = Vector::Zero(half.size());
       for (const policy::FeedbackStage& stage : plan.stages)
@@ -143,9 +144,9 @@ class Search {
   }
 
   /// The cheapest of those near the cheapest state of each plan.
-  std::optional<Hold> best_hold(const std::vector<Plan>& plans, const PlanOptions& options) const {
-    const StepCosts costs(problem_.task, options.cost);
-    std::optional<Hold> best;
+  std::optional<lqr::Hold> best_hold(const std::vector<Plan>& plans, const PlanOptions& options) const {
+    const lqr::StepCosts costs(problem_.task, options.cost);
+    std::optional<lqr::Hold> best;
     double lowest = kInf;
     for (const Plan& plan : plans) {
       if (plan.steps == 0) continue;
@@ -153,8 +154,8 @@ class Search {
       Index cheapest = 0;
       const double end_s = static_cast<double>(plan.stages.size() - 1) * problem_.task.dt_s;
       costs.of_staying(plan.states.topRows(plan.steps), actions, end_s).minCoeff(&cheapest);
-      auto hold =
-          find_hold(problem_, costs, plan.states.row(cheapest).transpose(), actions.row(cheapest).transpose(), end_s);
+      auto hold = lqr::find_hold(problem_, costs, plan.states.row(cheapest).transpose(),
+                                 actions.row(cheapest).transpose(), end_s);
       if (!hold) continue;
       const double cost = costs.of_staying(hold->stage.state.transpose(), hold->stage.action.transpose(), end_s)(0);
       if (cost < lowest) lowest = cost, best = std::move(hold);
@@ -211,7 +212,7 @@ class Search {
     return judged;
   }
 
-  const PlanProblem& problem_;
+  const lqr::Problem& problem_;
   const PlanSearch& search_;
   StreamKey stream_;
   Index rollouts_ = 0, failed_ = 0;
@@ -219,7 +220,7 @@ class Search {
 
 }  // namespace
 
-std::optional<FoundPlan> search_plan(const PlanProblem& problem, const PlanSearch& search,
+std::optional<FoundPlan> search_plan(const lqr::Problem& problem, const PlanSearch& search,
                                      const std::optional<Vector>& last, StreamKey stream,
                                      const ProgressSink& progress) {
   if (progress) progress({.phase = "plan"});

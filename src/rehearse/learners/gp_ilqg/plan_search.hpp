@@ -20,7 +20,7 @@ struct FoundPlan {
 /// Plans from random actions and from `last`, the plan of the trial before if there is one; improves the best, with and
 /// without a hold at their end; and returns the one that is best in simulated episodes, with the model's uncertainty.
 /// The same for any evaluator. nullopt: no plan is finite.
-std::optional<FoundPlan> search_plan(const PlanProblem& problem, const PlanSearch& search,
+std::optional<FoundPlan> search_plan(const lqr::Problem& problem, const PlanSearch& search,
                                      const std::optional<Vector>& last, StreamKey stream, const ProgressSink& progress);
 
 /// The number of steps of a task's episode that are planned.

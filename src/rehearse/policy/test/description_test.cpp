@@ -24,7 +24,7 @@ TEST(Describe, NamesWhatThePolicySees) {
 TEST(Describe, WeightsOfTheRbfAreSolved) {
   const auto policy = make_rbf({fixture::features(), fixture::kScale, 4, 0.1, fixture::kBounds});
   const Vector theta = fixture::normals(policy->parameters(), 1, 3);
-  const auto radial = std::get<Radial>(describe(*policy, theta));
+  const auto radial = std::get<Radial>(describe(*policy, theta).form);
   const Vector x{{0.3, -0.2, 0.5}};
   for (Index a = 0; a < 2; ++a) {
     double mean = 0;
@@ -38,11 +38,11 @@ TEST(Describe, WeightsOfTheRbfAreSolved) {
 
 TEST(Describe, ActionsOfATableAreInTheirBounds) {
   const auto policy = make_schedule({{-1, 1}}, 0.5, 3);
-  const auto table = std::get<Table>(describe(*policy, Vector{{-7, 0.5, 2}}));
+  const auto table = std::get<Table>(describe(*policy, Vector{{-7, 0.5, 2}}).form);
   EXPECT_EQ(table.actions, (Matrix{{-1}, {0.5}, {1}}));
   EXPECT_EQ(table.per_s, 2);
   EXPECT_FALSE(table.periodic);
-  EXPECT_TRUE(std::get<Table>(describe(*make_gait(6), tripod_gait())).periodic);
+  EXPECT_TRUE(std::get<Table>(describe(*make_gait(6), tripod_gait()).form).periodic);
 }
 
 /// Says nothing of itself.

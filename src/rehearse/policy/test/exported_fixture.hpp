@@ -12,6 +12,7 @@
 #include "rehearse/core/test/test_tools.hpp"
 #include "rehearse/policy/exported.hpp"
 #include "rehearse/policy/gait.hpp"
+#include "rehearse/policy/hand_over.hpp"
 #include "rehearse/policy/network.hpp"
 #include "rehearse/policy/rbf.hpp"
 #include "rehearse/policy/schedule.hpp"
@@ -47,6 +48,12 @@ inline std::vector<Case> cases() {
   add("rbf", make_rbf({features, fixture::kScale, 10, 0.01, fixture::kBounds}));
   add("schedule", make_schedule(fixture::kBounds, task.dt_s, task.horizon));
   add("tracking", make_tracking(task, task.horizon + 1));
+  const auto mlp = make_mlp({features, fixture::kScale, 10, tanh});
+  all.push_back({"hand_over", task, make_hand_over(task, mlp),
+                 to_theta(fixture::normals(mlp->parameters(), 1, 7), fixture::hand_over())});
+  const auto schedule = make_schedule(fixture::kBounds, task.dt_s, task.horizon);
+  all.push_back({"schedule_and_near", task, make_hand_over(task, schedule),
+                 to_theta(fixture::normals(schedule->parameters(), 1, 7), fixture::hand_over())});
   all.push_back({"gait", walker_task(), make_gait(6), tripod_gait()});
   return all;
 }

@@ -39,22 +39,43 @@ double squared_distance(const std::vector<double>& x, const std::vector<double>&
   return sum;
 }
 
+/// Differences from a state, angles the shorter way round.
+std::vector<double> from(const std::vector<double>& other, const nlohmann::json& angles,
+                         const std::vector<double>& state) {
+  const double turn = 2 * std::numbers::pi;
+  std::vector<double> apart = state;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    apart[i] -= other.at(i);
+    if (angles.at(i)) apart[i] -= turn * std::floor(apart[i] / turn + 0.5);
+  }
+  return apart;
+}
+
 /// The action of a row of linear feedback, without the bounds.
 double feedback_of(const nlohmann::json& computes, std::size_t row, std::size_t action,
                    const std::vector<double>& state) {
-  const double turn = 2 * std::numbers::pi;
+  const std::vector<double> apart = from(computes.at("states").at(row), computes.at("angles"), state);
   double u = computes.at("actions").at(row).at(action);
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    double apart = state[i] - computes.at("states").at(row).at(i).get<double>();
-    if (computes.at("angles").at(i)) apart -= turn * std::floor(apart / turn + 0.5);
-    u += computes.at("gains").at(row).at(action * state.size() + i).get<double>() * apart;
-  }
+  for (std::size_t i = 0; i < state.size(); ++i)
+    u += computes.at("gains").at(row).at(action * state.size() + i).get<double>() * apart[i];
   return u;
+}
+
+/// The action near the goal, without the bounds; empty elsewhere.
+std::optional<double> action_near(const nlohmann::json& near, std::size_t action, const std::vector<double>& state) {
+  const std::vector<double> apart = from(near.at("state"), near.at("angles"), state);
+  double inside = 0;
+  for (std::size_t i = 0; i < apart.size(); ++i) inside += apart[i] * dot(near.at("shape").at(i), apart);
+  if (inside >= 1) return std::nullopt;
+  return near.at("action").at(action).get<double>() + dot(near.at("gain").at(action), apart);
 }
 
 /// The action by the description in docs/export.md alone.
 double action_of(const nlohmann::json& policy, std::size_t action, const std::vector<double>& state, double t_s) {
   const auto& computes = policy.at("computes");
+  const double low = policy.at("actions").at(action).at("low"), high = policy.at("actions").at(action).at("high");
+  if (const auto near = computes.contains("near") ? action_near(computes.at("near"), action, state) : std::nullopt)
+    return std::clamp(*near, low, high);
   const auto row_of = [&](const char* name) { return computes.at(name).at(action).get<std::vector<double>>(); };
   if (computes.at("form") == "table") {
     const std::size_t rows = computes.at("actions").size();
@@ -62,7 +83,6 @@ double action_of(const nlohmann::json& policy, std::size_t action, const std::ve
     const std::size_t place = computes.at("periodic") ? row % rows : std::min(row, rows - 1);
     return computes.at("actions").at(place).at(action);
   }
-  const double low = policy.at("actions").at(action).at("low"), high = policy.at("actions").at(action).at("high");
   if (computes.at("form") == "feedback") {
     const std::size_t last = computes.at("actions").size() - 1;
     const double place = std::min(t_s * computes.at("per_s").get<double>(), static_cast<double>(last));

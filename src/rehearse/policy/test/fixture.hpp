@@ -6,6 +6,7 @@
 
 #include "rehearse/core/random.hpp"
 #include "rehearse/core/task.hpp"
+#include "rehearse/policy/hand_over.hpp"
 
 namespace rehearse::policy::fixture {
 
@@ -24,6 +25,13 @@ inline Task task() {
 }
 
 inline FeatureMap features() { return task().feature_map(); }
+
+/// Feedback about v = 1, angle = 3, whatever the place; it acts in a third of the states that are 3 times as far around
+/// as a normal.
+inline HandOver hand_over() {
+  return {{Vector{{0.5, 0.2}}, Vector{{1, 3, 0}}, Matrix{{-1, 2, 0}, {0.01, -0.02, 0}}},
+          Matrix{{0.08, 0.02, 0}, {0.02, 0.15, 0}, {0, 0, 0}}};
+}
 
 /// A row of the policy's inputs.
 inline Vector inputs(const Matrix& X, Index row) {

@@ -64,7 +64,7 @@ TEST(Tracking, ThetaIsItsStages) {
 
 TEST(Tracking, SaysWhatItIs) {
   const Vector theta = to_theta(stages());
-  const auto feedback = std::get<Feedback>(describe(*make_tracking(fixture::task(), 3), theta));
+  const auto feedback = std::get<Feedback>(describe(*make_tracking(fixture::task(), 3), theta).form);
   EXPECT_EQ(feedback.actions.row(2), (Matrix{{-1, 0.2}}));
   EXPECT_EQ(feedback.states.row(1), (Matrix{{2, 3, 0}}));
   EXPECT_EQ(feedback.gains.row(1), (Matrix{{0, 1, 0, 0, 0.01, 0}}));

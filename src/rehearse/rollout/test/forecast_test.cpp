@@ -64,5 +64,32 @@ TEST(Forecast, HorizonsOutsideTheEpisodeAreRefused) {
     EXPECT_THROW(forecast(cart::Model(), episode(4), horizons), InvalidInput);
 }
 
+TEST(Follow, LeadsEveryRowWhereThePolicyDoes) {
+  const cart::Model model(0.3);
+  const Task task = cart::task();
+  const auto policy = cart::policy();
+  const Vector theta = cart::candidates(1).col(0);
+  const Matrix from = Matrix::Random(150, 2);
+  const Matrix to = follow(model, task, {*policy, theta}, from, 5),
+               other = follow(model, task, {*policy, theta}, from, 5, *make_thread_evaluator(3));
+  EXPECT_EQ(to, other);
+  Matrix state = from.row(140), action(1, 1), change(1, 2), variance(1, 2);
+  for (int t = 0; t < 5; ++t) {
+    policy->act(theta.transpose(), state, 0.1 * t, action);
+    model.predict(state, action, change, variance);
+    state += change;
+  }
+  EXPECT_LT((to.row(140) - state).norm(), 1e-13) << "the variance adds nothing";
+}
+
+TEST(Follow, WhatFailsIsNanInItsRowAlone) {
+  const cart::Model model(0, [](double, double position) { return position > 0; });
+  const auto policy = cart::policy();
+  const Vector theta = cart::candidates(1).col(0);
+  const Matrix to = follow(model, cart::task(), {*policy, theta}, Matrix{{0, -5}, {0, 1}, {0, -6}}, 3);
+  EXPECT_TRUE(to.row(0).allFinite() && to.row(2).allFinite());
+  EXPECT_TRUE(to.row(1).array().isNaN().all());
+}
+
 }  // namespace
 }  // namespace rehearse::rollout

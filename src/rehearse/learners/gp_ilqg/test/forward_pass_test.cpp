@@ -1,10 +1,8 @@
 #include "rehearse/learners/gp_ilqg/forward_pass.hpp"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 
-#include "line.hpp"
+#include "rehearse/lqr/test/line.hpp"
 
 namespace rehearse::learners::gp_ilqg {
 namespace {
@@ -16,11 +14,11 @@ std::vector<std::vector<policy::FeedbackStage>> pulls(const Task& task, double f
 }
 
 TEST(ForwardPass, FollowsPlansInTheMean) {
-  Task task = line::task();
+  Task task = lqr::line::task();
   task.start_std = Vector::Ones(2);  // which plans do not know
-  const line::Model model(0.5);
-  const PlanProblem problem{model, task, serial_evaluator()};
-  const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 0.1});
+  const lqr::line::Model model(0.5);
+  const lqr::Problem problem{model, task, serial_evaluator()};
+  const lqr::StepCosts costs(task, {.scale = lqr::CostScale::linear, .action_cost = 0.1});
   const auto both = ForwardPass(problem, costs, nullptr).follow(pulls(task, 0, 2));
   ASSERT_EQ(both[1].steps, 3);
   EXPECT_TRUE(both[0].states.isApprox(Matrix{{1, 0}, {1, 0}, {1, 0}, {1, 0}}));
@@ -30,11 +28,11 @@ TEST(ForwardPass, FollowsPlansInTheMean) {
 }
 
 TEST(ForwardPass, ChargesAnEarlyEndAndRefusesWhatIsNotFinite) {
-  Task task = line::task();
+  Task task = lqr::line::task();
   task.ended = each_state([](const ConstVectorView& state) { return state(1) > 0.15; });
-  const line::Model model;
-  const PlanProblem problem{model, task, serial_evaluator()};
-  const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-9});
+  const lqr::line::Model model;
+  const lqr::Problem problem{model, task, serial_evaluator()};
+  const lqr::StepCosts costs(task, {.scale = lqr::CostScale::linear, .action_cost = 1e-9});
   const auto both = ForwardPass(problem, costs, nullptr).follow(pulls(task, 2, kNaN));
   EXPECT_EQ(both[0].steps, 1);
   EXPECT_NEAR(both[0].cost, 1 + 0.1 * 0.04 + 2 * 10, 1e-6);
@@ -42,21 +40,13 @@ TEST(ForwardPass, ChargesAnEarlyEndAndRefusesWhatIsNotFinite) {
 }
 
 TEST(ForwardPass, AddsWhatFollowsTheHold) {
-  const Task task = line::task();
-  const line::Model model;
-  const PlanProblem problem{model, task, serial_evaluator()};
-  const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-9});
-  const Hold hold{{Vector{{0}}, Vector{{0.5, 0}}, Matrix{{0, 0}}}, {Vector::Zero(2), Matrix{{8, 0}, {0, 0}}}};
+  const Task task = lqr::line::task();
+  const lqr::line::Model model;
+  const lqr::Problem problem{model, task, serial_evaluator()};
+  const lqr::StepCosts costs(task, {.scale = lqr::CostScale::linear, .action_cost = 1e-9});
+  const lqr::Hold hold{{Vector{{0}}, Vector{{0.5, 0}}, Matrix{{0, 0}}}, {Vector::Zero(2), Matrix{{8, 0}, {0, 0}}}};
   const auto both = ForwardPass(problem, costs, &hold).follow(pulls(task, 0, 0));
   EXPECT_NEAR(both[0].cost, 3 + 0.5 * 8 * 0.25, 1e-9);
-}
-
-TEST(StateDifference, TakesTheShorterWayRound) {
-  Task task = line::task();
-  task.states[0].kind = StateKind::angle;
-  const Vector difference = state_difference(task, Vector{{3, 7}}, Vector{{-3, 0}});
-  EXPECT_NEAR(difference(0), 6 - 2 * std::numbers::pi, 1e-12);
-  EXPECT_EQ(difference(1), 7);
 }
 
 }  // namespace

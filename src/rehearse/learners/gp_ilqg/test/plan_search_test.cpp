@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "line.hpp"
+#include "rehearse/lqr/test/line.hpp"
 #include "rehearse/policy/tracking.hpp"
 
 namespace rehearse::learners::gp_ilqg {
@@ -12,12 +12,12 @@ constexpr PlanSearch kSmall{.starts = 4, .first_iterations = 5, .finalists = 2, 
 
 std::optional<FoundPlan> search(const Task& task, const PlanSearch& options, const Evaluator& evaluator,
                                 const std::optional<Vector>& last = {}) {
-  const line::Model model(1e-4);
+  const lqr::line::Model model(1e-4);
   return search_plan({model, task, evaluator}, options, last, {.trial = 1}, {});
 }
 
 TEST(PlanSearch, FindsWhatPullsToZero) {
-  const Task task = line::task(2);
+  const Task task = lqr::line::task(2);
   const auto found = search(task, kSmall, serial_evaluator());
   ASSERT_TRUE(found);
   EXPECT_GT(found->predicted_return, -12) << "pulling from the start as hard as it goes earns about −10, nothing −30";
@@ -26,13 +26,13 @@ TEST(PlanSearch, FindsWhatPullsToZero) {
 }
 
 TEST(PlanSearch, IsTheSameForAnyNumberOfThreads) {
-  const Task task = line::task(2);
+  const Task task = lqr::line::task(2);
   const auto two = make_thread_evaluator(2);
   EXPECT_EQ(search(task, kSmall, serial_evaluator())->theta, search(task, kSmall, *two)->theta);
 }
 
 TEST(PlanSearch, BeginsWithTheLastPlan) {
-  const Task task = line::task(2);
+  const Task task = lqr::line::task(2);
   PlanSearch none = kSmall;
   none.first_iterations = 1;
   none.iterations = 0;
@@ -42,7 +42,7 @@ TEST(PlanSearch, BeginsWithTheLastPlan) {
 }
 
 TEST(PlanSearch, PlansForAsLongAsItIsTold) {
-  const Task task = line::task(2);
+  const Task task = lqr::line::task(2);
   PlanSearch one_second = kSmall;
   one_second.plan_s = 1;
   EXPECT_EQ(steps_to_plan(task, kSmall), 30);
@@ -53,7 +53,7 @@ TEST(PlanSearch, PlansForAsLongAsItIsTold) {
 }
 
 TEST(PlanSearch, PrefersWhatSolvesTheTask) {
-  Task task = line::task(2);
+  Task task = lqr::line::task(2);
   task.solved = [](const Episode& episode) { return episode.states(episode.steps(), 0) < 0.5; };
   EXPECT_TRUE(search(task, kSmall, serial_evaluator()));
 }
@@ -69,7 +69,7 @@ class Shaky final : public dynamics::DynamicsModel {
   const Vector& measurement_std() const override { return std_; }
 
  private:
-  line::Model line_{1e-4};
+  lqr::line::Model line_{1e-4};
   Vector std_;
 };
 
@@ -81,7 +81,7 @@ double mean_gain(const Task& task, const FoundPlan& plan) {
 }
 
 TEST(PlanSearch, FeedbackIsSofterWhereMeasurementsAreNoisy) {
-  const Task task = line::task(20);
+  const Task task = lqr::line::task(20);
   PlanSearch eager = kSmall;
   eager.action_cost = 1e-3;
   const auto found_with = [&](double noise) {
@@ -96,7 +96,7 @@ TEST(PlanSearch, FeedbackIsSofterWhereMeasurementsAreNoisy) {
 }
 
 TEST(PlanSearch, SaysWhenNoPlanIsFinite) {
-  Task task = line::task(2);
+  Task task = lqr::line::task(2);
   task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView rewards) {
     rewards.setConstant(kNaN);
   };

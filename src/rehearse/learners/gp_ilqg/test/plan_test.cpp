@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "line.hpp"
-#include "rehearse/learners/gp_ilqg/hold.hpp"
+#include "rehearse/lqr/hold.hpp"
+#include "rehearse/lqr/test/line.hpp"
 
 namespace rehearse::learners::gp_ilqg {
 namespace {
@@ -15,8 +15,8 @@ std::vector<policy::FeedbackStage> idle(const Task& task) {
 /// Gains of the line's plan by Riccati's recursion in plain numbers, the first step's first.
 std::vector<Matrix> riccati(const Task& task) {
   const double half = task.actions[0].bounds.high;
-  const Matrix A{{1, line::kDt}, {0, 1}}, B{{0}, {line::kDt}}, Q = Vector{{2, 0.2}}.asDiagonal();
-  const double r = 2 * line::kActionCost / (half * half);
+  const Matrix A{{1, lqr::line::kDt}, {0, 1}}, B{{0}, {lqr::line::kDt}}, Q = Vector{{2, 0.2}}.asDiagonal();
+  const double r = 2 * lqr::line::kActionCost / (half * half);
   Matrix S = Matrix::Zero(2, 2);
   std::vector<Matrix> gains(static_cast<std::size_t>(task.horizon));
   for (std::size_t t = gains.size(); t-- > 0;) {
@@ -28,10 +28,10 @@ std::vector<Matrix> riccati(const Task& task) {
 }
 
 TEST(Plan, OfLinearStepsAndAQuadraticRewardIsTheRegulator) {
-  const Task task = line::task();
-  const line::Model model;
-  const PlanProblem problem{model, task, serial_evaluator()};
-  const Plan plan = improve(problem, {.cost = {.action_cost = line::kActionCost}}, idle(task));
+  const Task task = lqr::line::task();
+  const lqr::line::Model model;
+  const lqr::Problem problem{model, task, serial_evaluator()};
+  const Plan plan = improve(problem, {.cost = {.action_cost = lqr::line::kActionCost}}, idle(task));
   const auto gains = riccati(task);
   for (std::size_t t = 0; t < gains.size(); ++t) {
     EXPECT_TRUE(plan.stages[t].gain.isApprox(gains[t], 1e-3)) << t << ": " << plan.stages[t].gain << " " << gains[t];
@@ -40,8 +40,8 @@ TEST(Plan, OfLinearStepsAndAQuadraticRewardIsTheRegulator) {
 }
 
 TEST(Plan, KeepsTheBoundsOfActions) {
-  const Task task = line::task(1);
-  const line::Model model;
+  const Task task = lqr::line::task(1);
+  const lqr::line::Model model;
   const Plan plan = improve({model, task, serial_evaluator()}, {.cost = {.action_cost = 1e-3}}, idle(task));
   EXPECT_NEAR(plan.stages.front().action(0), -1, 1e-6) << "full pull first";
   for (const auto& stage : plan.stages) EXPECT_LE(std::abs(stage.action(0)), 1 + 1e-12);
@@ -49,9 +49,9 @@ TEST(Plan, KeepsTheBoundsOfActions) {
 }
 
 TEST(Plan, AvoidsWhatTheModelDoesNotKnow) {
-  const Task task = line::task();
-  const line::Model unsure(0.3);
-  const PlanProblem problem{unsure, task, serial_evaluator()};
+  const Task task = lqr::line::task();
+  const lqr::line::Model unsure(0.3);
+  const lqr::Problem problem{unsure, task, serial_evaluator()};
   const Plan bold = improve(problem, {.cost = {.action_cost = 0.5}, .uncertainty = 0}, idle(task));
   const Plan careful = improve(problem, {.cost = {.action_cost = 0.5}, .uncertainty = 1}, idle(task));
   EXPECT_LT(careful.states.col(0).squaredNorm(), bold.states.col(0).squaredNorm())
@@ -59,11 +59,11 @@ TEST(Plan, AvoidsWhatTheModelDoesNotKnow) {
 }
 
 TEST(Plan, EndsWithAHold) {
-  const Task task = line::task();
-  const line::Model model;
-  const PlanProblem problem{model, task, serial_evaluator()};
-  const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = line::kActionCost});
-  const auto hold = find_hold(problem, costs, Vector{{0.3, -0.2}}, Vector{{1}}, 0);
+  const Task task = lqr::line::task();
+  const lqr::line::Model model;
+  const lqr::Problem problem{model, task, serial_evaluator()};
+  const lqr::StepCosts costs(task, {.scale = lqr::CostScale::linear, .action_cost = lqr::line::kActionCost});
+  const auto hold = lqr::find_hold(problem, costs, Vector{{0.3, -0.2}}, Vector{{1}}, 0);
   ASSERT_TRUE(hold);
   EXPECT_NEAR(hold->stage.state.norm(), 0, 1e-5);
   Task longer = task;
@@ -71,17 +71,17 @@ TEST(Plan, EndsWithAHold) {
   EXPECT_TRUE(hold->stage.gain.isApprox(riccati(longer).front(), 1e-3)) << hold->stage.gain;
   std::vector<policy::FeedbackStage> short_plan = idle(task);
   short_plan.resize(6);
-  const Plan plan = improve(problem, {.cost = {.action_cost = line::kActionCost}}, short_plan, &*hold);
+  const Plan plan = improve(problem, {.cost = {.action_cost = lqr::line::kActionCost}}, short_plan, &*hold);
   EXPECT_TRUE(plan.stages[2].gain.isApprox(hold->stage.gain, 1e-3)) << "what follows is planned for";
   EXPECT_EQ(plan.stages.back().gain, hold->stage.gain);
 }
 
 TEST(Plan, ThatIsNotFiniteSaysSo) {
-  Task task = line::task();
+  Task task = lqr::line::task();
   task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView&, VectorView rewards) {
     rewards.setConstant(kNaN);
   };
-  const line::Model model;
+  const lqr::line::Model model;
   EXPECT_EQ(improve({model, task, serial_evaluator()}, {}, idle(task)).cost, kInf);
 }
 

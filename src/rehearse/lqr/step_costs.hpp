@@ -5,7 +5,7 @@
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/task.hpp"
 
-namespace rehearse::learners::gp_ilqg {
+namespace rehearse::lqr {
 
 /// The cost that the planner, which minimises a sum of them, makes of a reward.
 enum class CostScale {
@@ -74,4 +74,4 @@ class StepCosts {
   Vector middle_, half_;
 };
 
-}  // namespace rehearse::learners::gp_ilqg
+}  // namespace rehearse::lqr

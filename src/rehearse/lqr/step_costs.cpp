@@ -1,11 +1,11 @@
-#include "rehearse/learners/gp_ilqg/step_costs.hpp"
+#include "rehearse/lqr/step_costs.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
 
-namespace rehearse::learners::gp_ilqg {
+namespace rehearse::lqr {
 namespace {
 
 constexpr double kDifference = 1e-4;        // of a finite difference, relative to numbers above 1
@@ -138,4 +138,4 @@ std::vector<Expansion> StepCosts::expand(const ConstMatrixView& W, const Vector&
   return all;
 }
 
-}  // namespace rehearse::learners::gp_ilqg
+}  // namespace rehearse::lqr

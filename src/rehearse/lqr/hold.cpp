@@ -1,12 +1,12 @@
-#include "rehearse/learners/gp_ilqg/hold.hpp"
+#include "rehearse/lqr/hold.hpp"
 
 #include <algorithm>
 
 #include <Eigen/LU>
 
-#include "rehearse/learners/gp_ilqg/linear_steps.hpp"
+#include "rehearse/lqr/linear_steps.hpp"
 
-namespace rehearse::learners::gp_ilqg {
+namespace rehearse::lqr {
 namespace {
 
 constexpr int kMostNewtonSteps = 60;
@@ -24,7 +24,7 @@ struct StepThere {
 };
 
 /// The second of two alike, so that its action was there before.
-StepThere step_at(const PlanProblem& problem, const StepCosts& costs, const Vector& state, const Vector& action,
+StepThere step_at(const Problem& problem, const StepCosts& costs, const Vector& state, const Vector& action,
                   double time_s) {
   Trajectory stays;
   stays.steps = 2;
@@ -53,7 +53,7 @@ Staying staying(const PlannedStep& step, const Columns& columns) {
 }
 
 /// Newton's method for the cheapest point that stays: both change at once.
-bool settle(const PlanProblem& problem, const StepCosts& costs, double time_s, Vector& state, Vector& action) {
+bool settle(const Problem& problem, const StepCosts& costs, double time_s, Vector& state, Vector& action) {
   const Columns& columns = costs.columns();
   const Index dx = columns.dx, du = columns.du, z = dx + du;
   for (int i = 0; i < kMostNewtonSteps; ++i) {
@@ -95,8 +95,8 @@ bool needs_only_what_is_seen(const Task& task, Matrix& gain) {
 
 }  // namespace
 
-std::optional<Hold> find_hold(const PlanProblem& problem, const StepCosts& costs, const Vector& state,
-                              const Vector& action, double time_s) {
+std::optional<Hold> find_hold(const Problem& problem, const StepCosts& costs, const Vector& state, const Vector& action,
+                              double time_s) {
   Vector x = state, u = action;
   if (!settle(problem, costs, time_s, x, u)) return std::nullopt;
   PlannedStep step = step_at(problem, costs, x, u, time_s).step;
@@ -119,4 +119,4 @@ std::optional<Hold> find_hold(const PlanProblem& problem, const StepCosts& costs
   return std::nullopt;
 }
 
-}  // namespace rehearse::learners::gp_ilqg
+}  // namespace rehearse::lqr

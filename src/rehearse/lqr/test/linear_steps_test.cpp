@@ -1,16 +1,18 @@
-#include "rehearse/learners/gp_ilqg/linear_steps.hpp"
+#include "rehearse/lqr/linear_steps.hpp"
+
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "line.hpp"
 
-namespace rehearse::learners::gp_ilqg {
+namespace rehearse::lqr {
 namespace {
 
 TEST(LinearSteps, AreTheModelInUnitsOfHalfTheActionsRange) {
   const Task task = line::task(4);
   const line::Model model(0.5);
-  const PlanProblem problem{model, task, serial_evaluator()};
+  const Problem problem{model, task, serial_evaluator()};
   Trajectory trajectory;
   trajectory.states = Matrix{{1, 0}, {1, 0.2}};
   trajectory.actions = Matrix{{2}};
@@ -29,7 +31,7 @@ TEST(LinearSteps, RememberTheActionWhereACostNeedsIt) {
   Task task = line::task(4);
   task.cost = [](const Steps& steps, VectorView costs) { costs = (steps.U - steps.U_before).col(0).cwiseAbs2(); };
   const line::Model model;
-  const PlanProblem problem{model, task, serial_evaluator()};
+  const Problem problem{model, task, serial_evaluator()};
   Trajectory trajectory;
   trajectory.states = Matrix{{1, 0}, {1, 0.2}, {1, 0.3}};
   trajectory.actions = Matrix{{2}, {1}};
@@ -41,5 +43,13 @@ TEST(LinearSteps, RememberTheActionWhereACostNeedsIt) {
   EXPECT_TRUE(steps[1].dynamics.by.isApprox(Matrix{{1, 0.1, 0, 0}, {0, 1, 0, 0.4}, {0, 0, 0, 1}}, 1e-8));
 }
 
+TEST(StateDifference, TakesTheShorterWayRound) {
+  Task task = line::task();
+  task.states[0].kind = StateKind::angle;
+  const Vector difference = state_difference(task, Vector{{3, 7}}, Vector{{-3, 0}});
+  EXPECT_NEAR(difference(0), 6 - 2 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(difference(1), 7);
+}
+
 }  // namespace
-}  // namespace rehearse::learners::gp_ilqg
+}  // namespace rehearse::lqr

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "rehearse/learners/gp_ilqg/step_costs.hpp"
+#include "rehearse/lqr/step_costs.hpp"
 
-namespace rehearse::learners::gp_ilqg {
+namespace rehearse::lqr {
 
 /// A step about its state y and its actions u, in units of half their range: the next state, and its variances.
 struct LinearStep {
@@ -52,4 +52,4 @@ std::optional<BackwardStep> backward_step(const PlannedStep& step, const Value& 
 std::optional<BackwardPass> backward_pass(const std::vector<PlannedStep>& steps, const Value& end, double damping,
                                           double uncertainty);
 
-}  // namespace rehearse::learners::gp_ilqg
+}  // namespace rehearse::lqr

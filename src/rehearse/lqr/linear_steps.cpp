@@ -1,8 +1,35 @@
-#include "rehearse/learners/gp_ilqg/linear_steps.hpp"
+#include "rehearse/lqr/linear_steps.hpp"
 
-namespace rehearse::learners::gp_ilqg {
+#include <cmath>
+#include <numbers>
 
-std::vector<PlannedStep> planned_steps(const PlanProblem& problem, const StepCosts& costs, const Trajectory& trajectory,
+namespace rehearse::lqr {
+
+Vector state_difference(const Task& task, const ConstVectorView& a, const ConstVectorView& b) {
+  Vector difference = a - b;
+  for (Index i = 0; i < difference.size(); ++i)
+    if (task.states[static_cast<std::size_t>(i)].kind == StateKind::angle)
+      difference(i) = std::remainder(difference(i), 2 * std::numbers::pi);
+  return difference;
+}
+
+Matrix Trajectory::rows(const Columns& columns) const {
+  Matrix W(steps, columns.all());
+  W.leftCols(columns.dx) = states.topRows(steps);
+  if (columns.before > 0 && steps > 0) {
+    W.row(0).segment(columns.dx, columns.before).setZero();
+    W.block(1, columns.dx, steps - 1, columns.before) = actions.topRows(steps - 1);
+  }
+  W.middleCols(columns.action(), columns.du) = actions;
+  W.rightCols(columns.dx) = states.bottomRows(steps);
+  return W;
+}
+
+Vector Trajectory::times(const Task& task) const {
+  return Vector::LinSpaced(steps, begin_s, begin_s + static_cast<double>(steps - 1) * task.dt_s);
+}
+
+std::vector<PlannedStep> planned_steps(const Problem& problem, const StepCosts& costs, const Trajectory& trajectory,
                                        dynamics::Linearised& at) {
   const Columns& columns = costs.columns();
   const Index dx = columns.dx, du = columns.du, n = columns.planner_state(), inputs = dx + du;
@@ -33,4 +60,4 @@ std::vector<PlannedStep> planned_steps(const PlanProblem& problem, const StepCos
   return steps;
 }
 
-}  // namespace rehearse::learners::gp_ilqg
+}  // namespace rehearse::lqr

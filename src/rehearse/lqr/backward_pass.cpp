@@ -1,10 +1,10 @@
-#include "rehearse/learners/gp_ilqg/backward_pass.hpp"
+#include "rehearse/lqr/backward_pass.hpp"
 
 #include <Eigen/Cholesky>
 
 #include "rehearse/optim/box_quadratic.hpp"
 
-namespace rehearse::learners::gp_ilqg {
+namespace rehearse::lqr {
 namespace {
 
 constexpr double kNoVariance = 1e-300;
@@ -75,4 +75,4 @@ std::optional<BackwardPass> backward_pass(const std::vector<PlannedStep>& steps,
   return pass;
 }
 
-}  // namespace rehearse::learners::gp_ilqg
+}  // namespace rehearse::lqr

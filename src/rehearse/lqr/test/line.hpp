@@ -1,9 +1,9 @@
 #pragma once
 // A mass on a line that is pulled to 0: linear steps and a quadratic reward, so that plans have a closed form.
 
-#include "rehearse/learners/gp_ilqg/plan_problem.hpp"
+#include "rehearse/lqr/problem.hpp"
 
-namespace rehearse::learners::gp_ilqg::line {
+namespace rehearse::lqr::line {
 
 inline constexpr double kDt = 0.1, kActionCost = 0.05;
 
@@ -38,4 +38,4 @@ class Model final : public dynamics::DynamicsModel {
   double variance_;
 };
 
-}  // namespace rehearse::learners::gp_ilqg::line
+}  // namespace rehearse::lqr::line

@@ -1,4 +1,4 @@
-#include "rehearse/learners/gp_ilqg/step_costs.hpp"
+#include "rehearse/lqr/step_costs.hpp"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 #include "line.hpp"
 
-namespace rehearse::learners::gp_ilqg {
+namespace rehearse::lqr {
 namespace {
 
 TEST(StepCosts, AreMinusTheRewardOrItsLogarithm) {
@@ -72,4 +72,4 @@ TEST(StepCosts, KnowTheActionBeforeAndTheTime) {
 }
 
 }  // namespace
-}  // namespace rehearse::learners::gp_ilqg
+}  // namespace rehearse::lqr

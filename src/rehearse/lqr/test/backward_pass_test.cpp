@@ -1,8 +1,8 @@
-#include "rehearse/learners/gp_ilqg/backward_pass.hpp"
+#include "rehearse/lqr/backward_pass.hpp"
 
 #include <gtest/gtest.h>
 
-namespace rehearse::learners::gp_ilqg {
+namespace rehearse::lqr {
 namespace {
 
 /// y' = 2y + u, cost ½ (y'² + u²), planned at y = y' = u = 0 but for a slope of the cost by y'.
@@ -73,4 +73,4 @@ TEST(BackwardPass, GoesFromTheEndToTheBeginning) {
 }
 
 }  // namespace
-}  // namespace rehearse::learners::gp_ilqg
+}  // namespace rehearse::lqr

@@ -1,40 +1,17 @@
-#include "rehearse/learners/gp_ilqg/hold.hpp"
+#include "rehearse/lqr/hold.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "line.hpp"
+#include "pendulum.hpp"
 
-namespace rehearse::learners::gp_ilqg {
+namespace rehearse::lqr {
 namespace {
 
-/// A pendulum, 0 is upright: the speed changes by sin(angle) + torque, the angle by the speed.
-class Pendulum final : public dynamics::DynamicsModel {
- public:
-  void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean,
-               MatrixView variance) const override {
-    mean.col(0) = line::kDt * X.col(1);
-    mean.col(1) = line::kDt * (X.col(0).array().sin() + U.col(0).array());
-    variance.setZero();
-  }
-  bool certain() const override { return true; }
-};
-
-/// Reward for being within a width of `goal`.
-Task pendulum(double bound, double goal) {
-  Task task = line::task(bound);
-  task.states[0].kind = StateKind::angle;
-  task.reward = [goal](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& next,
-                       VectorView rewards) {
-    rewards = (-2 * (next.col(0).array() - goal).square() - 0.1 * next.col(1).array().square()).exp();
-  };
-  return task;
-}
-
 TEST(Hold, IsWhereTheRobotStaysAndEarnsMost) {
-  const Task task = pendulum(2, 0);
-  const Pendulum model;
+  const Task task = upright::task(2, 0);
+  const upright::Model model;
   const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-3});
   const auto hold = find_hold({model, task, serial_evaluator()}, costs, Vector{{0.2, 0.5}}, Vector{{0.4}}, 0);
   ASSERT_TRUE(hold);
@@ -49,8 +26,8 @@ TEST(Hold, IsWhereTheRobotStaysAndEarnsMost) {
 }
 
 TEST(Hold, MayNeedAnAction) {
-  const Task task = pendulum(2, 0.5);
-  const Pendulum model;
+  const Task task = upright::task(2, 0.5);
+  const upright::Model model;
   const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-6});
   const auto hold = find_hold({model, task, serial_evaluator()}, costs, Vector{{0.2, 0.5}}, Vector{{0}}, 0);
   ASSERT_TRUE(hold);
@@ -59,15 +36,15 @@ TEST(Hold, MayNeedAnAction) {
 }
 
 TEST(Hold, IsNotThereWhereTheActionsAreTooWeak) {
-  const Task task = pendulum(0.1, 1.2);
-  const Pendulum model;
+  const Task task = upright::task(0.1, 1.2);
+  const upright::Model model;
   const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-6});
   EXPECT_FALSE(find_hold({model, task, serial_evaluator()}, costs, Vector{{1.2, 0}}, Vector{{0}}, 0));
 }
 
 TEST(Hold, KnowsItsActionBeforeAndTheTime) {
-  Task task = pendulum(2, 0.5);
-  const Pendulum model;
+  Task task = upright::task(2, 0.5);
+  const upright::Model model;
   const auto hold = [&](double time_s) {
     const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-6});
     return find_hold({model, task, serial_evaluator()}, costs, Vector{{0.2, 0.5}}, Vector{{0}}, time_s);
@@ -102,4 +79,4 @@ TEST(Hold, IsNotOfStatesThatAPolicyDoesNotSee) {
 }
 
 }  // namespace
-}  // namespace rehearse::learners::gp_ilqg
+}  // namespace rehearse::lqr

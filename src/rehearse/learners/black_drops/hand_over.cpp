@@ -1,0 +1,25 @@
+#include "rehearse/learners/black_drops/hand_over.hpp"
+
+#include "rehearse/core/errors.hpp"
+
+namespace rehearse::learners::black_drops {
+
+std::optional<policy::HandOver> find_goal(const lqr::Problem& problem, StreamKey trial) {
+  trial.stage = Stage::goal;
+  trial.purpose = Purpose::states;
+  return lqr::find_goal(problem, trial);
+}
+
+std::vector<std::string> hand_over_violations(const SearchOptions& options, const Task& task) {
+  if (!options.hand_over) return {};
+  Violations violations;
+  violations.require(!needs_derivatives(options.method),
+                     "search.hand_over = true, but search.method = gradient or polish needs derivatives of the whole "
+                     "policy: choose search.method = race");
+  violations.require(!task.actuators().changes_commands(),
+                     "search.hand_over = true, but commands are filtered or limited in their rate, which the feedback "
+                     "does not know: leave out one of them");
+  return violations.list();
+}
+
+}  // namespace rehearse::learners::black_drops

@@ -1,0 +1,21 @@
+#include "rehearse/policy/exported_near.hpp"
+
+#include <gtest/gtest.h>
+
+#include "exported_fixture.hpp"
+
+namespace rehearse::policy {
+namespace {
+
+/// What the lines compute is compared with the policy by the tests of the texts that contain them.
+TEST(ExportedNear, IsThereForPoliciesThatHandOver) {
+  for (const exports::Case& each : exports::cases()) {
+    const Exported exported = exports::exported(each, exports::asked(1, 0.1));
+    const bool hands_over = each.policy->name() == kHandOver;
+    EXPECT_EQ(near_in_c(exported, "arm").find("arm_limit(u, lowest[o], highest[o])") != std::string::npos, hands_over);
+    EXPECT_EQ(near_in_numpy(exported).find("u = np.where(") != std::string::npos, hands_over);
+  }
+}
+
+}  // namespace
+}  // namespace rehearse::policy
