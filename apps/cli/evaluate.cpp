@@ -188,7 +188,8 @@ void advise(const Work& work, const Summary& summary) {
   const bool can =
       std::ranges::find(options, std::pair<std::string, std::string>("learner.search.extra_s", "0")) != options.end();
   if (!can || !summary.solved_at_end || summary.solved_at_end->count >= summary.solved->count) return;
-  put("to learn a policy that holds longer: --set search.extra_s=SECONDS or search.hand_over=true (docs/evaluate.md)\n");
+  put("to learn a policy that holds longer: --set search.extra_s=SECONDS or search.hand_over=true "
+      "(docs/evaluate.md)\n");
 }
 
 void evaluate_episodes(const Work& work) {

@@ -14,9 +14,9 @@
 namespace rehearse::lqr {
 namespace {
 
-constexpr Index kStates = 256;         // that are drawn
-constexpr std::size_t kBegun = 6;      // of these from which staying is looked for
-constexpr double kApart = 0.5;         // between two of them, in one angle at least [rad]
+constexpr Index kStates = 256;        // that are drawn
+constexpr std::size_t kBegun = 6;     // of these from which staying is looked for
+constexpr double kApart = 0.5;        // between two of them, in one angle at least [rad]
 constexpr double kActionCost = 1e-3;  // of an action at its bound, beside the reward
 
 class Search {

@@ -17,11 +17,11 @@ namespace rehearse::lqr {
 namespace {
 
 constexpr Index kDrawn = 100;
-constexpr double kReturning = 0.95;               // of the drawn states
-constexpr double kReturned = 0.05;                // of the level: a state that has come back
-constexpr double kWidest = std::numbers::pi / 2;  // of an angle, either way
-constexpr double kFarthest = 100;                 // times as far as where feedback reaches a bound
-constexpr double kNarrowest = 1e-9;               // of the highest level: beyond, there is no region
+constexpr double kReturning = 0.95;                    // of the drawn states
+constexpr double kReturned = 0.05;                     // of the level: a state that has come back
+constexpr double kWidest = std::numbers::pi / 2;       // of an angle, either way
+constexpr double kFarthest = 100;                      // times as far as where feedback reaches a bound
+constexpr double kNarrowest = 1e-9;                    // of the highest level: beyond, there is no region
 constexpr double kFirstFactor = 4, kLastFactor = 1.1;  // of a level that grows
 constexpr double kFirstWeights[] = {1, 1e2, 1e4};
 constexpr int kBalanced = 3, kRounds = 3;

@@ -144,8 +144,7 @@ constexpr std::pair<const char*, const char*> kMemory[] = {
     {"MEMORY_PARAMETER", " double memory[@MEMORY@],"},
     {"MEMORY_DEFINE", "#define @UPPER@_MEMORY @MEMORY@\n"},
     {"MEMORY_ABOUT",
-     " * memory holds the last commands. Before each episode call @NAME@_start(memory), then @NAME@_act once "
-     "each time step.\n *\n"},
+     " * memory: the last commands. Call @NAME@_start(memory) before each episode, then @NAME@_act once a step.\n *\n"},
     {"MEMORY_START",
      "static inline void @NAME@_start(double memory[@MEMORY@]) {\n"
      "  static const double start[@MEMORY@] = @MEMORY_START_VALUES@;\n"

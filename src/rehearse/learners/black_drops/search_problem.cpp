@@ -12,7 +12,7 @@ void SearchOptions::fields(FieldVisitor& v) {
            {"race", "restarts", "gradient", "polish"}, published("restarts"));
   v.number("box", box, "policy parameters are searched in [−box, box], unless the policy has bounds of its own",
            between(1e-6, 1e6));
-  v.integer("particles", particles, "rollouts of one evaluation", between(1, 1e6));
+  v.integer("particles", particles, expert("rollouts of one evaluation"), between(1, 1e6));
   v.number("extra_s", extra_s, "simulated episodes are longer than a trial by this, so that policies hold longer [s]",
            between(0, 1e4));
   v.boolean("hand_over", hand_over, "policies hand over to linear feedback (LQR) near a goal where the robot can stay");

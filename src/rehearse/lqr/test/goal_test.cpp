@@ -1,7 +1,6 @@
 #include "rehearse/lqr/goal.hpp"
 
 #include <cmath>
-
 #include <numbers>
 
 #include <gtest/gtest.h>

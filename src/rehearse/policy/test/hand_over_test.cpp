@@ -30,8 +30,7 @@ TEST(HandOver, IsFeedbackNearTheGoalAndThePolicyElsewhere) {
   const double turn = 2 * std::numbers::pi;
   const Matrix X{{1, 3, 8}, {2, 3, -8}, {2, 3 - turn, 0}, {9, 3, 0}, {1, 0, 0}};
   const Matrix Theta = to_theta(theta, fixture::hand_over()).transpose().replicate(5, 1);
-  const Matrix U = actions_of(*policy, Theta, X),
-               other = actions_of(*elsewhere, theta.transpose().replicate(5, 1), X);
+  const Matrix U = actions_of(*policy, Theta, X), other = actions_of(*elsewhere, theta.transpose().replicate(5, 1), X);
   EXPECT_TRUE(U.row(0).isApprox(Matrix{{0.5, 0.2}}));
   EXPECT_TRUE(U.row(1).isApprox(Matrix{{-0.5, 0.21}}));
   EXPECT_TRUE(U.row(2).isApprox(Matrix{{-0.5, 0.21}})) << "an angle is the same after a turn";
