@@ -57,7 +57,11 @@ expect 2 "--learner is given 2 times, must be once" 1 learn pendubot --learner g
 expect 2 "--seed is given 3 times, must be once" 2 learn pendubot --seed 1 --seed 2 --seed 3 --out a --out b
 expect 2 "DIR is required" 1 resume
 
-expect 2 "no learner is named (known: " 1 learn pendubot
+expect 0 "unnamed is ready" - learn pendubot --trials 0 --out unnamed
+grep -q '^learner = "gp-mi"' unnamed/spec.toml || fail "without a learner: $(grep learner unnamed/spec.toml)"
+"$program" new priorless >/dev/null && sed -i "/^\\[prior/,\$d" priorless.toml
+expect 0 "priorless is ready" - learn priorless.toml --trials 0 --out priorless
+grep -q '^learner = "black-drops"' priorless/spec.toml || fail "without a prior: $(grep learner priorless/spec.toml)"
 expect 2 "unknown scenario 'pendubott', did you mean 'pendubot'?" 1 learn pendubott --learner gp-mi
 expect 2 "unknown learner 'gpmi', did you mean 'gp-mi'?" 1 learn pendubot --learner gpmi
 expect 2 "unknown prior 'usful' of scenario pendubot, did you mean 'useful'?" 1 learn pendubot --learner gp-mi --prior usful
