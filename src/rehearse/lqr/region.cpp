@@ -19,6 +19,8 @@ namespace {
 constexpr Index kDrawn = 100;
 constexpr double kReturning = 0.95;                    // of the drawn states
 constexpr double kReturned = 0.05;                     // of the level: a state that has come back
+constexpr double kLost = 0.05;                         // of the reward that is lost at first: the same
+constexpr double kRateTime = 0.1;                      // of an episode
 constexpr double kWidest = std::numbers::pi / 2;       // of an angle, either way
 constexpr double kFarthest = 100;                      // times as far as where feedback reaches a bound
 constexpr double kNarrowest = 1e-9;                    // of the highest level: beyond, there is no region
@@ -48,8 +50,10 @@ struct Bowl {
 
 class Widening {
  public:
-  Widening(const Problem& problem, const Vector& state, const Vector& action, const StreamKey& key)
+  /// steps: within which a robot comes back.
+  Widening(const Problem& problem, const Vector& state, const Vector& action, Index steps, const StreamKey& key)
       : problem_(problem),
+        steps_(steps),
         state_(state),
         action_(action),
         half_(StepCosts(problem.task, {}).half_ranges()),
@@ -67,9 +71,9 @@ class Widening {
     Vector weights;
     std::optional<Bowl> best;
     for (const double weight : kFirstWeights) {
-      const Vector same = Vector::Constant(static_cast<Index>(seen_.size()), weight);
-      auto first = begun(same);
-      if (first && (!best || first->log_volume > best->log_volume)) best = std::move(first), weights = same;
+      const Vector first_weights = weight * first_units().cwiseAbs2();
+      auto first = begun(first_weights);
+      if (first && (!best || first->log_volume > best->log_volume)) best = std::move(first), weights = first_weights;
     }
     if (!best) return std::nullopt;
     for (int i = 0; i < kBalanced; ++i) {  // each state counts as its region is narrow
@@ -126,20 +130,39 @@ class Widening {
     return level;
   }
 
+  /// The reward that staying in states (rows × dx) has less than staying at the goal.
+  Vector lost(const Matrix& states) const {
+    const StepCosts costs(problem_.task, {.action_cost = 0});
+    const double end_s = problem_.task.episode_s();
+    const Matrix actions = action_.transpose().replicate(states.rows(), 1);
+    return costs.of_staying(states, actions, end_s).array() -
+           costs.of_staying(state_.transpose(), action_.transpose(), end_s)(0);
+  }
+
   bool returns(const Bowl& bowl, double level) const {
     const Matrix apart = std::sqrt(level) * bowl.factor.matrixU().solve(directions_);
     Matrix from = state_.transpose().replicate(kDrawn, 1);
     for (std::size_t k = 0; k < seen_.size(); ++k) from.col(seen_[k]) += apart.row(static_cast<Index>(k)).transpose();
     const policy::FeedbackStage stage{action_, state_, bowl.gain};
     const Vector theta = policy::to_theta({stage, stage});
-    const Matrix to = rollout::follow(problem_.model, problem_.task, {*feedback_, theta}, from,
-                                      (problem_.task.horizon + 1) / 2, problem_.evaluator);
+    const Matrix to =
+        rollout::follow(problem_.model, problem_.task, {*feedback_, theta}, from, steps_, problem_.evaluator);
+    const Vector lost_at_first = lost(from), lost_at_last = lost(to);
+    const double most_lost = kLost * lost_at_first.mean();
     Index back = 0;
     for (Index i = 0; i < to.rows(); ++i) {
       const Vector left = state_difference(problem_.task, to.row(i).transpose(), state_)(seen_);
-      back += left.dot(bowl.shape * left) < kReturned * level;
+      back += left.dot(bowl.shape * left) < kReturned * level && lost_at_last(i) <= most_lost;
     }
     return static_cast<double>(back) >= kReturning * kDrawn;
+  }
+
+  /// The states' units that the first weights are for: 1, and of a rate what changes its state by 1 in some steps.
+  Vector first_units() const {
+    Vector units = Vector::Ones(state_.size());
+    for (const Kinematics::Pair& pair : problem_.task.kinematics().pairs)
+      units(pair.rate) = kRateTime * problem_.task.episode_s();
+    return units(seen_);
   }
 
   /// The first region, however small.
@@ -179,6 +202,7 @@ class Widening {
   }
 
   const Problem& problem_;
+  const Index steps_;
   const Vector &state_, &action_;
   Vector half_;
   LinearSystem system_;
@@ -191,7 +215,9 @@ class Widening {
 
 std::optional<Region> widest_region(const Problem& problem, const Vector& state, const Vector& action,
                                     const StreamKey& key) {
-  return Widening(problem, state, action, key).run();
+  const Index half = (problem.task.horizon + 1) / 2;
+  auto region = Widening(problem, state, action, half, key).run();
+  return region ? region : Widening(problem, state, action, problem.task.horizon, key).run();
 }
 
 }  // namespace rehearse::lqr

@@ -66,6 +66,9 @@ TEST(Region, HasNoMoreThanAQuarterTurnOfAnAngle) {
 TEST(Region, IsOfTheStatesThatAPolicySees) {
   Task task = line::task();
   task.states[0].kind = StateKind::omitted;
+  task.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& next, VectorView rewards) {
+    rewards = -next.col(1).cwiseAbs2();
+  };
   const line::Model model;
   const auto region = region_of(task, model);
   ASSERT_TRUE(region);
@@ -85,6 +88,22 @@ TEST(Region, IsNotThereWhereNoFeedbackHoldsTheRobot) {
     bool certain() const override { return true; }
   };
   EXPECT_FALSE(region_of(line::task(), Runaway()));
+}
+
+// The cart's place matters: the region is smaller, and the feedback faster, than where the speed alone earns.
+TEST(Region, IsWhereTheRewardComesBackToo) {
+  Task slow = line::task(1), fast = line::task(1);
+  slow.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& next, VectorView rewards) {
+    rewards = (-next.col(1).array().square()).exp();
+  };
+  fast.reward = [](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& next, VectorView rewards) {
+    rewards = (-100 * next.col(0).array().square()).exp();
+  };
+  const line::Model model;
+  const auto of_slow = region_of(slow, model), of_fast = region_of(fast, model);
+  ASSERT_TRUE(of_slow && of_fast);
+  EXPECT_LT(of_fast->log_volume, of_slow->log_volume);
+  EXPECT_LT(of_fast->hand_over.feedback.gain(0, 0), of_slow->hand_over.feedback.gain(0, 0));
 }
 
 TEST(Region, IsTheSameForAnyNumberOfThreads) {
