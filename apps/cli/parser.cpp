@@ -52,8 +52,7 @@ void add_learn(CLI::App& app, LearnArguments& arguments) {
   add(command, "SCENARIO", arguments.scenario,
       "A scenario that `list` shows, the file of a robot of your own, or the spec.toml of a run to repeat", "")
       ->required();
-  add(command, "--learner", arguments.learner,
-      "The learner, one that `list` shows. Default: gp-mi where the robot has a prior, else black-drops", "NAME");
+  add(command, "--learner", arguments.learner, "One of `list`. Default: gp-mi, without a prior black-drops", "NAME");
   add(command, "--prior", arguments.prior,
       "The guess to start from: one of the scenario's, several as a,b,c for a learner that can choose, or `oracle`, "
       "the plant's own dynamics. Default: the scenario's first",
