@@ -14,6 +14,13 @@ from .arrays import Array
 _LARGEST_INPUT, _LARGEST_TIME = 1e100, 1e12
 
 
+def _differences(x: Array, state: Array, angles: Array) -> Array:
+    """x less a state, angles the shorter way round."""
+    apart = np.clip(x, -_LARGEST_INPUT, _LARGEST_INPUT) - state
+    turned = apart - 2 * np.pi * np.floor(apart / (2 * np.pi) + 0.5)
+    return np.where(angles, turned, apart)
+
+
 class Exported:
     """Answers as the original does, but for rounding; it can do what _core.Policy can. A value."""
 
@@ -45,6 +52,7 @@ class Exported:
         self._own = self._size - len(self.start())
         self._numbers = {name: np.array(numbers, dtype=float) if isinstance(numbers, list) and name != "inputs" else numbers
                          for name, numbers in file["computes"].items()}
+        self._near = {name: np.array(numbers, dtype=float) for name, numbers in file["computes"].get("near", {}).items()}
         self._form = {"layers": self._layers, "radial": self._radial, "table": self._table,
                       "feedback": self._feedback}[file["computes"]["form"]]
 
@@ -60,6 +68,8 @@ class Exported:
         known = np.isfinite(x).all(axis=1) & np.isfinite(time_s)
         x = np.where(known[:, None], x, 0.0)
         actions = self._form(x, float(np.clip(time_s, 0.0, _LARGEST_TIME)) if np.isfinite(time_s) else 0.0)
+        if self._near:
+            actions = self._held(x, actions)
         for a, command in enumerate(self._commands):
             if command["last"] is None:
                 continue
@@ -137,13 +147,19 @@ class Exported:
         row = np.fmod(row, len(actions)) if self._numbers["periodic"] else min(row, len(actions) - 1)
         return np.tile(actions[int(row)], (len(x), 1))
 
+    def _held(self, x: Array, actions: Array) -> Array:
+        """The actions, but those of linear feedback near the goal."""
+        near = self._near
+        apart = _differences(x, near["state"], near["angles"])
+        held = np.clip(near["action"] + apart @ near["gain"].T, self._low, self._high)
+        inside = (apart * (apart @ near["shape"].T)).sum(axis=1) < 1
+        return np.where(inside[:, None], held, actions)
+
     def _feedback(self, x: Array, time_s: float) -> Array:
         actions, tracked, gains = (self._numbers[name] for name in ("actions", "states", "gains"))
 
         def of_stage(row: int) -> Array:
-            apart = np.clip(x, -_LARGEST_INPUT, _LARGEST_INPUT) - tracked[row]
-            turned = apart - 2 * np.pi * np.floor(apart / (2 * np.pi) + 0.5)
-            apart = np.where(self._numbers["angles"], turned, apart)
+            apart = _differences(x, tracked[row], self._numbers["angles"])
             planned: Array = actions[row] + apart @ gains[row].reshape(len(self._low), -1).T
             return planned
 

@@ -19,8 +19,8 @@ from .exported import Exported
 class Policy:
     """A deterministic policy: states in, actions inside their bounds out. Any thread.
 
-    theta: its parameters. kind: "mlp", "rbf", "linear", "schedule". trial: that it was, or is to be, tried in. dt_s:
-    how long an action is held. Pickle keeps what the JSON file has.
+    theta: its parameters. kind: "mlp", "rbf", "linear", "schedule", "tracking", "hand-over", "gait". trial: that it was,
+    or is to be, tried in. dt_s: how long an action is held. Pickle keeps what the JSON file has.
     """
 
     def __init__(self, core: Union[_core.Policy, Exported]) -> None:

@@ -27,16 +27,19 @@ def runs(tmp_path):
     yield learn(late, tmp_path / "late"), 2
     yield learn(cart(policy={"policy": "mlp"}, **turning), tmp_path / "mlp"), 2
     yield learn(cart(policy={"policy": "rbf"}, **turning), tmp_path / "rbf"), 2
+    yield learn(cart(**turning, horizon=40), tmp_path / "near", options={**QUICK, "search.hand_over": True}), 2
     yield learn(cart(priors=None), tmp_path / "schedule", learner="black-drops", trials=1), 1
     yield learn(cart(**turning), tmp_path / "tracking", learner="gp-ilqg", options={}), 2
 
 
 def test_what_is_loaded_or_pickled_answers_as_the_original(tmp_path):
-    forms = set()
+    forms, near = set(), []
     for run, trial in runs(tmp_path):
         policy = run.policy(trial)
         file = policy.export(tmp_path / "policy.json")
-        forms.add(json.loads(file.read_text())["computes"]["form"])
+        computes = json.loads(file.read_text())["computes"]
+        forms.add(computes["form"])
+        near += [computes["near"]] if "near" in computes else []
         x = np.random.default_rng(1).normal(size=(50, 2)) * 3
         for again in (rehearse.Policy.load(file), pickle.loads(pickle.dumps(policy)), copy.deepcopy(policy)):
             memory, same = policy.start(50), again.start(50)
@@ -52,6 +55,7 @@ def test_what_is_loaded_or_pickled_answers_as_the_original(tmp_path):
             with pytest.raises(rehearse.InvalidInput, match="states must be an array of"):
                 again([0.0])
     assert forms == {"layers", "radial", "table", "feedback"}
+    assert len(near) == 1, "one of them hands over to feedback"
 
 
 def test_a_run_may_begin_with_a_policy_that_was_loaded(tmp_path):
