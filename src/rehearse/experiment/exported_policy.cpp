@@ -1,6 +1,9 @@
 #include "rehearse/experiment/exported_policy.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "rehearse/policy/description.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -17,6 +20,18 @@ policy::Answers in_states_of(const Episode& episode, double dt_s) {
     asked.times_s(i) = static_cast<double>(t) * dt_s;
   }
   return asked;
+}
+
+/// Adds a state in which the feedback near a goal acts: an episode need not have come to one.
+void add_near(const policy::Near& near, policy::Answers& asked) {
+  const Index rows = asked.states.rows(), dx = near.state.size();
+  Vector state = near.state;
+  for (Index i = 0; i < dx; ++i)
+    if (near.shape(i, i) > 0) state(i) += 0.5 / (static_cast<double>(dx) * std::sqrt(near.shape(i, i)));
+  asked.states.conservativeResize(rows + 1, Eigen::NoChange);
+  asked.states.row(rows) = state.transpose();
+  asked.times_s.conservativeResize(rows + 1);
+  asked.times_s(rows) = asked.times_s(rows - 1);
 }
 
 }  // namespace
@@ -45,8 +60,10 @@ policy::Exported exported_policy(const Resolved& resolved, const TrialRecord& re
                               .trial = record.trial,
                               .total_reward = {}};
   const Episode start{.states = scenario.task.start_mean.transpose()};
-  return policy::make_exported(origin, scenario.task, *policy_of(record, scenario), record.theta,
-                               in_states_of(like ? *like : start, scenario.task.dt_s));
+  const auto policy = policy_of(record, scenario);
+  policy::Answers asked = in_states_of(like ? *like : start, scenario.task.dt_s);
+  if (const auto near = policy::describe(*policy, record.theta).near) add_near(*near, asked);
+  return policy::make_exported(origin, scenario.task, *policy, record.theta, asked);
 }
 
 }  // namespace rehearse::experiment
