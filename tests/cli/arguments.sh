@@ -62,6 +62,9 @@ grep -q '^learner = "gp-mi"' unnamed/spec.toml || fail "without a learner: $(gre
 "$program" new priorless >/dev/null && sed -i "/^\\[prior/,\$d" priorless.toml
 expect 0 "priorless is ready" - learn priorless.toml --trials 0 --out priorless
 grep -q '^learner = "black-drops"' priorless/spec.toml || fail "without a prior: $(grep learner priorless/spec.toml)"
+expect 0 "guessed is ready" - learn priorless.toml --prior oracle --trials 0 --out guessed
+grep -q '^learner = "gp-mi"' guessed/spec.toml || fail "with the oracle alone: $(grep learner guessed/spec.toml)"
+expect 2 "unknown scenario 'pendubott', did you mean 'pendubot'?" 1 learn pendubott
 expect 2 "unknown scenario 'pendubott', did you mean 'pendubot'?" 1 learn pendubott --learner gp-mi
 expect 2 "unknown learner 'gpmi', did you mean 'gp-mi'?" 1 learn pendubot --learner gpmi
 expect 2 "unknown prior 'usful' of scenario pendubot, did you mean 'useful'?" 1 learn pendubot --learner gp-mi --prior usful
