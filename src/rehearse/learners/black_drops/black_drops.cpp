@@ -115,8 +115,9 @@ class BlackDrops final : public TrialLearner {
   void search(Proposal& proposal, const Task& task) const {
     const auto goal = goal_of(*proposal.model, task);
     if (options_.search.hand_over && !goal) proposal.notes.emplace_back(kNoGoal);
-    const auto searched = goal ? policy::with_hand_over(task, setting_.policy, *goal) : setting_.policy;
-    SearchProblem problem{*proposal.model, *searched, task, *setting_.evaluator, setting_.progress};
+    const auto handing_over = goal ? policy::with_hand_over(task, setting_.policy, *goal) : setting_.policy;
+    const bool at_start = goal && acts_at_start(*goal, task);
+    SearchProblem problem = problem_of(proposal, at_start ? *setting_.policy : *handing_over, task);
     if (without_data() && !task.limits.empty())
       problem.doubted = doubted(*setting_.prior, options_.search.safety.doubt, stream());
     const Task longer_task = continued(task, options_.search.extra_s);
@@ -126,15 +127,26 @@ class BlackDrops final : public TrialLearner {
     std::vector<Vector> known = known_policies(history_, *setting_.policy, options_);
     if (setting_.start) known.insert(known.begin(), *setting_.start);
     const bool further = longer_task.horizon > task.horizon;
-    const Choice choice = search_trial(searches, further ? &longer : nullptr, {known, without_data()}, options_);
-    proposal.theta = goal ? policy::to_theta(choice.theta, *goal) : choice.theta;
-    if (goal) proposal.policy = policy_named(policy::kHandOver);
+    Choice choice = search_trial(searches, further ? &longer : nullptr, {known, without_data()}, options_);
+    SearchProblem held = problem_of(proposal, *handing_over, task);
+    held.doubted = problem.doubted;
+    TrialSearches feedback(held, options_.search, stream());
+    const bool hands_over = goal && (!at_start || prefer_feedback(feedback, searches, choice));
+    if (goal && !hands_over) proposal.notes.emplace_back(kHeldAtStart);
+    proposal.theta = hands_over ? policy::to_theta(choice.theta, *goal) : choice.theta;
+    if (hands_over) proposal.policy = policy_named(policy::kHandOver);
     proposal.predicted_return = choice.predicted_return;
     for (std::string& line : warnings(choice.risks, task.limits)) proposal.notes.push_back(std::move(line));
     proposal.risks = choice.risks;
-    proposal.rollouts = searches.rollouts() + longer.rollouts();
-    proposal.failed_rollouts = searches.failed_rollouts() + longer.failed_rollouts();
+    for (const TrialSearches* each : {&searches, &longer, &feedback}) {
+      proposal.rollouts += each->rollouts();
+      proposal.failed_rollouts += each->failed_rollouts();
+    }
     if (worth_exploring(choice)) explore(problem, proposal);
+  }
+
+  SearchProblem problem_of(const Proposal& proposal, const policy::Policy& policy, const Task& task) const {
+    return {*proposal.model, policy, task, *setting_.evaluator, setting_.progress};
   }
 
   /// The random numbers of this trial.

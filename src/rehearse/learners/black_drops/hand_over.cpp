@@ -1,6 +1,7 @@
 #include "rehearse/learners/black_drops/hand_over.hpp"
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/lqr/linear_steps.hpp"
 
 namespace rehearse::learners::black_drops {
 
@@ -8,6 +9,21 @@ std::optional<policy::HandOver> find_goal(const lqr::Problem& problem, StreamKey
   trial.stage = Stage::goal;
   trial.purpose = Purpose::states;
   return lqr::find_goal(problem, trial);
+}
+
+bool acts_at_start(const policy::HandOver& goal, const Task& task) {
+  const Vector apart = lqr::state_difference(task, task.start_mean, goal.feedback.state);
+  return apart.dot(goal.shape * apart) < 1;
+}
+
+bool prefer_feedback(TrialSearches& feedback, TrialSearches& searches, Choice& choice) {
+  SearchResult with = feedback.judge(choice.theta), without = searches.judge(choice.theta);
+  with.solving = feedback.compare_solving({choice.theta})(0);
+  without.solving = searches.compare_solving({choice.theta})(0);
+  const bool decided = with.excess == without.excess && with.solving != without.solving;
+  if (decided ? with.solving < without.solving : better(without, with)) return false;
+  choice.take(with);
+  return true;
 }
 
 std::vector<std::string> hand_over_violations(const SearchOptions& options, const Task& task) {

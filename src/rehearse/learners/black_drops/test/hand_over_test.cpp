@@ -58,6 +58,40 @@ TEST(HandOver, IsNotThereWhereNoStateCanBeHeld) {
   EXPECT_EQ(proposal.notes.front(), kNoGoal);
 }
 
+/// A cart that earns by going fast, and by staying near the place where it stands.
+Setting runner(double for_speed) {
+  const auto ode = [](const Vector& x, const Vector& u, const Vector&, Vector& dxdt) {
+    dxdt << u(0) - 0.3 * x(0), x(0);
+  };
+  Setting setting;
+  setting.task.states = {{"speed", "m/s"}, {"place", "m"}};
+  setting.task.actions = {{"push", "N", {-1, 1}}};
+  setting.task.start_mean = Vector{{0, 0.2}};
+  setting.task.start_std = Vector::Zero(2);
+  setting.task.dt_s = 0.1;
+  setting.task.horizon = 100;
+  setting.task.reward = [for_speed](const ConstMatrixView&, const ConstMatrixView&, const ConstMatrixView& next,
+                                    VectorView rewards) {
+    rewards = for_speed * next.col(0).array() - 0.01 * next.col(1).array().square();
+  };
+  setting.policy =
+      policy::make_linear({.features = setting.task.feature_map(), .scale = Vector::Ones(2), .squash = {{{-1, 1}}, 1}});
+  setting.prior = prior::Prior{"runner", system::make_ode_simulator(ode, {}, 0.1, 4), {}};
+  return setting;
+}
+
+// Feedback holds the cart where it starts: seed 1.
+TEST(HandOver, FromTheStartOnMustBeBetterThanNone) {
+  const Proposal runs = handing_over("black-drops-prior")->build(runner(1))->ask();
+  EXPECT_EQ(runs.policy->name(), "linear");
+  ASSERT_FALSE(runs.notes.empty());
+  EXPECT_EQ(runs.notes.front(), kHeldAtStart);
+  EXPECT_GT(*runs.predicted_return, 20) << "held, it earns next to nothing";
+  const Proposal stays = handing_over("black-drops-prior", "32")->build(runner(0))->ask();
+  EXPECT_EQ(stays.policy->name(), "hand-over");
+  EXPECT_EQ(stays.notes, std::vector<std::string>{});
+}
+
 TEST(HandOver, IsRefusedWhereItCannotBe) {
   const auto refused = [](const Setting& with, const char* method) {
     const auto learner = handing_over("gp-mi");
