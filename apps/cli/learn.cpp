@@ -71,19 +71,12 @@ Catalogue with_given(const Catalogue& catalogue, const LearnArguments& arguments
   return catalogue.with_robot(file->text, arguments.scenario, folder);
 }
 
-/// gp-mi where there is a guess of the robot's dynamics, else black-drops. Of an unknown robot resolving it complains.
-std::string default_learner(const Catalogue& catalogue, const Spec& spec) {
-  const auto robot = catalogue.scenario(spec.scenario);
-  const bool guessed = !robot || !robot->prior_names().empty() || !spec.prior.empty();
-  return guessed ? "gp-mi" : "black-drops";
-}
-
 Spec named_spec(const Catalogue& catalogue, const LearnArguments& arguments, Violations& violations) {
   refuse_file_without_ending(catalogue, arguments.scenario);
   Spec spec;
   spec.scenario = catalogue.scenario_name(arguments.scenario);
   spec.prior = arguments.prior.value_or("");
-  spec.learner = arguments.learner ? *arguments.learner : default_learner(catalogue, spec);
+  spec.learner = arguments.learner ? *arguments.learner : experiment::default_learner(catalogue, spec);
   violations.require(!arguments.prior || !arguments.prior->empty(), "--prior names none");
   return spec;
 }

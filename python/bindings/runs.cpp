@@ -44,6 +44,7 @@ experiment::Resolved resolved(const experiment::Catalogue& catalogue, const Requ
             .trials = request.trials,
             .until_solved = request.until_solved,
             .seed = request.seed};
+  if (spec.learner.empty()) spec.learner = experiment::default_learner(catalogue, spec);
   if (!request.preset.empty()) spec = experiment::with_preset(catalogue, spec, request.preset);
   for (const auto& option : request.options) spec.options.push_back(option);
   if (!request.policy.empty()) spec = experiment::with_start(catalogue, spec, request.policy, "policy");

@@ -208,13 +208,14 @@ class Run:
         return dict(_core.describe(self._core, str(self.folder)))
 
 
-def learn(robot: Robots, learner: str = "gp-mi", *, prior: Union[str, Sequence[str], None] = None, trials: int = 10,
+def learn(robot: Robots, learner: str = "", *, prior: Union[str, Sequence[str], None] = None, trials: int = 10,
           until_solved: bool = False, seed: int = 1, preset: str = "",
           policy: Union[Policy, PathLike, None] = None, options: Union[Mapping[str, Any], None] = None,
           out: Union[PathLike, None] = None, threads: int = 0, progress: Progress = show) -> Run:
     """Learns a policy in a handful of trials, in a new folder.
 
-    robot: a `Robot`, the name of a built-in one (`robots()`), or a robot's TOML file. learner: see `learners()`.
+    robot: a `Robot`, the name of a built-in one (`robots()`), or a robot's TOML file. learner: see `learners()`; "": gp-mi,
+    without a prior black-drops.
     prior: a name, several, or None: the first. trials: 0 makes the folder alone, and `Run.ask` and `Run.tell` go on.
     policy: one to begin with, a `Policy` or its JSON file: searches start from it, too, and without a prior it is the
     first trial. options: as of `--set`, {"hidden": 20}. out: by default runs/ROBOT-LEARNER-PRIOR-SEED. threads: 0 are all cores; any

@@ -31,6 +31,13 @@ def files(run):
     return [(run.folder / name).read_bytes() for name in names]
 
 
+def test_the_learner_follows_from_the_robot(tmp_path):
+    guessed = rehearse.learn(cart(), trials=0, out=tmp_path / "guessed", progress=None)
+    alone = rehearse.learn(cart(priors={}), trials=0, out=tmp_path / "alone", progress=None)
+    assert 'learner = "gp-mi"' in (guessed.folder / "spec.toml").read_text()
+    assert 'learner = "black-drops"' in (alone.folder / "spec.toml").read_text()
+
+
 def test_any_number_of_threads_gives_the_same_bytes(tmp_path):
     one = learn(cart(), tmp_path / "one", threads=1)
     two = learn(cart(), tmp_path / "two", threads=2)

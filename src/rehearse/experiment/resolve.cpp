@@ -252,4 +252,10 @@ Spec completed(const Catalogue& catalogue, const Spec& spec) {
   return Resolver(catalogue, spec, {.learner = false}).resolve().spec;
 }
 
+std::string default_learner(const Catalogue& catalogue, const Spec& spec) {
+  const auto robot = catalogue.scenario(spec.scenario);  // of an unknown one resolving it complains
+  const bool guessed = !robot || !robot->prior_names().empty() || !spec.prior.empty();
+  return guessed ? "gp-mi" : "black-drops";
+}
+
 }  // namespace rehearse::experiment

@@ -29,4 +29,7 @@ Resolved resolve_begun(const Catalogue& catalogue, const Spec& spec);
 /// The complete spec alone, even where the learner cannot do with the task or the policy that it describes so far.
 Spec completed(const Catalogue& catalogue, const Spec& spec);
 
+/// The learner of a spec that names none: gp-mi where there is a guess of the robot's dynamics, else black-drops.
+std::string default_learner(const Catalogue& catalogue, const Spec& spec);
+
 }  // namespace rehearse::experiment

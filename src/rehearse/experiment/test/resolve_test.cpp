@@ -193,5 +193,11 @@ TEST(Spec, UntilSolvedNeedsATaskThatSaysWhatThatIs) {
             "until_solved: line cannot say what is solved");
 }
 
+TEST(Resolve, LearnersAreNamedByDefault) {
+  const Catalogue catalogue = fake::catalogue();
+  EXPECT_EQ(default_learner(catalogue, {.scenario = "line"}), "gp-mi");
+  EXPECT_EQ(default_learner(catalogue, {.scenario = "nothing"}), "gp-mi") << "what is wrong is the robot's name";
+}
+
 }  // namespace
 }  // namespace rehearse::experiment
