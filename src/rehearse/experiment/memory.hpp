@@ -7,8 +7,8 @@
 
 namespace rehearse::experiment {
 
-/// A message for a spec that needs too much memory: its three largest whole numbers that are not defaults, or of all
-/// whole numbers if there are none.
+/// A message for a spec that needs too much memory: the sizes, three at most, that are most times their default. A size
+/// is a number of things, a time (in control steps), or the horizon of a robot's file.
 std::string not_enough_memory(const Catalogue& catalogue, const Spec& complete);
 
 }  // namespace rehearse::experiment
