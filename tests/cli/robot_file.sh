@@ -50,9 +50,11 @@ printf '%s\n' 'format = 1' 'scenario = "many.toml"' 'learners = ["mi"]' 'seeds =
 grep -q "^many-mi-useful-1,many,mi" campaign/campaign.csv || fail "the campaign's table: $(cat campaign/campaign.csv)"
 
 sed -i 's/horizon = 40/horizon = 41/' many.toml
+cp -r campaign before
 "$program" campaign c.toml --out campaign --threads 1 >output 2>&1
-[ $? = 1 ] && grep -q "robot many has another robot than this campaign began with" output ||
+[ $? = 2 ] && grep -q "campaign was begun with another robot many: its file, or one that it names, has changed" output ||
   fail "a campaign with another robot: $(cat output)"
+diff -r before campaign >output || fail "a campaign that was refused has changed: $(cat output)"
 
 "$program" new pilco_robot >/dev/null
 "$program" learn pilco_robot.toml --learner pilco --trials 2 --set search.line_searches=3 --set search.restarts=0 \

@@ -105,12 +105,30 @@ void complete(experiment::Spec& spec, const experiment::Spec& planned) {
 experiment::Spec spec_of(const fs::path& file, const PlannedRun& run) {
   experiment::Spec spec = experiment::from_toml(files::read_file(file), file.string());
   complete(spec, run.spec);
-  if (spec.scenario == run.spec.scenario && spec.robot != run.spec.robot)
-    throw InvalidInput(
-        fmt::format("the file of robot {} has another robot than this campaign began with", run.spec.scenario));
   if (experiment::fingerprint(spec) != experiment::fingerprint(run.spec))
     throw InvalidInput(fmt::format("{} has other options: it is of another campaign or version", file.string()));
   return spec;
+}
+
+/// True if a run's spec is of this robot as another file described it.
+bool has_another_robot(const fs::path& file, const PlannedRun& run) {
+  try {
+    if (!fs::exists(file)) return false;
+    const experiment::Spec spec = experiment::from_toml(files::read_file(file), file.string());
+    return spec.scenario == run.spec.scenario && spec.robot != run.spec.robot;
+  } catch (const std::runtime_error&) {  // damaged: this run alone fails
+    return false;
+  }
+}
+
+/// Throws InvalidInput if a run was begun with another robot: that campaign cannot go on, and must stay as it is.
+void check_same_robot(const fs::path& path, const CampaignPlan& plan) {
+  for (const PlannedRun& run : plan.runs)
+    if (has_another_robot(path / kRuns / run.name / "spec.toml", run))
+      throw InvalidInput(
+          fmt::format("{} was begun with another robot {}: its file, or one that it names, has changed since; name "
+                      "another folder",
+                      path.string(), plan.scenario));
 }
 
 /// Writes the campaign's file and folders for `plan`, in a folder that is locked.
@@ -119,6 +137,7 @@ void begin(const experiment::Catalogue& catalogue, const fs::path& path, std::st
   const fs::path file = path / kFile;
   const std::string begun = fs::exists(file) ? files::read_file(file) : "";
   if (!begun.empty() && begun != text) check_only_adds(begun_plan(catalogue, file, begun), plan, path);
+  check_same_robot(path, plan);
   try {
     if (kind == files::FolderLock::Kind::exclusive) files::remove_temporaries(file);
     if (begun != text) files::write_shared_file(file, text);

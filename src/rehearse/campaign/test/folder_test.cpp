@@ -156,6 +156,34 @@ TEST(CampaignFolder, AFileThatAsksForSomethingElseIsRefused) {
   EXPECT_EQ(results_of(folder) + files::read_file(folder / "campaign.toml"), before);
 }
 
+/// The campaign of a robot "cart" whose file has this text.
+Campaign run_cart(const fs::path& folder, const std::string& robot, const std::string& seeds = "1-2") {
+  struct Cart final : experiment::fake::LineBuilder {
+    std::string name() const override { return "cart"; }
+  };
+  experiment::Catalogue catalogue = experiment::fake::catalogue();
+  catalogue.read_robot = [](std::string_view, const std::string&, const auto&) { return std::make_unique<Cart>(); };
+  return run_campaign(catalogue.with_robot(robot, "cart.toml", ""),
+                      "format = 1\nscenario = \"cart\"\nlearners = [\"echo\"]\ntrials = 1\nseeds = \"" + seeds + "\"\n",
+                      "c.toml", folder, {.threads = 1});
+}
+
+TEST(CampaignFolder, ARobotWhoseFileHasChangedIsRefusedAndNothingIsRecorded) {
+  const fs::path folder = experiment::fake::test_folder() / "campaign";
+  EXPECT_TRUE(run_cart(folder, "mass = 1").complete());
+  const auto all = [&] { return results_of(folder) + files::read_file(folder / "campaign.toml"); };
+  const std::string before = all();
+  const std::string said = folder.string() +
+                           " was begun with another robot cart: its file, or one that it names, has changed since; "
+                           "name another folder";
+  using experiment::fake::message_of;
+  EXPECT_EQ(message_of<InvalidInput>([&] { run_cart(folder, "mass = 2"); }), said);
+  EXPECT_EQ(message_of<InvalidInput>([&] { run_cart(folder, "mass = 2", "1-3"); }), said) << "with one run more";
+  EXPECT_EQ(all(), before);
+  EXPECT_FALSE(fs::exists(folder / "runs/cart-echo-near-3"));
+  EXPECT_TRUE(run_cart(folder, "mass = 1", "1-3").complete()) << "the old robot goes on";
+}
+
 TEST(CampaignFolder, OtherFoldersAreRefused) {
   const fs::path folder = experiment::fake::test_folder();
   fs::create_directories(folder / "mine");
