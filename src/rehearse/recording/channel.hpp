@@ -25,6 +25,7 @@ struct Channel {
 struct Channels {
   std::vector<Channel> states, actions;
   std::vector<Channel> truths;  // none, or one a state
+  std::string bare_time = {};   // the time's column, if it has no unit; empty: it has
 };
 
 }  // namespace rehearse::recording

@@ -53,7 +53,8 @@ class Finder {
     for (const ActionVariable& action : task.actions) wanted_.insert(action.name);
   }
 
-  void find_times() {
+  /// Returns the name of the column if it has no unit, else an empty one.
+  std::string find_times() {
     const std::string name = name_of_time();
     const int column = require(name);
     const double scale = column < 0 ? 1 : scale_of(column, "time", "s");
@@ -64,6 +65,7 @@ class Finder {
       if (row > 0) check_order(row, time_s);
       times_.push_back(time_s);
     }
+    return column < 0 || !titles_[static_cast<std::size_t>(column)].unit.empty() ? "" : name;
   }
 
   Channel channel(const std::string& name, const std::string& unit) {
@@ -182,8 +184,7 @@ class Finder {
 Channels find_channels(const statistics::Table& table, const Task& task, Problems& problems,
                        std::vector<std::string>& notes) {
   Finder finder(table, task, problems, notes);
-  finder.find_times();
-  Channels channels;
+  Channels channels{.bare_time = finder.find_times()};
   const std::span own(task.states.data(), static_cast<std::size_t>(task.actuators().own_states()));
   for (const StateVariable& state : own) channels.states.push_back(finder.channel(state.name, state.unit));
   for (const ActionVariable& action : task.actions)

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include <fmt/format.h>
+
+#include "rehearse/statistics/quantiles.hpp"
 
 namespace rehearse::recording {
 namespace {
@@ -28,6 +31,27 @@ void check_gaps(const Channel& channel, const Grid& grid, double max_gap_s, Prob
     problems.add(after.row, "gap",
                  fmt::format("{} was not measured for {:.6g} s, must be for {:.6g} s at most ({:.3g} control steps)",
                              channel.name, gap_s, max_gap_s, max_gap_s / grid.dt_s));
+  }
+}
+
+double median_gap_s(const Samples& samples) {
+  std::vector<double> gaps_s;
+  for (std::size_t i = 1; i < samples.size(); ++i) gaps_s.push_back(samples[i].time_s - samples[i - 1].time_s);
+  return gaps_s.empty() ? 0 : statistics::quantile(gaps_s, 0.5);
+}
+
+/// Times without a unit whose gaps are too long may be in a smaller one than seconds: says which, and how to name it.
+void check_unit_of_time(const Channels& channels, double max_gap_s, Problems& problems) {
+  const double gap = median_gap_s(channels.states.front().samples);
+  if (channels.bare_time.empty() || gap < 1 || gap <= max_gap_s) return;
+  for (const auto& [name, unit, in_s] : {std::tuple{"milliseconds", "ms", 1e-3}, {"microseconds", "us", 1e-6}}) {
+    if (gap * in_s > max_gap_s) continue;
+    problems.add(
+        1, "unit of time",
+        fmt::format("{0} has no unit, so it is in s, but looks like {1} (rows are {2:.4g} apart): if it is, call "
+                    "the column '{0} [{3}]'",
+                    channels.bare_time, name, gap, unit));
+    return;
   }
 }
 
@@ -132,6 +156,7 @@ Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& 
                              std::max(0.0, end_s - begin_s), dt_s));
   const Grid grid{begin_s, dt_s, static_cast<Index>(std::clamp(steps, 0.0, 1e12))};
   for_each_channel(channels, [&](const Channel& c) { check_gaps(c, grid, max_gap_s, problems); });
+  check_unit_of_time(channels, max_gap_s, problems);
   return grid;
 }
 

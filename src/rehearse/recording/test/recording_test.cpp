@@ -92,6 +92,28 @@ TEST(Recording, FilesAreReadAndLargeOnesAreNot) {
   EXPECT_THROW(read_file(folder.path(), swing_task()), InvalidInput);
 }
 
+/// A swing whose times, under this title, count so many a second.
+std::string swing_counting(double per_s, const std::string& title) {
+  std::string text = swing_csv(41, 0.05, title + ",dq,q,torque");
+  for (int k = 0; k < 41; ++k) text = with_cell(text, k + 2, 1, files::Csv::cell(std::round(k * 0.05 * per_s)));
+  return text;
+}
+
+TEST(Recording, TimesThatLookLikeMillisecondsAreToldHowToSayIt) {
+  const std::string gap = "log.csv: row 3: dq was not measured for 50 s, must be for 0.15 s at most";
+  const std::string said = refusal(swing_counting(1e3, "t"));
+  EXPECT_EQ(
+      said.find("log.csv: row 1: t has no unit, so it is in s, but looks like milliseconds (rows are 50 apart): if "
+                "it is, call the column 't [ms]'\n" +
+                gap),
+      0u)
+      << said;
+  EXPECT_EQ(refusal(swing_counting(1e3, "t [s]")).find(gap), 0u) << "it says that it is in seconds";
+  EXPECT_EQ(read_recording(swing_counting(1e3, "t [ms]"), "log.csv", swing_task()).episode.steps(), 40);
+  EXPECT_NE(refusal(swing_counting(1e6, "time")).find("looks like microseconds"), std::string::npos);
+  EXPECT_EQ(refusal(swing_csv(20, 0.5, "time,dq,q,torque")).find("looks like"), std::string::npos) << "rows of 0.5 s";
+}
+
 struct Wrong {
   std::string text, message;
 };
