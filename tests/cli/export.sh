@@ -59,7 +59,7 @@ same begun repeated trials.csv policy.json spec.toml
 expect 0 "best return" learn pendulum --learner black-drops --trials 1 "${quick[@]}" --policy near.json --out begun_elsewhere
 grep -q '"near"' near.json || fail "the policy of the hand-over has no feedback"
 expect 0 "of 3" evaluate near --episodes 3
-expect 2 "rbf.json: learner pilco cannot begin with a policy" learn pendulum --learner pilco --policy rbf.json --out refused
+expect 2 "rbf.json: learner pilco cannot begin with a policy; those that can: black-drops, " learn pendulum --learner pilco --policy rbf.json --out refused
 expect 2 "mlp.json: learner pilco cannot begin with a policy" learn pendulum --learner pilco --policy mlp.json --out refused
 expect 2 "linear.json is a policy 'linear', but learner gp-mi begins with policies 'mlp' here" learn pendulum --learner gp-mi --policy linear.json --out refused
 expect 0 "trial 1" export mlp --trial 1 --out random.json

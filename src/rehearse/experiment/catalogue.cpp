@@ -102,6 +102,14 @@ std::string Catalogue::why_missing(const std::string& kind, const std::string& n
                  : "");
 }
 
+std::string Catalogue::why_no_start(const std::string& learner) const {
+  std::vector<std::string> able;
+  for (const auto& builder : learner_builders())
+    if (builder->takes_start()) able.push_back(builder->name());
+  const std::string others = able.empty() ? "" : fmt::format("; those that can: {}", fmt::join(able, ", "));
+  return fmt::format("learner {} cannot begin with a policy{}", learner, others);
+}
+
 std::string unknown_name(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
   if (known.empty()) return fmt::format("unknown {} '{}': there are none", kind, name);
   return fmt::format("unknown {} '{}', did you mean '{}'? (known: {})", kind, name, closest(name, known),

@@ -69,6 +69,9 @@ struct Catalogue {
 
   /// One line that says why there is no `kind` ("scenario", "learner") of that name, and what is closest to it.
   std::string why_missing(const std::string& kind, const std::string& name) const;
+
+  /// One line that says that this learner cannot begin with a policy, and which can.
+  std::string why_no_start(const std::string& learner) const;
 };
 
 /// "unknown KIND 'NAME', did you mean 'X'? (known: …)"

@@ -90,7 +90,7 @@ Spec with_start(const Catalogue& catalogue, Spec spec, const std::string& text, 
   const Resolved resolved = resolve(catalogue, spec);
   const std::string learner = resolved.learner->name(), known = resolved.scenario.policy->name();
   if (!resolved.learner->takes_start())
-    throw InvalidInput(fmt::format("{}: learner {} cannot begin with a policy", source, learner));
+    throw InvalidInput(fmt::format("{}: {}", source, catalogue.why_no_start(learner)));
   const std::string kind = kind_of(text, source);
   if (kind != known && kind != policy::kHandOver)
     throw InvalidInput(fmt::format("{} is a policy '{}', but learner {} begins with policies '{}' here (option policy)",

@@ -37,7 +37,8 @@ struct Check {
 class Resolver {
  public:
   Resolver(const Catalogue& catalogue, const Spec& spec, Check check)
-      : spec_(spec),
+      : catalogue_(catalogue),
+        spec_(spec),
         check_(check),
         scenario_builder_(catalogue.scenario(spec.scenario)),
         learner_builder_(catalogue.learner(spec.learner)),
@@ -95,8 +96,7 @@ class Resolver {
 
   void check_start(const policy::Policy& policy) {
     const std::optional<Vector> theta = start_of(spec_.start);
-    violations_.require(learner_builder_->takes_start(),
-                        fmt::format("learner {} cannot begin with a policy", learner_builder_->name()));
+    violations_.require(learner_builder_->takes_start(), catalogue_.why_no_start(learner_builder_->name()));
     violations_.require(
         theta && theta->size() == policy.parameters(),
         fmt::format("start must be the {} numbers of the policy '{}'", policy.parameters(), policy.name()));
@@ -230,6 +230,7 @@ class Resolver {
     }
   }
 
+  const Catalogue& catalogue_;
   Spec spec_;
   Check check_;
   Comments comments_;

@@ -37,6 +37,10 @@ TEST(Catalogue, SaysWhyThereIsNone) {
             "unknown robot 'lien', did you mean 'line'? (known: arm, line)");
 }
 
+TEST(Catalogue, NamesNoLearnersThatBeginWithAPolicyWhereThereAreNone) {
+  EXPECT_EQ(fake::catalogue().why_no_start("echo"), "learner echo cannot begin with a policy");
+}
+
 // Arguments of programs are asked for, which may be scripts.
 TEST(Catalogue, ATextThatIsTooLongForAPathIsNoFileOfARobot) {
   Catalogue catalogue;

@@ -75,7 +75,7 @@ TEST(GivenPolicy, OfAnotherKindThanTheLearnersIsRefusedWithTheNamesOfBoth) {
     return message_of<InvalidInput>([&] { with_start(catalogue, fake::line_spec(1, learner), text, "it.json"); });
   };
   const std::string file = schedule_file();
-  EXPECT_EQ(said("echo", file), "it.json: learner echo cannot begin with a policy");
+  EXPECT_EQ(said("echo", file), "it.json: learner echo cannot begin with a policy; those that can: starting");
   EXPECT_EQ(said("starting", file),
             "it.json is a policy 'schedule', but learner starting begins with policies 'line' here (option policy)");
   EXPECT_EQ(said("starting", "[]"), "it.json is no policy that `export` wrote as JSON");
