@@ -96,14 +96,21 @@ std::optional<Quadratic> quadratic_in_inputs(const Program& program) {
   return result;
 }
 
+/// The columns that are features, in their order; empty where another input (an angle as it is, a state that is no
+/// feature) plays a part, whose column is not zero.
+std::optional<Matrix> of_features_alone(const Matrix& of_inputs, const std::vector<Index>& features) {
+  Matrix rest = of_inputs;
+  for (const Index input : features) rest.col(input).setZero();
+  if (rest.cwiseAbs().maxCoeff() > 0) return {};
+  return of_inputs(Eigen::all, features);
+}
+
 std::optional<reward::ClosedForm> form_of_distances(const Robot& robot, const std::vector<Index>& features) {
   const auto linear = linear_in_inputs(program(formulas_of_features(robot), robot.reward.distance));
-  if (!linear) return {};
+  const auto slopes = linear ? of_features_alone(linear->slopes, features) : std::nullopt;
+  if (!slopes) return {};
   reward::ClosedForm form;
-  form.distances = linear->slopes(Eigen::all, features) / robot.reward.width;
-  Matrix rest = linear->slopes;
-  for (const Index input : features) rest.col(input).setZero();
-  if (rest.cwiseAbs().maxCoeff() > 0) return {};  // an angle as it is, a state that is no feature
+  form.distances = *slopes / robot.reward.width;
   const Vector wanted = -linear->at_zero / robot.reward.width;
   form.goal = form.distances.completeOrthogonalDecomposition().solve(wanted);
   if ((form.distances * form.goal - wanted).norm() > kRounding * (1 + wanted.norm())) return {};
@@ -114,18 +121,18 @@ std::optional<reward::ClosedForm> form_of_formula(const Robot& robot, const std:
   const auto exponent = exponent_in(formulas_of_features(robot), robot.reward.formula);
   const auto quadratic = exponent ? quadratic_in_inputs(*exponent) : std::nullopt;
   if (!quadratic) return {};
-  Matrix rest = quadratic->curvature;
-  Vector rest_slope = quadratic->slope;
-  for (const Index input : features) rest.row(input).setZero(), rest_slope(input) = 0;
-  if (rest.cwiseAbs().maxCoeff() > 0 || rest_slope.cwiseAbs().maxCoeff() > 0) return {};
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(quadratic->curvature(features, features));
+  Matrix all(quadratic->slope.size() + 1, quadratic->slope.size());
+  all << quadratic->curvature, quadratic->slope.transpose();
+  const auto own = of_features_alone(all, features);
+  if (!own) return {};
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver((*own)(features, Eigen::all));
   const Vector& values = solver.eigenvalues();  // ascending
   const Index n = values.size();
   const double least = kNoCurvature * values(n - 1);
   if (!(values(n - 1) > 0) || values(0) < -least) return {};
   const Index rank = (values.array() > least).count();
   const Matrix directions = solver.eigenvectors().rightCols(rank);
-  const Vector curvatures = values.tail(rank), slope = quadratic->slope(features);
+  const Vector curvatures = values.tail(rank), slope = own->bottomRows(1).transpose();
   reward::ClosedForm form;
   form.distances = curvatures.cwiseSqrt().asDiagonal() * directions.transpose();
   form.goal = directions * curvatures.cwiseInverse().asDiagonal() * directions.transpose() * slope;

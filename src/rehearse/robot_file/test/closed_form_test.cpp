@@ -74,5 +74,20 @@ TEST(ClosedForm, OfOtherFormulasThereIsNone) {
   }
 }
 
+TEST(ClosedForm, WhereAStateThatIsNoFeaturePlaysAPartThereIsNone) {
+  const auto form = [](const std::string& reward) {
+    std::string text = with("[[action]]", "[[state]]\nname = \"place\"\ninput = false\nrate = \"rate\"\n[[action]]");
+    const std::string own = "distance = [\"1 - height\", \"sin(angle)\"]\nwidth = 0.5";
+    text.replace(text.find(own), own.size(), reward);
+    return closed_form(read(text, "swing.toml", example::no_files));
+  };
+  for (const char* distance : {"place", "rate - 2 * place"})
+    EXPECT_FALSE(form("distance = [\"" + std::string(distance) + "\"]\nwidth = 1")) << distance;
+  for (const char* formula : {"exp(-place^2)", "exp(-(rate - place)^2)", "exp(-rate^2 - place)"})
+    EXPECT_FALSE(form("formula = \"" + std::string(formula) + "\"")) << formula;
+  for (const char* reward : {"distance = [\"rate\"]\nwidth = 1", "formula = \"exp(-rate^2 + 0 * place)\""})
+    EXPECT_TRUE(form(reward)) << reward;
+}
+
 }  // namespace
 }  // namespace rehearse::robot_file
