@@ -51,13 +51,11 @@ class CampaignTeller final : public campaign::CampaignListener {
   }
 
   void progress(std::size_t run, Index trial, const Progress& progress) override {
-    if (Clock::now() < next_) return;
-    next_ = Clock::now() + std::chrono::milliseconds(100);
+    if (!throttle_.passes()) return;
     tell([&] {
-      return py::dict(py::arg("kind") = "progress", py::arg("run") = plan_.runs[run].name, py::arg("trial") = trial,
-                      py::arg("phase") = progress.phase, py::arg("done") = progress.done,
-                      py::arg("best") = progress.best, py::arg("rollouts") = progress.rollouts,
-                      py::arg("rollouts_per_s") = progress.rollouts_per_s);
+      py::dict event = progress_of(trial, progress);
+      event["run"] = plan_.runs[run].name;
+      return event;
     });
   }
 
@@ -78,8 +76,6 @@ class CampaignTeller final : public campaign::CampaignListener {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   template <class Event>
   void tell(Event event) {
     if (function_.failure->any()) return;
@@ -92,7 +88,7 @@ class CampaignTeller final : public campaign::CampaignListener {
   Callable function_;
   CampaignPlan plan_;
   Index ended_ = 0;
-  Clock::time_point next_ = Clock::now();
+  Throttle throttle_;
 };
 
 /// Refuses a file about another robot than the one that is given, and calls its functions once, before there is a

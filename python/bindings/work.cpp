@@ -1,7 +1,5 @@
 #include "python/bindings/work.hpp"
 
-#include <chrono>
-
 #include <pybind11/stl.h>
 
 #include "apps/cli/cache.hpp"
@@ -29,13 +27,7 @@ class Listener final : public experiment::RunListener {
   }
 
   void progress(Index trial, const Progress& progress) override {
-    if (Clock::now() < next_) return;
-    next_ = Clock::now() + std::chrono::milliseconds(100);
-    tell([&] {
-      return py::dict(py::arg("kind") = "progress", py::arg("trial") = trial, py::arg("phase") = progress.phase,
-                      py::arg("done") = progress.done, py::arg("best") = progress.best,
-                      py::arg("rollouts") = progress.rollouts, py::arg("rollouts_per_s") = progress.rollouts_per_s);
-    });
+    if (throttle_.passes()) tell([&] { return progress_of(trial, progress); });
   }
 
   void trial_done(const experiment::TrialRecord& record) override {
@@ -47,8 +39,6 @@ class Listener final : public experiment::RunListener {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   template <class Event>
   void tell(Event event) {
     try {
@@ -60,7 +50,7 @@ class Listener final : public experiment::RunListener {
 
   Callable function_;
   std::vector<std::string> names_;
-  Clock::time_point next_ = Clock::now();
+  Throttle throttle_;
 };
 
 }  // namespace
@@ -76,6 +66,12 @@ void work_with(const Robot& robot, const Settings& settings, const Work& work) {
                .stop = stop,
                .cache = apps::cache_folder});
   });
+}
+
+py::dict progress_of(Index trial, const Progress& progress) {
+  return py::dict(py::arg("kind") = "progress", py::arg("trial") = trial, py::arg("phase") = progress.phase,
+                  py::arg("done") = progress.done, py::arg("best") = progress.best,
+                  py::arg("rollouts") = progress.rollouts, py::arg("rollouts_per_s") = progress.rollouts_per_s);
 }
 
 py::dict trial_of(const experiment::TrialRecord& trial, const std::vector<std::string>& parameters) {

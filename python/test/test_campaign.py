@@ -244,7 +244,12 @@ def test_progress_hears_of_it_and_may_stop_it(tmp_path):
     ended = [event for event in events if event["kind"] == "run"]
     assert [event["ended"] for event in ended] == [1, 2] and {event["seed"] for event in ended} == {1, 2}
     assert all(event["failed"] is None and event["trials"] == 2 for event in ended)
-    assert {event["run"] for event in events if event["kind"] == "progress"} <= {event["run"] for event in ended}
+    progress = [event for event in events if event["kind"] == "progress"]
+    assert progress and {event["run"] for event in progress} <= {event["run"] for event in ended}
+    single = []
+    rehearse.learn(cart(), "gp-mi", trials=1, out=tmp_path / "run", options=QUICK, progress=single.append)
+    of_run = next(event for event in single if event["kind"] == "progress")
+    assert set(progress[0]) == {"run", *of_run}
 
     def stop(event):
         if event["kind"] == "run":
