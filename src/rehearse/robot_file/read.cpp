@@ -28,7 +28,7 @@ class Reader {
   Robot read() {
     read_head();
     robot_.states = read_states(file_, names_, violations_);
-    required(!robot_.states.empty(), "[[state]]", "what the robot measures");
+    required(!robot_.states.empty(), "[[state]]", "states that the robot measures");
     read_actions();
     robot_.definitions = file_.definitions("define");
     read_task();
@@ -75,7 +75,7 @@ class Reader {
       name_memory(action, files::line_of(*part));
       robot_.actions.push_back(action);
     }
-    required(!robot_.actions.empty(), "[[action]]", "what moves the robot");
+    required(!robot_.actions.empty(), "[[action]]", "actions that move the robot");
   }
 
   void read_actuation(Table& table, Actuation& actuation) {
@@ -115,12 +115,12 @@ class Reader {
       robot_.reward.episode = table.formula("episode");
       if (robot_.reward.distance.empty() && robot_.reward.formula.empty())
         violations_.add(files::line_of(*part),
-                        "[reward] needs distance = […], what is 0 at the goal, or formula = \"…\"");
+                        "[reward] needs distance = […], which is 0 at the goal, or formula = \"…\"");
       if (!robot_.reward.distance.empty() && !robot_.reward.formula.empty())
         table.wrong("formula", "[reward] has distance and formula, must have one of them");
       table.finish();
     } else {
-      required(false, "[reward]", "what each step earns");
+      required(false, "[reward]", "the reward of each step");
     }
     if (const toml::table* part = file_.reader().take_table("success")) {
       Table table(*part, "[success]", violations_);

@@ -187,6 +187,14 @@ TEST(ReadRobot, SaysEverythingThatIsWrongAtOnce) {
   EXPECT_NE(complaint.find("unknown key 'polcy'"), std::string::npos);
 }
 
+TEST(ReadRobot, NamesThePartsThatAreMissing) {
+  const std::string complaint = complaint_of("format = 1\nname = \"empty\"\ndt_s = 0.1\nhorizon = 20\n");
+  for (const char* said :
+       {"[[state]] is missing: states that the robot measures", "[[action]] is missing: actions that move the robot",
+        "[reward] is missing: the reward of each step"})
+    EXPECT_NE(complaint.find(said), std::string::npos) << complaint;
+}
+
 TEST(ReadRobot, WhatFollowsFromAnErrorIsNotSaid) {
   EXPECT_EQ(complaint_of(with("m = 1, l", "m = \"1\", l")), "swing.toml: line 33: m must be a number");
 }

@@ -1,6 +1,7 @@
 // The schema of robots' files, for editors, has the keys that are read.
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <regex>
 #include <set>
@@ -163,6 +164,20 @@ TEST(Schema, HasTheDefaults) {
       {"body", "width_m", Body().width_m},
   };
   for (const auto& [part, key, value] : defaults) EXPECT_EQ(in(part, key), value) << part << "." << key;
+}
+
+TEST(Schema, DescriptionsBeginWithTheirSubject) {
+  Index descriptions = 0;
+  const std::function<void(const Json&)> visit = [&](const Json& node) {
+    if (node.is_object() && node.contains("description") && node["description"].is_string()) {
+      ++descriptions;
+      EXPECT_FALSE(node["description"].get<std::string>().starts_with("what ")) << node["description"];
+    }
+    if (node.is_structured())
+      for (const Json& part : node) visit(part);
+  };
+  visit(schema());
+  EXPECT_GT(descriptions, 50);
 }
 
 }  // namespace
