@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -31,9 +31,13 @@ class _Change:
     def __call__(self, states: Array, actions: Array, /, **parameters: float) -> Array:
         h, x = self.dt_s / self.substeps, states
         for _ in range(self.substeps):
-            k1 = np.asarray(self.rates(x, actions, **parameters))
-            k2 = np.asarray(self.rates(x + 0.5 * h * k1, actions, **parameters))
-            k3 = np.asarray(self.rates(x + 0.5 * h * k2, actions, **parameters))
-            k4 = np.asarray(self.rates(x + h * k3, actions, **parameters))
+            k1 = self._rates(x, actions, parameters)
+            k2 = self._rates(x + 0.5 * h * k1, actions, parameters)
+            k3 = self._rates(x + 0.5 * h * k2, actions, parameters)
+            k4 = self._rates(x + h * k3, actions, parameters)
             x = x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
         return x - states
+
+    def _rates(self, states: Array, actions: Array, parameters: Mapping[str, float]) -> Array:
+        # Columns stay contiguous: NumPy's sine of others differs in its last bit with their address.
+        return np.asfortranarray(self.rates(np.asfortranarray(states), actions, **parameters))

@@ -203,6 +203,19 @@ def test_map_elites_fill_their_niches():
     assert voronoi.statistics()["coverage"] > 0.5
 
 
+def test_rk4_gives_a_row_the_same_bytes_in_any_array():
+    """NumPy's sine of a strided column depends on its address, so columns must be contiguous."""
+    chain = rehearse.rk4(lambda x, u: np.stack([np.sin(x[:, (i + 1) % 6]) for i in range(6)], axis=1), 0.1)
+    states = np.asfortranarray(np.random.default_rng(1).normal(scale=3, size=(300, 6)))
+    actions = np.zeros((300, 1))
+    whole = chain(states, actions)
+    for first in range(0, 300, 7):
+        for rows in (1, 2, 3, 5, 64):
+            part = chain(np.asfortranarray(states[first:first + rows]), actions[first:first + rows])
+            assert np.array_equal(part, whole[first:first + rows])
+    assert np.array_equal(chain(np.ascontiguousarray(states), actions), whole)
+
+
 def test_runge_and_kutta():
     swing = rehearse.rk4(lambda x, u, w: np.column_stack([x[:, 1], -w**2 * x[:, 0]]), 0.1, substeps=4)
     moved = swing(np.array([[1.0, 0.0]]), np.zeros((1, 0)), w=2.0)
