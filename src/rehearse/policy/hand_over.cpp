@@ -1,7 +1,6 @@
 #include "rehearse/policy/hand_over.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -9,12 +8,10 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/policy/description.hpp"
+#include "rehearse/policy/state_difference.hpp"
 
 namespace rehearse::policy {
 namespace {
-
-constexpr double kLargest = 1e100;  // of a state: nothing overflows
-constexpr double kWholeTurn = 2 * std::numbers::pi;
 
 /// The numbers behind those of the policy elsewhere.
 Vector numbers_of(const HandOver& near) {
@@ -28,7 +25,7 @@ class HandingOver final : public Policy, public Describable {
  public:
   /// fixed: null: the numbers of the feedback are the last ones of θ.
   HandingOver(const Task& task, std::shared_ptr<const Policy> elsewhere, const HandOver* fixed)
-      : elsewhere_(std::move(elsewhere)), bounds_(task.action_bounds()) {
+      : elsewhere_(std::move(elsewhere)), bounds_(task.action_bounds()), of_stage_(numbers_of_stage(task)) {
     for (const StateVariable& state : task.states) angle_.push_back(state.kind == StateKind::angle);
     if (!fixed) return;
     fixed_ = numbers_of(*fixed);
@@ -66,20 +63,17 @@ class HandingOver final : public Policy, public Describable {
 
  private:
   Index states() const { return static_cast<Index>(angle_.size()); }
-  Index numbers() const { return actions() + states() + actions() * states() + states() * states(); }
+  Index numbers() const { return of_stage_ + states() * states(); }
 
   /// Replaces the actions of the rows that are near. number(k): the k-th of the feedback, or one a row.
   template <class Number>
   void take_over(const Number& number, const ConstMatrixView& X, MatrixView U) const {
     thread_local Eigen::ArrayXXd difference, u;
     thread_local Eigen::ArrayXd inside, along;
-    const Index n = X.rows(), dx = states(), du = actions(), shape = du + dx + du * dx;
+    const Index n = X.rows(), dx = states(), du = actions(), shape = of_stage_;
     difference.resize(n, dx);
-    for (Index i = 0; i < dx; ++i) {
-      auto d = difference.col(i);
-      d = X.col(i).array().min(kLargest).max(-kLargest) - number(du + i);
-      if (angle_[static_cast<std::size_t>(i)]) d -= kWholeTurn * (d / kWholeTurn + 0.5).floor();
-    }
+    for (Index i = 0; i < dx; ++i)
+      difference_from(number(du + i), angle_[static_cast<std::size_t>(i)], X.col(i), difference.col(i));
     inside.setZero(n);
     for (Index i = 0; i < dx; ++i) {
       along.setZero(n);
@@ -105,7 +99,8 @@ class HandingOver final : public Policy, public Describable {
   std::shared_ptr<const Policy> elsewhere_;
   std::vector<Interval> bounds_;
   std::vector<bool> angle_;
-  Vector fixed_;  // empty: in θ
+  Index of_stage_;  // numbers of the feedback without the shape
+  Vector fixed_;    // empty: in θ
 };
 
 }  // namespace

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/policy/description.hpp"
+#include "rehearse/policy/state_difference.hpp"
 
 namespace rehearse::policy {
 namespace {
 
-constexpr double kLargestState = 1e100;  // nothing overflows
-constexpr double kSameStep = 1e-9;       // of a step: times of steps are not exact
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kSameStep = 1e-9;  // of a step: times of steps are not exact
 
 class Tracking final : public Policy, public Describable {
  public:
@@ -61,12 +59,12 @@ class Tracking final : public Policy, public Describable {
   /// Writes the actions of a stage before they are moved into their bounds.
   void act_in(Index stage, const ConstMatrixView& Theta, const ConstMatrixView& X, MatrixView U) const {
     thread_local Eigen::ArrayXd difference;
+    difference.resize(X.rows());
     const auto of_stage = [&](Index number) { return Theta.col(stage * numbers() + number).array(); };
     const Index dx = states(), du = actions();
     for (Index a = 0; a < du; ++a) U.col(a) = of_stage(a).matrix();
     for (Index i = 0; i < dx; ++i) {
-      difference = X.col(i).array().min(kLargestState).max(-kLargestState) - of_stage(du + i);
-      if (angle_[static_cast<std::size_t>(i)]) difference -= kTurn * (difference / kTurn + 0.5).floor();
+      difference_from(of_stage(du + i), angle_[static_cast<std::size_t>(i)], X.col(i), difference);
       for (Index a = 0; a < du; ++a) U.col(a).array() += of_stage(du + dx + a * dx + i) * difference;
     }
   }

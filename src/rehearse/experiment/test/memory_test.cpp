@@ -32,7 +32,7 @@ class LongBuilder final : public fake::LineBuilder {
   double extra_s_ = 0;
 };
 
-/// What is said of a robot whose file has this horizon.
+/// The message for a robot whose file has this horizon.
 std::string said_of_long(Index horizon, const std::vector<std::pair<std::string, std::string>>& options = {}) {
   Catalogue catalogue = fake::catalogue();
   catalogue.read_robot = [horizon](std::string_view, const std::string&, const auto&) {

@@ -107,13 +107,9 @@ class BlackDrops final : public TrialLearner {
     return schedule();  // it explored
   }
 
-  std::optional<policy::HandOver> goal_of(const dynamics::DynamicsModel& model, const Task& task) const {
-    if (!options_.search.hand_over) return std::nullopt;
-    return find_goal({model, task, *setting_.evaluator}, stream());
-  }
-
   void search(Proposal& proposal, const Task& task) const {
-    const auto goal = goal_of(*proposal.model, task);
+    std::optional<policy::HandOver> goal;
+    if (options_.search.hand_over) goal = find_goal({*proposal.model, task, *setting_.evaluator}, stream());
     if (options_.search.hand_over && !goal) proposal.notes.emplace_back(kNoGoal);
     const auto handing_over = goal ? policy::with_hand_over(task, setting_.policy, *goal) : setting_.policy;
     const bool at_start = goal && acts_at_start(*goal, task);
@@ -128,21 +124,28 @@ class BlackDrops final : public TrialLearner {
     if (setting_.start) known.insert(known.begin(), *setting_.start);
     const bool further = longer_task.horizon > task.horizon;
     Choice choice = search_trial(searches, further ? &longer : nullptr, {known, without_data()}, options_);
-    SearchProblem held = problem_of(proposal, *handing_over, task);
-    held.doubted = problem.doubted;
-    TrialSearches feedback(held, options_.search, stream());
-    const bool hands_over = goal && (!at_start || prefer_feedback(feedback, searches, choice));
+    bool hands_over = goal && !at_start;
+    if (at_start) {
+      SearchProblem held = problem_of(proposal, *handing_over, task);
+      held.doubted = problem.doubted;
+      TrialSearches feedback(held, options_.search, stream());
+      hands_over = prefer_feedback(feedback, searches, choice);
+      count_rollouts(feedback, proposal);
+    }
     if (goal && !hands_over) proposal.notes.emplace_back(kHeldAtStart);
     proposal.theta = hands_over ? policy::to_theta(choice.theta, *goal) : choice.theta;
     if (hands_over) proposal.policy = policy_named(policy::kHandOver);
     proposal.predicted_return = choice.predicted_return;
     for (std::string& line : warnings(choice.risks, task.limits)) proposal.notes.push_back(std::move(line));
     proposal.risks = choice.risks;
-    for (const TrialSearches* each : {&searches, &longer, &feedback}) {
-      proposal.rollouts += each->rollouts();
-      proposal.failed_rollouts += each->failed_rollouts();
-    }
+    count_rollouts(searches, proposal);
+    count_rollouts(longer, proposal);
     if (worth_exploring(choice)) explore(problem, proposal);
+  }
+
+  static void count_rollouts(const TrialSearches& searches, Proposal& proposal) {
+    proposal.rollouts += searches.rollouts();
+    proposal.failed_rollouts += searches.failed_rollouts();
   }
 
   SearchProblem problem_of(const Proposal& proposal, const policy::Policy& policy, const Task& task) const {

@@ -7,7 +7,7 @@
 namespace rehearse::policy {
 namespace {
 
-/// What the lines compute is compared with the policy by the tests of the texts that contain them.
+/// Tests of the whole texts compare their actions with the policy's.
 TEST(ExportedNear, IsThereForPoliciesThatHandOver) {
   for (const exports::Case& each : exports::cases()) {
     const Exported exported = exports::exported(each, exports::asked(1, 0.1));
