@@ -9,9 +9,13 @@ namespace {
 
 int product(int a, int b) { return std::min(a + b, Program::kNoPolynomial); }
 
-int degree_of(const Instruction& i, const std::vector<int>& slots) {
-  const auto degree = [&](std::int32_t slot) { return slots[static_cast<std::size_t>(slot)]; };
-  const int a = degree(i.a), b = arguments_of(i.op) > 1 ? degree(i.b) : 0, c = arguments_of(i.op) > 2 ? degree(i.c) : 0;
+/// before: of the instruction before.
+int degree_of(const Instruction& i, const std::vector<int>& slots, int before) {
+  const auto degree = [&](Argument argument, std::int32_t slot) {
+    if (argument == i.in_registers) return before;
+    return static_cast<int>(argument) <= arguments_of(i.op) ? slots[static_cast<std::size_t>(slot)] : 0;
+  };
+  const int a = degree(Argument::a, i.a), b = degree(Argument::b, i.b), c = degree(Argument::c, i.c);
   switch (i.op) {
     case Op::negate:
       return a;
@@ -38,8 +42,13 @@ Program::Program(const Formulas& formulas, const std::vector<Node>& outputs)
 int Program::degree() const {
   std::vector<int> slots(static_cast<std::size_t>(tape_.slots), 0);
   for (Index i = 0; i < inputs(); ++i) slots[static_cast<std::size_t>(tape_.input_slot(i))] = 1;
-  for (const std::vector<Instruction>& code : tape_.code)
-    for (const Instruction& i : code) slots[static_cast<std::size_t>(i.out)] = degree_of(i, slots);
+  for (const std::vector<Instruction>& code : tape_.code) {
+    int before = 0;
+    for (const Instruction& i : code) {
+      before = degree_of(i, slots, before);
+      if (i.is_stored) slots[static_cast<std::size_t>(i.out)] = before;
+    }
+  }
   int degree = 0;
   for (const std::int32_t slot : tape_.outputs) degree = std::max(degree, slots[static_cast<std::size_t>(slot)]);
   return degree;

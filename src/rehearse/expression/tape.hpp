@@ -51,10 +51,20 @@ enum class Op : std::uint8_t {
 /// The number of arguments of an operation.
 constexpr int arguments_of(Op op) { return op >= Op::multiply_add ? 3 : op >= Op::add ? 2 : 1; }
 
+/// Operations whose result stays in registers until the next instruction, which may take it from there.
+constexpr bool stays_in_registers(Op op) {
+  return op == Op::negate || (op >= Op::add && op <= Op::divide) || op == Op::multiply_add ||
+         op == Op::negative_multiply_add;
+}
+
+enum class Argument : std::uint8_t { none, a, b, c };
+
 /// out = op(a, b, c), numbers of slots; those that the operation does not take are 0.
 struct Instruction {
   Op op;
-  std::int32_t out, a, b, c;
+  Argument in_registers = Argument::none;  // it is the result of the instruction before, whatever its slot holds
+  bool is_stored = true;                   // false: the next instruction alone needs the result, and `out` is 0
+  std::int32_t out = 0, a = 0, b = 0, c = 0;
 };
 
 /// The rate at which an input changes; a value is computed when the fastest of its inputs changes.

@@ -177,10 +177,13 @@ class TapeBuilder::Writer {
   Tape write() {
     Tape tape;
     place_constants_and_inputs(tape);
+    std::vector<Node> order[3];
+    std::vector<bool> placed(values_.size(), false);
+    for (const Node output : outputs_) place(output, placed, order);
     SlotPool pool(tape.slots_of_inputs());
-    for (const Pace pace : {Pace::call, Pace::block, Pace::always})
-      for (std::size_t i = 0; i < values_.size(); ++i)
-        if (is_operation(i) && values_[i].pace == pace && uses_[i] > 0) write(static_cast<Node>(i), pool, tape);
+    for (const std::vector<Node>& nodes : order)
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        write(nodes[i], i > 0 ? nodes[i - 1] : kNone, i + 1 < nodes.size() ? nodes[i + 1] : kNone, pool, tape);
     for (const Node output : outputs_) tape.outputs.push_back(slot(output));
     tape.slots = pool.slots();
     return tape;
@@ -231,22 +234,52 @@ class TapeBuilder::Writer {
       if (values_[i].kind == Value::Kind::input) slots_[i] = tape.input_slot(tape.inputs++);
   }
 
+  /// Places a value after its arguments, by pace; last of these one that nothing else needs, since it may stay in
+  /// registers.
+  void place(Node node, std::vector<bool>& placed, std::vector<Node> (&order)[3]) {
+    if (node == kNone || !is_operation(static_cast<std::size_t>(node)) || placed[static_cast<std::size_t>(node)])
+      return;
+    placed[static_cast<std::size_t>(node)] = true;
+    const Value& value = at(node);
+    Node last = kNone;
+    for (const Node of : {value.a, value.b, value.c})
+      if (of != kNone && at(of).pace == value.pace && uses(of) == 1) last = of;
+    for (const Node of : {value.a, value.b, value.c})
+      if (of != last) place(of, placed, order);
+    place(last, placed, order);
+    order[static_cast<std::size_t>(value.pace)].push_back(node);
+  }
+
+  /// The argument of `next` that is the value `node`, and may stay in registers till then. A second such argument needs
+  /// it in memory.
+  Argument handed_over(Node node, Node next) {
+    if (node == kNone || next == kNone || !stays_in_registers(at(node).op) || !stays_in_registers(at(next).op))
+      return Argument::none;
+    const Value& value = at(next);
+    if ((value.a == node) + (value.b == node) + (value.c == node) != 1) return Argument::none;
+    return value.a == node ? Argument::a : value.b == node ? Argument::b : Argument::c;
+  }
+
   /// Appends an instruction. Values of pace `always` give their slots to others when nobody needs them; the rest stays.
-  void write(Node node, SlotPool& pool, Tape& tape) {
+  void write(Node node, Node before, Node next, SlotPool& pool, Tape& tape) {
     const Value& value = at(node);
     const auto argument = [&](Node of) { return of == kNone ? 0 : slot(of); };
-    const Instruction instruction{value.op, 0, argument(value.a), argument(value.b), argument(value.c)};
+    Instruction instruction{.op = value.op,
+                            .in_registers = handed_over(before, node),
+                            .is_stored = uses(node) > 1 || handed_over(node, next) == Argument::none,
+                            .a = argument(value.a),
+                            .b = argument(value.b),
+                            .c = argument(value.c)};
     if (value.pace == Pace::always)
       for (const Node of : {value.a, value.b, value.c}) release(of, pool);
-    slot(node) = pool.take();
-    auto& code = tape.code[static_cast<std::size_t>(value.pace)];
-    code.push_back(instruction);
-    code.back().out = slot(node);
+    if (instruction.is_stored) instruction.out = pool.take();
+    slot(node) = instruction.out;
+    tape.code[static_cast<std::size_t>(value.pace)].push_back(instruction);
   }
 
   void release(Node node, SlotPool& pool) {
     if (node == kNone || at(node).kind != Value::Kind::operation || at(node).pace != Pace::always) return;
-    if (--uses(node) == 0) pool.give_back(slot(node));
+    if (--uses(node) == 0 && slot(node) != 0) pool.give_back(slot(node));  // 0: never stored
   }
 
   std::vector<Value> values_;

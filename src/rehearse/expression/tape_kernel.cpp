@@ -59,13 +59,12 @@ HWY_INLINE void one_by_one(const Instruction& i, double* out, const double* a, c
   for (Index k = 0; k < n; ++k) out[k] = evaluate(i.op, a[k], b[k], 0);
 }
 
-HWY_INLINE void execute(const Instruction& i, double* slots, Index n) {
+/// Operations from memory to memory. Not inlined, so that registers are left to the others.
+HWY_NOINLINE void execute(const Instruction& i, double* slots, Index n) {
   double* out = slots + i.out * kBlock;
   const double *a = slots + i.a * kBlock, *b = slots + i.b * kBlock, *c = slots + i.c * kBlock;
   const D d;
   switch (i.op) {
-    case Op::negate:
-      return each(out, a, n, [](V x) HWY_ATTR { return hn::Neg(x); });
     case Op::sine:
       return each(out, a, n, [d](V x) HWY_ATTR { return rehearse::HWY_NAMESPACE::sine(d, x); });
     case Op::cosine:
@@ -78,14 +77,6 @@ HWY_INLINE void execute(const Instruction& i, double* slots, Index n) {
       return each(out, a, n, [](V x) HWY_ATTR { return hn::Sqrt(x); });
     case Op::absolute:
       return each(out, a, n, [](V x) HWY_ATTR { return hn::Abs(x); });
-    case Op::add:
-      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return hn::Add(x, y); });
-    case Op::subtract:
-      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return hn::Sub(x, y); });
-    case Op::multiply:
-      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return hn::Mul(x, y); });
-    case Op::divide:
-      return each(out, a, b, n, [](V x, V y) HWY_ATTR { return hn::Div(x, y); });
     case Op::minimum:
       return each(out, a, b, n, [](V x, V y) HWY_ATTR { return smaller(x, y); });
     case Op::maximum:
@@ -102,10 +93,6 @@ HWY_INLINE void execute(const Instruction& i, double* slots, Index n) {
       return each(out, a, b, n, [](V x, V y) HWY_ATTR { return truth(hn::And(is_true(x), is_true(y)), x, y); });
     case Op::logical_or:
       return each(out, a, b, n, [](V x, V y) HWY_ATTR { return truth(hn::Or(is_true(x), is_true(y)), x, y); });
-    case Op::multiply_add:
-      return each(out, a, b, c, n, [](V x, V y, V z) HWY_ATTR { return hn::MulAdd(x, y, z); });
-    case Op::negative_multiply_add:
-      return each(out, a, b, c, n, [](V x, V y, V z) HWY_ATTR { return hn::NegMulAdd(x, y, z); });
     case Op::where:
       return each(out, a, b, c, n,
                   [](V x, V y, V z) HWY_ATTR { return keep_nan(x, hn::IfThenElse(is_true(x), y, z)); });
@@ -114,8 +101,96 @@ HWY_INLINE void execute(const Instruction& i, double* slots, Index n) {
   }
 }
 
+/// A slot: the vector from a row on.
+struct Slot {
+  HWY_INLINE Slot(const double* slots, std::int32_t slot) : numbers(slots + slot * kBlock) {}
+  HWY_INLINE V operator()(Index row) const { return hn::Load(D(), numbers + row); }
+  const double* numbers;
+};
+
+/// N vectors of rows. Results stay in registers until the next instruction: loads and stores are the most of the work.
+template <int N>
+struct Registers {
+  V values[N];
+
+  template <class F>
+  HWY_INLINE void each(F f) {
+    const Index lanes = static_cast<Index>(hn::Lanes(D()));
+    HWY_UNROLL(8)
+    for (int k = 0; k < N; ++k) values[k] = f(values[k], k * lanes);
+  }
+
+  template <class F>
+  HWY_INLINE void one(const Instruction& i, const double* slots, F f) {
+    if (i.in_registers == Argument::a) return each([=](V x, Index) HWY_ATTR { return f(x); });
+    const Slot a(slots, i.a);
+    each([=](V, Index k) HWY_ATTR { return f(a(k)); });
+  }
+
+  template <class F>
+  HWY_INLINE void two(const Instruction& i, const double* slots, F f) {
+    const Slot a(slots, i.a), b(slots, i.b);
+    if (i.in_registers == Argument::a) return each([=](V x, Index k) HWY_ATTR { return f(x, b(k)); });
+    if (i.in_registers == Argument::b) return each([=](V x, Index k) HWY_ATTR { return f(a(k), x); });
+    each([=](V, Index k) HWY_ATTR { return f(a(k), b(k)); });
+  }
+
+  template <class F>
+  HWY_INLINE void three(const Instruction& i, const double* slots, F f) {
+    const Slot a(slots, i.a), b(slots, i.b), c(slots, i.c);
+    if (i.in_registers == Argument::a) return each([=](V x, Index k) HWY_ATTR { return f(x, b(k), c(k)); });
+    if (i.in_registers == Argument::b) return each([=](V x, Index k) HWY_ATTR { return f(a(k), x, c(k)); });
+    if (i.in_registers == Argument::c) return each([=](V x, Index k) HWY_ATTR { return f(a(k), b(k), x); });
+    each([=](V, Index k) HWY_ATTR { return f(a(k), b(k), c(k)); });
+  }
+
+  HWY_INLINE void store(double* out) {
+    const D d;
+    each([=](V x, Index k) HWY_ATTR {
+      hn::Store(x, d, out + k);
+      return x;
+    });
+  }
+
+  /// One instruction of those that stay in registers; false of others.
+  HWY_INLINE bool compute(const Instruction& i, const double* slots) {
+    switch (i.op) {
+      case Op::negate:
+        return one(i, slots, [](V x) HWY_ATTR { return hn::Neg(x); }), true;
+      case Op::add:
+        return two(i, slots, [](V x, V y) HWY_ATTR { return hn::Add(x, y); }), true;
+      case Op::subtract:
+        return two(i, slots, [](V x, V y) HWY_ATTR { return hn::Sub(x, y); }), true;
+      case Op::multiply:
+        return two(i, slots, [](V x, V y) HWY_ATTR { return hn::Mul(x, y); }), true;
+      case Op::divide:
+        return two(i, slots, [](V x, V y) HWY_ATTR { return hn::Div(x, y); }), true;
+      case Op::multiply_add:
+        return three(i, slots, [](V x, V y, V z) HWY_ATTR { return hn::MulAdd(x, y, z); }), true;
+      case Op::negative_multiply_add:
+        return three(i, slots, [](V x, V y, V z) HWY_ATTR { return hn::NegMulAdd(x, y, z); }), true;
+      default:
+        return false;
+    }
+  }
+};
+
+template <int N>
+HWY_INLINE void run_vectors(const Code& code, double* slots) {
+  Registers<N> registers = {};
+  for (const Instruction* i = code.instructions; i != code.instructions + code.count; ++i)
+    if (!registers.compute(*i, slots))
+      execute(*i, slots, N * static_cast<Index>(hn::Lanes(D())));
+    else if (i->is_stored)
+      registers.store(slots + i->out * kBlock);
+}
+
 HWY_INLINE void run_code(const Code& code, double* slots, Index n) {
-  for (Index i = 0; i < code.count; ++i) execute(code.instructions[i], slots, n);
+  constexpr int kTogether = 8;  // vectors; more do not fit into AVX2's registers
+  const Index lanes = static_cast<Index>(hn::Lanes(D()));
+  Index row = 0;
+  for (; row + kTogether * lanes <= n; row += kTogether * lanes) run_vectors<kTogether>(code, slots + row);
+  for (; row < n; row += lanes) run_vectors<1>(code, slots + row);
 }
 
 HWY_INLINE void copy(double* to, const double* from, Index n) {

@@ -29,9 +29,11 @@ class SlopeTape {
     for (const std::string& name : of.states) formulas.input(name, Pace::always);
     expression::TapeBuilder& builder = formulas.builder();
     std::vector<std::pair<Node, Node>> trigonometry;
+    limits_.assign(of.states.size(), std::numeric_limits<double>::infinity());
     for (Index i = 0; i < states_; ++i) {
       const std::string& name = of.states[static_cast<std::size_t>(i)];
       if (!is_among(name, of.angles)) continue;
+      limits_[static_cast<std::size_t>(i)] = kLargestTurn;
       angles_.push_back(i);
       const Node sine = builder.input(Pace::always), cosine = builder.input(Pace::always);
       trigonometry.emplace_back(sine, cosine);
@@ -44,7 +46,7 @@ class SlopeTape {
       const Node rate = slopes[static_cast<std::size_t>(angles_[a])];
       const auto [sine, cosine] = trigonometry[a];
       slopes.push_back(builder.operation(Op::multiply, cosine, rate));
-      slopes.push_back(builder.operation(Op::negate, builder.operation(Op::multiply, sine, rate)));
+      slopes.push_back(builder.operation(Op::negative_multiply_add, sine, rate, builder.constant(0)));
     }
     tape_ = builder.tape(slopes);
   }
@@ -77,12 +79,8 @@ class SlopeTape {
                                      tape_.input_slot(first_state())};
       expression::integrate(ode, {slots, rows}, slots + tape_.slots * kBlock, duration_s / static_cast<double>(steps),
                             steps);
-      for (Index i = 0; i < states_; ++i) {
-        const double* after = slot(slots, first_state() + i);
-        for (Index k = 0; k < rows; ++k) dX(row + k, i) = after[k] - X(row + k, i);
-      }
+      write_changes(slots, X.middleRows(row, rows), dX.middleRows(row, rows));
     }
-    contain(dX);
   }
 
  private:
@@ -112,16 +110,24 @@ class SlopeTape {
   }
 
   /// A row that lost its way, or of which a number is not finite, fails as a whole.
-  void contain(MatrixView dX) const {
-    for (Index row = 0; row < dX.rows(); ++row) {
-      bool valid = dX.row(row).allFinite();
-      for (const Index angle : angles_) valid = valid && std::abs(dX(row, angle)) < kLargestTurn;
-      if (!valid) dX.row(row).setConstant(std::numeric_limits<double>::quiet_NaN());
+  void write_changes(double* slots, const ConstMatrixView& X, MatrixView dX) const {
+    bool failed[kBlock] = {};
+    for (Index i = 0; i < states_; ++i) {
+      const double *before = X.col(i).data(), *after = slot(slots, first_state() + i);
+      double* change = dX.col(i).data();
+      const double limit = limits_[static_cast<std::size_t>(i)];
+      for (Index k = 0; k < X.rows(); ++k) {
+        change[k] = after[k] - before[k];
+        failed[k] |= !(std::abs(change[k]) < limit);
+      }
     }
+    for (Index k = 0; k < X.rows(); ++k)
+      if (failed[k]) dX.row(k).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
 
   Index states_, actions_, parameters_;
-  std::vector<Index> angles_;  // states
+  std::vector<Index> angles_;   // states
+  std::vector<double> limits_;  // of the change of each state
   Tape tape_;
 };
 

@@ -93,6 +93,27 @@ TEST(TapeBuilder, SinesOfSumsFollowFromThoseThatAreKnown) {
   EXPECT_NEAR(run_tape(tape, at)(0, 1), std::cos(2 * x - y), 1e-15);
 }
 
+// 1 / ((x + y) y): two instructions hand their results over, and no slot is taken but that of the output.
+TEST(TapeBuilder, AResultThatTheNextInstructionAloneNeedsIsNotStored) {
+  TapeBuilder builder;
+  const Node x = builder.input(Pace::always), y = builder.input(Pace::always);
+  const Node sum = builder.operation(Op::add, x, y), ratio = builder.operation(Op::multiply, sum, y);
+  const Tape chain = builder.tape({builder.operation(Op::divide, builder.constant(1), ratio)});
+  ASSERT_EQ(chain.code[2].size(), 3u);
+  EXPECT_FALSE(chain.code[2][0].is_stored);
+  EXPECT_EQ(chain.code[2][1].in_registers, Argument::b);
+  EXPECT_EQ(chain.code[2][2].in_registers, Argument::b);
+  EXPECT_TRUE(chain.code[2][2].is_stored);
+  EXPECT_EQ(chain.slots, chain.slots_of_inputs() + 1);
+
+  const Tape twice = builder.tape({builder.operation(Op::multiply, sum, sum)});
+  EXPECT_TRUE(twice.code[2][0].is_stored) << "a square needs it in memory";
+  const Tape of_output = builder.tape({ratio, sum});
+  EXPECT_TRUE(of_output.code[2][0].is_stored) << "an output";
+  const Tape called = builder.tape({builder.operation(Op::tangent, sum)});
+  EXPECT_TRUE(called.code[2][0].is_stored) << "operations that go from memory to memory";
+}
+
 TEST(TapeBuilder, SlotsAreUsedAgain) {
   TapeBuilder builder;
   const Node x = builder.input(Pace::always);

@@ -40,6 +40,38 @@ TEST_P(EachOperation, IsThatOfSingleNumbers) {
 
 INSTANTIATE_TEST_SUITE_P(All, EachOperation, ::testing::Range(0, static_cast<int>(Op::where) + 1));
 
+// An operation on x + y and two inputs, x + y as each of its arguments, for as many rows as a processor has together or
+// not.
+TEST(TapeKernel, EachArgumentMayComeFromRegisters) {
+  for (int number = 0; number <= static_cast<int>(Op::where); ++number)
+    for (int place = 0; place < arguments_of(static_cast<Op>(number)); ++place) {
+      const auto op = static_cast<Op>(number);
+      TapeBuilder builder;
+      const Node x = builder.input(Pace::always), y = builder.input(Pace::always), z = builder.input(Pace::always);
+      Node arguments[3] = {y, z, x};
+      arguments[place] = builder.operation(Op::add, x, y);
+      for (int i = arguments_of(op); i < 3; ++i) arguments[i] = TapeBuilder::kNone;
+      const Tape tape = builder.tape({builder.operation(op, arguments[0], arguments[1], arguments[2])});
+      Matrix in(kBlock, 3);
+      for (Index k = 0; k < kBlock; ++k)
+        in.row(k) << 0.3 + 0.1 * static_cast<double>(k), 1.7, -0.25 * static_cast<double>(k);
+      for (const Index rows : {Index{1}, Index{17}, kBlock}) {
+        const Matrix out = run_tape(tape, in.topRows(rows));
+        for (Index k = 0; k < rows; ++k) {
+          double values[3] = {in(k, 1), in(k, 2), in(k, 0)};
+          values[place] = in(k, 0) + in(k, 1);
+          const double expected = evaluate(op, values[0], values[1], values[2]);
+          if (std::isnan(expected))
+            EXPECT_TRUE(std::isnan(out(k, 0))) << number << " at " << place;
+          else if (std::isinf(expected) || expected == 0)
+            EXPECT_EQ(out(k, 0), expected) << number << " at " << place;
+          else
+            EXPECT_NEAR(out(k, 0) / expected, 1, 1e-13) << number << " at " << place << ", row " << k;
+        }
+      }
+    }
+}
+
 TEST(TapeKernel, ARowDoesNotDependOnTheOthers) {
   Formulas formulas;
   formulas.input("x", Pace::always);
