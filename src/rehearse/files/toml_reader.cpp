@@ -71,12 +71,28 @@ void check_depth(std::string_view text, const std::string& source) {
 
 }  // namespace
 
+namespace {
+
+/// What to do about an error of the parser, whose words are of its grammar.
+std::string remedy(std::string_view error) {
+  for (const char* kind : {"value:", "floating-point:", "boolean:", "decimal integer:",
+                           "key-value pair: expected a comment"})  // NAME = m * l, unit = kg, dt_s = 5 ms
+    if (error.starts_with(fmt::format("Error while parsing {}", kind)))
+      return "; formulas, names and units stand in quotes";
+  if (error.find("cannot redefine existing table") != std::string_view::npos)
+    return "; of several of a kind each is in double brackets, such as [[state]]";
+  return "";
+}
+
+}  // namespace
+
 toml::table parse_toml(std::string_view text, const std::string& source) {
   check_depth(text, source);
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw InvalidInput(fmt::format("{}: line {}: {}", source, error.source().begin.line, error.description()));
+    throw InvalidInput(fmt::format("{}: line {}: {}{}", source, error.source().begin.line, error.description(),
+                                   remedy(error.description())));
   }
 }
 
@@ -127,6 +143,12 @@ void TomlReader::take_fields(const Fields& fields) {
     const auto must_be = unquoted.must_be.find(key);
     if (node->is_string() && must_be != unquoted.must_be.end()) {
       wrong(key, fmt::format("{} = \"{}\", must be {}, without quotes", key, text_of(*node), must_be->second));
+      continue;
+    }
+    if (!node->is_value()) {
+      wrong(key, fmt::format("{} must be {}, not a {}", key,
+                             must_be == unquoted.must_be.end() ? "text in quotes" : must_be->second,
+                             node->is_array() ? "list" : "table"));
       continue;
     }
     try {

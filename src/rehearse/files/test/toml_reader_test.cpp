@@ -1,5 +1,6 @@
 #include "rehearse/files/toml_reader.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "rehearse/core/test/test_tools.hpp"
@@ -92,6 +93,34 @@ TEST(TomlReader, NumbersAndFlagsStandWithoutQuotes) {
             "x.toml: line 3: c = \"true\", must be true or false, without quotes");
   EXPECT_EQ(d, "text");
   EXPECT_EQ(e, E::y);
+}
+
+TEST(TomlReader, SaysWhichFieldIsAListOrATable) {
+  const toml::table table = parse_toml("width = [1, 2]\nname = [\"a\"]\nsteps = { few = 3 }\n", "x.toml");
+  FileViolations violations("x.toml");
+  TomlReader reader(table, "", violations);
+  double width = 0;
+  std::string name;
+  Index steps = 0;
+  reader.take_fields([&](FieldVisitor& v) {
+    v.number("width", width, "");
+    v.text("name", name, "");
+    v.integer("steps", steps, "");
+  });
+  EXPECT_EQ(complaint(violations),
+            "x.toml: line 1: width must be a number, not a list\n"
+            "x.toml: line 2: name must be text in quotes, not a list\n"
+            "x.toml: line 3: steps must be a whole number, not a table");
+}
+
+TEST(Toml, SaysWhatToDoAboutTheParsersErrors) {
+  const auto ends_with = [](const std::string& text, const std::string& remedy) {
+    return message_of<InvalidInput>([&] { parse_toml("a = 1\n" + text, "x.toml"); }).ends_with(remedy);
+  };
+  for (const char* value : {"m * l", "Nm", "foo", "true_ish", "2 * a", "2*a", "0.5*m", "10m", "5 kg", "(a + b)"})
+    EXPECT_TRUE(ends_with(fmt::format("z = {}\n", value), "; formulas, names and units stand in quotes")) << value;
+  EXPECT_TRUE(ends_with("[state]\nb = 1\n[state]\nb = 2\n", "each is in double brackets, such as [[state]]"));
+  EXPECT_FALSE(ends_with("z = [1, 2\n", "in quotes"));
 }
 
 TEST(TomlReader, WordsOfACommandMayRepeat) {
