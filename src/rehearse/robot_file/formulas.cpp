@@ -13,6 +13,10 @@ using expression::Formulas, expression::Node, expression::Pace, expression::Prog
 Formulas inputs_of(const Robot& robot, Of of) {
   Formulas formulas;
   const std::vector<std::string> actions = robot.action_names();
+  for (const Dynamics& dynamics : robot.dynamics)
+    for (const Parameter& parameter : dynamics.parameters)
+      formulas.elsewhere(parameter.name,
+                         fmt::format("is a parameter, which the formulas of [dynamics.{}] alone know", dynamics.name));
   for (const std::string& name : robot.task_state_names()) formulas.input(name, Pace::always);
   for (const std::string& name : actions)
     if (of == Of::states)

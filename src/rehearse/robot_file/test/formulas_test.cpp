@@ -33,6 +33,15 @@ TEST(RobotFormulas, KnowStatesOrStepsOrAllOfAStep) {
     }
 }
 
+TEST(RobotFormulas, SayThatParametersAreOfTheDynamics) {
+  const Robot robot = read(example::kSwing, "swing.toml", no_files);
+  for (const Of of : {Of::states, Of::steps, Of::costs})
+    EXPECT_EQ(unknown(formulas_of(robot, of), "l * angle"),
+              "'l' is a parameter, which the formulas of [dynamics.pendulum] alone know");
+  const Robot own = read(with("[define]", "[define]\nl = 0.5"), "swing.toml", no_files);
+  EXPECT_EQ(unknown(formulas_of(own, Of::states), "l * angle"), "");
+}
+
 TEST(RobotFormulas, DefinitionsMayUseWhatTheFormulaThatUsesThemMay) {
   const Robot robot =
       read(with("[define]", "[define]\njerk = \"(u - u_before)^2\"\nearly = \"time < 1\""), "swing.toml", no_files);
