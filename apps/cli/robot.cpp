@@ -96,9 +96,10 @@ void print_parameters(const ParameterSpace& parameters) {
   if (!fixed.empty()) put("    fixed: {}\n", fmt::join(fixed, ", "));
 }
 
+/// plays: the steps are its own, so it has no errors.
 void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried& tried,
                  const scenario::Scenario& scenario, const robot_file::Tried& all,
-                 const std::vector<std::string>& details) {
+                 const std::vector<std::string>& details, bool plays) {
   put("  {}: {:.2g} rows a second on one thread{}\n", prior.name, tried.rows_per_s,
       tried.failed > 0 ? fmt::format(", {} of {} rows failed", tried.failed, all.steps) : "");
   print_lines("    ", details);
@@ -106,9 +107,10 @@ void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried
   print_parameters(prior.parameters);
   for (std::size_t i = 0; i < own_states(scenario.task).size(); ++i) {
     const auto s = static_cast<Index>(i);
-    put("    {}: a step changes it by {:.3g}, {}\n", scenario.task.states[i].name, all.change(s),
-        std::isnan(tried.error(s)) ? "the prior has no prediction"
-                                   : fmt::format("the prior errs by {:.3g}", tried.error(s)));
+    put("    {}: a step changes it by {:.3g}{}\n", scenario.task.states[i].name, all.change(s),
+        plays                        ? ""
+        : std::isnan(tried.error(s)) ? ", the prior has no prediction"
+                                     : fmt::format(", the prior errs by {:.3g}", tried.error(s)));
   }
 }
 
@@ -189,11 +191,12 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   if (!driven) put("plant\n  none: there is no [plant], so its episodes are told\n");
   if (!details.plant.empty()) put("plant\n");
   print_lines("  ", details.plant);
-  put("priors, on {} steps of {} under random actions{}\n", tried.steps, driven ? "the plant" : "the first prior",
-      early_ends(tried, scenario.task));
+  put("priors, on {} steps of {} under random actions{}\n", tried.steps,
+      driven ? "the plant" : "the first prior, which plays the robot here", early_ends(tried, scenario.task));
   for (std::size_t i = 0; i < tried.priors.size(); ++i)
     print_prior(scenario.priors[i], tried.priors[i], scenario, tried,
-                i < details.priors.size() ? std::vector{details.priors[i]} : std::vector<std::string>());
+                i < details.priors.size() ? std::vector{details.priors[i]} : std::vector<std::string>(),
+                !driven && i == 0);
   for (const std::string& line : scenario.oracle_lacks) put("  oracle: not all of the plant. {}\n", line);
   if (scenario.priors.empty()) put("  none: learners without a prior can be used\n");
   if (scenario.faults) print_lines("  ", scenario.faults());

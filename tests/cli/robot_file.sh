@@ -16,6 +16,14 @@ grep -q '^name = "with_ending"' with_ending.toml || fail "new with an ending has
 grep -q "rehearse learn my_robot.toml --learner gp-mi" output || fail "check does not say what comes next: $(cat output)"
 
 grep -q "solved: .* at the end\|solved: .* for the last" output || fail "check does not say what success is: $(cat output)"
+sed '/^\[plant\]/,/^measurement_noise/d' my_robot.toml >untried.toml
+"$program" check untried.toml >output 2>&1 || fail "check of a robot without a plant: $(cat output)"
+grep -q "steps of the first prior, which plays the robot here" output && ! grep -q "the prior errs by" output ||
+  fail "a prior that plays the robot itself has errors: $(cat output)"
+sed 's/"-cos(theta)"\]/"-l * cos(theta)"]/' my_robot.toml >long.toml
+"$program" check long.toml >output 2>&1
+[ $? = 2 ] && grep -q "'l' is a parameter, which the formulas of \[dynamics.rod\] alone know" output ||
+  fail "a body that uses a parameter: $(cat output)"
 "$program" list my_robot.toml >output 2>&1 || fail "list of a file: $(cat output)"
 grep -q "^scenario my_robot: .*solved: " output && grep -q "^plant.m " output || fail "list of a file: $(cat output)"
 "$program" list my_robot.toml --json | grep -q '"name": "my_robot"' || fail "list --json of a file"
