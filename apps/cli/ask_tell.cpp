@@ -75,7 +75,7 @@ void print_files(const std::filesystem::path& folder) {
   if (std::filesystem::exists(folder / "policy.h")) {
     put("  C: policy.h, its test: cc -std=c99 -DREHEARSE_POLICY_MAIN -x c {} -o {} -lm && {}\n", in("policy.h"),
         in("test"), in("test"));
-    put("  Python: policy.py, its test: python3 {}\n", in("policy.py"));
+    put("  Python with NumPy: policy.py, its test: python3 {}\n", in("policy.py"));
   }
   put("  numbers: policy.json\n");
 }
@@ -156,7 +156,8 @@ int take_back(const experiment::Catalogue& catalogue, const TellArguments& argum
                       put("{}\n", trial ? fmt::format("trial {} is taken back, and is to come", *trial)
                                         : std::string("the logs are taken back"));
                       for (const auto& file : files) put("  {} has what was told\n", file.string());
-                      put("next: {}\n", command_line({trial ? "tell" : "ask", arguments.folder}));
+                      put("next: {}\n", trial ? command_line({"tell", arguments.folder, "EPISODE.csv"})
+                                              : command_line({"ask", arguments.folder}));
                     });
 }
 

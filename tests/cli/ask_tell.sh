@@ -84,6 +84,7 @@ awk -F, -v OFS=, 'NR == 42 { $3 += 0.001 } 1' $episode >wrong.csv
 "$program" tell gp-mi-told wrong.csv >stdout 2>stderr || fail "tell: $(cat stderr)"
 "$program" tell gp-mi-told --undo >stdout 2>stderr || fail "undo: $(cat stderr)"
 grep -q "trial $((trials + 2)) is taken back" stdout || fail "undo says $(cat stdout)"
+grep -q "^next: rehearse tell gp-mi-told EPISODE.csv$" stdout || fail "after undo the next is $(cat stdout)"
 cmp wrong.csv gp-mi-told/taken-back/*-wrong.csv || fail "what was taken back is lost"
 "$program" tell gp-mi-told --undo >stdout 2>stderr || fail "undo again: $(cat stderr)"
 cmp untold gp-mi-told/checkpoint || fail "the run is not as it was before"
@@ -105,7 +106,7 @@ grep -qF "next: rehearse ask 'it'\\''s told'" stdout || fail "what is advised ca
 # The files of a policy that is asked for are named with commands that run.
 "$program" ask "it's told" >stdout || fail "ask in a folder with a space"
 grep -q "numbers: policy.json" stdout || fail "ask does not name the files: $(cat stdout)"
-of_c=$(sed -n 's/^  C: policy.h, its test: //p' stdout) of_python=$(sed -n 's/^  Python: policy.py, its test: //p' stdout)
+of_c=$(sed -n 's/^  C: policy.h, its test: //p' stdout) of_python=$(sed -n 's/^  Python with NumPy: policy.py, its test: //p' stdout)
 [ -n "$of_c" ] && [ -n "$of_python" ] || fail "ask does not say how policies are tested: $(cat stdout)"
 if command -v cc >/dev/null; then bash -c "$of_c" >said 2>&1 || fail "$of_c: $(cat said)"; fi
 if python3 -c 'import numpy' 2>/dev/null; then bash -c "$of_python" >said 2>&1 || fail "$of_python: $(cat said)"; fi
