@@ -59,6 +59,9 @@ Report read_folder(const fs::path& folder, const Knowledge& knowledge) {
                        [&](Problems& problems) { return read_campaign(folder, problems); });
   if (has(folder, "campaign.toml"))
     throw InvalidInput(fmt::format("{} is a campaign without results yet: it has no summary.json", folder.string()));
+  if (has(folder, "identify.html"))
+    throw InvalidInput(
+        fmt::format("{} is of `identify`; its page is {}", folder.string(), (folder / "identify.html").string()));
   throw InvalidInput(
       fmt::format("{} is neither a run folder (no spec.toml) nor a campaign (no summary.json)", folder.string()));
 }

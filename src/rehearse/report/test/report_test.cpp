@@ -22,6 +22,10 @@ TEST_F(ReportTest, AReplayHasOneEpisode) {
 TEST_F(ReportTest, RefusesWhatIsNoFolderOfRehearse) {
   const auto error = [&] { return error_of([&] { read_folder(folder_); }); };
   EXPECT_NE(error().find("is neither a run folder (no spec.toml) nor a campaign (no summary.json)"), std::string::npos);
+  write(folder_ / "logs/identify.html", "");
+  EXPECT_TRUE(error_of([&] {
+                read_folder(folder_ / "logs");
+              }).ends_with("its page is " + (folder_ / "logs/identify.html").string()));
   write(folder_ / "campaign.toml", "");
   EXPECT_NE(error().find("is a campaign without results yet"), std::string::npos);
   write(folder_ / "summary.json", R"({"format": 2})");
