@@ -10,9 +10,10 @@
 namespace rehearse::study {
 namespace {
 
-constexpr const char* kHead = R"(<!doctype html><meta charset="utf-8"><title>{0}</title><style>
+constexpr const char* kHead =
+    R"(<!doctype html><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{0}</title><style>
 body{{font:15px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}}
-svg{{display:block;margin:.3rem 0 1rem}}h2{{font-size:1.15rem;margin-top:2rem}}text{{font-size:12px;fill:#444}}
+svg{{display:block;margin:.3rem 0 1rem;width:100%;min-width:36rem;max-width:860px}}h2{{font-size:1.15rem;margin-top:2rem}}text{{font-size:12px;fill:#444}}
 .band{{fill:#9cc3e6}}.predicted{{stroke:#1f5f99;fill:none}}.measured{{stroke:#222;fill:none}}.axis{{stroke:#999}}
 .wide{{overflow-x:auto}}table{{border-collapse:collapse;font-variant-numeric:tabular-nums}}
 th,td{{text-align:left;padding:.15rem 1.2rem .15rem 0;border-bottom:1px solid #ddd;white-space:nowrap}}
@@ -65,11 +66,11 @@ std::string figure(const Curves& c, const std::string& title) {
   std::string band = line(c.high);
   for (std::size_t i = c.t.size(); i-- > 0;) band += axes.at(c.t[i], c.low[i]);
   return fmt::format(
-      "<div>{}</div><svg width=\"{}\" height=\"{}\"><polygon class=\"band\" points=\"{}\"/><polyline "
+      "<div>{}</div><div class=\"wide\"><svg viewBox=\"0 0 {} {}\"><polygon class=\"band\" points=\"{}\"/><polyline "
       "class=\"predicted\" "
       "points=\"{}\"/><polyline class=\"measured\" points=\"{}\"/><line class=\"axis\" x1=\"{}\" y1=\"0\" x2=\"{}\" "
       "y2=\"{}\"/><text x=\"0\" y=\"12\">{:.3g}</text><text x=\"0\" y=\"{}\">{:.3g}</text><text x=\"{}\" "
-      "y=\"{}\">{:.3g} s</text><text x=\"{}\" y=\"{}\">{:.3g} s</text></svg>\n",
+      "y=\"{}\">{:.3g} s</text><text x=\"{}\" y=\"{}\">{:.3g} s</text></svg></div>\n",
       escaped(title), kWidth, kHeight, band, line(c.predicted), line(c.measured), kLeft, kLeft, kHeight - kBottom, high,
       kHeight - kBottom, low, kLeft, kHeight - 6, c.t.front(), kWidth - 50, kHeight - 6, c.t.back());
 }
@@ -121,7 +122,7 @@ std::string parameter_bars(const Study& study) {
   }
   return fmt::format(
       "<h2>Parameters in their boxes</h2><div>Thick: 95 % from all logs; thin: without one of them.</div>"
-      "<svg width=\"{}\" height=\"{}\">{}</svg>\n",
+      "<div class=\"wide\"><svg viewBox=\"0 0 {} {}\">{}</svg></div>\n",
       kWidth, row * static_cast<double>(posterior->parameters.size()), svg);
 }
 
