@@ -31,7 +31,7 @@ export function errors(run: Run): Child {
         series: trials.map((trial, i) => errorSeries(errors, header, trial, i / trials.length)),
       }),
   })
-  const others = { label: `trials ${trials[1]} to ${last}, faint to strong`, colour: PREDICTED }
+  const others = { label: laterModels(trials[1] ?? last, last), colour: PREDICTED }
   const parts = partsOfRobot(episodes)
   const folds = () => {
     const ofLast = longestErrors(errors, headers, last, rangesOf(episodes))
@@ -51,6 +51,11 @@ export function errors(run: Run): Child {
     table: () => rowsOf(errors, Object.keys(errors)),
     minWidth: 260,
   }).element
+}
+
+/** A label of the trials after the first one with errors. */
+export function laterModels(from: number, to: number): string {
+  return from === to ? `trial ${from}` : `trials ${from} to ${to}, faint to strong`
 }
 
 /** A label of the first trial with errors: the model that chose its policy. */

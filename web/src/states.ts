@@ -53,11 +53,12 @@ export function statePanels({ trajectory, prediction }: Episode, moments: boolea
       }),
   })
   const recorded = (name: string) => line('robot', REAL, times, column(trajectory, name))
+  // It is drawn last, and dashed: where it is right, both lines are seen.
   const predicted = (name: string) => (prediction ? predictions(name, prediction, moments) : [])
   return [
-    ...states.map((state) => panel(state, [...predicted(state.name), ...stateSeries(state, times, trajectory)])),
+    ...states.map((state) => panel(state, [...stateSeries(state, times, trajectory), ...predicted(state.name)])),
     ...actions.map((action) => panel(action, [held(recorded(action.name), times)])),
-    panel({ name: 'reward', unit: '' }, [...predicted('reward'), recorded('reward')]),
+    panel({ name: 'reward', unit: '' }, [recorded('reward'), ...predicted('reward')]),
   ]
 }
 

@@ -40,6 +40,8 @@ await open('run/report', {}, async (page) => {
   assert.match(await page.locator('.lead').textContent(), /^swing up two links .*; solved: the tip within 0\.2 m/)
   assert.equal(await page.locator('#trajectory input, #moments-by-trial').count(), 0) // GPs around a simulator have none
   await moveSlider(page)
+  const top = page.locator('#trajectory .panel').first().locator('g[aria-label=line] g').last()
+  assert.equal(await top.getAttribute('stroke-dasharray'), '6 3') // a prediction that is right is seen on the robot's line
   await play(page)
   await page.getByRole('combobox', { name: 'Trial' }).selectOption('Trial 1')
   const first = await page.locator('.player .about').textContent()
@@ -101,6 +103,10 @@ for (const settings of [{}, { viewport: { width: 400, height: 800 }, colorScheme
     assert.equal(csv[0], 'trial,sampled_return,moment_return,apart,state,time_s,spread')
     assert.equal(csv.length, 2) // none of the random first trial
   })
+
+await open('logs/identify', { viewport: { width: 400, height: 800 } }, async (page) => {
+  assert.ok((await page.locator('svg .measured').count()) > 0)
+})
 
 await open('replay', { colorScheme: 'dark' }, async (page) => {
   assert.match(await page.locator('h1').textContent(), /trial 2$/)
