@@ -71,7 +71,7 @@ void note_resampling(const Channels& channels, const Grid& grid, Index changed, 
                      std::vector<std::string>& notes) {
   if (grid.start_s > 0)
     notes.push_back(
-        fmt::format("step 0 is at {:.10g} s, the first time at which all columns have numbers", grid.start_s));
+        fmt::format("step 0 is at {:.13g} s, the first time at which all columns have numbers", grid.start_s));
   if (changed == 0) return;
   const auto& samples = channels.states.front().samples;
   const double usual_s = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);

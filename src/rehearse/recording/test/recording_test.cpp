@@ -38,6 +38,14 @@ TEST(Recording, ATrialOfARunIsReadToTheSameBytes) {
   EXPECT_TRUE(notes.empty());
 }
 
+TEST(Recording, SaysWhenAClockOfTheDayBegins) {
+  const std::string text =
+      "time,dq,q,torque\n1700000000.5,0.2,3.14,0.3\n1700000000.55,0.2,3.15,-0.7\n1700000000.6,0.2,3.16,\n";
+  const auto [episode, notes] = read_recording(text, "log.csv", swing_task());
+  ASSERT_FALSE(notes.empty());
+  EXPECT_EQ(notes.front(), "step 0 is at 1700000000.5 s, the first time at which all columns have numbers");
+}
+
 // The memory of actuators follows from the actions, and is never read.
 TEST(Recording, HasTheMemoryOfActuators) {
   Task task = swing_task();
