@@ -24,8 +24,9 @@ std::string safety(const std::vector<experiment::LimitRecord>& limits) {
   const auto& nearest = *std::ranges::max_element(limits, {}, nearness);
   std::string text = "  risk not known";
   if (nearest.predicted)
-    text = fmt::format("  {}: {} {}", std::ranges::all_of(limits, &experiment::LimitRecord::safe) ? "safe" : "not safe",
-                       nearest.limit, risk_text(nearest));
+    text = fmt::format("  {}: {}, risk {}",
+                       std::ranges::all_of(limits, &experiment::LimitRecord::safe) ? "safe" : "not safe", nearest.limit,
+                       risk_text(nearest));
   if (const std::string broken = broken_text(limits); !broken.empty()) text += "  " + broken;
   return text;
 }

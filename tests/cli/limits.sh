@@ -12,7 +12,7 @@ printf '[[limit]]\nname = "speed"\nkeep = "abs(dtheta) < 3"\nrisk = 0.1\n' >>fas
 grep -q "speed: abs(dtheta) < 3 at every step, in all but 10 % of episodes" output || fail "check says: $(cat output)"
 
 "$program" learn fast.toml --learner gp-mi --trials 2 "${few[@]}" --threads 1 --out alone >output 2>&1 || fail "learn: $(cat output)"
-grep -Eq "safe: speed [0-9.]+ % \([0-9.e-]+ to [0-9.]+\)" output || fail "no risk in the lines: $(cat output)"
+grep -Eq "safe: speed, risk [0-9.]+ % \([0-9.e-]+ to [0-9.]+\)" output || fail "no risk in the lines: $(cat output)"
 [ "$(head -1 alone/limits.csv)" = "trial,limit,allowed_risk,predicted_risk,low,high,broken" ] || fail "limits.csv"
 [ "$(wc -l <alone/limits.csv)" = 3 ] || fail "limits.csv: $(cat alone/limits.csv)"
 "$program" learn fast.toml --learner gp-mi --trials 1 "${few[@]}" --threads 2 --out extended >/dev/null || fail "one trial"
