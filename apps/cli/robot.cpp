@@ -66,10 +66,11 @@ void print_task(const scenario::Scenario& scenario, const std::string& summary, 
   if (task.memory > 0) put("what policies see of the last actions\n");
   for (const StateVariable& memory : std::span(task.states).last(static_cast<std::size_t>(task.memory)))
     put("  {}\n", description(memory));
-  put("reward\n  {}\n",
+  put("reward\n  {}{}\n",
       reward::closed_form(task.reward)
           ? "saturating distance of features, as moment matching (PILCO) needs it"
-          : "a formula; PILCO needs distances that are sums of multiples of features, or exp(-d²/2) of such");
+          : "a formula; PILCO needs distances that are sums of multiples of features, or exp(-d²/2) of such",
+      task.cost ? "; PILCO takes no cost" : "");
   print_lines("  ", details.reward);
   if (task.ended) put("early end\n  {}\n", details.ended.empty() ? "the task says when" : details.ended);
   put("success\n  {}\n", task.solved ? "the task says when it is solved" : "nobody can say: there is no [success]");
