@@ -113,7 +113,7 @@ grep -q "bent/trials.csv: row 3: return = 7.0x3, must be a number" stderr || fai
 
 [ -x "$chromium" ] || { echo "there is no chromium"; exit 77; }
 cp -r run walker
-"$program" identify pendubot run/trajectories/trial-*.csv --set beyond=nothing --set particles=5 --set every_s=0.5 \
+"$program" identify pendubot run/trajectories/trial-001.csv --set beyond=nothing --set particles=5 --set every_s=0.5 \
   --out logs >/dev/null 2>&1 || fail "identify"
 node "$here/walker.mjs" walker 2 50
 "$program" report walker >/dev/null
