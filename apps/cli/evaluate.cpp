@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -182,14 +184,15 @@ void announce(const Work& work, const EvaluateArguments& arguments) {
       work.wanted.plan.seed, settings.empty() ? "" : ", ", settings);
 }
 
-/// A way to policies that hold longer, where this one does not and the learner has one.
+/// Ways to policies that hold longer, where this one does not and the learner has some that it did not take.
 void advise(const Work& work, const Summary& summary) {
-  const Settings& options = work.resolved.spec.options;
-  const bool can =
-      std::ranges::find(options, std::pair<std::string, std::string>("learner.search.extra_s", "0")) != options.end();
-  if (!can || !summary.solved_at_end || summary.solved_at_end->count >= summary.solved->count) return;
-  put("to learn a policy that holds longer: --set search.extra_s=SECONDS or search.hand_over=true "
-      "(docs/evaluate.md)\n");
+  if (!summary.solved_at_end || summary.solved_at_end->count >= summary.solved->count) return;
+  std::vector<std::string> ways;
+  for (const auto& [option, value] : work.resolved.spec.options) {
+    if (option == "learner.search.hand_over" && value == "false") ways.insert(ways.begin(), "search.hand_over=true");
+    if (option == "learner.search.extra_s" && value == "0") ways.push_back("search.extra_s=SECONDS");
+  }
+  if (!ways.empty()) put("to learn a policy that holds longer: --set {} (docs/evaluate.md)\n", fmt::join(ways, " or "));
 }
 
 void evaluate_episodes(const Work& work) {

@@ -106,10 +106,12 @@ dynamics = "pushed"
 dynamics = "pushed"
 TOML
 expect 0 "solved at trial 1" learn drift.toml --learner black-drops --trials 1 --out drift
-advice="--set search.extra_s=SECONDS or search.hand_over=true"
+advice="--set search.hand_over=true or search.extra_s=SECONDS"
 expect 0 "$advice" evaluate drift --seconds 5 --episodes 2
 expect 0 "solved at 1 s  2 of 2" evaluate drift --episodes 2
-grep -qF -- "$advice" said && fail "episodes of a trial's length are advised on: $(cat said)"
+grep -q "holds longer" said && fail "episodes of a trial's length are advised on: $(cat said)"
+expect 0 "solved at trial 1" learn drift.toml --learner black-drops --trials 1 --set search.hand_over=true --out taken
+expect 0 "holds longer: --set search.extra_s=SECONDS (" evaluate taken --seconds 5 --episodes 2
 
 # Without a plant there are no episodes, and nothing else is said.
 sed '/^\[plant\]/,+1d' drift.toml >alone.toml
