@@ -155,6 +155,8 @@ class Grammar : public mu::ParserBase {
   void InitOprt() override {}
 };
 
+constexpr std::size_t kMostDefinitions = 500;  // each needed by the one before
+
 /// Finds the node of a name while a formula is compiled.
 struct Lookup {
   std::function<Node(const std::string&)> node;
@@ -233,6 +235,8 @@ Node Formulas::compiled(Definition& definition, const std::string& name) {
   if (first != under_way_.end())
     throw InvalidInput(fmt::format("the definition of '{0}' needs itself: {1} → {0}", name,
                                    fmt::join(first, under_way_.end(), " → ")));
+  if (under_way_.size() == kMostDefinitions)  // or the stack would overflow
+    throw InvalidInput(fmt::format("'{}' needs more than {} definitions", under_way_.front(), kMostDefinitions));
   under_way_.push_back(name);
   try {
     definition.node = compile(definition.formula);

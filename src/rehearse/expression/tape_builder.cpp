@@ -5,12 +5,16 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
 #include "rehearse/expression/scalar.hpp"
 
 namespace rehearse::expression {
 namespace {
 
 constexpr double kLargestChain = 16;  // a power by so many multiplications is still cheaper than pow
+constexpr int kDeepest = 10000;       // operations one inside another, through which functions here call themselves
 
 bool commutes(Op op) {
   return op == Op::add || op == Op::multiply || op == Op::equal || op == Op::not_equal || op == Op::logical_and ||
@@ -76,12 +80,14 @@ Node TapeBuilder::operation(Op op, Node a, Node b, Node c) {
   if (known(a) && known(b) && known(c)) return constant(evaluate(op, number(a), number(b), number(c)));
   if (const Node simpler = simplified(op, a, b); simpler != kNone) return simpler;
   if (commutes(op) && a > b) std::swap(a, b);
-  const auto [place, is_new] = operations_.try_emplace({op, a, b, c}, kNone);
-  if (!is_new) return place->second;
-  Pace pace = Pace::call;
+  if (const auto there = operations_.find({op, a, b, c}); there != operations_.end()) return there->second;
+  Value value{.kind = Value::Kind::operation, .pace = Pace::call, .op = op, .a = a, .b = b, .c = c};
   for (const Node node : {a, b, c})
-    if (node != kNone) pace = std::max(pace, at(node).pace);
-  return place->second = add({.kind = Value::Kind::operation, .pace = pace, .op = op, .a = a, .b = b, .c = c});
+    if (node != kNone)
+      value.pace = std::max(value.pace, at(node).pace), value.depth = std::max(value.depth, at(node).depth + 1);
+  if (value.depth > kDeepest)
+    throw InvalidInput(fmt::format("formulas have more than {} operations one inside another", kDeepest));
+  return operations_[{op, a, b, c}] = add(value);
 }
 
 Node TapeBuilder::simplified(Op op, Node a, Node b) {

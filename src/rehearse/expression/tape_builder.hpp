@@ -19,6 +19,7 @@ class TapeBuilder {
  public:
   Node constant(double value);
   Node input(Pace pace);  // each call another one
+  /// Throws InvalidInput if operations are nested too deeply to be followed.
   Node operation(Op op, Node a, Node b = kNone, Node c = kNone);
 
   /// Sine and cosine of an input that are inputs themselves: sin(a) and cos(a) are these from then on, and those of
@@ -46,6 +47,7 @@ class TapeBuilder {
     double number = 0;  // of a constant
     Op op{};
     Node a = kNone, b = kNone, c = kNone;
+    int depth = 0;  // of operations one inside another
   };
   struct Trigonometry {
     Node sine, cosine;

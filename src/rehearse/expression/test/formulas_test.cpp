@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
@@ -57,6 +58,16 @@ std::string complaint_of(const std::string& formula) {
     return error.what();
   }
   return "";
+}
+
+// Each needs the one before, and none is compiled yet.
+TEST(Formulas, AChainOfDefinitionsHasAnEnd) {
+  Formulas formulas;
+  formulas.input("x0", Pace::always);
+  for (int i = 1; i <= 501; ++i) formulas.define(fmt::format("x{}", i), fmt::format("x{} + 1", i - 1));
+  EXPECT_THROW(formulas.compile("x501"), InvalidInput);
+  EXPECT_NO_THROW(formulas.compile("x500"));
+  EXPECT_NO_THROW(formulas.compile("x501")) << "the others are known by now";
 }
 
 TEST(Formulas, ErrorsSayWhatIsWrong) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/core/errors.hpp"
 #include "run_formula.hpp"
 
 namespace rehearse::expression {
@@ -112,6 +113,18 @@ TEST(TapeBuilder, AResultThatTheNextInstructionAloneNeedsIsNotStored) {
   EXPECT_TRUE(of_output.code[2][0].is_stored) << "an output";
   const Tape called = builder.tape({builder.operation(Op::tangent, sum)});
   EXPECT_TRUE(called.code[2][0].is_stored) << "operations that go from memory to memory";
+}
+
+TEST(TapeBuilder, OperationsThatAreNestedTooDeeplyAreRefused) {
+  TapeBuilder builder;
+  const Node x = builder.input(Pace::always);
+  Node sum = x;
+  const auto nest = [&](int times) {
+    for (int i = 0; i < times; ++i) sum = builder.operation(Op::add, sum, x);
+  };
+  nest(10000);
+  EXPECT_EQ(run_tape(builder.tape({sum}), Matrix{{2}})(0, 0), 20002);
+  EXPECT_THROW(nest(1), InvalidInput);
 }
 
 TEST(TapeBuilder, SlotsAreUsedAgain) {
