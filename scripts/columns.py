@@ -109,7 +109,7 @@ def broken(heading, said):
     return heading, text
 
 
-# Of lines without trials.
+# Columns of lines without trials.
 
 
 def in_order(heading, name):

@@ -187,11 +187,13 @@ void announce(const Work& work, const EvaluateArguments& arguments) {
 /// Ways to policies that hold longer, where this one does not and the learner has some that it did not take.
 void advise(const Work& work, const Summary& summary) {
   if (!summary.solved_at_end || summary.solved_at_end->count >= summary.solved->count) return;
+  const auto leaves_out = [&](const std::string& option, const std::string& value) {
+    const Settings& options = work.resolved.spec.options;
+    return std::ranges::find(options, std::pair(option, value)) != options.end();
+  };
   std::vector<std::string> ways;
-  for (const auto& [option, value] : work.resolved.spec.options) {
-    if (option == "learner.search.hand_over" && value == "false") ways.insert(ways.begin(), "search.hand_over=true");
-    if (option == "learner.search.extra_s" && value == "0") ways.push_back("search.extra_s=SECONDS");
-  }
+  if (leaves_out("learner.search.hand_over", "false")) ways.emplace_back("search.hand_over=true");
+  if (leaves_out("learner.search.extra_s", "0")) ways.emplace_back("search.extra_s=SECONDS");
   if (!ways.empty()) put("to learn a policy that holds longer: --set {} (docs/evaluate.md)\n", fmt::join(ways, " or "));
 }
 

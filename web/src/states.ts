@@ -53,7 +53,7 @@ export function statePanels({ trajectory, prediction }: Episode, moments: boolea
       }),
   })
   const recorded = (name: string) => line('robot', REAL, times, column(trajectory, name))
-  // It is drawn last, and dashed: where it is right, both lines are seen.
+  // A prediction is drawn last, and dashed: where it is right, both lines are seen.
   const predicted = (name: string) => (prediction ? predictions(name, prediction, moments) : [])
   return [
     ...states.map((state) => panel(state, [...stateSeries(state, times, trajectory), ...predicted(state.name)])),

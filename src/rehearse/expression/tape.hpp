@@ -57,6 +57,7 @@ constexpr bool stays_in_registers(Op op) {
          op == Op::negative_multiply_add;
 }
 
+/// An argument of an instruction, by its place.
 enum class Argument : std::uint8_t { none, a, b, c };
 
 /// out = op(a, b, c), numbers of slots; those that the operation does not take are 0.

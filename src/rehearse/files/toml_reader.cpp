@@ -69,18 +69,14 @@ void check_depth(std::string_view text, const std::string& source) {
   }
 }
 
-}  // namespace
-
-namespace {
-
-/// What to do about an error of the parser, whose words are of its grammar.
+/// An error of the parser is in words of its grammar: this is what a person can write instead, or nothing.
 std::string remedy(std::string_view error) {
   for (const char* kind : {"value:", "floating-point:", "boolean:", "decimal integer:",
                            "key-value pair: expected a comment"})  // NAME = m * l, unit = kg, dt_s = 5 ms
     if (error.starts_with(fmt::format("Error while parsing {}", kind)))
       return "; formulas, names and units stand in quotes";
   if (error.find("cannot redefine existing table") != std::string_view::npos)
-    return "; of several of a kind each is in double brackets, such as [[state]]";
+    return "; where there are several tables of a kind, each is in double brackets, such as [[state]]";
   return "";
 }
 
@@ -91,8 +87,8 @@ toml::table parse_toml(std::string_view text, const std::string& source) {
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw InvalidInput(fmt::format("{}: line {}: {}{}", source, error.source().begin.line, error.description(),
-                                   remedy(error.description())));
+    throw InvalidInput(in_file(source, error.source().begin.line,
+                               fmt::format("{}{}", error.description(), remedy(error.description()))));
   }
 }
 

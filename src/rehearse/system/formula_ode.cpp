@@ -109,7 +109,7 @@ class SlopeTape {
     }
   }
 
-  /// A row that lost its way, or of which a number is not finite, fails as a whole.
+  /// Changes of a block's rows. A row that lost its way, or of which a number is not finite, is NaN as a whole.
   void write_changes(double* slots, const ConstMatrixView& X, MatrixView dX) const {
     bool failed[kBlock] = {};
     for (Index i = 0; i < states_; ++i) {
