@@ -216,8 +216,7 @@ void check_command_name(const CLI::App& app, const std::vector<std::string>& wor
     throw InvalidInput(fmt::format("a command is missing ({}); see {} --help", fmt::join(known, ", "), program_name()));
   const std::string& given = words.front();
   if (given.starts_with('-') || is_among(given, known)) return;
-  throw InvalidInput(fmt::format("unknown command '{}', did you mean '{}'? (known: {})", given, closest(given, known),
-                                 fmt::join(known, ", ")));
+  throw InvalidInput(fmt::format("unknown command '{}'{}", given, suggestions(given, known)));
 }
 
 /// The words behind the program's name, `help COMMAND` as `COMMAND --help`.
@@ -251,8 +250,7 @@ std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
     for (const std::string& given : command->remaining()) {
       if (!given.starts_with("--")) continue;
       const std::string flag = given.substr(0, given.find('='));
-      return fmt::format("unknown flag '{}' of {}, did you mean '{}'? (known: {})", flag, command->get_name(),
-                         closest(flag, known), fmt::join(known, ", "));
+      return fmt::format("unknown flag '{}' of {}{}", flag, command->get_name(), suggestions(flag, known));
     }
   }
   return error.what();

@@ -14,8 +14,7 @@ void set_options(const Fields& fields, const OptionTexts& texts) {
       if (set_field(fields, name, text)) continue;
       std::vector<std::string> known;
       for (const auto& [each, value] : list_fields(fields)) known.push_back(each);
-      violations.add(fmt::format("unknown option '{}', did you mean '{}'? (known: {})", name, closest(name, known),
-                                 fmt::join(known, ", ")));
+      violations.add(fmt::format("unknown option '{}'{}", name, suggestions(name, known)));
     } catch (const InvalidInput& error) {
       violations.add(error.what());
     }

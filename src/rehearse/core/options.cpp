@@ -157,6 +157,15 @@ std::string in_lower_case(std::string_view text) {
   return lower;
 }
 
+bool lacks_groups(std::string_view name, std::string_view whole) { return whole.ends_with(fmt::format(".{}", name)); }
+
+/// True if `other` may have been meant: at most half of the letters of `name` are wrong, or one is short for the other.
+bool is_like(std::string_view name, std::string_view other) {
+  const std::size_t most = (name.size() + 1) / 2;
+  return lacks_groups(name, other) || other.starts_with(name) || (!other.empty() && name.starts_with(other)) ||
+         edit_distance(in_lower_case(name), in_lower_case(other)) <= most;
+}
+
 }  // namespace
 
 std::string FieldVisitor::enter(std::string_view name, Help help, Published published) {
@@ -194,9 +203,8 @@ std::vector<std::string> field_violations(const Fields& fields) {
 
 std::string closest(std::string_view name, const std::vector<std::string>& names) {
   // Groups that are left out are a smaller mistake than a letter, and a capital letter than another one.
-  const std::string last_parts = fmt::format(".{}", name);
   const auto distance = [&](std::string_view other) {
-    return std::tuple(!other.ends_with(last_parts), edit_distance(in_lower_case(name), in_lower_case(other)),
+    return std::tuple(!lacks_groups(name, other), edit_distance(in_lower_case(name), in_lower_case(other)),
                       edit_distance(name, other));
   };
   const auto best = std::min_element(names.begin(), names.end(),
@@ -205,7 +213,12 @@ std::string closest(std::string_view name, const std::vector<std::string>& names
 }
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& names) {
-  return names.empty() ? "" : fmt::format(", did you mean '{}'?", closest(name, names));
+  const std::string near = closest(name, names);
+  return is_like(name, near) ? fmt::format(", did you mean '{}'?", near) : "";
+}
+
+std::string suggestions(std::string_view name, const std::vector<std::string>& names) {
+  return fmt::format("{} (known: {})", did_you_mean(name, names), fmt::join(names, ", "));
 }
 
 std::string to_text(double value) { return fmt::format("{}", value); }

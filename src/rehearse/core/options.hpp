@@ -179,8 +179,11 @@ std::vector<std::string> field_violations(std::string_view group, Options option
 /// The name most like `name`, for "did you mean".
 std::string closest(std::string_view name, const std::vector<std::string>& names);
 
-/// ", did you mean 'X'?" of the closest; empty where there are no names.
+/// ", did you mean 'X'?" of the closest; empty where none is much like `name`.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& names);
+
+/// The same, then all names: ", did you mean 'X'? (known: X, Y)".
+std::string suggestions(std::string_view name, const std::vector<std::string>& names);
 
 /// Reads a whole text as a double. Returns false if it is not one.
 bool from_text(std::string_view text, double& value);

@@ -112,8 +112,7 @@ std::string Catalogue::why_no_start(const std::string& learner) const {
 
 std::string unknown_name(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
   if (known.empty()) return fmt::format("unknown {} '{}': there are none", kind, name);
-  return fmt::format("unknown {} '{}', did you mean '{}'? (known: {})", kind, name, closest(name, known),
-                     fmt::join(known, ", "));
+  return fmt::format("unknown {} '{}'{}", kind, name, suggestions(name, known));
 }
 
 }  // namespace rehearse::experiment

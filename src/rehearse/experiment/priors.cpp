@@ -25,8 +25,7 @@ std::vector<std::string> known_names(const scenario::Scenario& scenario) {
 std::string unknown_prior(const scenario::Scenario& scenario, const std::string& name) {
   const std::vector<std::string> known = known_names(scenario);
   if (known.empty()) return fmt::format("unknown prior '{}': scenario {} has no priors", name, scenario.name);
-  return fmt::format("unknown prior '{}' of scenario {}, did you mean '{}'? (known: {})", name, scenario.name,
-                     closest(name, known), fmt::join(known, ", "));
+  return fmt::format("unknown prior '{}' of scenario {}{}", name, scenario.name, suggestions(name, known));
 }
 
 const scenario::NamedPrior* find_prior(const std::vector<scenario::NamedPrior>& priors, const std::string& name) {
@@ -49,7 +48,8 @@ void set_value(scenario::NamedPrior& prior, const std::string& parameter, double
 }  // namespace
 
 std::string unknown_option(const std::string& key, const std::vector<std::string>& known) {
-  return fmt::format("unknown option '{}'{}", key, did_you_mean(key, known));
+  const std::string meant = did_you_mean(key, known);
+  return fmt::format("unknown option '{}'{}", key, meant.empty() ? ": `list` of a robot or learner names all" : meant);
 }
 
 std::vector<std::string> split_names(const std::string& text) {

@@ -264,8 +264,8 @@ void Formulas::throw_unknown(const std::string& name) const {
   for (const auto& [definition, formula] : definitions_) known.push_back(definition);
   std::vector<std::string> like = known;
   like.insert(like.end(), function_names().begin(), function_names().end());
-  throw InvalidInput(fmt::format("unknown name '{}', did you mean '{}'? (known: {})", name, closest(name, like),
-                                 fmt::join(known, ", ")));
+  throw InvalidInput(
+      fmt::format("unknown name '{}'{} (known: {})", name, did_you_mean(name, like), fmt::join(known, ", ")));
 }
 
 Node Formulas::compile(const std::string& formula) {

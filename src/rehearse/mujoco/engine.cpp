@@ -132,10 +132,10 @@ int find(const mjModel& model, mjtObj type, const std::string& name, const std::
   const int id = name.empty() ? -1 : mj_name2id(&model, type, name.c_str());
   if (id >= 0) return id;
   const std::vector<std::string> names = names_of(model, type);
-  violations.add(names.empty() ? fmt::format("{}: there is no {} '{}': the model has none with a name", where,
-                                             word_for(type), name)
-                               : fmt::format("{}: there is no {} '{}', did you mean '{}'? (known: {})", where,
-                                             word_for(type), name, closest(name, names), fmt::join(names, ", ")));
+  violations.add(
+      names.empty()
+          ? fmt::format("{}: there is no {} '{}': the model has none with a name", where, word_for(type), name)
+          : fmt::format("{}: there is no {} '{}'{}", where, word_for(type), name, suggestions(name, names)));
   return -1;
 }
 

@@ -97,10 +97,9 @@ const Field* find_field(const Target& target, const std::string& where, Violatio
     if (target.kind == field.kind && target.field == field.name) return &field;
   const std::vector<std::string> known = field_names(target.kind), all = kinds();
   violations.add(known.empty()
-                     ? fmt::format("{}: there is no kind '{}', did you mean '{}'? (known: {})", where, target.kind,
-                                   closest(target.kind, all), fmt::join(all, ", "))
-                     : fmt::format("{}: {} has no field '{}', did you mean '{}'? (known: {})", where, target.kind,
-                                   target.field, closest(target.field, known), fmt::join(known, ", ")));
+                     ? fmt::format("{}: there is no kind '{}'{}", where, target.kind, suggestions(target.kind, all))
+                     : fmt::format("{}: {} has no field '{}'{}", where, target.kind, target.field,
+                                   suggestions(target.field, known)));
   return nullptr;
 }
 

@@ -140,8 +140,8 @@ class Inspector {
   void check_type(const std::string& file, const Tag& tag) {
     const std::string type(tag["type"]);
     if (!is_among(type, kJointTypes))
-      violations_.add(fmt::format("{}: joint '{}': unknown type '{}'{} (known: {})", file, tag["name"], type,
-                                  did_you_mean(type, kJointTypes), fmt::join(kJointTypes, ", ")));
+      violations_.add(
+          fmt::format("{}: joint '{}': unknown type '{}'{}", file, tag["name"], type, suggestions(type, kJointTypes)));
   }
 
   void add(const std::string& file, const Tag& tag, const Sides& sides) {

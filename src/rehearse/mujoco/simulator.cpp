@@ -25,8 +25,7 @@ std::vector<Index> order_of(const std::vector<ModelParameter>& described, const 
   for (const std::string& name : parameters.names())
     violations.require(is_among(name, names),
                        names.empty() ? fmt::format("unknown parameter '{}': the model has none", name)
-                                     : fmt::format("unknown parameter '{}', did you mean '{}'? (known: {})", name,
-                                                   closest(name, names), fmt::join(names, ", ")));
+                                     : fmt::format("unknown parameter '{}'{}", name, suggestions(name, names)));
   violations.throw_if_any();
   return order;
 }

@@ -62,10 +62,9 @@ class Values {
       if (parameter.name == name) return &parameter;
       names.push_back(parameter.name);
     }
-    violations_.add(files::line_of(node), names.empty()
-                                              ? fmt::format("'{}' is no parameter: the dynamics has none", name)
-                                              : fmt::format("unknown parameter '{}', did you mean '{}'? (known: {})",
-                                                            name, closest(name, names), fmt::join(names, ", ")));
+    violations_.add(files::line_of(node),
+                    names.empty() ? fmt::format("'{}' is no parameter: the dynamics has none", name)
+                                  : fmt::format("unknown parameter '{}'{}", name, suggestions(name, names)));
     return nullptr;
   }
 

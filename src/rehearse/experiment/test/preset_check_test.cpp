@@ -58,7 +58,7 @@ TEST(PresetCheck, SaysWhatIsWrongAndWhere) {
       "presets/careful.toml: line 3: noise = -1, must be ≥ 0 (learner echo on line)\n"
       "presets/careful.toml: line 4: unknown option 'search.stp', did you mean 'search.step'? (learner echo on line)");
   EXPECT_EQ(preset_complaint("colour = 1\nfor = 3\n[set]\nnoise = [1, 2]\n"),
-            "presets/careful.toml: line 2: unknown key 'colour', did you mean 'for'? (known: format, title, set, for)\n"
+            "presets/careful.toml: line 2: unknown key 'colour' (known: format, title, set, for)\n"
             "presets/careful.toml: line 3: parts for some runs are written as [[for]]\n"
             "presets/careful.toml: line 5: noise: a value must be a number, true, false or text");
   EXPECT_EQ(fake::message_of<InvalidInput>([] { Preset("[set]\n", "x.toml"); }),

@@ -92,7 +92,7 @@ TEST(ReadModel, WhatIsWrongIsSaidWithItsLine) {
   expect("state.angle = { velocity = \"hinge\", position = \"hinge\" }", "must be one of position, velocity");
   expect(kRod + "\nparameters.k = 2", "must say what it sets or scales");
   expect(kRod + "\nparameters.k = { value = 2, sets = \"mass of rod\" }",
-         "there is no kind 'mass', did you mean 'body'?");
+         "there is no kind 'mass' (known: body, joint");
   expect(kRod + "\nparameters.k = { value = 2, sets = \"body rod\" }", "KIND ELEMENT FIELD");
   expect(kRod + "\nparameters.k = { value = 2, sets = \"body rot mass\" }", "line 47: [dynamics.rod]: parameter 'k'");
   expect(kRod + "\nparameters.k = { value = 2, sets = \"body rod maas\" }", "mass");
