@@ -13,6 +13,7 @@
 #include "apps/cli/complain.hpp"
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/experiment/run.hpp"
 #include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/files/write.hpp"
@@ -215,9 +216,12 @@ int make_new(const experiment::Catalogue& catalogue, const NewArguments& argumen
   const std::string ending = ".toml";
   const bool ends = arguments.name.ends_with(ending);
   const std::string name = arguments.name.substr(0, arguments.name.size() - (ends ? ending.size() : 0));
+  if (!is_word(name))
+    throw InvalidInput(
+        fmt::format("a robot cannot be called '{}': its name must be of letters, digits, - and _", name));
   const std::filesystem::path path = name + ending;
   const std::string text = text_of_new(name, path.string());
-  static_cast<void>(catalogue.with_robot(text, path.string(), ""));  // the name may be none, or another's
+  static_cast<void>(catalogue.with_robot(text, path.string(), ""));  // the name may be another's
   if (std::filesystem::exists(path))
     throw InvalidInput(fmt::format("{} exists, and is not overwritten", path.string()));
   files::write_file(path, text);

@@ -152,7 +152,8 @@ class Run:
 
     def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None, seconds: float = 0.0, seed: int = 1,
                  options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Evaluation:
-        """Episodes of a policy on the plant that are no trials. seconds: of an episode; 0: the task's. options: what is
+        """Episodes of a policy on the plant that are no trials; where there is none, the prior plays the robot, with the
+        parameters of the newest model. seconds: of an episode; 0: the task's. options: what is
         changed, {"plant.m": 0.6}. An environment that is given as an object, not as a function that makes one, is used
         by one thread."""
         threads = 1 if self._robot is not None and self._robot.has_environment else threads_of(threads)

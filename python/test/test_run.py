@@ -269,8 +269,9 @@ def test_ask_and_tell_are_learn(tmp_path):
         run.tell({**still, "position": [1, 1, 0.99]}, stopped="battery", at_fault=False)
     assert [trial.cut_short for trial in run.details] == [False, False, False, True]
     assert run.details[3].solved is None and run.best.trial < 4
-    with pytest.raises(rehearse.InvalidInput, match="no plant that episodes could run on"):
-        run.evaluate(1)
+    assert len(run.evaluate(3).returns) == 3  # the prior plays the robot
+    heavy = run.evaluate(3, options={"prior.mass": 4.5})
+    assert (heavy.returns != run.evaluate(3).returns).all()
 
 
 def test_what_was_told_can_be_taken_back(tmp_path):

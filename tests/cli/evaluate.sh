@@ -113,14 +113,25 @@ grep -q "holds longer" said && fail "episodes of a trial's length are advised on
 expect 0 "solved at trial 1" learn drift.toml --learner black-drops --trials 1 --set search.hand_over=true --out taken
 expect 0 "holds longer: --set search.extra_s=SECONDS (" evaluate taken --seconds 5 --episodes 2
 
-# Without a plant there are no episodes, and nothing else is said.
+# Without a plant and a prior there are no episodes, and nothing else is said.
 sed '/^\[plant\]/,+1d' drift.toml >alone.toml
 expect 0 "alone is ready" learn alone.toml --learner black-drops --trials 0 --out alone
-expect 2 "drift has no plant that episodes could run on. A copy of its file with [plant]" evaluate alone
+expect 2 "drift has no plant that episodes could run on, and the run has no prior that could play it, or several. A copy of" evaluate alone
 [ "$(wc -l <said)" = 1 ] || fail "without a plant it says $(cat said)"
 
-# A robot of a file.
+# The prior plays a robot that has no plant, as the newest model has it.
 "$program" new own >/dev/null
+sed '/^\[plant\]/,+2d' own.toml >told.toml
+expect 0 "told is ready" learn told.toml --trials 0 "${quick[@]}" --out told
+expect 0 "predicted return" ask told
+expect 0 "the prior useful plays the robot, as it was identified" evaluate told --trial 1 --episodes 5 --threads 1
+grep -q "^1,prior.m=[0-9.]* prior.l=[0-9.]*,1,4,5," told/evaluation.csv || fail "told has $(cat told/evaluation.csv)"
+expect 0 "told/evaluation.csv has the numbers" evaluate told --trial 1 --episodes 5 --set prior.m=2
+grep -q "prior.m=2,1,4,5," told/evaluation.csv || fail "what is set comes first: $(cat told/evaluation.csv)"
+expect 0 "told/robustness.csv has the numbers" evaluate told --trial 1 --episodes 5 --robustness
+grep -q ",m,0.75," told/robustness.csv || fail "the prior's parameters are not changed: $(cat told/robustness.csv)"
+
+# A robot of a file.
 expect 0 "best return" learn own.toml --learner gp-mi --trials 1 "${quick[@]}" --out own
 rm own.toml
 expect 0 "own/evaluation.csv has the numbers" evaluate own --episodes 5

@@ -80,7 +80,7 @@ refused() {
   [ -e left ] && fail "$* leaves a folder"
 }
 refused "is not overwritten" new pilco_robot
-refused "must be of letters" new "my robot"
+refused "^rehearse: a robot cannot be called 'my robot'" new "my robot"
 refused "name = 'pendulum' is that of another scenario" new pendulum
 [ -e pendulum.toml ] && fail "a robot that is refused has a file"
 refused "cannot read nowhere.toml" check nowhere.toml

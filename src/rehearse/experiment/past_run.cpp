@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/options.hpp"
 #include "rehearse/experiment/kept_robot.hpp"
+#include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/policy/hand_over.hpp"
 #include "rehearse/policy/schedule.hpp"
@@ -21,6 +23,20 @@ const TrialRecord& PastRun::trial(std::optional<Index> number) const {
     throw InvalidInput(
         fmt::format("trial = {}, must be between 1 and {}, the trials that are done{}", *number, done, asked));
   return history.trials[static_cast<std::size_t>(*number - 1)];
+}
+
+std::vector<std::pair<std::string, std::string>> PastRun::as_identified() const {
+  if (resolved.scenario.make_plant || !resolved.prior || split_names(resolved.spec.prior).size() > 1) return {};
+  const std::vector<double> none;
+  const std::vector<double>& phi = history.asked            ? history.asked->phi
+                                   : history.trials.empty() ? none
+                                                            : history.trials.back().phi;
+  std::vector<std::pair<std::string, std::string>> settings;
+  std::size_t next = 0;
+  for (const Parameter& parameter : resolved.prior->space.all())
+    if (parameter.tunable() && next < phi.size())
+      settings.emplace_back("prior." + parameter.name, to_text(phi[next++]));
+  return settings;
 }
 
 PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder,

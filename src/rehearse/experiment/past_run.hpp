@@ -21,6 +21,10 @@ struct PastRun {
   /// A trial that is done or asked for, or the one with the highest return if none is named. Throws InvalidInput if
   /// there is none.
   const TrialRecord& trial(std::optional<Index> number) const;
+
+  /// The parameters of the prior as its newest model has them, as options: what the prior plays the robot with where
+  /// there is no plant. Empty where there is one, and where there is no prior or a choice among several.
+  std::vector<std::pair<std::string, std::string>> as_identified() const;
 };
 
 /// Reads a folder. It changes nothing and locks nothing, so the run may be going on. settings: options that differ from

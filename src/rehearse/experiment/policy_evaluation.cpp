@@ -9,10 +9,12 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/failures.hpp"
+#include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/record.hpp"
 #include "rehearse/files/csv.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/statistics/intervals.hpp"
+#include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -53,6 +55,14 @@ std::string cell(const std::optional<bool>& flag) { return !flag ? "" : *flag ? 
 
 }  // namespace
 
+std::unique_ptr<system::Plant> plant_or_prior(const Resolved& resolved) {
+  const scenario::Scenario& scenario = resolved.scenario;
+  if (scenario.make_plant) return scenario.make_plant();
+  if (!resolved.prior || split_names(resolved.spec.prior).size() > 1) return nullptr;
+  return system::make_simulated_plant(resolved.prior->simulator, resolved.prior->space.values(),
+                                      {scenario.task.start_mean, scenario.task.start_std, {}});
+}
+
 Index EvaluationPlan::steps(const Task& task) const {
   const double wanted = seconds == 0 ? static_cast<double>(task.horizon) : std::round(seconds / task.dt_s);
   Violations violations;
@@ -67,8 +77,10 @@ Index EvaluationPlan::steps(const Task& task) const {
 std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, const EvaluationPlan& plan,
                               const Evaluator& evaluator) {
   const scenario::Scenario& scenario = resolved.scenario;
-  if (!scenario.make_plant)
-    throw InvalidInput(fmt::format("{} has no plant that episodes could run on", scenario.name));
+  if (!plant_or_prior(resolved))
+    throw InvalidInput(fmt::format(
+        "{} has no plant that episodes could run on, and the run has no prior that could play it, or several",
+        scenario.name));
   Task longer = scenario.task;
   longer.horizon = plan.steps(scenario.task);
   if (learned.theta.size() != learned.policy->parameters())
@@ -78,7 +90,7 @@ std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, 
   const Index parts = (plan.episodes + kEpisodesOfAPlant - 1) / kEpisodesOfAPlant;
   const auto ask = [&] { evaluator.stop_if_asked(); };
   evaluator.for_each(parts, [&](Index of) {
-    const auto plant = scenario.make_plant();
+    const auto plant = plant_or_prior(resolved);
     const Index first = of * kEpisodesOfAPlant, end = std::min(first + kEpisodesOfAPlant, plan.episodes);
     for (Index i = first; i < end; ++i)
       outcomes[static_cast<std::size_t>(i)] = named_failure(learned.trial, "plant of the evaluation", [&] {

@@ -10,23 +10,25 @@
 namespace rehearse::experiment {
 namespace {
 
-constexpr std::string_view kPlant = "scenario.plant.";
+/// The beginning of the options that are the robot's parameters.
+std::string group_of(const Resolved& run) { return run.scenario.make_plant ? "scenario.plant." : "prior."; }
 
 struct Value {
   std::string parameter;
   double value;
 };
 
-/// The plant's parameters that a factor changes.
-std::vector<Value> parameters_of(const Spec& complete) {
+/// The robot's parameters that a factor changes.
+std::vector<Value> parameters_of(const Spec& complete, const std::string& group) {
   std::vector<Value> all;
   for (const auto& [key, text] : complete.options) {
     double value = 0;
-    if (key.starts_with(kPlant) && from_text(text, value) && value != 0)
-      all.push_back({key.substr(kPlant.size()), value});
+    if (key.starts_with(group) && from_text(text, value) && value != 0)
+      all.push_back({key.substr(group.size()), value});
   }
   if (all.empty())
-    throw InvalidInput(fmt::format("scenario {} has no plant.NAME that could be changed", complete.scenario));
+    throw InvalidInput(
+        fmt::format("scenario {} has no parameter {}NAME that could be changed", complete.scenario, group));
   return all;
 }
 
@@ -41,7 +43,8 @@ void add_rate(std::vector<std::string>& row, const std::optional<Rate>& rate) {
 std::vector<Changed> robustness(const std::function<Resolved(const std::string& key, const std::string& value)>& make,
                                 const Resolved& run, const Learned& learned, const EvaluationPlan& plan,
                                 const Evaluator& evaluator) {
-  const std::vector<Value> parameters = parameters_of(run.spec);
+  const std::string group = group_of(run);
+  const std::vector<Value> parameters = parameters_of(run.spec, group);
   const Summary unchanged = summary_of(evaluate(run, learned, plan, evaluator));
   std::vector<Changed> all;
   for (const auto& [parameter, value] : parameters)
@@ -49,7 +52,7 @@ std::vector<Changed> robustness(const std::function<Resolved(const std::string& 
       const double changed = factor * value;
       all.push_back({parameter, factor, changed, unchanged});
       if (factor == 1) continue;
-      const Resolved other = make(std::string(kPlant) + parameter, fmt::format("{}", changed));
+      const Resolved other = make(group + parameter, fmt::format("{}", changed));
       all.back().summary = summary_of(evaluate(other, learned, plan, evaluator));
     }
   return all;

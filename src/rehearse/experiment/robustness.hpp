@@ -10,7 +10,7 @@ namespace rehearse::experiment {
 
 /// The outcome of a policy on a plant with one parameter changed.
 struct Changed {
-  std::string parameter;  // "m1" of the option plant.m1
+  std::string parameter;  // "m1" of the option plant.m1, or of prior.m1 where the prior plays the robot
   double factor = 1;      // times the run's value
   double value = 0;
   Summary summary;
@@ -19,9 +19,10 @@ struct Changed {
 /// Factors of a parameter: ± 25 %.
 inline const std::vector<double> kFactors = {0.75, 0.875, 1, 1.125, 1.25};
 
-/// Evaluates the policy with one parameter of the plant changed at a time, each of the options plant.NAME that is not
-/// 0, by every factor, always with the same random numbers. make: the run with one more option (`read_run`). Throws
-/// InvalidInput if the scenario has no such option, and what `evaluate` throws.
+/// Evaluates the policy with one parameter of the plant changed at a time, each of the options plant.NAME (prior.NAME
+/// where the prior plays the robot) that is not 0, by every factor, always with the same random numbers. make: the run
+/// with one more option (`read_run`). Throws InvalidInput if the scenario has no such option, and what `evaluate`
+/// throws.
 std::vector<Changed> robustness(const std::function<Resolved(const std::string& key, const std::string& value)>& make,
                                 const Resolved& run, const Learned& learned, const EvaluationPlan& plan,
                                 const Evaluator& evaluator);

@@ -56,12 +56,9 @@ Vector random_action(const Task& task, const Vector& x, Rng& rng) {
 std::unique_ptr<system::Plant> plant_or_prior(const scenario::Scenario& scenario) {
   if (scenario.make_plant) return scenario.make_plant();
   if (scenario.priors.empty()) return nullptr;
-  const auto motion = [prior = scenario.priors.front()](const Vector& x, const Vector& u) -> Vector {
-    Matrix change(1, x.size());
-    system::change_contained(*prior.simulator, x.transpose(), u.transpose(), prior.parameters.values(), change);
-    return x + change.transpose();
-  };
-  return system::make_simulated_plant(motion, {scenario.task.start_mean, scenario.task.start_std, {}});
+  const scenario::NamedPrior& prior = scenario.priors.front();
+  return system::make_simulated_plant(prior.simulator, prior.parameters.values(),
+                                      {scenario.task.start_mean, scenario.task.start_std, {}});
 }
 
 Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) {

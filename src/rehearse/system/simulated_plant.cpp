@@ -63,4 +63,15 @@ std::unique_ptr<Plant> make_simulated_plant(Motion motion, StartAndSensors aroun
   return std::make_unique<SimulatedPlant>(std::move(motion), std::move(around));
 }
 
+std::unique_ptr<Plant> make_simulated_plant(std::shared_ptr<const Simulator> simulator, Vector phi,
+                                            StartAndSensors around) {
+  const auto motion = [simulator = std::move(simulator), phi = std::move(phi)](const Vector& x,
+                                                                               const Vector& u) -> Vector {
+    Matrix change(1, x.size());
+    change_contained(*simulator, x.transpose(), u.transpose(), phi, change);
+    return x + change.transpose();
+  };
+  return make_simulated_plant(motion, std::move(around));
+}
+
 }  // namespace rehearse::system

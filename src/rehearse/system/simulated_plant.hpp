@@ -6,6 +6,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/types.hpp"
 #include "rehearse/system/plant.hpp"
+#include "rehearse/system/simulator.hpp"
 
 namespace rehearse::system {
 
@@ -25,5 +26,10 @@ using Motion = std::function<Vector(const Vector& x, const Vector& u)>;
 /// Use it for a robot that a function simulates. Its `truth` is known. One thread. Throws InvalidInput where sizes
 /// differ.
 std::unique_ptr<Plant> make_simulated_plant(Motion motion, StartAndSensors around);
+
+/// A plant that moves as a simulator with parameters phi predicts: it plays a robot that Rehearse does not drive.
+/// States that the simulator cannot predict are NaN.
+std::unique_ptr<Plant> make_simulated_plant(std::shared_ptr<const Simulator> simulator, Vector phi,
+                                            StartAndSensors around);
 
 }  // namespace rehearse::system

@@ -39,6 +39,23 @@ TEST(PastRun, HasTheTrialThatIsAskedFor) {
     EXPECT_EQ(message_of<InvalidInput>([&] { run.trial(number); }), "no trial is done yet; trial 1 is asked for");
 }
 
+TEST(PastRun, TheNewestModelIsWhatPlaysARobotWithoutAPlant) {
+  const fs::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(2), folder, {});
+  PastRun run = read_run(fake::catalogue(), folder);
+  EXPECT_TRUE(run.as_identified().empty()) << "it has a plant";
+  run.resolved.scenario.make_plant = nullptr;
+  ASSERT_TRUE(run.resolved.prior && run.resolved.prior->space.has_tunable());
+  run.history.trials.back().phi = {0.25};
+  using Settings = std::vector<std::pair<std::string, std::string>>;
+  EXPECT_EQ(run.as_identified(), (Settings{{"prior.gain", "0.25"}}));
+  run.history.asked = run.history.trials.back();
+  run.history.asked->phi = {0.75};
+  EXPECT_EQ(run.as_identified(), (Settings{{"prior.gain", "0.75"}})) << "that of the trial that is asked for";
+  run.history = {};
+  EXPECT_TRUE(run.as_identified().empty()) << "nothing is identified";
+}
+
 TEST(PastRun, TakesOtherSettings) {
   const fs::path folder = fake::test_folder() / "run";
   start_run(fake::catalogue(), line_spec(2), folder, {});

@@ -108,6 +108,25 @@ TEST(PolicyEvaluation, RatesHaveExactIntervals) {
   EXPECT_EQ(summary.ended.count, 0);
 }
 
+TEST(PolicyEvaluation, ThePriorPlaysARobotThatHasNoPlant) {
+  Resolved told = line_where();
+  ASSERT_TRUE(told.prior);
+  const auto plant = told.scenario.make_plant;
+  told.scenario.make_plant = nullptr;
+  const auto on_prior = evaluate(told, slow_policy(), {.episodes = 2}, serial_evaluator());
+  told.prior->space = told.prior->space.fixed_at(told.prior->space.values() * 1.5);
+  EXPECT_NE(evaluate(told, slow_policy(), {.episodes = 2}, serial_evaluator())[0].total_reward,
+            on_prior[0].total_reward)
+      << "its parameters are the robot's";
+  told.spec.prior = "near,far";
+  EXPECT_EQ(plant_or_prior(told), nullptr) << "a choice among several is no robot";
+  told.prior.reset();
+  EXPECT_NE(message_of<InvalidInput>([&] {
+              evaluate(told, slow_policy(), {.episodes = 2}, serial_evaluator());
+            }).find("no plant that episodes could run on"),
+            std::string::npos);
+}
+
 TEST(PolicyEvaluation, SaysWhatIsWrong) {
   const auto said = [](const EvaluationPlan& plan) {
     return message_of<InvalidInput>([&] { evaluate(line_where(), slow_policy(), plan, serial_evaluator()); });
