@@ -1,12 +1,19 @@
 #include "rehearse/dynamics/integration.hpp"
 
-#include <ranges>
+#include <vector>
 
 namespace rehearse::dynamics {
 namespace {
 
 /// The pairs from the last to the first: a rate that is a position itself is whole before its own position follows.
-auto from_the_last(const Kinematics& kinematics) { return std::views::reverse(kinematics.pairs); }
+/// Not std::views::reverse, which Clang 14 does not compile with GCC's library (scripts/fuzz).
+struct Reversed {
+  const std::vector<Kinematics::Pair>& pairs;
+  auto begin() const { return pairs.rbegin(); }
+  auto end() const { return pairs.rend(); }
+};
+
+Reversed from_the_last(const Kinematics& kinematics) { return {kinematics.pairs}; }
 
 }  // namespace
 
