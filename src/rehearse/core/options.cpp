@@ -162,7 +162,7 @@ bool lacks_groups(std::string_view name, std::string_view whole) { return whole.
 /// True if `other` may have been meant: at most half of the letters of `name` are wrong, or one is short for the other.
 bool is_like(std::string_view name, std::string_view other) {
   const std::size_t most = (name.size() + 1) / 2;
-  return lacks_groups(name, other) || other.starts_with(name) || (!other.empty() && name.starts_with(other)) ||
+  return lacks_groups(name, other) || other.starts_with(name) || name.starts_with(other) ||
          edit_distance(in_lower_case(name), in_lower_case(other)) <= most;
 }
 
@@ -214,7 +214,7 @@ std::string closest(std::string_view name, const std::vector<std::string>& names
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& names) {
   const std::string near = closest(name, names);
-  return is_like(name, near) ? fmt::format(", did you mean '{}'?", near) : "";
+  return !near.empty() && is_like(name, near) ? fmt::format(", did you mean '{}'?", near) : "";
 }
 
 std::string suggestions(std::string_view name, const std::vector<std::string>& names) {

@@ -5,7 +5,6 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/experiment/kept_robot.hpp"
-#include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/policy/hand_over.hpp"
 #include "rehearse/policy/schedule.hpp"
@@ -26,14 +25,15 @@ const TrialRecord& PastRun::trial(std::optional<Index> number) const {
 }
 
 std::vector<std::pair<std::string, std::string>> PastRun::as_identified() const {
-  if (resolved.scenario.make_plant || !resolved.prior || split_names(resolved.spec.prior).size() > 1) return {};
+  const prior::Prior* prior = resolved.one_prior();
+  if (resolved.scenario.make_plant || !prior) return {};
   const std::vector<double> none;
   const std::vector<double>& phi = history.asked            ? history.asked->phi
                                    : history.trials.empty() ? none
                                                             : history.trials.back().phi;
   std::vector<std::pair<std::string, std::string>> settings;
   std::size_t next = 0;
-  for (const Parameter& parameter : resolved.prior->space.all())
+  for (const Parameter& parameter : prior->space.all())
     if (parameter.tunable() && next < phi.size())
       settings.emplace_back("prior." + parameter.name, to_text(phi[next++]));
   return settings;

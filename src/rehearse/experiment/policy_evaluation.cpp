@@ -9,7 +9,6 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/failures.hpp"
-#include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/record.hpp"
 #include "rehearse/files/csv.hpp"
 #include "rehearse/rollout/execute.hpp"
@@ -58,8 +57,9 @@ std::string cell(const std::optional<bool>& flag) { return !flag ? "" : *flag ? 
 std::unique_ptr<system::Plant> plant_or_prior(const Resolved& resolved) {
   const scenario::Scenario& scenario = resolved.scenario;
   if (scenario.make_plant) return scenario.make_plant();
-  if (!resolved.prior || split_names(resolved.spec.prior).size() > 1) return nullptr;
-  return system::make_simulated_plant(resolved.prior->simulator, resolved.prior->space.values(),
+  const prior::Prior* prior = resolved.one_prior();
+  if (!prior) return nullptr;
+  return system::make_simulated_plant(prior->simulator, prior->space.values(),
                                       {scenario.task.start_mean, scenario.task.start_std, {}});
 }
 

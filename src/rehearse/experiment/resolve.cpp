@@ -243,6 +243,10 @@ class Resolver {
 
 }  // namespace
 
+const prior::Prior* Resolved::one_prior() const {
+  return prior && split_names(spec.prior).size() == 1 ? &*prior : nullptr;
+}
+
 Resolved resolve(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec, {}).resolve(); }
 
 Resolved resolve_begun(const Catalogue& catalogue, const Spec& spec) {

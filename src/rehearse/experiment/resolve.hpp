@@ -18,6 +18,9 @@ struct Resolved {
   Comments comments;
   std::optional<RobotFile> robot = {};     // the file that describes the robot; empty: it is built in
   std::vector<std::string> warnings = {};  // what can be done so, and is hardly meant, a line each
+
+  /// The prior, if it is one; null: there is none, or a choice among several.
+  const prior::Prior* one_prior() const;
 };
 
 /// Throws InvalidInput with a line for everything that is wrong.

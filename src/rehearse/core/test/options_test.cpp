@@ -251,6 +251,7 @@ TEST(Closest, IsTheNameMeant) {
   EXPECT_EQ(closest("gp.tolerance", {"gp.centres", "model.gp.tolerance"}), "model.gp.tolerance");
   EXPECT_EQ(did_you_mean("sed", names), ", did you mean 'seed'?");
   EXPECT_EQ(did_you_mean("sed", {}), "");
+  EXPECT_EQ(did_you_mean("u", {}), "");
   EXPECT_EQ(did_you_mean("u", {"v"}), ", did you mean 'v'?");
   EXPECT_EQ(did_you_mean("mass", {"m", "l"}), ", did you mean 'm'?");
   EXPECT_EQ(did_you_mean("lr", {"model.lr"}), ", did you mean 'model.lr'?");

@@ -111,7 +111,6 @@ TEST(PolicyEvaluation, RatesHaveExactIntervals) {
 TEST(PolicyEvaluation, ThePriorPlaysARobotThatHasNoPlant) {
   Resolved told = line_where();
   ASSERT_TRUE(told.prior);
-  const auto plant = told.scenario.make_plant;
   told.scenario.make_plant = nullptr;
   const auto on_prior = evaluate(told, slow_policy(), {.episodes = 2}, serial_evaluator());
   told.prior->space = told.prior->space.fixed_at(told.prior->space.values() * 1.5);
