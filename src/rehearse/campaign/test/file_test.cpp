@@ -90,8 +90,7 @@ TEST(CampaignFile, SaysAllThatIsWrongWithItsLine) {
             "c.toml: seeds is missing; write for instance seeds = \"1-30\"\n"
             "c.toml: line 1: this version of Rehearse reads format = 1");
   EXPECT_TRUE(complaint("format = 1\nseeds = [\n").starts_with("c.toml: line "));
-  EXPECT_EQ(
-      complaint(R"(format = 1
+  EXPECT_EQ(complaint(R"(format = 1
 scenario = "line"
 learners = ["echo", "eco"]
 priors = ["near", "nowhere", "near"]
@@ -107,17 +106,17 @@ search.step = 1
 breaks = [true, true]
 search.step = 0.5
 )"),
-      "c.toml: line 3: unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)\n"
-      "c.toml: line 4: priors names 'near' twice\n"
-      "c.toml: line 4: unknown prior 'nowhere' of scenario line, did you mean 'near'? (known: near, far, oracle)\n"
-      "c.toml: line 5: seeds = \"3-1\", the first must not be above the last\n"
-      "c.toml: line 6: trials = 0, must be between 1 and 1000000\n"
-      "c.toml: line 8: unknown option 'search.stop', did you mean 'search.step'?\n"
-      "c.toml: line 9: noise = -1, must be ≥ 0\n"
-      "c.toml: line 10: prior.gain = much, must be a number\n"
-      "c.toml: line 11: [learner.echo-alone] is none of the learners (echo, eco)\n"
-      "c.toml: line 14: breaks has the value true twice\n"
-      "c.toml: line 15: search.step must be a list of values in [vary]");
+            "c.toml: line 3: unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)\n"
+            "c.toml: line 4: priors names 'near' twice\n"
+            "c.toml: line 4: unknown prior 'nowhere' of scenario line (known: near, far, oracle)\n"
+            "c.toml: line 5: seeds = \"3-1\", the first must not be above the last\n"
+            "c.toml: line 6: trials = 0, must be between 1 and 1000000\n"
+            "c.toml: line 8: unknown option 'search.stop', did you mean 'search.step'?\n"
+            "c.toml: line 9: noise = -1, must be ≥ 0\n"
+            "c.toml: line 10: prior.gain = much, must be a number\n"
+            "c.toml: line 11: [learner.echo-alone] is none of the learners (echo, eco)\n"
+            "c.toml: line 14: breaks has the value true twice\n"
+            "c.toml: line 15: search.step must be a list of values in [vary]");
 }
 
 TEST(CampaignFile, AScenarioThatIsNoTextIsSaidOnce) {

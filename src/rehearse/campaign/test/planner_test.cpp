@@ -90,7 +90,7 @@ TEST(CampaignPlan, PresetsComeBeforeWhatTheFileSets) {
                   "learners = [\"echo\", \"echo-alone\"]\npreset = \"brave\"\n[[variant]]\nname = \"a\"\n"
                   "[[variant]]\nname = \"b\"\npreset = \"careful\"\n");
             }),
-            "c.toml: line 6: unknown preset 'brave', did you mean 'bold'? (known: bold, careful); a file is named with "
+            "c.toml: line 6: unknown preset 'brave' (known: bold, careful); a file is named with "
             "its .toml");
   EXPECT_EQ(experiment::fake::message_of<InvalidInput>([&] {
               plan_of("learners = [\"echo\", \"echo-alone\"]\n[[variant]]\nname = \"b\"\npreset = \"careful\"\n");
