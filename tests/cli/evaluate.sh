@@ -123,7 +123,7 @@ expect 2 "drift has no plant that episodes could run on, and the run has no prio
 "$program" new own >/dev/null
 sed '/^\[plant\]/,+2d' own.toml >told.toml
 expect 0 "told is ready" learn told.toml --trials 0 "${quick[@]}" --out told
-expect 0 "predicted return" ask told
+expect 0 "to try it on the prior first: rehearse evaluate told --trial 1 --robustness" ask told
 expect 0 "the prior useful plays the robot, as it was identified" evaluate told --trial 1 --episodes 5 --threads 1
 grep -q "^1,prior.m=[0-9.]* prior.l=[0-9.]*,1,4,5," told/evaluation.csv || fail "told has $(cat told/evaluation.csv)"
 expect 0 "told/evaluation.csv has the numbers" evaluate told --trial 1 --episodes 5 --set prior.m=2
