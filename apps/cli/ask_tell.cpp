@@ -85,7 +85,7 @@ void print_asked(const experiment::Resolved& resolved, const TrialRecord& trial,
   const Task& task = resolved.scenario.task;
   put("trial {}: run the policy of {} for {} steps of {} s\n", trial.trial, files.string(), task.horizon, task.dt_s);
   print_files(files);
-  if (!resolved.scenario.make_plant && resolved.one_prior())
+  if (resolved.stand_in())
     put("  to try it on the prior first: {}\n",
         command_line({"evaluate", folder, "--trial", std::to_string(trial.trial), "--robustness"}));
   if (trial.predicted_return) put("  predicted return {:.4g}\n", *trial.predicted_return);

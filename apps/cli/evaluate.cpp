@@ -151,7 +151,7 @@ struct Work {
 
 /// A run keeps its robot, so a plant that the file gets later is of use in another run only.
 void require_robot(const PastRun& run) {
-  if (experiment::plant_or_prior(run.resolved)) return;
+  if (experiment::has_robot(run.resolved)) return;
   const std::string way =
       command_line({"learn", "COPY.toml", "--learner", run.resolved.spec.learner, "--trials", "0", "--out", "OTHER"});
   throw InvalidInput(fmt::format(
@@ -167,8 +167,7 @@ Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& a
   check_output(wanted.table);  // not after hours of episodes
   require_robot(run);
   GivenPolicy policy = policy_wanted(arguments, wanted, run);
-  Settings identified = run.as_identified();  // what is set comes after it
-  wanted.settings.insert(wanted.settings.begin(), identified.begin(), identified.end());
+  wanted.settings = run.as_identified(wanted.settings);
   experiment::Resolved resolved = experiment::read_run(catalogue, folder, wanted.settings).resolved;
   wanted.plan.seed = static_cast<std::uint64_t>(wanted.seed.value_or(resolved.spec.seed));
   const std::shared_ptr<const Evaluator> threads = make_thread_evaluator(static_cast<int>(wanted.threads));
@@ -181,9 +180,8 @@ void announce(const Work& work, const EvaluateArguments& arguments) {
   const std::string settings = settings_text(work.wanted.settings);
   const std::string whose = arguments.policy ? *arguments.policy : fmt::format("trial {}", work.policy.learned.trial);
   const auto& earned = work.policy.total_reward;
-  const std::string& prior = work.resolved.spec.prior;
-  if (!work.resolved.scenario.make_plant)
-    put("there is no [plant]: the prior {} plays the robot, as it was identified, without the GPs\n", prior);
+  if (const prior::Prior* prior = work.resolved.stand_in())
+    put("there is no [plant]: the prior {} plays the robot, as it was identified, without the GPs\n", prior->name);
   put("the policy of {}{}: {} episodes of {:g} s, seed {}{}{}\n", whose,
       earned ? fmt::format(" (return {:.4g})", *earned) : "", work.wanted.plan.episodes, work.episode_s(),
       work.wanted.plan.seed, settings.empty() ? "" : ", ", settings);

@@ -175,9 +175,8 @@ py::dict evaluate(const Robot& robot, const std::string& folder, const Evaluatio
     const experiment::PastRun run = experiment::read_run(catalogue, folder);
     const experiment::TrialRecord& trial = run.trial(wanted.trial);
     const experiment::Learned learned{policy_of(trial, run.resolved.scenario), trial.theta, trial.trial};
-    Options options_of_robot = run.as_identified();
-    options_of_robot.insert(options_of_robot.end(), wanted.options.begin(), wanted.options.end());
-    const experiment::Resolved resolved = experiment::read_run(catalogue, folder, options_of_robot).resolved;
+    const experiment::Resolved resolved =
+        experiment::read_run(catalogue, folder, run.as_identified(wanted.options)).resolved;
     if (resolved.scenario.require_ready) resolved.scenario.require_ready();
     outcomes = experiment::evaluate(resolved, learned, wanted.plan, *make_stoppable(options.evaluator, options.stop));
   });

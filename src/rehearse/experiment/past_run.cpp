@@ -24,9 +24,10 @@ const TrialRecord& PastRun::trial(std::optional<Index> number) const {
   return history.trials[static_cast<std::size_t>(*number - 1)];
 }
 
-std::vector<std::pair<std::string, std::string>> PastRun::as_identified() const {
-  const prior::Prior* prior = resolved.one_prior();
-  if (resolved.scenario.make_plant || !prior) return {};
+std::vector<std::pair<std::string, std::string>> PastRun::as_identified(
+    const std::vector<std::pair<std::string, std::string>>& others) const {
+  const prior::Prior* prior = resolved.stand_in();
+  if (!prior) return others;
   const std::vector<double> none;
   const std::vector<double>& phi = history.asked            ? history.asked->phi
                                    : history.trials.empty() ? none
@@ -36,6 +37,7 @@ std::vector<std::pair<std::string, std::string>> PastRun::as_identified() const 
   for (const Parameter& parameter : prior->space.all())
     if (parameter.tunable() && next < phi.size())
       settings.emplace_back("prior." + parameter.name, to_text(phi[next++]));
+  settings.insert(settings.end(), others.begin(), others.end());
   return settings;
 }
 

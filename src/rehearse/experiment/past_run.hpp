@@ -22,9 +22,10 @@ struct PastRun {
   /// there is none.
   const TrialRecord& trial(std::optional<Index> number) const;
 
-  /// The parameters of the prior as its newest model has them, as options: what the prior plays the robot with where
-  /// there is no plant. Empty where there is one, and where there is no prior or a choice among several.
-  std::vector<std::pair<std::string, std::string>> as_identified() const;
+  /// Options for an evaluation: where the prior plays the robot, its parameters as the newest model has them, then
+  /// `others`.
+  std::vector<std::pair<std::string, std::string>> as_identified(
+      const std::vector<std::pair<std::string, std::string>>& others = {}) const;
 };
 
 /// Reads a folder. It changes nothing and locks nothing, so the run may be going on. settings: options that differ from

@@ -52,16 +52,18 @@ std::optional<Rate> rate_of(const std::vector<Outcome>& outcomes, std::optional<
 
 std::string cell(const std::optional<bool>& flag) { return !flag ? "" : *flag ? "1" : "0"; }
 
-}  // namespace
-
-std::unique_ptr<system::Plant> plant_or_prior(const Resolved& resolved) {
+/// There must be one.
+std::unique_ptr<system::Plant> make_robot(const Resolved& resolved) {
   const scenario::Scenario& scenario = resolved.scenario;
   if (scenario.make_plant) return scenario.make_plant();
-  const prior::Prior* prior = resolved.one_prior();
-  if (!prior) return nullptr;
-  return system::make_simulated_plant(prior->simulator, prior->space.values(),
+  const prior::Prior& prior = *resolved.stand_in();
+  return system::make_simulated_plant(prior.simulator, prior.space.values(),
                                       {scenario.task.start_mean, scenario.task.start_std, {}});
 }
+
+}  // namespace
+
+bool has_robot(const Resolved& resolved) { return resolved.scenario.make_plant || resolved.stand_in(); }
 
 Index EvaluationPlan::steps(const Task& task) const {
   const double wanted = seconds == 0 ? static_cast<double>(task.horizon) : std::round(seconds / task.dt_s);
@@ -77,7 +79,7 @@ Index EvaluationPlan::steps(const Task& task) const {
 std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, const EvaluationPlan& plan,
                               const Evaluator& evaluator) {
   const scenario::Scenario& scenario = resolved.scenario;
-  if (!plant_or_prior(resolved))
+  if (!has_robot(resolved))
     throw InvalidInput(fmt::format(
         "{} has no plant that episodes could run on, and the run has no prior that could play it, or several",
         scenario.name));
@@ -90,7 +92,7 @@ std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, 
   const Index parts = (plan.episodes + kEpisodesOfAPlant - 1) / kEpisodesOfAPlant;
   const auto ask = [&] { evaluator.stop_if_asked(); };
   evaluator.for_each(parts, [&](Index of) {
-    const auto plant = plant_or_prior(resolved);
+    const auto plant = make_robot(resolved);
     const Index first = of * kEpisodesOfAPlant, end = std::min(first + kEpisodesOfAPlant, plan.episodes);
     for (Index i = first; i < end; ++i)
       outcomes[static_cast<std::size_t>(i)] = named_failure(learned.trial, "plant of the evaluation", [&] {

@@ -9,13 +9,11 @@
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/policy/policy.hpp"
-#include "rehearse/system/plant.hpp"
 
 namespace rehearse::experiment {
 
-/// The robot of an evaluation: the scenario's plant, or, where Rehearse does not drive the robot, the run's prior,
-/// which plays it. Null: there is neither, or a choice among several priors.
-std::unique_ptr<system::Plant> plant_or_prior(const Resolved& resolved);
+/// True if there is a robot to evaluate policies on: the scenario's plant, or a prior that plays it.
+bool has_robot(const Resolved& resolved);
 
 /// The settings of an evaluation: episodes on the plant that do not count as interaction.
 struct EvaluationPlan {
@@ -43,9 +41,9 @@ struct Outcome {
   std::vector<std::string> broke;     // limits that its last step broke
 };
 
-/// Episodes of a policy on the plant (`plant_or_prior`), each from random numbers of its own. They are spread over
-/// threads in parts that have a plant each: the same outcomes for any number of threads. Throws InvalidInput where plan
-/// and policy do not fit the scenario, RunFailed where the plant fails.
+/// Episodes of a policy on the plant, or on the prior that plays the robot (`Resolved::stand_in`), each from random
+/// numbers of its own. They are spread over threads in parts that have a plant each: the same outcomes for any number
+/// of threads. Throws InvalidInput where plan and policy do not fit the scenario, RunFailed where the plant fails.
 std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, const EvaluationPlan& plan,
                               const Evaluator& evaluator);
 

@@ -243,8 +243,8 @@ class Resolver {
 
 }  // namespace
 
-const prior::Prior* Resolved::one_prior() const {
-  return prior && split_names(spec.prior).size() == 1 ? &*prior : nullptr;
+const prior::Prior* Resolved::stand_in() const {
+  return !scenario.make_plant && prior && split_names(spec.prior).size() == 1 ? &*prior : nullptr;
 }
 
 Resolved resolve(const Catalogue& catalogue, const Spec& spec) { return Resolver(catalogue, spec, {}).resolve(); }

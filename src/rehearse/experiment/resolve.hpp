@@ -19,8 +19,9 @@ struct Resolved {
   std::optional<RobotFile> robot = {};     // the file that describes the robot; empty: it is built in
   std::vector<std::string> warnings = {};  // what can be done so, and is hardly meant, a line each
 
-  /// The prior, if it is one; null: there is none, or a choice among several.
-  const prior::Prior* one_prior() const;
+  /// The prior that plays the robot in evaluations, where there is no plant. Null: there is a plant, no prior, or a
+  /// choice among several.
+  const prior::Prior* stand_in() const;
 };
 
 /// Throws InvalidInput with a line for everything that is wrong.

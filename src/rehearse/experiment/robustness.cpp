@@ -11,7 +11,7 @@ namespace rehearse::experiment {
 namespace {
 
 /// The beginning of the options that are the robot's parameters.
-std::string group_of(const Resolved& run) { return run.scenario.make_plant ? "scenario.plant." : "prior."; }
+std::string group_of(const Resolved& run) { return run.stand_in() ? "prior." : "scenario.plant."; }
 
 struct Value {
   std::string parameter;

@@ -118,7 +118,7 @@ TEST(PolicyEvaluation, ThePriorPlaysARobotThatHasNoPlant) {
             on_prior[0].total_reward)
       << "its parameters are the robot's";
   told.spec.prior = "near,far";
-  EXPECT_EQ(plant_or_prior(told), nullptr) << "a choice among several is no robot";
+  EXPECT_FALSE(has_robot(told)) << "a choice among several is no robot";
   told.prior.reset();
   EXPECT_NE(message_of<InvalidInput>([&] {
               evaluate(told, slow_policy(), {.episodes = 2}, serial_evaluator());

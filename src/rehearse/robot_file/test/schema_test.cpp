@@ -62,7 +62,8 @@ using Keys = std::map<std::string, std::set<std::string>>;  // of parts
 
 /// The keys that are read, as the complaints say them.
 Keys known_keys() {
-  const std::regex complaint(R"(unknown key 'zzz'(?: in ([^ ,]+))?.*\(known: (.*)\))"), comma(", ");
+  const std::regex complaint(R"(unknown key 'zzz'(?: in (\S+?))?(?:, did you mean '[^']*'\?)? \(known: (.*)\))"),
+      comma(", ");
   Keys known;
   const auto folder = [](const std::string&) { return std::optional<std::string>("bytes"); };
   try {
