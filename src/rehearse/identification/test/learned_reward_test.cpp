@@ -1,7 +1,9 @@
 #include "rehearse/identification/learned_reward.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +50,10 @@ double held_out_error(const Reward& reward) {
   return (rewards_of(reward, held_out) - held_out.rewards).norm() / held_out.rewards.norm();
 }
 
+std::string name_of(const ::testing::TestParamInfo<RewardScale>& scale) {
+  return std::array{"linear", "logarithmic", "evidence"}.at(static_cast<std::size_t>(scale.param));
+}
+
 class EachScale : public ::testing::TestWithParam<RewardScale> {};
 
 TEST_P(EachScale, IsCloseToTheTrueRewardOfTheCartpole) {
@@ -86,7 +92,8 @@ TEST_P(EachScale, TakesRewardsThatAreHardlyMoreThanZero) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scales, EachScale,
-                         ::testing::Values(RewardScale::linear, RewardScale::logarithmic, RewardScale::evidence));
+                         ::testing::Values(RewardScale::linear, RewardScale::logarithmic, RewardScale::evidence),
+                         name_of);
 
 TEST(LearnedReward, EvidenceIsOfTheRewardsWhateverTheScale) {
   const Dataset data = steps(100, 1);

@@ -2,6 +2,7 @@
 // Policies of three features and two actions, and their moments.
 
 #include <memory>
+#include <ostream>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -25,6 +26,7 @@ struct Case {
   std::shared_ptr<const policy::Policy> policy;
   PolicyMomentsAt at;
 };
+inline void PrintTo(const Case& c, std::ostream* out) { *out << c.policy->name(); }
 inline const Case kRbfCase{policy::make_rbf(kRbf),
                            [](const ConstVectorView& theta) { return std::make_unique<RbfPolicy>(kRbf, theta, 0); }};
 inline const Case kLinearCase{policy::make_linear(kLinear), policy_moments(*policy::make_linear(kLinear))};

@@ -46,6 +46,7 @@ struct Same {
   const char* file;
   std::unique_ptr<scenario::ScenarioBuilder> (*built_in)();
 };
+void PrintTo(const Same& same, std::ostream* out) { *out << same.file; }
 
 /// A robot that is built in, and the file that describes it, too.
 class EachBuiltInRobot : public ::testing::TestWithParam<Same> {};

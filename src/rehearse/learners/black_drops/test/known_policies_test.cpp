@@ -48,7 +48,10 @@ TEST(KnownPolicies, ARandomFirstTrialIsNeverTheBest) {
 }
 
 TEST(KnownPolicies, AnEpisodeThatWasCutShortIsNeverTheBest) {
-  Episode whole{.states = Matrix::Zero(4, 1), .actions = Matrix::Zero(3, 1), .rewards = Vector::Constant(3, -2)};
+  Episode whole{.states = Matrix::Zero(4, 1),
+                .true_states = Matrix::Zero(4, 1),
+                .actions = Matrix::Zero(3, 1),
+                .rewards = Vector::Constant(3, -2)};
   History history;
   history.earn(whole.part(0, 1), 3);
   EXPECT_EQ(history.best(), std::nullopt);
