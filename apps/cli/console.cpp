@@ -40,6 +40,7 @@ void Console::started(const experiment::Resolved& resolved, const std::filesyste
   done_ = done_before_ = done;
   priors_ = spec.prior;
   phi_names_ = experiment::tunable_names(resolved.prior);
+  faults_ = resolved.scenario.faults;
   begin_ = trial_begin_ = phase_begin_ = Clock::now();
   if (begins_ == Begin::silent) return;
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
@@ -56,7 +57,16 @@ std::string Console::number(Index trial) const {
   return trials_ >= trial ? fmt::format("{:>2}/{}", trial, trials_) : fmt::format("{}", trial);
 }
 
+/// At once, since programs that fail often make a search slow; how often it was in all is said at the end.
+void Console::say_first_faults() {
+  const std::vector<std::string> faults = faults_ ? faults_() : std::vector<std::string>();
+  if (faults.empty()) return;
+  for (const std::string& fault : faults) line_.print("warning: " + fault);
+  faults_ = nullptr;
+}
+
 void Console::progress(Index trial, const Progress& progress) {
+  say_first_faults();
   if (progress.phase != phase_) phase_begin_ = Clock::now();
   phase_ = progress.phase;
   if (!line_.is_due()) return;

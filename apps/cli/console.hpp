@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ class Console final : public experiment::RunListener {
   std::string time_left(const Progress& progress) const;
 
   std::string number(Index trial) const;
+  void say_first_faults();
 
   Begin begins_;
   StatusLine line_;
@@ -42,6 +44,7 @@ class Console final : public experiment::RunListener {
   Index done_before_ = 0;
   bool says_when_solved_ = true;  // the task does
   std::string priors_;
+  std::function<std::vector<std::string>()> faults_;  // of the robot's programs; null: said, or it has none
   std::vector<std::string> phi_names_;
   std::string phase_;
   Clock::time_point begin_, trial_begin_, phase_begin_;

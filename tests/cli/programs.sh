@@ -60,9 +60,32 @@ learn_tired whole || fail "a program that is repaired: $(cat output)"
 rm count count.repaired
 learn_tired tired_run
 [ $? = 1 ] && grep -q "the licence has ended" output || fail "a program that ends for good: $(cat output)"
+grep -q "the run keeps the robot's files as they were, in tired_run/robot" output || fail "no word of its copies: $(cat output)"
 touch count.repaired
 "$program" resume tired_run --threads 1 >output 2>&1 || fail "resume of a program that is repaired: $(cat output)"
 same whole tired_run trials.csv policy.json
+
+# The driver of a robot that fails in the first trial, until a file repairs it.
+cat >driver.py <<'PY'
+import json, os, sys
+for line in sys.stdin:
+    message = json.loads(line)
+    if "step" in message and not os.path.exists(sys.argv[1]):
+        sys.exit("the bus is off")
+    answer = {"rehearse": 1, "messages": ["reset", "step"]} if "rehearse" in message else {"state": [0.0, 0.0]}
+    print(json.dumps(answer), flush=True)
+PY
+"$program" new driven >/dev/null
+printf '%s\n' "/^\\[plant\\]/,/^\$/s/\"rod\"/\"driver\"/" '/^\[plant\]/i [dynamics.driver]' \
+  "/^\\[plant\\]/i program = [\"python3\", \"driver.py\", \"$PWD/repaired\"]" >edit
+sed -i -f edit driven.toml
+"$program" learn driven.toml --learner gp-mi --trials 1 "${few[@]}" --threads 1 --out driven >output 2>&1
+[ $? = 1 ] && grep -q "the bus is off" output || fail "a driver that fails: $(cat output)"
+"$program" status driven >output || fail "status: $(cat output)"
+grep -q "next: .* resume driven, which drives the plant" output && ! grep -q "run the policy of" output ||
+  fail "the plant is Rehearse's to drive: $(cat output)"
+touch repaired
+"$program" resume driven --threads 1 >output 2>&1 || fail "resume of a driver that is repaired: $(cat output)"
 
 # refused PATTERN SED : exit 2 before there is a folder
 refused() {
@@ -94,7 +117,7 @@ check_prior 'u[0] + 0.1 * i'
 [ $status = 2 ] && grep -q "prior slow: .* rows of a batch stand in reverse" output || fail "a place in the batch: $(cat output)"
 check_prior 'u[0] if i > 3 else float("nan")'
 [ $status = 2 ] && grep -q "prior slow: 4 of [0-9]* rows have no prediction" output || fail "NaN: $(cat output)"
-grep -q "processes were replaced" output && fail "NaN costs processes: $(cat output)"
+grep -q "its program failed" output && fail "NaN costs processes: $(cat output)"
 check_prior 'str(u[0])'
 [ $status = 1 ] && grep -q "which is neither a number nor null" output || fail "texts: $(cat output)"
 

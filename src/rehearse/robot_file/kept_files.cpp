@@ -22,8 +22,11 @@ bool KeptFiles::keep(const std::string& path) {
 void KeptFiles::require(Table& table, const std::string& key, const std::string& path) {
   if (keep(path)) return;
   const bool may_be_a_folder = !std::filesystem::path(path).has_extension();
+  const bool may_be_a_command = key == "program" && path.find(' ') != std::string::npos;
   table.wrong(key, fmt::format("'{}' is no file in the folder of the robot's file{}", path,
-                               may_be_a_folder ? "; of a folder, each file is named" : ""));
+                               may_be_a_command  ? "; a command is a list: [\"python3\", \"robot.py\"]"
+                               : may_be_a_folder ? "; of a folder, each file is named"
+                                                 : ""));
 }
 
 void KeptFiles::take_files(Table& table) {

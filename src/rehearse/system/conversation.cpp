@@ -61,10 +61,14 @@ bool Conversation::hear(std::string_view message, const Process::Complete& compl
 /// Sends a line, and reads the line of the answer by read(text), which throws std::runtime_error where it is wrong.
 template <class Read>
 bool Conversation::ask(std::string_view message, Process::Limits limits, Read read) {
+  declined_ = false;
   if (!hear(message, object_line, limits)) return false;
   try {
     read(last_line(process_->answer()));
     return true;
+  } catch (const messages::Declined& error) {
+    declined_ = true;
+    return wrong(error.what());
   } catch (const std::runtime_error& error) {
     return wrong(error.what());
   }
@@ -78,7 +82,8 @@ bool Conversation::greet() {
 }
 
 bool Conversation::change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
-  if (!has_changes_) return wrong("it does not understand the message \"change\"");
+  if (!has_changes_)
+    return wrong("it does not understand the message \"change\", so it can be a plant but not a prior");
   return doubles_ ? change_in_doubles(X, U, phi, dX) : change_in_json(X, U, phi, dX);
 }
 

@@ -20,6 +20,7 @@ class Conversation {
 
   const std::string& problem() const { return problem_; }  // empty: all is well
   bool late() const { return late_; }                      // the last answer did not come in time
+  bool declined() const { return declined_; }              // the last answer was an error, and all is well but for it
   bool has_episodes() const { return has_episodes_; }      // it can reset and step
 
   /// Changes dX (n × dx); n from 1 to kMostRows. False: see `problem`.
@@ -46,7 +47,7 @@ class Conversation {
   Program program_;
   std::optional<Process> process_;
   std::string problem_, message_;
-  bool late_ = false, doubles_ = false, has_changes_ = true, has_episodes_ = false;
+  bool late_ = false, declined_ = false, doubles_ = false, has_changes_ = true, has_episodes_ = false;
 };
 
 }  // namespace rehearse::system

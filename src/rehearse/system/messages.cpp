@@ -85,7 +85,7 @@ Json object_of(std::string_view text) {
   if (json.is_discarded()) refuse("it answered what is no JSON: {}", excerpt(text));
   if (!json.is_object()) refuse("it answered what is no JSON object: {}", excerpt(text));
   if (const auto error = json.find("error"); error != json.end())
-    refuse("it answered an error: {}", error->is_string() ? error->get<std::string>() : error->dump());
+    throw Declined("it answered an error: " + (error->is_string() ? error->get<std::string>() : error->dump()));
   return json;
 }
 
@@ -104,7 +104,7 @@ double number_of(const Json& json, const char* key) {
 
 Vector vector_of(const Json& json, const char* key, Index size) {
   if (!json.is_array() || static_cast<Index>(json.size()) != size)
-    refuse("\"{}\" of its answer must be a list of {} numbers", key, size);
+    refuse("\"{}\" of its answer must have lists of {} numbers, not {}", key, size, excerpt(json.dump()));
   Vector values(size);
   for (Index i = 0; i < size; ++i) values(i) = number_of(json[static_cast<std::size_t>(i)], key);
   return values;
@@ -201,7 +201,8 @@ void read_change(std::string_view text, MatrixView dX) {
   const Json object = object_of(text);
   const Json& rows = member(object, "change", text);
   if (!rows.is_array() || static_cast<Index>(rows.size()) != dX.rows())
-    refuse("\"change\" of its answer must be a list of {} rows", dX.rows());
+    refuse("\"change\" of its answer must be a list of {} rows, one for each that was asked, not {}", dX.rows(),
+           rows.is_array() ? fmt::format("of {}", rows.size()) : excerpt(rows.dump()));
   for (Index i = 0; i < dX.rows(); ++i) {
     const Json& row = rows[static_cast<std::size_t>(i)];
     if (row.is_null())

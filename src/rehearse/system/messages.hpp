@@ -2,6 +2,7 @@
 // The messages to and from programs (docs/programs.md). For the sources of this room.
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,11 @@ std::string hello(const Program& program);
 std::string change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi);
 std::string reset(const Vector& start, const Vector& phi, std::uint64_t seed);
 std::string step(const Vector& u);
+
+/// The program answered that it cannot.
+struct Declined : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// Readers of answers. They throw std::runtime_error with what is wrong.
 Hello read_hello(std::string_view text, const Program& program);

@@ -32,6 +32,7 @@ class ProgramWorker final : public Worker {
   }
 
   std::string problem() const override { return conversation_.problem(); }
+  bool declined() const override { return began_ && conversation_.declined(); }
   bool costly() const override { return !began_ || conversation_.late(); }
 
  private:

@@ -12,7 +12,8 @@
 namespace rehearse::system {
 
 /// A program that maps states, actions and parameters to changes of state. As many processes as there are calls at a
-/// time. One that dies, hangs or answers nonsense is replaced; rows that it cannot answer come back as NaN. Any thread.
+/// time. One that dies, hangs or answers nonsense is replaced; one that answers an error is not. Rows that it cannot
+/// answer come back as NaN. Any thread.
 class ProgramSimulator final : public Simulator {
  public:
   ProgramSimulator(Program program, ParameterSpace parameters);

@@ -19,15 +19,16 @@ class Progress {
   Index count() const { return std::min(ask_, rows_ - done_); }
 
   void answered(Index rows) {
-    if (rows == count()) ask_ = rows_;
+    if (rows == count()) ask_ = std::min(2 * ask_, rows_);
     done_ += rows;
     if (rows > 0) failures_ = 0;
   }
 
   /// True if the first row that is left is to be given up.
-  bool gives_up(bool costly) {
+  bool gives_up(bool costly, bool declined) {
     const bool one = row_by_row_ || count() == 1, all = ask_ == rows_;
-    if (++failures_ == 1 && (one || (all && !costly))) return false;  // was it killed from outside?
+    const bool may_be_killed_from_outside = !declined && (one || (all && !costly));
+    if (++failures_ == 1 && may_be_killed_from_outside) return false;
     failures_ = 0;
     if (one) return true;
     ask_ = (count() + 1) / 2;
@@ -57,14 +58,14 @@ void Workers::change(const ConstMatrixView& X, const ConstMatrixView& U, const V
     }
     if (answered == count) continue;
     note(*worker);
-    const bool costly = worker->costly();
+    const bool costly = worker->costly(), declined = worker->declined();
+    if (!declined) worker.reset();
     faults_in_a_row += costly ? kCostly : 1;
     if (options_.patience > 0 && faults_in_a_row >= options_.patience) {
-      require_one_that_answers(X, U, phi);
+      worker = one_that_answers(std::move(worker), X, U, phi);
       faults_in_a_row = 0;
     }
-    worker.reset();
-    if (!rows.gives_up(costly)) continue;
+    if (!rows.gives_up(costly, declined)) continue;
     dX.row(rows.first()).setConstant(kNaN);
     rows.answered(1);
   }
@@ -95,7 +96,9 @@ void Workers::note(const Worker& worker) const {
   faults_.last = worker.problem();
 }
 
-void Workers::require_one_that_answers(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const {
+/// worker: to be asked first; null: none is left.
+std::unique_ptr<Worker> Workers::one_that_answers(std::unique_ptr<Worker> worker, const ConstMatrixView& X,
+                                                  const ConstMatrixView& U, const Vector& phi) const {
   std::optional<KnownRows> known;
   {
     const std::lock_guard lock(mutex_);
@@ -104,13 +107,14 @@ void Workers::require_one_that_answers(const ConstMatrixView& X, const ConstMatr
   if (!known) known = some_of(X, U, phi);
   std::string problem;
   for (Index i = 0; i < known->X.rows(); ++i) {
-    std::unique_ptr<Worker> worker = options_.start();
+    if (!worker) worker = options_.start();
     Matrix dX(1, known->X.cols());
     if (worker->change(known->X.row(i), known->U.row(i), known->phi, dX) == 1) {
       remember(known->X.row(i), known->U.row(i), known->phi);
-      return idle_.give_back(std::move(worker));
+      return worker;
     }
     problem = worker->problem();
+    if (!worker->declined()) worker.reset();
   }
   throw Unavailable(problem);
 }

@@ -25,11 +25,14 @@ class Worker {
   virtual ~Worker() = default;
 
   /// Writes the changes dX (n × dx) of states X (n × dx) under actions U (n × du). Returns how many rows it answered,
-  /// from the first on; the worker is unusable if that is not all of them.
+  /// from the first on; if that is not all of them, the worker is unusable unless it declined.
   virtual Index change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) = 0;
 
   /// The reason why it did not answer, for people.
   virtual std::string problem() const { return {}; }
+
+  /// True if it answered that it cannot, so that it may be asked for other rows.
+  virtual bool declined() const { return false; }
 
   /// True if it kept its caller waiting, or never got ready.
   virtual bool costly() const { return false; }
@@ -37,7 +40,8 @@ class Worker {
 
 /// A pool of workers, one for each concurrent call, started when they are needed. A row that a worker does not answer
 /// is given once more to a new one and comes back as NaN if that fails, too: a worker that is killed from outside
-/// changes no number. Where a batch is answered as a whole it is halved until the row is found. Any thread.
+/// changes no number. One that declines is kept, and not asked for that row again. Where a batch is answered as a whole
+/// it is halved until the row is found, and grows again from there: such rows are seldom alone. Any thread.
 class Workers {
  public:
   struct Options {
@@ -62,7 +66,8 @@ class Workers {
   static KnownRows some_of(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi);
   void remember(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const;
   void note(const Worker& worker) const;
-  void require_one_that_answers(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const;
+  std::unique_ptr<Worker> one_that_answers(std::unique_ptr<Worker> worker, const ConstMatrixView& X,
+                                           const ConstMatrixView& U, const Vector& phi) const;
 
   Options options_;
   mutable Pool<Worker> idle_;

@@ -49,6 +49,7 @@ TEST(ReadDynamics, WhatIsWrongWithAProgramIsSaid) {
          "'data' is no file in the folder of the robot's file; of a folder, each file is named");
   expect("program = [\"python3\", \"simm.py\"]", "'simm.py' is no file in the folder of the robot's file");
   expect("program = [\"./sim\"]", "'./sim' is no file");
+  expect("program = \"python3 sim.py\"", "robot's file; a command is a list: [\"python3\", \"robot.py\"]");
   expect("program = [\"python3\", \"../sim.py\"]", "'../sim.py' is no file");
   expect("program = [\"sim\"]\nfiles = [\"none\"]", "'none' is no file");
   expect("program = [\"sim\"]\nanswer_s = 0", "answer_s = 0, must be > 0");

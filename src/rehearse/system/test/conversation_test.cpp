@@ -16,6 +16,18 @@ TEST(Conversation, SaysWhatTheProgramUnderstands) {
   EXPECT_NE(robot.problem().find("does not understand"), std::string::npos);
 }
 
+TEST(Conversation, GoesOnAfterAnError) {
+  Conversation robot(hostile_program("json"));
+  Matrix dX(1, 3);
+  EXPECT_FALSE(
+      robot.change(Matrix::Zero(1, 3), Matrix::Constant(1, 1, static_cast<double>(Harm::error)), Vector{{1}}, dX));
+  EXPECT_TRUE(robot.declined());
+  EXPECT_NE(robot.problem().find("out of reach"), std::string::npos);
+  EXPECT_TRUE(robot.change(Matrix::Zero(1, 3), Matrix::Zero(1, 1), Vector{{1}}, dX));
+  EXPECT_EQ(dX, Matrix::Ones(1, 3));
+  EXPECT_FALSE(robot.declined());
+}
+
 TEST(Conversation, AProblemNamesTheProgramAndItsLastWords) {
   const Conversation conversation(test_program({"sh", "-c", "echo words >&2"}));
   EXPECT_EQ(conversation.problem(),

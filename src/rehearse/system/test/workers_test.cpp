@@ -11,7 +11,7 @@ namespace {
 /// before that.
 struct Script {
   std::vector<double> bad;
-  bool by_row = false, costly = false;
+  bool by_row = false, costly = false, declines = false;
   Index asked = 0, started = 0;
 };
 
@@ -29,6 +29,7 @@ class ScriptedWorker final : public Worker {
   }
   std::string problem() const override { return "scripted"; }
   bool costly() const override { return script_.costly; }
+  bool declined() const override { return script_.declines; }
 
  private:
   Script& script_;
@@ -65,6 +66,26 @@ TEST(Workers, ABatchThatTakesLongIsHalvedAtOnce) {
   Script quick{.bad = {3}}, costly{.bad = {3}, .costly = true};
   asked_of(quick, 16), asked_of(costly, 16);
   EXPECT_LT(costly.asked, quick.asked);
+}
+
+TEST(Workers, OneThatDeclinesIsKeptAndNotAskedForTheSameRowAgain) {
+  Script quick{.bad = {3}}, declines{.bad = {3}, .declines = true};
+  const Matrix dX = asked_of(declines, 16);
+  EXPECT_EQ(dX.array().isNaN().count(), 1);
+  EXPECT_TRUE(std::isnan(dX(3, 0)));
+  EXPECT_EQ(declines.started, 1);
+  asked_of(quick, 16);
+  EXPECT_EQ(declines.asked, quick.asked - 2) << "the batch and the row are not asked twice";
+  Script always{.bad = {0, 1, 2, 3, 4, 5, 6, 7}, .declines = true};
+  EXPECT_THROW(asked_of(always, 8, 6), Unavailable) << "no row was ever answered";
+  EXPECT_EQ(always.started, 1);
+}
+
+TEST(Workers, ManyBadRowsSideBySideTakeFewMoreWorkersThanTheyAre) {
+  Script script;
+  for (Index i = 100; i < 200; ++i) script.bad.push_back(static_cast<double>(i));
+  EXPECT_EQ(asked_of(script, 256).array().isNaN().count(), 100);
+  EXPECT_LT(script.started, 3 * 100 + 40);
 }
 
 TEST(Workers, PatienceEnds) {

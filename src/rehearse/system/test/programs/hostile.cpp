@@ -27,6 +27,7 @@ using rehearse::system::Harm;
 using Json = nlohmann::json;
 
 bool in_json = false;
+bool answered = false;  // by an error
 std::string mark;
 
 void raw(const void* data, std::size_t bytes) {
@@ -75,6 +76,7 @@ void harm(Harm kind) {
       break;
     case Harm::error:
       line(R"({"error":"out of reach"})");
+      answered = true;
       break;
     case Harm::noise:
       std::cerr << std::string(1 << 20, 'n') << std::endl;
@@ -106,7 +108,9 @@ std::vector<std::vector<double>> answer_to(const Asked& asked) {
 void serve_json() {
   for (std::string text; std::getline(std::cin, text);) {
     const Json message = Json::parse(text).at("change");
-    line(Json{{"change", answer_to({message.at("states"), message.at("actions"), message.at("parameters")})}}.dump());
+    answered = false;
+    const auto changes = answer_to({message.at("states"), message.at("actions"), message.at("parameters")});
+    if (!answered) line(Json{{"change", changes}}.dump());
   }
 }
 
