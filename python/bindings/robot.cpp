@@ -213,6 +213,7 @@ void add_robot(py::module_& module) {
       .def("add_episode_function", &Robot::add_episode_function)
       .def("add_dynamics", &Robot::add_dynamics)
       .def("add_plant", &Robot::add_plant)
+      .def("check", &Robot::check)
       .def("about", &Robot::about);
 }
 

@@ -46,6 +46,9 @@ class Robot {
   /// InvalidInput.
   py::dict about() const;
 
+  /// Throws InvalidInput, with all that is wrong with the robot's text.
+  void check() const { static_cast<void>(catalogue()); }
+
   /// Calls each function on a few rows at the start, so that one that cannot be called is known before a folder is
   /// made. Throws what `call` does, and InvalidInput where a prior cannot simulate the start.
   void try_out(const scenario::Scenario& scenario) const;

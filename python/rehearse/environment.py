@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Union
 
@@ -125,15 +125,20 @@ class Task:
     horizon: int
     states: Sequence[State] = ()
     actions: Sequence[Action] = ()
+    warned: set[str] = field(default_factory=set, compare=False)  # of these states' starts
 
     def compare(self, given: Array) -> None:
-        """Warns where an episode starts elsewhere than the robot says."""
+        """Warns where an episode starts elsewhere than the robot says, once a state."""
         for state, value in zip(self.states, given):
+            if state.name in self.warned:
+                continue
             mean, spread = state.start, state.start_noise
             apart = math.remainder(value - mean, 2 * math.pi) if state.angle and math.isfinite(value) else value - mean
             if abs(apart) > 5 * spread + 1e-3 * (1 + abs(mean)):
+                self.warned.add(state.name)
                 warnings.warn(f"the environment starts with {state.name} = {value:.4g}, State('{state.name}') says "
-                              f"start={mean:g}, start_noise={spread:g}: policies are made for that", stacklevel=2)
+                              f"start={mean:g}, start_noise={spread:g}: policies are made for that; start_noise is for starts "
+                              "and sensors that vary", stacklevel=2)
 
     def compare_actions(self, space: Any) -> None:
         """Refuses a space of another size, and warns of other bounds, where the space has some."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import inspect
 import os
+import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -104,7 +105,7 @@ class Robot:
                   for b in bodies]
         self.text = "\n".join(part for part in parts if part)
         self._source, self._folder = f"robot {name}", ""
-        self._core = self._make()
+        self._core = self._checked()
 
     @classmethod
     def from_file(cls, path: Union[str, os.PathLike[str]], *, plant: Any = None,
@@ -124,6 +125,7 @@ class Robot:
                         [Action(**action) for action in about["actions"]])
             robot.text += "\n\n" + "\n".join(robot._plant(plant, observe, task, about["dynamics"], 0.0))
         robot._core = robot._make()
+        robot._core.check()
         return robot
 
     def __repr__(self) -> str:
@@ -141,6 +143,17 @@ class Robot:
         core = _core.Robot(self.text, self._source, self._folder)
         for add, *arguments in self._functions:
             getattr(core, add)(*arguments)
+        return core
+
+    def _checked(self) -> Any:
+        """Refuses a robot that is wrong; lines of its text, which nobody may have seen, are quoted."""
+        core = self._make()
+        try:
+            core.check()
+        except _core.InvalidInput as error:
+            lines = self.text.splitlines()
+            quoted = re.sub(r"line (\d+): ", lambda found: f"line {found[1]}, `{lines[int(found[1]) - 1]}`: ", str(error))
+            raise _core.InvalidInput(quoted) from None
         return core
 
     def _formula(self, name: str, formula: Any, add: str = "add_state_function") -> Union[str, None]:

@@ -90,6 +90,5 @@ def test_a_plant_may_have_another_delay(tmp_path):
 
 
 def test_a_wrong_value_is_named(tmp_path):
-    robot = cart(actions=[rehearse.Action("force", (-5, 5), delay_s=11)])
-    with pytest.raises(rehearse.InvalidInput, match=r"line \d+: delay_s = 11, must be between 0 and 10"):
-        learn(robot, tmp_path / "run")
+    with pytest.raises(rehearse.InvalidInput, match=r"line \d+, `delay_s = 11`: delay_s = 11, must be between 0 and 10"):
+        cart(actions=[rehearse.Action("force", (-5, 5), delay_s=11)])

@@ -34,6 +34,17 @@ rate = { velocity = "force", position = "velocity" }
 """
 
 
+@pytest.mark.parametrize("changes, message", [
+    ({"horizon": 50.5}, "horizon = 50.5, must be a whole number"),
+    ({"states": [rehearse.State("velocity"), rehearse.State("velocity")]}, "line 8, `name = \"velocity\"`: the name 'velocity' is given twice"),
+    ({"priors": {"slow motor": rehearse.Model(change, parameters={"mass": 1.0})}}, "'slow motor' must be of letters"),
+    ({"success": rehearse.Success("positon > 1")}, "unknown name 'positon', did you mean 'position'"),
+])
+def test_a_robot_is_refused_where_it_is_made(changes, message):
+    with pytest.raises(rehearse.InvalidInput, match=message):
+        cart(**changes)
+
+
 def learn(robot, out, **more):
     return rehearse.learn(robot, out=out, **{"trials": 1, "threads": 2, "progress": None, "options": QUICK, **more})
 

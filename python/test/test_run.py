@@ -137,9 +137,10 @@ def test_an_environment_must_fit_the_robot(tmp_path):
     with pytest.raises(ValueError, match="the environment gives 2 numbers, must be the states velocity"):
         learn(cart(Environment, states=[rehearse.State("velocity")], reward="velocity", success=None,
                    priors={"light": rehearse.Model(rates={"velocity": "force"})}), tmp_path / "run")
-    with pytest.warns(UserWarning, match="starts with position = 1, .* says start=0.5"):
+    with pytest.warns(UserWarning, match="starts with position = 1, .* says start=0.5") as warned:
         learn(cart(Environment, states=[rehearse.State("velocity"), rehearse.State("position", start=0.5)]),
-              tmp_path / "other", trials=1)
+              tmp_path / "other", trials=2)
+    assert len(warned) == 1, "once a state, not in each trial"
     with pytest.raises(ValueError, match="observe=f"):
         learn(cart(Environment, observe=lambda observation: {"x": 1}), tmp_path / "third")
 
