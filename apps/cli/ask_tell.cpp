@@ -199,7 +199,7 @@ int status(const experiment::Catalogue& catalogue, const StatusArguments& argume
   }
   if (in_use)
     put("a process is at work on it\n");
-  else if (history.asked)
+  else if (history.asked && std::filesystem::exists(std::filesystem::path(folder) / "next"))
     print_asked(resolved, *history.asked, folder, std::filesystem::path(folder) / "next");
   else if (is_complete(resolved, history))
     put("next: {} shows it; {} goes on\n", command_line({"report", folder}),

@@ -12,7 +12,15 @@ namespace {
 
 std::string advice_after(const experiment::RunFailed& error, const std::filesystem::path& folder,
                          const std::string& again) {
-  if (error.resume_may_help()) return fmt::format("what was done is kept; once the cause is gone: {}", again);
+  if (error.resume_may_help()) {
+    const std::filesystem::path copies = folder / "robot";
+    return fmt::format("what was done is kept; once the cause is gone: {}{}", again,
+                       std::filesystem::exists(copies)
+                           ? fmt::format("\nthe run keeps the robot's files as they were, in {}: where the cause is in "
+                                         "one of them, mend it and learn into another folder",
+                                         copies.string())
+                           : "");
+  }
   return fmt::format(
       "what was done is kept in {}; resumed, it would come to the same: learn with other options or "
       "another seed",

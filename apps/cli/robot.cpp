@@ -12,6 +12,7 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
 #include "apps/cli/program.hpp"
+#include "apps/cli/status_line.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
 #include "rehearse/experiment/run.hpp"
@@ -98,14 +99,32 @@ void print_parameters(const ParameterSpace& parameters) {
   if (!fixed.empty()) put("    fixed: {}\n", fmt::join(fixed, ", "));
 }
 
+/// The episodes that a search simulates, unless an option says otherwise.
+Index usual_search(const experiment::Catalogue& catalogue) {
+  const auto learner = catalogue.learner("gp-mi");
+  const auto options = list_fields([&](FieldVisitor& v) { learner->fields(v); });
+  const auto found = std::ranges::find(options, "search.race.max_evaluations", [](const auto& o) { return o.first; });
+  return std::stoll(found->second);
+}
+
+/// Prints how fast a prior is, and how long a search takes whose time goes to it.
+void print_speed(const robot_file::PriorTried& tried, Index steps, Index rows_of_search) {
+  put("  {}: {:.2g} rows a second on one thread, so about {} for a search of {:.2g} rows{}\n", tried.name,
+      tried.rows_per_s, duration_text(static_cast<double>(rows_of_search) / tried.rows_per_s),
+      static_cast<double>(rows_of_search),
+      tried.failed > 0 ? fmt::format("; {} of {} rows failed", tried.failed, steps) : "");
+}
+
 /// plays: the steps are its own, so it has no errors.
 void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried& tried,
                  const scenario::Scenario& scenario, const robot_file::Tried& all,
                  const std::vector<std::string>& details, bool plays) {
-  put("  {}: {:.2g} rows a second on one thread{}\n", prior.name, tried.rows_per_s,
-      tried.failed > 0 ? fmt::format(", {} of {} rows failed", tried.failed, all.steps) : "");
   print_lines("    ", details);
   print_lines("    ", prior.lacks);
+  if (!tried.rounds.empty())
+    put("    answers differ in their last digits when they are asked for again ({}), so runs repeat only about as far; "
+        "NumPy does so where columns are not contiguous: compute on np.asfortranarray(states)\n",
+        tried.rounds);
   print_parameters(prior.parameters);
   for (std::size_t i = 0; i < own_states(scenario.task).size(); ++i) {
     const auto s = static_cast<Index>(i);
@@ -195,10 +214,12 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   print_lines("  ", details.plant);
   put("priors, on {} steps of {} under random actions{}\n", tried.steps,
       driven ? "the plant" : "the first prior, which plays the robot here", early_ends(tried, scenario.task));
-  for (std::size_t i = 0; i < tried.priors.size(); ++i)
+  for (std::size_t i = 0; i < tried.priors.size(); ++i) {
+    print_speed(tried.priors[i], tried.steps, usual_search(catalogue) * scenario.task.horizon);
     print_prior(scenario.priors[i], tried.priors[i], scenario, tried,
                 i < details.priors.size() ? std::vector{details.priors[i]} : std::vector<std::string>(),
                 !driven && i == 0);
+  }
   for (const std::string& line : scenario.oracle_lacks) put("  oracle: not all of the plant. {}\n", line);
   if (scenario.priors.empty()) put("  none: learners without a prior can be used\n");
   if (scenario.faults) print_lines("  ", scenario.faults());

@@ -12,9 +12,10 @@
 
 namespace rehearse::experiment {
 
-/// The value of `step`; any failure but the user's stop says in which trial and who.
+/// The value of `step`; any failure but the user's stop says in which trial and who. outside: of the program, so that
+/// it need not fail again.
 template <class Step>
-auto named_failure(Index trial, const char* who, Step step) -> decltype(step()) {
+auto named_failure(Index trial, const char* who, Step step, bool outside = false) -> decltype(step()) {
   try {
     return step();
   } catch (const std::bad_alloc&) {
@@ -22,7 +23,7 @@ auto named_failure(Index trial, const char* who, Step step) -> decltype(step()) 
   } catch (const system::Unavailable& error) {
     throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()), true);
   } catch (const std::exception& error) {
-    throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()));
+    throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()), outside);
   }
 }
 

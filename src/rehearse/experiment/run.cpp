@@ -60,10 +60,11 @@ class Run {
     const Rng rng({.seed = static_cast<std::uint64_t>(parts_.resolved().spec.seed),
                    .trial = static_cast<std::uint64_t>(trial),
                    .purpose = Purpose::start_state});
-    return named_failure(trial, "plant", [&] {
+    const auto play = [&] {
       return rollout::execute(parts_.plant(), *proposal.policy, proposal.theta, parts_.task(), rng,
                               [&] { parts_.evaluator().stop_if_asked(); });
-    });
+    };
+    return named_failure(trial, "plant", play, parts_.resolved().scenario.faults != nullptr);
   }
 
   RunResult result() const {

@@ -8,7 +8,8 @@
 namespace rehearse::mujoco {
 namespace {
 
-constexpr double kWhole = 1e-6;  // a control step so near a whole number of timesteps is one
+constexpr double kRounding = 1e-6;  // of degrees that a file has
+constexpr double kWhole = 1e-6;     // a control step so near a whole number of timesteps is one
 
 std::string joint_name(const mjModel& model, int joint) {
   const char* name = mj_id2name(&model, mjOBJ_JOINT, joint);
@@ -83,6 +84,28 @@ std::vector<std::string> CompiledModel::unseen() const {
     if (!states_.gives(State::Kind::velocity, joint)) lines.push_back(fmt::format("velocity of {}", name));
   }
   if (original_->na > 0) lines.emplace_back("activations of actuators");
+  return lines;
+}
+
+std::vector<std::string> CompiledModel::misfits(const std::vector<Interval>& bounds, const mjData& start) const {
+  const mjModel& model = *original_;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < actions_.size(); ++i) {
+    if (actions_[i].kind != Action::Kind::actuator || !model.actuator_ctrllimited[actions_[i].address]) continue;
+    const double* taken = numbers_of<2>(model.actuator_ctrlrange, actions_[i].address);
+    if (bounds[i].low < taken[0] - kRounding || bounds[i].high > taken[1] + kRounding)
+      lines.push_back(fmt::format(
+          "actuator '{}' takes {:g} to {:g}, the action has bounds of {:g} and {:g}: MuJoCo cuts what is beyond",
+          mj_id2name(&model, mjOBJ_ACTUATOR, actions_[i].address), taken[0], taken[1], bounds[i].low, bounds[i].high));
+  }
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    const bool scalar = model.jnt_type[joint] == mjJNT_HINGE || model.jnt_type[joint] == mjJNT_SLIDE;
+    if (!scalar || !model.jnt_limited[joint]) continue;
+    const double at = start.qpos[model.jnt_qposadr[joint]], *range = numbers_of<2>(model.jnt_range, joint);
+    if (at < range[0] - kRounding || at > range[1] + kRounding)
+      lines.push_back(fmt::format("{} starts at {:.4g}, outside of its range of {:.4g} to {:.4g} (angles are in rad)",
+                                  joint_name(model, joint), at, range[0], range[1]));
+  }
   return lines;
 }
 

@@ -31,6 +31,10 @@ class CompiledModel {
   /// Positions, velocities and activations that no state gives, a line each.
   std::vector<std::string> unseen() const;
 
+  /// The actions that are bounded (du) beyond what their actuators take, and the joints that `start` has outside of
+  /// their ranges, a line each.
+  std::vector<std::string> misfits(const std::vector<Interval>& bounds, const mjData& start) const;
+
   Vector start_values() const { return start_values_; }  // of the parameters
 
  private:

@@ -96,10 +96,13 @@ const Field* find_field(const Target& target, const std::string& where, Violatio
   for (const Field& field : kFields)
     if (target.kind == field.kind && target.field == field.name) return &field;
   const std::vector<std::string> known = field_names(target.kind), all = kinds();
+  std::string of_others;  // "mass" of a geom: a body has it
+  for (const Field& field : kFields)
+    if (target.field == field.name) of_others += fmt::format(", but {} has one", field.kind);
   violations.add(known.empty()
                      ? fmt::format("{}: there is no kind '{}'{}", where, target.kind, suggestions(target.kind, all))
                      : fmt::format("{}: {} has no field '{}'{}", where, target.kind, target.field,
-                                   suggestions(target.field, known)));
+                                   of_others.empty() ? suggestions(target.field, known) : of_others));
   return nullptr;
 }
 

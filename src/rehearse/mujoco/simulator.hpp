@@ -24,4 +24,9 @@ ParameterSpace parameter_space(const ModelDescription& description);
 /// "velocity of joint 'knee'". A simulator begins every step with it as the keyframe has it. Throws InvalidInput.
 std::vector<std::string> unseen(const ModelDescription& description);
 
+/// Use it to warn of a model and a task that do not fit: actions whose bounds (du) are beyond what their actuators
+/// take, and joints that a start (dx) has outside of their ranges, a line each. Throws InvalidInput.
+std::vector<std::string> misfits(const ModelDescription& description, const std::vector<Interval>& bounds,
+                                 const Vector& start);
+
 }  // namespace rehearse::mujoco

@@ -46,8 +46,10 @@ std::vector<std::string> details_of_plant(const Robot& robot, const std::vector<
   for (Index i = 0; i < noise.size(); ++i)
     if (noise(i) > 0)
       noises.push_back(fmt::format("{} ± {:g}", robot.states[static_cast<std::size_t>(i)].variable.name, noise(i)));
-  lines.push_back(noises.empty() ? "measured without noise"
+  const bool measures_itself = std::holds_alternative<ProgramSource>(dynamics.source);
+  lines.push_back(noises.empty() ? (measures_itself ? "measured as its program does" : "measured without noise")
                                  : fmt::format("measured with noise: {}", fmt::join(noises, ", ")));
+  lines.insert(lines.end(), dynamics.misfits.begin(), dynamics.misfits.end());
   return lines;
 }
 

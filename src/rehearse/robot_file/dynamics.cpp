@@ -49,9 +49,23 @@ void require_with_files(const system::Program& program) {
     system::require_program(program);
   } catch (const InvalidInput& error) {
     if (!misses_a_file(error.what())) throw;
-    throw InvalidInput(
-        fmt::format("{}\n`files = […]` names what else of the robot's folder a program needs", error.what()));
+    throw InvalidInput(fmt::format(
+        "{}\n`files = […]` names what else of the robot's folder a program needs; a library must be one that "
+        "'{}' finds, as the PATH has it",
+        error.what(), program.command.front()));
   }
+}
+
+std::vector<Interval> bounds_of(const Robot& robot) {
+  std::vector<Interval> bounds;
+  for (const ActionVariable& action : robot.actions) bounds.push_back(action.bounds);
+  return bounds;
+}
+
+Vector start_of(const Robot& robot) {
+  Vector start(static_cast<Index>(robot.states.size()));
+  for (Index i = 0; i < start.size(); ++i) start(i) = robot.states[static_cast<std::size_t>(i)].start;
+  return start;
 }
 
 }  // namespace
@@ -142,6 +156,7 @@ void DynamicsMaker::check_models(Robot& robot, files::FileViolations& violations
     if (!std::holds_alternative<ModelSource>(dynamics.source)) continue;
     try {
       dynamics.unseen = mujoco::unseen(maker.model(dynamics));
+      dynamics.misfits = mujoco::misfits(maker.model(dynamics), bounds_of(robot), start_of(robot));
     } catch (const InvalidInput& error) {
       const std::string folder = maker.folder_->path().string() + "/";
       for (std::string line : error.violations()) {
@@ -160,7 +175,7 @@ std::function<std::vector<std::string>()> DynamicsMaker::faults() const {
     for (const auto& [name, program] : programs)
       if (const system::Faults faults = program->faults(); faults.count > 0)
         sentences.push_back(
-            fmt::format("{}: {} processes were replaced, the last because of {}", name, faults.count, faults.last));
+            fmt::format("{}: its program failed at {} messages, at the last so: {}", name, faults.count, faults.last));
     return sentences;
   };
 }

@@ -178,6 +178,10 @@ class Reader {
   bool read_measurement_noise(Table& table) {
     scenario::OdeOptions& options = robot_.options;
     const toml::node* node = table.reader().take("measurement_noise");
+    if (node && node->is_array()) {
+      table.wrong("measurement_noise", "measurement_noise must be a number, or one for each state: { NAME = 0.01 }");
+      return false;
+    }
     if (!node || !node->is_table()) {
       table.number("measurement_noise", options.measurement_noise, at_least(0));
       return options.measurement_noise > 0;

@@ -86,6 +86,7 @@ struct Dynamics {
   std::variant<Equations, ProgramSource, ModelSource, FunctionSource> source;
   std::map<std::string, Index> lines;  // that violations of a model are about, by their beginnings
   std::vector<std::string> unseen;     // joints and activations of a model that no state gives
+  std::vector<std::string> misfits;    // of a model and the task, a line each
 };
 
 /// Dynamics with values of their own, and which of them may be tuned.

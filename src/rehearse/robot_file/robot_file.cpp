@@ -81,7 +81,7 @@ class Builder final : public scenario::ScenarioBuilder {
       scenario.priors.push_back({.name = prior.name,
                                  .simulator = dynamics.simulator(prior, robot_.options.substeps),
                                  .parameters = prior.parameters,
-                                 .lacks = lines_of_unseen(robot_.dynamics_of(prior))});
+                                 .lacks = lines_of_prior(prior)});
     if (has_actuators_) put_actuators_in_front(scenario, actuators);
     scenario.faults = dynamics.faults();
     return scenario;
@@ -119,6 +119,14 @@ class Builder final : public scenario::ScenarioBuilder {
     if (scenario.oracle) scenario.oracle = system::with_actuators(scenario.oracle, actuators);
     for (scenario::NamedPrior& prior : scenario.priors)
       prior.simulator = system::with_actuators(prior.simulator, actuators);
+  }
+
+  std::vector<std::string> lines_of_prior(const Variant& prior) const {
+    const Dynamics& dynamics = robot_.dynamics_of(prior);
+    std::vector<std::string> lines = lines_of_unseen(dynamics);
+    const bool said = robot_.has_plant && robot_.plant.dynamics == dynamics.name;  // of the plant
+    if (!said) lines.insert(lines.end(), dynamics.misfits.begin(), dynamics.misfits.end());
+    return lines;
   }
 
   /// Parts of the plant's model that no state gives, and delays and lags: a simulator sees earlier commands by the

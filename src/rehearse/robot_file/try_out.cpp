@@ -179,7 +179,7 @@ bool moves(const scenario::NamedPrior& prior, Index parameter, const Steps& step
 /// A line where predictions depend on more than the row. before, predicted: of these steps, one after the other.
 std::string broken_law(const Task& task, const scenario::NamedPrior& prior, const Steps& steps, const Matrix& before,
                        const Matrix& predicted) {
-  const std::string again = difference(task, apart(before, predicted), Vector::Zero(before.cols()));
+  const std::string again = difference(task, apart(before, predicted), rounding(steps.X, predicted));
   if (!again.empty())
     return fmt::format(
         "predicts something else from the same states and actions a second time ({}), so no run of it "
@@ -204,6 +204,7 @@ PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const 
   tried.rows_per_s = watch.per_s(steps.X.rows());
   tried.error = root_mean_square(predicted - steps.dX);
   tried.broken = broken_law(task, prior, steps, before, predicted);
+  if (tried.broken.empty()) tried.rounds = difference(task, apart(before, predicted), Vector::Zero(before.cols()));
   std::vector<Index> unmoved;
   for (Index i = 0; i < prior.parameters.size(); ++i)
     if (prior.parameters[i].tunable() && !moves(prior, i, steps, predicted)) unmoved.push_back(i);

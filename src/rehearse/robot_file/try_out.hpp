@@ -17,6 +17,7 @@ struct PriorTried {
   double rows_per_s = 0;          // on one thread
   std::vector<std::string> idle;  // tunable parameters that change no prediction
   std::string broken;             // the law of simulators that it breaks; empty: none
+  std::string rounds;             // how answers differ by rounding when they are asked for again; empty: they do not
 };
 
 struct Tried {

@@ -54,13 +54,15 @@ TEST(Fields, WrongOnesAreNamedWithTheNearest) {
   find_entries(*model, {"bodi", "lower", "mass"}, "p", violations);
   find_entries(*model, {"body", "lover", "mass"}, "p", violations);
   find_entries(*model, {"body", "lower", "masss"}, "p", violations);
+  find_entries(*model, {"geom", "lower", "mass"}, "p", violations);
   find_entries(*model, {"body", "lower", "inertia", 3}, "p", violations);
-  EXPECT_EQ(violations.list(),
-            (std::vector<std::string>{
-                "p: there is no kind 'bodi', did you mean 'body'? (known: body, joint, geom, actuator, tendon, option)",
-                "p: there is no body 'lover', did you mean 'lower'? (known: world, upper, lower)",
-                "p: body has no field 'masss', did you mean 'mass'? (known: inertia, ipos, mass, pos)",
-                "p: component = 3, must be from 0 to 2, or −1 for all"}));
+  EXPECT_EQ(
+      violations.list(),
+      (std::vector<std::string>{
+          "p: there is no kind 'bodi', did you mean 'body'? (known: body, joint, geom, actuator, tendon, option)",
+          "p: there is no body 'lover', did you mean 'lower'? (known: world, upper, lower)",
+          "p: body has no field 'masss', did you mean 'mass'? (known: inertia, ipos, mass, pos)",
+          "p: geom has no field 'mass', but body has one", "p: component = 3, must be from 0 to 2, or −1 for all"}));
 }
 
 TEST(Fields, AGeomsBoundFollowsItsSize) {

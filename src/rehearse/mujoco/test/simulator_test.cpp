@@ -138,6 +138,17 @@ TEST(ModelSimulator, WhatNoStateGivesIsThatOfTheKeyframe) {
   EXPECT_TRUE(unseen(pendulum_model()).empty());
 }
 
+TEST(ModelSimulator, NamesWhatDoesNotFitTheTask) {
+  ModelDescription model = pendulum_model();
+  EXPECT_TRUE(misfits(model, {{-100, 100}}, Vector{{10, 0}}).empty()) << "neither motor nor hinge has a range";
+  model.path = data_file("narrow.xml");
+  EXPECT_TRUE(misfits(model, {{-2, 1}}, Vector{{-0.5, 9}}).empty());
+  EXPECT_EQ(misfits(model, {{-2, 2.5}}, Vector{{1, 0}}),
+            (std::vector<std::string>{
+                "actuator 'motor' takes -2 to 2, the action has bounds of -2 and 2.5: MuJoCo cuts what is beyond",
+                "joint 'hinge' starts at 1, outside of its range of -0.5236 to 0.5236 (angles are in rad)"}));
+}
+
 TEST(ModelSimulator, NamesParametersThatAreMissingOrUnknown) {
   const ParameterSpace other({Parameter::fixed("m3", 1)});
   EXPECT_EQ(complaint_of([&] { make_simulator(heavy_acrobot(), other); }),

@@ -20,6 +20,9 @@ std::shared_ptr<const system::Simulator> make_simulator(const ModelDescription& 
 }
 ParameterSpace parameter_space(const ModelDescription& description) { refuse(description); }
 std::vector<std::string> unseen(const ModelDescription& description) { refuse(description); }
+std::vector<std::string> misfits(const ModelDescription& description, const std::vector<Interval>&, const Vector&) {
+  refuse(description);
+}
 std::unique_ptr<system::Plant> make_plant(const PlantOptions& options) { refuse(options.model); }
 scenario::SolidDrawing make_drawing(const ModelDescription& description) { refuse(description); }
 

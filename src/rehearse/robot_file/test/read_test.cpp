@@ -122,6 +122,8 @@ const Wrong kWrong[] = {
     {"define.torque = \"u +", "define.torque = \"u + +* ", "torque: 'u + +* "},
     {"[plant]", "[plant]\ndynamics = \"pendulums\"", "there is no [dynamics.pendulums], did you mean 'pendulum'?"},
     {"[plant]", "[plant]\nmeasurement_noise = -1", "measurement_noise = -1, must be ≥ 0"},
+    {"[plant]", "[plant]\nmeasurement_noise = [0.1, 0.1]",
+     "measurement_noise must be a number, or one for each state: { NAME = 0.01 }"},
     {"[plant]", "[plant]\nmeasurement_noise.angel = 0.1",
      "unknown key 'angel' in [plant] measurement_noise, did you mean 'angle'?"},
     {"[plant]", "[plant]\nmeasurement_noise.angle = -1", "angle = -1, must be ≥ 0"},

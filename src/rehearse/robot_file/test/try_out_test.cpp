@@ -75,6 +75,17 @@ TEST(TryOut, APriorMustRepeatItself) {
   EXPECT_EQ(tried(kSwing).priors[0].broken, "");
 }
 
+TEST(TryOut, RoundingThatDiffersIsSaidButNoFault) {
+  Rng noise({.seed = 1});
+  const Tried found = tried_with([&](const auto& X, const auto&, const auto&, MatrixView dX) {
+    dX = X;
+    dX(0, 1) += 1e-13 * noise.uniform();
+  });
+  EXPECT_EQ(found.priors[0].broken, "");
+  EXPECT_EQ(found.priors[0].rounds.find("1 of 60 rows, angle by "), 0u) << found.priors[0].rounds;
+  EXPECT_EQ(tried(kSwing).priors[0].rounds, "");
+}
+
 TEST(TryOut, APriorsRowsMustNotKnowTheirPlace) {
   const auto with_place = [](double weight) {
     return tried_with([=](const auto& X, const auto&, const auto&, MatrixView dX) {
