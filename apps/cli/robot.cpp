@@ -19,7 +19,7 @@
 #include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/files/write.hpp"
 #include "rehearse/reward/saturating.hpp"
-#include "rehearse/robot_file/try_out.hpp"
+#include "rehearse/robot_file/complaints.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -121,10 +121,7 @@ void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried
                  const std::vector<std::string>& details, bool plays) {
   print_lines("    ", details);
   print_lines("    ", prior.lacks);
-  if (!tried.rounds.empty())
-    put("    answers differ in their last digits when they are asked for again ({}), so runs repeat only about as far; "
-        "NumPy does so where columns are not contiguous: compute on np.asfortranarray(states)\n",
-        tried.rounds);
+  print_lines("    ", tried.notes);
   print_parameters(prior.parameters);
   for (std::size_t i = 0; i < own_states(scenario.task).size(); ++i) {
     const auto s = static_cast<Index>(i);
@@ -145,28 +142,6 @@ std::string early_ends(const robot_file::Tried& tried, const Task& task) {
       text +=
           fmt::format(", {} of {} episodes broke the limit {}", tried.limits[l], tried.episodes, task.limits[l].name);
   return text;
-}
-
-/// A line for everything that a learner would stumble over.
-std::vector<std::string> complaints_of(const robot_file::Tried& tried) {
-  std::vector<std::string> complaints = tried.broken;
-  if (tried.end)
-    complaints.push_back(fmt::format("the plant failed after {} steps: {}", tried.steps,
-                                     tried.end->empty() ? "it does not say why" : *tried.end));
-  for (const robot_file::PriorTried& prior : tried.priors) {
-    for (const std::string& name : prior.idle)
-      complaints.push_back(fmt::format(
-          "prior {}: {} changes no prediction on the {} states tried, so it cannot be learned; is its name right where "
-          "it is used? If it acts farther off alone, let [[state]] start or start_noise lead there; `learn` takes it "
-          "all "
-          "the same",
-          prior.name, name, prior.states));
-    if (!prior.broken.empty()) complaints.push_back(fmt::format("prior {}: {}", prior.name, prior.broken));
-    if (prior.failed > 0)
-      complaints.push_back(
-          fmt::format("prior {}: {} of {} rows have no prediction", prior.name, prior.failed, tried.steps));
-  }
-  return complaints;
 }
 
 /// The motion of an episode of random actions: the first trial of a learner that has no model yet.
@@ -223,7 +198,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   for (const std::string& line : scenario.oracle_lacks) put("  oracle: not all of the plant. {}\n", line);
   if (scenario.priors.empty()) put("  none: learners without a prior can be used\n");
   if (scenario.faults) print_lines("  ", scenario.faults());
-  const std::vector<std::string> complaints = complaints_of(tried);
+  const std::vector<std::string> complaints = robot_file::complaints(tried);
   if (arguments.out && !driven) throw InvalidInput("--out: there is no [plant] that could show its motion");
   if (arguments.out && !tried.end) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));

@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "python/bindings/campaign.hpp"
+#include "python/bindings/check.hpp"
 #include "python/bindings/identify.hpp"
 #include "python/bindings/interruption.hpp"
 #include "python/bindings/pieces.hpp"
@@ -57,6 +58,7 @@ PYBIND11_MODULE(_core, module) {
   python::add_policy(module);
   python::add_runs(module);
   python::add_campaign(module);
+  python::add_check(module);
   python::add_identify(module);
   python::add_gp(module);
   python::add_search(module);

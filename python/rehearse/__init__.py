@@ -9,6 +9,7 @@ The pieces alone are `GaussianProcess`, `Cmaes`, `MapElites` and `identify`.
 
 from ._core import InvalidInput, RunFailed, __version__
 from .campaigns import Campaign, campaign, open_campaign
+from .check import Checked, check
 from .evaluation import Evaluation
 from .gp import GaussianProcess
 from .identification import Identification, identify
@@ -21,8 +22,8 @@ from .run import Run, Trial, learn, learners, open_run, resume, robots
 from .search import Cmaes, MapElites
 
 __all__ = [
-    "Action", "Body", "Campaign", "Cmaes", "Distance", "Evaluation", "GaussianProcess", "Identification",
+    "Action", "Body", "Campaign", "Checked", "Cmaes", "Distance", "Evaluation", "GaussianProcess", "Identification",
     "InvalidInput", "Limit", "MapElites", "Model", "Policy", "Robot", "Run", "RunFailed", "State", "Success", "Trial",
-    "campaign", "identify", "learn", "learners", "open_campaign", "open_run", "resume", "rk4", "robots", "show",
+    "campaign", "check", "identify", "learn", "learners", "open_campaign", "open_run", "resume", "rk4", "robots", "show",
     "__version__",
 ]

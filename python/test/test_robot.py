@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from robots import QUICK, Environment, cart
+from robots import QUICK, Environment, cart, change
 
 import rehearse
 
@@ -75,7 +75,7 @@ def test_a_whole_episode_may_be_rewarded(tmp_path):
 def test_two_threads_may_fail_at_once(tmp_path):
     script = f"""
 import sys, threading, time; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
-from robots import QUICK, Environment, cart
+from robots import QUICK, Environment, cart, change
 import rehearse
 
 both, noted = threading.Barrier(2, timeout=20), []
@@ -165,3 +165,24 @@ begun.wait(30)
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
     assert done.returncode == 0 and "FATAL" not in done.stderr, done.stderr
     assert len(rehearse.open_run(tmp_path / "run").trials) < 3
+
+
+def test_check_finds_what_a_learner_would_stumble_over():
+    found = rehearse.check(cart())
+    assert found.complaints == [] and str(found).endswith("all is well")
+    assert found.steps == 45 and list(found.changes) == ["velocity", "position"]
+    (light,) = found.priors
+    assert light.name == "light" and 0 < light.errors["velocity"] < found.changes["velocity"] and light.notes == []
+
+    def following(states, actions, mass, friction):
+        return states + change(states, actions, mass=mass, friction=friction)
+
+    wrong = rehearse.Model(following, parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": (0.2, 5)})
+    assert "changes of state, not the next one?" in str(rehearse.check(cart(priors={"light": wrong})))
+    idle = rehearse.Model(lambda states, actions, mass: 0.1 * states, parameters={"mass": 1.0}, tune={"mass": (0.2, 5)})
+    (complaint,) = rehearse.check(cart(Environment, priors={"idle": idle})).complaints
+    assert "mass changes no prediction" in complaint
+    with pytest.raises(ZeroDivisionError):
+        rehearse.check(cart(reward=lambda *of: 1 / 0))
+    with pytest.raises(rehearse.InvalidInput, match="unknown scenario 'pendubott', did you mean 'pendubot'"):
+        rehearse.check("pendubott")

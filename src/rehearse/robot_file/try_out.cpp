@@ -204,7 +204,16 @@ PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const 
   tried.rows_per_s = watch.per_s(steps.X.rows());
   tried.error = root_mean_square(predicted - steps.dX);
   tried.broken = broken_law(task, prior, steps, before, predicted);
-  if (tried.broken.empty()) tried.rounds = difference(task, apart(before, predicted), Vector::Zero(before.cols()));
+  const std::string rounded = difference(task, apart(before, predicted), Vector::Zero(before.cols()));
+  if (tried.broken.empty() && !rounded.empty())
+    tried.notes.push_back(
+        fmt::format("answers differ in their last digits when they are asked for again ({}), so runs "
+                    "repeat about as far; NumPy needs contiguous columns, np.asfortranarray(states)",
+                    rounded));
+  const Vector change = root_mean_square(steps.dX);
+  if ((tried.error.array() > change.array()).all())
+    tried.notes.push_back(
+        "it errs by more than a step changes each state: does it give changes of state, not the next one?");
   std::vector<Index> unmoved;
   for (Index i = 0; i < prior.parameters.size(); ++i)
     if (prior.parameters[i].tunable() && !moves(prior, i, steps, predicted)) unmoved.push_back(i);

@@ -11,13 +11,13 @@ namespace rehearse::robot_file {
 /// The errors of a prior on the plant's steps.
 struct PriorTried {
   std::string name;
-  Index states = 0;               // on which parameters were tried: those of the steps, and others around them
-  Vector error;                   // of each state: root mean square error of its change in a step; NaN: no prediction
-  Index failed = 0;               // rows without a prediction
-  double rows_per_s = 0;          // on one thread
-  std::vector<std::string> idle;  // tunable parameters that change no prediction
-  std::string broken;             // the law of simulators that it breaks; empty: none
-  std::string rounds;             // how answers differ by rounding when they are asked for again; empty: they do not
+  Index states = 0;                // on which parameters were tried: those of the steps, and others around them
+  Vector error;                    // of each state: root mean square error of its change in a step; NaN: no prediction
+  Index failed = 0;                // rows without a prediction
+  double rows_per_s = 0;           // on one thread
+  std::vector<std::string> idle;   // tunable parameters that change no prediction
+  std::string broken;              // the law of simulators that it breaks; empty: none
+  std::vector<std::string> notes;  // on what may be wrong, a sentence each
 };
 
 struct Tried {

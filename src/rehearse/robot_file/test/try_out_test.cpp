@@ -82,8 +82,22 @@ TEST(TryOut, RoundingThatDiffersIsSaidButNoFault) {
     dX(0, 1) += 1e-13 * noise.uniform();
   });
   EXPECT_EQ(found.priors[0].broken, "");
-  EXPECT_EQ(found.priors[0].rounds.find("1 of 60 rows, angle by "), 0u) << found.priors[0].rounds;
-  EXPECT_EQ(tried(kSwing).priors[0].rounds, "");
+  ASSERT_FALSE(found.priors[0].notes.empty());
+  EXPECT_NE(found.priors[0].notes[0].find("asked for again (1 of 60 rows, angle by "), std::string::npos);
+  EXPECT_EQ(tried(kSwing).priors[0].notes, std::vector<std::string>{});
+}
+
+TEST(TryOut, APriorThatGivesTheNextStateIsAskedAboutIt) {
+  scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
+  const auto right = scenario.priors[0].simulator;
+  const auto next = [right](const auto& X, const auto& U, const auto& phi, MatrixView dX) {
+    right->change(X, U, phi, dX);
+    dX += X;
+  };
+  scenario.priors[0].simulator = system::make_simulator(scenario.priors[0].parameters, next);
+  const Tried found = try_out(scenario);
+  ASSERT_EQ(found.priors[0].notes.size(), 1u);
+  EXPECT_NE(found.priors[0].notes[0].find("changes of state, not the next one?"), std::string::npos);
 }
 
 TEST(TryOut, APriorsRowsMustNotKnowTheirPlace) {

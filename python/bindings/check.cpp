@@ -1,0 +1,62 @@
+#include "python/bindings/check.hpp"
+
+#include <optional>
+#include <utility>
+
+#include <pybind11/stl.h>
+
+#include "python/bindings/work.hpp"
+#include "rehearse/robot_file/complaints.hpp"
+
+namespace rehearse::python {
+namespace {
+
+struct Found {
+  std::vector<std::string> states;  // the robot's own
+  robot_file::Tried tried;
+};
+
+Found check(const Robot& robot, const std::string& name) {
+  std::optional<Found> found;
+  work_with(robot, {}, [&](const Robot& own, const experiment::RunOptions&) {
+    const experiment::Catalogue catalogue = own.catalogue();
+    const auto builder = catalogue.scenario(name);
+    if (!builder) throw InvalidInput(catalogue.why_missing("scenario", name));
+    const scenario::Scenario scenario = builder->build();
+    if (scenario.require_ready) scenario.require_ready();
+    own.try_out(scenario);
+    std::vector<std::string> states;
+    for (Index i = 0; i < scenario.task.actuators().own_states(); ++i)
+      states.push_back(scenario.task.states[static_cast<std::size_t>(i)].name);
+    found = {std::move(states), robot_file::try_out(scenario)};
+  });
+  return *found;
+}
+
+py::dict by_state(const std::vector<std::string>& states, const Vector& values) {
+  py::dict dict;
+  for (std::size_t i = 0; i < states.size(); ++i) dict[py::str(states[i])] = values(static_cast<Index>(i));
+  return dict;
+}
+
+}  // namespace
+
+void add_check(py::module_& module) {
+  using namespace py::literals;
+  module.def(
+      "check",
+      [](const Robot& robot, const std::string& name) {
+        const Found found = check(robot, name);
+        py::list priors;
+        for (const robot_file::PriorTried& prior : found.tried.priors)
+          priors.append(py::dict("name"_a = prior.name, "errors"_a = by_state(found.states, prior.error),
+                                 "failed"_a = prior.failed, "rows_per_s"_a = prior.rows_per_s,
+                                 "notes"_a = prior.notes));
+        return py::dict("steps"_a = found.tried.steps, "ended"_a = found.tried.ended,
+                        "changes"_a = by_state(found.states, found.tried.change), "priors"_a = priors,
+                        "complaints"_a = robot_file::complaints(found.tried));
+      },
+      "robot"_a, "name"_a);
+}
+
+}  // namespace rehearse::python

@@ -1,0 +1,55 @@
+"""What a learner would stumble over, found before anything is learned."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from . import _core
+from .run import Robots, robot_of
+
+
+@dataclass(frozen=True)
+class PriorChecked:
+    """A prior on the plant's steps. errors: of each state, root mean square error of its change in a step, NaN where there is
+    no prediction. failed: rows without one. rows_per_s: on one thread. notes: on what may be wrong."""
+
+    name: str
+    errors: dict[str, float]
+    failed: int
+    rows_per_s: float
+    notes: list[str]
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What `check` found. steps: of the plant; ended: episodes that ended before their time. changes: of each state, root mean
+    square change in a step. complaints: what is wrong, a line each."""
+
+    steps: int
+    ended: int
+    changes: dict[str, float]
+    priors: list[PriorChecked]
+    complaints: list[str]
+
+    def __str__(self) -> str:
+        lines = [f"{self.steps} steps under random actions"]
+        for prior in self.priors:
+            failed = f", {prior.failed} rows failed" if prior.failed else ""
+            lines.append(f"prior {prior.name}: {prior.rows_per_s:.2g} rows a second on one thread{failed}")
+            lines += [f"  {state}: a step changes it by {change:.3g}, the prior errs by {prior.errors[state]:.3g}"
+                      for state, change in self.changes.items()]
+            lines += ["  " + note for note in prior.notes]
+        return "\n".join([*lines, *self.complaints] if self.complaints else [*lines, "all is well"])
+
+
+def check(robot: Robots) -> Checked:
+    """Tries plant and priors on three episodes of random actions, as `rehearse check` does (docs/does-not-learn.md).
+
+    Where there is no plant, the first prior plays the robot. A plant that is a real robot moves. Raises InvalidInput, or what
+    a function raises.
+
+    >>> print(rehearse.check(robot))
+    """
+    found = _core.check(*robot_of(robot))
+    priors = [PriorChecked(**prior) for prior in found.pop("priors")]
+    return Checked(priors=priors, **found)

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "rehearse/robot_file/try_out.hpp"
+
+namespace rehearse::robot_file {
+
+/// A line for everything that a learner would stumble over; none: all is well.
+std::vector<std::string> complaints(const Tried& tried);
+
+}  // namespace rehearse::robot_file
