@@ -119,6 +119,6 @@ check_prior 'u[0] if i > 3 else float("nan")'
 [ $status = 2 ] && grep -q "prior slow: 4 of [0-9]* rows have no prediction" output || fail "NaN: $(cat output)"
 grep -q "its program failed" output && fail "NaN costs processes: $(cat output)"
 check_prior 'str(u[0])'
-[ $status = 1 ] && grep -q "which is neither a number nor null" output || fail "texts: $(cat output)"
+[ $status = 2 ] && grep -q "which is neither a number nor null" output || fail "texts: $(cat output)"
 
 finish

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/episode.hpp"
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/system/simulated_plant.hpp"
@@ -255,7 +256,7 @@ std::string why_falls_pay(const Task& task, const Steps& steps) {
 
 }  // namespace
 
-Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) {
+Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) try {
   const Steps steps = drive(scenario, episodes, seed), again = drive(scenario, episodes, seed);
   const Task& task = scenario.task;
   Tried tried{.steps = steps.X.rows(),
@@ -283,6 +284,8 @@ Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t 
   const Steps wide = spread(task, steps, rng);
   for (const scenario::NamedPrior& prior : scenario.priors) tried.priors.push_back(try_prior(task, prior, steps, wide));
   return tried;
+} catch (const system::Unavailable& error) {
+  throw InvalidInput(error.what());
 }
 
 }  // namespace rehearse::robot_file

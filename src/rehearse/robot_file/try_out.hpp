@@ -34,7 +34,7 @@ struct Tried {
 
 /// Use it before anything is learned: tries plant and priors of a scenario on some episodes of random actions. Finds
 /// what a learner would stumble over later. The first prior plays the robot where Rehearse does not drive it. The same
-/// for the same seed, but for times.
+/// for the same seed, but for times. Throws InvalidInput, with why, where a program answers nothing.
 Tried try_out(const scenario::Scenario& scenario, Index episodes = 3, std::uint64_t seed = 1);
 
 }  // namespace rehearse::robot_file

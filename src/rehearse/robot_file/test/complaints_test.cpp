@@ -7,11 +7,13 @@ namespace {
 
 TEST(Complaints, AreALineForEachThingThatIsWrong) {
   EXPECT_EQ(complaints({}), std::vector<std::string>{});
-  EXPECT_EQ(complaints({.priors = {{.name = "light", .notes = {"a note is no complaint"}}}}), std::vector<std::string>{});
-  const Tried tried{.steps = 7,
-                    .end = "",
-                    .priors = {{.name = "light", .states = 14, .failed = 3, .idle = {"mass"}, .broken = "does not repeat"}},
-                    .broken = {"falling pays"}};
+  EXPECT_EQ(complaints({.priors = {{.name = "light", .notes = {"a note is no complaint"}}}}),
+            std::vector<std::string>{});
+  const Tried tried{
+      .steps = 7,
+      .end = "",
+      .priors = {{.name = "light", .states = 14, .failed = 3, .idle = {"mass"}, .broken = "does not repeat"}},
+      .broken = {"falling pays"}};
   const std::vector<std::string> lines = complaints(tried);
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_EQ(lines[0], "falling pays");
