@@ -151,8 +151,9 @@ class Robot:
         try:
             core.check()
         except _core.InvalidInput as error:
-            lines = self.text.splitlines()
-            quoted = re.sub(r"line (\d+): ", lambda found: f"line {found[1]}, `{lines[int(found[1]) - 1]}`: ", str(error))
+            lines = ["", *self.text.splitlines()]
+            quoted = re.sub(rf"^({re.escape(self._source)}: line (\d+)): ", lambda at: f"{at[1]}, `{lines[int(at[2])]}`: ",
+                            str(error), flags=re.MULTILINE)
             raise _core.InvalidInput(quoted) from None
         return core
 
