@@ -12,10 +12,9 @@ std::vector<std::string> complaints(const Tried& tried) {
   for (const PriorTried& prior : tried.priors) {
     for (const std::string& name : prior.idle)
       lines.push_back(fmt::format(
-          "prior {}: {} changes no prediction on the {} states tried, so it cannot be learned; is its name right where "
-          "it is used? If it acts farther off alone, let [[state]] start or start_noise lead there; `learn` takes it "
-          "all "
-          "the same",
+          "prior {}: {} changes no prediction on the {} states tried, so it cannot be learned; is its name right "
+          "where it is used? If it acts farther off alone, let [[state]] start or start_noise lead there; `learn` "
+          "takes it all the same",
           prior.name, name, prior.states));
     if (!prior.broken.empty()) lines.push_back(fmt::format("prior {}: {}", prior.name, prior.broken));
     if (prior.failed > 0)
