@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "apps/catalogue.hpp"
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
@@ -16,6 +17,7 @@
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
+#include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/tables.hpp"
 
@@ -128,6 +130,16 @@ void print_trials(const std::vector<TrialRecord>& trials) {
         after_comma(broken_text(trial.limits)));
 }
 
+/// True if the robot of the run is another program's, whose functions this one has not.
+bool is_of_another_program(const experiment::Catalogue& catalogue, const std::string& folder) {
+  try {
+    experiment::with_robot_of_run(catalogue, folder);
+    return false;
+  } catch (const InvalidInput&) {
+    return true;
+  }
+}
+
 /// True if Rehearse drives the plant and the run has reached its end.
 bool is_complete(const experiment::Resolved& resolved, const experiment::History& history) {
   if (history.trials.empty() || resolved.spec.trials == 0 || !resolved.scenario.make_plant) return false;
@@ -185,7 +197,7 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
 
 int status(const experiment::Catalogue& catalogue, const StatusArguments& arguments) {
   const std::string& folder = arguments.folder;
-  const auto [resolved, history, in_use] = experiment::status_of(catalogue, folder);
+  const auto [resolved, history, in_use] = experiment::status_of(to_look(catalogue), folder);
   const experiment::Spec& spec = resolved.spec;
   const Task& task = resolved.scenario.task;
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
@@ -199,6 +211,10 @@ int status(const experiment::Catalogue& catalogue, const StatusArguments& argume
   }
   if (in_use)
     put("a process is at work on it\n");
+  else if (is_of_another_program(catalogue, folder))
+    put("next: {} shows it; the program whose functions the robot has goes on, in Python: rehearse.open_run(\"{}\", "
+        "robot)\n",
+        command_line({"report", folder}), folder);
   else if (history.asked && std::filesystem::exists(std::filesystem::path(folder) / "next"))
     print_asked(resolved, *history.asked, folder, std::filesystem::path(folder) / "next");
   else if (is_complete(resolved, history))

@@ -33,7 +33,7 @@ int run(const experiment::Catalogue& catalogue, const Typed& typed, const Proces
   if (command == "ask") return ask(catalogue, typed.ask);
   if (command == "tell") return tell(catalogue, typed.tell);
   if (!processes.leads()) return kSuccess;
-  if (command == "status") return status(to_look(catalogue), typed.status);
+  if (command == "status") return status(catalogue, typed.status);
   if (command == "list") return list(catalogue, typed.list);
   if (command == "new") return make_new(catalogue, typed.make_new);
   if (command == "check") return check(catalogue, typed.check, share);
