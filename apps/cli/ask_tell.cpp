@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,8 +18,8 @@
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
-#include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/experiment/priors.hpp"
+#include "rehearse/experiment/run_folder.hpp"
 #include "rehearse/experiment/tables.hpp"
 
 namespace rehearse::apps {
@@ -130,13 +131,12 @@ void print_trials(const std::vector<TrialRecord>& trials) {
         after_comma(broken_text(trial.limits)));
 }
 
-/// True if the robot of the run is another program's, whose functions this one has not.
-bool is_of_another_program(const experiment::Catalogue& catalogue, const std::string& folder) {
+/// The status, and whether the robot is another program's, whose functions this one has not.
+std::pair<experiment::RunStatus, bool> status_in(const experiment::Catalogue& catalogue, const std::string& folder) {
   try {
-    experiment::with_robot_of_run(catalogue, folder);
-    return false;
+    return {experiment::status_of(catalogue, folder), false};
   } catch (const InvalidInput&) {
-    return true;
+    return {experiment::status_of(to_look(catalogue), folder), true};  // what else is wrong is so here, too
   }
 }
 
@@ -197,7 +197,8 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
 
 int status(const experiment::Catalogue& catalogue, const StatusArguments& arguments) {
   const std::string& folder = arguments.folder;
-  const auto [resolved, history, in_use] = experiment::status_of(to_look(catalogue), folder);
+  const auto [found, is_of_another_program] = status_in(catalogue, folder);
+  const auto& [resolved, history, in_use] = found;
   const experiment::Spec& spec = resolved.spec;
   const Task& task = resolved.scenario.task;
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
@@ -209,14 +210,15 @@ int status(const experiment::Catalogue& catalogue, const StatusArguments& argume
     put("best: trial {}, return {:.4g}, after {:.4g} s on the robot in all\n", best.trial, best.total_reward,
         history.trials.back().interaction_s);
   }
+  const std::filesystem::path next = std::filesystem::path(folder) / experiment::kNextFolder;
   if (in_use)
     put("a process is at work on it\n");
-  else if (is_of_another_program(catalogue, folder))
+  else if (is_of_another_program)
     put("next: {} shows it; the program whose functions the robot has goes on, in Python: rehearse.open_run(\"{}\", "
         "robot)\n",
         command_line({"report", folder}), folder);
-  else if (history.asked && std::filesystem::exists(std::filesystem::path(folder) / "next"))
-    print_asked(resolved, *history.asked, folder, std::filesystem::path(folder) / "next");
+  else if (history.asked && std::filesystem::exists(next))
+    print_asked(resolved, *history.asked, folder, next);
   else if (is_complete(resolved, history))
     put("next: {} shows it; {} goes on\n", command_line({"report", folder}),
         command_line({"resume", folder, "--trials", std::to_string(2 * history.done())}));

@@ -6,6 +6,7 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
 #include "apps/cli/signals.hpp"
+#include "rehearse/experiment/kept_robot.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 std::string advice_after(const experiment::RunFailed& error, const std::filesystem::path& folder,
                          const std::string& again) {
   if (error.resume_may_help()) {
-    const std::filesystem::path copies = folder / "robot";
+    const std::filesystem::path copies = folder / experiment::kRobotFolder;
     return fmt::format("what was done is kept; once the cause is gone: {}{}", again,
                        std::filesystem::exists(copies)
                            ? fmt::format("\nthe run keeps the robot's files as they were, in {}: where the cause is in "

@@ -176,8 +176,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   require_page(arguments.out, violations);
   violations.throw_if_any();
   const experiment::Catalogue catalogue = with_robot(built_in, arguments.robot);
-  const auto builder = catalogue.scenario(catalogue.scenario_name(arguments.robot));
-  if (!builder) throw InvalidInput(catalogue.why_missing("scenario", arguments.robot));
+  const auto builder = catalogue.scenario_or_throw(catalogue.scenario_name(arguments.robot));
   const scenario::Scenario scenario = builder->build();
   const scenario::Details details = builder->details();
   print_task(scenario, builder->summary(), details);
@@ -189,8 +188,9 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   print_lines("  ", details.plant);
   put("priors, on {} steps of {} under random actions{}\n", tried.steps,
       driven ? "the plant" : "the first prior, which plays the robot here", early_ends(tried, scenario.task));
+  const Index rows_of_search = usual_search(catalogue) * scenario.task.horizon;
   for (std::size_t i = 0; i < tried.priors.size(); ++i) {
-    print_speed(tried.priors[i], tried.steps, usual_search(catalogue) * scenario.task.horizon);
+    print_speed(tried.priors[i], tried.steps, rows_of_search);
     print_prior(scenario.priors[i], tried.priors[i], scenario, tried,
                 i < details.priors.size() ? std::vector{details.priors[i]} : std::vector<std::string>(),
                 !driven && i == 0);

@@ -52,8 +52,7 @@ Episode moved(Episode episode, const Actuators& actuators) {
 
 StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyRequest& request, Violations& violations) {
   const std::string name = catalogue.scenario_name(request.robot);
-  const auto builder = catalogue.scenario(name);
-  if (!builder) throw InvalidInput(catalogue.why_missing("scenario", name));
+  const auto builder = catalogue.scenario_or_throw(name);
   StudySetup setup;
   const Fields own = [&](FieldVisitor& v) { setup.options.fields(v); };
   const Fields of_robot = [&](FieldVisitor& v) { builder->fields(v); };

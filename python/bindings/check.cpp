@@ -20,9 +20,7 @@ Found check(const Robot& robot, const std::string& name) {
   std::optional<Found> found;
   work_with(robot, {}, [&](const Robot& own, const experiment::RunOptions&) {
     const experiment::Catalogue catalogue = own.catalogue();
-    const auto builder = catalogue.scenario(name);
-    if (!builder) throw InvalidInput(catalogue.why_missing("scenario", name));
-    const scenario::Scenario scenario = builder->build();
+    const scenario::Scenario scenario = catalogue.scenario_or_throw(name)->build();
     if (scenario.require_ready) scenario.require_ready();
     own.try_out(scenario);
     std::vector<std::string> states;

@@ -53,6 +53,12 @@ std::unique_ptr<scenario::ScenarioBuilder> Catalogue::scenario(const std::string
   return named(scenario_builders(), name);
 }
 
+std::unique_ptr<scenario::ScenarioBuilder> Catalogue::scenario_or_throw(const std::string& name) const {
+  auto builder = scenario(name);
+  if (!builder) throw InvalidInput(why_missing("scenario", name));
+  return builder;
+}
+
 std::unique_ptr<learners::LearnerBuilder> Catalogue::learner(const std::string& name) const {
   return named(learner_builders(), name);
 }

@@ -67,6 +67,9 @@ struct Catalogue {
   std::unique_ptr<scenario::ScenarioBuilder> scenario(const std::string& name) const;
   std::unique_ptr<learners::LearnerBuilder> learner(const std::string& name) const;
 
+  /// Throws InvalidInput, with why, if there is none of that name.
+  std::unique_ptr<scenario::ScenarioBuilder> scenario_or_throw(const std::string& name) const;
+
   /// One line that says why there is no `kind` ("scenario", "learner") of that name, and what is closest to it.
   std::string why_missing(const std::string& kind, const std::string& name) const;
 

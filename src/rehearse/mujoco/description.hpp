@@ -60,9 +60,9 @@ struct ModelParameter {
 };
 
 /// A MuJoCo model as a robot. States and actions are those of the task, in its order. Positions and velocities of
-/// joints that no state gives begin every step of a simulator where the keyframe has them: `unseen` lists them. MuJoCo
-/// cuts actions to the ranges of their actuators. Of a URDF it keeps collision shapes alone, joins links whose joint is
-/// fixed, and looks for meshes beside the file, whatever folder they are said to be in.
+/// joints that no state gives begin every step of a simulator where the keyframe has them: `warnings_of` lists them.
+/// MuJoCo cuts actions to the ranges of their actuators. Of a URDF it keeps collision shapes alone, joins links whose
+/// joint is fixed, and looks for meshes beside the file, whatever folder they are said to be in.
 struct ModelDescription {
   std::string path;      // MJCF or URDF; files that it names are looked for beside it
   std::string keyframe;  // empty: the model's reference position, at rest
@@ -71,6 +71,12 @@ struct ModelDescription {
   std::vector<State> states;
   std::vector<Action> actions;
   std::vector<ModelParameter> parameters;
+};
+
+/// Warnings to the user of a model and a task, a line each.
+struct Warnings {
+  std::vector<std::string> unseen;   // what a step depends on that no state gives: "velocity of joint 'knee'"
+  std::vector<std::string> misfits;  // actions bounded beyond what actuators take, joints that start out of their range
 };
 
 /// The fields that a target of this kind may name, sorted; none: there is no such kind.

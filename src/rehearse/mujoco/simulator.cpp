@@ -84,13 +84,10 @@ ParameterSpace parameter_space(const ModelDescription& description) {
   return ParameterSpace(parameters);
 }
 
-std::vector<std::string> unseen(const ModelDescription& description) { return CompiledModel(description).unseen(); }
-
-std::vector<std::string> misfits(const ModelDescription& description, const std::vector<Interval>& bounds,
-                                 const Vector& start) {
+Warnings warnings_of(const ModelDescription& description, const std::vector<Interval>& bounds, const Vector& start) {
   Instance instance(std::make_shared<const CompiledModel>(description));
   instance.place(start);
-  return instance.compiled().misfits(bounds, instance.data());
+  return {instance.compiled().unseen(), instance.compiled().misfits(bounds, instance.data())};
 }
 
 }  // namespace rehearse::mujoco

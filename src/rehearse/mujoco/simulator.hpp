@@ -20,13 +20,8 @@ std::shared_ptr<const system::Simulator> make_simulator(const ModelDescription& 
 /// The description's parameters, fixed where they start.
 ParameterSpace parameter_space(const ModelDescription& description);
 
-/// Use it to warn of states that are missing: what a step depends on that no state gives, a line each, such as
-/// "velocity of joint 'knee'". A simulator begins every step with it as the keyframe has it. Throws InvalidInput.
-std::vector<std::string> unseen(const ModelDescription& description);
-
-/// Use it to warn of a model and a task that do not fit: actions whose bounds (du) are beyond what their actuators
-/// take, and joints that a start (dx) has outside of their ranges, a line each. Throws InvalidInput.
-std::vector<std::string> misfits(const ModelDescription& description, const std::vector<Interval>& bounds,
-                                 const Vector& start);
+/// Use it to warn of a model and a task that do not fit. A simulator begins every step with what is unseen as the
+/// keyframe has it. bounds: of the actions (du); start: dx. Throws InvalidInput.
+Warnings warnings_of(const ModelDescription& description, const std::vector<Interval>& bounds, const Vector& start);
 
 }  // namespace rehearse::mujoco

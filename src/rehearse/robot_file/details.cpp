@@ -49,7 +49,7 @@ std::vector<std::string> details_of_plant(const Robot& robot, const std::vector<
   const bool measures_itself = std::holds_alternative<ProgramSource>(dynamics.source);
   lines.push_back(noises.empty() ? (measures_itself ? "measured as its program does" : "measured without noise")
                                  : fmt::format("measured with noise: {}", fmt::join(noises, ", ")));
-  lines.insert(lines.end(), dynamics.misfits.begin(), dynamics.misfits.end());
+  lines.insert(lines.end(), dynamics.warnings.misfits.begin(), dynamics.warnings.misfits.end());
   return lines;
 }
 

@@ -56,18 +56,6 @@ void require_with_files(const system::Program& program) {
   }
 }
 
-std::vector<Interval> bounds_of(const Robot& robot) {
-  std::vector<Interval> bounds;
-  for (const ActionVariable& action : robot.actions) bounds.push_back(action.bounds);
-  return bounds;
-}
-
-Vector start_of(const Robot& robot) {
-  Vector start(static_cast<Index>(robot.states.size()));
-  for (Index i = 0; i < start.size(); ++i) start(i) = robot.states[static_cast<std::size_t>(i)].start;
-  return start;
-}
-
 }  // namespace
 
 DynamicsMaker::DynamicsMaker(const Robot& robot) : robot_(robot) {
@@ -150,13 +138,13 @@ std::optional<scenario::Drawing> DynamicsMaker::drawing() const {
   return {};
 }
 
-void DynamicsMaker::check_models(Robot& robot, files::FileViolations& violations) {
+void DynamicsMaker::check_models(Robot& robot, const Task& task, files::FileViolations& violations) {
   const DynamicsMaker maker(robot);
+  const auto own = static_cast<Index>(robot.states.size());
   for (Dynamics& dynamics : robot.dynamics) {
     if (!std::holds_alternative<ModelSource>(dynamics.source)) continue;
     try {
-      dynamics.unseen = mujoco::unseen(maker.model(dynamics));
-      dynamics.misfits = mujoco::misfits(maker.model(dynamics), bounds_of(robot), start_of(robot));
+      dynamics.warnings = mujoco::warnings_of(maker.model(dynamics), task.action_bounds(), task.start_mean.head(own));
     } catch (const InvalidInput& error) {
       const std::string folder = maker.folder_->path().string() + "/";
       for (std::string line : error.violations()) {

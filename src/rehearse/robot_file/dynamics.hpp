@@ -29,8 +29,8 @@ class DynamicsMaker {
   /// The drawing of the model that the plant or the first prior is; empty: neither is a model.
   std::optional<scenario::Drawing> drawing() const;
 
-  /// A violation for everything that models do not have; else the robot is told what of them no state gives.
-  static void check_models(Robot& robot, files::FileViolations& violations);
+  /// A violation for everything that models do not have; else the robot is told what to warn of.
+  static void check_models(Robot& robot, const Task& task, files::FileViolations& violations);
 
   /// A function that reports the processes of these simulators that had to be replaced so far; null: there are none.
   std::function<std::vector<std::string>()> faults() const;

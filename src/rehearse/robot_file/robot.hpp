@@ -85,8 +85,7 @@ struct Dynamics {
   std::vector<Parameter> parameters;  // all fixed, at their usual values
   std::variant<Equations, ProgramSource, ModelSource, FunctionSource> source;
   std::map<std::string, Index> lines;  // that violations of a model are about, by their beginnings
-  std::vector<std::string> unseen;     // joints and activations of a model that no state gives
-  std::vector<std::string> misfits;    // of a model and the task, a line each
+  mujoco::Warnings warnings;           // of a model
 };
 
 /// Dynamics with values of their own, and which of them may be tuned.

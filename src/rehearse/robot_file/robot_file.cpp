@@ -24,7 +24,7 @@ std::string summary_of(const Robot& robot) {
 /// A simulator knows a state alone, and begins each step with the rest of its model as the model has it.
 std::vector<std::string> lines_of_unseen(const Dynamics& dynamics) {
   std::vector<std::string> lines;
-  for (const std::string& part : dynamics.unseen)
+  for (const std::string& part : dynamics.warnings.unseen)
     lines.push_back("not among the states, so each step begins with it at rest: " + part);
   return lines;
 }
@@ -125,7 +125,7 @@ class Builder final : public scenario::ScenarioBuilder {
     const Dynamics& dynamics = robot_.dynamics_of(prior);
     std::vector<std::string> lines = lines_of_unseen(dynamics);
     const bool said = robot_.has_plant && robot_.plant.dynamics == dynamics.name;  // of the plant
-    if (!said) lines.insert(lines.end(), dynamics.misfits.begin(), dynamics.misfits.end());
+    if (!said) lines.insert(lines.end(), dynamics.warnings.misfits.begin(), dynamics.warnings.misfits.end());
     return lines;
   }
 
@@ -168,8 +168,8 @@ std::unique_ptr<scenario::ScenarioBuilder> builder(std::string_view text, const 
   files::FileViolations violations(source);
   check_formulas(robot, violations);
   violations.throw_if_any();
-  DynamicsMaker::check_models(robot, violations);
   const Task task = make_task(robot);
+  DynamicsMaker::check_models(robot, task, violations);
   for (const std::string& line : task.violations()) violations.add(0, line);
   check_start(robot, task, violations);
   violations.throw_if_any();

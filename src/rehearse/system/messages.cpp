@@ -104,7 +104,7 @@ double number_of(const Json& json, const char* key) {
 
 Vector vector_of(const Json& json, const char* key, Index size) {
   if (!json.is_array() || static_cast<Index>(json.size()) != size)
-    refuse("\"{}\" of its answer must have lists of {} numbers, not {}", key, size, excerpt(json.dump()));
+    refuse("\"{}\" of its answer must be a list of {} numbers, not {}", key, size, excerpt(json.dump()));
   Vector values(size);
   for (Index i = 0; i < size; ++i) values(i) = number_of(json[static_cast<std::size_t>(i)], key);
   return values;

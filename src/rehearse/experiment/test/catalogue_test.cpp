@@ -28,6 +28,11 @@ TEST(Catalogue, MakesNewBuildersForEveryCall) {
   EXPECT_NE(options(*one), options(*other));
 }
 
+TEST(Catalogue, ThrowsWhereAScenarioIsMissing) {
+  EXPECT_EQ(fake::catalogue().scenario_or_throw("line")->name(), "line");
+  EXPECT_THROW(fake::catalogue().scenario_or_throw("lien"), InvalidInput);
+}
+
 TEST(Catalogue, SaysWhyThereIsNone) {
   EXPECT_EQ(fake::catalogue().why_missing("learner", "pilco"), "learner 'pilco' is not built: not written yet");
   EXPECT_EQ(Catalogue{}.why_missing("learner", "echo"), "unknown learner 'echo': there are none");

@@ -132,18 +132,20 @@ TEST(ModelSimulator, WhatNoStateGivesIsThatOfTheKeyframe) {
   ModelDescription model = pendulum_model();
   model.keyframe = "up";
   model.states = {{"speed", State::Kind::sensor, {{"speed"}}, 0}};
-  EXPECT_EQ(unseen(model), (std::vector<std::string>{"position of joint 'hinge'", "velocity of joint 'hinge'"}));
+  EXPECT_EQ(warnings_of(model, {{-1, 1}}, Vector::Zero(1)).unseen,
+            (std::vector<std::string>{"position of joint 'hinge'", "velocity of joint 'hinge'"}));
   const Vector up{{3, 0.5}}, u{{1}};
   EXPECT_NEAR(by_model(model, Vector::Zero(1), u)(0), by_equation(pendulum_equation(), up, u)(1), 1e-8);
-  EXPECT_TRUE(unseen(pendulum_model()).empty());
+  EXPECT_TRUE(warnings_of(pendulum_model(), {{-1, 1}}, Vector::Zero(2)).unseen.empty());
 }
 
 TEST(ModelSimulator, NamesWhatDoesNotFitTheTask) {
   ModelDescription model = pendulum_model();
-  EXPECT_TRUE(misfits(model, {{-100, 100}}, Vector{{10, 0}}).empty()) << "neither motor nor hinge has a range";
+  EXPECT_TRUE(warnings_of(model, {{-100, 100}}, Vector{{10, 0}}).misfits.empty())
+      << "neither motor nor hinge has a range";
   model.path = data_file("narrow.xml");
-  EXPECT_TRUE(misfits(model, {{-2, 1}}, Vector{{-0.5, 9}}).empty());
-  EXPECT_EQ(misfits(model, {{-2, 2.5}}, Vector{{1, 0}}),
+  EXPECT_TRUE(warnings_of(model, {{-2, 1}}, Vector{{-0.5, 9}}).misfits.empty());
+  EXPECT_EQ(warnings_of(model, {{-2, 2.5}}, Vector{{1, 0}}).misfits,
             (std::vector<std::string>{
                 "actuator 'motor' takes -2 to 2, the action has bounds of -2 and 2.5: MuJoCo cuts what is beyond",
                 "joint 'hinge' starts at 1, outside of its range of -0.5236 to 0.5236 (angles are in rad)"}));

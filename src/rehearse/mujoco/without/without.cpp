@@ -19,8 +19,7 @@ std::shared_ptr<const system::Simulator> make_simulator(const ModelDescription& 
   refuse(description);
 }
 ParameterSpace parameter_space(const ModelDescription& description) { refuse(description); }
-std::vector<std::string> unseen(const ModelDescription& description) { refuse(description); }
-std::vector<std::string> misfits(const ModelDescription& description, const std::vector<Interval>&, const Vector&) {
+Warnings warnings_of(const ModelDescription& description, const std::vector<Interval>&, const Vector&) {
   refuse(description);
 }
 std::unique_ptr<system::Plant> make_plant(const PlantOptions& options) { refuse(options.model); }

@@ -42,7 +42,7 @@ TEST(Messages, WrongAnswersSayWhatIsWrong) {
   EXPECT_EQ(why("{\"change\":[[1,2],null]}"), "");
   EXPECT_EQ(why("{\"change\":[[1,2]]}"),
             "\"change\" of its answer must be a list of 2 rows, one for each that was asked, not of 1");
-  EXPECT_EQ(why("{\"change\":[[1,2],[3]]}"), "\"change\" of its answer must have lists of 2 numbers, not [3]");
+  EXPECT_EQ(why("{\"change\":[[1,2],[3]]}"), "\"change\" of its answer must be a list of 2 numbers, not [3]");
   EXPECT_EQ(why("{\"change\":7}"),
             "\"change\" of its answer must be a list of 2 rows, one for each that was asked, not 7");
   EXPECT_EQ(why("{\"changes\":[]}"), "its answer has no \"change\": {\"changes\":[]}");
