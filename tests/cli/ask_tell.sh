@@ -4,7 +4,7 @@
 . "$(dirname "$0")/../prelude.sh"
 trials=$2
 
-short=(--set search.race.max_evaluations=600 --set search.race.descents=2 --set search.selection=10 --seed 4)
+short=(--set search.race.max_evaluations=600 --set search.race.descents=2 --set search.selection=10 --seed 2)
 results=(trials.csv errors.csv notes.csv policy.json trajectories/trial-002.csv predictions/trial-003.csv)
 
 # killed SECONDS ARGS… : a command that is killed on its way, then done to its end

@@ -25,8 +25,9 @@ class Race {
       StreamKey own = key;
       own.descent = static_cast<std::uint64_t>(i);
       const bool given = i < static_cast<Index>(space.starts.size());
-      runners_.push_back({Cmaes(given ? space.starts[static_cast<std::size_t>(i)] : random_point(space.box, own),
-                                given ? options.start_sigma : options.sigma, space.box, options.cmaes, own),
+      const double part = i % 2 == 1 ? options.near_centre : 1;
+      runners_.push_back({Cmaes(given ? space.starts[static_cast<std::size_t>(i)] : random_point(space.box, part, own),
+                                given ? options.start_sigma : part * options.sigma, space.box, options.cmaes, own),
                           {}});
     }
   }
@@ -57,10 +58,14 @@ class Race {
     return a.value > b.value;
   }
 
-  static Vector random_point(const std::vector<Interval>& box, const StreamKey& key) {
+  /// Uniform in the given part of the box around its centre.
+  static Vector random_point(const std::vector<Interval>& box, double part, const StreamKey& key) {
     Rng rng(key);
     Vector x(static_cast<Index>(box.size()));
-    for (std::size_t i = 0; i < box.size(); ++i) x(static_cast<Index>(i)) = rng.uniform(box[i].low, box[i].high);
+    for (std::size_t i = 0; i < box.size(); ++i) {
+      const double middle = (box[i].low + box[i].high) / 2, half = part * (box[i].high - box[i].low) / 2;
+      x(static_cast<Index>(i)) = rng.uniform(middle - half, middle + half);
+    }
     return x;
   }
 
@@ -151,6 +156,9 @@ void RaceOptions::fields(FieldVisitor& v) {
   v.number("survivors", survivors, expert("fraction of the runs kept after each round"), between(0, 1));
   v.number("sigma", sigma, expert("initial step size of runs from random points"), above(0));
   v.number("start_sigma", start_sigma, expert("initial step size of runs from given points"), above(0));
+  v.number("near_centre", near_centre,
+           expert("every second run from a random point starts in this fraction of the box, with that of sigma"),
+           between(1e-6, 1));
   v.integer("judgements", judgements, expert("evaluations of a run's best point and mean when a round ends"),
             between(1, 1e6));
   v.group("cmaes", cmaes, kExpert);

@@ -21,6 +21,8 @@ struct RaceOptions {
   double survivors = 0.5;    // fraction of the descents that goes on after each round
   double sigma = 1;          // first step size of descents from random points
   double start_sigma = 0.5;  // and of those from given starts
+  double near_centre = 0.2;  // every second descent from a random point starts in this fraction of the box, around its
+                             // centre, with this fraction of sigma; 1: as the others
   Index judgements = 16;     // evaluations of a descent's best point and mean when a round ends; in the last one
                              // fewer, where max_evaluations asks for it
   CmaesOptions cmaes{.population = 17};
@@ -41,7 +43,8 @@ struct RaceResult {
 };
 
 /// The box that a race searches, and its starts: the first descents begin at the given starts (at most all of them),
-/// the others uniformly in the box.
+/// the others in turn uniformly in the box and near its centre. Weights near zero make smooth policies of a network,
+/// weights of the whole box steep ones; which a task needs is not known before.
 struct SearchSpace {
   std::vector<Interval> box;
   std::vector<Vector> starts = {};

@@ -13,12 +13,14 @@ namespace {
 
 using Box = std::vector<Interval>;
 
-/// The options with step sizes that are to the policy's box as they were to the options'.
+/// The options with step sizes that are to the policy's box as they were to the options'. The centre of a policy's own
+/// box is a point like others.
 SearchOptions in_box_of(const policy::Policy& policy, SearchOptions options) {
   const Interval interval = interval_of(policy, options);
   const double scale = (interval.high - interval.low) / (2 * options.box);
   options.race.sigma *= scale;
   options.race.start_sigma *= scale;
+  if (policy.box()) options.race.near_centre = 1;
   return options;
 }
 

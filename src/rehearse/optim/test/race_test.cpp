@@ -1,5 +1,7 @@
 #include "rehearse/optim/race.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
@@ -58,6 +60,47 @@ TEST(Race, BeginsAtTheStarts) {
   const Vector good = Vector::Ones(3);
   const SearchSpace space{.box = kBox, .starts = std::vector<Vector>(1, good)};
   EXPECT_GE(run({.max_evaluations = 300, .descents = 2, .start_sigma = 1e-3}, space).contenders.front().value, -1e-4);
+}
+
+/// The farthest point of the first generation from the middle of the box, for every second descent.
+Vector reach_of_first_generations(const RaceOptions& options) {
+  Vector reach = Vector::Zero(2);
+  const BatchObjective objective = [&](const ConstMatrixView& X, std::uint64_t first, Index, VectorView values) {
+    spheres(X, first, 1, values);
+    for (Index i = 0; first == 0 && i < X.cols(); ++i) {
+      double& farthest = reach(i / options.cmaes.population % 2);
+      farthest = std::max(farthest, (X.col(i).array() - 3).abs().maxCoeff());
+    }
+  };
+  const std::vector<Interval> box(3, Interval{1, 5});
+  race(objective, {.box = box}, options, {.purpose = Purpose::search}, serial_evaluator());
+  return reach;
+}
+
+TEST(Race, EverySecondDescentBeginsNearTheCentreOfTheBoxWithSmallSteps) {
+  const RaceOptions options{.max_evaluations = 5000, .descents = 8, .sigma = 0.1, .near_centre = 0.2};
+  const Vector reach = reach_of_first_generations(options);
+  EXPECT_GT(reach(0), 1.5);
+  EXPECT_LT(reach(1), 0.4 + 5 * 0.02);  // the start and five steps
+  RaceOptions without = options;
+  without.near_centre = 1;
+  EXPECT_GT(reach_of_first_generations(without)(1), 1.5);
+}
+
+TEST(Race, ANarrowOptimumNearTheCentreIsFoundFromThere) {
+  // Away from the centre the function says nothing, as returns do where a network's actions jump from bound to bound.
+  const std::vector<Interval> box(10, Interval{-5, 5});
+  const BatchObjective narrow = [](const ConstMatrixView& X, std::uint64_t, Index, VectorView values) {
+    values = (1 - (X.array() - 0.3).square().colwise().sum() / 10).max(0).transpose();
+  };
+  const auto best = [&](double near_centre) {
+    return race(narrow, {.box = box}, {.max_evaluations = 5000, .descents = 8, .near_centre = near_centre},
+                {.purpose = Purpose::search}, serial_evaluator())
+        .contenders.front()
+        .value;
+  };
+  EXPECT_GT(best(0.2), 0.99);
+  EXPECT_LT(best(1), 0.5);
 }
 
 }  // namespace
