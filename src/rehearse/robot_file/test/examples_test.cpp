@@ -40,7 +40,7 @@ TEST_P(EachRobotFile, IsInOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Examples, EachRobotFile,
-                         ::testing::Values("pendulum", "cartpole", "pendubot", "acrobot", "arm"));
+                         ::testing::Values("pendulum", "cartpole", "pendubot", "acrobot", "arm", "quadrotor"));
 
 struct Same {
   const char* file;
