@@ -11,7 +11,7 @@
 
 namespace rehearse::apps {
 
-/// Shows a campaign on standard output: one line a run that ends, and on a terminal a last line that is rewritten.
+/// Shows a campaign on standard output: one line a run that ends, and a status line.
 class CampaignConsole final : public campaign::CampaignListener {
  public:
   CampaignConsole(std::string folder, campaign::Share share) : folder_(std::move(folder)), share_(share) {}

@@ -12,7 +12,7 @@
 
 namespace rehearse::apps {
 
-/// Shows a run on standard output: one line a trial, and on a terminal a last line that is rewritten as it goes.
+/// Shows a run on standard output: one line a trial, and a status line as it goes.
 class Console final : public experiment::RunListener {
  public:
   enum class Begin { said, silent };  // said: a line is printed at the start

@@ -30,19 +30,24 @@ std::string counted(std::int64_t number, const char* what) {
   return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
 }
 
-// mpirun shows rank 0 a terminal even where its own output goes to a file.
-StatusLine::StatusLine() : terminal_(::isatty(STDOUT_FILENO) == 1 && launch().size == 1) {}
+// Ranks say nothing: mpirun shows rank 0 a terminal even where its own output goes to a file.
+StatusLine::StatusLine(std::chrono::milliseconds silence)
+    : terminal_(::isatty(STDOUT_FILENO) == 1),
+      alone_(launch().size == 1),
+      silence_(terminal_ ? std::chrono::milliseconds(100) : silence) {}
 
 void StatusLine::print(const std::string& line) {
   clear();
   put("{}\n", line);
   std::fflush(stdout);
+  last_ = Clock::now();
 }
 
-bool StatusLine::is_due() const { return terminal_ && Clock::now() - last_ >= std::chrono::milliseconds(100); }
+bool StatusLine::is_due() const { return alone_ && Clock::now() - last_ >= silence_; }
 
 void StatusLine::show(const std::string& line) {
   if (!is_due()) return;
+  if (!terminal_) return print(line);
   last_ = Clock::now();
   fmt::print("\r\033[K{}", first_characters(printable(line), line_width()));
   std::fflush(stdout);

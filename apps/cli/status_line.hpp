@@ -6,15 +6,16 @@
 
 namespace rehearse::apps {
 
-/// Standard output with a last line that is rewritten as work goes on, where it is a terminal.
+/// Standard output with a last line that is rewritten as work goes on. Where it is no terminal but a file or a pipe,
+/// that line is printed as another one when nothing was said for as long as `silence`.
 class StatusLine {
  public:
-  StatusLine();
+  explicit StatusLine(std::chrono::milliseconds silence = std::chrono::minutes(1));
 
   /// A line that stays.
   void print(const std::string& line);
 
-  /// True if `show` would draw: on a terminal, at most ten times a second.
+  /// True if `show` would say something: on a terminal at most ten times a second. Never in a rank of several.
   bool is_due() const;
   void show(const std::string& line);
   void clear();
@@ -22,9 +23,10 @@ class StatusLine {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool terminal_;
+  bool terminal_, alone_;
   bool shown_ = false;
-  Clock::time_point last_;
+  std::chrono::milliseconds silence_;
+  Clock::time_point last_ = Clock::now();
 };
 
 /// "45 s", "12 min", "3.1 h"

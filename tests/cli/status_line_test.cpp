@@ -1,0 +1,35 @@
+// The status line of long work whose output goes to a file.
+#include "apps/cli/status_line.hpp"
+
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace rehearse::apps {
+namespace {
+
+TEST(StatusLine, SaysInAFileHowFarItIsWhenNothingWasSaidForAWhile) {
+  ::testing::internal::CaptureStdout();
+  StatusLine line(std::chrono::milliseconds(50));
+  line.show("too early");
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_TRUE(line.is_due());
+  line.show("search 10 %");
+  line.show("just said");
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  line.print("trial 1");
+  EXPECT_FALSE(line.is_due()) << "a trial was said";
+  line.clear();
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "search 10 %\ntrial 1\n");
+}
+
+TEST(StatusLine, IsSilentInAFileForAMinuteAtFirst) {
+  ::testing::internal::CaptureStdout();
+  StatusLine line;
+  EXPECT_FALSE(line.is_due());
+  line.show("search 1 %");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+}
+
+}  // namespace
+}  // namespace rehearse::apps
