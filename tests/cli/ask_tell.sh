@@ -4,6 +4,7 @@
 . "$(dirname "$0")/../prelude.sh"
 trials=$2
 
+# With this seed no two trials are alike: an episode that was told before does not count again.
 short=(--set search.race.max_evaluations=600 --set search.race.descents=2 --set search.selection=10 --seed 2)
 results=(trials.csv errors.csv notes.csv policy.json trajectories/trial-002.csv predictions/trial-003.csv)
 

@@ -28,6 +28,7 @@ echo "an addition" >>extended/robot/pendubot
 if ! "$program" list | grep -q "MuJoCo was not found\|mujoco.*not built"; then
   "$program" learn models/acrobot.toml --learner mi --trials 1 "${few[@]}" --out model >output 2>&1 || fail "MJCF: $(cat output)"
   [ -e model/motion/trial-001.json ] && cmp models/acrobot.xml model/robot/acrobot.xml || fail "the model is not kept"
+  "$program" check models/servo_arm.toml >output 2>&1 || fail "servos: $(cat output)"
   sed 's/body upper mass/body uper mass/' models/acrobot.toml >models/misspelt.toml
   "$program" check models/misspelt.toml >output 2>&1
   [ $? = 2 ] && grep -q "upper" output || fail "a misspelt body: $(cat output)"

@@ -129,7 +129,7 @@ def fixtures(program, root, folder):
     say(program, "learn", "pendubot", "--learner", "gp-mi", "--prior", "misleading", "--trials", "3", "--out", "runs/demo", *run, cwd=folder)
     say(program, "export", "runs/demo", "--out", "policy.json", cwd=folder)
     say(program, "new", "my_robot", cwd=folder)
-    run += ["--set", "start_from_best=false"]  # which may repeat a policy, and so a log
+    run += ["--set", "start_from_best=false"]  # a policy that is repeated would make the same log twice
     say(program, "learn", "my_robot.toml", "--learner", "black-drops", "--trials", "4", "--out", "runs/my_robot", *run, cwd=folder)
     for name, trial in (("log1", 1), ("log2", 2), ("log3", 3), ("episode", 4)):
         shutil.copy(folder / f"runs/my_robot/trajectories/trial-00{trial}.csv", folder / f"{name}.csv")

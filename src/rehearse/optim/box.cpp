@@ -90,4 +90,15 @@ std::vector<std::string> start_violations(const Vector& start, const std::vector
   return lines;
 }
 
+Vector uniform_point(const std::vector<Interval>& box, double part, const StreamKey& key) {
+  Rng rng(key);
+  Vector x(static_cast<Index>(box.size()));
+  for (Index i = 0; i < x.size(); ++i) {
+    const auto [low, high] = box[static_cast<std::size_t>(i)];
+    const double middle = (low + high) / 2, half = part * (high - low) / 2;
+    x(i) = rng.uniform(middle - half, middle + half);
+  }
+  return x;
+}
+
 }  // namespace rehearse::optim

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/core/random.hpp"
 #include "rehearse/core/types.hpp"
 
 namespace rehearse::optim {
@@ -45,5 +46,8 @@ std::vector<std::string> box_violations(const std::vector<Interval>& box, Index 
 
 /// A line for everything that makes `start` unfit: empty, not finite, outside the box (if there is one).
 std::vector<std::string> start_violations(const Vector& start, const std::vector<Interval>& box);
+
+/// A random point (n) for a search to begin at: uniform in the middle `part` of each side of the box (0 to 1).
+Vector uniform_point(const std::vector<Interval>& box, double part, const StreamKey& key);
 
 }  // namespace rehearse::optim

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/optim/box.hpp"
 
 namespace rehearse::optim {
 namespace {
@@ -26,7 +27,7 @@ class Race {
       own.descent = static_cast<std::uint64_t>(i);
       const bool given = i < static_cast<Index>(space.starts.size());
       const double part = i % 2 == 1 ? options.near_centre : 1;
-      runners_.push_back({Cmaes(given ? space.starts[static_cast<std::size_t>(i)] : random_point(space.box, part, own),
+      runners_.push_back({Cmaes(given ? space.starts[static_cast<std::size_t>(i)] : uniform_point(space.box, part, own),
                                 given ? options.start_sigma : part * options.sigma, space.box, options.cmaes, own),
                           {}});
     }
@@ -56,17 +57,6 @@ class Race {
   template <class T>
   static bool better(const T& a, const T& b) {
     return a.value > b.value;
-  }
-
-  /// Uniform in the given part of the box around its centre.
-  static Vector random_point(const std::vector<Interval>& box, double part, const StreamKey& key) {
-    Rng rng(key);
-    Vector x(static_cast<Index>(box.size()));
-    for (std::size_t i = 0; i < box.size(); ++i) {
-      const double middle = (box[i].low + box[i].high) / 2, half = part * (box[i].high - box[i].low) / 2;
-      x(static_cast<Index>(i)) = rng.uniform(middle - half, middle + half);
-    }
-    return x;
   }
 
   /// One generation of every descent at a time, until the judging at the round's end would exceed `end` evaluations.

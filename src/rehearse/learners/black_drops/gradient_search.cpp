@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "rehearse/optim/box.hpp"
 #include "rehearse/policy/differentiable.hpp"
 
 namespace rehearse::learners::black_drops {
@@ -48,10 +49,8 @@ Vector start_of(Index descent, const policy::Policy& policy, const GradientSpace
   if (descent < static_cast<Index>(space.starts.size())) return space.starts[static_cast<std::size_t>(descent)];
   key.purpose = Purpose::random_policy;
   key.descent = static_cast<std::uint64_t>(descent);
-  Rng rng(key);
-  const double middle = (space.interval.low + space.interval.high) / 2,
-               half = part * (space.interval.high - space.interval.low) / 2;
-  return Vector::NullaryExpr(policy.parameters(), [&] { return rng.uniform(middle - half, middle + half); });
+  const std::vector<Interval> box(static_cast<std::size_t>(policy.parameters()), space.interval);
+  return optim::uniform_point(box, part, key);
 }
 
 }  // namespace

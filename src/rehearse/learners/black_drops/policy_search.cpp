@@ -7,14 +7,19 @@
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/learners/black_drops/gradient_search.hpp"
 #include "rehearse/learners/black_drops/simulated_return.hpp"
+#include "rehearse/optim/box.hpp"
 
 namespace rehearse::learners::black_drops {
 namespace {
 
 using Box = std::vector<Interval>;
 
-/// The options with step sizes that are to the policy's box as they were to the options'. The centre of a policy's own
-/// box is a point like others.
+Box box_of(const policy::Policy& policy, const SearchOptions& options) {
+  return Box(static_cast<std::size_t>(policy.parameters()), interval_of(policy, options));
+}
+
+/// The options with step sizes that are to the policy's box as they were to the options'. Where the box is the policy's
+/// own, as that of a gait, no descent begins near the centre: policies are not smoother there.
 SearchOptions in_box_of(const policy::Policy& policy, SearchOptions options) {
   const Interval interval = interval_of(policy, options);
   const double scale = (interval.high - interval.low) / (2 * options.box);
@@ -126,7 +131,7 @@ SearchResult search_policy(const SearchProblem& problem, const std::vector<Vecto
                       .rollouts = objective.rollouts(),
                       .rollouts_per_s = watch.per_s(objective.rollouts())});
   };
-  const Box box(static_cast<std::size_t>(problem.policy.parameters()), interval_of(problem.policy, options));
+  const Box box = box_of(problem.policy, options);
   StreamKey candidates = key;
   candidates.purpose = Purpose::search;
   const std::vector<Vector> found =
@@ -177,11 +182,7 @@ SolvingRates solving_rates(const SearchProblem& problem, const std::vector<Vecto
 
 Vector random_policy(const policy::Policy& policy, const SearchOptions& options, StreamKey key) {
   key.purpose = Purpose::random_policy;
-  Rng rng(key);
-  Vector theta(policy.parameters());
-  const auto [low, high] = interval_of(policy, options);
-  for (double& value : theta) value = rng.uniform(low, high);
-  return theta;
+  return optim::uniform_point(box_of(policy, options), 1, key);
 }
 
 }  // namespace rehearse::learners::black_drops

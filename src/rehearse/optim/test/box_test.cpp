@@ -56,5 +56,20 @@ TEST(Box, APlateauOrNoFiniteValueCostsNothingAndSpoilsNothing) {
   EXPECT_GT(box.penalties(X, values, mean, deviations, 2)(1), 0);
 }
 
+TEST(Box, RandomPointsFillTheMiddlePartAsked) {
+  for (const double part : {1.0, 0.2}) {
+    Vector low = Vector::Constant(2, 100), high = -low;
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const Vector x = uniform_point(intervals, part, {.purpose = Purpose::search, .descent = i});
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    EXPECT_GE(low(0), -part);
+    EXPECT_LT(low(0), -0.9 * part);
+    EXPECT_LE(high(1), 5 + 5 * part);
+    EXPECT_GT(high(1), 5 + 4.5 * part);
+  }
+}
+
 }  // namespace
 }  // namespace rehearse::optim
