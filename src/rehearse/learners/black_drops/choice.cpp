@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kNearlyAll = 0.05;     // fraction of the promised return that a safe policy may lack
 constexpr std::size_t kSafeStarts = 8;  // policies near which a safe one is looked for
+constexpr double kAgain = 0.01;         // fraction of the return by which searches that agree may differ
 constexpr double kOften = 0.5;          // that a task is solved so surely is enough for a trial
 
 bool is_better(const SearchResult& found, const Choice& choice) {
@@ -76,6 +77,16 @@ void prefer_solving_where_uncertain(TrialSearches& searches, const SearchResult&
   limits.tolerance = tolerance;
   const auto solving = search_for_solving(searches, found, again, limits, choice);
   if (solving && within(tolerance, choice.predicted_return, solving->predicted_return)) choice.take(*solving);
+}
+
+void prefer_found_again(TrialSearches& searches, const Retry& retry, Choice& choice) {
+  if (searches.can_tell_solved() || retry.searches == 0 || !searches.is_sure_of(choice.theta)) return;
+  for (Index i = 1; i <= retry.searches; ++i) {
+    const SearchResult found = searches.search({}, i);
+    const auto [less, more] = std::minmax(choice.predicted_return, found.predicted_return);
+    if (is_better(found, choice)) choice.take(found);
+    if (within(kAgain, more, less)) return;
+  }
 }
 
 }  // namespace rehearse::learners::black_drops

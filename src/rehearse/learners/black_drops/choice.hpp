@@ -39,6 +39,11 @@ void prefer_safe(TrialSearches& searches, const SafetyOptions& safety, SearchRes
 void prefer_solving_where_sure(TrialSearches& searches, const SearchResult& found, const SearchAgain& again,
                                const Retry& retry, Choice& choice);
 
+/// Repeats searches from other points, where the model is sure and the task has no test of success, until one finds
+/// about the highest return again, `retry.searches` times at most: a return that two searches agree on is hardly that
+/// of a descent that was cut off. The policy of the highest return becomes the choice.
+void prefer_found_again(TrialSearches& searches, const Retry& retry, Choice& choice);
+
 /// Gives up a little of the return (`retry.uncertain_tolerance`), where the model is uncertain, for the policy that
 /// most often solves the task. Where none does so often (about half of the episodes), searches go on in the means.
 void prefer_solving_where_uncertain(TrialSearches& searches, const SearchResult& found, const Retry& retry,

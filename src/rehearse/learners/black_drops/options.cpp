@@ -14,7 +14,8 @@ void FirstTrial::fields(FieldVisitor& v) {
 }
 
 void Retry::fields(FieldVisitor& v) {
-  v.integer("searches", searches, "largest number of further searches while no policy is expected to solve the task",
+  v.integer("searches", searches,
+            "further searches at most, until a policy is expected to solve the task or a return is found again",
             between(0, 1000), published(0));
   v.number("tolerance", tolerance, "return that a policy which solves the task may lose, as a fraction of the highest",
            at_least(0));

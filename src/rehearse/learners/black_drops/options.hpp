@@ -21,9 +21,10 @@ struct FirstTrial {
 };
 
 /// A trial only confirms what a model that is sure predicts. So a search whose policy is not expected to solve the task
-/// is repeated from other points, and policies that solve it are preferred to others, even of a higher return.
+/// is repeated from other points, and policies that solve it are preferred to others, even of a higher return. Where
+/// the task cannot say that it is solved, the search is repeated until its return is found again.
 struct Retry {
-  Index searches = 3;       // more than one, at most; 0: the policy of the highest return, whatever it does (the paper)
+  Index searches = 3;       // more than one, at most; 0: the policy of the highest return of one search (the paper)
   double tolerance = 0.05;  // of the highest return: where one that solves has less, the search goes on
   double uncertain_tolerance = 0.2;  // what a policy that solves may cost where the model is uncertain; 0: none is
                                      // preferred
@@ -41,7 +42,7 @@ struct Options {
                                     // no prior on policies
   Retry retry;
   bool success_test = true;   // policies may be chosen by the task's test of success, where it gives one; false: by
-                              // their return alone (the paper), then `retry` has no effect
+                              // their return alone (the paper)
   Index prior_searches = 1;   // searches on the prior before the first trial, each from the best of the one before
                               // (the authors' code: 2)
   double prior_variance = 0;  // predicted before there are data (the authors' code: 1)

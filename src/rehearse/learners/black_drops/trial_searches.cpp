@@ -59,6 +59,14 @@ SearchResult TrialSearches::judge_anew(const Vector& theta) {
   return judged;
 }
 
+bool TrialSearches::is_sure_of(const Vector& theta) {
+  constexpr double kSame = 1e-3;
+  const double uncertain = judge(theta).predicted_return;
+  const SearchOptions means = in_means(options_);
+  const double mean = counted(black_drops::judge(problem_, theta, means, key(Stage::judging))).predicted_return;
+  return within(kSame, uncertain, mean) && within(kSame, mean, uncertain);
+}
+
 std::optional<SearchResult> TrialSearches::best_that_solves(const SearchResult& found) {
   if (!can_tell_solved()) return std::nullopt;
   std::vector<Vector> policies = found.runners_up;

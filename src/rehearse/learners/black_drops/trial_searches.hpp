@@ -30,6 +30,9 @@ class TrialSearches {
   /// The same in other episodes, which have decided nothing; of a task with limits also how surely it is solved.
   SearchResult judge_anew(const Vector& theta);
 
+  /// True if the model's uncertainty changes a policy's predicted return by less than a thousandth.
+  bool is_sure_of(const Vector& theta);
+
   /// The policy of a search that solves the task most often in simulated episodes, among those no less safe than its
   /// result; if none does under uncertainty, one that does in the mean predictions. Empty if none does, or if the task
   /// has no test of success.

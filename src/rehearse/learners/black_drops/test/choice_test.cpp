@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/rollout/simulate.hpp"
 #include "slider.hpp"
 
@@ -48,6 +49,54 @@ TEST(Choice, PrefersPoliciesThatAreExpectedToSolveTheTask) {
     EXPECT_GE(*in_vain[trial].predicted_return, *careless[trial].predicted_return - (trial == 0 ? 0 : 0.05))
         << "the second search starts elsewhere, since the first trial was another";
     EXPECT_LT(content[trial].rollouts, 1.5 * careless[trial].rollouts) << "one";
+  }
+}
+
+/// What searches of so many evaluations choose on the slider itself, whose predictions have this variance.
+struct FoundAgain {
+  FoundAgain(double variance, Index evaluations, Index further, bool told = false, std::uint64_t seed = 1) {
+    const dynamics::SimulatorModel model{slider::prior(), slider::kTruth, variance};
+    const auto policy = slider::policy();
+    Task task = slider::task();
+    if (told) task.solved = [](const Episode&) { return false; };
+    const ProgressSink nobody;
+    const SearchProblem problem{model, *policy, task, serial_evaluator(), nobody};
+    SearchOptions options{.selection = 10};
+    options.race.descents = 2;
+    options.race.max_evaluations = evaluations;
+    options.race.cmaes.population = 4;
+    TrialSearches searches(problem, options, {.seed = seed, .trial = 2});
+    const SearchResult found = searches.search({}, 0);
+    Choice choice;
+    choice.take(found);
+    Retry retry;
+    retry.searches = further;
+    prefer_found_again(searches, retry, choice);
+    gain = choice.predicted_return - found.predicted_return;
+    rollouts = static_cast<double>(searches.rollouts()) / static_cast<double>(found.rollouts);
+  }
+  double gain = 0;      // of the predicted return, by the further searches
+  double rollouts = 0;  // in units of those of the first search
+};
+
+TEST(Choice, WhereTheModelIsSureSearchesGoOnUntilTwoAgree) {
+  const FoundAgain agreed(0, 2000, 3);
+  EXPECT_NEAR(agreed.rollouts, 2, 0.3);
+  EXPECT_GE(agreed.gain, 0);
+  double gain = 0, rollouts = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const FoundAgain brief(0, 8, 3, false, seed);
+    EXPECT_GE(brief.gain, 0);
+    gain = std::max(gain, brief.gain), rollouts = std::max(rollouts, brief.rollouts);
+  }
+  EXPECT_GT(gain, 0.1);
+  EXPECT_GT(rollouts, 4) << "some never agree";
+}
+
+TEST(Choice, NoSearchIsRepeatedForTheReturnWhereThatIsNoUse) {
+  for (const FoundAgain& none : {FoundAgain(0.0004, 8, 3), FoundAgain(0, 8, 0), FoundAgain(0, 8, 3, true)}) {
+    EXPECT_EQ(none.gain, 0);
+    EXPECT_LT(none.rollouts, 2) << "the policy may be judged again";
   }
 }
 

@@ -59,6 +59,13 @@ TEST_F(TrialSearchesTest, FailuresAreCountedWhereverTheyHappen) {
   EXPECT_EQ(trial.failed_rollouts(), trial.rollouts());
 }
 
+TEST_F(TrialSearchesTest, AModelIsSureWhereItsUncertaintyHardlyChangesTheReturn) {
+  const Vector theta{{-3, 0}};
+  EXPECT_FALSE(searches().is_sure_of(theta));
+  const dynamics::SimulatorModel sure{slider::prior(), slider::kTruth, 1e-12};
+  EXPECT_TRUE(TrialSearches({sure, *policy, task, serial_evaluator(), nobody}, options, {.seed = 1}).is_sure_of(theta));
+}
+
 // The reported return and risks of a choice come from episodes that did not choose it.
 TEST_F(TrialSearchesTest, AChoiceIsJudgedAnewInOtherEpisodes) {
   TrialSearches trial = searches();
