@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kNearlyAll = 0.05;     // fraction of the promised return that a safe policy may lack
 constexpr std::size_t kSafeStarts = 8;  // policies near which a safe one is looked for
-constexpr double kAgain = 0.01;         // fraction of the return by which searches that agree may differ
+constexpr double kAgain = 0.001;        // fraction of the return by which searches that agree may differ
 constexpr double kOften = 0.5;          // that a task is solved so surely is enough for a trial
 
 bool is_better(const SearchResult& found, const Choice& choice) {
