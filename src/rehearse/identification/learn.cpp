@@ -99,7 +99,26 @@ Learned learn_gps(const Given& given, const GpOptions& options, const prior::Pri
   return smoothed_if_likelier(given, options, problem, fit, false, finish);
 }
 
-Learned learn_kind(const ZeroMean& kind, const Given& given) { return learn_gps(given, kind.gp, nullptr, false); }
+/// The rows, and what the mirror image of the robot would have done.
+Dataset mirrored(const Dataset& data) {
+  const auto both = [](const Matrix& rows) {
+    Matrix all(2 * rows.rows(), rows.cols());
+    all << rows, -rows;
+    return all;
+  };
+  return {.states = both(data.states),
+          .actions = both(data.actions),
+          .changes = both(data.changes),
+          .rewards = data.rewards.replicate(2, 1)};
+}
+
+Learned learn_kind(const ZeroMean& kind, const Given& given) {
+  if (!kind.mirror) return learn_gps(given, kind.gp, nullptr, false);
+  const auto& [data, features, kinematics, prior, actuators] = given.problem;
+  const Dataset both = mirrored(data);
+  return learn_gps({{both, features, kinematics, prior, actuators}, given.start, given.evaluator}, kind.gp, nullptr,
+                   false);
+}
 
 Learned learn_kind(const FixedPrior& kind, const Given& given) {
   return learn_gps(given, kind.gp, given.problem.prior, kind.gp.midpoint);

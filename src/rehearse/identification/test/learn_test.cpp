@@ -38,6 +38,26 @@ TEST(Learn, ZeroMeanPredictsHeldOutSteps) {
   EXPECT_GE(p.variance.minCoeff(), 0);
 }
 
+// Rows on one side of the hanging pendulum tell of the other side.
+TEST(Learn, ARobotThatIsItsMirrorImageIsLearnedFromOneSide) {
+  Dataset data = swing::data(200, 1), held_out = swing::data(200, 2);
+  const auto keep = [](Dataset& of, auto side) {
+    std::vector<Index> rows;
+    for (Index i = 0; i < of.size(); ++i)
+      if (side(std::sin(of.states(i, 1)))) rows.push_back(i);
+    of = {Matrix(of.states(rows, Eigen::all)), Matrix(of.actions(rows, Eigen::all)),
+          Matrix(of.changes(rows, Eigen::all)), Vector()};
+  };
+  keep(data, [](double sine) { return sine > 0; });
+  keep(held_out, [](double sine) { return sine < 0; });
+  ASSERT_GT(held_out.size(), 50);
+  ZeroMean mirrored;
+  mirrored.mirror = true;
+  const Learned one_side = learn_swing(data, ZeroMean{}), both_sides = learn_swing(data, mirrored);
+  EXPECT_LT(error(*both_sides.model, held_out), 0.03 * swing::rms(held_out.changes));
+  EXPECT_GT(error(*one_side.model, held_out), 3 * error(*both_sides.model, held_out));
+}
+
 TEST(Learn, NoisyVarianceAddsTheLearnedNoise) {
   const Dataset data = swing::data(30, 1), held_out = swing::data(10, 2);
   ZeroMean noisy;
