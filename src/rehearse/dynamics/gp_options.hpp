@@ -20,6 +20,7 @@ struct GpOptions {
   bool integrate_rates = false;  // positions follow from their rates, GPs learn what is left (integration.hpp)
   bool smooth = false;      // noisy states are smoothed where that makes what was measured likelier (smoothing.hpp); φ
                             // moves with them where the score is the product and the search alternating
+  bool mirror = false;      // the robot is its own mirror image: predictions know the image of each row, too (mirrored)
   double tolerance = 0.01;  // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
   void fields(FieldVisitor& v) {
     v.group("fit", fit, kExpert);
@@ -31,6 +32,8 @@ struct GpOptions {
               "positions are integrated from their rates; GPs learn the remaining error", published(false));
     v.boolean("smooth", smooth, "noisy states are smoothed where that raises the likelihood of the measurements",
               published(false));
+    v.boolean("mirror", mirror,
+              "the robot is its own mirror image: changes have opposite signs where states and actions have");
     v.number("tolerance", tolerance,
              "largest error of approximate predictions, as a fraction of the noise's standard deviation; 0: exact",
              between(0, 1), published(0));

@@ -17,16 +17,11 @@ using dynamics::GpOptions;
 /// GPs with zero mean: Black-DROPS (Chatzilygeroudis 2017).
 struct ZeroMean {
   GpOptions gp;
-  bool mirror = false;  // the robot is its own mirror image: every step teaches its mirror image, too (mirrored)
   ZeroMean() {
     gp.fit.penalties.length = gp.fit.penalties.snr = true;  // the authors' code, without a prior only
     gp.integrate_rates = true;
   }
-  void fields(FieldVisitor& v) {
-    v.group("gp", gp);
-    v.boolean("mirror", mirror,
-              "the robot is its own mirror image: changes have opposite signs where states and actions have");
-  }
+  void fields(FieldVisitor& v) { v.group("gp", gp); }
 };
 
 /// Options of GPs around a prior.

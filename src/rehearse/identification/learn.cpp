@@ -38,10 +38,26 @@ gp::FitOptions fit_options(const GpOptions& options, const dynamics::Residuals& 
   return dynamics::fit_options(options.fit, residuals.features().features() + residuals.data().actions.cols());
 }
 
+/// The rows, and what the mirror image of the robot would have done.
+Dataset mirrored(const Dataset& data) {
+  const auto both = [](const Matrix& rows) {
+    Matrix all(2 * rows.rows(), rows.cols());
+    all << rows, -rows;
+    return all;
+  };
+  return {.states = both(data.states),
+          .actions = both(data.actions),
+          .changes = both(data.changes),
+          .rewards = data.rewards.replicate(2, 1)};
+}
+
 /// `smoothed`: null if measurement noise is to be estimated from the kernels' noise.
 Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, const Smoothed* smoothed) {
   const dynamics::Residuals& residuals = problem.residuals;
-  const dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
+  dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
+  const Index left_out = rows.left_out;
+  // Images have the kernels and φ of the rows: they tell no more of these, and their errors are the same.
+  if (options.mirror) rows = residuals.of(mirrored(residuals.data())).at(problem.prior, fit.phi);
   if (!rows.inputs) throw NoUsableRow("no row of the data set has a finite prior mean: nothing to learn from");
   std::optional<dynamics::Mean> mean;
   if (problem.prior) mean = dynamics::Mean{*problem.prior, fit.phi, residuals.midpoint()};
@@ -56,7 +72,7 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
   learned.model = model;
   if (problem.prior) learned.state.phi = fit.phi;
   learned.log_evidence = fit.log_evidences.sum();
-  learned.left_out_rows = rows.left_out;
+  learned.left_out_rows = left_out;
   learned.evaluations = fit.evaluations;
   for (Index e = 0; e < fit.log_evidences.size(); ++e)
     if (!std::isfinite(fit.log_evidences(e)))
@@ -99,26 +115,7 @@ Learned learn_gps(const Given& given, const GpOptions& options, const prior::Pri
   return smoothed_if_likelier(given, options, problem, fit, false, finish);
 }
 
-/// The rows, and what the mirror image of the robot would have done.
-Dataset mirrored(const Dataset& data) {
-  const auto both = [](const Matrix& rows) {
-    Matrix all(2 * rows.rows(), rows.cols());
-    all << rows, -rows;
-    return all;
-  };
-  return {.states = both(data.states),
-          .actions = both(data.actions),
-          .changes = both(data.changes),
-          .rewards = data.rewards.replicate(2, 1)};
-}
-
-Learned learn_kind(const ZeroMean& kind, const Given& given) {
-  if (!kind.mirror) return learn_gps(given, kind.gp, nullptr, false);
-  const auto& [data, features, kinematics, prior, actuators] = given.problem;
-  const Dataset both = mirrored(data);
-  return learn_gps({{both, features, kinematics, prior, actuators}, given.start, given.evaluator}, kind.gp, nullptr,
-                   false);
-}
+Learned learn_kind(const ZeroMean& kind, const Given& given) { return learn_gps(given, kind.gp, nullptr, false); }
 
 Learned learn_kind(const FixedPrior& kind, const Given& given) {
   return learn_gps(given, kind.gp, given.problem.prior, kind.gp.midpoint);

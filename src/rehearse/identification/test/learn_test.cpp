@@ -52,7 +52,7 @@ TEST(Learn, ARobotThatIsItsMirrorImageIsLearnedFromOneSide) {
   keep(held_out, [](double sine) { return sine < 0; });
   ASSERT_GT(held_out.size(), 50);
   ZeroMean mirrored;
-  mirrored.mirror = true;
+  mirrored.gp.mirror = true;
   const Learned one_side = learn_swing(data, ZeroMean{}), both_sides = learn_swing(data, mirrored);
   EXPECT_LT(error(*both_sides.model, held_out), 0.03 * swing::rms(held_out.changes));
   EXPECT_GT(error(*one_side.model, held_out), 3 * error(*both_sides.model, held_out));
