@@ -37,7 +37,7 @@ struct GpOptions {
     v.number("tolerance", tolerance,
              "largest error of approximate predictions, as a fraction of the noise's standard deviation; 0: exact",
              between(0, 1), published(0));
-    v.choice("variance", variance, "variance of predictions: without the noise of observations, or with it",
+    v.choice("variance", variance, expert("variance of predictions: without the noise of observations, or with it"),
              {"latent", "noisy"});
   }
 };
