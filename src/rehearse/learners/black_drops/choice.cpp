@@ -83,9 +83,9 @@ void prefer_found_again(TrialSearches& searches, const Retry& retry, Choice& cho
   if (searches.can_tell_solved() || retry.searches == 0 || !searches.is_sure_of(choice.theta)) return;
   for (Index i = 1; i <= retry.searches; ++i) {
     const SearchResult found = searches.search({}, i);
-    const auto [less, more] = std::minmax(choice.predicted_return, found.predicted_return);
+    const double before = choice.predicted_return;
     if (is_better(found, choice)) choice.take(found);
-    if (within(kAgain, more, less)) return;
+    if (within(kAgain, before, found.predicted_return) && within(kAgain, found.predicted_return, before)) return;
   }
 }
 
