@@ -18,6 +18,9 @@
 namespace rehearse::identification {
 namespace {
 
+constexpr double kImageError = 1e-3;  // of the changes of a state: less is what a simulator's integrator errs by
+constexpr double kStill = 1e-9;       // where a state never changes
+
 /// The input of every kind of learning.
 struct Given {
   const LearningProblem& problem;
@@ -51,6 +54,18 @@ Dataset mirrored(const Dataset& data) {
           .rewards = data.rewards.replicate(2, 1)};
 }
 
+/// A note if the prior does not do the opposite at the images of the rows. `targets`: those of the rows, then of
+/// images.
+std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const Matrix& targets) {
+  if (targets.rows() != 2 * rows.size()) return std::nullopt;  // rows that are left out have no partner
+  const Matrix errors = targets.topRows(rows.size()) + targets.bottomRows(rows.size());
+  for (Index e = 0; e < errors.cols(); ++e)
+    if (const double largest = errors.col(e).cwiseAbs().maxCoeff(); largest > kImageError * rows.scale()(e) + kStill)
+      return fmt::format("mirror is set, but the prior is not its own mirror image: output {} differs by {:.2g}", e,
+                         largest);
+  return std::nullopt;
+}
+
 /// `smoothed`: null if measurement noise is to be estimated from the kernels' noise.
 Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, const Smoothed* smoothed) {
   const dynamics::Residuals& residuals = problem.residuals;
@@ -74,6 +89,8 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
   learned.log_evidence = fit.log_evidences.sum();
   learned.left_out_rows = left_out;
   learned.evaluations = fit.evaluations;
+  if (options.mirror)
+    if (auto note = not_its_image(residuals, rows.targets)) learned.notes.push_back(std::move(*note));
   for (Index e = 0; e < fit.log_evidences.size(); ++e)
     if (!std::isfinite(fit.log_evidences(e)))
       learned.notes.push_back(fmt::format("the kernel of output {} could not be fitted", e));

@@ -58,6 +58,22 @@ TEST(Learn, ARobotThatIsItsMirrorImageIsLearnedFromOneSide) {
   EXPECT_GT(error(*one_side.model, held_out), 3 * error(*both_sides.model, held_out));
 }
 
+TEST(Learn, APriorThatIsNotItsMirrorImageIsSaid) {
+  const Dataset data = swing::data(40, 1);
+  FixedPrior mirrored;
+  mirrored.gp.mirror = true;
+  const prior::Prior symmetric = swing::prior_at(swing::kTruth);
+  EXPECT_EQ(learn_swing(data, mirrored, &symmetric).notes, std::vector<std::string>{});
+  const prior::Prior leaning = swing::prior({}, [](const Vector& x, const Vector& u, const Vector&, Vector& dxdt) {
+    swing::ode(x, u, swing::kTruth, dxdt);
+    dxdt(0) += 0.5;
+  });
+  const std::vector<std::string> notes = learn_swing(data, mirrored, &leaning).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("not its own mirror image: output 0 differs by 0.1"), std::string::npos) << notes[0];
+  EXPECT_EQ(learn_swing(data, FixedPrior{}, &leaning).notes, std::vector<std::string>{});
+}
+
 TEST(Learn, NoisyVarianceAddsTheLearnedNoise) {
   const Dataset data = swing::data(30, 1), held_out = swing::data(10, 2);
   ZeroMean noisy;
