@@ -19,7 +19,9 @@ namespace rehearse::identification {
 namespace {
 
 constexpr double kImageError = 1e-3;  // of the changes of a state: less is what a simulator's integrator errs by
-constexpr double kStill = 1e-9;       // where a state never changes
+constexpr double kContradiction = 3;  // standard deviations of the noise, where at most one is expected, and
+constexpr double kContradictionOfChanges = 0.01;  // of the changes' deviation: where noise is none, rounding is more
+constexpr double kStill = 1e-9;                   // where a state never changes
 
 /// The input of every kind of learning.
 struct Given {
@@ -66,6 +68,21 @@ std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const 
   return std::nullopt;
 }
 
+/// A note if the model errs at the rows it was told by much more than their noise: their images say something else.
+std::optional<std::string> contradicts_image(const dynamics::GpModel& model, const dynamics::Residuals& rows) {
+  const Dataset& data = rows.data();
+  Matrix mean(data.size(), data.changes.cols());
+  model.predict_mean(data.states, data.actions, mean);
+  const Vector noise = model.posterior().noise_variances().cwiseSqrt();
+  for (Index e = 0; e < noise.size(); ++e) {
+    const double error = (data.changes.col(e) - mean.col(e)).norm() / std::sqrt(static_cast<double>(data.size()));
+    if (error > kContradiction * noise(e) && error > kContradictionOfChanges * rows.scale()(e))
+      return fmt::format("mirror is set, but measured steps contradict it: output {} errs by {:.2g} times its noise", e,
+                         error / noise(e));
+  }
+  return std::nullopt;
+}
+
 /// `smoothed`: null if measurement noise is to be estimated from the kernels' noise.
 Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, const Smoothed* smoothed) {
   const dynamics::Residuals& residuals = problem.residuals;
@@ -89,8 +106,10 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
   learned.log_evidence = fit.log_evidences.sum();
   learned.left_out_rows = left_out;
   learned.evaluations = fit.evaluations;
-  if (options.mirror)
+  if (options.mirror) {
+    if (auto note = contradicts_image(*model, residuals)) learned.notes.push_back(std::move(*note));
     if (auto note = not_its_image(residuals, rows.targets)) learned.notes.push_back(std::move(*note));
+  }
   for (Index e = 0; e < fit.log_evidences.size(); ++e)
     if (!std::isfinite(fit.log_evidences(e)))
       learned.notes.push_back(fmt::format("the kernel of output {} could not be fitted", e));

@@ -74,6 +74,18 @@ TEST(Learn, APriorThatIsNotItsMirrorImageIsSaid) {
   EXPECT_EQ(learn_swing(data, FixedPrior{}, &leaning).notes, std::vector<std::string>{});
 }
 
+TEST(Learn, StepsThatContradictTheMirrorImageAreSaid) {
+  ZeroMean mirrored;
+  mirrored.gp.mirror = true;
+  Dataset data = swing::data(100, 1);
+  EXPECT_EQ(learn_swing(data, mirrored).notes, std::vector<std::string>{});
+  data.changes.col(0).array() += 0.2;  // a motor that pulls to one side
+  const std::vector<std::string> notes = learn_swing(data, mirrored).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("measured steps contradict it: output 0"), std::string::npos) << notes[0];
+  EXPECT_EQ(learn_swing(data, ZeroMean{}).notes, std::vector<std::string>{});
+}
+
 TEST(Learn, NoisyVarianceAddsTheLearnedNoise) {
   const Dataset data = swing::data(30, 1), held_out = swing::data(10, 2);
   ZeroMean noisy;
