@@ -116,7 +116,7 @@ void print_told(const experiment::TellResult& told, const std::string& folder) {
   if (told.trial && told.known_before) put("trial {}: return {:.4g}\n", told.trial->trial, told.trial->total_reward);
   if (told.trial)
     for (const std::string& note : told.trial->notes) put("  {}\n", note);
-  put("next: {}\n", command_line({"ask", folder}));
+  put("next: {}\n", told.still_asked ? command_line({"tell", folder, "EPISODE.csv"}) : command_line({"ask", folder}));
 }
 
 std::string after_comma(const std::string& text) { return text.empty() ? "" : ", " + text; }
@@ -181,7 +181,7 @@ int take_back(const experiment::Catalogue& catalogue, const TellArguments& argum
 int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments) {
   if (arguments.undo) return take_back(catalogue, arguments);
   if (arguments.files.empty()) throw InvalidInput("FILE.csv is required: what the robot did");
-  if (arguments.no_fault && !arguments.stopped) throw InvalidInput("--no-fault goes with --stopped");
+  if (arguments.no_fault && !arguments.stopped) throw InvalidInput("--no-fault goes with --stopped \"REASON\"");
   if (arguments.stopped && arguments.stopped->empty()) throw InvalidInput("--stopped says no reason");
   experiment::TellRequest request{.files = {arguments.files.begin(), arguments.files.end()}, .stopped = {}};
   if (arguments.stopped) request.stopped = {*arguments.stopped, !arguments.no_fault};

@@ -23,6 +23,7 @@ struct ListArguments {
 struct CheckArguments {
   std::string robot;               // a file, or the name of a built-in one
   std::optional<std::string> out;  // the page with its motion
+  bool no_plant = false;
 };
 
 struct NewArguments {

@@ -14,6 +14,7 @@
 #include "apps/cli/output_file.hpp"
 #include "apps/cli/program.hpp"
 #include "apps/cli/signals.hpp"
+#include "apps/cli/status_line.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/experiment/given_policy.hpp"
@@ -182,9 +183,9 @@ void announce(const Work& work, const EvaluateArguments& arguments) {
   const auto& earned = work.policy.total_reward;
   if (const prior::Prior* prior = work.resolved.stand_in())
     put("there is no [plant]: the prior {} plays the robot, as it was identified, without the GPs\n", prior->name);
-  put("the policy of {}{}: {} episodes of {:g} s, seed {}{}{}\n", whose,
-      earned ? fmt::format(" (return {:.4g})", *earned) : "", work.wanted.plan.episodes, work.episode_s(),
-      work.wanted.plan.seed, settings.empty() ? "" : ", ", settings);
+  put("the policy of {}{}: {} of {:g} s, seed {}{}{}\n", whose, earned ? fmt::format(" (return {:.4g})", *earned) : "",
+      counted(work.wanted.plan.episodes, "episode"), work.episode_s(), work.wanted.plan.seed,
+      settings.empty() ? "" : ", ", settings);
 }
 
 /// Ways to policies that hold longer, where this one does not and the learner has some that it did not take.

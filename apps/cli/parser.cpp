@@ -44,6 +44,8 @@ void add_check(CLI::App& app, CheckArguments& arguments) {
       ->required();
   add(command, "--out", arguments.out,
       "Also show the motion of an episode of random actions, as a page for the browser", "FILE.html");
+  command->add_flag("--no-plant", arguments.no_plant,
+                    "Leave the plant alone, which may be a real robot: the first prior plays it");
   command->footer(fmt::format(kNewExample, program_name()));
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <span>
 
 #include <fmt/format.h>
@@ -58,9 +59,12 @@ void print_task(const scenario::Scenario& scenario, const std::string& summary, 
   put("{}: {} steps of {} s, {} s in all\n", scenario.name, task.horizon, task.dt_s, task.episode_s());
   if (!summary.empty()) put("  {}\n", summary);
   put("\nstates\n");
-  for (std::size_t i = 0; i < own_states(task).size(); ++i)
-    put("  {}; starts at {:.4g} ± {:.3g}\n", description(task.states[i]), task.start_mean(static_cast<Index>(i)),
-        task.start_std(static_cast<Index>(i)));
+  for (std::size_t i = 0; i < own_states(task).size(); ++i) {
+    const double start = task.start_mean(static_cast<Index>(i)), turns = std::abs(start) / (2 * std::numbers::pi);
+    put("  {}; starts at {:.4g} ± {:.3g}\n", description(task.states[i]), start, task.start_std(static_cast<Index>(i)));
+    if (task.states[i].kind == StateKind::angle && turns > 1)
+      put("    that is {:.1f} turns; is it in degrees? Half a turn is pi = 3.1416\n", turns);
+  }
   put("actions\n");
   for (const ActionVariable& action : task.actions)
     put("  {}{} from {:g} to {:g}{}\n", action.name, action.unit.empty() ? "" : fmt::format(" [{}]", action.unit),
@@ -174,17 +178,23 @@ std::string text_of_new(const std::string& name, const std::string& path) {
 int check(const experiment::Catalogue& built_in, const CheckArguments& arguments, const std::string& share) {
   Violations violations;
   require_page(arguments.out, violations);
+  violations.require(!arguments.out || !arguments.no_plant, "--out shows the plant's motion: leave --no-plant out");
   violations.throw_if_any();
   const experiment::Catalogue catalogue = with_robot(built_in, arguments.robot);
   const auto builder = catalogue.scenario_or_throw(catalogue.scenario_name(arguments.robot));
-  const scenario::Scenario scenario = builder->build();
+  scenario::Scenario scenario = builder->build();
+  if (arguments.no_plant) scenario.make_plant = nullptr;
   const scenario::Details details = builder->details();
   print_task(scenario, builder->summary(), details);
   if (scenario.require_ready) scenario.require_ready();
   const robot_file::Tried tried = robot_file::try_out(scenario);
   const bool driven = static_cast<bool>(scenario.make_plant);
-  if (!driven) put("plant\n  none: there is no [plant], so its episodes are told\n");
-  if (!details.plant.empty()) put("plant\n");
+  if (arguments.no_plant)
+    put("plant\n  left alone\n");
+  else if (!driven)
+    put("plant\n  none: there is no [plant], so its episodes are told\n");
+  else if (!details.plant.empty())
+    put("plant\n");
   print_lines("  ", details.plant);
   put("priors, on {} steps of {} under random actions{}\n", tried.steps,
       driven ? "the plant" : "the first prior, which plays the robot here", early_ends(tried, scenario.task));
@@ -204,7 +214,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
   put("\nall is well; to learn: {}{}\n",
       command_line({"learn", arguments.robot, "--learner", scenario.priors.empty() ? "black-drops" : "gp-mi"}),
-      driven ? "" : " --trials 0");
+      driven || arguments.no_plant ? "" : " --trials 0");
   return kSuccess;
 }
 

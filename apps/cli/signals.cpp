@@ -11,6 +11,7 @@
 
 #include "apps/cli/complain.hpp"
 #include "apps/cli/program.hpp"
+#include "rehearse/system/process.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -20,9 +21,16 @@ constexpr auto kGrace = std::chrono::seconds(1);
 volatile std::sig_atomic_t remembered = 0;
 sem_t came;  // posted by the first signal, and by the end of the watch
 
+/// The second signal: programs that we started have no terminal's signals, and no destructor ends them now.
+void end_at_once(int signal) {
+  system::kill_programs();
+  std::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
 void remember(int signal) {
   remembered = signal;
-  for (const int number : {SIGINT, SIGTERM}) std::signal(number, SIG_DFL);
+  for (const int number : {SIGINT, SIGTERM}) std::signal(number, end_at_once);
   sem_post(&came);
 }
 
@@ -65,6 +73,7 @@ void SignalWatch::watch() {
   say("stopping; again to end at once");
   if (over_changed_.wait_for(lock, kGrace, [this] { return over_; })) return;
   say(last_words_());
+  system::kill_programs();
   ::_exit(exit_code_of_signal());
 }
 

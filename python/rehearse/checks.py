@@ -122,5 +122,13 @@ def read_text(path: Union[str, os.PathLike[str]]) -> str:
 
 
 def write_text(path: Union[str, os.PathLike[str]], content: str) -> Path:
-    Path(path).write_text(content, encoding="utf-8")
-    return Path(path)
+    """Writes the whole file, or leaves the one that was there."""
+    target = Path(path)
+    beside = target.with_name(f".{target.name}.{os.getpid()}")
+    try:
+        beside.write_text(content, encoding="utf-8")
+        os.replace(beside, target)
+    except BaseException:
+        beside.unlink(missing_ok=True)
+        raise
+    return target

@@ -93,16 +93,18 @@ void check(const History& history, const std::vector<ToldFile>& files, const Tel
                                    history.asked ? "several files are logs" : "none was asked for"));
   if (are_logs(history, request)) return;
   if (!history.asked)
-    throw InvalidInput(fmt::format(
-        "{} tells of no trial: trial {} was not asked for. Logs of other controllers are taken before the first trial",
-        files.front().path.string(), history.done() + 1));
+    throw InvalidInput(
+        fmt::format("{} tells of no trial: trial {} was not asked for (`ask` comes first). Logs of other controllers "
+                    "are taken before the first trial",
+                    files.front().path.string(), history.done() + 1));
   if (files.size() != 1)
     throw InvalidInput(
         fmt::format("trial {} is to come, one file tells it, but {} are named", history.asked->trial, files.size()));
 }
 
 TellResult already_told(const Resolved& resolved, const History& history, const std::vector<ToldFile>& files) {
-  TellResult told{.resolved = resolved, .trial = {}, .logs = {}, .known_before = true};
+  TellResult told{
+      .resolved = resolved, .trial = {}, .logs = {}, .known_before = true, .still_asked = history.asked.has_value()};
   for (const ToldFile& file : files) {
     const KnownAs as = known_as(history, file, resolved.scenario.task);
     if (as.trial > 0) told.trial = history.trials[static_cast<std::size_t>(as.trial) - 1];

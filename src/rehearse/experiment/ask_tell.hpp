@@ -36,6 +36,7 @@ struct TellResult {
   std::optional<TrialRecord> trial;  // the one that the file tells; empty: they are logs
   std::vector<Log> logs;             // these
   bool known_before = false;         // the files were told already, and nothing was changed
+  bool still_asked = false;          // a policy is asked for, whose trial is to come
   bool dropped = false;              // the policy that was asked for: it was made without these logs
 };
 

@@ -34,6 +34,7 @@ bool answers_alike(const policy::Policy& policy, const Vector& theta, const Task
   Matrix U(1, policy.actions());
   for (std::size_t i = 0; i < test.at("states").size(); ++i) {
     const Matrix X = to_vector(test.at("states").at(i)).transpose();
+    if (X.cols() != task.state_size()) return false;
     policy.act(theta.transpose(), X, test.at("times_s").at(i).get<double>(), U);
     task.actuators().command(X, U);
     const Vector said = to_vector(test.at("actions").at(i));

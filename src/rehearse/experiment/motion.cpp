@@ -69,7 +69,7 @@ std::string motion_json(const scenario::Drawing& drawing, const Matrix& states) 
     Json all = to_json(kind);
     all["frames"] = Json::array();
     for (Index t = 0; t < states.rows(); ++t) all["frames"].push_back(frame_of(kind, Vector(states.row(t))));
-    return all.dump() + "\n";
+    return all.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";  // names of bodies may be no UTF-8
   };
   return std::visit(write, drawing);
 }

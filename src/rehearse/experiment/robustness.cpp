@@ -10,8 +10,7 @@
 namespace rehearse::experiment {
 namespace {
 
-/// The beginning of the options that are the robot's parameters.
-std::string group_of(const Resolved& run) { return run.stand_in() ? "prior." : "scenario.plant."; }
+const std::string kPlant = "scenario.plant.";  // the beginning of the options that are the robot's parameters
 
 struct Value {
   std::string parameter;
@@ -19,17 +18,31 @@ struct Value {
 };
 
 /// The robot's parameters that a factor changes.
-std::vector<Value> parameters_of(const Spec& complete, const std::string& group) {
+std::vector<Value> parameters_of(const Resolved& run) {
   std::vector<Value> all;
-  for (const auto& [key, text] : complete.options) {
-    double value = 0;
-    if (key.starts_with(group) && from_text(text, value) && value != 0)
-      all.push_back({key.substr(group.size()), value});
+  const auto add = [&all](const std::string& name, double value) {
+    if (value != 0) all.push_back({name, value});
+  };
+  if (const prior::Prior* prior = run.stand_in()) {
+    for (const Parameter& parameter : prior->space.all())
+      if (parameter.kind != Parameter::Kind::discrete) add(parameter.name, parameter.value);
+  } else {
+    for (const auto& [key, text] : run.spec.options)
+      if (double value = 0; key.starts_with(kPlant) && from_text(text, value)) add(key.substr(kPlant.size()), value);
   }
   if (all.empty())
-    throw InvalidInput(
-        fmt::format("scenario {} has no parameter {}NAME that could be changed", complete.scenario, group));
+    throw InvalidInput(fmt::format("scenario {} has no parameter {}NAME that could be changed", run.spec.scenario,
+                                   run.stand_in() ? "prior." : kPlant));
   return all;
+}
+
+/// The run whose prior, which plays the robot, has another value of a parameter: bounds of learning do not hold here.
+Resolved with_prior_at(Resolved run, const std::string& parameter, double value) {
+  ParameterSpace& space = run.prior->space;
+  Vector phi = space.values();
+  phi(space.find(parameter)) = value;
+  space = space.fixed_at(phi);
+  return run;
 }
 
 void add_rate(std::vector<std::string>& row, const std::optional<Rate>& rate) {
@@ -43,8 +56,7 @@ void add_rate(std::vector<std::string>& row, const std::optional<Rate>& rate) {
 std::vector<Changed> robustness(const std::function<Resolved(const std::string& key, const std::string& value)>& make,
                                 const Resolved& run, const Learned& learned, const EvaluationPlan& plan,
                                 const Evaluator& evaluator) {
-  const std::string group = group_of(run);
-  const std::vector<Value> parameters = parameters_of(run.spec, group);
+  const std::vector<Value> parameters = parameters_of(run);
   const Summary unchanged = summary_of(evaluate(run, learned, plan, evaluator));
   std::vector<Changed> all;
   for (const auto& [parameter, value] : parameters)
@@ -52,7 +64,8 @@ std::vector<Changed> robustness(const std::function<Resolved(const std::string& 
       const double changed = factor * value;
       all.push_back({parameter, factor, changed, unchanged});
       if (factor == 1) continue;
-      const Resolved other = make(group + parameter, fmt::format("{}", changed));
+      const Resolved other = run.stand_in() ? with_prior_at(run, parameter, changed)
+                                            : make(kPlant + parameter, fmt::format("{}", changed));
       all.back().summary = summary_of(evaluate(other, learned, plan, evaluator));
     }
   return all;

@@ -19,10 +19,10 @@ struct Changed {
 /// Factors of a parameter: ± 25 %.
 inline const std::vector<double> kFactors = {0.75, 0.875, 1, 1.125, 1.25};
 
-/// Evaluates the policy with one parameter of the plant changed at a time, each of the options plant.NAME (prior.NAME
-/// where the prior plays the robot) that is not 0, by every factor, always with the same random numbers. make: the run
-/// with one more option (`read_run`). Throws InvalidInput if the scenario has no such option, and what `evaluate`
-/// throws.
+/// Evaluates the policy with one parameter of the plant changed at a time, each of the options plant.NAME (where the
+/// prior plays the robot, of its parameters that are no choices) that is not 0, by every factor, always with the same
+/// random numbers. make: the run with one more option (`read_run`). Throws InvalidInput if the scenario has no such
+/// option, and what `evaluate` throws.
 std::vector<Changed> robustness(const std::function<Resolved(const std::string& key, const std::string& value)>& make,
                                 const Resolved& run, const Learned& learned, const EvaluationPlan& plan,
                                 const Evaluator& evaluator);

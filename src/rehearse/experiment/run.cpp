@@ -20,9 +20,10 @@ bool is_over(const Spec& spec, const History& history) {
 
 void require_plant(const Resolved& resolved) {
   if (!resolved.scenario.make_plant)
-    throw InvalidInput(fmt::format(
-        "{} has no plant that could be driven: begin with --trials 0, then `ask` and `tell` go on a trial at a time",
-        resolved.spec.scenario));
+    throw InvalidInput(
+        fmt::format("{} has no plant that could be driven: in a run that began with --trials 0 `ask` and `tell` go on "
+                    "a trial at a time",
+                    resolved.spec.scenario));
 }
 
 /// Throws InvalidInput, for instance where a program cannot be started.
@@ -119,8 +120,8 @@ RunResult resume_run(const Catalogue& built_in, const std::filesystem::path& pat
   const Spec extended = extended_spec(folder.spec(), path, until, history.done());
   if (extended.trials == 0)
     throw InvalidInput(
-        fmt::format("{} goes on by `ask` and `tell`, a trial at a time; --trials N would let Rehearse "
-                    "drive the plant",
+        fmt::format("{} goes on by `ask` and `tell`, a trial at a time; where there is a [plant], "
+                    "--trials N lets Rehearse drive it",
                     path.string()));
   Participants participants(resolve(catalogue, extended), options);
   if (!is_over(extended, history)) {

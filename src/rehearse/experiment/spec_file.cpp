@@ -32,7 +32,7 @@ std::string in_quotes(std::string_view text) {
 /// Numbers and booleans as such where they come back as the same text, all else quoted.
 std::string value(const std::string& text) {
   try {
-    const toml::table parsed = toml::parse("v = " + text);
+    const toml::table parsed = files::parse_toml("v = " + text, "");
     if (parsed.size() == 1 && !parsed["v"].is_string() && files::text_of(*parsed.get("v")) == text) return text;
   } catch (const std::runtime_error&) {  // no TOML value: quoted
   }

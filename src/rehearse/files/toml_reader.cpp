@@ -30,7 +30,8 @@ class Unquoted final : public FieldVisitor {
 }  // namespace
 
 std::string in_file(const std::string& source, Index line, const std::string& message) {
-  return line > 0 ? fmt::format("{}: line {}: {}", source, line, message) : fmt::format("{}: {}", source, message);
+  const std::string where = source.empty() ? "" : source + ": ";
+  return line > 0 ? fmt::format("{}line {}: {}", where, line, message) : where + message;
 }
 
 void FileViolations::throw_if_any() const {
@@ -43,29 +44,36 @@ namespace {
 
 constexpr Index kDeepest = 256;  // tables in tables; the parser bounds arrays so, and recurses without a bound for keys
 
-/// The most dots between the parts of one key in a line.
-Index dots_of_a_key(std::string_view line) {
-  Index most = 0, dots = 0;
-  for (std::size_t i = 0; i < line.size() && line[i] != '#'; ++i) {
-    const char c = line[i];
-    if ((c == '"' || c == '\'') && line.substr(i, 3) != std::string(3, c)) {
-      do ++i;
-      while (i < line.size() && (line[i] != c || (c == '"' && line[i - 1] == '\\')));
-    } else if (std::string_view(",={}[]").find(c) != std::string_view::npos) {
-      dots = 0;
-    } else if (c == '.') {
-      most = std::max(most, ++dots);
+/// The place after the string whose opening quote is at `at`; one that is not closed ends with its line or the text.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const bool many_lines = text.substr(at, 3) == std::string(3, quote);
+  const std::string closing(many_lines ? 3 : 1, quote);
+  for (std::size_t i = at + closing.size(); i < text.size(); ++i) {
+    if (!many_lines && text[i] == '\n') return i;
+    if (text.substr(i, closing.size()) == closing) {
+      i += closing.size();
+      for (int more = 0; many_lines && more < 2 && i < text.size() && text[i] == quote; ++more) ++i;  // its own quotes
+      return i;
     }
+    if (quote == '"' && text[i] == '\\') ++i;
   }
-  return most;
+  return text.size();
 }
 
+/// Refuses keys of more parts than the parser can take.
 void check_depth(std::string_view text, const std::string& source) {
-  for (Index line = 1; !text.empty(); ++line) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    if (dots_of_a_key(text.substr(0, end)) >= kDeepest)
+  Index line = 1, dots = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    std::size_t next = i + 1;
+    if (c == '"' || c == '\'') next = end_of_string(text, i);
+    if (c == '#') next = std::min(text.find('\n', i), text.size());
+    if (std::string_view("\n,={}[]").find(c) != std::string_view::npos) dots = 0;
+    if (c == '.' && ++dots >= kDeepest)
       throw InvalidInput(in_file(source, line, fmt::format("a key has more than {} parts", kDeepest)));
-    text.remove_prefix(std::min(end + 1, text.size()));
+    line += std::ranges::count(text.substr(i, next - i), '\n');
+    i = next;
   }
 }
 
@@ -75,6 +83,8 @@ std::string remedy(std::string_view error) {
                            "key-value pair: expected a comment"})  // NAME = m * l, unit = kg, dt_s = 5 ms
     if (error.starts_with(fmt::format("Error while parsing {}", kind)))
       return "; formulas, names and units stand in quotes";
+  if (error.find("unescaped control characters other than TAB") != std::string_view::npos)
+    return "; is the closing quote missing?";
   if (error.find("cannot redefine existing table") != std::string_view::npos)
     return "; where there are several tables of a kind, each is in double brackets, such as [[state]]";
   return "";

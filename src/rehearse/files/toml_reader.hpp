@@ -14,7 +14,7 @@
 
 namespace rehearse::files {
 
-/// "SOURCE: line N: MESSAGE"; without a line if that is 0.
+/// "SOURCE: line N: MESSAGE"; without a line if that is 0, without a source if that is empty.
 std::string in_file(const std::string& source, Index line, const std::string& message);
 
 /// Violations found in a file.

@@ -12,6 +12,7 @@ double sign(Score score) { return score == Score::sum ? 1 : -1; }
 }  // namespace
 
 double score_of(const Vector& log_likelihoods, Score score) {
+  if (log_likelihoods.size() == 0) return 0;
   if (!log_likelihoods.allFinite()) return -std::numeric_limits<double>::infinity();
   if (score == Score::product) return log_likelihoods.sum();
   const double largest = (sign(score) * log_likelihoods).maxCoeff();
@@ -20,7 +21,7 @@ double score_of(const Vector& log_likelihoods, Score score) {
 }
 
 Vector score_gradient(const Vector& log_likelihoods, Score score) {
-  if (score == Score::product) return Vector::Ones(log_likelihoods.size());
+  if (score == Score::product || log_likelihoods.size() == 0) return Vector::Ones(log_likelihoods.size());
   const double largest = (sign(score) * log_likelihoods).maxCoeff();
   const Vector terms = (sign(score) * log_likelihoods.array() - largest).exp();
   return terms / terms.sum();

@@ -22,8 +22,12 @@ std::string_view cleaned(std::string_view text, std::vector<std::string>& notes)
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const auto control = [](unsigned char c) { return c < ' ' && c != '\n' && c != '\r' && c != '\t'; };
   if (std::ranges::any_of(text, control)) throw InvalidInput("it is no text: there are control characters in it");
+  if (text.empty()) throw InvalidInput("the file is empty");
   const auto last_end = text.find_last_of('\n');
-  if (last_end == std::string_view::npos) throw InvalidInput("there is no row: no line of it has an end");
+  if (last_end == std::string_view::npos)
+    throw InvalidInput(text.find('\r') == std::string_view::npos
+                           ? "there is no row: no line of it has an end"
+                           : "its lines end with CR alone, must end with LF or CR LF");
   if (text.substr(last_end + 1).find_first_not_of(" \t") != std::string_view::npos)
     notes.emplace_back("the last row is left out: it has no end, so that it may be cut short");
   text = text.substr(0, last_end + 1);

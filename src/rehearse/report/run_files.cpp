@@ -25,14 +25,6 @@ constexpr std::int64_t kRunFormat = 1;  // of spec.toml and of the checkpoint
 
 fs::path trial_file(const char* kind, Index trial) { return fs::path(kind) / fmt::format("trial-{:03}.csv", trial); }
 
-toml::table parse(const std::string& text) {
-  try {
-    return toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    throw InvalidInput(fmt::format("line {}: {}", error.source().begin.line, std::string(error.description())));
-  }
-}
-
 /// Under every section but [run].
 std::vector<std::pair<std::string, std::string>> options_of(const toml::table& file) {
   std::vector<std::pair<std::string, std::string>> options;
@@ -183,7 +175,7 @@ std::optional<double> RunSpec::truth(const std::string& name) const {
 }
 
 RunSpec read_spec(const fs::path& folder) {
-  const toml::table file = parse(read_text(folder / "spec.toml"));
+  const toml::table file = files::parse_toml(read_text(folder / "spec.toml"), "");
   const std::int64_t format = file["format"].value_or(std::int64_t{0});
   if (format == 0 || !file["run"].is_table()) throw InvalidInput("it is no spec: it needs `format` and [run]");
   if (format != kRunFormat)

@@ -12,6 +12,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/stopwatch.hpp"
+#include "rehearse/robot_file/differences.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::robot_file {
@@ -75,7 +76,11 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
   const auto plant = plant_or_prior(scenario);
   const auto state_of = [&](const Vector& measured) {
     const Vector truth = plant->truth();
-    return truth.size() > 0 ? truth : measured;
+    Vector state = truth.size() > 0 ? truth : measured;
+    if (state.size() != task.state_size())
+      throw std::runtime_error(
+          fmt::format("the plant's state has {} entries, must have {}", state.size(), task.state_size()));
+    return state;
   };
   try {
     for (Index e = 0; plant && e < episodes; ++e) {
@@ -113,33 +118,15 @@ std::vector<double> others(const Parameter& parameter) {
           parameter.box.low + 0.75 * (parameter.box.high - parameter.box.low)};
 }
 
-/// Distances of predictions; infinite where one of both is none.
-Matrix apart(const Matrix& one, const Matrix& other) {
-  return one.binaryExpr(other, [](double a, double b) {
-    if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b) ? 0 : kInf;
-    return std::abs(a - b);
-  });
-}
-
-/// Distances up to which predictions dX of states X may be the same but for rounding, one a state. A parameter that
-/// cancels leaves some 1e-16 of state and change, which integration multiplies; one that changes less cannot be
-/// learned.
-Vector rounding(const Matrix& X, const Matrix& dX) {
-  const auto largest = [](const Matrix& rows) -> Vector {
-    return rows.array().isFinite().select(rows, 0).cwiseAbs().colwise().maxCoeff().transpose();
-  };
-  return 1e-14 * largest(X) + 1e-10 * largest(dX);
-}
-
-/// The rows and the state that are further apart than tolerated, for people; empty: there are none.
-std::string difference(const Task& task, const Matrix& distances, const Vector& tolerated) {
-  const Matrix excess = distances.rowwise() - tolerated.transpose();
-  Index row = 0, state = 0;
-  if (excess.maxCoeff(&row, &state) <= 0) return {};
-  const std::string by = std::isfinite(distances(row, state)) ? fmt::format("by {:.2g}", distances(row, state))
-                                                              : "from a prediction to none";
-  return fmt::format("{} of {} rows, {} {}", (excess.rowwise().maxCoeff().array() > 0).count(), excess.rows(),
-                     task.states[static_cast<std::size_t>(state)].name, by);
+/// A line for a plant that did not repeat itself.
+std::string other_things(const Task& task, const Steps& one, const Steps& other) {
+  const Index rows = std::min(one.X.rows(), other.X.rows());
+  const std::string by =
+      difference(task, apart(one.dX.topRows(rows), other.dX.topRows(rows)), Vector::Zero(one.dX.cols()));
+  return fmt::format(
+      "the plant does other things from the same start and the same random numbers ({}): a simulation must repeat "
+      "itself; a real robot is left alone by --no-plant",
+      by.empty() ? "episodes end at other steps" : by);
 }
 
 /// States around those of the steps, ever wider, and random actions: contacts are seldom reached from the start.
@@ -278,8 +265,10 @@ Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t 
   if (!steps.dX.allFinite())
     tried.broken.emplace_back("the plant comes to states that are not finite");
   else if (again.X.rows() != steps.X.rows() || again.dX != steps.dX)
-    tried.broken.emplace_back("the plant does other things from the same start and the same random numbers");
+    tried.broken.push_back(other_things(task, steps, again));
   if (steps.X.rows() == 0) return tried;
+  if (steps.dX.isZero(0))
+    tried.broken.emplace_back("no step changes any state: is a formula infinite where it starts?");
   Rng rng({.seed = seed, .trial = static_cast<std::uint64_t>(episodes) + 1, .purpose = Purpose::start_state});
   const Steps wide = spread(task, steps, rng);
   for (const scenario::NamedPrior& prior : scenario.priors) tried.priors.push_back(try_prior(task, prior, steps, wide));

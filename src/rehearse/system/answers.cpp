@@ -64,7 +64,7 @@ std::string frame_fault(std::string_view written, Index rows, Index dx) {
   if (written.size() < sizeof answered) return {};
   std::memcpy(&answered, written.data(), sizeof answered);
   if (answered == rows) return fmt::format("it wrote more than the {} bytes of n = {}", frame_size(rows, dx), rows);
-  if (std::abs(answered) > kMost) return {};
+  if (answered > kMost || answered < -kMost) return {};
   return fmt::format("it answered n = {}, asked for {}", answered, rows);
 }
 

@@ -16,6 +16,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -74,8 +75,12 @@ class Server {
 
   [[noreturn]] void run() {
     leave_the_parents_things();
-    Request request;
-    while (receive(socket_, &request, sizeof request) && answer(request)) {
+    try {
+      Request request;
+      while (receive(socket_, &request, sizeof request) && answer(request)) {
+      }
+    } catch (...) {  // memory may be used up; nothing of the parent's stack is unwound here
+      _exit(1);
     }
     _exit(0);
   }
@@ -86,6 +91,7 @@ class Server {
     prctl(PR_SET_NAME, "rehearse-worker");
     for (const int number : {SIGTERM, SIGABRT, SIGSEGV, SIGFPE, SIGILL, SIGBUS}) std::signal(number, SIG_DFL);
     std::signal(SIGINT, SIG_IGN);
+    end_with_the_parent();
     constexpr rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
     const int nowhere = open("/dev/null", O_RDWR);
@@ -93,6 +99,21 @@ class Server {
     const auto socket = static_cast<unsigned>(socket_);
     if (socket > 3) close_range(3, socket - 1, 0);
     close_range(socket + 1, ~0U, 0);
+  }
+
+  /// A row that never ends does not see that the socket is closed. The kernel's signal of a parent's death would come
+  /// with the end of the thread that forked, so we look once a second.
+  static void end_with_the_parent() {
+    static pid_t parent;
+    parent = getppid();
+    struct sigaction look {};
+    look.sa_handler = [](int) {
+      if (getppid() != parent) _exit(0);
+    };
+    look.sa_flags = SA_RESTART;
+    sigaction(SIGALRM, &look, nullptr);
+    constexpr itimerval every_second{{1, 0}, {1, 0}};
+    setitimer(ITIMER_REAL, &every_second, nullptr);
   }
 
   bool answer(const Request& request) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -24,6 +25,21 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLastWords = 2000;  // bytes of standard error that are kept
 constexpr std::size_t kPipe = 1 << 20;    // bytes: a batch goes through without the two waiting for each other
+constexpr double kForever = 1e9;          // s
+
+/// The programs that run, for kill_programs; 0 where a place is free.
+std::array<std::atomic<pid_t>, 1024> running{};
+static_assert(std::atomic<pid_t>::is_always_lock_free);  // it is read in handlers of signals
+
+void note_running(pid_t process) {
+  for (auto& place : running)
+    if (pid_t free = 0; place.compare_exchange_strong(free, process)) return;
+}
+
+void note_ended(pid_t process) {
+  for (auto& place : running)
+    if (pid_t own = process; place.compare_exchange_strong(own, 0)) return;
+}
 
 [[noreturn]] void fail(int error, const std::string& what) {
   throw std::system_error(error, std::generic_category(), what);
@@ -109,7 +125,10 @@ Process::Process(const std::vector<std::string>& command, const std::filesystem:
   const int failed = Spawning(streams, folder.string()).spawn(command, process_);
   close_all({streams.input[1], streams.output[1], streams.error[1]});
   input_ = streams.input[0], output_ = streams.output[0], error_ = streams.error[0];
-  if (failed == 0) return;
+  if (failed == 0) {
+    note_running(process_);
+    return;
+  }
   close_all({input_, output_, error_});
   fail(failed, fmt::format("the program '{}' cannot be started", command.front()));
 }
@@ -117,6 +136,7 @@ Process::Process(const std::vector<std::string>& command, const std::filesystem:
 Process::~Process() {
   close_all({input_, output_, error_});
   if (process_ < 0) return;
+  note_ended(process_);
   kill(-process_, SIGKILL);
   while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
   }
@@ -158,8 +178,8 @@ bool Process::has_unasked_answer(const Complete& complete, std::size_t most) {
 
 Process::Outcome Process::exchange(std::string_view message, const Complete& complete, Limits limits) {
   if (has_unasked_answer(complete, limits.bytes)) return Outcome::unasked;
-  const auto until =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
+  const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(std::min(limits.seconds, kForever)));
   for (;;) {
     const std::size_t end = received_.empty() ? 0 : complete(received_);
     if (end == kNoAnswer) return Outcome::wrong;
@@ -192,12 +212,18 @@ std::string Process::end() {
   }
   if (ended == 0) return "it closed its standard output";
   if (ended == process_) {
+    note_ended(process_);
     kill(-process_, SIGKILL);  // its own children
     process_ = -1;
   }
   if (WIFSIGNALED(status))
     return fmt::format("it was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
   return fmt::format("it ended with exit status {}", WEXITSTATUS(status));
+}
+
+void kill_programs() noexcept {
+  for (const auto& place : running)
+    if (const pid_t process = place.load(); process > 0) kill(-process, SIGKILL);
 }
 
 }  // namespace rehearse::system

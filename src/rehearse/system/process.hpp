@@ -59,4 +59,8 @@ class Process {
   std::string received_, answer_, errors_;
 };
 
+/// Kills the programs of all objects, each with its group. For a process that ends without their destructors: it may be
+/// called in a handler of signals.
+void kill_programs() noexcept;
+
 }  // namespace rehearse::system

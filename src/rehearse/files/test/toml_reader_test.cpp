@@ -69,6 +69,14 @@ TEST(Toml, RefusesKeysThatAreTooDeep) {
   EXPECT_EQ(message_of<InvalidInput>([&] { parse_toml("[" + deep + "]\n", "x.toml"); }),
             "x.toml: line 1: a key has more than 256 parts");
   EXPECT_EQ(parse_toml(numbers, "x.toml").size(), 1U);
+  for (const char* text :
+       {R"("\\")", R"("""#""")", R"("""a"""")", R"('''"''')"})  // none of them hides the key behind it
+    EXPECT_EQ(message_of<InvalidInput>([&] { parse_toml(fmt::format("k = {{p = {}, {} = 1}}\n", text, deep), ""); }),
+              "line 1: a key has more than 256 parts")
+        << text;
+  const std::string dots(1000, '.');
+  for (const char* text : {"'''\n{}'''", R"("\"{}")", R"("""\"{}"""")", "'{}'"})  // a text is no key
+    EXPECT_EQ(parse_toml(fmt::format("x = {}\ny = 1\n", fmt::format(fmt::runtime(text), dots)), "x.toml").size(), 2U);
 }
 
 TEST(TomlReader, NumbersAndFlagsStandWithoutQuotes) {

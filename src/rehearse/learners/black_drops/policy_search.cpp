@@ -157,21 +157,30 @@ SolvingRates solving_rates(const SearchProblem& problem, const std::vector<Vecto
   SolvingRates all{.rates = Vector::Zero(static_cast<Index>(policies.size()))};
   if (!problem.task.solved) return all;
   const Index rollouts = comparisons(problem, options);
+  const auto models = static_cast<Index>(problem.doubted.size());
   std::vector<Index> failed(policies.size());
   problem.evaluator.for_each(all.rates.size(), [&](Index j) {
-    const Matrix Theta = policies[static_cast<std::size_t>(j)].transpose().replicate(rollouts, 1);
-    rollout::Episodes episodes;
-    rollout::simulate_episodes({problem.model, problem.policy, problem.task, key, options.simulate}, Theta, 0, episodes,
-                               problem.evaluator);
-    Episode episode;
     Index solved = 0;
-    for (Index i = 0; i < episodes.rows(); ++i) {
-      if (episodes.failed[static_cast<std::size_t>(i)]) {
-        ++failed[static_cast<std::size_t>(j)];
-        continue;
+    const auto simulate = [&](const dynamics::DynamicsModel& model, Index count, const StreamKey& stream) {
+      const Matrix Theta = policies[static_cast<std::size_t>(j)].transpose().replicate(count, 1);
+      rollout::Episodes episodes;
+      rollout::simulate_episodes({model, problem.policy, problem.task, stream, options.simulate}, Theta, 0, episodes,
+                                 problem.evaluator);
+      Episode episode;
+      for (Index i = 0; i < episodes.rows(); ++i) {
+        if (episodes.failed[static_cast<std::size_t>(i)]) {
+          ++failed[static_cast<std::size_t>(j)];
+          continue;
+        }
+        episodes.copy(i, episode);
+        solved += problem.task.solved(episode);
       }
-      episodes.copy(i, episode);
-      solved += problem.task.solved(episode);
+    };
+    if (models == 0) simulate(problem.model, rollouts, key);
+    for (Index m = 0; m < std::min(models, rollouts); ++m) {
+      StreamKey stream = key;
+      stream.descent = static_cast<std::uint64_t>(m) + 1;
+      simulate(*problem.doubted[static_cast<std::size_t>(m)], (rollouts - m + models - 1) / models, stream);
     }
     all.rates(j) = static_cast<double>(solved) / static_cast<double>(rollouts);
   });

@@ -230,7 +230,7 @@ std::optional<FoundPlan> search_plan(const lqr::Problem& problem, const PlanSear
 
 Index steps_to_plan(const Task& task, const PlanSearch& search) {
   if (search.plan_s <= 0) return task.horizon;
-  return std::clamp<Index>(std::lround(search.plan_s / task.dt_s), 1, task.horizon);
+  return std::lround(std::clamp(search.plan_s / task.dt_s, 1.0, static_cast<double>(task.horizon)));
 }
 
 }  // namespace rehearse::learners::gp_ilqg

@@ -131,7 +131,8 @@ TEST(Recording, WrongFilesAreRefusedWithWhatIsWrong) {
   const auto titled = [&](const std::string& titles) { return swing_csv(41, 0.05, titles); };
   const auto cell = [&](int row, int column, const std::string& text) { return with_cell(good, row, column, text); };
   const std::vector<Wrong> all = {
-      {"", "log.csv: there is no row: no line of it has an end"},
+      {"", "log.csv: the file is empty"},
+      {"time,u\r0,1\r", "log.csv: its lines end with CR alone, must end with LF or CR LF"},
       {"time", "log.csv: there is no row: no line of it has an end"},
       {"\n", "log.csv: row 1: there is no column dq"},
       {header, "log.csv: there is no row below the header"},

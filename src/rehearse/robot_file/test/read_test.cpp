@@ -52,7 +52,7 @@ TEST_P(WrongRobot, IsRefusedWithItsLine) {
 }
 
 const Wrong kWrong[] = {
-    {"format = 1", "format = 2", "line 1: a robot begins with format = 1"},
+    {"format = 1", "format = 2", "line 1: format must be 1"},
     {"name = \"swing\"", "name = \"my swing\"", "line 2: name = 'my swing', must be of letters"},
     {"name = \"swing\"", "nmae = \"swing\"", "line 2: unknown key 'nmae', did you mean 'name'?"},
     {"[define]", "[[limit]]\nname = \"a\"\n[define]", "line 21: a limit needs keep = \"…\""},

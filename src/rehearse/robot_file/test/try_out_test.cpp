@@ -137,6 +137,34 @@ TEST(TryOut, NamesARewardThatIsNoNumber) {
   EXPECT_EQ(found.broken, std::vector<std::string>{"the reward of the start is inf, must be a finite number"});
 }
 
+TEST(TryOut, SaysHowAPlantDoesNotRepeatItself) {
+  scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
+  const scenario::NamedPrior prior = scenario.priors[0];
+  double start = 0;
+  scenario.make_plant = [&] {
+    start += 0.01;  // a robot is never put down at the same place
+    return system::make_simulated_plant(prior.simulator, prior.parameters.values(),
+                                        {scenario.task.start_mean.array() + start, scenario.task.start_std, {}});
+  };
+  const Tried found = try_out(scenario);
+  ASSERT_EQ(found.broken.size(), 1u);
+  EXPECT_NE(found.broken[0].find("the same random numbers (60 of 60 rows, "), std::string::npos) << found.broken[0];
+  EXPECT_NE(found.broken[0].find("--no-plant"), std::string::npos);
+}
+
+TEST(TryOut, NamesARobotThatNothingMoves) {
+  scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
+  const scenario::NamedPrior& prior = scenario.priors[0];
+  const auto still = system::make_simulator(prior.parameters,
+                                            [](const auto&, const auto&, const auto&, MatrixView dX) { dX.setZero(); });
+  scenario.make_plant = [&] {
+    return system::make_simulated_plant(still, prior.parameters.values(),
+                                        {scenario.task.start_mean, scenario.task.start_std, {}});
+  };
+  EXPECT_EQ(try_out(scenario).broken,
+            std::vector<std::string>{"no step changes any state: is a formula infinite where it starts?"});
+}
+
 TEST(TryOut, NamesAStartWhereEpisodesEnd) {
   scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
   scenario.task.ended = each_state([](const ConstVectorView& state) { return state(1) > 2; });

@@ -1,0 +1,21 @@
+#pragma once
+// Comparisons of predictions of the same rows, for the sources of this room.
+
+#include <string>
+
+#include "rehearse/core/task.hpp"
+
+namespace rehearse::robot_file {
+
+/// Distances of predictions (rows × states); infinite where one of both is none.
+Matrix apart(const Matrix& one, const Matrix& other);
+
+/// Distances up to which predictions dX of states X may be the same but for rounding, one a state. A parameter that
+/// cancels leaves some 1e-16 of state and change, which integration multiplies; one that changes less cannot be
+/// learned.
+Vector rounding(const Matrix& X, const Matrix& dX);
+
+/// The rows and the state that are further apart than tolerated, for people; empty: there are none.
+std::string difference(const Task& task, const Matrix& distances, const Vector& tolerated);
+
+}  // namespace rehearse::robot_file
