@@ -130,6 +130,8 @@ expect 0 "told/evaluation.csv has the numbers" evaluate told --trial 1 --episode
 grep -q "prior.m=2,1,4,5," told/evaluation.csv || fail "what is set comes first: $(cat told/evaluation.csv)"
 expect 0 "told/robustness.csv has the numbers" evaluate told --trial 1 --episodes 5 --robustness
 grep -q ",m,0.75," told/robustness.csv || fail "the prior's parameters are not changed: $(cat told/robustness.csv)"
+expect 0 "told/robustness.csv has the numbers" evaluate told --trial 1 --episodes 5 --robustness --set prior.m=2
+grep -q ",m,1.25,2.5," told/robustness.csv || fail "beyond the bounds of learning: $(cat told/robustness.csv)"
 
 # A robot of a file.
 expect 0 "best return" learn own.toml --learner gp-mi --trials 1 "${quick[@]}" --out own

@@ -122,4 +122,32 @@ grep -q "its program failed" output && fail "NaN costs processes: $(cat output)"
 check_prior 'str(u[0])'
 [ $status = 2 ] && grep -q "which is neither a number nor null" output || fail "texts: $(cat output)"
 
+# A program that hangs does not outlive Rehearse.
+cat >hangs.py <<'PY'
+import os, sys
+print('{"rehearse": 1}', flush=True)
+sys.stdin.readline()
+sys.stdin.readline()
+with open(sys.argv[1] + ".new", "w") as file:
+    file.write(str(os.getpid()))
+os.rename(sys.argv[1] + ".new", sys.argv[1])
+while True:
+    pass
+PY
+for signals in INT "INT INT"; do
+  rm -f hung
+  sed "s|\"tired.py\".*|\"hangs.py\", \"$PWD/hung\"]\nanswer_s = 1000|" tired.toml >hangs.toml
+  "$program" learn hangs.toml --learner black-drops-prior --trials 1 --threads 1 --out "hangs $signals" >output 2>&1 &
+  process=$!
+  until [ -e hung ] || ! kill -0 $process 2>/dev/null; do sleep 0.05; done
+  for signal in $signals; do
+    kill -"$signal" $process
+    sleep 0.3
+  done
+  wait $process
+  [ $? = 130 ] || fail "a program that hangs, $signals: $(cat output)"
+  for ((i = 0; i < 100; ++i)); do kill -0 "$(cat hung)" 2>/dev/null || break; sleep 0.1; done # the system may be slow to clear up
+  kill -9 "$(cat hung)" 2>/dev/null && fail "a program that hangs outlives $signals"
+done
+
 finish
