@@ -48,9 +48,9 @@ class Reader {
   void read_head() {
     const toml::node* format = file_.reader().take("format");
     if (!format || format->value<std::int64_t>() != kFormat)
-      violations_.add(format ? files::line_of(*format) : 0,
-                      format ? fmt::format("format must be {}", kFormat)
-                             : fmt::format("a robot begins with format = {}", kFormat));
+      violations_.add(
+          format ? files::line_of(*format) : 0,
+          format ? fmt::format("format must be {}", kFormat) : fmt::format("a robot begins with format = {}", kFormat));
     file_.reader().take("name", robot_.name);
     if (!is_word(robot_.name))
       file_.wrong("name", fmt::format("name = '{}', must be of letters, digits, - and _", robot_.name));

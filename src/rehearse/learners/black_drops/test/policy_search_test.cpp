@@ -128,6 +128,31 @@ TEST(SolvingRates, CountSimulatedEpisodesThatSolve) {
             Vector::Zero(1));
 }
 
+// Before there are data a policy must solve the task for doubted priors, too.
+TEST(SolvingRates, GoRoundTheDoubtedModels) {
+  const auto near = [](const Vector& phi) {
+    return std::make_shared<dynamics::SimulatorModel>(slider::prior(), phi, 1e-9);
+  };
+  const auto policy = slider::policy();
+  Task task = slider::task();
+  task.start_std.setZero();
+  const Vector theta{{-1, 0}};
+  const auto end = [&](const dynamics::DynamicsModel& model) {
+    return rollout::simulate_recorded({model, *policy, task, {}, {.sample = false}}, theta, 1).states.back()(0, 0);
+  };
+  const auto truth = near(slider::kTruth), other = near(0.5 * slider::kTruth);
+  const double between = (end(*truth) + end(*other)) / 2;
+  ASSERT_NE(end(*truth), between);
+  task.solved = [&](const Episode& e) { return (e.true_states(e.steps(), 0) > between) == (end(*truth) > between); };
+  const auto rate = [&](std::vector<std::shared_ptr<const dynamics::DynamicsModel>> doubted) {
+    return solving_rates({*truth, *policy, task, serial_evaluator(), {}, std::move(doubted)}, {theta}, small(), {})
+        .rates(0);
+  };
+  EXPECT_EQ(rate({}), 1);
+  EXPECT_EQ(rate({other, truth}), 0.5);
+  EXPECT_EQ(rate({other}), 0);
+}
+
 TEST(RandomPolicy, IsUniformInTheBoxAndReproducible) {
   SearchOptions options;
   options.box = 2;
