@@ -102,6 +102,19 @@ void check(const History& history, const std::vector<ToldFile>& files, const Tel
         fmt::format("trial {} is to come, one file tells it, but {} are named", history.asked->trial, files.size()));
 }
 
+/// Throws InvalidInput where a file is the whole of an episode whose beginning was told as one that was stopped.
+void refuse_what_goes_on(const History& history, const std::vector<ToldFile>& files, const Task& task) {
+  for (const ToldFile& file : files)
+    if (const std::optional<Episode> read = readable(file, task))
+      for (std::size_t i = 0; i < history.episodes.size(); ++i)
+        if (const Episode& kept = history.episodes[i]; goes_on_after(*read, kept, task))
+          throw InvalidInput(
+              fmt::format("{} has {} steps, of which {} were told as trial {}, stopped there; to tell the whole "
+                          "instead, take that back: "
+                          "`tell` with --undo",
+                          file.path.string(), read->steps(), kept.steps(), history.trials[i].trial));
+}
+
 TellResult already_told(const Resolved& resolved, const History& history, const std::vector<ToldFile>& files) {
   TellResult told{
       .resolved = resolved, .trial = {}, .logs = {}, .known_before = true, .still_asked = history.asked.has_value()};
@@ -159,6 +172,7 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Tell
   Violations violations;
   const std::vector<ToldFile> files = read_told_files(request.files, violations);
   violations.throw_if_any();
+  refuse_what_goes_on(history, files, resolved.scenario.task);
   std::vector<ToldFile> news;
   for (const ToldFile& file : files)
     if (!known_as(history, file, resolved.scenario.task).known() ||

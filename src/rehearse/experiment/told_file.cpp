@@ -142,6 +142,11 @@ bool repeats(const Episode& read, const Episode& kept, Index most_steps) {
   return kept.states == read.states.topRows(steps + 1) && kept.actions == read.actions.topRows(steps);
 }
 
+bool goes_on_after(const Episode& read, const Episode& kept, const Task& task) {
+  return read.steps() > kept.steps() && repeats(read, kept, task.horizon) &&
+         rollout::judged(read, task).steps() > kept.steps();
+}
+
 bool follows_policy(const Episode& read, const scenario::Scenario& scenario, const TrialRecord& asked) {
   const Task& task = scenario.task;
   const Vector differences = deviations(read.part(0, std::min(read.steps(), task.horizon)), scenario, asked);

@@ -39,6 +39,9 @@ std::optional<Episode> readable(const ToldFile& file, const Task& task);
 /// taken, and none after its end.
 bool repeats(const Episode& read, const Episode& kept, Index most_steps);
 
+/// True if a file that was read so goes on where an operator, and no fall, ended the episode that is kept.
+bool goes_on_after(const Episode& read, const Episode& kept, const Task& task);
+
 /// True if the actions that were read are those of a trial's policy in the states, but for rounding.
 bool follows_policy(const Episode& read, const scenario::Scenario& scenario, const TrialRecord& asked);
 

@@ -121,6 +121,14 @@ TEST_F(AskTell, TheSameNumbersCountOnceWhateverTheBytes) {
   EXPECT_EQ(tell(told, {with_windows_ends(3)}).trial->trial, 3);
 }
 
+TEST_F(AskTell, AWholeFileAfterItsStoppedBeginningIsRefused) {
+  ask(told);
+  tell(told, {beginning(trial_of(driven, 1), 6)}, Stop{"a noise"});
+  const std::string before = checkpoint();
+  EXPECT_THROW(tell(told, {trial_of(driven, 1)}), InvalidInput);
+  EXPECT_EQ(checkpoint(), before);
+}
+
 TEST_F(AskTell, AFileThatIsToldAgainCompletesWhatAKillLeftUndone) {
   ask(told);
   const std::string before = files::read_file(told / "next/policy.json");
