@@ -85,6 +85,7 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
   try {
     for (Index e = 0; plant && e < episodes; ++e) {
       Rng rng({.seed = seed, .trial = static_cast<std::uint64_t>(e) + 1, .purpose = Purpose::start_state});
+      const system::EpisodeOn on_plant(*plant);
       Vector x = state_of(plant->reset(rng));
       for (Index t = 0; t < task.horizon; ++t) {
         const Vector u = random_action(task, x, rng), next = state_of(plant->step(u));

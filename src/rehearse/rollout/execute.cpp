@@ -110,6 +110,7 @@ Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& th
   const Matrix Theta = theta.transpose();
   Matrix u(1, task.action_size());
   const Actuators actuators = task.actuators();
+  const system::EpisodeOn on_plant(plant);
   record_state(episode, 0, checked(plant.reset(rng), task, 0), plant);
   for (Index t = 0; t < T; ++t) {
     if (before_step) before_step();

@@ -49,6 +49,7 @@ class ActuatedPlant final : public Plant {
   }
 
   bool ended() const override { return robot_->ended(); }
+  void finish() noexcept override { robot_->finish(); }
   Vector truth() const override { return with_memory(robot_->truth()); }
 
  private:

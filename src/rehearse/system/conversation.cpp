@@ -77,7 +77,7 @@ bool Conversation::ask(std::string_view message, Process::Limits limits, Read re
 bool Conversation::greet() {
   return ask(messages::hello(program_), {program_.start_s, kWords}, [&](std::string_view answer) {
     const messages::Hello hello = messages::read_hello(answer, program_);
-    doubles_ = hello.doubles, has_changes_ = hello.change, has_episodes_ = hello.reset;
+    doubles_ = hello.doubles, has_changes_ = hello.change, has_episodes_ = hello.reset, has_end_ = hello.end;
   });
 }
 
@@ -120,5 +120,7 @@ std::optional<messages::State> Conversation::reset(const Vector& start, const Ve
 }
 
 std::optional<messages::State> Conversation::step(const Vector& u) { return state_after(messages::step(u)); }
+
+bool Conversation::end() { return !has_end_ || ask(messages::end(), {program_.answer_s, kWords}, messages::read_end); }
 
 }  // namespace rehearse::system

@@ -31,6 +31,9 @@ class Conversation {
   std::optional<messages::State> reset(const Vector& start, const Vector& phi, std::uint64_t seed);
   std::optional<messages::State> step(const Vector& u);
 
+  /// Says that the episode is over, to a program that understands it. False: see `problem`.
+  bool end();
+
  private:
   using Fault = std::function<std::string(std::string_view written)>;  // why that is no answer, for people
   static std::string is_other(std::string_view written);
@@ -47,7 +50,7 @@ class Conversation {
   Program program_;
   std::optional<Process> process_;
   std::string problem_, message_;
-  bool late_ = false, declined_ = false, doubles_ = false, has_changes_ = true, has_episodes_ = false;
+  bool late_ = false, declined_ = false, doubles_ = false, has_changes_ = true, has_episodes_ = false, has_end_ = false;
 };
 
 }  // namespace rehearse::system

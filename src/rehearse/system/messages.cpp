@@ -121,7 +121,7 @@ void require_same(const Json& object, const char* key, const std::vector<std::st
 void read_messages(const Json& object, Hello& hello) {
   const auto messages = object.find("messages");
   if (messages == object.end()) return;
-  hello.change = hello.reset = hello.step = false;
+  hello.change = hello.reset = hello.step = hello.end = false;
   for (const Json& each : *messages) {
     if (each == "change")
       hello.change = true;
@@ -129,10 +129,13 @@ void read_messages(const Json& object, Hello& hello) {
       hello.reset = true;
     else if (each == "step")
       hello.step = true;
+    else if (each == "end")
+      hello.end = true;
     else
-      refuse("it understands the message {}; there are \"change\", \"reset\" and \"step\"", each.dump());
+      refuse("it understands the message {}; there are \"change\", \"reset\", \"step\" and \"end\"", each.dump());
   }
   if (hello.reset != hello.step) refuse("\"reset\" and \"step\" go together");
+  if (hello.end && !hello.step) refuse("\"end\" goes with \"reset\" and \"step\"");
 }
 
 }  // namespace
@@ -180,6 +183,10 @@ std::string step(const Vector& u) {
   write_list(text, u);
   return text += "}}\n";
 }
+
+std::string end() { return "{\"end\":{}}\n"; }
+
+void read_end(std::string_view text) { member(object_of(text), "end", text); }
 
 Hello read_hello(std::string_view text, const Program& program) {
   const Json object = object_of(text);

@@ -16,14 +16,15 @@ inline constexpr int kVersion = 1;
 
 /// A program's answer to the first message.
 struct Hello {
-  bool doubles = false;                             // its changes come as raw numbers
-  bool change = true, reset = false, step = false;  // the messages that it understands
+  bool doubles = false;                                          // its changes come as raw numbers
+  bool change = true, reset = false, step = false, end = false;  // the messages that it understands
 };
 
 std::string hello(const Program& program);
 std::string change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi);
 std::string reset(const Vector& start, const Vector& phi, std::uint64_t seed);
 std::string step(const Vector& u);
+std::string end();
 
 /// The program answered that it cannot.
 struct Declined : std::runtime_error {
@@ -38,6 +39,7 @@ struct State {
   Vector truth;  // empty: the program does not know
 };
 State read_state(std::string_view text, Index size);
+void read_end(std::string_view text);
 
 /// A line, or what it begins with, for messages to people.
 std::string excerpt(std::string_view text);

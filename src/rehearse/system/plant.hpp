@@ -21,8 +21,23 @@ class Plant {
   /// True if the last step ended the episode: a fall that only the robot itself can detect.
   virtual bool ended() const { return false; }
 
+  /// The end of an episode, whatever ended it: nothing is to move the robot until the next reset.
+  virtual void finish() noexcept {}
+
   /// The noise-free state where it is known, else an empty vector.
   virtual Vector truth() const { return {}; }
+};
+
+/// Finishes a plant's episode where it goes out of scope.
+class EpisodeOn {
+ public:
+  explicit EpisodeOn(Plant& plant) : plant_(plant) {}
+  ~EpisodeOn() { plant_.finish(); }
+  EpisodeOn(const EpisodeOn&) = delete;
+  EpisodeOn& operator=(const EpisodeOn&) = delete;
+
+ private:
+  Plant& plant_;
 };
 
 }  // namespace rehearse::system

@@ -79,6 +79,12 @@ class EpisodePlant final : public Plant {
     return seen(conversation_->step(u));
   }
 
+  void finish() noexcept override try {
+    if (conversation_ && !conversation_->end()) conversation_.reset();
+  } catch (...) {
+    conversation_.reset();
+  }
+
   Vector truth() const override { return truth_; }
 
  private:

@@ -27,9 +27,11 @@ class CartPlant final : public system::Plant {
     return measured();
   }
   Vector truth() const override { return knows_truth_ ? x_ : Vector(); }
+  void finish() noexcept override { ++finished; }
 
   std::vector<double> actions;
   Index fails_at = -1;
+  int finished = 0;
   std::function<Vector()> failure;
 
  private:
@@ -73,6 +75,7 @@ TEST(Execute, RecordsWhatHappened) {
   const Vector theta = cart::candidates(1);
   const Episode episode = execute(plant, *cart::policy(), theta, task, kRng);
   ASSERT_EQ(episode.steps(), 20);
+  EXPECT_EQ(plant.finished, 1);
   ASSERT_EQ(episode.states.rows(), 21);
   ASSERT_EQ(episode.true_states.rows(), 21);
   EXPECT_FALSE(episode.ended);
@@ -168,6 +171,7 @@ TEST(Execute, APlantThatThrowsReachesTheCaller) {
         }
       },
       std::runtime_error);
+  EXPECT_EQ(plant.finished, 1);
 }
 
 TEST(Execute, AStateThatIsNoStateIsAnError) {

@@ -191,6 +191,8 @@ TEST(Program, OneThatCannotBeSpokenWithIsRefusedWithWhy) {
   EXPECT_TRUE(contains(why(program), "\"xml\""));
   program.command = {"sh", "-c", "echo '{\"rehearse\": 1, \"messages\": [\"reset\"]}'; cat"};
   EXPECT_TRUE(contains(why(program), "go together"));
+  program.command = {"sh", "-c", "echo '{\"rehearse\": 1, \"messages\": [\"change\", \"end\"]}'; cat"};
+  EXPECT_TRUE(contains(why(program), "\"end\" goes with"));
   program.command = {"sh", "-c", "echo '{\"hello\": 1}'; cat"};
   EXPECT_TRUE(contains(why(program), "no \"rehearse\""));
   program.command = {"sh", "-c", "yes"};
@@ -217,6 +219,15 @@ TEST(ProgramPlant, ASimulatorPlaysTheRobot) {
   const std::string none = why(Harm::no_row);
   EXPECT_NE(none.find("' has no next state (null) for the state [1, 2, 3] and the action ["), std::string::npos)
       << none;
+}
+
+TEST(ProgramPlant, IsToldOfTheEndOfAnEpisode) {
+  const auto plant = make_program_plant(robot_program(), shift_of(3), {Vector{{1, 2, 3}}, Vector::Zero(3), {}});
+  Rng rng({.seed = 1});
+  for (int before = 0; before < 2; ++before) {
+    const EpisodeOn on_plant(*plant);
+    EXPECT_EQ(plant->reset(rng)(0), 1 + 100 * before);
+  }
 }
 
 TEST(ProgramPlant, ARobotKeepsItsState) {
