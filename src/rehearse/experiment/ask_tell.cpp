@@ -102,17 +102,14 @@ void check(const History& history, const std::vector<ToldFile>& files, const Tel
         fmt::format("trial {} is to come, one file tells it, but {} are named", history.asked->trial, files.size()));
 }
 
-/// Throws InvalidInput where a file is the whole of an episode whose beginning was told as one that was stopped.
-void refuse_what_goes_on(const History& history, const std::vector<ToldFile>& files, const Task& task) {
-  for (const ToldFile& file : files)
-    if (const std::optional<Episode> read = readable(file, task))
-      for (std::size_t i = 0; i < history.episodes.size(); ++i)
-        if (const Episode& kept = history.episodes[i]; goes_on_after(*read, kept, task))
-          throw InvalidInput(
-              fmt::format("{} has {} steps, of which {} were told as trial {}, stopped there; to tell the whole "
-                          "instead, take that back: "
-                          "`tell` with --undo",
-                          file.path.string(), read->steps(), kept.steps(), history.trials[i].trial));
+/// Throws InvalidInput where a file that is known as a trial goes on after the trial was stopped.
+void refuse_what_goes_on(const TrialRecord& trial, const Episode& kept, const ToldFile& file, const Task& task) {
+  const std::optional<Episode> read = readable(file, task);
+  if (!read || !goes_on_after(*read, kept, task)) return;
+  throw InvalidInput(fmt::format(
+      "{} has {} steps, of which {} were told as trial {}, stopped there; to tell the whole instead, take that "
+      "back: `tell` with --undo",
+      file.path.string(), read->steps(), kept.steps(), trial.trial));
 }
 
 TellResult already_told(const Resolved& resolved, const History& history, const std::vector<ToldFile>& files) {
@@ -172,12 +169,16 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Tell
   Violations violations;
   const std::vector<ToldFile> files = read_told_files(request.files, violations);
   violations.throw_if_any();
-  refuse_what_goes_on(history, files, resolved.scenario.task);
   std::vector<ToldFile> news;
-  for (const ToldFile& file : files)
-    if (!known_as(history, file, resolved.scenario.task).known() ||
-        (!are_logs(history, request) && is_of_policy_asked_for(file, resolved.scenario, history)))
+  for (const ToldFile& file : files) {
+    const KnownAs as = known_as(history, file, resolved.scenario.task);
+    if (!as.known() || (!are_logs(history, request) && is_of_policy_asked_for(file, resolved.scenario, history))) {
       news.push_back(file);
+    } else if (as.trial > 0) {
+      const auto known = static_cast<std::size_t>(as.trial) - 1;
+      refuse_what_goes_on(history.trials[known], history.episodes[known], file, resolved.scenario.task);
+    }
+  }
   if (news.empty()) {
     reopened.go_on(false, [](OpenRun&) {});  // the tables, where a kill came before them
     reopened.extend_to_done();

@@ -1,0 +1,42 @@
+#include "rehearse/robot_file/differences.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace rehearse::robot_file {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+Task task_of(const std::vector<std::string>& states) {
+  Task task;
+  for (const std::string& name : states) {
+    task.states.emplace_back();
+    task.states.back().name = name;
+  }
+  return task;
+}
+
+TEST(Differences, NoPredictionIsInfinitelyFarFromOne) {
+  const Matrix one{{1, kNone}, {kNone, 4}}, other{{1.5, kNone}, {3, 4}};
+  EXPECT_EQ(apart(one, other), (Matrix{{0.5, 0}, {std::numeric_limits<double>::infinity(), 0}}));
+}
+
+TEST(Differences, RoundingGrowsWithStatesAndChanges) {
+  EXPECT_TRUE(rounding(Matrix{{1, -200}, {3, kNone}}, Matrix{{0, 5}, {-2, 0}})
+                  .isApprox(Vector{{3e-14 + 2e-10, 200e-14 + 5e-10}}, 1e-12));
+}
+
+TEST(Differences, AreSaidOfTheFarthestState) {
+  const Task task = task_of({"rate", "angle"});
+  const Vector tolerated{{0.1, 0.1}};
+  EXPECT_EQ(difference(task, Matrix{{0.1, 0}, {0, 0.1}}, tolerated), "");
+  EXPECT_EQ(difference(task, Matrix{{0.2, 0.7}, {0, 0.1}, {0, 0.3}}, tolerated), "2 of 3 rows, angle by 0.7");
+  EXPECT_EQ(difference(task, apart(Matrix{{kNone, 0}}, Matrix{{1, 0}}), tolerated),
+            "1 of 1 rows, rate from a prediction to none");
+  EXPECT_EQ(difference(task, Matrix(0, 2), tolerated), "");
+}
+
+}  // namespace
+}  // namespace rehearse::robot_file
