@@ -20,6 +20,7 @@ struct ZeroMean {
   ZeroMean() {
     gp.fit.penalties.length = gp.fit.penalties.snr = true;  // the authors' code, without a prior only
     gp.integrate_rates = true;
+    gp.fit.trend = true;
   }
   void fields(FieldVisitor& v) { v.group("gp", gp); }
 };

@@ -15,6 +15,7 @@ struct SimulateOptions {
   bool sample = true;            // false: the mean prediction alone is followed
   double measurement_noise = 1;  // times the model's estimate of measurement noise, which is added to the states that
                                  // the policy sees, with samples or without; 0: it sees the true state (the paper)
+  double deviations = 1;         // samples are so many times as far from the mean as the model says; no field
   void fields(FieldVisitor& v) {
     v.number("noise_clip", noise_clip,
              "sampled model noise is clipped to this many standard deviations; 0: not clipped", at_least(0),

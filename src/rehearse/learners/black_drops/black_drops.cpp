@@ -257,7 +257,7 @@ std::vector<std::string> violations_with(const Options& options, const Task& tas
 
 Entry<Options> entry(const char* name, const char* summary, identification::Kind model) {
   Options options{.model = std::move(model)};
-  if (prior_use(options) == PriorUse::none) options.search.simulate.noise_clip = 0;
+  if (prior_use(options) == PriorUse::none) options.search.simulate.noise_clip = 0, options.search.safety.caution = 3;
   return {.name = name,
           .summary = summary,
           .prior_use = prior_use(options),

@@ -20,7 +20,7 @@ Vector random_actions(const Task& task, const FirstTrial& options, double fracti
 
 std::optional<SearchResult> safe_random_actions(const SearchProblem& problem, const Options& options,
                                                 const StreamKey& trial) {
-  constexpr double kLeast = 0.05, kNext = 0.7;  // fractions of the actions' ranges
+  constexpr double kLeast = 0.005, kNext = 0.7;  // fractions of the actions' ranges
   StreamKey actions = trial, judging = trial;
   actions.stage = Stage::episode;
   judging.stage = Stage::judging;

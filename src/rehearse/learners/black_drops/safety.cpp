@@ -27,9 +27,12 @@ Vector drawn(const ParameterSpace& space, double doubt, Rng& rng) {
 }  // namespace
 
 void SafetyOptions::fields(FieldVisitor& v) {
-  v.integer("rollouts", rollouts, "tasks with limits: rollouts of each policy that is compared", between(1, 1e6));
+  v.integer("rollouts", rollouts, expert("tasks with limits: rollouts of each policy that is compared"),
+            between(1, 1e6));
   v.integer("searches", searches,
             "tasks with limits: largest number of further searches for safe policies near good ones", between(0, 1000));
+  v.number("caution", caution, "tasks with limits: risks are judged with so many times the model's deviations",
+           between(1, 100));
   v.number("doubt", doubt,
            "tasks with limits, before data: range of the prior's parameters, as a fraction of their bounds",
            between(0, 1));

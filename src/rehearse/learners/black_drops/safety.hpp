@@ -18,6 +18,8 @@ namespace rehearse::learners::black_drops {
 struct SafetyOptions {
   Index rollouts = 400;  // of each policy that is compared: 0.05 is told from 0.02. At least `selection`
   Index searches = 1;    // more, at most, near good policies for safe ones, each evaluation of several rollouts
+  double caution = 1;    // risks are those of episodes that deviate so many times as far from the model's mean as it
+                         // says: GPs of few data are too certain where they have none
   double doubt = 0.5;    // before there are data: how far towards anywhere in its box a parameter of the prior may be
   bool explore = true;   // random actions where no safe policy promises more than was earned, if the task has a test of
                          // success and is not solved

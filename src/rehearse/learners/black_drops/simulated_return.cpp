@@ -26,7 +26,8 @@ bool allowed(const std::vector<LimitRisk>& risks, const std::vector<Limit>& limi
 }  // namespace
 
 void SimulatedReturn::operator()(const ConstMatrixView& Theta, std::uint64_t first, Index samples, VectorView values) {
-  const rollout::Simulated simulated = simulate(Theta, first, samples * options_.particles);
+  const double deviations = options_.constrained ? options_.safety.caution : 1;
+  const rollout::Simulated simulated = simulate(Theta, first, samples * options_.particles, deviations);
   values = simulated.returns.colwise().mean().transpose();
   if (!options_.constrained) return;
   seen_ = {std::min(seen_.low, values.minCoeff()), std::max(seen_.high, values.maxCoeff())};
@@ -38,14 +39,21 @@ void SimulatedReturn::operator()(const ConstMatrixView& Theta, std::uint64_t fir
 }
 
 std::vector<Measurement> SimulatedReturn::measure(const ConstMatrixView& Theta, std::uint64_t first, Index samples) {
-  const rollout::Simulated simulated = simulate(Theta, first, samples * options_.particles);
+  rollout::Simulated simulated = simulate(Theta, first, samples * options_.particles, 1);
   const Vector means = simulated.returns.colwise().mean().transpose();
+  if (doubts_its_certainty())
+    simulated.broken = simulate(Theta, first, samples * options_.particles, options_.safety.caution).broken;
   std::vector<Measurement> all;
   for (Index j = 0; j < means.size(); ++j) {
     all.push_back(measured(simulated, j));
     all.back().mean = means(j);
   }
   return all;
+}
+
+bool SimulatedReturn::doubts_its_certainty() const {
+  const bool uncertain = problem_.doubted.empty() && !problem_.model.certain();
+  return uncertain && !problem_.task.limits.empty() && options_.safety.caution != 1;
 }
 
 rollout::ReturnGradients SimulatedReturn::gradients(const ConstMatrixView& Theta, Index particles) {
@@ -57,12 +65,14 @@ rollout::ReturnGradients SimulatedReturn::gradients(const ConstMatrixView& Theta
   return found;
 }
 
-rollout::Simulated SimulatedReturn::simulate(const ConstMatrixView& Theta, std::uint64_t first, Index episodes) {
+rollout::Simulated SimulatedReturn::simulate(const ConstMatrixView& Theta, std::uint64_t first, Index episodes,
+                                             double deviations) {
+  rollout::SimulateOptions options = options_.simulate;
+  options.deviations = deviations;
   const rollout::Simulated simulated =
-      problem_.doubted.empty()
-          ? rollout::simulate({problem_.model, problem_.policy, problem_.task, key_, options_.simulate}, Theta,
-                              {first, episodes}, problem_.evaluator)
-          : simulate_in_doubt(Theta, episodes);
+      problem_.doubted.empty() ? rollout::simulate({problem_.model, problem_.policy, problem_.task, key_, options},
+                                                   Theta, {first, episodes}, problem_.evaluator)
+                               : simulate_in_doubt(Theta, episodes);
   rollouts_ += simulated.returns.size();
   next_ = std::max(next_, first + static_cast<std::uint64_t>(Theta.cols()));
   failed_ += simulated.failed;

@@ -10,7 +10,7 @@
 
 namespace rehearse::learners::black_drops {
 
-/// A policy's mean return, and how many of its episodes broke each limit.
+/// A policy's mean return, and how many of its episodes broke each limit; these with SafetyOptions::caution.
 struct Measurement {
   double mean = 0;
   std::vector<LimitRisk> risks;
@@ -20,8 +20,8 @@ struct Measurement {
 
 /// The objective of a search: the mean return of simulated episodes, which end where they break a limit. In a
 /// constrained search a policy that keeps the limits too rarely has a value below that of any policy of the batch that
-/// keeps them, and the lower the more often and the earlier it breaks them (Deb 2000). It counts rollouts. References
-/// must outlive it.
+/// keeps them, and the lower the more often and the earlier it breaks them (Deb 2000); all its episodes have
+/// SafetyOptions::caution. It counts rollouts. References must outlive it.
 class SimulatedReturn {
  public:
   SimulatedReturn(const SearchProblem& problem, const SearchOptions& options, StreamKey key)
@@ -41,7 +41,8 @@ class SimulatedReturn {
   Index failed() const { return failed_; }
 
  private:
-  rollout::Simulated simulate(const ConstMatrixView& Theta, std::uint64_t first, Index episodes);
+  bool doubts_its_certainty() const;
+  rollout::Simulated simulate(const ConstMatrixView& Theta, std::uint64_t first, Index episodes, double deviations);
   rollout::Simulated simulate_in_doubt(const ConstMatrixView& Theta, Index episodes) const;
 
   const SearchProblem& problem_;

@@ -38,5 +38,23 @@ TEST(Lockstep, ATapeChangesNothingAndSaysWhoEarned) {
   EXPECT_GT(taped.failed(), 3);
 }
 
+TEST(Lockstep, DeviatesFromTheMeanAsOftenAsItIsTold) {
+  Task task = cart::task();
+  const cart::Model model(0.01);
+  const auto policy = cart::policy();
+  const Matrix Theta = cart::candidates(8).transpose();
+  const auto first_step = [&](const SimulateOptions& options) {
+    const Simulation simulation{model, *policy, task, cart::kKey, options};
+    LockstepMemory memory;
+    Lockstep chunk(simulation, 8, memory);
+    chunk.set_rows(Theta, 3), chunk.start(), chunk.step(0);
+    return chunk.states();
+  };
+  const Matrix mean = first_step({.sample = false}), once = first_step({.noise_clip = 0}) - mean,
+               thrice = first_step({.noise_clip = 0, .deviations = 3}) - mean;
+  EXPECT_GT(once.cwiseAbs().maxCoeff(), 0.01);
+  EXPECT_LT((thrice - 3 * once).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 }  // namespace
 }  // namespace rehearse::rollout

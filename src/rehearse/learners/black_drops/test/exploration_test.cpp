@@ -37,6 +37,7 @@ TEST(SafeRandomActions, AreAsLargeAsTheLimitsAllow) {
   const double half = largest(0.5 * all).value();
   EXPECT_LE(half, 0.5 * all);
   EXPECT_GT(half, 0.34 * all) << "0.7 of it would have been too much";
+  EXPECT_GT(largest(0.01).value(), 0.003) << "however little it is";
   EXPECT_FALSE(largest(-1)) << "nothing is safe";
 }
 

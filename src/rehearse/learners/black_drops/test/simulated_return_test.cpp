@@ -74,6 +74,36 @@ TEST_F(SimulatedReturnTest, MeasuresHowOftenLimitsAreBroken) {
   EXPECT_EQ(measured[2].early, 0);
 }
 
+TEST_F(SimulatedReturnTest, JudgesRisksButNoReturnsWithCaution) {
+  limit(0.42);
+  const auto measured = [&](double caution) {
+    options.simulate.noise_clip = 0;
+    options.safety.caution = caution;
+    SimulatedReturn objective(problem, options, key);
+    return objective.measure(pulls.col(2), 0, 200)[0];
+  };
+  const Measurement plain = measured(1), cautious = measured(4);
+  EXPECT_LT(plain.risks[0].broken, 10);
+  EXPECT_GT(cautious.risks[0].broken, 20);
+  EXPECT_GT(cautious.early, plain.early);
+  EXPECT_EQ(cautious.mean, plain.mean);
+}
+
+TEST_F(SimulatedReturnTest, OfAConstrainedSearchIsCautious) {
+  limit(0.42);
+  options.constrained = true;
+  const auto value = [&](double caution) {
+    options.simulate.noise_clip = 0;
+    options.safety.caution = caution;
+    SimulatedReturn objective(problem, options, key);
+    Vector values(2);
+    objective(pulls.rightCols(2), 0, 200, values);
+    return Vector(values.array() - values(1));  // the last goes away from the limit
+  };
+  EXPECT_GT(value(1)(0), 0) << "safe, and nearer to the goal";
+  EXPECT_LT(value(4)(0), 0);
+}
+
 TEST_F(SimulatedReturnTest, GoesRoundTheModelsThatAreDoubted) {
   const auto still = std::make_shared<dynamics::SimulatorModel>(slider::prior(), Vector{{0, 0}});
   const auto strong = std::make_shared<dynamics::SimulatorModel>(slider::prior(), slider::kTruth);
