@@ -26,4 +26,8 @@ def rate(k, n):
     if n == 0:
         return "–"
     low, high = interval(k, n)
-    return f"{k} of {n} ({100 * k / n:.3g} %; {100 * low:.2g} to {100 * high:.2g} %)"
+    return f"{k} of {n} ({100 * k / n:.3g} %; {100 * low:.2g} to {_percent(high)} %)"
+
+
+def _percent(high):
+    return "100" if high > 0.995 else f"{100 * high:.2g}"
