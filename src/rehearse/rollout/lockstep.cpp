@@ -95,7 +95,7 @@ void Lockstep::draw(Purpose purpose, Index t) {
 void Lockstep::draw_noise(Index t) {
   draw(Purpose::simulated_noise, t);
   if (options_.noise_clip > 0) m_.noise = m_.noise.cwiseMin(options_.noise_clip).cwiseMax(-options_.noise_clip);
-  m_.noise *= options_.deviations;
+  if (options_.deviations != 1) m_.noise *= options_.deviations;
 }
 
 void Lockstep::move(Index t) {
