@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kSameActions = 0.01;  // of the range of an action: motors are not exact
+constexpr double kOtherActions = 0.2;  // likewise: beyond, the file may be a wrong one
 
 constexpr double kRounding = 1e-9;  // likewise, of numbers in a file
 
@@ -46,10 +47,11 @@ std::vector<std::string> sentences_on(const Vector& deviations, const Task& task
   for (Index i = 0; i < deviations.size(); ++i) {
     const ActionVariable& action = task.actions[static_cast<std::size_t>(i)];
     if (!is_within(kSameActions, deviations(i), action))
-      sentences.push_back(
-          fmt::format("{} differs from what the policy says of the measured states by {:.3g} {} "
-                      "(root mean square): another policy, a delay, or a weak motor",
-                      action.name, deviations(i), action.unit));
+      sentences.push_back(fmt::format(
+          "{} differs from what the policy says of the measured states by {:.3g} {} "
+          "(root mean square): another policy, a state of another unit or sign, a delay, or a weak motor{}",
+          action.name, deviations(i), action.unit,
+          is_within(kOtherActions, deviations(i), action) ? "" : "; `tell --undo` takes a wrong file back"));
   }
   return sentences;
 }
@@ -79,6 +81,11 @@ std::vector<std::string> sentences_on_start(const Episode& episode, const Task& 
                                       mean, state.unit));
   }
   return sentences;
+}
+
+std::string cause_of_end(const Episode& episode) {
+  if (!episode.broken_limits.empty()) return fmt::format("which breaks {}", fmt::join(episode.broken_limits, ", "));
+  return episode.failure.empty() ? "where `ended` holds" : "where " + episode.failure;
 }
 
 /// notes: what reading left out, which may be why there are too few.
@@ -164,8 +171,8 @@ ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario,
   ToldEpisode told{rollout::judged(std::move(read.episode), task), std::move(read.notes)};
   Episode& episode = told.episode;
   if (episode.steps() < recorded)
-    told.notes.push_back(fmt::format("the episode ended at step {}: {} steps after it are left out", episode.steps(),
-                                     recorded - episode.steps()));
+    told.notes.push_back(fmt::format("the episode ended at step {}, {}: {} steps after it are left out",
+                                     episode.steps(), cause_of_end(episode), recorded - episode.steps()));
   const bool whole = episode.steps() == task.horizon || episode.ended;
   if (!whole && !stopped) throw InvalidInput(cut_short(file, episode.steps(), task.horizon, told.notes));
   if (whole && stopped)

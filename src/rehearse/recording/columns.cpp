@@ -27,6 +27,11 @@ std::string trimmed(const std::string& text) {
 /// "q1 [rad]" or "q1 (rad)".
 struct Title {
   std::string name, unit;
+
+  bool is_number() const {
+    double value = 0;
+    return from_text(name, value);
+  }
 };
 
 Title title_of(const std::string& cell) {
@@ -51,6 +56,7 @@ class Finder {
     for (const std::string& cell : table.header) titles_.push_back(title_of(cell));
     for (const StateVariable& state : task.states) wanted_.insert(state.name);
     for (const ActionVariable& action : task.actions) wanted_.insert(action.name);
+    if (has_no_header()) problems_.add(1, "header", "it has numbers, must have the names of columns");
   }
 
   /// Returns the name of the column if it has no unit, else an empty one.
@@ -114,6 +120,8 @@ class Finder {
 
   static Index in_file(std::size_t row) { return static_cast<Index>(row) + 2; }
 
+  bool has_no_header() const { return std::ranges::all_of(titles_, &Title::is_number); }
+
   /// −1: it is not there, which is a problem.
   int require(const std::string& name) {
     wanted_.insert(name);
@@ -124,6 +132,7 @@ class Finder {
     std::vector<std::string> names;
     for (const Title& title : titles_)
       if (!wanted_.contains(title.name) && !title.name.empty()) names.push_back(title.name);
+    if (has_no_header()) return -1;
     const std::string nearest = names.empty() ? "" : fmt::format("; the nearest is '{}'", closest(name, names));
     if (count == 0) problems_.add(1, "missing " + name, fmt::format("there is no column {}{}", name, nearest));
     return -1;
@@ -140,9 +149,7 @@ class Finder {
     const auto scale = conversion(given, unit);
     if (!scale)
       problems_.add(1, "unit of " + name,
-                    fmt::format("{} is in '{}', must be in {} or a unit that is known to be so "
-                                "many of them",
-                                name, given, unit));
+                    fmt::format("{} is in '{}', must be in {}", name, given, fmt::join(units_like(unit), ", ")));
     if (scale && *scale != 1) notes_.push_back(fmt::format("{} is converted from {} to {}", name, given, unit));
     return scale.value_or(1);
   }

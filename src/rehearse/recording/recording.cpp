@@ -1,6 +1,8 @@
 #include "rehearse/recording/recording.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -16,6 +18,7 @@ namespace rehearse::recording {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr double kLittle = 0.05;  // of a control step: so little late is every loop
 
 /// The text without what editors and robots leave at its ends. Throws InvalidInput where it is no comma-separated text.
 std::string_view cleaned(std::string_view text, std::vector<std::string>& notes) {
@@ -71,14 +74,32 @@ void check_channels(Channels& channels, const Task& task, Problems& problems, st
     keep_in_bounds(channels.actions[a], task.actions[a].bounds, problems, notes);
 }
 
+/// The largest distance of a control step to the nearest row.
+double farthest_row_s(const std::vector<Sample>& samples, const Grid& grid) {
+  double farthest_s = 0;
+  auto row = samples.begin();
+  for (Index k = 0; k <= grid.steps; ++k) {
+    const auto away_s = [&](auto sample) { return std::abs(sample->time_s - grid.time(k)); };
+    while (std::next(row) != samples.end() && away_s(std::next(row)) <= away_s(row)) ++row;
+    farthest_s = std::max(farthest_s, away_s(row));
+  }
+  return farthest_s;
+}
+
 void note_resampling(const Channels& channels, const Grid& grid, Index changed, bool average,
                      std::vector<std::string>& notes) {
-  if (grid.start_s > 0)
+  const auto& samples = channels.states.front().samples;
+  const double off_s = farthest_row_s(samples, grid), little_s = kLittle * grid.dt_s;
+  if (grid.start_s > little_s)
     notes.push_back(
         fmt::format("step 0 is at {:.13g} s, the first time at which all columns have numbers", grid.start_s));
   if (changed == 0) return;
-  const auto& samples = channels.states.front().samples;
   const double usual_s = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
+  if (off_s <= little_s && usual_s >= grid.dt_s - little_s && !average) {
+    notes.push_back(fmt::format("rows are up to {:.2g} s off the control steps of {} s: numbers are interpolated",
+                                off_s, grid.dt_s));
+    return;
+  }
   notes.push_back(
       fmt::format("{} of {} control steps of {} s lie between rows, which are {:.3g} s apart on average: "
                   "states are {}, actions are means of what rows hold until the next",
@@ -115,13 +136,16 @@ Recording read_recording(const std::string& csv_text, const std::string& source,
   problems.throw_if_any();
   for (Channel& action : channels.actions)
     for (Sample& sample : action.samples) sample.time_s += options.action_delay_s;
-  check_channels(channels, task, problems, recording.notes);
-  Grid grid = grid_of(channels, task.dt_s, options.max_gap_steps * task.dt_s * (1 + 1e-9), problems);
-  problems.throw_if_any();
+  const double max_gap_s = options.max_gap_steps * task.dt_s * (1 + 1e-9);
+  Grid grid = grid_of(channels, task.dt_s, max_gap_s, problems);
   if (grid.steps > options.max_steps) {
     recording.notes.push_back(fmt::format("the first {} of {} control steps are read", options.max_steps, grid.steps));
     grid.steps = options.max_steps;
+    cut(channels, grid);
   }
+  check_channels(channels, task, problems, recording.notes);
+  check_gaps(channels, grid, max_gap_s, problems);
+  problems.throw_if_any();
   note_resampling(channels, grid, resample(channels, grid, options.average, recording.episode), options.average,
                   recording.notes);
   add_memory(recording.episode, task);

@@ -44,7 +44,8 @@ double median_gap_s(const Samples& samples) {
 void check_unit_of_time(const Channels& channels, double max_gap_s, Problems& problems) {
   const double gap = median_gap_s(channels.states.front().samples);
   if (channels.bare_time.empty() || gap < 1 || gap <= max_gap_s) return;
-  for (const auto& [name, unit, in_s] : {std::tuple{"milliseconds", "ms", 1e-3}, {"microseconds", "us", 1e-6}}) {
+  for (const auto& [name, unit, in_s] :
+       {std::tuple{"milliseconds", "ms", 1e-3}, {"microseconds", "us", 1e-6}, {"nanoseconds", "ns", 1e-9}}) {
     if (gap * in_s > max_gap_s) continue;
     problems.add(
         1, "unit of time",
@@ -154,10 +155,23 @@ Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& 
     problems.add(0, "length",
                  fmt::format("all columns together cover {:.6g} s, must cover a control step of {} s",
                              std::max(0.0, end_s - begin_s), dt_s));
-  const Grid grid{begin_s, dt_s, static_cast<Index>(std::clamp(steps, 0.0, 1e12))};
+  return {begin_s, dt_s, static_cast<Index>(std::clamp(steps, 0.0, 1e12))};
+}
+
+void cut(Channels& channels, const Grid& grid) {
+  const double end_s = grid.time(grid.steps), near_s = kNear * grid.dt_s;
+  for (Channel& action : channels.actions)
+    std::erase_if(action.samples, [&](const Sample& sample) { return sample.time_s >= end_s - near_s; });
+  for (auto* group : {&channels.states, &channels.truths})
+    for (Channel& channel : *group) {
+      const auto last = from(channel.samples, end_s + grid.dt_s / 2);  // a line through rows may need it
+      if (last != channel.samples.end()) channel.samples.erase(std::next(last), channel.samples.end());
+    }
+}
+
+void check_gaps(const Channels& channels, const Grid& grid, double max_gap_s, Problems& problems) {
   for_each_channel(channels, [&](const Channel& c) { check_gaps(c, grid, max_gap_s, problems); });
   check_unit_of_time(channels, max_gap_s, problems);
-  return grid;
 }
 
 Index resample(const Channels& channels, const Grid& grid, bool average, Episode& episode) {

@@ -19,9 +19,15 @@ struct Grid {
 };
 
 /// From where all channels have begun to where a state ends, or the last action, which holds for a step or, where rows
-/// are further apart, until the next would come. A problem if that is less than a step, or if neighbouring samples are
-/// more than `max_gap_s` apart.
+/// are further apart, until the next would come: for a last action no longer than `max_gap_s`. A problem if that is
+/// less than a step.
 Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& problems);
+
+/// Leaves out samples that no step of the grid needs, behind its end.
+void cut(Channels& channels, const Grid& grid);
+
+/// A problem if neighbouring samples that the grid needs are more than `max_gap_s` apart.
+void check_gaps(const Channels& channels, const Grid& grid, double max_gap_s, Problems& problems);
 
 /// The episode on the grid (recording.hpp says how). Returns how many steps are not rows of the file as they are.
 Index resample(const Channels& channels, const Grid& grid, bool average, Episode& episode);

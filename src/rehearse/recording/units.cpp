@@ -21,6 +21,7 @@ constexpr Unit kUnits[] = {
     {"ms", Quantity::time, 1e-3},
     {"us", Quantity::time, 1e-6},
     {"µs", Quantity::time, 1e-6},
+    {"ns", Quantity::time, 1e-9},
     {"rad", Quantity::angle, 1},
     {"deg", Quantity::angle, kDegree},
     {"°", Quantity::angle, kDegree},
@@ -63,6 +64,14 @@ std::optional<double> conversion(const std::string& from, const std::string& to)
   const Unit *known_a = find(a), *known_b = find(b);
   if (!known_a || !known_b || known_a->quantity != known_b->quantity) return std::nullopt;
   return known_a->in_si / known_b->in_si;
+}
+
+std::vector<std::string> units_like(const std::string& unit) {
+  std::vector<std::string> names = {unit};
+  if (const Unit* known = find(spelled(unit)))
+    for (const Unit& other : kUnits)
+      if (other.quantity == known->quantity && &other != known) names.emplace_back(other.name);
+  return names;
 }
 
 }  // namespace rehearse::recording

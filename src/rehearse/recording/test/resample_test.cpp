@@ -67,10 +67,26 @@ TEST(Resample, FastRecordingsAreAveraged) {
 TEST(Resample, LongGapsAreProblemsAndShortOnesAreNot) {
   const Channels channels{{with("x", {{0, 1}, {1, 2}, {4, 5}, {5, 6}})}, {with("u", {{0, 4}, {5, 0}})}, {}};
   Problems none("f"), found("f");
-  grid_of(channels, 1, 5, none);
+  Grid grid = grid_of(channels, 1, 5, none);
+  check_gaps(channels, grid, 5, none);
   EXPECT_TRUE(none.empty());
-  grid_of(channels, 1, 2, found);
+  check_gaps(channels, grid, 2, found);
   EXPECT_FALSE(found.empty());
+}
+
+TEST(Resample, WhatComesAfterTheLastStepDoesNoHarm) {
+  Channels channels{{with("x", {{0, 1}, {1, 2}, {2, 5}, {9, 6}})}, {with("u", {{0, 4}, {1, 1}, {2, 7}, {9, 0}})}, {}};
+  Problems problems("f");
+  Grid grid = grid_of(channels, 1, 3, problems);
+  grid.steps = 2;
+  cut(channels, grid);
+  check_gaps(channels, grid, 3, problems);
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(channels.actions[0].samples.size(), 2U);
+  Episode episode;
+  resample(channels, grid, false, episode);
+  EXPECT_EQ(episode.states, (Matrix{{1}, {2}, {5}}));
+  EXPECT_EQ(episode.actions, (Matrix{{4}, {1}}));
 }
 
 }  // namespace
