@@ -47,6 +47,7 @@ class HintFinder {
     if (logs_.empty()) return {};
     as_read_ = find_zeros(logs_, problem_, evaluator_).left;
     std::vector<Hint> all = {zeros(), delay()};
+    for (Index a = 0; a < task_.action_size(); ++a) all.push_back(negated(a));
     std::erase_if(all, [](const Hint& hint) { return !(hint.errors < kMuchBetter); });
     std::ranges::stable_sort(all, {}, &Hint::errors);
     return all;
@@ -74,17 +75,26 @@ class HintFinder {
     Hint best;
     for (const Index direction : {1, -1})
       for (Index k = 1; k <= kMostDelay; ++k) {
-        const double errors = errors_with(k * direction);
+        const double errors = errors_of([&](const Episode& log) { return late(log, k * direction); });
         if (!(errors < best.errors)) break;
         best = {.delay_s = static_cast<double>(k * direction) * task_.dt_s, .errors = errors};
       }
     return best;
   }
 
-  double errors_with(Index delay) const {
-    std::vector<Episode> delayed;
-    for (const Episode& log : logs_) delayed.push_back(late(log, delay));
-    return ratio_of(find_zeros(delayed, problem_, evaluator_).left, as_read_);
+  Hint negated(Index action) const {
+    return {.negated = action, .errors = errors_of([&](Episode log) {
+                                 log.actions.col(action) *= -1;
+                                 return log;
+                               })};
+  }
+
+  /// The errors if the logs were read so.
+  template <class Read>
+  double errors_of(Read read) const {
+    std::vector<Episode> all;
+    for (const Episode& log : logs_) all.push_back(read(log));
+    return ratio_of(find_zeros(all, problem_, evaluator_).left, as_read_);
   }
 
   std::vector<Episode> logs_;
@@ -94,17 +104,23 @@ class HintFinder {
   Vector as_read_;
 };
 
+std::string fault(const Hint& hint, const Task& task) {
+  if (hint.negated >= 0)
+    return fmt::format("the action {} seems to have the other sign",
+                       task.actions[static_cast<std::size_t>(hint.negated)].name);
+  if (hint.states.empty())
+    return fmt::format("actions seem to act {:.3g} s {} than their rows say (--set read.action_delay_s)",
+                       std::abs(hint.delay_s), hint.delay_s > 0 ? "later" : "earlier");
+  std::vector<std::string> names;
+  for (const Index s : hint.states) names.push_back(task.states[static_cast<std::size_t>(s)].name);
+  return fmt::format("the zero of {} seems to be off (--set zeros={})", fmt::join(names, " and of "),
+                     fmt::join(names, ","));
+}
+
 }  // namespace
 
 std::string line_of(const Hint& hint, const Task& task) {
-  std::vector<std::string> names;
-  for (const Index s : hint.states) names.push_back(task.states[static_cast<std::size_t>(s)].name);
-  const std::string what =
-      names.empty() ? fmt::format("actions seem to act {:.3g} s {} than their rows say (--set read.action_delay_s)",
-                                  std::abs(hint.delay_s), hint.delay_s > 0 ? "later" : "earlier")
-                    : fmt::format("the zero of {} seems to be off (--set zeros={})", fmt::join(names, " and of "),
-                                  fmt::join(names, ","));
-  return fmt::format("{}: short forecasts would have {:.2f} times the errors", what, hint.errors);
+  return fmt::format("{}: short forecasts would have {:.2f} times the errors", fault(hint, task), hint.errors);
 }
 
 std::vector<Hint> find_hints(const std::vector<Episode>& logs, const Task& task, const prior::Prior& prior,

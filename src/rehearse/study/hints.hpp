@@ -1,5 +1,5 @@
 #pragma once
-// Faults of logs that no parameter explains: encoders without a zero, and actions that act late.
+// Faults of logs that no parameter explains: encoders without a zero, and actions that act late or the other way.
 
 #include <string>
 #include <vector>
@@ -12,7 +12,8 @@ namespace rehearse::study {
 
 /// Another reading of the logs, with which the parameters would predict them much better.
 struct Hint {
-  std::vector<Index> states = {};  // whose zeros are off; none: actions act at another time
+  std::vector<Index> states = {};  // whose zeros are off
+  Index negated = -1;              // an action that has the other sign; −1: none
   double delay_s = 0;              // of the actions, added to what they have; negative: they act earlier
   double errors = 1;               // over the fit's horizon, of those that are left as the logs are read
 };

@@ -95,8 +95,9 @@ PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task,
   const Index first = steps_of(options.zero_s, task);
   if (states_named(options.zeros, task).empty()) return {log, none, none, 0};
   if (first >= log.steps())
-    throw InvalidInput(fmt::format("zero_s = {}, must be less than the {} s of a held-out log", options.zero_s,
-                                   static_cast<double>(log.steps()) * task.dt_s));
+    throw InvalidInput(fmt::format(
+        "zero_s = {}, must be less than the {} s of each log that is held out or left out, or half of a single one",
+        options.zero_s, static_cast<double>(log.steps()) * task.dt_s));
   prior::Prior learned = prior;
   learned.space = prior.space.fixed_at(*model.learned.state.phi);
   const Zeros zeros = find_zeros({log.part(0, first)}, zero_problem(learned, task, options), serial_evaluator());

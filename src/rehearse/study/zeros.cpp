@@ -38,7 +38,9 @@ class Errors {
       for (Index t = 0; t <= last && last >= 0; t += every) starts_.back().push_back(t);
       rows_ += std::ssize(starts_.back());
     }
-    if (rows_ == 0) throw InvalidInput(fmt::format("no log is longer than {} control steps", problem.horizon));
+    if (rows_ == 0)
+      throw InvalidInput(fmt::format(
+          "no log is longer than the {} control steps that parameters are fitted to (fit_horizon_s)", problem.horizon));
     scale_ = usual(raw(start())) / kMedianOfNormal;
     scale_ = scale_.cwiseMax(1e-9);
   }

@@ -47,6 +47,17 @@ TEST(Hints, NameTheDelay) {
             "have 0.25 times the errors");
 }
 
+TEST(Hints, NameTheActionOfTheOtherSign) {
+  std::vector<Episode> logs = {swinging_log(1, 0).episode, swinging_log(2, 0).episode};
+  for (Episode& log : logs) log.actions *= -1;
+  const std::vector<Hint> hints = hints_of(logs);
+  ASSERT_FALSE(hints.empty());
+  EXPECT_EQ(hints[0].negated, 0);
+  EXPECT_LT(hints[0].errors, 0.5);
+  EXPECT_EQ(line_of({.negated = 0, .errors = 0.1}, swinging_task()),
+            "the action torque seems to have the other sign: short forecasts would have 0.10 times the errors");
+}
+
 TEST(Hints, ShortLogsHaveNone) { EXPECT_TRUE(hints_of({swinging_log(1, 0.1).episode.part(0, 15)}).empty()); }
 
 }  // namespace
