@@ -11,6 +11,7 @@ Exported make_exported(const Origin& origin, const Task& task, const Policy& pol
                      .actions = task.actions,
                      .actuators = task.actuators(),
                      .dt_s = task.dt_s,
+                     .horizon = task.horizon,
                      .kind = policy.name(),
                      .theta = {},
                      .description = {},

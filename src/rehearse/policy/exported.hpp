@@ -32,7 +32,8 @@ struct Exported {
   std::vector<ActionVariable> actions;  // with their bounds
   Actuators actuators;                  // turn actions into commands; the last states are their memory
   double dt_s = 0;
-  std::string kind;  // the policy's name: "mlp"
+  Index horizon = 0;  // control steps of a trial
+  std::string kind;   // the policy's name: "mlp"
   Vector theta;
   Description description;
   Answers answers;

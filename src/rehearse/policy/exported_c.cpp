@@ -30,6 +30,7 @@ constexpr const char* kFrame = R"(/* @NAME@: a @MARK@.
 #define @UPPER@_STATES @STATES@
 #define @UPPER@_ACTIONS @ACTIONS@
 @MEMORY_DEFINE@#define @UPPER@_DT_S @DT_S@
+#define @UPPER@_STEPS @STEPS@
 
 /* Of NaN it is low: a compiler may compute ahead what is used for finite states alone. */
 static inline double @NAME@_limit(double x, double low, double high) { return x > low ? x < high ? x : high : low; }
@@ -279,16 +280,13 @@ class Body {
 std::string to_c(const Exported& exported, const std::string& name) {
   Values values = {{"NAME", name},
                    {"UPPER", name},
-                   {"MARK", kExportedMark},
-                   {"STATES", std::to_string(measured(exported))},
                    {"ALL", std::to_string(exported.states.size())},
-                   {"ACTIONS", std::to_string(exported.actions.size())},
-                   {"DT_S", number(exported.dt_s)},
                    {"COUNT", std::to_string(exported.answers.states.rows())},
                    {"TEST_STATES", rows(exported.answers.states, {'{', '}', "    "})},
                    {"TEST_TIMES", list(exported.answers.times_s)},
                    {"TEST_ACTIONS", rows(exported.answers.actions, {'{', '}', "    "})},
                    {"RANGES", list(highs(exported) - lows(exported))}};
+  values.merge(common_values(exported));
   for (char& c : values["UPPER"]) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   for (const std::string& line : explanation(exported)) values["WHERE_FROM"] += " * " + line + "\n";
   add_memory(exported, name, values);

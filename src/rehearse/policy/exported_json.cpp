@@ -107,6 +107,7 @@ std::string to_json(const Exported& exported) {
               {"trial", from.trial},
               {"return", from.total_reward ? Json(*from.total_reward) : Json()},
               {"dt_s", exported.dt_s},
+              {"steps", exported.horizon},
               {"states", states},
               {"actions", actions},
               {"policy", exported.kind},

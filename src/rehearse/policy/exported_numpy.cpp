@@ -12,7 +12,8 @@ constexpr const char* kFrame = R"PY(# A @MARK@.
 #
 @WHERE_FROM@import numpy as np
 
-STATES, ACTIONS, DT_S = @STATE_NAMES@, @ACTION_NAMES@, @DT_S@
+STATES, ACTIONS = @STATE_NAMES@, @ACTION_NAMES@
+DT_S, STEPS = @DT_S@, @STEPS@
 LOW, HIGH = np.array(@LOW@), np.array(@HIGH@)
 @NUMBERS@
 
@@ -197,17 +198,14 @@ std::string table(const Matrix& values) { return rows(values, {'[', ']', "    "}
 
 std::string to_numpy(const Exported& exported) {
   Values values = {
-      {"MARK", kExportedMark},
-      {"STATES", std::to_string(measured(exported))},
-      {"ACTIONS", std::to_string(exported.actions.size())},
       {"STATE_NAMES", names(std::vector(exported.states.begin(), exported.states.end() - memory(exported)))},
       {"ACTION_NAMES", names(exported.actions)},
-      {"DT_S", number(exported.dt_s)},
       {"LOW", list(lows(exported))},
       {"HIGH", list(highs(exported))},
       {"TEST_STATES", table(exported.answers.states)},
       {"TEST_TIMES", list(exported.answers.times_s)},
       {"TEST_ACTIONS", table(exported.answers.actions)}};
+  values.merge(common_values(exported));
   for (const std::string& line : explanation(exported)) values["WHERE_FROM"] += "# " + line + "\n";
   add_memory(exported, values);
   std::visit(Body(values), exported.description.form);

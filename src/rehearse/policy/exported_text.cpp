@@ -83,6 +83,14 @@ std::string filled(std::string_view text, const std::map<std::string, std::strin
   }
 }
 
+std::map<std::string, std::string> common_values(const Exported& exported) {
+  return {{"MARK", kExportedMark},
+          {"STATES", std::to_string(measured(exported))},
+          {"ACTIONS", std::to_string(exported.actions.size())},
+          {"DT_S", number(exported.dt_s)},
+          {"STEPS", std::to_string(exported.horizon)}};
+}
+
 std::string labelled(const std::string& name, const std::string& unit) { return harmless(with_unit(name, unit)); }
 
 std::vector<std::string> explanation(const Exported& exported) {

@@ -24,6 +24,9 @@ std::string rows(const Matrix& values, const Brackets& brackets);
 /// The text with each @WORD@ replaced. Every word must have a value.
 std::string filled(std::string_view text, const std::map<std::string, std::string>& values);
 
+/// Values of words that all texts have: MARK, STATES, ACTIONS, DT_S, STEPS.
+std::map<std::string, std::string> common_values(const Exported& exported);
+
 /// "angle [rad]", as a comment may have it: without what ends one, or a line.
 std::string labelled(const std::string& name, const std::string& unit);
 
