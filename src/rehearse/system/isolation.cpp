@@ -6,12 +6,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <cstring>
 #include <optional>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -148,7 +149,9 @@ class ForkedWorker final : public Worker {
     close(ends[1]);
     socket_ = ends[0];
     if (process_ > 0) return;
+    const int why = errno;
     close(socket_);
+    errno = why;
     fail();
   }
   ~ForkedWorker() override {
@@ -186,7 +189,7 @@ class ForkedWorker final : public Worker {
   using RowVector = Eigen::RowVectorXd;
 
   [[noreturn]] static void fail() {
-    throw std::system_error(errno, std::generic_category(), "no process can be made for the simulator");
+    throw Unavailable(fmt::format("no process can be made for the simulator: {}", std::strerror(errno)));
   }
 
   double row_s_;

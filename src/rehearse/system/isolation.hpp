@@ -12,7 +12,7 @@ namespace rehearse::system {
 ///
 /// A row during which its process ends, or that takes longer than row_s, is tried once more in a new process and comes
 /// back as NaN when that ends too: a process that is killed from outside changes no number. What the processes print is
-/// dropped. `change` throws std::system_error where no process can be made.
+/// dropped. `change` throws Unavailable where no process can be made.
 std::shared_ptr<const Simulator> isolated(std::shared_ptr<const Simulator> simulator, double row_s = 30);
 
 }  // namespace rehearse::system

@@ -45,26 +45,18 @@ class Progress {
 
 void Workers::change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const {
   std::unique_ptr<Worker> worker = idle_.take();
-  Index faults_in_a_row = 0;
   for (Progress rows(X.rows(), options_.row_by_row); !rows.done();) {
     if (!worker) worker = options_.start();
     const Index first = rows.first(), count = rows.count();
     const Index answered =
         worker->change(X.middleRows(first, count), U.middleRows(first, count), phi, dX.middleRows(first, count));
     rows.answered(answered);
-    if (answered > 0) {
-      remember(X.middleRows(first, 1), U.middleRows(first, 1), phi);
-      faults_in_a_row = 0;
-    }
+    if (answered > 0) remember(X.middleRows(first, 1), U.middleRows(first, 1), phi);
     if (answered == count) continue;
-    note(*worker);
+    const bool patient = note(*worker);
     const bool costly = worker->costly(), declined = worker->declined();
     if (!declined) worker.reset();
-    faults_in_a_row += costly ? kCostly : 1;
-    if (options_.patience > 0 && faults_in_a_row >= options_.patience) {
-      worker = one_that_answers(std::move(worker), X, U, phi);
-      faults_in_a_row = 0;
-    }
+    if (!patient) worker = one_that_answers(std::move(worker), X, U, phi);
     if (!rows.gives_up(costly, declined)) continue;
     dX.row(rows.first()).setConstant(kNaN);
     rows.answered(1);
@@ -87,13 +79,16 @@ Workers::KnownRows Workers::some_of(const ConstMatrixView& X, const ConstMatrixV
 void Workers::remember(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const {
   if (options_.patience == 0) return;
   const std::lock_guard lock(mutex_);
+  faults_in_a_row_ = 0;
   if (!known_) known_ = {X, U, phi};
 }
 
-void Workers::note(const Worker& worker) const {
+bool Workers::note(const Worker& worker) const {
   const std::lock_guard lock(mutex_);
   ++faults_.count;
   faults_.last = worker.problem();
+  faults_in_a_row_ += worker.costly() ? kCostly : 1;
+  return options_.patience == 0 || faults_in_a_row_ < options_.patience;
 }
 
 /// worker: to be asked first; null: none is left.

@@ -47,7 +47,7 @@ class Workers {
   struct Options {
     std::function<std::unique_ptr<Worker>()> start;
     bool row_by_row = false;  // each row is answered by itself: the first that is missing is to blame
-    Index patience = 0;       // consecutive faults before a row is tried that was answered before; 0: endless
+    Index patience = 0;  // consecutive faults, of all calls, before a row is tried that was answered before; 0: endless
   };
   explicit Workers(Options options) : options_(std::move(options)) {}
 
@@ -65,7 +65,7 @@ class Workers {
 
   static KnownRows some_of(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi);
   void remember(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const;
-  void note(const Worker& worker) const;
+  bool note(const Worker& worker) const;  // a fault; false: patience ends
   std::unique_ptr<Worker> one_that_answers(std::unique_ptr<Worker> worker, const ConstMatrixView& X,
                                            const ConstMatrixView& U, const Vector& phi) const;
 
@@ -73,6 +73,7 @@ class Workers {
   mutable Pool<Worker> idle_;
   mutable std::mutex mutex_;  // of what follows
   mutable std::optional<KnownRows> known_;
+  mutable Index faults_in_a_row_ = 0;
   mutable Faults faults_;
 };
 

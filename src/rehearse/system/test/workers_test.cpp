@@ -95,5 +95,23 @@ TEST(Workers, PatienceEnds) {
   EXPECT_TRUE(std::isnan(asked_of(script, 8, 6)(7, 0))) << "row 2 is still answered";
 }
 
+TEST(Workers, PatienceEndsInCallsOfOneRow) {
+  Script script{.bad = {1}};
+  const Workers workers({.start = [&script] { return std::make_unique<ScriptedWorker>(script); }, .patience = 6});
+  const auto ask = [&](double x) {
+    Matrix dX(1, 1);
+    workers.change(Matrix::Constant(1, 1, x), Matrix::Ones(1, 1), {}, dX);
+    return dX(0);
+  };
+  EXPECT_EQ(ask(0), 1);
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(std::isnan(ask(1))) << "row 0 is still answered";
+  script.bad = {0, 1};
+  EXPECT_THROW(
+      {
+        for (int i = 0; i < 6; ++i) ask(1);
+      },
+      Unavailable);
+}
+
 }  // namespace
 }  // namespace rehearse::system
