@@ -13,7 +13,6 @@ namespace {
 constexpr double worst = -std::numeric_limits<double>::infinity();
 
 /// Evaluations kept back for the choice at the end.
-Index reserved(const SearchOptions& options) { return 2 * options.candidates * options.final_samples; }
 
 void check(const Vector& start, const std::vector<Interval>& box, const SearchOptions& options) {
   Violations violations;
@@ -59,7 +58,7 @@ class Search {
   void evaluate(const ConstMatrixView& X, Index samples, VectorView values);
   Vector start_of(Index descent) const;
   Vector scaled(const Vector& unit) const { return low_ + width_.cwiseProduct(unit); }
-  Index left() const { return options_.max_evaluations - reserved(options_) - result_.evaluations; }
+  Index left() const { return options_.max_evaluations - options_.reserved() - result_.evaluations; }
 
   const BatchObjective& objective_;
   const SearchOptions& options_;
@@ -259,9 +258,9 @@ void SearchOptions::fields(FieldVisitor& v) {
   v.publish("cmaes.elitism", published(true));
   v.group("cmaes", cmaes, kExpert);
   v.group("uncertainty", uncertainty, kExpert);
-  v.require(max_evaluations > reserved(*this),
-            fmt::format("max_evaluations = {}, must be > 2 candidates × final_samples = {}", max_evaluations,
-                        reserved(*this)));
+  v.require(
+      max_evaluations > reserved(),
+      fmt::format("max_evaluations = {}, must be > 2 candidates × final_samples = {}", max_evaluations, reserved()));
 }
 
 SearchResult maximise(const BatchObjective& objective, const Vector& start, const std::vector<Interval>& box,

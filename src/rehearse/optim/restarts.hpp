@@ -27,7 +27,8 @@ struct SearchOptions {
   Index candidates = 4;      // of the best points, and as many of the means, go into the result
   bool means_alone = false;  // no best points: with noise these are the luckiest (libcmaes with uncertainty handling)
   Index final_samples = 0;   // evaluations of each of these at the end, to choose by; 0: chosen as they were seen
-  CmaesOptions cmaes{};      // its population is the smallest; its step tolerance a fraction of `step`
+  Index reserved() const { return 2 * candidates * final_samples; }  // evaluations for that
+  CmaesOptions cmaes{};  // its population is the smallest; its step tolerance a fraction of `step`
   UncertaintyOptions uncertainty{};
   void fields(FieldVisitor& v);
 };

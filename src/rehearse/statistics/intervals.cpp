@@ -76,6 +76,10 @@ Interval rate_interval(Index successes, Index runs) {
           successes == runs ? 1 : boost::math::ibeta_inv(k + 1, n - k, 1 - kTail)};
 }
 
+Index runs_to_exclude(double probability) {
+  return static_cast<Index>(std::ceil(std::log(kTail) / std::log1p(-probability)));
+}
+
 Interval median_interval(std::vector<double> values) {
   const std::size_t rank = sign_test_rank(values.size());
   return order_statistics(std::move(values), rank);

@@ -14,6 +14,9 @@ inline constexpr double kConfidence = 0.95;
 /// runs ≥ 0, successes in 0..runs.
 Interval rate_interval(Index successes, Index runs);
 
+/// The least runs without a success after which the interval above ends at this probability, in (0, 1), or below.
+Index runs_to_exclude(double probability);
+
 /// The interval of the median of a distribution of which these are independent draws: order statistics (Thompson
 /// 1936). Needs 6 values.
 Interval median_interval(std::vector<double> values);

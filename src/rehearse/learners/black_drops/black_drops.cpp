@@ -191,12 +191,14 @@ class BlackDrops final : public TrialLearner {
   void explore(const SearchProblem& problem, Proposal& proposal) const {
     const auto random = schedule();
     const SearchProblem of_actions{problem.model, *random, problem.task, problem.evaluator, problem.progress};
-    auto found = safe_random_actions(of_actions, options_, stream());
-    if (!found) return;
+    SearchResult found = safe_random_actions(of_actions, options_, stream());
+    proposal.rollouts += found.rollouts;
+    proposal.failed_rollouts += found.failed_rollouts;
+    if (found.excess > 0) return;
     proposal.policy = random;
-    proposal.theta = std::move(found->theta);
-    proposal.predicted_return = found->predicted_return;
-    proposal.risks = std::move(found->risks);
+    proposal.theta = std::move(found.theta);
+    proposal.predicted_return = found.predicted_return;
+    proposal.risks = std::move(found.risks);
     proposal.notes.emplace_back("no policy that is safe promises more than was earned: safe random actions are tried");
   }
 

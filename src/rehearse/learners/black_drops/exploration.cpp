@@ -18,18 +18,22 @@ Vector random_actions(const Task& task, const FirstTrial& options, double fracti
   return schedule;
 }
 
-std::optional<SearchResult> safe_random_actions(const SearchProblem& problem, const Options& options,
-                                                const StreamKey& trial) {
+SearchResult safe_random_actions(const SearchProblem& problem, const Options& options, const StreamKey& trial) {
   constexpr double kLeast = 0.005, kNext = 0.7;  // fractions of the actions' ranges
   StreamKey actions = trial, judging = trial;
   actions.stage = Stage::episode;
   judging.stage = Stage::judging;
-  for (double fraction = 1; fraction > kLeast; fraction *= kNext) {
-    const Vector theta = random_actions(problem.task, options.first_trial, fraction, actions);
-    SearchResult judged = judge(problem, theta, options.search, judging);
-    if (judged.excess == 0) return judged;
+  SearchResult judged{.excess = 1};
+  Index rollouts = 0, failed = 0;
+  for (double fraction = 1; fraction > kLeast && judged.excess > 0; fraction *= kNext) {
+    judged =
+        judge(problem, random_actions(problem.task, options.first_trial, fraction, actions), options.search, judging);
+    rollouts += judged.rollouts;
+    failed += judged.failed_rollouts;
   }
-  return std::nullopt;
+  judged.rollouts = rollouts;
+  judged.failed_rollouts = failed;
+  return judged;
 }
 
 }  // namespace rehearse::learners::black_drops

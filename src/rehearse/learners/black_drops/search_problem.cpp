@@ -4,7 +4,19 @@
 #include <cmath>
 #include <utility>
 
+#include "rehearse/statistics/intervals.hpp"
+
 namespace rehearse::learners::black_drops {
+namespace {
+
+/// Rollouts of a policy that show that it keeps every limit, if none of them breaks one.
+Index rollouts_that_show_safety(const Task& task, const SearchOptions& options) {
+  Index most = 1;
+  for (const Limit& limit : task.limits) most = std::max(most, statistics::runs_to_exclude(limit.risk));
+  return (most + options.particles - 1) / options.particles;
+}
+
+}  // namespace
 
 void SearchOptions::fields(FieldVisitor& v) {
   v.choice("method", method,
@@ -43,7 +55,8 @@ Task continued(Task task, double extra_s) {
 }
 
 Index comparisons(const SearchProblem& problem, const SearchOptions& options) {
-  if (!problem.task.limits.empty()) return std::max(options.selection, options.safety.rollouts);
+  if (!problem.task.limits.empty())
+    return std::max({options.selection, options.safety.rollouts, rollouts_that_show_safety(problem.task, options)});
   const bool sure = !options.simulate.sample || problem.model.certain();
   const bool exact = options.simulate.measurement_noise == 0 || problem.model.measurement_std().isZero(0);
   return sure && exact && problem.task.start_std.isZero(0) ? 1 : options.selection;

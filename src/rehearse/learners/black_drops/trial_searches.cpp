@@ -25,7 +25,8 @@ SearchOptions for_safety(SearchOptions options, std::size_t starts) {
   options.particles *= kRollouts;
   options.race.descents = std::max(static_cast<Index>(starts), Index{1});
   options.race.max_evaluations = std::max(options.race.max_evaluations / kFewer, 2 * options.race.descents);
-  options.restarts.max_evaluations = std::max(options.restarts.max_evaluations / kFewer, Index{1});
+  options.restarts.max_evaluations =
+      std::max(options.restarts.max_evaluations / kFewer, options.restarts.reserved() + 1);
   options.safety.rollouts = std::max(options.safety.rollouts / kRollouts, Index{1});
   options.selection = std::max(options.selection / kRollouts, Index{1});
   return options;

@@ -39,6 +39,14 @@ TEST(RateInterval, KnownValues) {
   EXPECT_EQ(rate_interval(0, 0).high, 1);
 }
 
+TEST(RunsToExclude, AreTheLeastWhoseIntervalEndsBelow) {
+  for (const double rate : {0.5, 0.05, 0.003}) {
+    const Index runs = runs_to_exclude(rate);
+    EXPECT_LE(rate_interval(0, runs).high, rate);
+    EXPECT_GT(rate_interval(0, runs - 1).high, rate);
+  }
+}
+
 TEST(MedianInterval, IsAPairOfOrderStatistics) {
   std::vector<double> values;
   for (int i = 1; i <= 30; ++i) values.push_back((7 * i) % 31);  // 1..30, mixed

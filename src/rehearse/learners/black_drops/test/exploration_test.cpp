@@ -28,9 +28,11 @@ TEST(SafeRandomActions, AreAsLargeAsTheLimitsAllow) {
     const auto schedule = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
     const ProgressSink nobody;
     const auto found = safe_random_actions({model, *schedule, task, serial_evaluator(), nobody}, {}, {.seed = 2});
-    if (!found) return std::nullopt;
-    EXPECT_EQ(found->risks.front().broken, 0);
-    return found->theta.cwiseAbs().maxCoeff();
+    EXPECT_EQ(found.rollouts % found.risks.front().episodes, 0);
+    EXPECT_GE(found.rollouts, found.risks.front().episodes);
+    if (found.excess > 0) return std::nullopt;
+    EXPECT_EQ(found.risks.front().broken, 0);
+    return found.theta.cwiseAbs().maxCoeff();
   };
   const double all = largest(1).value();
   EXPECT_GT(all, 0.5);

@@ -18,14 +18,16 @@ TEST(Comparisons, AreOneWhereNothingCanDiffer) {
   const ProgressSink nobody;
   const auto number = [&](const dynamics::DynamicsModel& model) {
     return comparisons({model, *policy, task, serial_evaluator(), nobody},
-                       {.selection = 30, .safety = {.rollouts = 50}});
+                       {.selection = 30, .safety = {.rollouts = 80}});
   };
   EXPECT_EQ(number(sure), 30) << "starts differ";
   task.start_std.setZero();
   EXPECT_EQ(number(sure), 1);
   EXPECT_EQ(number(uncertain), 30);
   task.limits.emplace_back();
-  EXPECT_EQ(number(sure), 50);
+  EXPECT_EQ(number(sure), 80);
+  task.limits[0].risk = 0.01;
+  EXPECT_EQ(number(sure), 368) << "none of 367 may be chance";
 }
 
 /// An episode of the slider whose positions are given.

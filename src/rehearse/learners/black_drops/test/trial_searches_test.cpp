@@ -102,6 +102,15 @@ TEST_F(TrialSearchesTest, ASafeSearchEvaluatesPoliciesByEightRollouts) {
   EXPECT_EQ(trial.judge(Vector{{-5, 0}}).risks.front().episodes, 80);
 }
 
+TEST_F(TrialSearchesTest, ASafeSearchHasEvaluationsForItsFinalSamples) {
+  task.limits = {{"end", "", [](const Steps&, VectorView kept) { kept.setOnes(); }}};
+  options.method = Method::restarts;
+  options.restarts.max_evaluations = 60;
+  options.restarts.candidates = 2;
+  options.restarts.final_samples = 10;
+  EXPECT_NO_THROW(searches().search_safe({Vector{{-5, 0}}}, 0));
+}
+
 TEST_F(TrialSearchesTest, OfThoseThatSolveTheSafeOneIsTaken) {
   task.limits = {{"end", "position > 0.02", [](const Steps& steps, VectorView kept) {
                     kept = (steps.X_next.col(0).array() > 0.02).cast<double>();
