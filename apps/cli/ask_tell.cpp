@@ -125,7 +125,8 @@ void print_trials(const std::vector<TrialRecord>& trials) {
   for (const TrialRecord& trial : trials)
     put("trial {}: return {:.4g}{}{}{}\n", trial.trial, trial.total_reward,
         trial.predicted_return ? fmt::format(", {:.4g} was predicted", *trial.predicted_return) : "",
-        !trial.solved   ? ""
+        trial.cut_short ? ", stopped by no fault of the policy"
+        : !trial.solved ? ""
         : *trial.solved ? ", solved"
                         : ", not solved",
         after_comma(broken_text(trial.limits)));
@@ -207,8 +208,9 @@ int status(const experiment::Catalogue& catalogue, const StatusArguments& argume
   print_trials(history.trials);
   if (history.done() > 0) {
     const TrialRecord& best = experiment::best_trial(history.trials);
-    put("best: trial {}, return {:.4g}, after {:.4g} s on the robot in all\n", best.trial, best.total_reward,
-        history.trials.back().interaction_s);
+    const std::string which = best.cut_short ? "none: each trial was stopped"
+                                             : fmt::format("trial {}, return {:.4g}", best.trial, best.total_reward);
+    put("best: {}, after {:.4g} s on the robot in all\n", which, history.trials.back().interaction_s);
   }
   const std::filesystem::path next = std::filesystem::path(folder) / experiment::kNextFolder;
   if (in_use)
@@ -217,8 +219,10 @@ int status(const experiment::Catalogue& catalogue, const StatusArguments& argume
     put("next: {} shows it; the program whose functions the robot has goes on, in Python: rehearse.open_run(\"{}\", "
         "robot)\n",
         command_line({"report", folder}), folder);
-  else if (history.asked && std::filesystem::exists(next))
+  else if (history.asked && std::filesystem::exists(next / "policy.json"))
     print_asked(resolved, *history.asked, folder, next);
+  else if (experiment::was_told(history))
+    put("next: {}\n", command_line({"ask", folder}));
   else if (is_complete(resolved, history))
     put("next: {} shows it; {} goes on\n", command_line({"report", folder}),
         command_line({"resume", folder, "--trials", std::to_string(2 * history.done())}));

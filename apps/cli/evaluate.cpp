@@ -141,6 +141,7 @@ struct Work {
   Wanted wanted;
   GivenPolicy policy;
   experiment::Resolved resolved;
+  bool told = false;  // the run's trials were on a robot that is not its plant
   std::shared_ptr<const Evaluator> evaluator;
 
   const Task& task() const { return resolved.scenario.task; }
@@ -172,9 +173,13 @@ Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& a
   experiment::Resolved resolved = experiment::read_run(catalogue, folder, wanted.settings).resolved;
   wanted.plan.seed = static_cast<std::uint64_t>(wanted.seed.value_or(resolved.spec.seed));
   const std::shared_ptr<const Evaluator> threads = make_thread_evaluator(static_cast<int>(wanted.threads));
-  return {catalogue,           folder,
-          std::move(wanted),   std::move(policy),
-          std::move(resolved), make_stoppable(threads, [] { return caught_signal() != 0; })};
+  return {catalogue,
+          folder,
+          std::move(wanted),
+          std::move(policy),
+          std::move(resolved),
+          experiment::was_told(run.history),
+          make_stoppable(threads, [] { return caught_signal() != 0; })};
 }
 
 void announce(const Work& work, const EvaluateArguments& arguments) {
@@ -183,6 +188,8 @@ void announce(const Work& work, const EvaluateArguments& arguments) {
   const auto& earned = work.policy.total_reward;
   if (const prior::Prior* prior = work.resolved.stand_in())
     put("there is no [plant]: the prior {} plays the robot, as it was identified, without the GPs\n", prior->name);
+  else if (work.told)
+    put("the plant plays the robot: a simulator, not the robot that was told of\n");
   put("the policy of {}{}: {} of {:g} s, seed {}{}{}\n", whose, earned ? fmt::format(" (return {:.4g})", *earned) : "",
       counted(work.wanted.plan.episodes, "episode"), work.episode_s(), work.wanted.plan.seed,
       settings.empty() ? "" : ", ", settings);

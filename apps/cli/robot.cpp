@@ -184,11 +184,14 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   const auto builder = catalogue.scenario_or_throw(catalogue.scenario_name(arguments.robot));
   scenario::Scenario scenario = builder->build();
   if (arguments.no_plant) scenario.make_plant = nullptr;
+  const bool driven = static_cast<bool>(scenario.make_plant);
+  if (arguments.out && !driven)
+    throw InvalidInput(
+        "--out: there is no [plant] whose motion it could show; in a copy, name the dynamics of a prior there");
   const scenario::Details details = builder->details();
   print_task(scenario, builder->summary(), details);
   if (scenario.require_ready) scenario.require_ready();
   const robot_file::Tried tried = robot_file::try_out(scenario);
-  const bool driven = static_cast<bool>(scenario.make_plant);
   if (arguments.no_plant)
     put("plant\n  left alone\n");
   else if (!driven)
@@ -209,7 +212,6 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   if (scenario.priors.empty()) put("  none: learners without a prior can be used\n");
   if (scenario.faults) print_lines("  ", scenario.faults());
   const std::vector<std::string> complaints = robot_file::complaints(tried);
-  if (arguments.out && !driven) throw InvalidInput("--out: there is no [plant] that could show its motion");
   if (arguments.out && !tried.end) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
   put("\nall is well; to learn: {}{}\n",

@@ -29,8 +29,8 @@ expect 2 "no trial is done yet" evaluate fresh
 expect 0 "policy.json (" evaluate fresh --policy policy.json --episodes 5 --out fresh.csv
 cmp first.csv fresh.csv || fail "a policy of a file does otherwise in a run without trials"
 expect 0 "trial 1: run the policy" ask fresh
-expect 2 "no trial is done yet; trial 1 is asked for" evaluate fresh
-expect 2 "no trial is done yet; trial 1 is asked for" export fresh --out asked.json
+expect 2 "no trial is done yet; trial 1 is asked for, --trial 1" evaluate fresh
+expect 2 "no trial is done yet; trial 1 is asked for, --trial 1" export fresh --out asked.json
 expect 0 "the policy of trial 1: 5 episodes" evaluate fresh --trial 1 --episodes 5 --out asked.csv
 expect 0 "fresh/next/policy.json: 5 episodes" evaluate fresh --policy fresh/next/policy.json --episodes 5 --out next.csv
 cmp asked.csv next.csv || fail "the file of a policy that is asked for does other than that of its trial"

@@ -176,7 +176,7 @@ std::vector<std::string> Task::violations() const {
     const Limit& limit = limits[i];
     found.require(!limit.name.empty(), fmt::format("limit {} has no name", i + 1));
     found.require(std::ranges::count(limits, limit.name, &Limit::name) == 1,
-                  fmt::format("limit {}: there must be one of this name", limit.name));
+                  fmt::format("there are two limits {}", limit.name));
     found.require(static_cast<bool>(limit.holds), fmt::format("limit {} has no condition", limit.name));
     found.require(limit.risk > 0 && limit.risk < 1,
                   fmt::format("limit {}: risk = {}, must be above 0 and below 1", limit.name, limit.risk));

@@ -52,8 +52,9 @@ struct TakeBackResult {
 };
 
 /// Takes the last `tell_run` back, when it took the wrong file: the run's folder is as before it, byte for byte, but
-/// for taken-back. Again, it takes back the one before. A kill costs nothing: the same call goes on. Throws
-/// InvalidInput where there is none, or Rehearse drove the robot since, else RunFailed and Interrupted.
+/// for taken-back and a policy that was asked for, which is removed. Again, it takes back the one before. A kill costs
+/// nothing: the same call goes on. Throws InvalidInput where there is none, or Rehearse drove the robot since, else
+/// RunFailed and Interrupted.
 TakeBackResult take_back(const Catalogue& catalogue, const std::filesystem::path& path, const RunOptions& options);
 
 /// A run as its folder has it, for reading only: another process may be at work there.

@@ -20,6 +20,8 @@ auto named_failure(Index trial, const char* who, Step step, bool outside = false
     return step();
   } catch (const std::bad_alloc&) {
     throw;  // with the options that ask for so much
+  } catch (const RunFailed&) {
+    throw;  // it says what failed
   } catch (const system::Unavailable& error) {
     throw RunFailed(fmt::format("trial {}: the {} failed: {}", trial, who, error.what()), true);
   } catch (const std::exception& error) {

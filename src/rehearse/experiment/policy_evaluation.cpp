@@ -58,7 +58,7 @@ std::unique_ptr<system::Plant> make_robot(const Resolved& resolved) {
   if (scenario.make_plant) return scenario.make_plant();
   const prior::Prior& prior = *resolved.stand_in();
   return system::make_simulated_plant(prior.simulator, prior.space.values(),
-                                      {scenario.task.start_mean, scenario.task.start_std, {}});
+                                      {scenario.task.start_mean, scenario.task.start_std, scenario.stand_in_noise});
 }
 
 }  // namespace

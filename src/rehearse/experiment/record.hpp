@@ -77,6 +77,9 @@ struct History {
   Index done() const { return static_cast<Index>(trials.size()); }
 };
 
+/// True if Rehearse drove none of the trials: the robot is not the plant, even where there is one.
+bool was_told(const History& history);
+
 /// The trial with the highest return, the first of equals. One that was cut short is it only where all were. There must
 /// be one.
 const TrialRecord& best_trial(const std::vector<TrialRecord>& trials);

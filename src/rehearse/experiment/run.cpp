@@ -48,7 +48,11 @@ class Run {
 
   RunResult finish() {
     run_.begin(!complete());
-    while (!complete()) run_.conclude(execute(run_.propose()));
+    if (!run_.history().asked) folder_.remove_next();  // what a kill has left
+    while (!complete()) {
+      run_.conclude(execute(run_.propose()));
+      folder_.remove_next();
+    }
     if (parts_.resolved().spec.trials > 0) folder_.mark_done(run_.history().done());
     return result();
   }

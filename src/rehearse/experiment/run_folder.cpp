@@ -155,7 +155,13 @@ void RunFolder::write_next(const std::string& name, const std::string& text) con
   files::write_file(path_ / kNextFolder / name, text);
 }
 
-void RunFolder::remove_next() const { fs::remove_all(path_ / kNextFolder); }
+void RunFolder::remove_next() const {
+  // The last two are made by the commands that `ask` prints. Other files are the user's.
+  for (const char* name : {"policy.h", "policy.json", "policy.py", "test", "__pycache__"})
+    fs::remove_all(path_ / kNextFolder / name);
+  std::error_code not_empty;
+  fs::remove(path_ / kNextFolder, not_empty);
+}
 
 void RunFolder::write_motion(const char* kind, Index trial, const std::string& json) const {
   fs::create_directories(path_ / "motion");  // a scenario that cannot be drawn has none

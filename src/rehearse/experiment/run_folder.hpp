@@ -56,7 +56,7 @@ class RunFolder {
   /// A log that was told before the first trial, from 1.
   void write_log(Index log, const std::string& csv) const;
 
-  /// A file of the policy that was asked for; none is left of a trial that is over.
+  /// A file of the policy that was asked for; none is left of a trial that is over. Files of others stay.
   void write_next(const std::string& name, const std::string& text) const;
   void remove_next() const;
 

@@ -69,8 +69,12 @@ std::optional<std::string> RunStore::read(const std::string& name) {
 void RunStore::write(const std::string& name, const std::string& bytes) {
   const std::string sealed = files::seal(kStoreKind, owner_ + '\0' + bytes);
   if (const fs::path path = kept(name); !path.empty()) {
-    fs::create_directories(path.parent_path());
-    files::write_file(path, sealed, files::Durability::power);
+    try {
+      fs::create_directories(path.parent_path());
+      files::write_file(path, sealed, files::Durability::power);
+    } catch (const std::runtime_error& error) {
+      throw RunFailed(error.what(), true);  // of the disk, not of the learner
+    }
   }
   if (const fs::path path = cached(name); !path.empty()) write_cached(path, sealed);
 }

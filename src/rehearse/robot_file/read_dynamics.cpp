@@ -1,8 +1,8 @@
 #include "rehearse/robot_file/read_dynamics.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -14,14 +14,14 @@
 namespace rehearse::robot_file {
 namespace {
 
-/// True if an argument of a command looks like a file: script.py, ./simulator.
+/// True if an argument of a command looks like a file: script.py, ./simulator. robot.local does not.
 bool looks_like_a_file(const std::string& argument, bool first) {
-  if (argument.starts_with('-')) return false;
+  constexpr std::string_view kFiles[] = {".py",  ".js",  ".mjs", ".sh",   ".rb",   ".jl",   ".lua",
+                                         ".pl",  ".r",   ".m",   ".jar",  ".toml", ".json", ".yaml",
+                                         ".yml", ".csv", ".xml", ".urdf", ".txt"};
   const std::filesystem::path path(argument);
-  const std::string extension = path.extension().string();
-  const auto is_letter = [](unsigned char c) { return std::isalpha(c); };
-  const bool named = extension.size() > 1 && std::all_of(extension.begin() + 1, extension.end(), is_letter);
-  return path.is_relative() && (named || (first && path.has_parent_path()));
+  const bool named = std::ranges::count(kFiles, path.extension().string()) > 0;
+  return !argument.starts_with('-') && path.is_relative() && (named || (first && path.has_parent_path()));
 }
 
 class DynamicsReader {

@@ -1,6 +1,7 @@
 #include "rehearse/robot_file/read_states.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -21,6 +22,10 @@ State read_state(Table& table, expression::Formulas& names) {
   });
   if (angle && !input)
     table.wrong("input", "angle = true says how models and policies see a state, and input = false that they do not");
+  constexpr std::string_view kDegrees[] = {"deg", "degree", "degrees", "°"};
+  if (angle && std::ranges::count(kDegrees, state.variable.unit) > 0)
+    table.wrong("unit", fmt::format("state {0}: an angle is in rad; a log in degrees says so in its header: {0} [deg]",
+                                    state.variable.name));
   state.variable.kind = angle ? StateKind::angle : input ? StateKind::plain : StateKind::omitted;
   table.reader().take("rate", state.variable.rate);
   table.reader().take("parent", state.variable.parent);

@@ -77,6 +77,10 @@ class Builder final : public scenario::ScenarioBuilder {
       scenario.oracle = dynamics.simulator(plant, robot_.options.substeps);
       scenario.oracle_lacks = oracle_lacks();
     }
+    if (!around.measurement_std.isZero(0)) {
+      scenario.stand_in_noise = Vector::Zero(task.state_size());
+      scenario.stand_in_noise.head(actuators.own_states()) = around.measurement_std;
+    }
     for (const Variant& prior : robot_.priors)
       scenario.priors.push_back({.name = prior.name,
                                  .simulator = dynamics.simulator(prior, robot_.options.substeps),

@@ -20,6 +20,7 @@ namespace {
 
 struct Steps {
   Matrix X, U, dX;  // measured without noise where the plant knows it
+  Vector costs;     // of each step
   std::optional<std::string> end;
   Index ended = 0;
   std::vector<Index> limits, limits_at_once;  // of each limit: episodes that broke it, and in their first step
@@ -31,13 +32,17 @@ bool keeps(const Limit& limit, const rehearse::Steps& step) {
   return is_true(kept(0));
 }
 
-/// Counts the limits that the last row's step breaks, step t of its episode. Returns true if there are any.
-bool count_broken(const Task& task, Index row, Index t, Steps& steps) {
+/// Computes the cost of the last row's step, step t of its episode, and counts the limits that it breaks. Returns true
+/// if there are any.
+bool judge(const Task& task, Index row, Index t, Steps& steps) {
   const Matrix x = steps.X.row(row), u = steps.U.row(row), next = x + steps.dX.row(row);
   const Matrix before = t > 0 ? Matrix(steps.U.row(row - 1)) : Matrix::Zero(1, u.cols());
+  const rehearse::Steps step{x, u, next, before, static_cast<double>(t) * task.dt_s};
+  steps.costs(row) = 0;
+  if (task.cost) task.cost(step, steps.costs.segment(row, 1));
   bool any = false;
   for (std::size_t l = 0; l < task.limits.size(); ++l) {
-    if (keeps(task.limits[l], {x, u, next, before, static_cast<double>(t) * task.dt_s})) continue;
+    if (keeps(task.limits[l], step)) continue;
     any = true, ++steps.limits[l], steps.limits_at_once[l] += t == 0;
   }
   return any;
@@ -68,6 +73,7 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
   Steps steps{Matrix(episodes * task.horizon, task.state_size()),
               Matrix(episodes * task.horizon, task.action_size()),
               Matrix(episodes * task.horizon, task.state_size()),
+              Vector(episodes * task.horizon),
               {},
               0,
               std::vector<Index>(task.limits.size()),
@@ -93,7 +99,7 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
         x = next, ++row;
         const bool fell = task.ended && holds(task.ended, x);
         steps.ended += fell;
-        if (count_broken(task, row - 1, t, steps) || fell) break;
+        if (judge(task, row - 1, t, steps) || fell) break;
       }
     }
   } catch (const std::exception& error) {
@@ -102,6 +108,7 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
   steps.X.conservativeResize(row, Eigen::NoChange);
   steps.U.conservativeResize(row, Eigen::NoChange);
   steps.dX.conservativeResize(row, Eigen::NoChange);
+  steps.costs.conservativeResize(row);
   return steps;
 }
 
@@ -231,6 +238,7 @@ std::string why_falls_pay(const Task& task, const Steps& steps) {
   if ((!task.ended && task.limits.empty()) || steps.X.rows() == 0) return {};
   Vector rewards(steps.X.rows());
   task.reward(steps.X, steps.U, steps.X + steps.dX, rewards);
+  rewards -= steps.costs;
   double sum = 0, least = task.reward_floor;
   Index below = 0;
   for (const double reward : rewards)

@@ -41,6 +41,7 @@ struct Scenario {
   std::optional<Drawing> drawing;       // empty: it cannot be shown
   std::function<void()> require_ready;  // throws InvalidInput with why plant or priors cannot be used; null: they can
   std::function<std::vector<std::string>()> faults;  // of programs so far, a sentence each; null: there are none
+  Vector stand_in_noise;  // standard deviations (dx) of what is measured where a prior plays the robot; empty: 0
   Index evaluations = 0;  // extra episodes of each trial's policy on a plant of their own, which are no
                           // interaction: their mean return is recorded as expected_return; 0: none
 };

@@ -40,7 +40,7 @@ TEST(Task, LimitsHaveNamesOfTheirOwnConditionsAndRisks) {
   using Lines = std::vector<std::string>;
   const Limit good{"speed", "v < 1", [](const Steps&, VectorView kept) { kept.setOnes(); }, 0.1};
   EXPECT_EQ(after([&](Task& t) { t.limits = {good}; }), Lines{});
-  EXPECT_EQ(after([&](Task& t) { t.limits = {good, good}; }), Lines(2, "limit speed: there must be one of this name"));
+  EXPECT_EQ(after([&](Task& t) { t.limits = {good, good}; }), Lines(2, "there are two limits speed"));
   EXPECT_EQ(after([](Task& t) { t.limits = {{.name = "speed", .risk = 0}}; }),
             (Lines{"limit speed has no condition", "limit speed: risk = 0, must be above 0 and below 1"}));
   EXPECT_EQ(after([&](Task& t) {

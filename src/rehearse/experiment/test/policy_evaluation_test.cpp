@@ -117,6 +117,10 @@ TEST(PolicyEvaluation, ThePriorPlaysARobotThatHasNoPlant) {
   EXPECT_NE(evaluate(told, slow_policy(), {.episodes = 2}, serial_evaluator())[0].total_reward,
             on_prior[0].total_reward)
       << "its parameters are the robot's";
+  told.scenario.stand_in_noise = Vector::Constant(told.scenario.task.state_size(), 0.1);
+  const auto noisy = evaluate(told, slow_policy(), {.episodes = 2}, serial_evaluator());
+  told.scenario.stand_in_noise *= 2;
+  EXPECT_NE(evaluate(told, slow_policy(), {.episodes = 2}, serial_evaluator())[0].total_reward, noisy[0].total_reward);
   told.spec.prior = "near,far";
   EXPECT_FALSE(has_robot(told)) << "a choice among several is no robot";
   told.prior.reset();

@@ -12,6 +12,15 @@ TEST(Record, OfTrialsWithTheSameReturnTheFirstIsBest) {
   EXPECT_EQ(best_trial(trials).trial, 2);
 }
 
+TEST(Record, IsOfAToldRunWhereNoTrialWasDriven) {
+  History history;
+  EXPECT_FALSE(was_told(history));
+  history.trials = {{.trial = 1, .file_checksum = "1f"}};
+  EXPECT_TRUE(was_told(history));
+  history.trials.push_back({.trial = 2});
+  EXPECT_FALSE(was_told(history));
+}
+
 TEST(Record, ATrialThatWasCutShortIsNotTheBest) {
   std::vector<TrialRecord> trials{{.trial = 1, .total_reward = -1, .cut_short = true},
                                   {.trial = 2, .total_reward = -9},

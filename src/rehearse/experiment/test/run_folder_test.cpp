@@ -31,6 +31,20 @@ TEST(RunFolder, AnExistingFolderIsNeverOverwritten) {
   EXPECT_EQ(files::read_file(folder / "file"), "mine");
 }
 
+TEST(RunFolder, FilesOfOthersStayBesideTheNextPolicy) {
+  const fs::path path = fake::test_folder() / "run";
+  const RunFolder folder = RunFolder::create(path, line_spec(1), {}, {});
+  folder.write_next("policy.json", "{}");
+  fs::create_directories(path / "next/__pycache__");
+  std::ofstream(path / "next/raw.csv") << "mine";
+  folder.remove_next();
+  EXPECT_FALSE(fs::exists(path / "next/policy.json") || fs::exists(path / "next/__pycache__"));
+  EXPECT_EQ(files::read_file(path / "next/raw.csv"), "mine");
+  fs::remove(path / "next/raw.csv");
+  folder.remove_next();
+  EXPECT_FALSE(fs::exists(path / "next"));
+}
+
 TEST(RunFolder, TwoThreadsDoNotMakeOneFolder) {
   const fs::path folder = fake::test_folder();
   for (int i = 0; i < 20; ++i) {

@@ -37,6 +37,11 @@ TEST(ReadDynamics, AProgramHasItsFilesAndItsTimes) {
   EXPECT_EQ(robot.dynamics[1].parameters.front().name, "k");
 }
 
+TEST(ReadDynamics, HostsAndModulesAreNoFiles) {
+  EXPECT_EQ(complaint_of_program("program = [\"ssh\", \"robot.local\"]").find("no file"), std::string::npos);
+  EXPECT_EQ(complaint_of_program("program = [\"python3\", \"-m\", \"lab.driver\"]").find("no file"), std::string::npos);
+}
+
 TEST(ReadDynamics, WhatIsWrongWithAProgramIsSaid) {
   const auto expect = [](const std::string& lines, const std::string& part) {
     const std::string complaint = complaint_of_program(lines);

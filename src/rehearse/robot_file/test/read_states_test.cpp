@@ -46,6 +46,8 @@ TEST(ReadStates, NamesOfOthersAreSaidWithLineAndTheNearest) {
   expect("angle = true", "angle = true\nparent = \"q11\"",
          "7: state q2: its parent 'q11' is not another state, did you mean 'q1'?");
   expect("", "angle = true\nparent = \"q1\"", "7: state q2: q1 cannot carry it, both must be angles");
+  expect("unit = \"deg\"\nangle = true", "",
+         "3: state q1: an angle is in rad; a log in degrees says so in its header: q1 [deg]");
   EXPECT_EQ(ReadStates(states_of("rate = \"q2\"", "rate = \"q1\"")).complaint,
             "x.toml: line 3: state q1: its rates go in a circle\nx.toml: line 6: state q2: its rates go in a circle");
   EXPECT_EQ(ReadStates("[[state]]\nname = \"q\"\nrate = \"dq\"\n").complaint,

@@ -194,6 +194,7 @@ TEST(TryOut, SaysWhereFallingPays) {
   EXPECT_EQ(tried(with_end(negative)).broken,
             std::vector<std::string>{"steps earn about -1, and each step that is left after a fall earns "
                                      "reward.floor = 0: falling pays; set floor to -1 or less"});
+  EXPECT_FALSE(tried(with_end(with(reward, "formula = \"1\"\ncost = \"2\""))).broken.empty()) << "costs count";
   EXPECT_TRUE(tried(negative).broken.empty()) << "nothing ends its episodes";
   EXPECT_TRUE(tried(with_end(with(reward, "formula = \"-1\"\nfloor = -1"))).broken.empty());
   EXPECT_TRUE(tried(with_end(kSwing)).broken.empty());
