@@ -4,6 +4,7 @@
 
 #include "line_run.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/ask_tell.hpp"
 #include "rehearse/experiment/run.hpp"
 #include "rehearse/experiment/run_folder.hpp"
 
@@ -39,6 +40,15 @@ TEST(Resume, AfterAStopAnywhereGivesTheSameBytes) {
     }
     EXPECT_EQ(results_of(run), expected) << stops;
   }
+}
+
+TEST(Resume, LeavesNoPolicyOfATrialThatIsOver) {
+  const fs::path run = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(1), run, {});
+  ask_run(fake::catalogue(), run, {});
+  ASSERT_TRUE(fs::exists(run / "next/policy.json"));
+  resume_run(fake::catalogue(), run, Until{2}, {});
+  EXPECT_FALSE(fs::exists(run / "next"));
 }
 
 /// Runs in a process of its own that kills itself; true if it did.

@@ -6,6 +6,7 @@
 
 #include "fake.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/run_options.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/files/seal.hpp"
 #include "rehearse/files/write.hpp"
@@ -75,6 +76,17 @@ TEST(RunStore, DoesNotDependOnItsCache) {
   const fs::path none = folder / std::string(300, 'x');  // no file system has such a name
   store(run, spec(), none).write("prior", "learned");
   EXPECT_FALSE(store({}, spec(), none).read("prior"));
+}
+
+TEST(RunStore, ADiskThatFailsIsNotTheLearnersFault) {
+  const fs::path run = fake::test_folder();
+  std::ofstream(run / "kept") << "not a folder";
+  try {
+    store(run, spec()).write("archive", "of hours");
+    FAIL() << "it was written";
+  } catch (const RunFailed& error) {
+    EXPECT_TRUE(error.resume_may_help());
+  }
 }
 
 TEST(RunStore, KeepsForWhateverEnd) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace rehearse::system {
@@ -55,6 +56,18 @@ TEST(Isolated, AnswersAsTheSimulatorDoes) {
   expect_answers(*simulator, Matrix::Ones(100, 2));
   expect_answers(*simulator, Matrix::Ones(1, 2));
   expect_answers(*simulator, Matrix::Ones(0, 2));
+}
+
+TEST(Isolated, AProcessThatCannotBeMadeIsNoRowOfNaN) {
+  const auto simulator = isolated(hostile());
+  rlimit files{};
+  getrlimit(RLIMIT_NOFILE, &files);
+  const rlimit few{3, files.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &few);
+  Matrix dX(2, 3);
+  EXPECT_THROW(change_contained(*simulator, numbered(2), Matrix::Ones(2, 2), kShift, dX), Unavailable);
+  setrlimit(RLIMIT_NOFILE, &files);
+  expect_answers(*simulator, Matrix::Ones(2, 2));
 }
 
 TEST(Isolated, RowsThatEndTheProcessThrowOrHangComeBackAsNaN) {
