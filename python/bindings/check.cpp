@@ -16,11 +16,12 @@ struct Found {
   robot_file::Tried tried;
 };
 
-Found check(const Robot& robot, const std::string& name) {
+Found check(const Robot& robot, const std::string& name, bool plant) {
   std::optional<Found> found;
   work_with(robot, {}, [&](const Robot& own, const experiment::RunOptions&) {
     const experiment::Catalogue catalogue = own.catalogue();
-    const scenario::Scenario scenario = catalogue.scenario_or_throw(name)->build();
+    scenario::Scenario scenario = catalogue.scenario_or_throw(name)->build();
+    if (!plant) scenario.make_plant = nullptr;
     if (scenario.require_ready) scenario.require_ready();
     own.try_out(scenario);
     std::vector<std::string> states;
@@ -43,8 +44,8 @@ void add_check(py::module_& module) {
   using namespace py::literals;
   module.def(
       "check",
-      [](const Robot& robot, const std::string& name) {
-        const Found found = check(robot, name);
+      [](const Robot& robot, const std::string& name, bool plant) {
+        const Found found = check(robot, name, plant);
         py::list priors;
         for (const robot_file::PriorTried& prior : found.tried.priors)
           priors.append(py::dict("name"_a = prior.name, "errors"_a = by_state(found.states, prior.error),
@@ -54,7 +55,7 @@ void add_check(py::module_& module) {
                         "changes"_a = by_state(found.states, found.tried.change), "priors"_a = priors,
                         "complaints"_a = robot_file::complaints(found.tried));
       },
-      "robot"_a, "name"_a);
+      "robot"_a, "name"_a, "plant"_a);
 }
 
 }  // namespace rehearse::python

@@ -41,6 +41,13 @@ class PythonPlant final : public system::Plant {
 
   bool ended() const override { return ended_; }
 
+  void finish() noexcept override {
+    try {
+      call(environment_, [](const py::object& it) { it.attr("finish")(); });
+    } catch (...) {  // the exception is kept, and ends the work
+    }
+  }
+
  private:
   Vector state_of(const py::object& given) const {
     const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
@@ -132,13 +139,23 @@ void Robot::add_step_condition(const std::string& name, py::object function) {
 void Robot::try_out(const scenario::Scenario& scenario) const {
   constexpr Index kRows = 3;
   const Task& task = scenario.task;
+  const Index T = task.horizon;
   const Matrix X = task.start_mean.transpose().replicate(kRows, 1), U = Matrix::Zero(kRows, task.action_size());
   Vector values(kRows);
-  for (const auto& [name, function] : functions_.of_steps) function(X, U, X, values);
+  for (const auto& [name, function] : functions_.of_steps) {
+    function(X, U, X, values);
+    if (!values.allFinite()) throw InvalidInput(fmt::format("{} is not finite at the start", name));
+  }
   for (const auto& [name, function] : functions_.limits) function({X, U, X, U, 0}, values);
   for (const auto& [name, function] : functions_.of_states) function(X, values);
+  if (task.ended && holds(task.ended, task.start_mean))
+    throw InvalidInput("`ended` holds at the start, so that each episode is over at once");
+  const Matrix still = task.start_mean.transpose().replicate(T + 1, 1);
   for (const auto& [name, function] : functions_.of_episodes)
-    function({.states = X, .true_states = X, .actions = U.topRows(kRows - 1), .rewards = Vector::Zero(kRows - 1)});
+    function({.states = still,
+              .true_states = still,
+              .actions = Matrix::Zero(T, task.action_size()),
+              .rewards = Vector::Zero(T)});
   for (const scenario::NamedPrior& prior : scenario.priors) {
     if (!functions_.dynamics.contains(prior.name)) continue;
     Matrix dX(kRows, task.state_size());

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from . import _core
+from .checks import truth
 from .run import Robots, robot_of
 
 
@@ -42,14 +43,14 @@ class Checked:
         return "\n".join([*lines, *self.complaints] if self.complaints else [*lines, "all is well"])
 
 
-def check(robot: Robots) -> Checked:
+def check(robot: Robots, *, plant: bool = True) -> Checked:
     """Tries plant and priors on three episodes of random actions, as `rehearse check` does (docs/does-not-learn.md).
 
-    Where there is no plant, the first prior plays the robot. A plant that is a real robot moves. Raises InvalidInput, or what
+    Where there is no plant, or plant=False, the first prior plays the robot. A plant that is a real robot moves. Raises InvalidInput, or what
     a function raises.
 
     >>> print(rehearse.check(robot))
     """
-    found = _core.check(*robot_of(robot))
+    found = _core.check(*robot_of(robot), truth("plant", plant))
     priors = [PriorChecked(**prior) for prior in found.pop("priors")]
     return Checked(priors=priors, **found)

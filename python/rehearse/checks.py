@@ -33,7 +33,7 @@ def whole_or_none(name: str, value: Any) -> Union[int, None]:
 
 def threads_of(value: Any) -> int:
     """0 are all cores."""
-    return whole("threads", value, 0, 2**31 - 1)
+    return whole("threads", value, 0, 1024)
 
 
 def number(name: str, value: Any) -> float:

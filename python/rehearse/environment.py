@@ -22,7 +22,8 @@ class Environment:
 
     `reset` may take a seed, and returns an observation or (observation, info). `step` returns an observation, four
     things (observation, reward, done, info), or five (…, terminated, truncated, info). Its reward is not used: a reward
-    must be known for states that nobody has been in. An angle that it keeps inside of one turn is counted on.
+    must be known for states that nobody has been in. An angle that it keeps inside of one turn is counted on, from the
+    turn of the robot's start. `end`, where it has one, is called after each episode.
     """
 
     def __init__(self, environment: Any, observe: Union[Callable[[Any], Any], None], task: Task) -> None:
@@ -60,6 +61,12 @@ class Environment:
         state = self._state(result[0] if two else result)
         self._task.compare(state)
         return state
+
+    def finish(self) -> None:
+        """The end of an episode, whatever ended it: nothing is to move the robot until the next reset."""
+        end = getattr(self._environment, "end", None)
+        if callable(end):
+            end()
 
     def step(self, action: Array) -> tuple[Array, bool]:
         if self._over:
@@ -107,12 +114,15 @@ class Environment:
 
     def _continued(self, given: Array) -> Array:
         """Angles without jumps: a turn more or less where one leaves [-π, π], or [0, 2π], and comes in on the other side."""
-        if self._last is not None:
-            both = np.array([self._last, given])
-            inside = [((both >= low - 1e-9) & (both <= low + 2 * math.pi + 1e-9)).all(axis=0) for low in (-math.pi, 0.0)]
-            jump = given - self._last
-            wrapped = self._angles & (inside[0] | inside[1]) & (np.abs(jump) > math.pi)
-            self._turns -= np.where(wrapped, np.sign(jump), 0.0)
+        last = given if self._last is None else self._last
+        both = np.array([last, given])
+        inside = [((both >= low - 1e-9) & (both <= low + 2 * math.pi + 1e-9)).all(axis=0) for low in (-math.pi, 0.0)]
+        wrapped = self._angles & (inside[0] | inside[1])
+        if self._last is None:
+            starts = np.array([state.start for state in self._task.states])
+            self._turns = np.where(wrapped, np.round((starts - given) / (2 * math.pi)), 0.0)
+        jump = given - last
+        self._turns -= np.where(wrapped & (np.abs(jump) > math.pi), np.sign(jump), 0.0)
         self._last = given
         continued: Array = given + 2 * math.pi * self._turns
         return continued

@@ -39,5 +39,7 @@ class _Change:
         return x - states
 
     def _rates(self, states: Array, actions: Array, parameters: Mapping[str, float]) -> Array:
-        # Columns stay contiguous: NumPy's sine of others differs in its last bit with their address.
-        return np.asfortranarray(self.rates(np.asfortranarray(states), actions, **parameters))
+        # Columns stay contiguous: NumPy's sine of others differs in its last bit with their address. The function has
+        # copies, since it may write into what it is given.
+        own = (np.array(given, order="F") for given in (states, actions))
+        return np.asfortranarray(self.rates(*own, **parameters))

@@ -11,8 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._core import InvalidInput
 from .arrays import Array
-from .checks import number, option_texts, read_text, vector, write_text
+from .checks import number, option_texts, read_text, vector, whole, write_text
 from .exported import Exported
 
 
@@ -69,6 +70,9 @@ class Policy:
         x, time_s = np.asarray(states, dtype=float), number("time_s", time_s)
         if memory is None:
             return self._core.act(x, time_s)
+        shape = (*x.shape[:-1], len(self._core.start()))
+        if not isinstance(memory, np.ndarray) or memory.shape != shape or memory.dtype != float:
+            raise InvalidInput(f"memory must be an array of doubles of the shape {shape}, as start() gives it")
         x = np.concatenate([x, memory], axis=-1)
         actions = self._core.act(x, time_s)
         after = self._core.remember(np.atleast_2d(x), np.atleast_2d(actions)).reshape(memory.shape)
@@ -81,7 +85,7 @@ class Policy:
     def start(self, n: Union[int, None] = None) -> Array:
         """The memory of n episodes (n rows), or of one, before the first step."""
         memory = np.array(self._core.start(), dtype=float)
-        return memory if n is None else np.tile(memory, (n, 1))
+        return memory if n is None else np.tile(memory, (whole("n", n, 0), 1))
 
     @property
     def theta(self) -> Array:

@@ -95,7 +95,7 @@ class Robot:
                 raise _core.InvalidInput(f"{prior}: delay_s and lag_s are of a Model that is the plant; what models know "
                                          "of them is in Action")
             parts.append(self._dynamics(prior, model))
-            tune = {n: {"choices": t} if isinstance(t, list) else _bounds(f"{prior}: tune of {n}", t)
+            tune = {n: {"choices": t} if isinstance(t, list) else t if isinstance(t, Mapping) else _bounds(f"{prior}: tune of {n}", t)
                     for n, t in mapping(f"{prior}: tune", model.tune).items()}
             parts.append(table(f"[prior.{value(prior)}]", {"dynamics": prior, "tune": tune}))
         parts += self._plant(plant, observe, Task(horizon, states, actions), list(map(str, priors or {})),
@@ -172,6 +172,8 @@ class Robot:
     def _limit(self, limit: Limit, nameless: str) -> dict[str, Any]:
         """nameless: the name of a function that has none."""
         name = limit.name or (limit.keep if isinstance(limit.keep, str) else getattr(limit.keep, "__name__", nameless))
+        if name == "<lambda>":
+            name = nameless
         keep: Any = limit.keep
         if callable(keep):
             self._functions.append(("add_step_condition", name, _of_whole_steps(keep)))
@@ -219,8 +221,9 @@ def _of_whole_steps(keep: Callable[..., Any]) -> Callable[..., Any]:
         parameters = list(inspect.signature(keep).parameters.values())
     except (TypeError, ValueError):  # it does not say
         parameters = []
-    needed = [p for p in parameters if p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
-    if len(needed) == 5:
+    positional = [p for p in parameters if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
+    needed = [p for p in positional if p.default is p.empty]
+    if len(needed) == 5 or len(positional) == 5 and positional[4].name in ("time_s", "time", "t"):
         return keep
     return partial(_of_three, keep)
 

@@ -56,7 +56,7 @@ class Run:
     """
 
     def __init__(self, folder: PathLike, robot: Union[Robot, None] = None) -> None:
-        self.folder = Path(folder)
+        self.folder = Path(folder).absolute()
         if not (self.folder / "spec.toml").exists():
             raise _core.InvalidInput(f"{folder} is not a run folder")
         self._robot = begun_with(robot)
@@ -112,6 +112,7 @@ class Run:
         """Goes on to the end, or to another number of trials. The same bytes as if it had never stopped."""
         _core.resume(self._core, str(self.folder), whole_or_none("trials", trials), threads_of(threads),
                      function_or_none("progress", progress))
+        self.asked = None
         return self
 
     def ask(self, *, threads: int = 0, progress: Progress = None) -> Policy:
@@ -150,13 +151,15 @@ class Run:
         self.asked = None
         return taken
 
-    def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None, seconds: float = 0.0, seed: int = 1,
+    def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None, seconds: float = 0.0,
+                 seed: Union[int, None] = None,
                  options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Evaluation:
         """Episodes of a policy on the plant that are no trials; where there is none, the prior plays the robot, with the
-        parameters of the newest model. seconds: of an episode; 0: the task's. options: what is
+        parameters of the newest model. seconds: of an episode; 0: the task's. seed: None is the run's. options: what is
         changed, {"plant.m": 0.6}. An environment that is given as an object, not as a function that makes one, is used
         by one thread."""
         threads = 1 if self._robot is not None and self._robot.has_environment else threads_of(threads)
+        seed = self._describe()["seed"] if seed is None else seed
         result = _core.evaluate(self._core, str(self.folder), whole_or_none("trial", trial), whole("episodes", episodes),
                                 number("seconds", seconds), whole("seed", seed, 0, 2**64 - 1),
                                 option_texts(options), threads)

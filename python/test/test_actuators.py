@@ -41,6 +41,9 @@ def test_policies_remember_what_they_sent(tmp_path):
     actions = policy.act(np.array([[0.0, 1.0], [np.nan, 0.0], [0.5, 0.5]]), 0.0, many)
     assert np.isnan(actions).ravel().tolist() == [False, True, False]
     np.testing.assert_array_equal(many[:, 0], [actions[0, 0], 0, actions[2, 0]])
+    for wrong in (many.tolist(), many[:2], many.astype(int)):
+        with pytest.raises(rehearse.InvalidInput, match="memory must be an array of doubles of the shape"):
+            policy.act(np.zeros((3, 2)), 0.0, wrong)
     assert run.trials["phi.mass"][1] == pytest.approx(1.6, rel=1e-3)  # of the cart behind its delay
 
 

@@ -1,0 +1,102 @@
+"""Environments that play a robot, their angles and the end of their episodes; functions of all kinds."""
+
+import numpy as np
+import pytest
+from robots import QUICK, Environment, cart
+
+import rehearse
+
+
+def learn(robot, out, **more):
+    return rehearse.learn(robot, out=out, **{**dict(trials=2, seed=1, threads=2, progress=None, options=QUICK), **more})
+
+
+def test_an_environment_is_told_that_an_episode_is_over(tmp_path):
+    torques = []
+
+    class Driver(Environment):
+        def end(self):
+            torques.append(0.0)
+
+    learn(cart(Driver()), tmp_path / "run", trials=2)
+    assert len(torques) == 2
+
+
+def test_an_end_that_fails_ends_the_run(tmp_path):
+    class Broken(Environment):
+        def end(self):
+            raise OSError("the bus is off")
+
+    with pytest.raises(OSError, match="the bus is off"):
+        learn(cart(Broken()), tmp_path / "run", trials=2)
+
+
+def test_angles_begin_in_the_turn_of_the_start(tmp_path):
+    class Hanging:
+        def reset(self, seed=None):
+            return np.array([0.0, -np.pi + 0.01])
+
+        def step(self, action):
+            return np.array([0.0, np.pi - 0.01])
+
+    robot = rehearse.Robot("hanging", dt_s=0.1, horizon=3,
+                           states=[rehearse.State("rate"), rehearse.State("angle", angle=True, start=np.pi, start_noise=0.1)],
+                           actions=[rehearse.Action("u", (-1, 1))], reward="exp(-(angle - pi)^2)", plant=Hanging())
+    run = learn(robot, tmp_path / "run", learner="black-drops")
+    assert np.abs(run.trajectory(1)["angle"] - np.pi).max() < 0.02
+
+
+def test_a_real_robot_can_be_left_alone():
+    class Moved(Environment):
+        def step(self, action):
+            raise AssertionError("it moved")
+
+    robot = cart(Moved())
+    assert rehearse.check(robot, plant=False).steps > 0
+    with pytest.raises(TypeError, match="plant = 1, must be True or False"):
+        rehearse.check(robot, plant=1)
+
+
+def test_rates_may_write_into_what_they_are_given():
+    def pushed(states, actions, mass):
+        actions *= 1 / mass
+        states[:, 1] = 0
+        return np.column_stack([actions[:, 0], states[:, 0]])
+
+    def gentle(states, actions, mass):
+        return np.column_stack([actions[:, 0] / mass, states[:, 0]])
+
+    x, u = np.array([[0.3, 1.0]]), np.array([[1.0]])
+    assert (rehearse.rk4(pushed, 0.1)(x, u, mass=2.0) == rehearse.rk4(gentle, 0.1)(x, u, mass=2.0)).all()
+    assert (x == [[0.3, 1.0]]).all() and u == 1
+
+
+def test_a_limit_of_five_arguments_may_have_defaults(tmp_path):
+    given = []
+
+    def keep(states, actions, next_states, actions_before=None, time_s=None):
+        given.append(time_s)
+        return np.ones(len(states), dtype=bool)
+
+    learn(cart(limits=[rehearse.Limit(keep)]), tmp_path / "run", trials=1)
+    assert given and None not in given
+
+
+@pytest.mark.parametrize("wrong, message", [
+    (dict(reward=lambda s, a, n: np.log(-n[:, 1])), "reward is not finite at the start"),
+    (dict(ended=lambda s: s[:, 1] > 0.5), "`ended` holds at the start"),
+])
+def test_functions_that_make_each_episode_useless_are_refused(tmp_path, wrong, message):
+    with np.errstate(invalid="ignore"), pytest.raises(rehearse.InvalidInput, match=message):
+        learn(cart(**wrong), tmp_path / "run")
+
+
+def test_episodes_are_tried_at_their_length(tmp_path):
+    run = learn(cart(episode_reward=lambda states, actions: -abs(states[15, 1])), tmp_path / "run", trials=1)
+    assert len(run.trials) == 1
+
+
+def test_evaluations_have_the_seed_of_the_run(tmp_path):
+    run = learn(cart(measurement_noise=0.1), tmp_path / "run", trials=1, seed=3)
+    returns, same, other = run.evaluate(3).returns, run.evaluate(3, seed=3).returns, run.evaluate(3, seed=1).returns
+    assert (returns == same).all() and (returns != other).all()
