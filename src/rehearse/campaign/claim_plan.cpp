@@ -48,14 +48,18 @@ class ClaimPlanner {
       const bool prior = claim_.priors.empty() || is_among(group.prior, claim_.priors);
       if (prior && (claim_.variants.empty() || is_among(group.variant, claim_.variants))) found.push_back(i);
     }
-    check_names("prior", claim_.priors, priors);
-    check_names("variant", claim_.variants, variants);
+    const bool known = check_names("prior", claim_.priors, priors) & check_names("variant", claim_.variants, variants);
+    if (found.empty() && known && !priors.empty())
+      wrong("no runs have both one of these priors and one of these variants");
     return found;
   }
 
-  void check_names(const char* what, const std::vector<std::string>& named, const std::vector<std::string>& known) {
+  bool check_names(const char* what, const std::vector<std::string>& named, const std::vector<std::string>& known) {
+    bool all = true;
     for (const std::string& name : named)
-      if (!is_among(name, known)) wrong(fmt::format("learner {} has no {} '{}'", claim_.learner, what, name));
+      if (!is_among(name, known))
+        all = false, wrong(fmt::format("learner {} has no {} '{}'", claim_.learner, what, name));
+    return all;
   }
 
   void find_opponents() {

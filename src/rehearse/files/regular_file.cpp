@@ -74,6 +74,8 @@ bool RegularFile::write(std::string_view bytes) const {
 
 bool RegularFile::sync() const { return ::fsync(descriptor_) == 0; }
 
+bool RegularFile::close() { return ::close(release()) == 0; }
+
 int RegularFile::release() { return std::exchange(descriptor_, -1); }
 
 std::string read_file(const std::filesystem::path& path, Links links) {

@@ -33,6 +33,7 @@ class RegularFile {
 
   bool write(std::string_view bytes) const;
   bool sync() const;
+  bool close();  // false: what was written may be lost, as network file systems say no earlier
 
   /// The descriptor; the caller must close it.
   int release();

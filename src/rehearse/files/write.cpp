@@ -56,8 +56,8 @@ void replace(const std::filesystem::path& path, const std::string& suffix, std::
   Temporary temporary(path.string() + suffix);
   {
     ::unlink(temporary.path().c_str());  // whatever a kill, or somebody, left there
-    const RegularFile file(temporary.path(), O_WRONLY | O_CREAT | O_EXCL);
-    if (!file.open() || !file.write(bytes) || (durable && !file.sync())) cannot("write", path);
+    RegularFile file(temporary.path(), O_WRONLY | O_CREAT | O_EXCL);
+    if (!file.open() || !file.write(bytes) || (durable && !file.sync()) || !file.close()) cannot("write", path);
   }
   if (!temporary.rename(path)) cannot("write", path);
   if (durable) sync_folder(path);

@@ -63,7 +63,7 @@ struct Fit {
   double jitter = 0;        // of the ladder, at the solution
   Status status = Status::failed;
   std::string stop;        // why the maximiser stopped
-  Index evaluations = 0;   // of the evidence of all rows
+  Index evaluations = 0;   // of the evidence of all rows, by the fit that was kept
   Matrix inverse_hessian;  // for FitStart; empty after Rprop
 };
 

@@ -26,7 +26,7 @@ class Archive {
   Index parameters() const { return solutions_.rows(); }
 
   /// Keeps the solution (P numbers, `stride` apart) if it performs better than the elite of `niche`, or is its first.
-  /// A niche of −1 or a performance that is not finite is never kept. Returns whether it was. Does not allocate.
+  /// A niche of −1 or a performance that is not finite is never kept. Returns whether it was.
   bool add(Index niche, double performance, const double* descriptor, const double* solution, Index stride = 1);
 
   /// Elites are numbered in the order in which their niches were first filled.

@@ -1,12 +1,14 @@
 #include "rehearse/report/campaign_files.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
 
 #include <fmt/format.h>
 
+#include "rehearse/core/errors.hpp"
 #include "rehearse/report/json_shape.hpp"
 #include "rehearse/report/run_files.hpp"
 #include "rehearse/statistics/quantiles.hpp"
@@ -62,6 +64,15 @@ Group group_of(const Json& run) {
           run.at("variant").get<std::string>()};
 }
 
+/// Throws InvalidInput where it is none that a run can have.
+Index whole_number(const Json& run, const char* key) {
+  constexpr double kMost = 1e6;
+  const double number = run.at(key).get<double>();
+  if (!(number >= 0 && number <= kMost) || number != std::floor(number))
+    throw InvalidInput(fmt::format("summary.json: {} = {}, must be a whole number in 0 to {}", key, number, kMost));
+  return static_cast<Index>(number);
+}
+
 /// Adds a problem for every run that failed, and for what happened to the folders since the summary was written.
 void check_runs(const fs::path& folder, const Json& runs, Problems& problems) {
   for (const Json& run : runs) {
@@ -70,7 +81,7 @@ void check_runs(const fs::path& folder, const Json& runs, Problems& problems) {
     if (state == "failed")
       problems.add(where, reason.is_string() ? "failed: " + reason.get<std::string>() : "failed");
     else if (fs::exists(folder / where) || state == "done")
-      check_run_folder(folder / where, where, run.at("trials").get<Index>(), problems);
+      check_run_folder(folder / where, where, whole_number(run, "trials"), problems);
   }
 }
 

@@ -33,6 +33,9 @@ identification::Learned learned_beyond(const LogModel& model, const Task& task, 
     learned.model = std::make_shared<dynamics::SimulatorModel>(at_phi, model.zeros.phi);
   else
     learned = learn(at_phi, identification::FixedPrior{options.model.gp});
+  for (const Index i : prior.space.of_kind(Parameter::Kind::discrete))
+    learned.notes.push_back(fmt::format("{} is a choice, and stays {:g}: --set beyond=gp-mi chooses",
+                                        prior.space[i].name, model.zeros.phi(i)));
   learned.state.phi = model.zeros.phi;
   learned.posterior = model.zeros.posterior;
   return learned;
@@ -58,6 +61,7 @@ ZeroProblem zero_problem(const prior::Prior& prior, const Task& task, const Opti
 }
 
 Dataset spread_rows(const std::vector<Episode>& logs, Index rows, Index length) {
+  length = std::clamp<Index>(rows / std::ssize(logs), 1, length);  // each log has a stretch
   Index all = 0;
   for (const Episode& log : logs) all += log.steps();
   Dataset data;

@@ -24,7 +24,6 @@ struct Options {
   Index rows = 300;            // of the GPs; their time grows with its cube
   double every_s = 0.1;
   Index particles = 50;
-  std::uint64_t seed = 1;
   Beyond beyond = Beyond::chosen;
   identification::GpMi model;
   void fields(FieldVisitor& v) {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kHorizonsS[] = {0.1, 0.5, 2};
 constexpr std::size_t kMostLeftOut = 4;
+constexpr std::uint64_t kSeed = 1;  // of all random numbers of a study
 
 class Student {
  public:
@@ -30,6 +31,7 @@ class Student {
 
   Study run() {
     logs_ = problem_.logs.size() == 1 ? halves(problem_.logs.front()) : problem_.logs;
+    require_long_logs();
     leave_out();
     const Matrix ones = Matrix::Ones(std::ssize(plan_.horizons), problem_.task.state_size());
     const Matrix unknown = accuracy(study_.left_out_logs.model, ones).rms;
@@ -61,6 +63,19 @@ class Student {
       return Log{log.name + name, log.episode.part(first, steps), log.measured.middleRows(first, steps + 1)};
     };
     return {part(" (first half)", 0, half), part(" (second half)", half, log.episode.steps() - half)};
+  }
+
+  /// Each log is left out once, so that two must be long enough to learn from.
+  void require_long_logs() const {
+    const Index least = zero_problem(problem_.prior, problem_.task, options_).horizon;
+    std::vector<std::string> lines;
+    for (const Log& log : logs_)
+      if (log.episode.steps() < least)
+        lines.push_back(
+            fmt::format("{}: {} control steps, must be at least the {} that parameters are fitted to "
+                        "(fit_horizon_s)",
+                        log.name, log.episode.steps(), least));
+    if (logs_.size() - lines.size() < 2 && !lines.empty()) throw InvalidInput(lines);
   }
 
   /// Logs forecast by models that did not learn from them.
@@ -124,7 +139,7 @@ class Student {
 
   void test(const Log& log, const LogModel& model, std::size_t number, Tested& tested) const {
     const PreparedLog prepared = prepare(log.episode, model, problem_.task, problem_.prior, options_);
-    const StreamKey key{.seed = options_.seed, .trial = number, .stage = Stage::prediction};
+    const StreamKey key{.seed = kSeed, .trial = number, .stage = Stage::prediction};
     ForecastPlan plan = plan_;
     plan.first = prepared.first;
     ForecastPlan plan_of_prior = plan;

@@ -76,6 +76,17 @@ TEST(Campaign, AFinishedRunIsNotRepeated) {
   EXPECT_TRUE(fs::exists(folder / "summary.json"));
 }
 
+TEST(Campaign, ARunWhoseFolderIsInUseKeepsItsRows) {
+  const fs::path folder = experiment::fake::test_folder() / "campaign";
+  run(folder);
+  const std::string trials = "trials = ";
+  std::string longer = kGrid;
+  longer.insert(longer.find(trials) + trials.size(), "1");  // ten times as many, at least
+  const files::FolderLock busy(folder / "runs/line-echo-near-2");
+  EXPECT_FALSE(run(folder, longer).complete());
+  EXPECT_NE(files::read_file(folder / "campaign.csv").find("line-echo-near-2,"), std::string::npos);
+}
+
 TEST(Campaign, WrongInputLeavesNoFolder) {
   const fs::path folder = experiment::fake::test_folder();
   EXPECT_NE(refusal(folder / "a/b", kGrid + "nonsense = 1\n"), "");

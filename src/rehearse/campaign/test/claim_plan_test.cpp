@@ -79,6 +79,16 @@ TEST(ClaimPlan, ComparesRunsOfTheSameVariant) {
   EXPECT_EQ(against, (std::vector<std::size_t>{3, 4, 3}));
 }
 
+TEST(ClaimPlan, AClaimIsAboutSomeRuns) {
+  const std::string file =
+      kHead +
+      "learners = [\"echo\"]\npriors = [\"near\", \"far\"]\n[vary]\nprior.near.drift = [0, 1]\n[[claim]]\ntext = "
+      "\"x\"\n"
+      "learner = \"echo\"\npriors = [\"far\"]\nvariants = [\"prior.near.drift=1\"]\nsolved_by = 2\nat_least_runs = 1\n";
+  EXPECT_NE(complaint(file).find("no runs have both one of these priors and one of these variants"), std::string::npos)
+      << complaint(file);
+}
+
 TEST(ClaimPlan, SaysWhatIsWrongWithClaims) {
   const auto about = [](const std::string& claim) {
     return complaint(kHead + "learners = [\"echo\"]\n[[claim]]\ntext = \"x\"\n" + claim);

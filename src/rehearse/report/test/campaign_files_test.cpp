@@ -68,6 +68,20 @@ TEST_F(CampaignFiles, ASummaryNeedsWhatThePageShows) {
   EXPECT_EQ(problems_of(read_folder(folder_)), Lines{"runs/run-4: failed"});
 }
 
+TEST_F(CampaignFiles, TrialsAreAsManyAsARunCanHave) {
+  write_campaign();
+  std::ifstream file(folder_ / "summary.json");
+  json summary = json::parse(file);
+  for (const double wrong : {1e300, -1.0, 1.5}) {
+    summary["runs"][0]["trials"] = wrong;
+    write(folder_ / "summary.json", summary.dump());
+    EXPECT_NE(error_of([&] { read_folder(folder_); }).find("must be a whole number in 0 to"), std::string::npos);
+  }
+  summary["runs"][0]["trials"] = 999999;
+  write(folder_ / "summary.json", summary.dump());
+  EXPECT_LT(problems_of(read_folder(folder_)).size(), 10U);
+}
+
 TEST_F(CampaignFiles, ATableWithoutItsColumnsIsNamed) {
   write_campaign();
   write(folder_ / "campaign.csv", "run,trial,phi.m\nrun-1,1,2\n");

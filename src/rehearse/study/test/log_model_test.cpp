@@ -18,6 +18,11 @@ TEST(LogModel, RowsAreEvenlySpreadStretches) {
   EXPECT_EQ(data.states.row(50), logs[0].states.row(350));
 }
 
+TEST(LogModel, ManyLogsHaveShortStretches) {
+  const std::vector<Episode> logs(20, swinging_log(1, 0).episode);
+  EXPECT_EQ(spread_rows(logs, 100, 50).size(), 100);
+}
+
 TEST(LogModel, StatesAreFoundByName) {
   EXPECT_EQ(states_named("q,dq", swinging_task()), (std::vector<Index>{1, 0}));
   EXPECT_TRUE(states_named("", swinging_task()).empty());

@@ -92,6 +92,15 @@ TEST(Study, WrongInputIsRefused) {
   swings.options.zeros = "q";
   swings.options.zero_s = 100;
   EXPECT_THROW(swings.run(), InvalidInput);
+  swings.options.zeros = "";
+  swings.logs.front().episode = swings.logs.front().episode.part(0, 3);
+  swings.logs.resize(2);
+  try {
+    swings.run();
+    FAIL() << "one log is no other's test";
+  } catch (const InvalidInput& error) {
+    EXPECT_NE(std::string(error.what()).find("3 control steps, must be at least the"), std::string::npos);
+  }
   swings.logs.clear();
   EXPECT_THROW(swings.run(), InvalidInput);
 }
