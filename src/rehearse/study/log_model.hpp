@@ -23,8 +23,8 @@ struct LogModel {
   Index all_rows = 0;               // that the logs have
 };
 
-/// Zeros and φ over some steps first, and from there GP-MI (identification::learn) on stretches of a second, evenly
-/// spread over the logs.
+/// Zeros and φ over some steps first, and from there GP-MI (identification::learn) on stretches of a second at most,
+/// evenly spread over the logs.
 LogModel learn_logs(const std::vector<Episode>& logs, const Task& task, const prior::Prior& prior,
                     const Options& options, const Evaluator& evaluator);
 

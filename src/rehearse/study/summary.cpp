@@ -20,7 +20,7 @@ Section logs(const Study& study, const Problem& problem) {
                               problem.logs.size() == 1 ? "" : "s", all_s, study.model.all_rows, problem.task.dt_s));
   if (study.model.data.size() < study.model.all_rows)
     lines.push_back(
-        fmt::format("GPs and parameters learn from {} steps in stretches of a second, evenly spread; {} are "
+        fmt::format("GPs and parameters learn from {} steps in stretches of a second at most, evenly spread; {} are "
                     "left out (--set rows=N)",
                     study.model.data.size(), study.model.all_rows - study.model.data.size()));
   for (std::size_t i = 0; i < problem.logs.size(); ++i)

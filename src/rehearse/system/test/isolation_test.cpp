@@ -59,6 +59,9 @@ TEST(Isolated, AnswersAsTheSimulatorDoes) {
 }
 
 TEST(Isolated, AProcessThatCannotBeMadeIsNoRowOfNaN) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer looks at exceptions through a pipe, for which no file is left";
+#endif
   const auto simulator = isolated(hostile());
   rlimit files{};
   getrlimit(RLIMIT_NOFILE, &files);
