@@ -12,6 +12,7 @@
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run.hpp"
+#include "rehearse/experiment/run_folder.hpp"
 
 namespace rehearse::campaign {
 namespace {
@@ -85,11 +86,24 @@ class Crew {
         outcome.fail(fmt::format("{} does not show what was written to it", folder_.path_of(planned).string()));
     } catch (const Interrupted&) {
       outcome = folder_.read(planned);
-    } catch (const std::exception& error) {  // of a damaged folder it reads nothing
+    } catch (const InvalidInput& error) {
+      if (is_sound(folder_.path_of(planned))) outcome = folder_.read(planned);  // another process uses it, perhaps
+      outcome.fail(error.what());
+    } catch (const std::exception& error) {
       outcome = folder_.read(planned);
       outcome.fail(error.what());
     }
     return outcome;
+  }
+
+  /// False: it is damaged, and its rows cannot be trusted.
+  static bool is_sound(const std::filesystem::path& folder) {
+    try {
+      experiment::RunFolder::read(folder);
+      return true;
+    } catch (const InvalidInput&) {
+      return false;
+    }
   }
 
   void start_or_resume(const PlannedRun& planned, const experiment::RunOptions& options) const {

@@ -171,7 +171,7 @@ class BlackDrops final : public TrialLearner {
     const Task& task = setting_.task;
     proposal.policy = schedule();
     const double fraction = task.limits.empty() ? 1 : options_.first_trial.cautious;
-    proposal.theta = random_actions(task, options_.first_trial, fraction, episode_stream);
+    proposal.theta = smaller_actions(task, random_actions(task, options_.first_trial, episode_stream), fraction);
   }
 
   std::shared_ptr<const policy::Policy> schedule() const {

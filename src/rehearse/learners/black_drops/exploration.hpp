@@ -5,8 +5,11 @@
 
 namespace rehearse::learners::black_drops {
 
-/// θ of a schedule (policy/schedule.hpp) of random actions, each this fraction of its way from the middle of its range.
-Vector random_actions(const Task& task, const FirstTrial& options, double fraction, const StreamKey& key);
+/// θ of a schedule (policy/schedule.hpp) of random actions.
+Vector random_actions(const Task& task, const FirstTrial& options, const StreamKey& key);
+
+/// The same schedule with each action at a fraction of its way from the middle of its range.
+Vector smaller_actions(const Task& task, Vector schedule, double fraction);
 
 /// Random actions, as large as the task's limits allow in the model; its excess is not 0 where even small ones are not
 /// safe. It counts all rollouts. problem: with a schedule as its policy. trial: the stream of the trial.

@@ -12,7 +12,7 @@ namespace {
 TEST(RandomActions, AreAFractionOfTheirWayFromTheMiddle) {
   Task task = slider::task();
   task.actions[0].bounds = {-1, 3};
-  const Vector whole = random_actions(task, {}, 1, {.seed = 2}), some = random_actions(task, {}, 0.25, {.seed = 2});
+  const Vector whole = random_actions(task, {}, {.seed = 2}), some = smaller_actions(task, whole, 0.25);
   EXPECT_EQ(whole, policy::random_schedule(task, policy::RandomActions::uniform, FirstTrial().hold_s, {.seed = 2}));
   EXPECT_LT((some.array() - 1 - 0.25 * (whole.array() - 1)).abs().maxCoeff(), 1e-15);
 }
