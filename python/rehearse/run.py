@@ -156,8 +156,7 @@ class Run:
                  options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Evaluation:
         """Episodes of a policy on the plant that are no trials; where there is none, the prior plays the robot, with the
         parameters of the newest model. seconds: of an episode; 0: the task's. seed: None is the run's. options: what is
-        changed, {"plant.m": 0.6}. An environment that is given as an object, not as a function that makes one, is used
-        by one thread."""
+        changed, {"plant.m": 0.6}. An environment that is an object, not a function that makes one, is used by one thread."""
         threads = 1 if self._robot is not None and self._robot.has_environment else threads_of(threads)
         seed = self._describe()["seed"] if seed is None else seed
         result = _core.evaluate(self._core, str(self.folder), whole_or_none("trial", trial), whole("episodes", episodes),

@@ -125,6 +125,7 @@ class Finder {
   /// −1: it is not there, which is a problem.
   int require(const std::string& name) {
     wanted_.insert(name);
+    if (has_no_header()) return -1;  // one problem tells it all
     const auto count = std::ranges::count(titles_, name, &Title::name);
     const auto at = std::ranges::find(titles_, name, &Title::name) - titles_.begin();
     if (count == 1) return static_cast<int>(at);
@@ -132,7 +133,6 @@ class Finder {
     std::vector<std::string> names;
     for (const Title& title : titles_)
       if (!wanted_.contains(title.name) && !title.name.empty()) names.push_back(title.name);
-    if (has_no_header()) return -1;
     const std::string nearest = names.empty() ? "" : fmt::format("; the nearest is '{}'", closest(name, names));
     if (count == 0) problems_.add(1, "missing " + name, fmt::format("there is no column {}{}", name, nearest));
     return -1;

@@ -88,14 +88,15 @@ double farthest_row_s(const std::vector<Sample>& samples, const Grid& grid) {
 
 void note_resampling(const Channels& channels, const Grid& grid, Index changed, bool average,
                      std::vector<std::string>& notes) {
-  const auto& samples = channels.states.front().samples;
-  const double off_s = farthest_row_s(samples, grid), little_s = kLittle * grid.dt_s;
+  const double little_s = kLittle * grid.dt_s;
   if (grid.start_s > little_s)
     notes.push_back(
         fmt::format("step 0 is at {:.13g} s, the first time at which all columns have numbers", grid.start_s));
   if (changed == 0) return;
+  const auto& samples = channels.states.front().samples;
   const double usual_s = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
-  if (off_s <= little_s && usual_s >= grid.dt_s - little_s && !average) {
+  const bool one_row_a_step = usual_s >= grid.dt_s - little_s && !average;
+  if (const double off_s = one_row_a_step ? farthest_row_s(samples, grid) : grid.dt_s; off_s <= little_s) {
     notes.push_back(fmt::format("rows are up to {:.2g} s off the control steps of {} s: numbers are interpolated",
                                 off_s, grid.dt_s));
     return;

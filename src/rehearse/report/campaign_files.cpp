@@ -64,12 +64,12 @@ Group group_of(const Json& run) {
           run.at("variant").get<std::string>()};
 }
 
-/// Throws InvalidInput where it is none that a run can have.
-Index whole_number(const Json& run, const char* key) {
+/// Throws InvalidInput where no run can have so many.
+Index trials_of(const Json& run) {
   constexpr double kMost = 1e6;
-  const double number = run.at(key).get<double>();
+  const double number = run.at("trials").get<double>();
   if (!(number >= 0 && number <= kMost) || number != std::floor(number))
-    throw InvalidInput(fmt::format("summary.json: {} = {}, must be a whole number in 0 to {}", key, number, kMost));
+    throw InvalidInput(fmt::format("summary.json: trials = {}, must be a whole number in 0 to {}", number, kMost));
   return static_cast<Index>(number);
 }
 
@@ -81,7 +81,7 @@ void check_runs(const fs::path& folder, const Json& runs, Problems& problems) {
     if (state == "failed")
       problems.add(where, reason.is_string() ? "failed: " + reason.get<std::string>() : "failed");
     else if (fs::exists(folder / where) || state == "done")
-      check_run_folder(folder / where, where, whole_number(run, "trials"), problems);
+      check_run_folder(folder / where, where, trials_of(run), problems);
   }
 }
 

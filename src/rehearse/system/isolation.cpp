@@ -143,7 +143,7 @@ class ForkedWorker final : public Worker {
  public:
   ForkedWorker(const Simulator& simulator, double row_s) : row_s_(row_s) {
     std::array<int, 2> ends{};
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail();
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail(errno);
     process_ = fork();
     if (process_ == 0) Server(simulator, ends[1]).run();
     close(ends[1]);
@@ -151,8 +151,7 @@ class ForkedWorker final : public Worker {
     if (process_ > 0) return;
     const int why = errno;
     close(socket_);
-    errno = why;
-    fail();
+    fail(why);
   }
   ~ForkedWorker() override {
     close(socket_);
@@ -188,8 +187,8 @@ class ForkedWorker final : public Worker {
  private:
   using RowVector = Eigen::RowVectorXd;
 
-  [[noreturn]] static void fail() {
-    throw Unavailable(fmt::format("no process can be made for the simulator: {}", std::strerror(errno)));
+  [[noreturn]] static void fail(int why) {
+    throw Unavailable(fmt::format("no process can be made for the simulator: {}", std::strerror(why)));
   }
 
   double row_s_;

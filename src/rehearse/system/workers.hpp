@@ -64,7 +64,7 @@ class Workers {
   };
 
   static KnownRows some_of(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi);
-  void remember(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const;
+  void remember(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const;  // a row was answered
   bool note(const Worker& worker) const;  // a fault; false: patience ends
   std::unique_ptr<Worker> one_that_answers(std::unique_ptr<Worker> worker, const ConstMatrixView& X,
                                            const ConstMatrixView& U, const Vector& phi) const;
