@@ -28,8 +28,12 @@ const GpModel::Point& GpModel::look_at(const ConstMatrixView& X, const ConstMatr
     point.prior_mean.resize(X.rows(), X.cols());
     mean_->prior.mean(X, U, mean_->phi, point.prior_mean);
   }
-  if (mean_ && mean_->midpoint) {
-    point.middle = X + 0.5 * point.prior_mean;
+  if (midpoint_) {
+    point.middle = X;
+    if (mean_)
+      point.middle += 0.5 * point.prior_mean;
+    else
+      dynamics::add_half_step(kinematics_, X, point.middle);
     gp_inputs(features_, point.middle, U, point.inputs);
   } else {
     gp_inputs(features_, X, U, point.inputs);
@@ -66,9 +70,19 @@ void GpModel::to_states(const Point& point, const ConstMatrixView& by_inputs, co
   pull_back_features(features_, point.inputs.leftCols(features), by_inputs.leftCols(features), by_states);
   pull_back_targets(features_, by_inputs.rightCols(du), by_states);
   by_actions = by_inputs.rightCols(du);
-  if (prior_by.size() == 0) return;
+  if (!midpoint_) return;
   by_place = by_states;
-  for (Index k = 0; k < dx; ++k)  // it is X + ½ prior mean
+  add_half_step(by_place, prior_by, by);
+}
+
+/// Adds to derivatives by X and U those by what the place adds to X: half the prior's mean, or half a step.
+void GpModel::add_half_step(const Matrix& by_place, const Matrix& prior_by, MatrixView by) const {
+  if (!mean_) {
+    for (const auto& [position, rate] : kinematics_.pairs)
+      by.col(rate) += 0.5 * kinematics_.dt_s * by_place.col(position);
+    return;
+  }
+  for (Index k = 0; k < by_place.cols(); ++k)
     for (Index j = 0; j < by.cols(); ++j)
       by.col(j).array() += 0.5 * by_place.col(k).array() * prior_by.col(k * by.cols() + j).array();
 }
@@ -86,10 +100,9 @@ void GpModel::linearise(const ConstMatrixView& X, const ConstMatrixView& U, Line
   add_variances_of_integrals(kinematics_, at.variance);
   finish(point, X, at.mean);
   if (mean_) SimulatorModel(mean_->prior, mean_->phi).linearise(X, U, of_prior);
-  const Matrix none, &on_the_way = mean_ && mean_->midpoint ? of_prior.mean_by : none;
   for (Index i = 0; i < dx; ++i) {
-    to_states(point, mean_by.middleCols(i * D, D), on_the_way, at.mean_by.middleCols(i * inputs, inputs));
-    to_states(point, variance_by.middleCols(i * D, D), on_the_way, at.variance_by.middleCols(i * inputs, inputs));
+    to_states(point, mean_by.middleCols(i * D, D), of_prior.mean_by, at.mean_by.middleCols(i * inputs, inputs));
+    to_states(point, variance_by.middleCols(i * D, D), of_prior.mean_by, at.variance_by.middleCols(i * inputs, inputs));
   }
   add_integrals_of_derivatives(kinematics_, mean_.has_value(), at);
   if (mean_) at.mean_by += of_prior.mean_by;

@@ -20,8 +20,6 @@ enum class PredictedVariance {
 struct Mean {
   prior::Prior prior;
   Vector phi;
-  bool midpoint = false;  // the GPs look at the state halfway along the step that the prior predicts: what it lacks
-                          // acts during the whole step, so that there its effect is a simpler function
 };
 
 /// The GP inputs of a batch: features of the states, then actions (n × (features + du)).
@@ -31,13 +29,17 @@ Matrix gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const Con
 /// State changes = prior mean + independent GPs, those of positions after integration.hpp.
 class GpModel final : public DynamicsModel {
  public:
+  /// midpoint: the GPs look at the state halfway along the step that the prior predicts, or without one at positions
+  /// halfway along the step that their rates predict. What GPs learn acts during the whole step, so that there its
+  /// effect is a simpler function.
   GpModel(FeatureMap features, Kinematics kinematics, std::optional<Mean> mean, gp::Posterior posterior,
-          PredictedVariance variance)
+          PredictedVariance variance, bool midpoint = false)
       : features_(std::move(features)),
         kinematics_(std::move(kinematics)),
         mean_(std::move(mean)),
         posterior_(std::move(posterior)),
-        variance_(variance) {}
+        variance_(variance),
+        midpoint_(midpoint) {}
 
   void predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const override;
   void predict_mean(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean) const override;
@@ -55,12 +57,14 @@ class GpModel final : public DynamicsModel {
   const Point& look_at(const ConstMatrixView& X, const ConstMatrixView& U) const;
   void finish(const Point& point, const ConstMatrixView& X, MatrixView mean) const;
   void to_states(const Point& point, const ConstMatrixView& by_inputs, const Matrix& prior_by, MatrixView by) const;
+  void add_half_step(const Matrix& by_place, const Matrix& prior_by, MatrixView by) const;
 
   FeatureMap features_;
   Kinematics kinematics_;
   std::optional<Mean> mean_;
   gp::Posterior posterior_;
   PredictedVariance variance_;
+  bool midpoint_;
   Vector measurement_std_;
 };
 

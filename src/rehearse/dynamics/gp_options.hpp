@@ -18,6 +18,7 @@ struct GpOptions {
   PredictedVariance variance = PredictedVariance::latent;
   bool joint_angles = true;      // inputs have those that the task names too
   bool integrate_rates = false;  // positions follow from their rates, GPs learn what is left (integration.hpp)
+  bool midpoint = false;         // inputs are those halfway along a step (GpModel)
   bool smooth = false;      // noisy states are smoothed where that makes what was measured likelier (smoothing.hpp); φ
                             // moves with them where the score is the product and the search alternating
   bool mirror = false;      // the robot is its own mirror image: predictions know the image of each row, too (mirrored)
@@ -30,6 +31,9 @@ struct GpOptions {
               published(false));
     v.boolean("integrate_rates", integrate_rates,
               "positions are integrated from their rates; GPs learn the remaining error", published(false));
+    v.boolean("midpoint", midpoint,
+              "the GPs' inputs are halfway along the step that the prior predicts, without one that rates predict",
+              published(false));
     v.boolean("smooth", smooth, "noisy states are smoothed where that raises the likelihood of the measurements",
               published(false));
     v.boolean("mirror", mirror,

@@ -17,6 +17,10 @@ Reversed from_the_last(const Kinematics& kinematics) { return {kinematics.pairs}
 
 }  // namespace
 
+void add_half_step(const Kinematics& kinematics, const ConstMatrixView& X, MatrixView states) {
+  for (const auto& [position, rate] : kinematics.pairs) states.col(position) += 0.5 * kinematics.dt_s * X.col(rate);
+}
+
 void subtract_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool has_prior, MatrixView Y) {
   const double dt = kinematics.dt_s;
   for (const auto& [position, rate] : kinematics.pairs) {

@@ -10,6 +10,9 @@ namespace rehearse::dynamics {
 // whose positions are integrals alone). X: n × dx states, Y: n × dx changes or their means. Without a prior the
 // position moves by dt·v + dt/2·Δv; around a prior the residual of v adds dt/2 of itself to that of the position.
 
+/// Moves the positions among `states`, as they are at X, half a step on with their rates.
+void add_half_step(const Kinematics& kinematics, const ConstMatrixView& X, MatrixView states);
+
 /// Turns Y into targets of the GPs. Y holds changes (without a prior) or changes minus the prior mean.
 void subtract_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool has_prior, MatrixView Y);
 

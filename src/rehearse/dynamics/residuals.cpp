@@ -62,8 +62,16 @@ Matrix Residuals::targets(const prior::Prior* prior, const Vector& phi) const {
   return targets(&mean);
 }
 
+/// The inputs of all rows without a prior, positions half a step on.
+std::shared_ptr<const gp::Inputs> Residuals::halfway() const {
+  if (size() == 0) return nullptr;
+  Matrix states = data_.states;
+  add_half_step(kinematics_, data_.states, states);
+  return std::make_shared<gp::Inputs>(gp_inputs(features_, states, data_.actions));
+}
+
 Residuals::Rows Residuals::at(const prior::Prior* prior, const Vector& phi) const {
-  if (!prior) return {at_start_, targets(nullptr), 0, {}};
+  if (!prior) return {midpoint_ ? halfway() : at_start_, targets(nullptr), 0, {}};
   const Matrix mean = prior_mean(*prior, phi);
   Matrix targets = this->targets(&mean);
   const bool all = targets.allFinite();

@@ -16,7 +16,7 @@ namespace rehearse::dynamics {
 /// Const methods may run concurrently.
 class Residuals {
  public:
-  /// `midpoint`: see Mean; nothing without a prior.
+  /// `midpoint`: see GpModel.
   explicit Residuals(const Dataset& data, FeatureMap features, Kinematics kinematics = {}, bool midpoint = false);
 
   struct Rows {
@@ -45,6 +45,7 @@ class Residuals {
  private:
   Matrix targets(const Matrix* prior_mean) const;
   Matrix prior_mean(const prior::Prior& prior, const Vector& phi) const;
+  std::shared_ptr<const gp::Inputs> halfway() const;
 
   const Dataset& data_;
   FeatureMap features_;

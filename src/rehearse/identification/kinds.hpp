@@ -27,17 +27,14 @@ struct ZeroMean {
 
 /// Options of GPs around a prior.
 struct ResidualGpOptions : GpOptions {
-  bool midpoint = true;  // inputs are those halfway along the step that the prior predicts (Mean)
-  bool servos = true;    // GPs learn the positions that servos reach, the prior predicts what follows (servos.hpp)
+  bool servos = true;  // GPs learn the positions that servos reach, the prior predicts what follows (servos.hpp)
   ResidualGpOptions() {
-    fit.trend = smooth = true;
+    fit.trend = smooth = midpoint = true;
     fit.penalties.length_deviation =
         1;  // or white noise is taken for a function, of which the model would be uncertain
   }
   void fields(FieldVisitor& v) {
     GpOptions::fields(v);
-    v.boolean("midpoint", midpoint, "the GPs' inputs are at the midpoint of the step that the prior predicts",
-              published(false));
     v.boolean("servos", servos,
               "GPs learn the positions that servos reach; the prior predicts the rest of the robot from them",
               published(false));

@@ -29,13 +29,13 @@ struct Given {
   const WarmStart& start;
   const Evaluator& evaluator;
 
-  dynamics::Residuals residuals(const GpOptions& gp, bool integrates_rates, bool midpoint) const {
+  dynamics::Residuals residuals(const GpOptions& gp, bool integrates_rates) const {
     const FeatureMap& features = problem.features;
     Kinematics known = problem.kinematics;
     if (!integrates_rates) known.pairs.clear();
     return dynamics::Residuals(problem.data,
                                gp.joint_angles ? features : FeatureMap(features.kinds(), {}, features.targets()),
-                               std::move(known), midpoint);
+                               std::move(known), gp.midpoint);
   }
 };
 
@@ -92,12 +92,13 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
   if (options.mirror) rows = residuals.of(mirrored(residuals.data())).at(problem.prior, fit.phi);
   if (!rows.inputs) throw NoUsableRow("no row of the data set has a finite prior mean: nothing to learn from");
   std::optional<dynamics::Mean> mean;
-  if (problem.prior) mean = dynamics::Mean{*problem.prior, fit.phi, residuals.midpoint()};
+  if (problem.prior) mean = dynamics::Mean{*problem.prior, fit.phi};
   Learned learned;
   learned.state.kernels = hyperparameters(fit);
   const auto model = std::make_shared<dynamics::GpModel>(
       residuals.features(), residuals.kinematics(), mean,
-      gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance), options.variance);
+      gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance), options.variance,
+      residuals.midpoint());
   model->set_measurement_std(smoothed
                                  ? smoothed->measurement_std
                                  : measurement_std(*model, residuals.data(), model->posterior().noise_variances()));
@@ -127,7 +128,7 @@ Learned smoothed_if_likelier(const Given& given, const GpOptions& options, const
   const auto on = [&](const dynamics::Residuals& residuals) {
     return FitProblem{residuals, measured.prior, measured.score, measured.options, measured.evaluator};
   };
-  const dynamics::Residuals residuals = given.residuals(options, true, measured.residuals.midpoint());
+  const dynamics::Residuals residuals = given.residuals(options, true);
   const std::optional<Smoothed> smoothed = smooth(on(residuals), fit, moves_phi);
   if (!smoothed) return finish(measured, fit, nullptr);
   const dynamics::Residuals of_smoothed = residuals.of(smoothed->data);
@@ -140,8 +141,8 @@ Learned smoothed_if_likelier(const Given& given, const GpOptions& options, const
 }
 
 /// GPs around the prior as it is; null: around zero.
-Learned learn_gps(const Given& given, const GpOptions& options, const prior::Prior* prior, bool midpoint) {
-  const dynamics::Residuals residuals = given.residuals(options, options.integrate_rates, midpoint);
+Learned learn_gps(const Given& given, const GpOptions& options, const prior::Prior* prior) {
+  const dynamics::Residuals residuals = given.residuals(options, options.integrate_rates);
   const FitProblem problem{residuals, prior, Score::product, fit_options(options, residuals), given.evaluator};
   Fit fit = unfitted(prior ? prior->space.values() : Vector(), residuals.scale().size(), given.start.kernels);
   problem.refit(fit);
@@ -151,10 +152,10 @@ Learned learn_gps(const Given& given, const GpOptions& options, const prior::Pri
   return smoothed_if_likelier(given, options, problem, fit, false, finish);
 }
 
-Learned learn_kind(const ZeroMean& kind, const Given& given) { return learn_gps(given, kind.gp, nullptr, false); }
+Learned learn_kind(const ZeroMean& kind, const Given& given) { return learn_gps(given, kind.gp, nullptr); }
 
 Learned learn_kind(const FixedPrior& kind, const Given& given) {
-  return learn_gps(given, kind.gp, given.problem.prior, kind.gp.midpoint);
+  return learn_gps(given, kind.gp, given.problem.prior);
 }
 
 /// Fails where the prior tunes something and a number is not finite.
@@ -166,7 +167,7 @@ void add_posterior(Learned& learned, const prior::Prior& prior, std::optional<Ph
 
 Learned learn_kind(const GpMi& kind, const Given& given) {
   const prior::Prior& prior = *given.problem.prior;
-  const dynamics::Residuals residuals = given.residuals(kind.gp, kind.gp.integrate_rates, kind.gp.midpoint);
+  const dynamics::Residuals residuals = given.residuals(kind.gp, kind.gp.integrate_rates);
   const FitProblem problem{residuals, &prior, kind.score, fit_options(kind.gp, residuals), given.evaluator};
   Fit found = kind.search == PhiSearch::nested ? search_nested(kind, problem, given.start)
                                                : search_by_turns(kind, problem, given.start);

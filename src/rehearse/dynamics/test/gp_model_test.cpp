@@ -58,13 +58,27 @@ TEST(GpModel, LooksHalfwayAlongThePriorsStepIfAskedTo) {
   const Vector phi{{0.6, 0}};
   const prior::Prior prior = swing::prior_at(phi);
   const GpModel without(swing::features(), {}, {}, posterior(data, data.changes), PredictedVariance::latent);
-  const GpModel halfway(swing::features(), {}, Mean{prior, phi, true}, posterior(data, data.changes),
-                        PredictedVariance::latent);
+  const GpModel halfway(swing::features(), {}, Mean{prior, phi}, posterior(data, data.changes),
+                        PredictedVariance::latent, true);
   Matrix mean(30, 2);
   prior.mean(at.states, at.actions, phi, mean);
   const Prediction a = predict(without, at.states + 0.5 * mean, at.actions),
                    b = predict(halfway, at.states, at.actions);
   EXPECT_EQ(b.mean, a.mean + mean);
+  EXPECT_EQ(a.variance, b.variance);
+}
+
+TEST(GpModel, LooksAtPositionsHalfwayAlongTheStepOfTheirRatesWithoutAPrior) {
+  const Dataset data = swing::data(20, 1), at = swing::data(30, 2);
+  const Kinematics kinematics = swing::kinematics();
+  const auto model = [&](bool midpoint) {
+    return GpModel(swing::features(), kinematics, {}, posterior(data, data.changes), PredictedVariance::latent,
+                   midpoint);
+  };
+  Matrix halfway = at.states;
+  halfway.col(1) += 0.5 * kinematics.dt_s * at.states.col(0);
+  const Prediction a = predict(model(false), halfway, at.actions), b = predict(model(true), at.states, at.actions);
+  EXPECT_EQ(a.mean, b.mean) << "the rates, which integrals need, are the same";
   EXPECT_EQ(a.variance, b.variance);
 }
 
@@ -122,12 +136,13 @@ void expect_derivatives(const GpModel& model, const Matrix& X, const Matrix& U) 
 TEST(GpModel, IsLinearised) {
   const Dataset data = swing::data(20, 1), at = swing::data(70, 2);
   const prior::Prior prior = swing::prior_at(Vector{{0.6, 0}});
-  const auto mean = [&](bool midpoint) { return Mean{prior, prior.space.values(), midpoint}; };
-  for (const std::optional<Mean>& around : {std::optional<Mean>(), {mean(false)}, {mean(true)}})
+  for (const std::optional<Mean>& around : {std::optional<Mean>(), {Mean{prior, prior.space.values()}}})
     for (const Kinematics& kinematics : {Kinematics(), swing::kinematics()})
       for (const PredictedVariance variance : {PredictedVariance::latent, PredictedVariance::noisy})
-        expect_derivatives(GpModel(swing::features(), kinematics, around, posterior(data, data.changes), variance),
-                           at.states, at.actions);
+        for (const bool midpoint : {false, true})
+          expect_derivatives(
+              GpModel(swing::features(), kinematics, around, posterior(data, data.changes), variance, midpoint),
+              at.states, at.actions);
 }
 
 TEST(GpModel, WithTargetsOfStatesIsLinearised) {

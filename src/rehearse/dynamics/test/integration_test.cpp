@@ -24,6 +24,16 @@ TEST(Integration, TheTrapezoidRuleLeavesNothingOfConstantAccelerations) {
   EXPECT_EQ(changes.leftCols(2), before.leftCols(2));
 }
 
+TEST(Integration, PositionsMoveHalfAStepWithTheRatesThatTheyHave) {
+  const Kinematics chain{.dt_s = 0.1, .pairs = {{.position = 2, .rate = 0}, {.position = 0, .rate = 1}}};
+  const Matrix X = normals(1);
+  Matrix halfway = X;
+  add_half_step(chain, X, halfway);
+  EXPECT_EQ(halfway.col(0), X.col(0) + 0.05 * X.col(1));
+  EXPECT_EQ(halfway.col(1), X.col(1));
+  EXPECT_EQ(halfway.col(2), X.col(2) + 0.05 * X.col(0));
+}
+
 TEST(Integration, WhatIsSubtractedIsAddedAgain) {
   const Matrix X = normals(1), changes = normals(2);
   for (const bool has_prior : {false, true}) {

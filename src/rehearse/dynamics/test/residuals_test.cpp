@@ -63,6 +63,17 @@ TEST(Residuals, InputsMayBeHalfwayAlongThePriorsStep) {
   EXPECT_EQ(halfway.at(nullptr, {}).inputs->unit(), at_start.at(nullptr, {}).inputs->unit()) << "without a prior";
 }
 
+TEST(Residuals, WithoutAPriorInputsMayHavePositionsHalfwayAlongTheStepOfTheirRates) {
+  const Dataset data = swing::data(20, 1);
+  const Kinematics kinematics = swing::kinematics();
+  const auto rows = Residuals(data, swing::features(), kinematics, true).at(nullptr, {});
+  Matrix halfway = data.states;
+  halfway.col(1) += 0.5 * kinematics.dt_s * data.states.col(0);
+  EXPECT_EQ(rows.inputs->values(), gp_inputs(swing::features(), halfway, data.actions));
+  EXPECT_EQ(rows.targets, Residuals(data, swing::features(), kinematics).at(nullptr, {}).targets);
+  EXPECT_FALSE(Residuals({}, swing::features(), kinematics, true).at(nullptr, {}).inputs);
+}
+
 TEST(Residuals, RowsThatFailAreLeftOut) {
   const Dataset data = swing::data(20, 1);
   const auto fails = [](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {

@@ -141,10 +141,10 @@ class Smoother {
     const dynamics::Residuals::Rows rows = residuals.at(problem_.prior, estimate_.phi);
     if (rows.left_out > 0) return {};
     std::optional<dynamics::Mean> mean;
-    if (problem_.prior) mean = dynamics::Mean{*problem_.prior, estimate_.phi, residuals.midpoint()};
+    if (problem_.prior) mean = dynamics::Mean{*problem_.prior, estimate_.phi};
     return dynamics::GpModel(residuals.features(), residuals.kinematics(), mean,
                              gp::Posterior(*rows.inputs, rows.targets, white_kernels(), kTolerance),
-                             dynamics::PredictedVariance::latent);
+                             dynamics::PredictedVariance::latent, residuals.midpoint());
   }
 
   /// Some of what the kernels take for noise is that of measurements.

@@ -64,7 +64,6 @@ identification::Kind kind(const ModelOptions& options, const Mean& mean) {
     static_cast<dynamics::GpOptions&>(kind.gp) = {};
     kind.gp.fit = options.fit;
     kind.gp.smooth = options.smooth;
-    if constexpr (requires { kind.gp.midpoint; }) kind.gp.midpoint = false;
     return kind;
   };
   if (mean.prior && mean.identify) {

@@ -31,6 +31,8 @@ TEST(BlackDropsOptions, OfTheModelAreThoseOfItsKind) {
   EXPECT_TRUE(fields_of({}).contains("model.least_squares_start"));
   const auto without_prior = fields_of({.model = identification::ZeroMean{}});
   EXPECT_TRUE(without_prior.contains("model.gp.integrate_rates"));
+  EXPECT_EQ(without_prior.at("model.gp.midpoint").value, "false");
+  EXPECT_EQ(fields_of({}).at("model.gp.midpoint").value, "true");
   EXPECT_FALSE(without_prior.contains("model.least_squares_start"));
 }
 
