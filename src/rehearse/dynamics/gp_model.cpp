@@ -33,7 +33,7 @@ const GpModel::Point& GpModel::look_at(const ConstMatrixView& X, const ConstMatr
     if (mean_)
       point.middle += 0.5 * point.prior_mean;
     else
-      dynamics::add_half_step(kinematics_, X, point.middle);
+      add_half_step(kinematics_, X, point.middle);
     gp_inputs(features_, point.middle, U, point.inputs);
   } else {
     gp_inputs(features_, X, U, point.inputs);
@@ -72,11 +72,11 @@ void GpModel::to_states(const Point& point, const ConstMatrixView& by_inputs, co
   by_actions = by_inputs.rightCols(du);
   if (!midpoint_) return;
   by_place = by_states;
-  add_half_step(by_place, prior_by, by);
+  add_slopes_of_place(by_place, prior_by, by);
 }
 
 /// Adds to derivatives by X and U those by what the place adds to X: half the prior's mean, or half a step.
-void GpModel::add_half_step(const Matrix& by_place, const Matrix& prior_by, MatrixView by) const {
+void GpModel::add_slopes_of_place(const Matrix& by_place, const Matrix& prior_by, MatrixView by) const {
   if (!mean_) {
     for (const auto& [position, rate] : kinematics_.pairs)
       by.col(rate) += 0.5 * kinematics_.dt_s * by_place.col(position);

@@ -57,7 +57,7 @@ class GpModel final : public DynamicsModel {
   const Point& look_at(const ConstMatrixView& X, const ConstMatrixView& U) const;
   void finish(const Point& point, const ConstMatrixView& X, MatrixView mean) const;
   void to_states(const Point& point, const ConstMatrixView& by_inputs, const Matrix& prior_by, MatrixView by) const;
-  void add_half_step(const Matrix& by_place, const Matrix& prior_by, MatrixView by) const;
+  void add_slopes_of_place(const Matrix& by_place, const Matrix& prior_by, MatrixView by) const;
 
   FeatureMap features_;
   Kinematics kinematics_;

@@ -69,9 +69,10 @@ TEST(Residuals, WithoutAPriorInputsMayHavePositionsHalfwayAlongTheStepOfTheirRat
   const auto rows = Residuals(data, swing::features(), kinematics, true).at(nullptr, {});
   Matrix halfway = data.states;
   halfway.col(1) += 0.5 * kinematics.dt_s * data.states.col(0);
-  EXPECT_EQ(rows.inputs->values(), gp_inputs(swing::features(), halfway, data.actions));
+  EXPECT_EQ(rows.inputs->unit(), gp::Inputs(gp_inputs(swing::features(), halfway, data.actions)).unit());
   EXPECT_EQ(rows.targets, Residuals(data, swing::features(), kinematics).at(nullptr, {}).targets);
-  EXPECT_FALSE(Residuals({}, swing::features(), kinematics, true).at(nullptr, {}).inputs);
+  const Dataset nothing{Matrix(0, 2), Matrix(0, 1), Matrix(0, 2), Vector()};
+  EXPECT_FALSE(Residuals(nothing, swing::features(), kinematics, true).at(nullptr, {}).inputs);
 }
 
 TEST(Residuals, RowsThatFailAreLeftOut) {
