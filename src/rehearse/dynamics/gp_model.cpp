@@ -72,17 +72,8 @@ void GpModel::to_states(const Point& point, const ConstMatrixView& by_inputs, co
   by_actions = by_inputs.rightCols(du);
   if (!midpoint_) return;
   by_place = by_states;
-  add_slopes_of_place(by_place, prior_by, by);
-}
-
-/// Adds to derivatives by X and U those by what the place adds to X: half the prior's mean, or half a step.
-void GpModel::add_slopes_of_place(const Matrix& by_place, const Matrix& prior_by, MatrixView by) const {
-  if (!mean_) {
-    for (const auto& [position, rate] : kinematics_.pairs)
-      by.col(rate) += 0.5 * kinematics_.dt_s * by_place.col(position);
-    return;
-  }
-  for (Index k = 0; k < by_place.cols(); ++k)
+  if (!mean_) return add_half_step_of_derivatives(kinematics_, by_place, by);
+  for (Index k = 0; k < dx; ++k)  // it is X + ½ prior mean
     for (Index j = 0; j < by.cols(); ++j)
       by.col(j).array() += 0.5 * by_place.col(k).array() * prior_by.col(k * by.cols() + j).array();
 }

@@ -30,8 +30,8 @@ Matrix gp_inputs(const FeatureMap& features, const ConstMatrixView& X, const Con
 class GpModel final : public DynamicsModel {
  public:
   /// midpoint: the GPs look at the state halfway along the step that the prior predicts, or without one at positions
-  /// halfway along the step that their rates predict. What GPs learn acts during the whole step, so that there its
-  /// effect is a simpler function.
+  /// halfway along the step that their rates predict. The forces that GPs learn act during the whole step, so that
+  /// their effect is a simpler function there.
   GpModel(FeatureMap features, Kinematics kinematics, std::optional<Mean> mean, gp::Posterior posterior,
           PredictedVariance variance, bool midpoint = false)
       : features_(std::move(features)),
@@ -57,7 +57,6 @@ class GpModel final : public DynamicsModel {
   const Point& look_at(const ConstMatrixView& X, const ConstMatrixView& U) const;
   void finish(const Point& point, const ConstMatrixView& X, MatrixView mean) const;
   void to_states(const Point& point, const ConstMatrixView& by_inputs, const Matrix& prior_by, MatrixView by) const;
-  void add_slopes_of_place(const Matrix& by_place, const Matrix& prior_by, MatrixView by) const;
 
   FeatureMap features_;
   Kinematics kinematics_;

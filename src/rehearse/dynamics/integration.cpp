@@ -21,6 +21,11 @@ void add_half_step(const Kinematics& kinematics, const ConstMatrixView& X, Matri
   for (const auto& [position, rate] : kinematics.pairs) states.col(position) += 0.5 * kinematics.dt_s * X.col(rate);
 }
 
+void add_half_step_of_derivatives(const Kinematics& kinematics, const ConstMatrixView& by_halfway, MatrixView by) {
+  for (const auto& [position, rate] : kinematics.pairs)
+    by.col(rate) += 0.5 * kinematics.dt_s * by_halfway.col(position);
+}
+
 void subtract_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool has_prior, MatrixView Y) {
   const double dt = kinematics.dt_s;
   for (const auto& [position, rate] : kinematics.pairs) {

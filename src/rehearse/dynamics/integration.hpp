@@ -22,7 +22,10 @@ void add_integrals(const Kinematics& kinematics, const ConstMatrixView& X, bool 
 /// Adds to the variances of positions what their rates bring.
 void add_variances_of_integrals(const Kinematics& kinematics, MatrixView variance);
 
-/// Does the same as the last two functions for the derivatives of means and variances.
+/// Adds to derivatives by states X (n × dx, or more columns) those by the states that add_half_step makes of X.
+void add_half_step_of_derivatives(const Kinematics& kinematics, const ConstMatrixView& by_halfway, MatrixView by);
+
+/// Does the same as add_integrals and add_variances_of_integrals for the derivatives of means and variances.
 void add_integrals_of_derivatives(const Kinematics& kinematics, bool has_prior, Linearised& at);
 
 }  // namespace rehearse::dynamics

@@ -15,6 +15,15 @@ Vector standard_deviations(const Matrix& Y) {
   return deviations;
 }
 
+/// The inputs of all rows without a prior; null if there is no row.
+std::shared_ptr<const gp::Inputs> inputs_of(const Dataset& data, const FeatureMap& features,
+                                            const Kinematics& kinematics, bool midpoint) {
+  if (data.size() == 0) return nullptr;
+  Matrix states = data.states;
+  if (midpoint) add_half_step(kinematics, data.states, states);
+  return std::make_shared<gp::Inputs>(gp_inputs(features, states, data.actions));
+}
+
 double zero_if_finite(double value) { return std::isfinite(value) ? 0 : value; }
 
 }  // namespace
@@ -31,8 +40,7 @@ Residuals::Residuals(const Dataset& data, FeatureMap features, Kinematics kinema
       features_(std::move(features)),
       kinematics_(std::move(kinematics)),
       midpoint_(midpoint),
-      at_start_(data.size() == 0 ? nullptr
-                                 : std::make_shared<gp::Inputs>(gp_inputs(features_, data.states, data.actions))),
+      without_prior_(inputs_of(data, features_, kinematics_, midpoint)),
       scale_(standard_deviations(data.changes)) {}
 
 Matrix Residuals::prior_mean(const prior::Prior& prior, const Vector& phi) const {
@@ -62,20 +70,12 @@ Matrix Residuals::targets(const prior::Prior* prior, const Vector& phi) const {
   return targets(&mean);
 }
 
-/// The inputs of all rows without a prior, positions half a step on.
-std::shared_ptr<const gp::Inputs> Residuals::halfway() const {
-  if (size() == 0) return nullptr;
-  Matrix states = data_.states;
-  add_half_step(kinematics_, data_.states, states);
-  return std::make_shared<gp::Inputs>(gp_inputs(features_, states, data_.actions));
-}
-
 Residuals::Rows Residuals::at(const prior::Prior* prior, const Vector& phi) const {
-  if (!prior) return {midpoint_ ? halfway() : at_start_, targets(nullptr), 0, {}};
+  if (!prior) return {without_prior_, targets(nullptr), 0, {}};
   const Matrix mean = prior_mean(*prior, phi);
   Matrix targets = this->targets(&mean);
   const bool all = targets.allFinite();
-  if (all && !midpoint_) return {at_start_, std::move(targets), 0, {}};
+  if (all && !midpoint_) return {without_prior_, std::move(targets), 0, {}};
   std::vector<Index> rows = finite_rows(targets);
   if (rows.empty()) return {nullptr, {}, size(), {}};
   Matrix states = data_.states(rows, Eigen::all);

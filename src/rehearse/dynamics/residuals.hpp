@@ -45,13 +45,12 @@ class Residuals {
  private:
   Matrix targets(const Matrix* prior_mean) const;
   Matrix prior_mean(const prior::Prior& prior, const Vector& phi) const;
-  std::shared_ptr<const gp::Inputs> halfway() const;
 
   const Dataset& data_;
   FeatureMap features_;
   Kinematics kinematics_;
   bool midpoint_;
-  std::shared_ptr<const gp::Inputs> at_start_;  // of all rows
+  std::shared_ptr<const gp::Inputs> without_prior_;  // of all rows
   Vector scale_;
 };
 
