@@ -120,10 +120,10 @@ class BlackDrops final : public TrialLearner {
     const SearchProblem longer_problem = with_task(problem, longer_task);
     TrialSearches searches(problem, options_.search, stream()),
         longer(longer_problem, options_.search, stream(), kLongerSearches);
-    std::vector<Vector> known = known_policies(history_, *setting_.policy, options_);
-    if (setting_.start) known.insert(known.begin(), *setting_.start);
+    Known known{known_policies(history_, *setting_.policy, options_), history_.policies, without_data()};
+    if (setting_.start) known.starts.insert(known.starts.begin(), *setting_.start);
     const bool further = longer_task.horizon > task.horizon;
-    Choice choice = search_trial(searches, further ? &longer : nullptr, {known, without_data()}, options_);
+    Choice choice = search_trial(searches, further ? &longer : nullptr, known, options_);
     bool hands_over = goal && !at_start;
     if (at_start) {
       SearchProblem held = problem_of(proposal, *handing_over, task);

@@ -89,4 +89,20 @@ void prefer_found_again(TrialSearches& searches, const Retry& retry, Choice& cho
   }
 }
 
+void prefer_new(TrialSearches& searches, const std::vector<Vector>& tried, const SearchResult& found,
+                const Retry& retry, Choice& choice) {
+  const auto was_tried = [&](const Vector& policy) {
+    return std::ranges::any_of(tried, [&](const Vector& old) { return old.size() == policy.size() && old == policy; });
+  };
+  if (retry.searches == 0 || often_solves(choice) || !was_tried(choice.theta)) return;
+  std::optional<SearchResult> best;
+  for (const Vector& policy : found.runners_up) {
+    if (was_tried(policy)) continue;
+    SearchResult judged = searches.judge(policy);
+    if (judged.excess > choice.excess) continue;
+    if (!best || judged.predicted_return > best->predicted_return) best = std::move(judged);
+  }
+  if (best && within(retry.tolerance, choice.predicted_return, best->predicted_return)) choice.take(*best);
+}
+
 }  // namespace rehearse::learners::black_drops

@@ -44,6 +44,12 @@ void prefer_solving_where_sure(TrialSearches& searches, const SearchResult& foun
 /// of a descent that was cut off. The policy of the highest return becomes the choice.
 void prefer_found_again(TrialSearches& searches, const Retry& retry, Choice& choice);
 
+/// Exchanges a policy that was tried, and is not expected to solve the task, for the best new one of its search,
+/// however near. It may cost `retry.tolerance` of the return: a trial of the old one hardly teaches anything. Nothing
+/// happens without further searches (the paper).
+void prefer_new(TrialSearches& searches, const std::vector<Vector>& tried, const SearchResult& found,
+                const Retry& retry, Choice& choice);
+
 /// Gives up a little of the return (`retry.uncertain_tolerance`), where the model is uncertain, for the policy that
 /// most often solves the task. Where none does so often (about half of the episodes), searches go on in the means.
 void prefer_solving_where_uncertain(TrialSearches& searches, const SearchResult& found, const Retry& retry,

@@ -11,7 +11,7 @@ Choice choice_of(const SearchResult& found) {
 
 /// The search on the prior, before there are data.
 Choice search_prior(TrialSearches& searches, const Known& known, const Options& options, SearchResult& found) {
-  std::vector<Vector> starts = known.policies;
+  std::vector<Vector> starts = known.starts;
   for (Index i = 0; i < options.prior_searches; ++i) {
     found = searches.search(starts, i);
     starts = {found.theta};
@@ -24,11 +24,12 @@ Choice search_prior(TrialSearches& searches, const Known& known, const Options& 
 }
 
 Choice search_with_data(TrialSearches& searches, const Known& known, const Options& options, SearchResult& found) {
-  found = searches.search(known.policies, 0);
+  found = searches.search(known.starts, 0);
   Choice choice = choice_of(found);
   prefer_safe(searches, options.search.safety, found, choice);
   prefer_solving_where_uncertain(searches, found, options.retry, choice);
   prefer_found_again(searches, options.retry, choice);
+  prefer_new(searches, known.tried, found, options.retry, choice);
   return choice;
 }
 

@@ -10,8 +10,9 @@ namespace rehearse::learners::black_drops {
 
 /// Knowledge from before the search.
 struct Known {
-  std::vector<Vector> policies;  // where descents start
-  bool prior_alone = false;      // no data: the model is the prior alone
+  std::vector<Vector> starts;  // of descents
+  std::vector<Vector> tried;   // in the trials so far
+  bool prior_alone = false;    // no data: the model is the prior alone
 };
 
 /// Chooses the policy of a trial: the best of those that keep the task's limits, the safest where none does. References

@@ -52,28 +52,38 @@ TEST(Choice, PrefersPoliciesThatAreExpectedToSolveTheTask) {
   }
 }
 
-/// A first search of so many evaluations and those that follow it, on the slider itself with predictions of a variance.
-struct FoundAgain {
-  FoundAgain(double variance, Index evaluations, Index further, bool told = false, std::uint64_t seed = 1) {
-    const dynamics::SimulatorModel model{slider::prior(), slider::kTruth, variance};
-    const auto policy = slider::policy();
-    Task task = slider::task();
+/// A first search of so many evaluations on the slider itself, with predictions of a variance, and its choice.
+struct FirstSearch {
+  FirstSearch(double variance, Index evaluations, bool told = false, std::uint64_t seed = 1, Index descents = 2)
+      : model{slider::prior(), slider::kTruth, variance}, trial{.seed = seed, .trial = 2} {
     if (told) task.solved = [](const Episode&) { return false; };
-    const ProgressSink nobody;
-    const SearchProblem problem{model, *policy, task, serial_evaluator(), nobody};
-    SearchOptions options{.selection = 10};
-    options.race.descents = 2;
+    options.race.descents = descents;
     options.race.max_evaluations = evaluations;
     options.race.cmaes.population = 4;
-    TrialSearches searches(problem, options, {.seed = seed, .trial = 2});
-    const SearchResult found = searches.search({}, 0);
-    Choice choice;
+    found = searches.search({}, 0);
     choice.take(found);
+  }
+  const dynamics::SimulatorModel model;
+  const std::shared_ptr<const policy::Policy> policy = slider::policy();
+  Task task = slider::task();
+  const ProgressSink nobody;
+  const StreamKey trial;
+  SearchOptions options{.selection = 10};
+  const SearchProblem problem{model, *policy, task, serial_evaluator(), nobody};
+  TrialSearches searches{problem, options, trial};
+  SearchResult found;
+  Choice choice;
+};
+
+/// What further searches are worth after the first.
+struct FoundAgain {
+  FoundAgain(double variance, Index evaluations, Index further, bool told = false, std::uint64_t seed = 1) {
+    FirstSearch first(variance, evaluations, told, seed);
     Retry retry;
     retry.searches = further;
-    prefer_found_again(searches, retry, choice);
-    gain = choice.predicted_return - found.predicted_return;
-    rollouts = static_cast<double>(searches.rollouts()) / static_cast<double>(found.rollouts);
+    prefer_found_again(first.searches, retry, first.choice);
+    gain = first.choice.predicted_return - first.found.predicted_return;
+    rollouts = static_cast<double>(first.searches.rollouts()) / static_cast<double>(first.found.rollouts);
   }
   double gain = 0;      // of the predicted return, by the further searches
   double rollouts = 0;  // in units of those of the first search
@@ -101,6 +111,36 @@ TEST(Choice, NoSearchIsRepeatedForTheReturnWhereThatIsNoUse) {
     EXPECT_EQ(none.gain, 0);
     EXPECT_LT(none.rollouts, 2) << "the policy may be judged again";
   }
+}
+
+TEST(Choice, APolicyThatWasTriedMakesRoomForTheBestNewOne) {
+  FirstSearch first(0.0004, 200, false, 1, 4);
+  ASSERT_GE(first.found.runners_up.size(), 2U);
+  const auto chosen = [&](const std::vector<Vector>& tried, Retry retry, double solving = 0) {
+    Choice choice = first.choice;
+    choice.solving = solving;
+    prefer_new(first.searches, tried, first.found, retry, choice);
+    return choice;
+  };
+  const Vector old = first.found.theta;
+  const Retry any{.tolerance = 1e9};
+  const Choice second = chosen({old}, any);
+  EXPECT_NE(second.theta, old);
+  EXPECT_LE(second.predicted_return, first.choice.predicted_return);
+  const Choice third = chosen({old, second.theta}, any);
+  EXPECT_NE(third.theta, old);
+  EXPECT_NE(third.theta, second.theta);
+  EXPECT_LE(third.predicted_return, second.predicted_return) << "the best new one comes first";
+
+  EXPECT_EQ(chosen({second.theta, {}}, any).theta, old) << "it is new";
+  EXPECT_EQ(chosen({old}, any, 0.9).theta, old) << "it solves the task";
+  EXPECT_EQ(chosen({old}, {.searches = 0, .tolerance = 1e9}).theta, old) << "as published";
+  std::vector<Vector> all = first.found.runners_up;
+  all.push_back(old);
+  EXPECT_EQ(chosen(all, any).theta, old) << "none is new";
+  const double loss = 1 - second.predicted_return / first.choice.predicted_return;
+  EXPECT_EQ(chosen({old}, {.tolerance = 0.9 * std::abs(loss)}).theta, old) << "the new one costs too much";
+  EXPECT_EQ(chosen({old}, {.tolerance = 1.1 * std::abs(loss)}).theta, second.theta);
 }
 
 TEST(Choice, PrefersThemWithinAToleranceWhereTheModelIsUncertain) {
