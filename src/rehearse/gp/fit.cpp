@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/optim/spread.hpp"
 
 namespace rehearse::gp {
 namespace {
@@ -33,15 +34,11 @@ constexpr Index kTried = 40;  // points tried beside those climbed from; the lik
 constexpr Interval kTriedLengths{-1, 4}, kTriedNoise{-6, 0};  // ln ℓ in spreads, ln σ_n in σ_f
 constexpr double kTriedSignal = 0.5;                          // ln σ_f above that of the default start
 
-/// The i-th of points spread evenly over lengths and noise (Roberts 2018, the additive recurrence with the generalised
-/// golden ratio): optima differ in what inputs matter, which starts with equal lengths do not find.
-Vector spread_point(const Vector& standard, Index D, Index i) {
-  double ratio = 2;  // the root of ratio^(D + 2) = ratio + 1
-  for (int k = 0; k < 60; ++k) ratio = std::pow(1 + ratio, 1 / static_cast<double>(D + 2));
-  const auto within = [&](Interval range, Index d) {
-    const double t = 0.5 + static_cast<double>(i + 1) * std::pow(ratio, -static_cast<double>(d + 1));
-    return range.low + (range.high - range.low) * (t - std::floor(t));
-  };
+/// The i-th of points spread evenly over lengths and noise: optima differ in what inputs matter, which starts with
+/// equal lengths do not find.
+Vector tried_point(const Vector& standard, Index D, Index i) {
+  const Vector t = optim::spread_point(D + 1, i + 1);
+  const auto within = [&](Interval range, Index d) { return range.low + (range.high - range.low) * t(d); };
   Vector flat = standard;
   for (Index d = 0; d < D; ++d) flat(d) += within(kTriedLengths, d);
   flat(D) += kTriedSignal;
@@ -138,7 +135,7 @@ struct Problem {
   std::vector<Point> likeliest(Index count) {
     std::vector<Point> tried;
     for (Index i = 0; count > 0 && i < count + kTried; ++i)
-      tried.push_back(at(bounds.clamped(spread_point(standard, inputs.dimensions(), i))));
+      tried.push_back(at(bounds.clamped(tried_point(standard, inputs.dimensions(), i))));
     std::stable_sort(tried.begin(), tried.end(), better);
     tried.resize(static_cast<std::size_t>(count));
     return tried;

@@ -75,9 +75,9 @@ Hyperparameters default_start(const Inputs& inputs, const ConstVectorView& y, do
 
 /// Maximises the (penalised) log evidence of targets y (n) from `start`, which a warm start takes from an earlier fit,
 /// or from the default start where that is better: data may have changed so much that a warm start is hopeless; then
-/// from other starts. Never returns worse than the start moved inside the bounds. `scale` > 0: see Bounds. Throws
-/// InvalidInput only if sizes do not agree. Any thread; the workspace is the thread's own. Unless null, `noise` is that
-/// of the targets beside σ_n; parts of the rows are not tried then.
+/// from other starts. Never returns worse than the start moved inside the bounds, unless `parsimonious`, where simpler
+/// kernels may win. `scale` > 0: see Bounds. Throws InvalidInput only if sizes do not agree. Any thread; the workspace
+/// is the thread's own. Unless null, `noise` is that of the targets beside σ_n; parts of the rows are not tried then.
 Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitStart& start,
         const FitOptions& options = {}, const KnownNoise* noise = nullptr);
 inline Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const Hyperparameters& start,

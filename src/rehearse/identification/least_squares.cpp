@@ -5,6 +5,7 @@
 
 #include "rehearse/identification/coordinates.hpp"
 #include "rehearse/optim/least_squares.hpp"
+#include "rehearse/optim/spread.hpp"
 
 namespace rehearse::identification {
 namespace {
@@ -57,20 +58,6 @@ class OneStepErrors {
   mutable Index evaluations_ = 0;
 };
 
-/// Start i, the first at z: others are spread evenly over the box (Roberts 2018, the additive recurrence with the
-/// generalised golden ratio).
-Vector start(const Vector& z, Index i) {
-  if (i == 0) return z;
-  double ratio = 2;  // the root of ratio^(q + 1) = ratio + 1
-  for (int k = 0; k < 60; ++k) ratio = std::pow(1 + ratio, 1 / static_cast<double>(z.size() + 1));
-  Vector spread(z.size());
-  for (Index d = 0; d < z.size(); ++d) {
-    const double t = 0.5 + static_cast<double>(i) * std::pow(ratio, -static_cast<double>(d + 1));
-    spread(d) = t - std::floor(t);
-  }
-  return spread;
-}
-
 /// Searches φ for one combination of the discrete parameters, by descents from several starts.
 class Descents {
  public:
@@ -87,7 +74,7 @@ class Descents {
     const Vector first = coordinates_.start();
     best_ = optim::minimise_squares(problem_, first);
     for (Index i = 1; i < options_.starts && best_.value > problem_.negligible; ++i)
-      consider(optim::minimise_squares(problem_, start(first, i)));
+      consider(optim::minimise_squares(problem_, optim::spread_point(first.size(), i)));
     if (!best_.converged && std::isfinite(best_.value)) search();
     return {coordinates_.phi(best_.x), errors_.score(best_.value), errors_.evaluations()};
   }

@@ -13,12 +13,10 @@
 namespace rehearse::moments {
 namespace {
 
-constexpr double kLargestLogLength = 20;  // as the policy itself has it
-
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 Vector clamped(const ConstVectorView& log_lengths) {
-  return log_lengths.cwiseMax(-kLargestLogLength).cwiseMin(kLargestLogLength);
+  return log_lengths.cwiseMax(-policy::kLargestLogLength).cwiseMin(policy::kLargestLogLength);
 }
 
 /// (L Lᵀ)⁻¹ y
@@ -96,7 +94,8 @@ Vector RbfPolicy::gradient(const PolicyAdjoint& adjoint) const {
     centres += network.centres * scale_.asDiagonal();
     add_covariance_gradient(a, by_targets, centres, log_lengths);
     const auto given = theta_.segment(lengths_at(a), features()).array();
-    gradient.segment(lengths_at(a), features()) = (given.abs() <= kLargestLogLength).select(log_lengths.array(), 0);
+    gradient.segment(lengths_at(a), features()) =
+        (given.abs() <= policy::kLargestLogLength).select(log_lengths.array(), 0);
     gradient.segment(targets_at(a), centres_) = by_targets;
   }
   gradient.segment(centres_at(), centres_ * features()) = centres.transpose().reshaped();

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "rehearse/core/types.hpp"
+#include "rehearse/policy/rbf.hpp"
 
 namespace rehearse::policy {
-
-inline constexpr double kLargestLogLength = 20;  // beyond it a kernel is as good as constant, or nothing
 
 struct RbfShape {
   Index inputs, centres, actions;

@@ -94,7 +94,7 @@ void prefer_new(TrialSearches& searches, const std::vector<Vector>& tried, const
   const auto was_tried = [&](const Vector& policy) {
     return std::ranges::any_of(tried, [&](const Vector& old) { return old.size() == policy.size() && old == policy; });
   };
-  if (retry.searches == 0 || often_solves(choice) || !was_tried(choice.theta)) return;
+  if (retry.uncertain_tolerance == 0 || often_solves(choice) || !was_tried(choice.theta)) return;
   std::optional<SearchResult> best;
   for (const Vector& policy : found.runners_up) {
     if (was_tried(policy)) continue;
@@ -102,7 +102,7 @@ void prefer_new(TrialSearches& searches, const std::vector<Vector>& tried, const
     if (judged.excess > choice.excess) continue;
     if (!best || judged.predicted_return > best->predicted_return) best = std::move(judged);
   }
-  if (best && within(retry.tolerance, choice.predicted_return, best->predicted_return)) choice.take(*best);
+  if (best && within(retry.uncertain_tolerance, choice.predicted_return, best->predicted_return)) choice.take(*best);
 }
 
 }  // namespace rehearse::learners::black_drops

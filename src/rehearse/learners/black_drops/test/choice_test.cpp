@@ -123,7 +123,7 @@ TEST(Choice, APolicyThatWasTriedMakesRoomForTheBestNewOne) {
     return choice;
   };
   const Vector old = first.found.theta;
-  const Retry any{.tolerance = 1e9};
+  const Retry any{.uncertain_tolerance = 1e9};
   const Choice second = chosen({old}, any);
   EXPECT_NE(second.theta, old);
   EXPECT_LE(second.predicted_return, first.choice.predicted_return);
@@ -134,13 +134,13 @@ TEST(Choice, APolicyThatWasTriedMakesRoomForTheBestNewOne) {
 
   EXPECT_EQ(chosen({second.theta, {}}, any).theta, old) << "it is new";
   EXPECT_EQ(chosen({old}, any, 0.9).theta, old) << "it solves the task";
-  EXPECT_EQ(chosen({old}, {.searches = 0, .tolerance = 1e9}).theta, old) << "as published";
+  EXPECT_EQ(chosen({old}, {.uncertain_tolerance = 0}).theta, old) << "as published";
   std::vector<Vector> all = first.found.runners_up;
   all.push_back(old);
   EXPECT_EQ(chosen(all, any).theta, old) << "none is new";
   const double loss = 1 - second.predicted_return / first.choice.predicted_return;
-  EXPECT_EQ(chosen({old}, {.tolerance = 0.9 * std::abs(loss)}).theta, old) << "the new one costs too much";
-  EXPECT_EQ(chosen({old}, {.tolerance = 1.1 * std::abs(loss)}).theta, second.theta);
+  EXPECT_EQ(chosen({old}, {.uncertain_tolerance = 0.9 * std::abs(loss)}).theta, old) << "the new one costs too much";
+  EXPECT_EQ(chosen({old}, {.uncertain_tolerance = 1.1 * std::abs(loss)}).theta, second.theta);
 }
 
 TEST(Choice, PrefersThemWithinAToleranceWhereTheModelIsUncertain) {
