@@ -20,8 +20,8 @@ void Retry::fields(FieldVisitor& v) {
   v.number("tolerance", tolerance, "return that a policy which solves the task may lose, as a fraction of the highest",
            at_least(0));
   v.number("uncertain_tolerance", uncertain_tolerance,
-           "the same where the model is uncertain; 0: policies are chosen by return alone there", at_least(0),
-           published(0));
+           "the same where the model is uncertain, and for a new policy where the best was tried; 0: no loss",
+           at_least(0), published(0));
 }
 
 void Options::fields(FieldVisitor& v) {
