@@ -9,6 +9,7 @@
 #include "rehearse/gp/cholesky.hpp"
 #include "rehearse/gp/correlations.hpp"
 #include "rehearse/gp/kernel.hpp"
+#include "rehearse/policy/rbf_kernel.hpp"
 
 namespace rehearse::moments {
 namespace {

@@ -9,8 +9,6 @@
 
 namespace rehearse::policy {
 
-inline constexpr double kLargestLogLength = 20;  // of |ln ℓ|: beyond it a kernel is as good as constant, or nothing
-
 /// A network of radial basis functions, the mean of a GP with σ_f = 1 conditioned on pseudo-observations (Deisenroth
 /// 2010, eqs 3.15 and 3.46: "GP policy"), squashed by (9 sin a + sin 3a)/8:
 ///

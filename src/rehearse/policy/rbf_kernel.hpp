@@ -1,8 +1,10 @@
 #pragma once
 
-#include "rehearse/policy/rbf.hpp"
+#include "rehearse/core/types.hpp"
 
 namespace rehearse::policy {
+
+inline constexpr double kLargestLogLength = 20;  // beyond it a kernel is as good as constant, or nothing
 
 struct RbfShape {
   Index inputs, centres, actions;
