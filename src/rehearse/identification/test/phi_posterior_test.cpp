@@ -46,12 +46,25 @@ Dataset data_with_errors(Index rows, std::uint64_t seed) {
   return data;
 }
 
-/// An fit at φ with that kernel for both outputs.
+/// A fit at φ with that kernel for both outputs.
 Fit held_at(const FitProblem& problem, const Vector& phi) {
   Fit fit = unfitted(phi, 2, {kernel(), kernel()});
   fit.score = held_score(problem, fit);
   return fit;
 }
+
+/// Rows with errors of that kernel, and the fit at the truth that knows it.
+struct FitAtTruth {
+  explicit FitAtTruth(Index rows, std::uint64_t seed) : data(data_with_errors(rows, seed)) {}
+  Matrix targets() const { return residuals.targets(&prior, swing::kTruth); }
+
+  const Dataset data;
+  const dynamics::Residuals residuals{data, swing::features()};
+  const prior::Prior prior = swing_prior();
+  const FitProblem problem{residuals, &prior, Score::product, {}, serial_evaluator()};
+  Fit fit = held_at(problem, swing::kTruth);
+  const Matrix K = covariance_of_rows(data, kernel());
+};
 
 /// The derivatives of the prior mean of output e with respect to φ at the truth.
 Matrix slopes_of_mean(const Dataset& data, const prior::Prior& prior, Index e) {
@@ -80,17 +93,14 @@ double predictable(const Matrix& K, const Vector& y) {
 }
 
 TEST(PhiPosterior, IsTheInverseOfThePrecisionAndTheWayLeft) {
-  const Dataset data = data_with_errors(15, 3);
-  const dynamics::Residuals residuals(data, swing::features());
-  const prior::Prior prior = swing_prior();
-  const FitProblem problem{residuals, &prior, Score::product, {}, serial_evaluator()};
-  const Fit fit = held_at(problem, swing::kTruth);
-  const Matrix K = covariance_of_rows(data, kernel()), targets = residuals.targets(&prior, swing::kTruth);
+  const FitAtTruth at(15, 3);
+  const Matrix& K = at.K;
+  const Matrix targets = at.targets();
   for (const double observations : {1e12, 4.0}) {
     Matrix precision = Vector{{12 / (1.7 * 1.7), 12.0}}.asDiagonal();  // of the boxes
     Vector gradient = Vector::Zero(2);
     for (Index e = 0; e < 2; ++e) {
-      const Matrix J = slopes_of_mean(data, prior, e);
+      const Matrix J = slopes_of_mean(at.data, at.prior, e);
       const double misfit = std::max(0.0, predictable(K, targets.col(e)));
       const Matrix Q = Eigen::HouseholderQR<Matrix>(J).householderQ() * Matrix::Identity(15, 2);
       const Matrix C = K + 15 * misfit / observations * Q * Q.transpose();
@@ -99,7 +109,7 @@ TEST(PhiPosterior, IsTheInverseOfThePrecisionAndTheWayLeft) {
     }
     const Matrix inverse = precision.inverse();
     const Matrix expected = inverse + inverse * gradient * gradient.transpose() * inverse;
-    const auto posterior = phi_posterior(problem, fit, {.misfit_observations = observations, .misfit_share = 0});
+    const auto posterior = phi_posterior(at.problem, at.fit, {.misfit_observations = observations, .misfit_share = 0});
     ASSERT_TRUE(posterior);
     EXPECT_EQ(posterior->mean, swing::kTruth);
     EXPECT_LT((posterior->covariance - expected).norm(), 1e-3 * expected.norm()) << observations;
@@ -107,24 +117,21 @@ TEST(PhiPosterior, IsTheInverseOfThePrecisionAndTheWayLeft) {
 }
 
 TEST(PhiPosterior, AShareOfWhatGpsExplainMayBeThatOfParameters) {
-  const Dataset data = data_with_errors(15, 3);
-  const dynamics::Residuals residuals(data, swing::features());
-  const prior::Prior prior = swing_prior();
-  const FitProblem problem{residuals, &prior, Score::product, {}, serial_evaluator()};
-  const Fit fit = held_at(problem, swing::kTruth);
-  const Matrix K = covariance_of_rows(data, kernel()), targets = residuals.targets(&prior, swing::kTruth);
+  const FitAtTruth at(15, 3);
+  const Matrix& K = at.K;
+  const Matrix targets = at.targets();
   Matrix precision = Vector{{12 / (1.7 * 1.7), 12.0}}.asDiagonal();
   Vector gradient = Vector::Zero(2);
   for (Index e = 0; e < 2; ++e) {
-    const Matrix J = slopes_of_mean(data, prior, e);
+    const Matrix J = slopes_of_mean(at.data, at.prior, e);
     const Vector y = targets.col(e), explained = y - kernel().noise_variance() * K.inverse() * y;
     const double variance = y.squaredNorm() / 15;
     precision += J.transpose() * J / variance;
     gradient += J.transpose() * explained / variance;
   }
   const Vector way = precision.inverse() * gradient;  // less far than to the ends of the box
-  const Matrix none = phi_posterior(problem, fit, {.misfit_share = 0})->covariance;
-  const Matrix half = phi_posterior(problem, fit, {.misfit_share = 0.5})->covariance;
+  const Matrix none = phi_posterior(at.problem, at.fit, {.misfit_share = 0})->covariance;
+  const Matrix half = phi_posterior(at.problem, at.fit, {.misfit_share = 0.5})->covariance;
   EXPECT_GT(way.norm(), 0.01);
   EXPECT_LT((half - none - 0.25 * way * way.transpose()).norm(), 1e-3 * half.norm());
 }
@@ -144,29 +151,22 @@ ErrorsInVariables steps_around(const Dataset& data, const Vector& variances) {
 }
 
 TEST(PhiPosterior, OfStepsWithoutErrorsIsThatOfRows) {
-  const Dataset data = data_with_errors(15, 3);
-  const dynamics::Residuals residuals(data, swing::features());
-  const prior::Prior prior = swing_prior();
-  const FitProblem problem{residuals, &prior, Score::product, {}, serial_evaluator()};
-  const Fit fit = held_at(problem, swing::kTruth);
-  const ErrorsInVariables steps = steps_around(data, Vector::Zero(2));
-  const Matrix rows = phi_posterior(problem, fit, kClassical)->covariance;
-  EXPECT_LT((phi_posterior(problem, fit, steps, kClassical)->covariance - rows).norm(), 1e-9 * rows.norm());
+  const FitAtTruth at(15, 3);
+  const ErrorsInVariables steps = steps_around(at.data, Vector::Zero(2));
+  const Matrix rows = phi_posterior(at.problem, at.fit, kClassical)->covariance;
+  EXPECT_LT((phi_posterior(at.problem, at.fit, steps, kClassical)->covariance - rows).norm(), 1e-9 * rows.norm());
 }
 
 TEST(PhiPosterior, OfStepsWithErrorsCountsThemOnce) {
-  const Dataset data = data_with_errors(15, 3);
-  const dynamics::Residuals residuals(data, swing::features());
-  const prior::Prior prior = swing_prior();
-  const FitProblem problem{residuals, &prior, Score::product, {}, serial_evaluator()};
-  const Fit fit = held_at(problem, swing::kTruth);
+  const FitAtTruth at(15, 3);
   const Vector variances{{0.1 * 0.1, 0.05 * 0.05}};
-  const ErrorsInVariables steps = steps_around(data, variances);
-  const Matrix K = covariance_of_rows(data, kernel()), targets = residuals.targets(&prior, swing::kTruth);
+  const ErrorsInVariables steps = steps_around(at.data, variances);
+  const Matrix& K = at.K;
+  const Matrix targets = at.targets();
   Matrix J(30, 2), C = Matrix::Zero(30, 30);
   for (Index e = 0; e < 2; ++e) {
     const auto own = Eigen::seqN(15 * e, 15);
-    J(own, Eigen::all) = slopes_of_mean(data, prior, e);
+    J(own, Eigen::all) = slopes_of_mean(at.data, at.prior, e);
     const Matrix Q = Eigen::HouseholderQR<Matrix>(J(own, Eigen::all)).householderQ() * Matrix::Identity(15, 2);
     C(own, own) = K + 2 * variances(e) * Matrix::Identity(15, 15) +  // these steps share no measurement
                   15 * predictable(K, targets.col(e)) / 4 * Q * Q.transpose();
@@ -177,23 +177,19 @@ TEST(PhiPosterior, OfStepsWithErrorsCountsThemOnce) {
   const Vector left = inverse * J.transpose() * C.inverse() * targets.reshaped();
   const Matrix expected = inverse + left * left.transpose();
   const Matrix covariance =
-      phi_posterior(problem, fit, steps, {.misfit_observations = 4, .misfit_share = 0})->covariance;
+      phi_posterior(at.problem, at.fit, steps, {.misfit_observations = 4, .misfit_share = 0})->covariance;
   EXPECT_LT((covariance - expected).norm(), 1e-3 * expected.norm());
 }
 
 // 400 data sets of 25 rows, seeds 1 to 400, errors drawn from the kernel: each interval holds the truth with
 // probability 0.95; fewer than 0.91 or more than 0.985 of 400 have a probability below 0.001.
 TEST(PhiPosterior, CoversTheTruthAsOftenAsItSaysIfTheKernelIsRight) {
-  const prior::Prior prior = swing_prior();
   Vector covered = Vector::Zero(2);
   const Index sets = 400;
   for (std::uint64_t seed = 1; seed <= sets; ++seed) {
-    const Dataset data = data_with_errors(25, seed);
-    const dynamics::Residuals residuals(data, swing::features());
-    const FitProblem problem{residuals, &prior, Score::product, {}, serial_evaluator()};
-    Fit fit = held_at(problem, swing::kTruth);
-    climb(problem, fit);
-    const auto intervals = phi_posterior(problem, fit, kClassical)->intervals();
+    FitAtTruth at(25, seed);
+    climb(at.problem, at.fit);
+    const auto intervals = phi_posterior(at.problem, at.fit, kClassical)->intervals();
     for (Index i = 0; i < 2; ++i) {
       const Interval interval = intervals[static_cast<std::size_t>(i)];
       covered(i) += interval.low <= swing::kTruth(i) && swing::kTruth(i) <= interval.high;
