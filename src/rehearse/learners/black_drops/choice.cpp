@@ -102,7 +102,10 @@ void prefer_new(TrialSearches& searches, const std::vector<Vector>& tried, const
     if (judged.excess > choice.excess) continue;
     if (!best || judged.predicted_return > best->predicted_return) best = std::move(judged);
   }
-  if (best && within(retry.uncertain_tolerance, choice.predicted_return, best->predicted_return)) choice.take(*best);
+  if (!best) return;
+  if (searches.is_sure_of(choice.theta) ||
+      within(retry.uncertain_tolerance, choice.predicted_return, best->predicted_return))
+    choice.take(*best);
 }
 
 }  // namespace rehearse::learners::black_drops

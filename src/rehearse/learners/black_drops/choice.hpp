@@ -45,7 +45,8 @@ void prefer_solving_where_sure(TrialSearches& searches, const SearchResult& foun
 void prefer_found_again(TrialSearches& searches, const Retry& retry, Choice& choice);
 
 /// Exchanges a policy that was tried, and is not expected to solve the task, for the best new one of its search,
-/// however near. It may cost `retry.uncertain_tolerance` of the return: a trial of the old one hardly teaches anything.
+/// however near. Where the model is sure of the old one, its trial would teach nothing, so a new one may cost anything;
+/// else `retry.uncertain_tolerance` of the return.
 void prefer_new(TrialSearches& searches, const std::vector<Vector>& tried, const SearchResult& found,
                 const Retry& retry, Choice& choice);
 

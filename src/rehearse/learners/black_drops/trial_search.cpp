@@ -28,8 +28,8 @@ Choice search_with_data(TrialSearches& searches, const Known& known, const Optio
   Choice choice = choice_of(found);
   prefer_safe(searches, options.search.safety, found, choice);
   prefer_solving_where_uncertain(searches, found, options.retry, choice);
-  prefer_found_again(searches, options.retry, choice);
   prefer_new(searches, known.tried, found, options.retry, choice);
+  prefer_found_again(searches, options.retry, choice);
   return choice;
 }
 

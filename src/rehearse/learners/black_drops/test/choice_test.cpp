@@ -143,6 +143,15 @@ TEST(Choice, APolicyThatWasTriedMakesRoomForTheBestNewOne) {
   EXPECT_EQ(chosen({old}, {.uncertain_tolerance = 1.1 * std::abs(loss)}).theta, second.theta);
 }
 
+TEST(Choice, WhereTheModelIsSureOfAPolicyThatWasTriedANewOneMayCostAnything) {
+  FirstSearch first(0, 8, false, 1, 4);
+  const Vector old = first.found.theta;
+  Choice choice = first.choice;
+  prefer_new(first.searches, {old}, first.found, {.uncertain_tolerance = 1e-9}, choice);
+  EXPECT_NE(choice.theta, old);
+  EXPECT_LT(choice.predicted_return, first.choice.predicted_return - 0.01);
+}
+
 TEST(Choice, PrefersThemWithinAToleranceWhereTheModelIsUncertain) {
   const auto second = [](const char* tolerance) {
     const auto with = builder("black-drops-prior", "100");
