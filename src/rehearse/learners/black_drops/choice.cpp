@@ -103,8 +103,8 @@ void prefer_new(TrialSearches& searches, const std::vector<Vector>& tried, const
     if (!best || judged.predicted_return > best->predicted_return) best = std::move(judged);
   }
   if (!best) return;
-  if (searches.is_sure_of(choice.theta) ||
-      within(retry.uncertain_tolerance, choice.predicted_return, best->predicted_return))
+  if (within(retry.uncertain_tolerance, choice.predicted_return, best->predicted_return) ||
+      searches.is_sure_of(choice.theta))
     choice.take(*best);
 }
 

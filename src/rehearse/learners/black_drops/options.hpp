@@ -26,8 +26,8 @@ struct FirstTrial {
 struct Retry {
   Index searches = 3;       // more than one, at most; 0: the policy of the highest return of one search (the paper)
   double tolerance = 0.05;  // of the highest return: where one that solves has less, the search goes on
-  double uncertain_tolerance = 0.2;  // what a policy may cost that solves where the model is uncertain, or that is
-                                     // new where it is uncertain of the best, tried before; 0: none is preferred
+  double uncertain_tolerance = 0.2;  // return that may be given up, as a fraction, for a policy that solves the task
+                                     // where the model is uncertain, and for a new one where the best was tried; 0: no
   void fields(FieldVisitor& v);
 };
 

@@ -52,7 +52,8 @@ TEST(Choice, PrefersPoliciesThatAreExpectedToSolveTheTask) {
   }
 }
 
-/// A first search of so many evaluations on the slider itself, with predictions of a variance, and its choice.
+/// The first search of a trial and its choice, on the slider itself. variance: of predictions. told: the task has a
+/// test of success, which nothing passes.
 struct FirstSearch {
   FirstSearch(double variance, Index evaluations, bool told = false, std::uint64_t seed = 1, Index descents = 2)
       : model{slider::prior(), slider::kTruth, variance}, trial{.seed = seed, .trial = 2} {
@@ -75,7 +76,7 @@ struct FirstSearch {
   Choice choice;
 };
 
-/// What further searches are worth after the first.
+/// The worth of further searches after a first one.
 struct FoundAgain {
   FoundAgain(double variance, Index evaluations, Index further, bool told = false, std::uint64_t seed = 1) {
     FirstSearch first(variance, evaluations, told, seed);
