@@ -136,11 +136,10 @@ void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried
   }
 }
 
-/// The ends before the horizon: ", 1 of 3 episodes `ended` before their time, 2 of 3 episodes broke the limit track".
+/// The ends before the horizon: ", 1 of 3 episodes ended early, 2 of 3 episodes broke the limit track".
 std::string early_ends(const robot_file::Tried& tried, const Task& task) {
   std::string text;
-  if (tried.ended > 0)
-    text += fmt::format(", {} of {} episodes `ended` before their time", tried.ended, tried.episodes);
+  if (tried.ended > 0) text += fmt::format(", {} of {} episodes ended early", tried.ended, tried.episodes);
   for (std::size_t l = 0; l < tried.limits.size(); ++l)
     if (tried.limits[l] > 0)
       text +=

@@ -23,7 +23,7 @@ class PriorChecked:
 
 @dataclass(frozen=True)
 class Checked:
-    """What `check` found. steps: of the plant; ended: episodes that ended before their time. changes: of each state, root mean
+    """What `check` found. steps: of the plant; ended: episodes that ended early. changes: of each state, root mean
     square change in a step. complaints: what is wrong, a line each."""
 
     steps: int

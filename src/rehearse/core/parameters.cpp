@@ -96,9 +96,7 @@ bool ParameterSpace::has_tunable() const {
 
 Parameter& ParameterSpace::at(std::string_view name) {
   const Index i = find(name);
-  if (i < 0)
-    throw InvalidInput(fmt::format("unknown parameter '{}', did you mean '{}'? (known: {})", name,
-                                   closest(name, names()), fmt::join(names(), ", ")));
+  if (i < 0) throw InvalidInput(fmt::format("unknown parameter '{}'{}", name, suggestions(name, names())));
   return parameters_[static_cast<std::size_t>(i)];
 }
 

@@ -53,11 +53,6 @@ Rows rows_of(const std::vector<Servo>& servos, const Dataset& data) {
   return {rows.inputs(some, Eigen::all), rows.targets(some, Eigen::all)};
 }
 
-gp::Fit fitted(const gp::Inputs& inputs, const ConstVectorView& y, const gp::FitOptions& options) {
-  const double scale = gp::standard_deviation(y);
-  return gp::fit(inputs, y, scale, gp::default_start(inputs, y, scale, options.bounds, options.trend), options);
-}
-
 const Matrix& inputs_of_rest(const FeatureMap& features, const ConstMatrixView& X, const ConstMatrixView& U) {
   thread_local Matrix inputs;
   inputs.resize(X.rows(), features.features() + U.cols());
@@ -105,7 +100,7 @@ void Servos::learn_types(const Dataset& data, const GpOptions& options, const Ev
   std::vector<std::vector<gp::Hyperparameters>> kernels(types_.size(), std::vector<gp::Hyperparameters>(kOutputs));
   evaluator.for_each(kOutputs * static_cast<Index>(types_.size()), [&](Index i) {
     const auto m = static_cast<std::size_t>(i / kOutputs), e = static_cast<std::size_t>(i % kOutputs);
-    kernels[m][e] = fitted(inputs[m], targets[m].col(i % kOutputs), options.fit).hyperparameters;
+    kernels[m][e] = gp::fit(inputs[m], targets[m].col(i % kOutputs), options.fit).hyperparameters;
   });
   for (std::size_t m = 0; m < types_.size(); ++m)
     types_[m].posterior = std::make_shared<gp::Posterior>(inputs[m], targets[m], kernels[m], options.tolerance);
@@ -129,7 +124,7 @@ void Servos::learn_rest(const Dataset& data, const GpOptions& options, const Eva
   std::vector<gp::Fit> fits(targets.size());
   evaluator.for_each(outputs, [&](Index e) {
     const auto i = static_cast<std::size_t>(e);
-    fits[i] = fitted(inputs, targets[i], fit);
+    fits[i] = gp::fit(inputs, targets[i], fit);
   });
   Matrix Y(data.size(), outputs);
   std::vector<gp::Hyperparameters> kernels;

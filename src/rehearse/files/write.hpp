@@ -38,7 +38,7 @@ class FolderLock {
   explicit FolderLock(const std::filesystem::path& folder, Kind kind = Kind::exclusive);  // InvalidInput: it is in use
   ~FolderLock();
 
-  /// True if a process holds it now. Neither waits nor writes.
+  /// True if a process holds it alone now. Neither waits nor writes.
   static bool is_held(const std::filesystem::path& folder);
 
   FolderLock(FolderLock&& other) noexcept;

@@ -268,4 +268,9 @@ Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, const FitS
   return fit_kernel(inputs, y, scale, start, options, noise);
 }
 
+Fit fit(const Inputs& inputs, const ConstVectorView& y, const FitOptions& options) {
+  const double scale = standard_deviation(y);
+  return fit(inputs, y, scale, default_start(inputs, y, scale, options.bounds, options.trend), options);
+}
+
 }  // namespace rehearse::gp

@@ -16,14 +16,14 @@ struct FitOptions {
   FitMethod method = FitMethod::bfgs;  // rprop: Chatzilygeroudis 2018; BFGS needs about a fifth of the evaluations
   optim::RpropOptions rprop;
   optim::BfgsOptions bfgs{.relative_tolerance = 1e-7};  // of a thousand nats: less than a hundredth nat is left
-  // The evidence of small residuals has several optima.
   bool trend = false;      // a quadratic one (hyperparameters.hpp); not a field, since not all who fit can use it
   bool isotropic = false;  // one length for all inputs in units of their spreads; without a trend. No field
   bool parsimonious =
       false;              // for many inputs: the likeliest of a length for each, one for all, and noise alone, where
                           // each hyperparameter costs half a ln n nats (Schwarz 1978); without a trend. No field
   Index starts = 3;       // the better of the given start and the default one; a noisier one; the likeliest of some 40
-                          // points all over, which differ in what inputs matter (the authors: 1)
+                          // points all over, which differ in what inputs matter (the authors: 1): the evidence of
+                          // small residuals has several optima
   Index part_rows = 200;  // with at least twice as many rows, all starts are tried on a part of about so many, and the
                           // best is continued on all rows; 0: never (the authors)
   Penalties penalties;
@@ -84,5 +84,8 @@ inline Fit fit(const Inputs& inputs, const ConstVectorView& y, double scale, con
                const FitOptions& options = {}, const KnownNoise* noise = nullptr) {
   return fit(inputs, y, scale, FitStart{start, {}}, options, noise);
 }
+
+/// The same from the default start, in the scale of the targets.
+Fit fit(const Inputs& inputs, const ConstVectorView& y, const FitOptions& options);
 
 }  // namespace rehearse::gp

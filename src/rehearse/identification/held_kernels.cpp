@@ -5,13 +5,14 @@
 #include <limits>
 #include <optional>
 
+#include "rehearse/optim/damping.hpp"
 #include "rehearse/optim/derivative_free.hpp"
 
 namespace rehearse::identification {
 namespace {
 
 constexpr double kGain = 1e-3;  // nats: steps that promise or gain less are not made
-constexpr double kLeastDamping = 1e-9, kFirstDamping = 1e-6;
+constexpr double kLeastDamping = 1e-9;
 constexpr int kMostHeldSteps = 30, kMostDampings = 10;
 
 optim::SubplexOptions subplex(Index parameters) {
@@ -42,11 +43,11 @@ class Climb {
   Made step() {
     const Quadratics model = held_.quadratics(z_, at_);
     for (int i = 0; i < kMostDampings; ++i) {
-      const Vector d = best_step(model, held_.problem().score, -z_, Vector::Ones(z_.size()) - z_, damping_);
+      const Vector d = best_step(model, held_.problem().score, -z_, Vector::Ones(z_.size()) - z_, damping_.value());
       const double promised = held_.score(model.at(d)) - at_.score;
       if (!(promised >= kGain)) return i == 0 ? Made::none : Made::misled;
       if (move((z_ + d).cwiseMax(0).cwiseMin(1), promised)) return Made::one;
-      damping_ = std::max(10 * damping_, kFirstDamping);
+      damping_.refuse();
     }
     return Made::misled;
   }
@@ -57,8 +58,7 @@ class Climb {
     ++evaluations_;
     const double gain = next.score - at_.score;
     if (!(gain > 0)) return false;
-    if (gain > 0.75 * promised) damping_ = std::max(damping_ / 10, kLeastDamping);
-    if (gain < 0.25 * promised) damping_ = std::max(damping_ * 4, kFirstDamping);
+    damping_.judge(gain, promised);
     z_ = z;
     at_ = std::move(next);
     return true;
@@ -75,7 +75,7 @@ class Climb {
   const HeldKernels& held_;
   Vector z_;
   HeldKernels::At at_;
-  double damping_ = kFirstDamping;
+  optim::Damping damping_{kLeastDamping};
   Index evaluations_ = 0;
 };
 

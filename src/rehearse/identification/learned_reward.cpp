@@ -42,9 +42,7 @@ struct Fitted {
 };
 
 Fitted fitted(Targets targets, const gp::Inputs& inputs, const gp::FitOptions& options) {
-  const double scale = gp::standard_deviation(targets.y);
-  const auto start = gp::default_start(inputs, targets.y, scale, options.bounds);
-  gp::Fit fit = gp::fit(inputs, targets.y, scale, start, options);
+  gp::Fit fit = gp::fit(inputs, targets.y, options);
   return {std::move(targets), std::move(fit)};
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/optim/box.hpp"
 #include "rehearse/optim/gradient.hpp"
 
 namespace rehearse::optim {
@@ -19,7 +20,7 @@ constexpr double kRounding = 1e3;             // tolerances that a failed line s
 void check(const Vector& start, const BfgsOptions& options) {
   Violations violations;
   violations.add(field_violations("bfgs", options));
-  violations.require(start.size() > 0 && start.allFinite(), "start has no coordinates or is not finite");
+  violations.add(start_violations(start, {}));
   violations.throw_if_any();
 }
 

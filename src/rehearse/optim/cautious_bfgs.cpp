@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/optim/box.hpp"
 
 namespace rehearse::optim {
 namespace {
@@ -16,8 +17,8 @@ constexpr double kMargin = 0.1;                 // of interpolation, from both e
 
 void check(const Vector& start, const CautiousBfgsOptions& options) {
   Violations violations;
-  violations.add(field_violations("bfgs", options));
-  violations.require(start.size() > 0 && start.allFinite(), "start has no coordinates or is not finite");
+  violations.add(field_violations("cautious_bfgs", options));
+  violations.add(start_violations(start, {}));
   violations.throw_if_any();
 }
 

@@ -8,11 +8,12 @@
 #include <Eigen/QR>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/optim/damping.hpp"
 
 namespace rehearse::optim {
 namespace {
 
-constexpr double kFirstDamping = 1e-6, kLeastDamping = 1e-12;
+constexpr double kLeastDamping = 1e-12;
 constexpr double kFlat = 1e-12;  // of ‖c‖: slopes below are rounding
 constexpr int kMostDampings = 14;
 
@@ -148,11 +149,11 @@ class Search {
     if (!J.allFinite()) return Made::misled;
     const Linear linear(J, r_);
     for (int i = 0; i < kMostDampings; ++i) {
-      const Vector d = BoxStep(linear, problem_.low - x_, problem_.high - x_, damping_).solve();
+      const Vector d = BoxStep(linear, problem_.low - x_, problem_.high - x_, damping_.value()).solve();
       const double promised = linear.gain(d);
       if (!(promised > tolerance * value_)) return i == 0 ? Made::none : Made::misled;
       if (move((x_ + d).cwiseMax(problem_.low).cwiseMin(problem_.high), promised)) return Made::one;
-      damping_ = std::max(10 * damping_, kFirstDamping);
+      damping_.refuse();
     }
     return Made::misled;
   }
@@ -163,8 +164,7 @@ class Search {
     ++evaluations_;
     const double gain = value_ - sum_of_squares(r);
     if (!(gain > 0)) return false;
-    if (gain > 0.75 * promised) damping_ = std::max(damping_ / 10, kLeastDamping);
-    if (gain < 0.25 * promised) damping_ = std::max(damping_ * 4, kFirstDamping);
+    damping_.judge(gain, promised);
     x_ = x;
     r_ = std::move(r);
     value_ = r_.squaredNorm();
@@ -174,7 +174,7 @@ class Search {
   const SquaresProblem& problem_;
   Vector x_, r_;
   double value_;
-  double damping_ = kFirstDamping;
+  Damping damping_{kLeastDamping};
   Index evaluations_ = 1;
 };
 

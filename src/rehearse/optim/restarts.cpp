@@ -12,8 +12,6 @@ namespace {
 
 constexpr double worst = -std::numeric_limits<double>::infinity();
 
-/// Evaluations kept back for the choice at the end.
-
 void check(const Vector& start, const std::vector<Interval>& box, const SearchOptions& options) {
   Violations violations;
   violations.add(field_violations("search", options));

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/optim/box.hpp"
 #include "rehearse/optim/gradient.hpp"
 
 namespace rehearse::optim {
@@ -11,7 +12,7 @@ namespace {
 void check(const Vector& start, const RpropOptions& options) {
   Violations violations;
   violations.add(field_violations("rprop", options));
-  violations.require(start.size() > 0 && start.allFinite(), "start has no coordinates or is not finite");
+  violations.add(start_violations(start, {}));
   violations.throw_if_any();
 }
 

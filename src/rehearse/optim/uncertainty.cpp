@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/optim/median.hpp"
+
 namespace rehearse::optim {
 namespace {
 
@@ -44,9 +46,7 @@ struct JointRanks {
 double limit(double R, double theta, std::size_t population) {
   std::vector<double> changes;
   for (std::size_t k = 1; k < 2 * population; ++k) changes.push_back(std::abs(static_cast<double>(k) - R));
-  const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
-  std::nth_element(changes.begin(), middle, changes.end());
-  return theta * *middle;
+  return theta * upper_median(std::move(changes));
 }
 
 /// s of Hansen 2009, eq. 3, for the `count` candidates evaluated twice.

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <set>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include "rehearse/core/options.hpp"
-#include "rehearse/files/checksum.hpp"
 #include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/seal.hpp"
 #include "rehearse/files/toml_reader.hpp"
 #include "rehearse/report/archive_files.hpp"
 #include "rehearse/report/prediction_gap.hpp"
@@ -21,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kRunFormat = 1;  // of spec.toml and of the checkpoint
+constexpr std::int64_t kRunFormat = 1;  // of spec.toml
 
 fs::path trial_file(const char* kind, Index trial) { return fs::path(kind) / fmt::format("trial-{:03}.csv", trial); }
 
@@ -34,20 +33,7 @@ std::vector<std::pair<std::string, std::string>> options_of(const toml::table& f
   return options;
 }
 
-/// The header line holds the number of bytes that follow it and their checksum.
-void check_checkpoint(const fs::path& path) {
-  const std::string bytes = read_text(path);
-  const std::size_t line = bytes.find('\n');
-  long format = 0;
-  std::size_t size = 0;
-  unsigned long long sum = 0;
-  if (line == std::string::npos ||
-      std::sscanf(bytes.c_str(), "rehearse-checkpoint %ld %zu %llx", &format, &size, &sum) < 2)
-    throw InvalidInput("it is truncated or none of Rehearse");
-  if (format != kRunFormat) throw InvalidInput(fmt::format("format {} is that of another version of Rehearse", format));
-  const std::string_view body = std::string_view(bytes).substr(line + 1);
-  if (size != body.size() || sum != files::checksum(body)) throw InvalidInput("it is truncated or damaged");
-}
+void check_checkpoint(const fs::path& path) { files::unseal("checkpoint", read_text(path)); }
 
 void check_ends_with_line(const fs::path& path) {
   const files::RegularFile file(path);

@@ -97,7 +97,7 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
         const Vector u = random_action(task, x, rng), next = state_of(plant->step(u));
         steps.X.row(row) = x, steps.U.row(row) = u, steps.dX.row(row) = next - x;
         x = next, ++row;
-        const bool fell = task.ended && holds(task.ended, x);
+        const bool fell = plant->ended() || (task.ended && holds(task.ended, x));
         steps.ended += fell;
         if (judge(task, row - 1, t, steps) || fell) break;
       }

@@ -23,7 +23,7 @@ struct PriorTried {
 struct Tried {
   Index steps = 0;                 // of the plant, under random actions
   Index episodes = 0;              // that were tried
-  Index ended = 0;                 // episodes that `ended` before their horizon
+  Index ended = 0;                 // episodes that the plant or `ended` ended
   std::vector<Index> limits;       // of each limit: episodes that broke it, which ends them
   std::optional<std::string> end;  // why an episode was cut short; empty: none was
   Vector change;                   // of each state: root mean square change in a step

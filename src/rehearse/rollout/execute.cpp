@@ -7,6 +7,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/rollout/episodes.hpp"
+#include "rehearse/rollout/simulation.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::rollout {
@@ -58,17 +59,6 @@ void end(Episode& episode, Index steps, const Task& task, std::string failure = 
   episode.rewards.conservativeResize(steps);
 }
 
-void check(const policy::Policy& policy, const Vector& theta, const Task& task) {
-  Violations violations;
-  violations.require(theta.size() == policy.parameters(),
-                     fmt::format("theta has {} numbers, must have the {} of the policy '{}'", theta.size(),
-                                 policy.parameters(), policy.name()));
-  violations.require(policy.actions() == task.action_size(),
-                     fmt::format("the policy '{}' has {} actions, must have the {} of the task", policy.name(),
-                                 policy.actions(), task.action_size()));
-  violations.throw_if_any();
-}
-
 /// The reward of the step to state t+1. False: it is not finite, and that step earns the reward floor.
 bool earn(Episode& episode, Index t, const Task& task) {
   const double reward = reward_of(task, episode, t);
@@ -101,7 +91,9 @@ bool ends_at(Episode& episode, Index t, const Task& task) {
 /// contained: a state that is not finite is a fall, and the plant's fault otherwise.
 Episode run(system::Plant& plant, const policy::Policy& policy, const Vector& theta, const Task& task, Rng& rng,
             const std::function<void()>& before_step, bool contained) {
-  check(policy, theta, task);
+  Violations violations;
+  violations.add(misfits(policy, theta.size(), task));
+  violations.throw_if_any();
   const Index T = task.horizon;
   Episode episode{.states = Matrix(T + 1, task.state_size()),
                   .true_states = Matrix(T + 1, task.state_size()),

@@ -28,7 +28,7 @@ std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode
       throw InvalidInput(fmt::format("horizon {} of a forecast, must be ascending and within the {} steps", horizons[i],
                                      episode.steps()));
   std::vector<Matrix> arrived;
-  Matrix predicted = episode.states.topRows(episode.steps()), mean, variance;
+  Matrix predicted = episode.states.topRows(episode.steps()), mean;
   Index step = 0;
   for (const Index horizon : horizons) {
     for (; step < horizon; ++step) {  // row t started at step t and has come to t + step
@@ -36,8 +36,7 @@ std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode
       const Index rows = episode.steps() - step;
       predicted.conservativeResize(rows, Eigen::NoChange);
       mean.resize(rows, predicted.cols());
-      variance.resize(rows, predicted.cols());
-      model.predict(known_states(predicted, episode), episode.actions.middleRows(step, rows), mean, variance);
+      model.predict_mean(known_states(predicted, episode), episode.actions.middleRows(step, rows), mean);
       predicted += mean;  // what has failed stays NaN
     }
     arrived.push_back(predicted);

@@ -90,7 +90,10 @@ std::vector<Matrix> forecast_particles(const dynamics::DynamicsModel& model, con
     Chunk chunk(episode, journeys, key, first, count);
     Index t = 0;
     for (std::size_t i = 0; i < journeys.horizons.size(); ++i) {
-      for (; t < journeys.horizons[i]; ++t) chunk.step(model, t);
+      for (; t < journeys.horizons[i]; ++t) {
+        evaluator.stop_if_asked();
+        chunk.step(model, t);
+      }
       arrived[i].middleRows(first * journeys.particles, count * journeys.particles) = chunk.states();
     }
   });

@@ -20,8 +20,8 @@ struct Journeys {
 /// The states at which particles arrive that a model carries on from states of an episode, under the actions that were
 /// taken and in the model's uncertainty at every step. Element i has a row (dx) for each particle of each start after
 /// horizons[i] steps, those of a start one after the other; NaN beyond the episode's end, or once a prediction was not
-/// finite. Row and step draw from the stream (key, candidate = start, particle) alone. Throws InvalidInput where sizes
-/// are wrong.
+/// finite. Row and step draw from the stream (key, candidate = start, particle) alone. The evaluator is asked before
+/// each step whether to stop. Throws InvalidInput where sizes are wrong.
 std::vector<Matrix> forecast_particles(const dynamics::DynamicsModel& model, const Episode& episode,
                                        const Journeys& journeys, const StreamKey& key, const Evaluator& evaluator);
 

@@ -6,18 +6,21 @@
 
 namespace rehearse::rollout {
 
+std::vector<std::string> misfits(const policy::Policy& policy, Index parameters, const Task& task) {
+  std::vector<std::string> lines;
+  if (parameters != policy.parameters())
+    lines.push_back(fmt::format("theta has {} numbers, must have the {} of the policy '{}'", parameters,
+                                policy.parameters(), policy.name()));
+  if (policy.actions() != task.action_size())
+    lines.push_back(fmt::format("the policy '{}' has {} actions, must have the {} of the task", policy.name(),
+                                policy.actions(), task.action_size()));
+  return lines;
+}
+
 void check_simulation(const Simulation& simulation, Index parameters, Index particles) {
-  const policy::Policy& policy = simulation.policy;
-  const Task& task = simulation.task;
-  if (parameters == policy.parameters() && policy.actions() == task.action_size() && particles >= 1) return;
   Violations found;
-  found.require(parameters == policy.parameters(),
-                fmt::format("theta has {} numbers, must have the {} of the policy '{}'", parameters,
-                            policy.parameters(), policy.name()));
-  found.require(policy.actions() == task.action_size(),
-                fmt::format("the policy '{}' has {} actions, must have the {} of the task", policy.name(),
-                            policy.actions(), task.action_size()));
-  found.require(particles >= 1, fmt::format("particles = {}, must be ≥ 1", particles));
+  found.add(misfits(simulation.policy, parameters, simulation.task));
+  if (particles < 1) found.add(fmt::format("particles = {}, must be ≥ 1", particles));
   found.throw_if_any();
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/random.hpp"
@@ -41,6 +43,9 @@ struct Candidates {
   std::uint64_t first = 0;
   Index particles = 1;
 };
+
+/// A line for each way in which θ of so many numbers, a policy and a task do not fit together.
+std::vector<std::string> misfits(const policy::Policy& policy, Index parameters, const Task& task);
 
 /// Throws InvalidInput unless θ of so many numbers, the policy and the task fit together. particles: ≥ 1.
 void check_simulation(const Simulation& simulation, Index parameters, Index particles);

@@ -99,20 +99,18 @@ void widen(std::vector<Forecasts>& forecasts, const Matrix& deviations) {
 Accuracy accuracy(const std::vector<Forecasts>& forecasts, const Matrix& calibration) {
   const Index horizons = calibration.rows(), dx = calibration.cols();
   Accuracy result{Matrix::Constant(horizons, dx, kNone), Matrix::Constant(horizons, dx, kNone), {}};
-  for (Index h = 0; h < horizons; ++h) {
-    double n = 0;
+  result.compared.resize(horizons, dx);
+  for (Index h = 0; h < horizons; ++h)
     for (Index s = 0; s < dx; ++s) {
-      double squares = 0, inside = 0;
-      n = 0;
+      double n = 0, squares = 0, inside = 0;
       for_each_compared(forecasts, static_cast<std::size_t>(h), s, [&](const Forecasts::At& at, Index i) {
         const double error = at.measured(i, s) - at.predicted(i, s);
         n += 1, squares += error * error;
         inside += std::abs(error) <= identification::kNormal * calibration(h, s) * at.deviation(i, s);
       });
       if (n > 0) result.rms(h, s) = std::sqrt(squares / n), result.covered(h, s) = inside / n;
+      result.compared(h, s) = static_cast<Index>(n);
     }
-    result.compared.push_back(static_cast<Index>(n));
-  }
   return result;
 }
 

@@ -47,9 +47,9 @@ void widen(std::vector<Forecasts>& forecasts, const Matrix& deviations);
 
 /// The accuracy of forecasts of one log or several, horizons × dx.
 struct Accuracy {
-  Matrix rms;                   // of the errors
-  Matrix covered;               // fraction inside the bands
-  std::vector<Index> compared;  // by horizon
+  Matrix rms;      // of the errors
+  Matrix covered;  // fraction inside the bands
+  Eigen::Array<Index, Eigen::Dynamic, Eigen::Dynamic> compared;
 };
 Accuracy accuracy(const std::vector<Forecasts>& forecasts, const Matrix& calibration);
 

@@ -69,7 +69,8 @@ std::string accuracy_csv(const Study& study, const Problem& problem) {
       for (std::size_t s = 0; s < problem.task.states.size(); ++s) {
         const auto row = static_cast<Index>(h), state = static_cast<Index>(s);
         csv.row({set, Csv::cell(study.horizons_s[h]), problem.task.states[s].name, problem.task.states[s].unit,
-                 Csv::cell(tested->of_model.compared[h]), Csv::cell(double{tested->of_model.rms(row, state)}),
+                 Csv::cell(Index{tested->of_model.compared(row, state)}),
+                 Csv::cell(double{tested->of_model.rms(row, state)}),
                  Csv::cell(double{tested->of_prior.rms(row, state)}),
                  Csv::cell(double{tested->of_model.covered(row, state)}),
                  Csv::cell(double{study.calibration(row, state)})});

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/system/plain_kernel.hpp"
 
 namespace rehearse::system {
 namespace {
@@ -26,33 +27,6 @@ auto rhs_of(const Ode& ode, const Vector& u, const Vector& phi) {
 }
 
 State to_state(const Vector& x) { return {x.begin(), x.end()}; }
-
-class OdeSimulator final : public Simulator {
- public:
-  OdeSimulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps)
-      : ode_(std::move(ode)), parameters_(std::move(parameters)), dt_s_(dt_s), substeps_(substeps) {}
-
-  const ParameterSpace& parameters() const override { return parameters_; }
-
-  void change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const override {
-    check_sizes(*this, X, U, phi, dX);
-    for (Index i = 0; i < X.rows(); ++i) {
-      const Vector u = U.row(i).transpose();
-      State state = to_state(X.row(i).transpose());
-      Stepper stepper;
-      const auto rhs = rhs_of(ode_, u, phi);
-      const double h = dt_s_ / static_cast<double>(substeps_);
-      for (Index s = 0; s < substeps_; ++s) stepper.do_step(rhs, state, static_cast<double>(s) * h, h);
-      dX.row(i) = Vector::Map(state.data(), X.cols()).transpose() - X.row(i);
-    }
-  }
-
- private:
-  Ode ode_;
-  ParameterSpace parameters_;
-  double dt_s_;
-  Index substeps_;
-};
 
 }  // namespace
 
@@ -76,7 +50,10 @@ Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, cons
 }
 
 std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps) {
-  return std::make_shared<OdeSimulator>(std::move(ode), std::move(parameters), dt_s, substeps);
+  const auto change = [=](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
+    plain_kernel(ode, {X.cols(), U.cols(), phi.size()}).change(X, U, phi.data(), dt_s, substeps, dX);
+  };
+  return make_simulator(std::move(parameters), change);
 }
 
 Ode OdeKernel::ode() const {

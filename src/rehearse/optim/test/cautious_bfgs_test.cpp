@@ -76,7 +76,7 @@ TEST(CautiousBfgs, ReportsEveryViolation) {
     FAIL();
   } catch (const InvalidInput& error) {
     const std::string text = error.what();
-    for (const char* part : {"bfgs.line_searches = 0", "bfgs.longest_step = 0", "start"})
+    for (const char* part : {"cautious_bfgs.line_searches = 0", "cautious_bfgs.longest_step = 0", "start"})
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
 }

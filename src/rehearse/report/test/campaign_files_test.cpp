@@ -104,7 +104,7 @@ TEST_F(CampaignFiles, ACampaignNamesWhatIsWrongInItsFolder) {
       problems_of(read_folder(folder_)),
       (Lines{"runs/run-1/trials.csv: it has 1 of 2 trials", "runs/run-1/predictions/trial-002.csv: it is cut short",
              "runs/run-2/spec.toml: format 2 is that of another version of Rehearse, this one reads 1",
-             "runs/run-2/checkpoint: format 7 is that of another version of Rehearse",
+             "runs/run-2/checkpoint: the checkpoint has format 7, of another version of Rehearse (this one reads 1)",
              "runs/run-3: it is not there, or no folder", "runs/run-4: failed: the plant failed",
              "runs/notes.txt: it is no run of this campaign"}));
 

@@ -122,10 +122,10 @@ TEST_F(RunFiles, ADamagedRunIsReportedWithoutWhatIsDamaged) {
   write(folder_ / "checkpoint", "rehearse-checkpoint 1 3 0000000000000000\nab");
   fs::remove(folder_ / "errors.csv");
   const Report report = read_folder(folder_);
-  EXPECT_EQ(
-      problems_of(report),
-      (Lines{"trials.csv: row 3 is cut short", "errors.csv: it is not there", "checkpoint: it is truncated or damaged",
-             "trajectories/trial-001.csv: row 2 is cut short", "motion/trial-002.json: it is truncated or no JSON"}));
+  EXPECT_EQ(problems_of(report), (Lines{"trials.csv: row 3 is cut short", "errors.csv: it is not there",
+                                        "checkpoint: the checkpoint is truncated or damaged",
+                                        "trajectories/trial-001.csv: row 2 is cut short",
+                                        "motion/trial-002.json: it is truncated or no JSON"}));
   const json all = json::parse(report.json);
   EXPECT_EQ(all["problems"].size(), 5u);
   EXPECT_FALSE(all["run"].contains("trials"));

@@ -1,6 +1,7 @@
 #include "rehearse/robot_file/try_out.hpp"
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -171,6 +172,30 @@ TEST(TryOut, NamesAStartWhereEpisodesEnd) {
   const Tried found = try_out(scenario);
   EXPECT_EQ(found.broken, std::vector<std::string>{"an episode ends where it starts: `ended` holds in the start"});
   EXPECT_EQ(found.ended, 3);
+}
+
+/// A plant that falls in its second step.
+class Falling final : public system::Plant {
+ public:
+  Vector reset(Rng&) override { return at(0); }
+  Vector step(const Vector&) override { return at(time_ + 1); }
+  bool ended() const override { return time_ >= 2; }
+
+ private:
+  Vector at(int time) {
+    time_ = time;
+    return Vector::Constant(2, time);
+  }
+
+  int time_ = 0;
+};
+
+TEST(TryOut, APlantMayEndAnEpisode) {
+  scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
+  scenario.make_plant = [] { return std::make_unique<Falling>(); };
+  const Tried found = try_out(scenario);
+  EXPECT_EQ(found.ended, 3);
+  EXPECT_EQ(found.steps, 6);
 }
 
 TEST(TryOut, CountsEpisodesThatBreakALimitAndNamesOneThatTheStartBreaks) {

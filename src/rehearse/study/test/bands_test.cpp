@@ -22,16 +22,26 @@ TEST(Bands, AreCalibratedToHoldNineteenOfTwenty) {
   const Accuracy after = accuracy(all, factors / std::sqrt(2.0));
   EXPECT_NEAR(after.covered(0, 0), 0.95, 0.006);
   EXPECT_NEAR(after.rms(0, 0), 10 / std::sqrt(3.0), 0.1);
-  EXPECT_EQ(after.compared[0], 201);
+  EXPECT_EQ(after.compared(0, 0), 201);
 }
 
 TEST(Bands, WhatCannotBeComparedIsLeftOut) {
   std::vector<Forecasts> all = {from_zero()};
   all[0].at[0].predicted(3, 0) = std::nan("");
   all[0].at[0].measured(4, 0) = std::nan("");
-  EXPECT_EQ(accuracy(all, calibration(all)).compared[0], 199);
+  EXPECT_EQ(accuracy(all, calibration(all)).compared(0, 0), 199);
   widen(all, Matrix::Constant(1, 1, std::sqrt(3.0)));
   EXPECT_DOUBLE_EQ(all[0].at[0].deviation(0, 0), 2);
+}
+
+TEST(Bands, EachStateCountsItsOwn) {
+  std::vector<Forecasts> all = {from_zero()};
+  for (Matrix* numbers : {&all[0].at[0].predicted, &all[0].at[0].deviation, &all[0].at[0].measured})
+    *numbers = numbers->replicate(1, 2).eval();
+  all[0].at[0].predicted(3, 1) = std::nan("");
+  const Accuracy found = accuracy(all, calibration(all));
+  EXPECT_EQ(found.compared(0, 0), 201);
+  EXPECT_EQ(found.compared(0, 1), 200);
 }
 
 }  // namespace
