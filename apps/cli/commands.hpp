@@ -97,6 +97,9 @@ struct EvaluateArguments {
 
 // With processes, every process calls the same command; only the first prints.
 
+/// What `list NAME --json` prints.
+std::string entry_json(const experiment::Catalogue& catalogue, const std::string& name);
+
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);
 int check(const experiment::Catalogue& catalogue, const CheckArguments& arguments, const std::string& share);
 int make_new(const experiment::Catalogue& catalogue, const NewArguments& arguments);

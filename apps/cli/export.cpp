@@ -44,10 +44,7 @@ int export_policy(const experiment::Catalogue& catalogue, const ExportArguments&
   violations.throw_if_any();
   const policy::Exported exported =
       experiment::exported_policy(experiment::read_run(catalogue, arguments.folder), trial);
-  const OutputFile file{.path = path,
-                        .kind = "policy of Rehearse",
-                        .option = fmt::format("--out FILE{}", format.ending),
-                        .is_ours = policy::is_exported};
+  const OutputFile file = policy_file(path, fmt::format("--out FILE{}", format.ending));
   const bool replaced = write_output(file, format.text(exported, path));
   const auto& earned = exported.origin.total_reward;
   put("{}{}: the policy of trial {}{}\n", path.string(), replaced ? ", which was there, is replaced" : "",

@@ -151,14 +151,6 @@ void print_one(Builder& builder, const std::string& kind, const std::string& nam
     put("\n{} more for experts: {} list {} --expert\n", hidden.size(), program_name(), name);
 }
 
-template <class Builder>
-void list_one(Builder& builder, const std::string& kind, const ListArguments& arguments) {
-  if (arguments.json)
-    fmt::print("{}\n", as_json(builder).dump(2));
-  else
-    print_one(builder, kind, *arguments.name, arguments.expert || arguments.options);
-}
-
 [[noreturn]] void refuse(const experiment::Catalogue& catalogue, const std::string& name) {
   for (const auto& missing : catalogue.not_built)
     if (missing.name == name) throw InvalidInput(catalogue.why_missing("scenario", name));
@@ -169,17 +161,37 @@ void list_one(Builder& builder, const std::string& kind, const ListArguments& ar
   throw InvalidInput(experiment::unknown_name("scenario or learner", name, known));
 }
 
+/// Calls visit(entry, kind) with the learner, command or scenario of this name.
+template <class Visit>
+void visit_entry(const experiment::Catalogue& catalogue, const std::string& name, Visit visit) {
+  if (const auto learner = catalogue.learner(name)) return visit(*learner, "learner");
+  if (IdentifyEntry entry; name == entry.name()) return visit(entry, "command");
+  const auto scenario = catalogue.scenario(name);
+  if (!scenario) refuse(catalogue, name);
+  visit(*scenario, "scenario");
+}
+
 /// name: of an entry, or a robot's file.
 void list_named(const experiment::Catalogue& built_in, const std::string& name, const ListArguments& arguments) {
-  if (const auto learner = built_in.learner(name)) return list_one(*learner, "learner", arguments);
-  if (IdentifyEntry entry; name == entry.name()) return list_one(entry, "command", arguments);
-  const experiment::Catalogue catalogue = with_robot(built_in, name);
-  const auto scenario = catalogue.scenario(catalogue.scenario_name(name));
-  if (!scenario) refuse(catalogue, name);
-  list_one(*scenario, "scenario", arguments);
+  const bool of_file = !built_in.learner(name) && name != IdentifyEntry::name();
+  const experiment::Catalogue catalogue = of_file ? with_robot(built_in, name) : built_in;
+  const std::string entry = of_file ? catalogue.scenario_name(name) : name;
+  if (arguments.json) {
+    fmt::print("{}\n", entry_json(catalogue, entry));
+    return;
+  }
+  visit_entry(catalogue, entry, [&](auto& builder, const char* kind) {
+    print_one(builder, kind, name, arguments.expert || arguments.options);
+  });
 }
 
 }  // namespace
+
+std::string entry_json(const experiment::Catalogue& catalogue, const std::string& name) {
+  std::string text;
+  visit_entry(catalogue, name, [&](auto& entry, const char* /*kind*/) { text = as_json(entry).dump(2); });
+  return text;
+}
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments) {
   if (arguments.name) {

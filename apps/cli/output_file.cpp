@@ -3,12 +3,14 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/files/write.hpp"
+#include "rehearse/policy/exported.hpp"
 
 namespace rehearse::apps {
 
@@ -30,6 +32,21 @@ fs::path keep_older(const fs::path& path) {
 }
 
 }  // namespace
+
+OutputFile page_file(fs::path path, std::string option) {
+  constexpr std::string_view kBegins = "<!doctype html>";
+  return {.path = std::move(path),
+          .kind = "page of Rehearse",
+          .option = std::move(option),
+          .is_ours = [](std::string_view text) { return text.starts_with(kBegins); }};
+}
+
+OutputFile policy_file(fs::path path, std::string option) {
+  return {.path = std::move(path),
+          .kind = "policy of Rehearse",
+          .option = std::move(option),
+          .is_ours = policy::is_exported};
+}
 
 bool check_output(const OutputFile& file) {
   if (file.path.empty()) throw InvalidInput("--out needs the name of a file");

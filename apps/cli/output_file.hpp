@@ -16,6 +16,10 @@ struct OutputFile {
   std::function<bool(std::string_view text)> is_ours;
 };
 
+/// A page of a report, or a policy that was exported. option: that names another file.
+OutputFile page_file(std::filesystem::path path, std::string option);
+OutputFile policy_file(std::filesystem::path path, std::string option);
+
 /// Returns true if there is such a file already. Throws InvalidInput if something of this name exists that this program
 /// did not write, or its folder cannot be written.
 bool check_output(const OutputFile& file);

@@ -13,14 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPageBegins = "<!doctype html>";
-
 int write_page(const fs::path& folder, const Page& page, const fs::path& out) {
-  write_output({.path = out,
-                .kind = "page of Rehearse",
-                .option = "--out FILE.html",
-                .is_ours = [](std::string_view text) { return text.starts_with(kPageBegins); }},
-               page.html);
+  write_output(page_file(out, "--out FILE.html"), page.html);
   for (const report::Problem& problem : page.problems)
     complain(fmt::format("{}: {}", (folder / problem.where).string(), problem.what));
   put("{} ({:.1f} MB) opens in a browser\n", out.string(), 1e-6 * static_cast<double>(page.html.size()));

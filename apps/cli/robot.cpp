@@ -13,8 +13,10 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
 #include "apps/cli/program.hpp"
+#include "apps/cli/signals.hpp"
 #include "apps/cli/status_line.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/events.hpp"
 #include "rehearse/core/names.hpp"
 #include "rehearse/experiment/run.hpp"
 #include "rehearse/files/temporary_folder.hpp"
@@ -172,9 +174,16 @@ std::string text_of_new(const std::string& name, const std::string& path) {
   return text.replace(text.find(old_name), old_name.size(), fmt::format("name = \"{}\"", name));
 }
 
+/// Ctrl-C ends the episode, so that a program is told to take the torque off the motors.
+robot_file::Tried tried_out(const scenario::Scenario& scenario) {
+  const SignalWatch watch([] { return std::string("interrupted"); });
+  const auto stoppable = make_stoppable(make_thread_evaluator(1), [] { return caught_signal() != 0; });
+  return robot_file::try_out(scenario, *stoppable);
+}
+
 }  // namespace
 
-int check(const experiment::Catalogue& built_in, const CheckArguments& arguments, const std::string& share) {
+int check(const experiment::Catalogue& built_in, const CheckArguments& arguments, const std::string& share) try {
   Violations violations;
   require_page(arguments.out, violations);
   violations.require(!arguments.out || !arguments.no_plant, "--out shows the plant's motion: leave --no-plant out");
@@ -190,7 +199,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   const scenario::Details details = builder->details();
   print_task(scenario, builder->summary(), details);
   if (scenario.require_ready) scenario.require_ready();
-  const robot_file::Tried tried = robot_file::try_out(scenario);
+  const robot_file::Tried tried = tried_out(scenario);
   if (arguments.no_plant)
     put("plant\n  left alone\n");
   else if (!driven)
@@ -213,10 +222,14 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   const std::vector<std::string> complaints = robot_file::complaints(tried);
   if (arguments.out && !tried.end) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
-  put("\nall is well; to learn: {}{}\n",
+  const bool noted = std::ranges::any_of(tried.priors, [](const auto& prior) { return !prior.notes.empty(); });
+  put("\n{}; to learn: {}{}\n", noted ? "nothing is broken, but see what is noted above" : "all is well",
       command_line({"learn", arguments.robot, "--learner", scenario.priors.empty() ? "black-drops" : "gp-mi"}),
       driven || arguments.no_plant ? "" : " --trials 0");
   return kSuccess;
+} catch (const Interrupted&) {
+  complain("interrupted");
+  return exit_code_of_signal();
 }
 
 int make_new(const experiment::Catalogue& catalogue, const NewArguments& arguments) {

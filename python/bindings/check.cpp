@@ -12,13 +12,13 @@ namespace rehearse::python {
 namespace {
 
 struct Found {
-  std::vector<std::string> states;  // the robot's own
+  std::vector<std::string> states, limits;  // names; the robot's own states
   robot_file::Tried tried;
 };
 
 Found check(const Robot& robot, const std::string& name, bool plant) {
   std::optional<Found> found;
-  work_with(robot, {}, [&](const Robot& own, const experiment::RunOptions&) {
+  work_with(robot, {}, [&](const Robot& own, const experiment::RunOptions& options) {
     const experiment::Catalogue catalogue = own.catalogue();
     scenario::Scenario scenario = catalogue.scenario_or_throw(name)->build();
     if (!plant) scenario.make_plant = nullptr;
@@ -27,7 +27,10 @@ Found check(const Robot& robot, const std::string& name, bool plant) {
     std::vector<std::string> states;
     for (Index i = 0; i < scenario.task.actuators().own_states(); ++i)
       states.push_back(scenario.task.states[static_cast<std::size_t>(i)].name);
-    found = {std::move(states), robot_file::try_out(scenario)};
+    std::vector<std::string> limits;
+    for (const Limit& limit : scenario.task.limits) limits.push_back(limit.name);
+    const auto stoppable = make_stoppable(options.evaluator, options.stop);
+    found = {std::move(states), std::move(limits), robot_file::try_out(scenario, *stoppable)};
   });
   return *found;
 }
@@ -51,7 +54,10 @@ void add_check(py::module_& module) {
           priors.append(py::dict("name"_a = prior.name, "errors"_a = by_state(found.states, prior.error),
                                  "failed"_a = prior.failed, "rows_per_s"_a = prior.rows_per_s,
                                  "notes"_a = prior.notes));
-        return py::dict("steps"_a = found.tried.steps, "ended"_a = found.tried.ended,
+        py::dict broke;
+        for (std::size_t i = 0; i < found.limits.size(); ++i) broke[py::str(found.limits[i])] = found.tried.limits[i];
+        return py::dict("steps"_a = found.tried.steps, "episodes"_a = found.tried.episodes,
+                        "ended"_a = found.tried.ended, "broke"_a = broke,
                         "changes"_a = by_state(found.states, found.tried.change), "priors"_a = priors,
                         "complaints"_a = robot_file::complaints(found.tried));
       },

@@ -6,9 +6,11 @@
 #include <pybind11/stl.h>
 
 #include "python/bindings/campaign.hpp"
+#include "python/bindings/catalogue.hpp"
 #include "python/bindings/check.hpp"
 #include "python/bindings/identify.hpp"
 #include "python/bindings/interruption.hpp"
+#include "python/bindings/outputs.hpp"
 #include "python/bindings/pieces.hpp"
 #include "python/bindings/policy.hpp"
 #include "python/bindings/robot.hpp"
@@ -58,7 +60,9 @@ PYBIND11_MODULE(_core, module) {
   python::add_policy(module);
   python::add_runs(module);
   python::add_campaign(module);
+  python::add_catalogue(module);
   python::add_check(module);
+  python::add_outputs(module);
   python::add_identify(module);
   python::add_gp(module);
   python::add_search(module);

@@ -1,5 +1,7 @@
 #include "python/bindings/policy.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
@@ -25,6 +27,8 @@ py::array_t<double> Policy::act(const py::array_t<double, py::array::f_style | p
     policy_->act(exported_.theta.transpose().replicate(rows, 1), X, time_s, U);
     exported_.actuators.command(X, U);
   }
+  for (Index row = 0; row < rows; ++row)  // as what is exported answers
+    if (!std::isfinite(time_s) || !X.row(row).allFinite()) U.row(row).setConstant(kNaN);
   if (one) return to_vector(U.row(0).transpose());
   return to_array(U);
 }

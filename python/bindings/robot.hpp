@@ -53,6 +53,9 @@ class Robot {
   /// made. Throws what `call` does, and InvalidInput where a prior cannot simulate the start.
   void try_out(const scenario::Scenario& scenario) const;
 
+  /// True if it has functions of Python, without which a run does not go on.
+  bool has_functions() const { return !additions_.empty(); }
+
   const std::shared_ptr<Failure>& failure() const { return failure_; }
 
  private:

@@ -7,8 +7,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "apps/catalogue.hpp"
-#include "apps/cli/report_page.hpp"
 #include "python/bindings/policy.hpp"
 #include "python/bindings/work.hpp"
 #include "rehearse/experiment/ask_tell.hpp"
@@ -53,15 +51,16 @@ experiment::Resolved resolved(const experiment::Catalogue& catalogue, const Requ
 
 /// Does the work. If Ctrl-C stops it, the exception has a note on how to go on. folder: may become known during the
 /// work.
-void resumable(const std::filesystem::path& folder, const std::function<void()>& work) {
+void resumable(const Robot& robot, const std::filesystem::path& folder, const std::function<void()>& work) {
   try {
     work();
   } catch (const py::error_already_set& error) {
     std::error_code ignored;
     const bool silent = error.matches(PyExc_KeyboardInterrupt) && py::str(error.value()).cast<std::string>().empty();
     if (!silent || !std::filesystem::exists(folder, ignored)) throw;
-    PyErr_SetString(PyExc_KeyboardInterrupt,
-                    fmt::format("interrupted: rehearse.resume(\"{}\") goes on", folder.string()).c_str());
+    PyErr_SetString(PyExc_KeyboardInterrupt, fmt::format("interrupted: rehearse.resume(\"{}\"{}) goes on",
+                                                         folder.string(), robot.has_functions() ? ", robot" : "")
+                                                 .c_str());
     throw py::error_already_set();
   }
 }
@@ -84,7 +83,7 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
     if (folder.empty()) folder = "runs/" + run_name(run.spec);
     experiment::start_run(catalogue, run.spec, folder, options);
   };
-  resumable(folder, [&] { work_with(robot, settings, run_all); });
+  resumable(robot, folder, [&] { work_with(robot, settings, run_all); });
   return folder.string();
 }
 
@@ -93,7 +92,7 @@ void resume(const Robot& robot, const std::string& folder, std::optional<Index> 
     const auto until = trials ? std::optional<experiment::Until>(*trials) : std::nullopt;
     experiment::resume_run(own.catalogue(), folder, until, options);
   };
-  resumable(folder, [&] { work_with(robot, settings, go_on); });
+  resumable(robot, folder, [&] { work_with(robot, settings, go_on); });
 }
 
 Policy ask(const Robot& robot, const std::string& folder, const Settings& settings, py::dict& trial) {
@@ -161,20 +160,27 @@ Policy policy(const Robot& robot, const std::string& folder, std::optional<Index
   return {policy_of(run.trial(trial), run.resolved.scenario), experiment::exported_policy(run, trial)};
 }
 
-/// The settings of an evaluation, and the options that differ from the run's.
+/// The policy and the settings of an evaluation, and the options that differ from the run's.
 struct Evaluation {
   std::optional<Index> trial;
+  std::string policy;  // instead of that of a trial, as JSON; empty: none
   experiment::EvaluationPlan plan;
   Options options;
 };
+
+experiment::Learned policy_of(const Evaluation& wanted, const experiment::PastRun& run) {
+  const scenario::Scenario& scenario = run.resolved.scenario;
+  if (!wanted.policy.empty()) return experiment::given_policy(wanted.policy, "policy", scenario).learned;
+  const experiment::TrialRecord& trial = run.trial(wanted.trial);
+  return {policy_of(trial, scenario), trial.theta, trial.trial};
+}
 
 py::dict evaluate(const Robot& robot, const std::string& folder, const Evaluation& wanted, const Settings& settings) {
   std::vector<experiment::Outcome> outcomes;
   work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
     const experiment::Catalogue catalogue = own.catalogue();
     const experiment::PastRun run = experiment::read_run(catalogue, folder);
-    const experiment::TrialRecord& trial = run.trial(wanted.trial);
-    const experiment::Learned learned{policy_of(trial, run.resolved.scenario), trial.theta, trial.trial};
+    const experiment::Learned learned = policy_of(wanted, run);
     const experiment::Resolved resolved =
         experiment::read_run(catalogue, folder, run.as_identified(wanted.options)).resolved;
     if (resolved.scenario.require_ready) resolved.scenario.require_ready();
@@ -193,16 +199,6 @@ py::dict evaluate(const Robot& robot, const std::string& folder, const Evaluatio
   }
   return py::dict(py::arg("total_reward") = returns, py::arg("solved") = solved,
                   py::arg("solved_at_end") = solved_at_end, py::arg("ended_s") = ended_s, py::arg("broke") = broke);
-}
-
-py::dict known() {
-  const experiment::Catalogue catalogue = apps::catalogue();
-  py::dict robots, learners, missing;
-  for (const auto& robot : catalogue.scenario_builders())
-    robots[py::str(robot->name())] = py::make_tuple(robot->summary(), robot->prior_names());
-  for (const auto& learner : catalogue.learner_builders()) learners[py::str(learner->name())] = learner->summary();
-  for (const experiment::NotBuilt& each : catalogue.not_built) missing[py::str(each.name)] = each.reason;
-  return py::dict(py::arg("robots") = robots, py::arg("learners") = learners, py::arg("missing") = missing);
 }
 
 }  // namespace
@@ -250,18 +246,11 @@ void add_runs(py::module_& module) {
   module.def("policy", &policy, "robot"_a, "folder"_a, "trial"_a);
   module.def(
       "evaluate",
-      [](const Robot& robot, const std::string& folder, std::optional<Index> trial, Index episodes, double seconds,
-         std::uint64_t seed, const Options& options, int threads) {
-        return evaluate(robot, folder, {trial, {episodes, seconds, seed}, options}, {threads});
+      [](const Robot& robot, const std::string& folder, std::optional<Index> trial, const std::string& policy,
+         Index episodes, double seconds, std::uint64_t seed, const Options& options, int threads) {
+        return evaluate(robot, folder, {trial, policy, {episodes, seconds, seed}, options}, {threads});
       },
-      "robot"_a, "folder"_a, "trial"_a, "episodes"_a, "seconds"_a, "seed"_a, "options"_a, "threads"_a);
-  module.def(
-      "report",
-      [](const std::string& folder, const std::string& share) {
-        return apps::report_page(apps::to_look(apps::catalogue()), folder, share).html;
-      },
-      "folder"_a, "share"_a);
-  module.def("known", &known);
+      "robot"_a, "folder"_a, "trial"_a, "policy"_a, "episodes"_a, "seconds"_a, "seed"_a, "options"_a, "threads"_a);
 }
 
 }  // namespace rehearse::python

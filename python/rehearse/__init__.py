@@ -14,16 +14,17 @@ from .evaluation import Evaluation
 from .gp import GaussianProcess
 from .identification import Identification, identify
 from .integrate import rk4
+from .options import Option, learners, options, presets, robots
 from .parts import Action, Body, Distance, Limit, Model, State, Success
 from .policy import Policy
 from .progress import show
 from .robot import Robot
-from .run import Run, Trial, learn, learners, open_run, resume, robots
+from .run import Run, Trial, learn, open_run, resume
 from .search import Cmaes, MapElites
 
 __all__ = [
     "Action", "Body", "Campaign", "Checked", "Cmaes", "Distance", "Evaluation", "GaussianProcess", "Identification",
-    "InvalidInput", "Limit", "MapElites", "Model", "Policy", "Robot", "Run", "RunFailed", "State", "Success", "Trial",
-    "campaign", "check", "identify", "learn", "learners", "open_campaign", "open_run", "resume", "rk4", "robots", "show",
+    "InvalidInput", "Limit", "MapElites", "Model", "Option", "Policy", "Robot", "Run", "RunFailed", "State", "Success", "Trial",
+    "campaign", "check", "identify", "learn", "learners", "open_campaign", "open_run", "options", "presets", "resume", "rk4", "robots", "show",
     "__version__",
 ]

@@ -18,7 +18,7 @@ from .progress import show
 from .robot import Robot
 from .run import PathLike, Progress, Robots, Run, begun_with, name_of, robot_of, write_report
 from .tables import column_of, html_table, read_csv, structured
-from .toml import table
+from .toml import quoting, table
 
 Options = Mapping[str, Any]
 Names = Union[str, Sequence[str]]
@@ -33,7 +33,7 @@ class Campaign:
     """
 
     def __init__(self, folder: PathLike, robot: Union[Robot, None] = None) -> None:
-        self.folder = Path(folder)
+        self.folder = Path(folder).absolute()
         if not (self.folder / "summary.json").exists():
             raise _core.InvalidInput(f"{folder} is not the folder of a campaign")
         self._robot = begun_with(robot)
@@ -149,6 +149,8 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
         threads = 1
     try:
         _core.campaign(core, text, source, scenario, folder, threads, progress)
+    except _core.InvalidInput as error:
+        raise _core.InvalidInput(quoting(text.decode(errors="replace"), source, str(error))) from None
     except KeyboardInterrupt as stopped:
         if stopped.args or not Path(folder).exists():
             raise

@@ -23,24 +23,31 @@ class PriorChecked:
 
 @dataclass(frozen=True)
 class Checked:
-    """What `check` found. steps: of the plant; ended: episodes that ended early. changes: of each state, root mean
-    square change in a step. complaints: what is wrong, a line each."""
+    """What `check` found. steps: of the plant, in so many episodes; ended: those that ended early; broke: of each limit,
+    those that broke it. changes: of each state, root mean square change in a step. complaints: what is wrong, a line
+    each."""
 
     steps: int
+    episodes: int
     ended: int
+    broke: dict[str, int]
     changes: dict[str, float]
     priors: list[PriorChecked]
     complaints: list[str]
 
     def __str__(self) -> str:
-        lines = [f"{self.steps} steps under random actions"]
+        early = [f"{self.ended} of {self.episodes} episodes ended early"] if self.ended else []
+        early += [f"{count} of {self.episodes} episodes broke the limit {limit}" for limit, count in self.broke.items() if count]
+        lines = [", ".join([f"{self.steps} steps under random actions", *early])]
         for prior in self.priors:
             failed = f", {prior.failed} rows failed" if prior.failed else ""
             lines.append(f"prior {prior.name}: {prior.rows_per_s:.2g} rows a second on one thread{failed}")
             lines += [f"  {state}: a step changes it by {change:.3g}, the prior errs by {prior.errors[state]:.3g}"
                       for state, change in self.changes.items()]
             lines += ["  " + note for note in prior.notes]
-        return "\n".join([*lines, *self.complaints] if self.complaints else [*lines, "all is well"])
+        noted = any(prior.notes for prior in self.priors)
+        well = "nothing is broken, but see what is noted above" if noted else "all is well"
+        return "\n".join([*lines, *(self.complaints or [well])])
 
 
 def check(robot: Robots, *, plant: bool = True) -> Checked:

@@ -11,6 +11,7 @@ from typing import Any, Union
 
 import numpy as np
 
+from . import _core
 from ._core import InvalidInput
 from .arrays import Array
 
@@ -119,6 +120,14 @@ def read_text(path: Union[str, os.PathLike[str]]) -> str:
         return Path(path).read_text(encoding="utf-8")
     except UnicodeDecodeError:
         raise InvalidInput(f"{os.fspath(path)} is no text: it has bytes that are not UTF-8") from None
+
+
+def write_page(path: Union[str, os.PathLike[str]], page: str) -> Path:
+    """Writes a page. A file of that name that is none is left as it is."""
+    if Path(path).suffix != ".html":
+        raise InvalidInput(f"{os.fspath(path)}: must end in .html")
+    _core.write_page(os.fspath(path), page)
+    return Path(path)
 
 
 def write_text(path: Union[str, os.PathLike[str]], content: str) -> Path:

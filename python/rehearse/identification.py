@@ -12,7 +12,7 @@ from typing import Any, Union
 
 from . import _core
 from .arrays import Array
-from .checks import option_texts, threads_of, write_text
+from .checks import option_texts, threads_of, write_page
 from .run import Robots, robot_of
 from .tables import as_files, from_csv, without_path
 
@@ -43,7 +43,7 @@ class Identification:
 
     def report(self, path: Union[str, os.PathLike[str]]) -> Path:
         """Writes the page, which opens in a browser."""
-        return write_text(path, self.page)
+        return write_page(path, self.page)
 
     def plot(self) -> Any:
         """A Matplotlib figure: each parameter with its 95 % interval and the prior's value."""

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import InvalidInput
 from .arrays import Array
-from .checks import number, option_texts, read_text, vector, whole, write_text
+from .checks import number, option_texts, read_text, vector, whole
 from .exported import Exported
 
 
@@ -61,7 +61,8 @@ class Policy:
         return self
 
     def act(self, states: npt.ArrayLike, time_s: float = 0.0, memory: Union[Array, None] = None) -> Array:
-        """Actions (du, or n × du) for states (dx, or n × dx) at a time since the start. NaN where a state is.
+        """Actions (du, or n × du) for states (dx, or n × dx) at a time since the start. NaN where a state, or the
+        time, is not finite.
 
         memory: of a robot whose actions have a rate, a filter, a delay, a lag or are remembered: what `start` gave
         before the first step. It holds the last commands, and is changed: act once each time step. Without it the
@@ -108,13 +109,15 @@ class Policy:
         return self._core.dt_s
 
     def export(self, path: Union[str, os.PathLike[str]]) -> Path:
-        """Writes it for others: .h (C99), .json, or .py (NumPy alone), by the name's end (docs/export.md)."""
+        """Writes it for others: .h (C99), .json, or .py (NumPy alone), by the name's end (docs/export.md). A file of
+        that name that is no policy is left as it is."""
         path = Path(path)
         name = path.stem
         texts = {".h": lambda: self._core.to_c(name), ".json": self._core.to_json, ".py": self._core.to_numpy}
         if path.suffix not in texts:
-            raise ValueError(f"{path}: must end with {', '.join(texts)}")
-        return write_text(path, texts[path.suffix]())
+            raise InvalidInput(f"{path}: must end in {', '.join(texts)}")
+        _core.write_policy(str(path), texts[path.suffix]())
+        return path
 
     def __repr__(self) -> str:
         return f"<rehearse.Policy {self.kind}, {len(self.theta)} parameters, trial {self.trial}>"

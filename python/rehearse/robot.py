@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import inspect
 import os
-import re
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -21,7 +21,7 @@ from .checks import mapping, number, read_text
 from .environment import Task, environment_maker, is_environment
 from .parts import (Action, Body, Distance, EpisodeFunction, Limit, Model, State, StateFunction, StepFunction,
                     Success)
-from .toml import table, value
+from .toml import quoting, table, value
 
 
 class Robot:
@@ -95,8 +95,7 @@ class Robot:
                 raise _core.InvalidInput(f"{prior}: delay_s and lag_s are of a Model that is the plant; what models know "
                                          "of them is in Action")
             parts.append(self._dynamics(prior, model))
-            tune = {n: {"choices": t} if isinstance(t, list) else t if isinstance(t, Mapping) else _bounds(f"{prior}: tune of {n}", t)
-                    for n, t in mapping(f"{prior}: tune", model.tune).items()}
+            tune = {n: _tune(f"{prior}: tune of {n}", t) for n, t in mapping(f"{prior}: tune", model.tune).items()}
             parts.append(table(f"[prior.{value(prior)}]", {"dynamics": prior, "tune": tune}))
         parts += self._plant(plant, observe, Task(horizon, states, actions), list(map(str, priors or {})),
                              measurement_noise)
@@ -151,10 +150,7 @@ class Robot:
         try:
             core.check()
         except _core.InvalidInput as error:
-            lines = ["", *self.text.splitlines()]
-            quoted = re.sub(rf"^({re.escape(self._source)}: line (\d+)): ", lambda at: f"{at[1]}, `{lines[int(at[2])]}`: ",
-                            str(error), flags=re.MULTILINE)
-            raise _core.InvalidInput(quoted) from None
+            raise _core.InvalidInput(quoting(self.text, self._source, str(error))) from None
         return core
 
     def _formula(self, name: str, formula: Any, add: str = "add_state_function") -> Union[str, None]:
@@ -230,6 +226,17 @@ def _of_whole_steps(keep: Callable[..., Any]) -> Callable[..., Any]:
 
 def _of_three(keep: Callable[..., Any], states: Array, actions: Array, next_states: Array, *_: Any) -> Any:
     return keep(states, actions, next_states)
+
+
+def _tune(name: str, given: Any) -> Any:
+    """Bounds, or choices among a list."""
+    if isinstance(given, Mapping):
+        return given
+    if not isinstance(given, list):
+        return _bounds(name, given)
+    if len(given) == 2 and any(isinstance(each, float) for each in given):
+        warnings.warn(f"{name} = {given}: a list is two choices; bounds are a tuple, ({given[0]:g}, {given[1]:g})", stacklevel=4)
+    return {"choices": given}
 
 
 def _bounds(name: str, given: Any) -> list[float]:

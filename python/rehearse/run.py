@@ -16,7 +16,7 @@ import numpy as np
 from . import _core
 from .arrays import Array
 from .checks import (function_or_none, number, option_texts, read_text, text, threads_of, truth, whole, whole_or_none,
-                     write_text)
+                     write_page)
 from .evaluation import Evaluation
 from .policy import Policy
 from .progress import show
@@ -134,6 +134,10 @@ class Run:
         every action, by name. A horizon of T steps takes T + 1 rows: the last has the final state, and needs no action.
         What is unlike the policy or the clock is warned of. stopped: why it was cut short; at_fault=False: not because of the policy.
         """
+        if stopped is not None and not text("stopped", stopped).strip():
+            raise _core.InvalidInput("stopped is empty, must say why the episode was cut short")
+        if stopped is None and not truth("at_fault", at_fault):
+            raise _core.InvalidInput("at_fault=False goes with stopped, which says why the episode was cut short")
         with tempfile.TemporaryDirectory() as folder:
             files = as_files(episodes, folder, "episode")
             with without_path(folder):
@@ -151,16 +155,18 @@ class Run:
         self.asked = None
         return taken
 
-    def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None, seconds: float = 0.0,
-                 seed: Union[int, None] = None,
+    def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None,
+                 policy: Union[Policy, PathLike, None] = None, seconds: float = 0.0, seed: Union[int, None] = None,
                  options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Evaluation:
         """Episodes of a policy on the plant that are no trials; where there is none, the prior plays the robot, with the
-        parameters of the newest model. seconds: of an episode; 0: the task's. seed: None is the run's. options: what is
+        parameters of the newest model. policy: another than a trial's. seconds: of an episode; 0: the task's. seed: None is the run's. options: what is
         changed, {"plant.m": 0.6}. An environment that is an object, not a function that makes one, is used by one thread."""
         threads = 1 if self._robot is not None and self._robot.has_environment else threads_of(threads)
         seed = self._describe()["seed"] if seed is None else seed
-        result = _core.evaluate(self._core, str(self.folder), whole_or_none("trial", trial), whole("episodes", episodes),
-                                number("seconds", seconds), whole("seed", seed, 0, 2**64 - 1),
+        if trial is not None and policy is not None:
+            raise _core.InvalidInput("trial and policy name two policies")
+        result = _core.evaluate(self._core, str(self.folder), whole_or_none("trial", trial), _json_of(policy),
+                                whole("episodes", episodes), number("seconds", seconds), whole("seed", seed, 0, 2**64 - 1),
                                 option_texts(options), threads)
         return Evaluation(np.array(result["total_reward"]), result["solved"], result["solved_at_end"],
                           result["ended_s"], result["broke"])
@@ -230,8 +236,7 @@ def learn(robot: Robots, learner: str = "", *, prior: Union[str, Sequence[str], 
     trials, seed, threads = whole("trials", trials), whole("seed", seed, 0, 2**53), threads_of(threads)
     core, scenario = robot_of(robot)
     names = ",".join([prior] if isinstance(prior, str) else list(prior or []))
-    begin = policy._core.to_json() if isinstance(policy, Policy) else read_text(policy) if policy else ""
-    folder = _core.learn(core, scenario, text("learner", learner), names, text("preset", preset), begin, trials,
+    folder = _core.learn(core, scenario, text("learner", learner), names, text("preset", preset), _json_of(policy), trials,
                          truth("until_solved", until_solved), seed, option_texts(options), os.fspath(out) if out else "",
                          threads, function_or_none("progress", progress))
     return Run(folder, robot if isinstance(robot, Robot) else None)
@@ -247,16 +252,6 @@ def resume(folder: PathLike, robot: Union[Robot, None] = None, trials: Union[int
            progress: Progress = show) -> Run:
     """Goes on with a run; see `Run.resume`."""
     return Run(folder, robot).resume(trials, threads=threads, progress=progress)
-
-
-def robots() -> dict[str, tuple[str, list[str]]]:
-    """The built-in robots: what each is, and its priors."""
-    return dict(_core.known()["robots"])
-
-
-def learners() -> dict[str, str]:
-    """The learners, and what each is."""
-    return dict(_core.known()["learners"])
 
 
 def robot_of(robot: Robots) -> tuple[Any, str]:
@@ -287,8 +282,12 @@ def write_report(folder: Path, out: Union[PathLike, None]) -> Path:
     """The page of a run or of a campaign."""
     from .__main__ import share
 
-    path = Path(out) if out else folder / "report.html"
-    return write_text(path, _core.report(str(folder), str(share())))
+    return write_page(Path(out) if out else folder / "report.html", _core.report(str(folder), str(share())))
+
+
+def _json_of(policy: Union[Policy, PathLike, None]) -> str:
+    """The text of a policy, or of its file; "": none."""
+    return policy._core.to_json() if isinstance(policy, Policy) else read_text(policy) if policy else ""
 
 
 def _best_of(trials: list[Trial]) -> Union[Trial, None]:

@@ -33,6 +33,13 @@ def value(given: Any) -> str:
     raise InvalidInput(f"{given!r} must be a text, a number, a truth, or a list or dictionary of them")
 
 
+def quoting(text: str, source: str, message: str) -> str:
+    """A message in which the lines of a text are quoted that it names: nobody may have seen the text."""
+    lines = ["", *text.splitlines()]
+    return re.sub(rf"^({re.escape(source)}: line (\d+)): ", lambda at: f"{at[1]}, `{lines[int(at[2])]}`: ", message,
+                  flags=re.MULTILINE)
+
+
 def _line(head: str, key: Any, entry: Any) -> str:
     try:
         return f"{_key(str(key))} = {value(entry)}"

@@ -333,3 +333,8 @@ def test_what_is_wrong_is_said_and_leaves_no_folder(tmp_path):
     with pytest.raises(TypeError, match="^robot is 'cart', must be the Robot that the folder began with$"):
         rehearse.open_campaign(done.folder, "cart")
     assert json.loads(files(done)[1])["complete"]
+
+
+def test_errors_quote_the_keys_that_they_are_about(tmp_path):
+    with pytest.raises(rehearse.InvalidInput, match=r"cart-campaign: line \d+, `hiden = 3`: unknown option 'hiden'"):
+        campaign(cart(), tmp_path / "out", set={"hiden": 3})

@@ -220,3 +220,39 @@ def test_frames_have_their_times_in_the_index_and_lack_numbers(tmp_path):
         np.testing.assert_array_equal(found.parameters[["value", "low", "high"]], known)
     with pytest.raises(rehearse.InvalidInput, match="^X has nan in row 1, must be finite$"):
         rehearse.GaussianProcess().fit(pandas.DataFrame({"x": [1, None, 3]}, dtype="Int64"), [1.0, 2.0, 3.0])
+
+
+# Files of somebody else.
+
+
+def test_a_file_of_somebody_else_is_left_as_it_is(tmp_path):
+    run = learn(cart(), tmp_path / "run")
+    mine = tmp_path / "thesis.html"
+    mine.write_text("<html>mine</html>")
+    with pytest.raises(rehearse.InvalidInput, match="thesis.html is no page of Rehearse and is left as it is"):
+        run.report(mine)
+    with pytest.raises(rehearse.InvalidInput, match="must end in .html"):
+        run.report(tmp_path / "cart.py")
+    script = tmp_path / "mine.py"
+    script.write_text("print('mine')")
+    with pytest.raises(rehearse.InvalidInput, match="mine.py is no policy of Rehearse and is left as it is"):
+        run.policy().export(script)
+    assert mine.read_text() == "<html>mine</html>" and script.read_text() == "print('mine')"
+    assert run.report(tmp_path / "page.html") == run.report(tmp_path / "page.html")
+    assert run.policy().export(tmp_path / "policy.py") == run.policy().export(tmp_path / "policy.py")
+
+
+# Options.
+
+
+def test_options_can_be_listed():
+    options = rehearse.options("gp-mi")
+    assert options["search.race.max_evaluations"].value == "100000"
+    assert options["search.method"].choices == ["race", "restarts", "gradient", "polish"]
+    assert options["search.method"].published == "restarts"
+    assert set(options) < set(rehearse.options("gp-mi", expert=True))
+    assert "plant.m_pole" in rehearse.options("cartpole") and rehearse.options("identify")
+    assert rehearse.options(cart())["hidden"].value == "10"
+    assert "as-published" in rehearse.presets()
+    with pytest.raises(rehearse.InvalidInput, match="unknown scenario or learner 'gpmi', did you mean 'gp-mi'"):
+        rehearse.options("gpmi")

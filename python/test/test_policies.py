@@ -119,3 +119,24 @@ def test_searches_say_why_they_are_not_copied():
         for keep in (pickle.dumps, copy.copy, copy.deepcopy):
             with pytest.raises(TypeError, match=f"a {type(search).__name__} cannot be pickled or copied"):
                 keep(search)
+
+
+def test_another_policy_can_be_evaluated(tmp_path):
+    run = rehearse.learn(cart(), trials=1, out=tmp_path / "run", threads=1, progress=None, options=QUICK)
+    own = run.policy()
+    still = own.with_theta(np.zeros_like(own.theta))
+    assert run.evaluate(1, policy=own).returns == run.evaluate(1).returns
+    moved = run.evaluate(1, policy=still).returns
+    assert moved != run.evaluate(1).returns
+    assert run.evaluate(1, policy=still.export(tmp_path / "still.json")).returns == moved
+    with pytest.raises(rehearse.InvalidInput, match="trial and policy name two policies"):
+        run.evaluate(1, trial=1, policy=still)
+
+
+def test_no_action_follows_from_what_is_no_number(tmp_path):
+    run = rehearse.learn(cart(), trials=1, out=tmp_path / "run", threads=1, progress=None, options=QUICK)
+    own = run.policy()
+    for policy in own, rehearse.Policy.load(own.export(tmp_path / "policy.json")):
+        for states, time_s in ([np.inf, 1], 0), ([np.nan, 1], 0), ([0, 1], np.nan), ([0, 1], np.inf):
+            assert np.isnan(policy.act(states, time_s)).all()
+        assert np.isfinite(policy.act([[0, 1], [1, 0]])).all()

@@ -2,6 +2,7 @@
 
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -178,7 +179,8 @@ def test_check_finds_what_a_learner_would_stumble_over():
         return states + change(states, actions, mass=mass, friction=friction)
 
     wrong = rehearse.Model(following, parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": (0.2, 5)})
-    assert "changes of state, not the next one?" in str(rehearse.check(cart(priors={"light": wrong})))
+    noted = str(rehearse.check(cart(priors={"light": wrong})))
+    assert "changes of state, not the next one?" in noted and noted.endswith("see what is noted above")
     idle = rehearse.Model(lambda states, actions, mass: 0.1 * states, parameters={"mass": 1.0}, tune={"mass": (0.2, 5)})
     (complaint,) = rehearse.check(cart(Environment, priors={"idle": idle})).complaints
     assert "mass changes no prediction" in complaint
@@ -186,3 +188,64 @@ def test_check_finds_what_a_learner_would_stumble_over():
         rehearse.check(cart(reward=lambda *of: 1 / 0))
     with pytest.raises(rehearse.InvalidInput, match="unknown scenario 'pendubott', did you mean 'pendubot'"):
         rehearse.check("pendubott")
+
+
+class Hot:
+    """A robot whose motor gets hot in its fourth step."""
+
+    def __init__(self):
+        self.calls = []
+
+    def reset(self, *, seed=None, options=None):
+        self.calls.append("reset")
+        return np.array([0.0, 1.0]), {}
+
+    def step(self, action):
+        self.calls.append("step")
+        if self.calls.count("step") == 4:
+            raise OSError("the motor is hot")
+        return np.array([0.0, 1.0]), 0.0, False, False, {}
+
+    def end(self):
+        self.calls.append("end")
+
+
+def test_a_robot_that_fails_is_not_moved_again_by_check():
+    hot = Hot()
+    with pytest.raises(OSError, match="the motor is hot"):
+        rehearse.check(cart(hot))
+    assert hot.calls == ["reset", "step", "step", "step", "step", "end"]
+
+
+class Stopped(Hot):
+    """Ctrl-C comes in its second step."""
+
+    def step(self, action):
+        self.calls.append("step")
+        if self.calls.count("step") == 2:
+            signal.raise_signal(signal.SIGINT)
+        return np.array([0.0, 1.0]), 0.0, False, False, {}
+
+
+def test_ctrl_c_stops_a_robot_that_is_checked():
+    robot = Stopped()
+    with pytest.raises(KeyboardInterrupt):
+        rehearse.check(cart(robot))
+    assert robot.calls == ["reset", "step", "step", "end"]
+
+
+def test_check_counts_episodes_that_end_early():
+    class Ends(Environment):
+        def step(self, action):
+            observation, *rest = super().step(action)
+            return observation, 0.0, self.steps == 2, False, {}
+
+    found = rehearse.check(cart(Ends, limits=[rehearse.Limit("position < 1.5", name="near")]))
+    assert (found.steps, found.episodes, found.ended, found.broke) == (6, 3, 3, {"near": 0})
+    assert str(found).startswith("6 steps under random actions, 3 of 3 episodes ended early")
+
+
+def test_two_numbers_in_a_list_are_choices():
+    with pytest.warns(UserWarning, match=r"light: tune of mass = \[0.2, 5\]: a list is two choices; bounds are a tuple"):
+        with pytest.raises(rehearse.InvalidInput, match="must be one of 0.2, 5"):
+            cart(priors={"light": rehearse.Model(change, parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": [0.2, 5]})})

@@ -401,7 +401,7 @@ def test_a_policy_can_be_taken_along(tmp_path):
     states = np.random.default_rng(1).normal(size=(50, 2))
     np.testing.assert_allclose(space["act"](states, 0.0), policy(states), rtol=1e-12, atol=1e-12)
     assert re.search(r"push_act", (tmp_path / "push.h").read_text())
-    with pytest.raises(ValueError, match="must end with"):
+    with pytest.raises(ValueError, match="must end in"):
         policy.export(tmp_path / "push.txt")
 
 

@@ -68,7 +68,7 @@ std::unique_ptr<system::Plant> plant_or_prior(const scenario::Scenario& scenario
                                       {scenario.task.start_mean, scenario.task.start_std, {}});
 }
 
-Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) {
+Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed, const Evaluator& evaluator) {
   const Task& task = scenario.task;
   Steps steps{Matrix(episodes * task.horizon, task.state_size()),
               Matrix(episodes * task.horizon, task.action_size()),
@@ -94,6 +94,7 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
       const system::EpisodeOn on_plant(*plant);
       Vector x = state_of(plant->reset(rng));
       for (Index t = 0; t < task.horizon; ++t) {
+        evaluator.stop_if_asked();
         const Vector u = random_action(task, x, rng), next = state_of(plant->step(u));
         steps.X.row(row) = x, steps.U.row(row) = u, steps.dX.row(row) = next - x;
         x = next, ++row;
@@ -252,8 +253,10 @@ std::string why_falls_pay(const Task& task, const Steps& steps) {
 
 }  // namespace
 
-Tried try_out(const scenario::Scenario& scenario, Index episodes, std::uint64_t seed) try {
-  const Steps steps = drive(scenario, episodes, seed), again = drive(scenario, episodes, seed);
+Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator, Index episodes, std::uint64_t seed) try {
+  const Steps steps = drive(scenario, episodes, seed, evaluator);
+  // A robot that failed, or that somebody stopped, is not to move again.
+  const Steps again = steps.end ? steps : drive(scenario, episodes, seed, evaluator);
   const Task& task = scenario.task;
   Tried tried{.steps = steps.X.rows(),
               .episodes = episodes,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "rehearse/core/evaluator.hpp"
 #include "rehearse/scenario/scenario.hpp"
 
 namespace rehearse::robot_file {
@@ -34,7 +35,9 @@ struct Tried {
 
 /// Use it before anything is learned: tries plant and priors of a scenario on some episodes of random actions. Finds
 /// what a learner would stumble over later. The first prior plays the robot where Rehearse does not drive it. The same
-/// for the same seed, but for times. Throws InvalidInput, with why, where a program answers nothing.
-Tried try_out(const scenario::Scenario& scenario, Index episodes = 3, std::uint64_t seed = 1);
+/// for the same seed, but for times. A robot that fails is not moved again. The evaluator is asked before each step
+/// whether to stop. Throws InvalidInput, with why, where a program answers nothing.
+Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator = serial_evaluator(), Index episodes = 3,
+              std::uint64_t seed = 1);
 
 }  // namespace rehearse::robot_file

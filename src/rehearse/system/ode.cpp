@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
-#include "rehearse/system/plain_kernel.hpp"
 
 namespace rehearse::system {
 namespace {
@@ -47,13 +46,6 @@ Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, cons
   odeint::integrate_adaptive(odeint::make_controlled<Stepper>(tolerance, tolerance), counted, state, 0.0, duration_s,
                              duration_s / 16);
   return Vector::Map(state.data(), x.size());
-}
-
-std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps) {
-  const auto change = [=](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
-    plain_kernel(ode, {X.cols(), U.cols(), phi.size()}).change(X, U, phi.data(), dt_s, substeps, dX);
-  };
-  return make_simulator(std::move(parameters), change);
 }
 
 Ode OdeKernel::ode() const {

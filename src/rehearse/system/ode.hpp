@@ -23,10 +23,6 @@ constexpr Index kMostEvaluations = 1'000'000;
 Vector integrate_adaptive(const Ode& ode, const Vector& x, const Vector& u, const Vector& phi, double duration_s,
                           double tolerance = 1e-12);
 
-/// A simulator of any equation, row by row with `substeps` fixed steps of Dormand–Prince 5 (plain_kernel.hpp): slow,
-/// but it needs no more than a lambda.
-std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps);
-
 /// An equation, vectorised over rows: what equation_kernel.hpp makes of a robot's, and formula_ode.hpp of formulas. Any
 /// thread.
 struct OdeKernel {
@@ -46,6 +42,7 @@ struct OdeKernel {
   void require_sizes(Index dx, Index du, Index phi) const;  // throws InvalidInput unless these are the kernel's
 };
 
+/// A simulator that takes `substeps` of them in each control step.
 std::shared_ptr<const Simulator> make_ode_simulator(OdeKernel kernel, ParameterSpace parameters, double dt_s,
                                                     Index substeps);
 

@@ -84,4 +84,11 @@ OdeKernel plain_kernel(const Ode& ode, const OdeSizes& sizes) {
           .change = change};
 }
 
+std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps) {
+  const auto change = [=](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
+    plain_kernel(ode, {X.cols(), U.cols(), phi.size()}).change(X, U, phi.data(), dt_s, substeps, dX);
+  };
+  return make_simulator(std::move(parameters), change);
+}
+
 }  // namespace rehearse::system

@@ -14,4 +14,7 @@ struct OdeSizes {
 /// another size throws InvalidInput at its first use.
 OdeKernel plain_kernel(const Ode& ode, const OdeSizes& sizes);
 
+/// A simulator of such an equation, whose states and actions are as many as it is given.
+std::shared_ptr<const Simulator> make_ode_simulator(Ode ode, ParameterSpace parameters, double dt_s, Index substeps);
+
 }  // namespace rehearse::system

@@ -9,7 +9,7 @@
 #include "rehearse/core/kinematics.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/prior/prior.hpp"
-#include "rehearse/system/ode.hpp"
+#include "rehearse/system/plain_kernel.hpp"
 
 namespace rehearse::swing {
 

@@ -9,6 +9,7 @@
 #include "rehearse/learners/learner.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/system/ode.hpp"
+#include "rehearse/system/plain_kernel.hpp"
 
 namespace rehearse::learners::slider {
 

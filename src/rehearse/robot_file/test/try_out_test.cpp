@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "example.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/core/events.hpp"
 #include "rehearse/core/random.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 
@@ -224,6 +226,28 @@ TEST(TryOut, SaysWhereFallingPays) {
   EXPECT_TRUE(tried(with_end(with(reward, "formula = \"-1\"\nfloor = -1"))).broken.empty());
   EXPECT_TRUE(tried(with_end(kSwing)).broken.empty());
   EXPECT_FALSE(tried(negative + "[[limit]]\nkeep = \"abs(rate) < 100\"\n").broken.empty());
+}
+
+TEST(TryOut, ARobotThatFailsIsNotMovedAgain) {
+  scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
+  int steps = 0;
+  scenario.make_plant = [&steps] {
+    const auto motion = [&steps](const Vector& x, const Vector&) -> Vector {
+      if (++steps == 4) throw std::runtime_error("the motor is hot");
+      return x + Vector::Ones(2);
+    };
+    return system::make_simulated_plant(motion, {Vector::Zero(2), Vector::Zero(2), {}});
+  };
+  const Tried found = try_out(scenario);
+  EXPECT_EQ(found.end, "the motor is hot");
+  EXPECT_EQ(steps, 4);
+  EXPECT_EQ(found.broken, std::vector<std::string>{});
+}
+
+TEST(TryOut, StopsWhereItIsAskedTo) {
+  int asked = 0;
+  const auto stops = make_stoppable(make_thread_evaluator(1), [&] { return ++asked == 3; });
+  EXPECT_THROW(try_out(builder(kSwing, "swing.toml", example::no_files)->build(), *stops), Interrupted);
 }
 
 TEST(TryOut, APlantThatFailsWithoutAWordFails) {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rehearse/system/ode.hpp"
+#include "rehearse/system/plain_kernel.hpp"
 
 #define REHEARSE_EQUATION "rehearse/system/test/pendulums.hpp"
 #include "rehearse/system/equation_kernel.hpp"

@@ -4,6 +4,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/system/ode.hpp"
+#include "rehearse/system/plain_kernel.hpp"
 #include "rehearse/testing/check_ode_kernel.hpp"
 
 #define REHEARSE_EQUATION "rehearse/system/test/spring.hpp"

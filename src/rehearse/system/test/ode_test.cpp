@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/system/plain_kernel.hpp"
 
 namespace rehearse::system {
 namespace {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "rehearse/robots/pendubot/pendubot.hpp"
-#include "rehearse/system/ode.hpp"
+#include "rehearse/system/plain_kernel.hpp"
 #include "rehearse/testing/hostile.hpp"
 
 namespace rehearse::testing {

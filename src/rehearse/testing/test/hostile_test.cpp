@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rehearse/system/ode.hpp"
+#include "rehearse/system/plain_kernel.hpp"
 
 namespace rehearse::testing {
 namespace {

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace rehearse::python {
+
+/// What is known: robots, learners, presets, and the options of one of them.
+void add_catalogue(pybind11::module_& module);
+
+}  // namespace rehearse::python
