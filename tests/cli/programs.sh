@@ -88,6 +88,26 @@ grep -q "next: .* resume driven, which drives the plant" output && ! grep -q "ru
 touch repaired
 "$program" resume driven --threads 1 >output 2>&1 || fail "resume of a driver that is repaired: $(cat output)"
 
+# A driver that understands `end` is told of it where Ctrl-C stops a check.
+cat >slow_driver.py <<'PY'
+import json, sys, time
+for line in sys.stdin:
+    kind, = {"rehearse", "reset", "step", "end"} & json.loads(line).keys()
+    with open(sys.argv[1], "a") as log:
+        log.write(kind + "\n")
+    time.sleep(0.1 if kind == "step" else 0)
+    answers = {"rehearse": {"rehearse": 1, "messages": ["reset", "step", "end"]}, "end": {"end": True}}
+    print(json.dumps(answers.get(kind, {"state": [0.0, 0.0]})), flush=True)
+PY
+sed "s|\"driver.py\".*|\"slow_driver.py\", \"$PWD/log\"]|" driven.toml >slow.toml
+"$program" check slow.toml >output 2>&1 &
+process=$!
+until grep -q step log 2>/dev/null || ! kill -0 $process 2>/dev/null; do sleep 0.05; done
+kill -INT $process
+wait $process
+[ $? = 130 ] || fail "a check that is stopped: $(cat output)"
+[ "$(tail -n 1 log)" = end ] || fail "a driver whose check is stopped is told $(tail -n 1 log)"
+
 # refused PATTERN SED : exit 2 before there is a folder
 refused() {
   sed "$2" tired.toml >wrong.toml
