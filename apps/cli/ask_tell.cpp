@@ -44,9 +44,11 @@ std::string columns(const Variables& variables) {
 
 void print_parameters(const TrialRecord& trial, const experiment::Resolved& resolved) {
   const std::vector<std::string> names = experiment::tunable_names(resolved.prior);
+  const ParameterSpace space = resolved.prior ? resolved.prior->space : ParameterSpace();
   for (std::size_t i = 0; i < std::min(trial.phi.size(), names.size()); ++i) {
     const auto interval = i < trial.phi_intervals.size() ? trial.phi_intervals[i] : std::nullopt;
-    put("  {} = {}{}\n", names[i], experiment::phi_text(resolved.spec.prior, i, trial.phi[i]),
+    put("  {} = {}{}{}\n", names[i], experiment::phi_text(resolved.spec.prior, i, trial.phi[i]),
+        unit_text(space[space.find(names[i])].unit),
         interval ? fmt::format(", 95 %: {:.4g} to {:.4g}", interval->low, interval->high) : "");
   }
   for (const std::string& warning : trial.warnings) put("  {}\n", warning);

@@ -40,11 +40,17 @@ report::ArchiveSpace archive_space(std::string_view bytes) {
 }
 
 /// Empty where no robot of this program or of the folder has that name.
-std::string task_of(const experiment::Catalogue& built_in, const fs::path& folder, const std::string& scenario) try {
+report::RobotFacts facts_of(const experiment::Catalogue& built_in, const fs::path& folder,
+                            const std::string& scenario) try {
   const auto robot = experiment::with_robot_of_run(built_in, folder).scenario(scenario);
-  return robot ? robot->summary() : "";
+  if (!robot) return {};
+  report::RobotFacts facts{.task = robot->summary(), .units = {}};
+  for (const scenario::NamedPrior& prior : robot->build().priors)
+    for (const Parameter& parameter : prior.parameters.all())
+      if (!parameter.unit.empty()) facts.units[parameter.name] = parameter.unit;
+  return facts;
 } catch (const InvalidInput&) {
-  return "";
+  return {};
 }
 
 Page filled(const report::Report& report, const std::string& share) {
@@ -54,8 +60,8 @@ Page filled(const report::Report& report, const std::string& share) {
 }  // namespace
 
 Page report_page(const experiment::Catalogue& built_in, const fs::path& folder, const std::string& share) {
-  const auto task = [&](const std::string& scenario) { return task_of(built_in, folder, scenario); };
-  return filled(report::read_folder(folder, {archive_space, task}), share);
+  const auto robot = [&](const std::string& scenario) { return facts_of(built_in, folder, scenario); };
+  return filled(report::read_folder(folder, {archive_space, robot}), share);
 }
 
 Page replay_page(const fs::path& folder, Index trial, const std::string& share, const std::string& headline) {

@@ -95,12 +95,13 @@ void print_parameters(const ParameterSpace& parameters) {
     put("    nothing to tune: gp-mi and mi learn no parameters of it\n");
   for (const Parameter& parameter : parameters.all()) {
     if (parameter.kind == Parameter::Kind::continuous)
-      put("    {} = {:g}, learned in [{:g}, {:g}]\n", parameter.name, parameter.value, parameter.box.low,
-          parameter.box.high);
+      put("    {} = {:g}{}, learned in [{:g}, {:g}]\n", parameter.name, parameter.value, unit_text(parameter.unit),
+          parameter.box.low, parameter.box.high);
     else if (parameter.kind == Parameter::Kind::discrete)
-      put("    {} = {:g}, one of {}\n", parameter.name, parameter.value, fmt::join(parameter.choices, ", "));
+      put("    {} = {:g}{}, one of {}\n", parameter.name, parameter.value, unit_text(parameter.unit),
+          fmt::join(parameter.choices, ", "));
     else
-      fixed.push_back(fmt::format("{} = {:g}", parameter.name, parameter.value));
+      fixed.push_back(fmt::format("{} = {:g}{}", parameter.name, parameter.value, unit_text(parameter.unit)));
   }
   if (!fixed.empty()) put("    fixed: {}\n", fmt::join(fixed, ", "));
 }

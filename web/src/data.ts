@@ -27,6 +27,8 @@ export interface Run {
   done: boolean
   /** The robot's task, in a line; empty or missing if unknown. */
   task?: string
+  /** Units of parameters, by name, where they are known. */
+  units?: Record<string, string>
   /** Logs were told before the first trial, whose model has learned from them. */
   logs?: boolean
   options: [string, string][]

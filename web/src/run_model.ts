@@ -1,7 +1,7 @@
 // The model of a run: its parameters and its evidence.
 import { chart, fit, heights, type Point } from './chart'
 import { PREDICTED } from './colours'
-import { present, type Cell, type Columns, type Run } from './data'
+import { present, withUnit, type Cell, type Columns, type Run } from './data'
 import { h, type Child } from './dom'
 import type { Row } from './export'
 import { figure } from './figure'
@@ -11,7 +11,7 @@ import type { LegendEntry } from './legend'
 import { pointsOf, rowsOf, TRIAL } from './trials'
 
 export function parameters(run: Run): Child {
-  const { trials, truth = {}, identifiability } = run
+  const { trials, truth = {}, units = {}, identifiability } = run
   const columns = Object.keys(trials ?? {}).filter((name) => name.startsWith('phi.'))
   const isEnd = (name: string) => /\.(low|high)$/.test(name) && columns.includes(name.replace(/\.[a-z]+$/, ''))
   const names = columns.filter((name) => !isEnd(name))
@@ -23,7 +23,7 @@ export function parameters(run: Run): Child {
     const series = [{ label: name, colour: PREDICTED, points, symbol: 'circle' as const }]
     const values = [...heights({ points }), ...(present(known) ? [known] : [])]
     return {
-      title: name,
+      title: withUnit({ name, unit: units[name] ?? '' }),
       draw: (width) =>
         chart({
           width,

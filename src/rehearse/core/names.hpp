@@ -18,6 +18,9 @@ inline bool is_word(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), is_part);
 }
 
+/// The unit behind a number: " kg"; empty without one.
+inline std::string unit_text(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
+
 /// "q1 [rad]", as files and tables head a column.
 inline std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " [" + unit + "]";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,11 +32,17 @@ struct ArchiveSpace {
 /// Reads an ArchiveSpace from the bytes of archive.bin. Throws InvalidInput if they are no archive.
 using ArchiveReader = std::function<ArchiveSpace(std::string_view bytes)>;
 
+/// What a program knows of the robot of a run.
+struct RobotFacts {
+  std::string task;                          // what it has to do, in a line
+  std::map<std::string, std::string> units;  // of its priors' parameters, by name, where they have one
+};
+
 /// Functions that add what a folder does not say by itself, from rooms that know archives and robots. Each may be
 /// empty.
 struct Knowledge {
-  ArchiveReader archive;                                         // without it archive.bin is not looked at
-  std::function<std::string(const std::string& scenario)> task;  // what the robot of a run has to do, in a line
+  ArchiveReader archive;  // without it archive.bin is not looked at
+  std::function<RobotFacts(const std::string& scenario)> robot;
 };
 
 }  // namespace rehearse::report

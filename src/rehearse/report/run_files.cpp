@@ -210,7 +210,11 @@ void check_run_folder(const fs::path& folder, const fs::path& where, Index trial
 Json read_run(const fs::path& folder, std::optional<Index> only, const Knowledge& knowledge, Problems& problems) {
   const RunSpec spec = read_spec(folder);
   Json run = spec_json(spec);
-  if (knowledge.task) run["task"] = knowledge.task(spec.scenario);
+  if (knowledge.robot) {
+    const RobotFacts facts = knowledge.robot(spec.scenario);
+    run["task"] = facts.task;
+    run["units"] = facts.units;
+  }
   run["done"] = fs::exists(folder / "done");
   if (fs::exists(folder / "logs.csv")) run["logs"] = true;  // told before trial 1, whose model has learned from them
   Index trials = trajectories_in(folder);

@@ -36,9 +36,9 @@ class ArchiveFiles : public ReportFolder {};
 TEST_F(ArchiveFiles, AnArchiveHasWhatItPromisesAndWhatIsExpectedOfIt) {
   write_run(folder_);
   EXPECT_FALSE(
-      json::parse(read_folder(folder_, {.archive = archive_space, .task = {}}).json)["run"].contains("archive"));
+      json::parse(read_folder(folder_, {.archive = archive_space, .robot = {}}).json)["run"].contains("archive"));
   write_archive(folder_);
-  const Report report = read_folder(folder_, {.archive = archive_space, .task = {}});
+  const Report report = read_folder(folder_, {.archive = archive_space, .robot = {}});
   EXPECT_EQ(problems_of(report), Lines{});
   EXPECT_EQ(json::parse(report.json)["run"]["archive"], json::parse(R"({
     "descriptors": [{"name": "reach [m]", "values": [-0.5, 0.1235, 1]}, {"name": "height [m]", "values": [0.1, 1, 2]}],
@@ -55,20 +55,20 @@ TEST_F(ArchiveFiles, ADamagedArchiveIsNamedAndTheTablesAreShown) {
   bytes[bytes.size() - 3] ^= 1;
   write(folder_ / "archive.bin", bytes);
   const std::string damage = "archive.bin: it is no usable archive: damaged: the checksum does not fit";
-  Report report = read_folder(folder_, {.archive = archive_space, .task = {}});
+  Report report = read_folder(folder_, {.archive = archive_space, .robot = {}});
   EXPECT_EQ(problems_of(report), Lines{damage});
   const json archive = json::parse(report.json)["run"]["archive"];
   EXPECT_TRUE(archive["space"].is_null());
   EXPECT_EQ(archive["promised"], json::parse("[2, 3.142, -1]"));
 
   fs::remove(folder_ / "elites.csv");
-  report = read_folder(folder_, {.archive = archive_space, .task = {}});
+  report = read_folder(folder_, {.archive = archive_space, .robot = {}});
   EXPECT_EQ(problems_of(report), (Lines{damage, "elites.csv: it is not there"}));
   EXPECT_FALSE(json::parse(report.json)["run"].contains("archive"));
   fs::remove(folder_ / "tried.csv");  // a run of an older version, or one without a trial
-  EXPECT_EQ(problems_of(read_folder(folder_, {.archive = archive_space, .task = {}})), Lines{damage});
+  EXPECT_EQ(problems_of(read_folder(folder_, {.archive = archive_space, .robot = {}})), Lines{damage});
   write(folder_ / "archive.bin", "foreign");
-  EXPECT_EQ(problems_of(read_folder(folder_, {.archive = archive_space, .task = {}})),
+  EXPECT_EQ(problems_of(read_folder(folder_, {.archive = archive_space, .robot = {}})),
             Lines{"archive.bin: it is no usable archive: not an archive of Rehearse"});
 }
 
@@ -81,7 +81,7 @@ TEST_F(ArchiveFiles, ThatTablesOfAnArchiveContradictThemselvesIsNamed) {
       fs::remove(folder_ / file);
     else
       write(folder_ / file, text);
-    return problems_of(read_folder(folder_, {.archive = archive_space, .task = {}}));
+    return problems_of(read_folder(folder_, {.archive = archive_space, .robot = {}}));
   };
   const std::string header = "reach [m],height [m],promised,expected,deviation\n";
   EXPECT_EQ(problems_with("elites.csv", "promised,expected\n1,2\n"),

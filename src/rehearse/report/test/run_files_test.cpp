@@ -49,10 +49,12 @@ TEST_F(RunFiles, ARunHasItsTablesAsColumns) {
 
 TEST_F(RunFiles, WhatTheRobotHasToDoIsOfThoseWhoKnowIt) {
   write_run(folder_);
-  const Report report =
-      read_folder(folder_, {.archive = {}, .task = [](const std::string& name) { return name + "!"; }});
+  const Report report = read_folder(folder_, {.archive = {}, .robot = [](const std::string& name) {
+                                                return RobotFacts{name + "!", {{"m", "kg"}}};
+                                              }});
   const json run = json::parse(report.json)["run"];
   EXPECT_EQ(run["task"], run["scenario"].get<std::string>() + "!");
+  EXPECT_EQ(run["units"], json::parse("{\"m\": \"kg\"}"));
   EXPECT_FALSE(json::parse(read_folder(folder_).json)["run"].contains("task"));
 }
 
