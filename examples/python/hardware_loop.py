@@ -15,11 +15,11 @@ import rehearse
 
 
 # %%
-def run_on_the_robot(policy, steps=30):
+def run_on_the_robot(policy):
     """Stands for your control loop: here, the pendulum with a little noise of measurement."""
     noise = np.random.default_rng(policy.trial)
     state, rows = np.zeros((1, 2)), []
-    for step in range(steps + 1):
+    for step in range(policy.steps + 1):
         measured = state[0] + 0.001 * noise.normal(size=2)
         action = policy(measured, step * policy.dt_s)
         rows.append((step * policy.dt_s, *measured, *action))

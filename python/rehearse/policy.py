@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -107,6 +108,25 @@ class Policy:
     def dt_s(self) -> float:
         """How long an action is held [s]."""
         return self._core.dt_s
+
+    @property
+    def steps(self) -> int:
+        """Control steps of a trial."""
+        return int(self._file["steps"])
+
+    @property
+    def states(self) -> list[str]:
+        """The names of the states, in their order; the last are the memory of actuators, if there is any."""
+        return [state["name"] for state in self._file["states"]]
+
+    @property
+    def bounds(self) -> dict[str, tuple[float, float]]:
+        """The bounds of each action, by name, in their order."""
+        return {action["name"]: (action["low"], action["high"]) for action in self._file["actions"]}
+
+    @property
+    def _file(self) -> dict[str, Any]:
+        return dict(json.loads(self._core.to_json()))
 
     def export(self, path: Union[str, os.PathLike[str]]) -> Path:
         """Writes it for others: .h (C99), .json, or .py (NumPy alone), by the name's end (docs/export.md). A file of

@@ -133,6 +133,12 @@ def test_another_policy_can_be_evaluated(tmp_path):
         run.evaluate(1, trial=1, policy=still)
 
 
+def test_a_policy_knows_what_it_is_for(tmp_path):
+    own = rehearse.Policy.of(cart())
+    for policy in own, rehearse.Policy.load(own.export(tmp_path / "policy.json")):
+        assert (policy.steps, policy.states, policy.bounds) == (15, ["velocity", "position"], {"force": (-5, 5)})
+
+
 def test_no_action_follows_from_what_is_no_number(tmp_path):
     run = rehearse.learn(cart(), trials=1, out=tmp_path / "run", threads=1, progress=None, options=QUICK)
     own = run.policy()
