@@ -1,5 +1,6 @@
 #pragma once
-// MuJoCo's own objects, and protection against its errors. For the files of this room.
+// MuJoCo's own objects, and protection against its errors. For the files of this room, and for
+// robots whose model is their own.
 
 #include <cstddef>
 #include <memory>

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
+#include "rehearse/mujoco/engine.hpp"
 #include "rehearse/robots/hexapod/state.hpp"
 
 namespace rehearse::robots::hexapod {
@@ -41,22 +42,14 @@ std::string leg_xml(Index leg, std::size_t from) {
   return xml + leg_xml(leg, from + 1) + "</body>";
 }
 
-struct ModelDeleter {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DataDeleter {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using ModelPointer = std::unique_ptr<mjModel, ModelDeleter>;
-
-ModelPointer load(const std::string& xml) {
+mujoco::ModelPointer load(const std::string& xml) {
   constexpr const char* name = "hexapod.xml";
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
   mj_makeEmptyFileVFS(files.get(), name, static_cast<int>(xml.size()) + 1);
   std::memcpy(files->filedata[mj_findFileVFS(files.get(), name)], xml.c_str(), xml.size() + 1);
   char error[500] = "";
-  ModelPointer model(mj_loadXML(name, files.get(), error, sizeof error));
+  mujoco::ModelPointer model(mj_loadXML(name, files.get(), error, sizeof error));
   mj_deleteVFS(files.get());
   if (!model) throw std::runtime_error(fmt::format("MuJoCo cannot load the hexapod: {}", error));
   return model;
@@ -69,10 +62,9 @@ class MujocoPlant final : public system::Plant {
         damaged_(std::move(damaged)),
         start_noise_(start_noise),
         model_(load(mujoco_model(hardware, damaged_.removed()))),
-        data_(mj_makeData(model_.get())),
+        data_(mujoco::make_data(*model_)),
         steps_(static_cast<int>(std::lround(dt_s / kStep))),
         late_(static_cast<int>(std::lround(hardware.latency_s / kStep))) {
-    mju_user_warning = [](const char*) {};  // or it writes a log file; what it warns of is counted, too
     for (Index joint = 0; joint < kJoints; ++joint) {
       const int id = mj_name2id(model_.get(), mjOBJ_JOINT, std::to_string(joint).c_str());
       if (id >= 0) joints_.push_back({joint, model_->jnt_qposadr[id], model_->jnt_dofadr[id]});
@@ -94,7 +86,9 @@ class MujocoPlant final : public system::Plant {
     target_ = u;
     for (int i = 0; i < steps_; ++i) {
       push(i < late_ ? late_target_ : target_);
-      mj_step(model_.get(), data_.get());
+      const auto advance = [model = model_.get(), data = data_.get()] { mj_step(model, data); };
+      if (const char* error = mujoco::guarded(advance))
+        throw std::runtime_error(fmt::format("MuJoCo's simulation of the hexapod failed: {}", error));
     }
     for (const int bad : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC, mjWARN_BADCTRL})
       if (data_->warning[bad].number > 0) throw std::runtime_error("MuJoCo's simulation of the hexapod diverged");
@@ -162,8 +156,8 @@ class MujocoPlant final : public system::Plant {
   Hardware hardware_;
   DamagedLegs damaged_;
   double start_noise_;
-  ModelPointer model_;
-  std::unique_ptr<mjData, DataDeleter> data_;
+  mujoco::ModelPointer model_;
+  mujoco::DataPointer data_;
   int steps_, late_;
   std::vector<Joint> joints_;
   Vector target_, late_target_;
