@@ -1,5 +1,8 @@
-"""Rates with their 95 % intervals (Clopper and Pearson 1934), for scripts/tables and scripts/limits."""
+"""Rates with their 95 % intervals (Clopper and Pearson 1934), and means with theirs, for scripts/tables and scripts/limits."""
 import math
+import random
+
+_ALL_SUBSETS_UP_TO = 14
 
 
 def _binomial_tail(n, k, p):
@@ -31,3 +34,20 @@ def rate(k, n):
 
 def _percent(high):
     return "100" if high > 0.995 else f"{100 * high:.2g}"
+
+
+def mean_interval(values):
+    """The interval of a mean by the sign-flip test, as statistics/intervals.hpp; above 14 values of random subsets, which
+    are others there. Needs 6 values."""
+    if len(values) < 6:
+        return math.nan, math.nan
+    rng, most = random.Random(1), 2**min(len(values), _ALL_SUBSETS_UP_TO)
+    all_of_them = len(values) <= _ALL_SUBSETS_UP_TO
+    subsets = range(1, most) if all_of_them else (rng.randrange(1, 2**len(values)) for _ in range(1, most))
+    means = []
+    for subset in subsets:
+        chosen = [value for i, value in enumerate(values) if subset >> i & 1]
+        means.append(sum(chosen) / len(chosen))
+    means.sort()
+    rank = int(0.025 * most)
+    return means[rank - 1], means[-rank]
