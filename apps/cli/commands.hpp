@@ -97,7 +97,8 @@ struct EvaluateArguments {
 
 // With processes, every process calls the same command; only the first prints.
 
-/// What `list NAME --json` prints.
+/// The JSON that `list NAME --json` prints: an entry with its options. name: of a learner, a scenario or `identify`, or
+/// a robot's file. Throws InvalidInput if there is none.
 std::string entry_json(const experiment::Catalogue& catalogue, const std::string& name);
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments);

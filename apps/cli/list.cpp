@@ -161,28 +161,15 @@ void print_one(Builder& builder, const std::string& kind, const std::string& nam
   throw InvalidInput(experiment::unknown_name("scenario or learner", name, known));
 }
 
-/// Calls visit(entry, kind) with the learner, command or scenario of this name.
+/// Calls visit(entry, kind) with the learner, command or scenario of this name, or the robot of this file.
 template <class Visit>
-void visit_entry(const experiment::Catalogue& catalogue, const std::string& name, Visit visit) {
-  if (const auto learner = catalogue.learner(name)) return visit(*learner, "learner");
+void visit_entry(const experiment::Catalogue& built_in, const std::string& name, Visit visit) {
+  if (const auto learner = built_in.learner(name)) return visit(*learner, "learner");
   if (IdentifyEntry entry; name == entry.name()) return visit(entry, "command");
-  const auto scenario = catalogue.scenario(name);
+  const experiment::Catalogue catalogue = with_robot(built_in, name);
+  const auto scenario = catalogue.scenario(catalogue.scenario_name(name));
   if (!scenario) refuse(catalogue, name);
   visit(*scenario, "scenario");
-}
-
-/// name: of an entry, or a robot's file.
-void list_named(const experiment::Catalogue& built_in, const std::string& name, const ListArguments& arguments) {
-  const bool of_file = !built_in.learner(name) && name != IdentifyEntry::name();
-  const experiment::Catalogue catalogue = of_file ? with_robot(built_in, name) : built_in;
-  const std::string entry = of_file ? catalogue.scenario_name(name) : name;
-  if (arguments.json) {
-    fmt::print("{}\n", entry_json(catalogue, entry));
-    return;
-  }
-  visit_entry(catalogue, entry, [&](auto& builder, const char* kind) {
-    print_one(builder, kind, name, arguments.expert || arguments.options);
-  });
 }
 
 }  // namespace
@@ -194,8 +181,12 @@ std::string entry_json(const experiment::Catalogue& catalogue, const std::string
 }
 
 int list(const experiment::Catalogue& catalogue, const ListArguments& arguments) {
-  if (arguments.name) {
-    list_named(catalogue, *arguments.name, arguments);
+  if (arguments.name && arguments.json) {
+    fmt::print("{}\n", entry_json(catalogue, *arguments.name));
+  } else if (arguments.name) {
+    visit_entry(catalogue, *arguments.name, [&](auto& entry, const char* kind) {
+      print_one(entry, kind, *arguments.name, arguments.expert || arguments.options);
+    });
   } else if (arguments.expert) {
     throw InvalidInput(fmt::format("--expert is for one scenario or learner: {} list NAME --expert", program_name()));
   } else if (arguments.schema)

@@ -39,7 +39,6 @@ report::ArchiveSpace archive_space(std::string_view bytes) {
   return {archive.size(), niches.size(), niches.bounds(), niches.bins()};
 }
 
-/// Empty where no robot of this program or of the folder has that name.
 report::RobotFacts facts_of(const experiment::Catalogue& built_in, const fs::path& folder,
                             const std::string& scenario) try {
   const auto robot = experiment::with_robot_of_run(built_in, folder).scenario(scenario);

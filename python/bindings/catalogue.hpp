@@ -4,7 +4,7 @@
 
 namespace rehearse::python {
 
-/// What is known: robots, learners, presets, and the options of one of them.
+/// Functions that list what there is: robots, learners and presets, and the options of one of them.
 void add_catalogue(pybind11::module_& module);
 
 }  // namespace rehearse::python

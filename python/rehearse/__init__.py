@@ -24,7 +24,7 @@ from .search import Cmaes, MapElites
 
 __all__ = [
     "Action", "Body", "Campaign", "Checked", "Cmaes", "Distance", "Evaluation", "GaussianProcess", "Identification",
-    "InvalidInput", "Limit", "MapElites", "Model", "Option", "Policy", "Robot", "Run", "RunFailed", "State", "Success", "Trial",
-    "campaign", "check", "identify", "learn", "learners", "open_campaign", "open_run", "options", "presets", "resume", "rk4", "robots", "show",
-    "__version__",
+    "InvalidInput", "Limit", "MapElites", "Model", "Option", "Policy", "Robot", "Run", "RunFailed", "State", "Success",
+    "Trial", "campaign", "check", "identify", "learn", "learners", "open_campaign", "open_run", "options", "presets",
+    "resume", "rk4", "robots", "show", "__version__",
 ]

@@ -23,7 +23,7 @@ class PriorChecked:
 
 @dataclass(frozen=True)
 class Checked:
-    """What `check` found. steps: of the plant, in so many episodes; ended: those that ended early; broke: of each limit,
+    """The findings of `check`. steps: of the plant, in so many episodes; ended: those that ended early; broke: of each limit,
     those that broke it. changes: of each state, root mean square change in a step. complaints: what is wrong, a line
     each."""
 

@@ -136,13 +136,13 @@ class Run:
         """
         if stopped is not None and not text("stopped", stopped).strip():
             raise _core.InvalidInput("stopped is empty, must say why the episode was cut short")
-        if stopped is None and not truth("at_fault", at_fault):
+        at_fault = truth("at_fault", at_fault)
+        if stopped is None and not at_fault:
             raise _core.InvalidInput("at_fault=False goes with stopped, which says why the episode was cut short")
         with tempfile.TemporaryDirectory() as folder:
             files = as_files(episodes, folder, "episode")
             with without_path(folder):
-                told = dict(_core.tell(self._core, str(self.folder), files, stopped, truth("at_fault", at_fault),
-                                        threads_of(threads)))
+                told = dict(_core.tell(self._core, str(self.folder), files, stopped, at_fault, threads_of(threads)))
         self.asked = None
         for note in told["notes"]:
             warnings.warn(note, stacklevel=2)
@@ -159,8 +159,9 @@ class Run:
                  policy: Union[Policy, PathLike, None] = None, seconds: float = 0.0, seed: Union[int, None] = None,
                  options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Evaluation:
         """Episodes of a policy on the plant that are no trials; where there is none, the prior plays the robot, with the
-        parameters of the newest model. policy: another than a trial's. seconds: of an episode; 0: the task's. seed: None is the run's. options: what is
-        changed, {"plant.m": 0.6}. An environment that is an object, not a function that makes one, is used by one thread."""
+        parameters of the newest model. policy: another than a trial's. seconds: of an episode; 0: the task's. seed: None
+        is the run's. options: what is changed, {"plant.m": 0.6}. An environment that is an object, not a function that
+        makes one, is used by one thread."""
         threads = 1 if self._robot is not None and self._robot.has_environment else threads_of(threads)
         seed = self._describe()["seed"] if seed is None else seed
         if trial is not None and policy is not None:

@@ -32,17 +32,18 @@ struct ArchiveSpace {
 /// Reads an ArchiveSpace from the bytes of archive.bin. Throws InvalidInput if they are no archive.
 using ArchiveReader = std::function<ArchiveSpace(std::string_view bytes)>;
 
-/// What a program knows of the robot of a run.
+/// Facts of a run's robot that its folder does not have, from a program that knows robots. Empty where that knows none
+/// of this name.
 struct RobotFacts {
-  std::string task;                          // what it has to do, in a line
-  std::map<std::string, std::string> units;  // of its priors' parameters, by name, where they have one
+  std::string task;                          // the robot's task, in a line
+  std::map<std::string, std::string> units;  // of parameters of priors, by name: "kg"; none for one without a unit
 };
 
 /// Functions that add what a folder does not say by itself, from rooms that know archives and robots. Each may be
 /// empty.
 struct Knowledge {
-  ArchiveReader archive;  // without it archive.bin is not looked at
-  std::function<RobotFacts(const std::string& scenario)> robot;
+  ArchiveReader archive;                                         // without it archive.bin is not looked at
+  std::function<RobotFacts(const std::string& scenario)> robot;  // scenario: the robot's name
 };
 
 }  // namespace rehearse::report
