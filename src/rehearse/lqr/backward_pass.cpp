@@ -8,6 +8,9 @@ namespace rehearse::lqr {
 namespace {
 
 constexpr double kNoVariance = 1e-300;
+constexpr int kMostRepetitions = 20000;
+constexpr double kSettled = 1e-9;  // of the cost to go, relative: a repetition changes no more
+constexpr double kLargestCost = 1e12;
 
 /// A quadratic by z = (y, u).
 struct Quadratic {
@@ -60,6 +63,21 @@ std::optional<BackwardStep> backward_step(const PlannedStep& step, const Value& 
   result.before.S = 0.5 * (S + S.transpose());
   if (!result.before.S.allFinite() || !result.before.s.allFinite()) return std::nullopt;
   return result;
+}
+
+std::optional<BackwardStep> repeated_step(const PlannedStep& step) {
+  const Index n = step.dynamics.by.rows();
+  Value after{Vector::Zero(n), Matrix::Zero(n, n)};
+  for (int i = 0; i < kMostRepetitions; ++i) {
+    auto before = backward_step(step, after, 0, 0);
+    if (!before) return std::nullopt;
+    const Matrix& S = before->before.S;
+    const double change = (S - after.S).cwiseAbs().maxCoeff(), size = S.cwiseAbs().maxCoeff();
+    if (!(size < kLargestCost)) return std::nullopt;
+    if (i > 0 && change <= kSettled * size) return before;
+    after.S = S;
+  }
+  return std::nullopt;
 }
 
 std::optional<BackwardPass> backward_pass(const std::vector<PlannedStep>& steps, const Value& end, double damping,

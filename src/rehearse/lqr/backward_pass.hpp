@@ -48,6 +48,10 @@ struct BackwardStep {
 std::optional<BackwardStep> backward_step(const PlannedStep& step, const Value& after, double damping,
                                           double uncertainty);
 
+/// The feedback and the cost to go of a step that is repeated for ever: the discrete Riccati equation, solved by its
+/// recursion. nullopt where it does not settle, since no feedback makes the system stable.
+std::optional<BackwardStep> repeated_step(const PlannedStep& step);
+
 /// All steps from the last to the first.
 std::optional<BackwardPass> backward_pass(const std::vector<PlannedStep>& steps, const Value& end, double damping,
                                           double uncertainty);

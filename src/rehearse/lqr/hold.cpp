@@ -13,9 +13,7 @@ constexpr int kMostNewtonSteps = 60;
 constexpr double kLargestNewtonStep = 0.3;  // of any number: cost and equation are followed, not jumped over
 constexpr double kStays = 1e-7;             // the largest change of a state that stays
 constexpr double kMostAction = 0.95;        // of its bound: something must be left for the feedback
-constexpr int kMostRiccatiSteps = 20000;
-constexpr double kUnseen = 1e-6;   // of the largest gain: less of it than this is none
-constexpr double kSettled = 1e-9;  // of the cost to go, relative: a step of the recursion changes no more
+constexpr double kUnseen = 1e-6;            // of the largest gain: less of it than this is none
 
 /// A step from a state under an action, about them.
 struct StepThere {
@@ -103,20 +101,11 @@ std::optional<Hold> find_hold(const Problem& problem, const StepCosts& costs, co
   step.action.setZero();
   step.cost.gradient.setZero();  // it is the cheapest point that stays
   // Feedback far within the bounds: they are as if they were not there.
-  const Index n = costs.columns().planner_state();
-  Value value{Vector::Zero(n), Matrix::Zero(n, n)};
-  for (int i = 0; i < kMostRiccatiSteps; ++i) {
-    const auto before = backward_step(step, value, 0, 0);
-    if (!before) return std::nullopt;
-    const double change = (before->before.S - value.S).cwiseAbs().maxCoeff(), size = value.S.cwiseAbs().maxCoeff();
-    value.S = before->before.S;
-    if (!(size < 1e12)) return std::nullopt;
-    if (i == 0 || change > kSettled * size) continue;
-    Matrix gain = costs.half_ranges().asDiagonal() * before->feedback.gain.leftCols(costs.columns().dx);
-    if (!needs_only_what_is_seen(problem.task, gain)) return std::nullopt;
-    return Hold{{u, x, std::move(gain)}, value};
-  }
-  return std::nullopt;
+  const auto found = repeated_step(step);
+  if (!found) return std::nullopt;
+  Matrix gain = costs.half_ranges().asDiagonal() * found->feedback.gain.leftCols(costs.columns().dx);
+  if (!needs_only_what_is_seen(problem.task, gain)) return std::nullopt;
+  return Hold{{u, x, std::move(gain)}, found->before};
 }
 
 }  // namespace rehearse::lqr

@@ -1,19 +1,11 @@
 #include "rehearse/lqr/regulator.hpp"
 
-#include <cmath>
+#include <utility>
 
-#include <Eigen/Cholesky>
-
+#include "rehearse/lqr/backward_pass.hpp"
 #include "rehearse/lqr/step_costs.hpp"
 
 namespace rehearse::lqr {
-namespace {
-
-constexpr int kMostSteps = 20000;
-constexpr double kUnchanged = 1e-9;  // of S, relative: a step of the recursion changes no more
-constexpr double kLargestCost = 1e12;
-
-}  // namespace
 
 LinearSystem linear_system(const Problem& problem, const Vector& state, const Vector& action) {
   const Index dx = state.size(), du = action.size();
@@ -26,22 +18,18 @@ LinearSystem linear_system(const Problem& problem, const Vector& state, const Ve
 
 std::optional<Regulator> regulate(const LinearSystem& system, const Vector& weights) {
   const auto& [A, B] = system;
-  const Index du = B.cols();
+  const Index dx = A.rows(), du = B.cols(), z = dx + du;
   if (!A.allFinite() || !B.allFinite()) return std::nullopt;
-  Matrix S = weights.asDiagonal(), gain(du, A.cols());
-  for (int i = 0; i < kMostSteps; ++i) {
-    const Matrix SA = S * A, SB = S * B;
-    const Eigen::LLT<Matrix> curvature(Matrix::Identity(du, du) + B.transpose() * SB);
-    gain = -curvature.solve(B.transpose() * SA);
-    Matrix next = A.transpose() * SA + SA.transpose() * B * gain;
-    next.diagonal() += weights;
-    next = 0.5 * (next + next.transpose()).eval();
-    const double change = (next - S).cwiseAbs().maxCoeff(), size = next.cwiseAbs().maxCoeff();
-    S = next;
-    if (!(size < kLargestCost)) return std::nullopt;
-    if (change <= kUnchanged * size) return Regulator{gain, S};
-  }
-  return std::nullopt;
+  PlannedStep step;
+  step.dynamics = {.by = Matrix(dx, z), .variance = Vector::Zero(dx), .variance_by = Matrix::Zero(dx, z)};
+  step.dynamics.by << A, B;
+  step.cost.gradient = Vector::Zero(z);
+  step.cost.hessian = Matrix::Identity(z, z);
+  step.cost.hessian.diagonal().head(dx) = weights;
+  step.action = Vector::Zero(du);
+  auto found = repeated_step(step);
+  if (!found) return std::nullopt;
+  return Regulator{std::move(found->feedback.gain), std::move(found->before.S)};
 }
 
 }  // namespace rehearse::lqr

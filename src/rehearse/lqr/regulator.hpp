@@ -21,8 +21,7 @@ struct Regulator {
   Matrix S;     // dx × dx
 };
 
-/// Solves the discrete Riccati equation by its recursion. weights: dx, ≥ 0. nullopt: it does not settle, since no
-/// feedback makes the system stable. Any thread.
+/// The feedback of a system. weights: dx, ≥ 0. nullopt where no feedback makes it stable. Any thread.
 std::optional<Regulator> regulate(const LinearSystem& system, const Vector& weights);
 
 }  // namespace rehearse::lqr

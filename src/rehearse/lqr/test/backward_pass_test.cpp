@@ -1,5 +1,7 @@
 #include "rehearse/lqr/backward_pass.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace rehearse::lqr {
@@ -21,6 +23,19 @@ TEST(BackwardPass, IsRiccatisRecursion) {
   EXPECT_NEAR(one->feedback.gain(0, 0), -8.0 / 5, 1e-12);
   EXPECT_NEAR(one->before.S(0, 0), 16 - 64.0 / 5, 1e-12);
   EXPECT_EQ(one->feedback.open(0), 0);
+}
+
+TEST(BackwardPass, OfAStepForEverEndsWhereItsRecursionDoes) {
+  const auto found = repeated_step(step());
+  ASSERT_TRUE(found);
+  const auto again = backward_step(step(), found->before, 0, 0);
+  ASSERT_TRUE(again);
+  EXPECT_NEAR(again->before.S(0, 0), found->before.S(0, 0), 1e-8);
+  EXPECT_NEAR(again->feedback.gain(0, 0), found->feedback.gain(0, 0), 1e-8);
+  EXPECT_LT(std::abs(2 + found->feedback.gain(0, 0)), 1) << "stable, which the step is not";
+  PlannedStep idle = step();
+  idle.dynamics.by = Matrix{{2, 0}};
+  EXPECT_FALSE(repeated_step(idle)) << "no action moves it";
 }
 
 TEST(BackwardPass, FollowsTheSlope) {
