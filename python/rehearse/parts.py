@@ -108,8 +108,9 @@ class Model:
     change: function(states, actions, **parameters) → the changes of the states, n × dx. It is called with thousands of
     rows, by any thread; a call may begin before another ends. A row depends on that row alone; one that cannot be
     simulated is NaN. rates: instead, a formula for the derivative of each state by time. parameters: the function's, or
-    the formulas', at the values to start from. tune: of a prior, those that are learned, between bounds (low, high), or among a list of values. delay_s,
-    lag_s: of a plant, by action, where they are others than `Action` says.
+    the formulas', at the values to start from. units: of parameters, for tables and figures. tune: of a prior, those
+    that are learned, between bounds (low, high), or among a list of values. delay_s, lag_s: of a plant, by action, where
+    they are others than `Action` says.
     """
 
     change: Union[Callable[..., Any], None] = None
@@ -119,3 +120,4 @@ class Model:
     define: Mapping[str, str] = field(default_factory=dict)
     delay_s: Mapping[str, float] = field(default_factory=dict)
     lag_s: Mapping[str, float] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)

@@ -189,8 +189,7 @@ class Robot:
         if model.change is not None:
             how = {"function": name}
             self._functions.append(("add_dynamics", name, model.change, list(model.parameters)))
-        parameters = {key: number(f"{name}: {key}", of) for key, of in mapping(f"{name}: parameters", model.parameters).items()}
-        return table(f"[dynamics.{value(name)}]", {**how, "parameters": parameters})
+        return table(f"[dynamics.{value(name)}]", {**how, "parameters": _parameters(name, model)})
 
     def _plant(self, plant: Any, observe: Any, task: Task, taken: Sequence[str],
                noise: Union[float, Mapping[str, float]]) -> list[str]:
@@ -226,6 +225,15 @@ def _of_whole_steps(keep: Callable[..., Any]) -> Callable[..., Any]:
 
 def _of_three(keep: Callable[..., Any], states: Array, actions: Array, next_states: Array, *_: Any) -> Any:
     return keep(states, actions, next_states)
+
+
+def _parameters(name: str, model: Model) -> dict[str, Any]:
+    units = mapping(f"{name}: units", model.units)
+    given = {key: number(f"{name}: {key}", of) for key, of in mapping(f"{name}: parameters", model.parameters).items()}
+    for key in units:
+        if key not in given:
+            raise _core.InvalidInput(f"{name}: units of {key}, which is no parameter (there are: {', '.join(given)})")
+    return {key: {"value": of, "unit": str(units[key])} if key in units else of for key, of in given.items()}
 
 
 def _tune(name: str, given: Any) -> Any:

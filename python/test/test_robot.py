@@ -245,6 +245,14 @@ def test_check_counts_episodes_that_end_early():
     assert str(found).startswith("6 steps under random actions, 3 of 3 episodes ended early")
 
 
+def test_parameters_may_have_units():
+    light = rehearse.Model(change, parameters={"mass": 1.0, "friction": 0.3}, tune={"mass": (0.2, 5)}, units={"mass": "kg"})
+    robot = cart(priors={"light": light})
+    assert '"mass" = { "value" = 1.0, "unit" = "kg" }, "friction" = 0.3 }' in robot.text
+    with pytest.raises(rehearse.InvalidInput, match=r"light: units of mas, which is no parameter \(there are: mass, friction\)"):
+        cart(priors={"light": rehearse.Model(change, parameters={"mass": 1.0, "friction": 0.3}, units={"mas": "kg"})})
+
+
 def test_two_numbers_in_a_list_are_choices():
     with pytest.warns(UserWarning, match=r"light: tune of mass = \[0.2, 5\]: a list is two choices; bounds are a tuple"):
         with pytest.raises(rehearse.InvalidInput, match="must be one of 0.2, 5"):
