@@ -74,6 +74,8 @@ std::vector<std::string> reached_options(const experiment::Spec& complete, const
   std::vector<std::string> reached;
   for (const auto& [name, text] : complete.options)
     if (is_reached(name)) reached.push_back(name);
+  for (const std::string& name : experiment::options_of_runs())
+    if (name == key) reached.push_back(name);
   return reached;
 }
 

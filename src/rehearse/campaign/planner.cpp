@@ -8,7 +8,6 @@
 
 #include "rehearse/campaign/claim_plan.hpp"
 #include "rehearse/campaign/draws.hpp"
-#include "rehearse/campaign/folder_name.hpp"
 #include "rehearse/campaign/overlaps.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
@@ -22,6 +21,7 @@ namespace rehearse::campaign {
 namespace {
 
 constexpr std::size_t kMostRuns = 100000;
+constexpr std::size_t kLongestFolderName = 240;  // bytes; file systems take 255
 
 using FileOptions = std::vector<experiment::FileOption>;
 
@@ -98,8 +98,11 @@ class Planner {
     for (const auto& [key, text] : complete->options)
       known_options_.push_back(key.starts_with("prior.") ? key : key.substr(key.find('.') + 1));
     for (const auto& [at, message] : overlaps(*complete, file_)) violations_.add(at, message);
+    for (const std::string& name : experiment::options_of_runs()) known_options_.push_back(name);
     const FileOptions options = common_options(*complete);
-    for (const Varied& varied : all_variants(*complete)) {
+    const std::vector<Varied> variants = all_variants(*complete);
+    if (plan_.runs.size() + variants.size() * file_.seeds.size() > kMostRuns) return too_many();
+    for (const Varied& varied : variants) {
       auto begun = begun_with(file_.preset, bare, line("preset"));
       if (begun) begun = begun_with(varied.preset, *begun, varied.line);
       if (begun) add_group(*begun, options, draws_of(*complete), varied);
@@ -208,7 +211,6 @@ class Planner {
                  const Varied& varied) {
     options.insert(options.end(), varied.options.begin(), varied.options.end());
     auto complete = resolved(bare, options);
-    if (plan_.runs.size() + file_.seeds.size() > kMostRuns) return too_many();
     if (!complete) return;
     plan_.groups.push_back({bare.learner, complete->prior, varied.name, {}});
     if (!varied.preset.empty()) plan_.groups.back().options.emplace_back("preset", varied.preset);
@@ -219,7 +221,7 @@ class Planner {
       if (!complete) return;
       experiment::Spec spec = *complete;
       spec.seed = seed;
-      std::string name = folder_name(spec, varied.name);
+      std::string name = experiment::run_name(spec, varied.name);
       if (!check_name(name)) return;
       plan_.runs.push_back({std::move(name), plan_.groups.size() - 1, std::move(spec)});
     }

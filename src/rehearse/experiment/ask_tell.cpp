@@ -24,15 +24,18 @@ class Reopened {
         participants_(resolve(catalogue_, folder_.spec()), options),
         run_(participants_, folder_, folder_.load()) {}
 
-  /// The value of use(run); the policy's files are those of the trial that is asked for when it ends.
+  /// The value of `step`, whose failures say what can be done about them.
+  template <class Step>
+  auto attempt(Step step) -> decltype(step()) {
+    return with_causes(catalogue_, resolved().spec, step);
+  }
+
+  /// Calls use(run); the policy's files are those of the trial that is asked for when it ends.
   template <class Use>
   void go_on(bool something_to_come, Use use) {
-    with_causes(catalogue_, resolved().spec, [&] {
-      run_.begin(something_to_come);
-      use(run_);
-      update_next_files(folder_, resolved(), run_.history());
-      return 0;
-    });
+    run_.begin(something_to_come);
+    use(run_);
+    update_next_files(folder_, resolved(), run_.history());
   }
 
   const Resolved& resolved() const { return participants_.resolved(); }
@@ -156,7 +159,7 @@ TellResult tell_trial(Reopened& reopened, const std::vector<ToldFile>& files, co
 
 AskResult ask_run(const Catalogue& catalogue, const fs::path& path, const RunOptions& options) {
   Reopened reopened(catalogue, path, options);
-  reopened.go_on(true, [](OpenRun& run) { run.propose(); });
+  reopened.attempt([&] { reopened.go_on(true, [](OpenRun& run) { run.propose(); }); });
   return {reopened.resolved(), *reopened.run().history().asked, path / kNextFolder};
 }
 
@@ -179,27 +182,32 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Tell
       refuse_what_goes_on(history.trials[known], history.episodes[known], file, resolved.scenario.task);
     }
   }
-  if (news.empty()) {
+  if (!news.empty()) check(history, news, request);
+  return reopened.attempt([&] {
+    if (!news.empty())
+      return are_logs(history, request) ? tell_logs(reopened, news) : tell_trial(reopened, news, request.stopped);
     reopened.go_on(false, [](OpenRun&) {});  // the tables, where a kill came before them
     reopened.extend_to_done();
     return already_told(resolved, history, files);
-  }
-  check(history, news, request);
-  return are_logs(history, request) ? tell_logs(reopened, news) : tell_trial(reopened, news, request.stopped);
+  });
 }
 
 TakeBackResult take_back(const Catalogue& catalogue, const fs::path& path, const RunOptions& options) {
   TakeBackResult taken;
   {
     Reopened told(catalogue, path, options);
-    const KeptTell tell = last_tell(told.folder());
-    taken = {tell.trial(), set_aside(told.folder(), tell)};
-    told.run().update_learners_tables(false);
-    restore(told.folder(), tell);
+    told.attempt([&] {
+      const KeptTell tell = last_tell(told.folder());
+      taken = {tell.trial(), set_aside(told.folder(), tell)};
+      told.run().update_learners_tables(false);
+      restore(told.folder(), tell);
+    });
   }
   Reopened before(catalogue, path, options);
-  before.go_on(false, [](OpenRun& run) { run.update_learners_tables(true); });
-  forget_tell(before.folder());
+  before.attempt([&] {
+    before.go_on(false, [](OpenRun& run) { run.update_learners_tables(true); });
+    forget_tell(before.folder());
+  });
   return taken;
 }
 

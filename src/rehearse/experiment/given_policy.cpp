@@ -61,6 +61,9 @@ GivenPolicy given_policy(const std::string& text, const std::string& source, con
   const json file = json::parse(text);
   if (file.at("format") != 1) throw InvalidInput(fmt::format("{}: another version of Rehearse wrote it", source));
   TrialRecord record{.trial = file.at("trial"), .policy = file.at("policy")};
+  constexpr Index kLastTrial = 4294967295;  // of random streams
+  if (record.trial < 1 || record.trial > kLastTrial)
+    throw InvalidInput(fmt::format("{}: trial = {}, must be 1 to {}", source, record.trial, kLastTrial));
   record.theta = to_vector(file.at("theta"));
   const Task& task = scenario.task;
   const auto wrong = [&](const std::string& why) {

@@ -118,7 +118,10 @@ KeptTell last_tell(const RunFolder& run) {
   const History now = run.load();
   const std::size_t logs = tell.before.logs.size() + (tell.trial() ? 0 : tell.files.size());
   const Index trials = tell.before.done() + (tell.trial() ? 1 : 0);
-  if (!is_untold(tell.before, now) && (now.done() != trials || now.logs.size() != logs))
+  const bool untold = is_untold(tell.before, now);  // a kill came before its trial was recorded
+  const bool as_told =
+      now.done() == trials && now.logs.size() == logs && (!tell.trial() || !now.trials.back().file_checksum.empty());
+  if (!untold && !as_told)
     throw InvalidInput(
         fmt::format("trial {}, the last, cannot be taken back: Rehearse drove the robot, no file told it", now.done()));
   return tell;

@@ -112,8 +112,10 @@ RunResult start_run(const Catalogue& catalogue, const Spec& spec, const std::fil
   const Resolved& resolved = participants.resolved();
   if (spec.trials > 0) require_plant(resolved);
   require_ready(resolved);
-  const RunFolder folder = RunFolder::create(path, resolved.spec, resolved.comments, resolved.robot);
-  return with_causes(catalogue, resolved.spec, [&] { return Run(participants, folder, {}).finish(); });
+  return with_causes(catalogue, resolved.spec, [&] {
+    const RunFolder folder = RunFolder::create(path, resolved.spec, resolved.comments, resolved.robot);
+    return Run(participants, folder, {}).finish();
+  });
 }
 
 RunResult resume_run(const Catalogue& built_in, const std::filesystem::path& path, std::optional<Until> until,
@@ -132,10 +134,11 @@ RunResult resume_run(const Catalogue& built_in, const std::filesystem::path& pat
     require_plant(participants.resolved());
     require_ready_again(participants.resolved());
   }
-  folder.change_end({extended.trials, extended.until_solved}, participants.resolved().comments);
-  if (!is_over(extended, history)) folder.mark_unfinished();  // also where a change of its end was interrupted
-  return with_causes(catalogue, participants.resolved().spec,
-                     [&] { return Run(participants, folder, std::move(history)).finish(); });
+  return with_causes(catalogue, participants.resolved().spec, [&] {
+    folder.change_end({extended.trials, extended.until_solved}, participants.resolved().comments);
+    if (!is_over(extended, history)) folder.mark_unfinished();  // also where a change of its end was interrupted
+    return Run(participants, folder, std::move(history)).finish();
+  });
 }
 
 }  // namespace rehearse::experiment

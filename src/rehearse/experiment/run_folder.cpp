@@ -138,10 +138,12 @@ void RunFolder::write_tables(const History& history, const Resolved& resolved) c
 }
 
 void RunFolder::write_prediction(Index trial, const std::string& csv) const {
+  fs::create_directories(path_ / "predictions");  // archives and Git lose empty folders
   files::write_file(trial_file(path_ / "predictions", trial), csv);
 }
 
 void RunFolder::write_trajectory(Index trial, const std::string& csv) const {
+  fs::create_directories(path_ / "trajectories");
   files::write_file(trial_file(path_ / "trajectories", trial), csv);
 }
 

@@ -24,9 +24,17 @@ std::optional<Vector> start_of(const std::string& text) {
   return Vector::Map(numbers.data(), static_cast<Index>(numbers.size()));
 }
 
-std::string run_name(const Spec& spec) {
-  return folder_name_of(
-      fmt::format("{}-{}-{}-{}", spec.scenario, spec.learner, spec.prior.empty() ? "none" : spec.prior, spec.seed));
+std::vector<std::string> options_of_runs() {
+  Spec spec;
+  std::vector<std::string> names;
+  for (const auto& [name, text] : list_fields([&](FieldVisitor& v) { spec.settable_fields(v); })) names.push_back(name);
+  return names;
+}
+
+std::string run_name(const Spec& spec, const std::string& variant) {
+  std::string name = fmt::format("{}-{}-{}-", spec.scenario, spec.learner, spec.prior.empty() ? "none" : spec.prior);
+  if (!variant.empty()) name += variant + "-";
+  return folder_name_of(name + fmt::to_string(spec.seed));
 }
 
 Spec with_options(Spec spec, const std::vector<FileOption>& options) {

@@ -66,6 +66,9 @@ struct Spec {
   }
 };
 
+/// Names of what --set changes of a run itself, not of its learner, scenario or priors.
+std::vector<std::string> options_of_runs();
+
 /// Help lines of options, by the names that a complete spec has for them.
 using Comments = std::map<std::string, std::string>;
 
@@ -73,9 +76,9 @@ using Comments = std::map<std::string, std::string>;
 std::string start_text(const Vector& theta);
 std::optional<Vector> start_of(const std::string& text);
 
-/// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec; PRIOR is "none" for a learner that takes none. It names a folder
-/// on every file system.
-std::string run_name(const Spec& spec);
+/// "SCENARIO-LEARNER-PRIOR-SEED" of a complete spec, or "SCENARIO-LEARNER-PRIOR-VARIANT-SEED"; PRIOR is "none" for a
+/// learner that takes none. It names a folder on every file system.
+std::string run_name(const Spec& spec, const std::string& variant = "");
 
 /// An option as a file has it.
 struct FileOption {

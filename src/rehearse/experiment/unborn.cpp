@@ -44,11 +44,11 @@ bool has_a_beginning(const fs::path& folder) {
   return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), is_of_a_beginning);
 }
 
-/// Nobody makes it any more, on this machine (the process) or on another one (the lock). Throws where that is unclear.
+/// Of the run's own name alone: other machines may be making other runs here, and the number of a process says nothing
+/// of theirs. Throws where somebody holds its lock.
 void remove_if_abandoned(const fs::directory_entry& entry, const std::string& own_name) {
-  const auto name = name_of_unborn(entry.path().filename().string());
-  if (!name || !fs::is_directory(entry.symlink_status()) || is_alive(entry.path())) return;
-  if (!has_a_beginning(entry.path()) || (*name != own_name && fs::is_empty(entry.path()))) return;
+  if (name_of_unborn(entry.path().filename().string()) != own_name) return;
+  if (!fs::is_directory(entry.symlink_status()) || is_alive(entry.path()) || !has_a_beginning(entry.path())) return;
   const files::FolderLock lock(entry.path());
   fs::remove_all(entry.path());
 }

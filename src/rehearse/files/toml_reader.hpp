@@ -1,5 +1,5 @@
 #pragma once
-// Reading of TOML files that reports all errors at once, each with its line. For the sources of this room.
+// Reading of TOML files that reports all errors at once, each with its line.
 
 #include <set>
 #include <string>

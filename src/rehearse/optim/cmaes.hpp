@@ -36,7 +36,7 @@ struct CmaesOptions {
 class Cmaes {
  public:
   /// Starts at `mean` with step size `sigma`. `box`: one interval a coordinate; empty: unbounded. Generation g draws
-  /// from (key, g) alone; key.particle < 2³². Throws InvalidInput with every violation.
+  /// from (key, g) alone. Throws InvalidInput with every violation.
   Cmaes(const Vector& mean, double sigma, const std::vector<Interval>& box, const CmaesOptions& options,
         const StreamKey& key);
 

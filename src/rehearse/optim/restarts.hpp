@@ -62,7 +62,7 @@ struct SearchResult {
 };
 
 /// Searches the box, first from `start`, later from points uniform in it. Coordinates are scaled by the box's widths.
-/// Random numbers come from `key`, whose descent, candidate and particle are not used. Throws InvalidInput with every
+/// Random numbers come from `key`, whose descent, candidate and particle must be 0. Throws InvalidInput with every
 /// violation.
 SearchResult maximise(const BatchObjective& objective, const Vector& start, const std::vector<Interval>& box,
                       const SearchOptions& options, const StreamKey& key, const SearchListener& listener = {});

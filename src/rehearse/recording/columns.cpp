@@ -66,10 +66,10 @@ class Finder {
     const double scale = column < 0 ? 1 : scale_of(column, "time", "s");
     for (std::size_t row = 0; column >= 0 && row < table_.rows.size(); ++row) {
       const auto value = number(row, column, name, kLatest);
-      if (!value) problems_.add(in_file(row), "no time", "there is no time");
-      const double time_s = value.value_or(0) * scale;
-      if (row > 0) check_order(row, time_s);
-      times_.push_back(time_s);
+      if (is_empty(row, column)) problems_.add(in_file(row), "no time", "there is no time");
+      const double before = times_.empty() ? 0 : times_.back();
+      if (value && row > 0) check_order(row, *value * scale);
+      times_.push_back(value ? *value * scale : before);  // one that cannot be read is no further problem
     }
     return column < 0 || !titles_[static_cast<std::size_t>(column)].unit.empty() ? "" : name;
   }
@@ -154,9 +154,13 @@ class Finder {
     return scale.value_or(1);
   }
 
+  bool is_empty(std::size_t row, int column) const {
+    return trimmed(table_.rows[row][static_cast<std::size_t>(column)]).empty();
+  }
+
   std::optional<double> number(std::size_t row, int column, const std::string& name, double largest = kLargest) {
+    if (is_empty(row, column)) return std::nullopt;
     const std::string cell = trimmed(table_.rows[row][static_cast<std::size_t>(column)]);
-    if (cell.empty()) return std::nullopt;
     double value = 0;
     if (!from_text(cell, value) || !std::isfinite(value)) {
       problems_.add(in_file(row), "number in " + name,

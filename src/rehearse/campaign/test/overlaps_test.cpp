@@ -65,6 +65,8 @@ TEST(CampaignOverlaps, ReachedOptionsHaveTheirCompleteNames) {
   EXPECT_EQ(reached_options(one, "noise"), Lines{"scenario.noise"});
   EXPECT_EQ(reached_options(one, "prior.near.gain"), Lines{"prior.gain"});
   EXPECT_EQ(reached_options(one, "prior.far.gain"), Lines{});
+  EXPECT_EQ(reached_options(one, "told_by"), Lines{"told_by"}) << "of the run itself";
+  EXPECT_EQ(reached_options(one, "trials"), Lines{}) << "the campaign's";
   const experiment::Spec two = experiment::completed(experiment::fake::catalogue(),
                                                      {.scenario = "line", .learner = "echo", .prior = "near,far"});
   EXPECT_EQ(reached_options(two, "prior.gain"), (Lines{"prior.near.gain", "prior.far.gain"}));

@@ -49,6 +49,7 @@ TEST(GivenPolicy, SaysWhatIsWrong) {
     return text.replace(at, what.size(), by);
   };
   EXPECT_NE(said(changed("\"format\": 1", "\"format\": 2")).find("another version"), std::string::npos);
+  EXPECT_EQ(said(changed("\"trial\": 1", "\"trial\": -1")), "it.json: trial = -1, must be 1 to 4294967295");
   EXPECT_NE(said(changed("\"name\": \"x\"", "\"name\": \"y\"")).find("its states are others"), std::string::npos);
   EXPECT_NE(said(changed("\"theta\": [\n", "\"theta\": [\n 0.5,\n")).find("theta has 13 numbers"), std::string::npos);
   EXPECT_NE(said(changed("\"theta\": [\n  -1.0", "\"theta\": [\n  0.7")).find("another policy"), std::string::npos);

@@ -4,6 +4,8 @@
 
 #include "line_run.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/ask_tell.hpp"
+#include "wrapped.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -107,6 +109,27 @@ TEST_F(KeptTells, ARunThatWentOnWithoutBeingToldStaysAsItIs) {
   keep_tell(run, {file("a.csv", "A")});
   change(run, 2);
   EXPECT_THROW(last_tell(run), InvalidInput);
+}
+
+TEST_F(KeptTells, ATrialThatWasDrivenAfterATellThatAKillInterruptedStays) {
+  ask_run(fake::catalogue(), path, {});
+  {
+    const RunFolder run = RunFolder::open(path);
+    keep_tell(run, {file("a.csv", "A")});
+    EXPECT_EQ(last_tell(run).trial(), 1);
+  }
+  resume_run(fake::catalogue(), path, Until(1), {});
+  const RunFolder run = RunFolder::open(path);
+  EXPECT_NE(fake::message_of<InvalidInput>([&] { last_tell(run); }).find("Rehearse drove the robot"),
+            std::string::npos);
+}
+
+TEST_F(KeptTells, ADiskThatRefusesIsAFailureOfTheRun) {
+  ask_run(fake::catalogue(), path, {});
+  files::write_file(path / "told", "where the folder must be");
+  const fs::path driven = path.parent_path() / "driven";
+  start_run(fake::catalogue(), fake::line_spec(1), driven, {});
+  EXPECT_THROW(tell_run(fake::catalogue(), path, {{driven / "trajectories/trial-001.csv"}, {}}, {}), RunFailed);
 }
 
 }  // namespace

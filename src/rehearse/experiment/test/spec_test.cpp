@@ -19,6 +19,7 @@ TEST(Spec, EndsWithItsTrialsOrWithOneThatSolves) {
 TEST(Spec, NamesItsRun) {
   Spec spec{.scenario = "line", .learner = "echo", .prior = "near,far", .seed = 7};
   EXPECT_EQ(run_name(spec), "line-echo-near,far-7");
+  EXPECT_EQ(run_name(spec, "a/b c:ü"), "line-echo-near,far-a_b_c___-7");
   spec.prior.clear();
   EXPECT_EQ(run_name(spec), "line-echo-none-7");
   spec.prior = "../../p/q";

@@ -41,29 +41,27 @@ TEST(Unborn, HasAName) {
 TEST(Unborn, OnesOfDeadProcessesGo) {
   const fs::path folder = fake::test_folder();
   const pid_t dead = dead_process();
-  const fs::path same = begun(folder, "run", dead), another = begun(folder, "other", dead);
+  const fs::path same = begun(folder, "run", dead);
   const fs::path empty = folder / fmt::format(".run.{}", dead_process());
   fs::create_directory(empty);
   const fs::path unborn = make_unborn(folder / "run");
   EXPECT_TRUE(fs::is_directory(unborn / "predictions"));
-  for (const fs::path& gone : {same, another, empty}) EXPECT_FALSE(fs::exists(gone)) << gone;
+  for (const fs::path& gone : {same, empty}) EXPECT_FALSE(fs::exists(gone)) << gone;
 }
 
 TEST(Unborn, WhatMayBeSomebodysStays) {
   const fs::path folder = fake::test_folder();
-  const pid_t dead = dead_process();
-  const fs::path alive = begun(folder, "run", ::getppid()), theirs = begun(folder, "theirs", dead),
-                 trials = begun(folder, "trials", dead), locked = begun(folder, "locked", dead),
-                 empty = folder / fmt::format(".empty.{}", dead), target = folder / "target",
-                 link = folder / fmt::format(".link.{}", dead);
+  const fs::path alive = begun(folder, "run", ::getppid()), theirs = begun(folder, "run", dead_process()),
+                 trials = begun(folder, "run", dead_process()), locked = begun(folder, "run", dead_process()),
+                 of_another_machine = begun(folder, "other", dead_process()), target = folder / "target",
+                 link = folder / fmt::format(".run.{}", dead_process());
   std::ofstream(theirs / "letter") << "dear";
   std::ofstream(trials / "trajectories" / "trial-001.csv") << "time";
-  fs::create_directory(empty);
   fs::create_directories(target / "trajectories");
   fs::create_directory_symlink(target, link);
   const files::FolderLock lock(locked);
   make_unborn(folder / "run");
-  for (const fs::path& kept : {alive, theirs, trials, locked, empty, target / "trajectories", link})
+  for (const fs::path& kept : {alive, theirs, trials, locked, of_another_machine, target / "trajectories", link})
     EXPECT_TRUE(fs::exists(kept)) << kept;
 }
 

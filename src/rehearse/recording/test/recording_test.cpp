@@ -170,6 +170,7 @@ TEST(Recording, WrongFilesAreRefusedWithWhatIsWrong) {
       {cell(6, 4, "inf"), "log.csv: row 6: torque = 'inf', must be a finite number"},
       {cell(6, 4, "1e300"), "log.csv: row 6: torque = 1e+300, must be within ± 1000000000000"},
       {cell(6, 1, ""), "log.csv: row 6: there is no time"},
+      {cell(6, 1, "O.2"), "log.csv: row 6: time = 'O.2', must be a finite number"},
       {cell(6, 1, "0.15000000000000002"), "log.csv: row 6: time = 0.15000000000000002 s is that of the row before"},
       {cell(6, 1, "0.12"), "log.csv: row 6: time = 0.12 s, must be after the 0.15000000000000002 s of the row before"},
       {cell(42, 1, "9"),
