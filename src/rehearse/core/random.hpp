@@ -38,16 +38,16 @@ enum class Phase : std::uint8_t {
 
 /// The part of a trial that a stream belongs to. Values are part of the results: append, never renumber.
 enum class Stage : std::uint8_t {
-  episode = 0,       // on the plant
-  search = 1,        // of a policy, in the model's uncertainty
-  mean_search = 2,   // of a policy, in the mean predictions
-  judging = 3,       // comparison of policies of several searches, all in the same simulated episodes
-  solving = 4,       // how often policies solve the task, all in the same simulated episodes
-  mean_solving = 5,  // the same in the mean predictions
-  prediction = 6,    // what the model expects of the policy that is tried
-  evaluation = 7,    // extra episodes on the plant
-  safe_search = 8,   // of a policy, where the search before found none that keeps the limits
-  goal = 9,          // where feedback holds the robot, and from where
+  episode = 0,         // on the plant
+  search = 1,          // of a policy, in the model's uncertainty
+  solving_search = 2,  // of a policy that solves the task
+  judging = 3,         // comparison of policies of several searches, all in the same simulated episodes
+  solving = 4,         // how often policies solve the task, all in the same simulated episodes
+  mean_solving = 5,    // the same in the mean predictions
+  prediction = 6,      // what the model expects of the policy that is tried
+  evaluation = 7,      // extra episodes on the plant
+  safe_search = 8,     // of a policy, where the search before found none that keeps the limits
+  goal = 9,            // where feedback holds the robot, and from where
 };
 
 /// The name of a stream: a field for every thing that its numbers depend on. Streams whose keys differ in any field are

@@ -14,7 +14,7 @@ namespace {
 constexpr StreamKey kKey{.seed = 7,
                          .trial = 3,
                          .phase = Phase::prior,
-                         .stage = Stage::mean_search,
+                         .stage = Stage::solving_search,
                          .search = 5,
                          .purpose = Purpose::simulated_start,
                          .descent = 9,

@@ -1,6 +1,7 @@
 #include "rehearse/learners/black_drops/choice.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -10,7 +11,8 @@ namespace {
 constexpr double kNearlyAll = 0.05;     // fraction of the promised return that a safe policy may lack
 constexpr std::size_t kSafeStarts = 8;  // policies near which a safe one is looked for
 constexpr double kAgain = 0.001;        // fraction of the return by which searches that agree may differ
-constexpr double kOften = 0.5;          // that a task is solved so surely is enough for a trial
+constexpr double kOften = 0.5;          // that a task is solved so surely makes a trial worth while
+constexpr double kNearlyAlways = 0.9;   // and this ends the search: less was solved by few trials
 
 bool is_better(const SearchResult& found, const Choice& choice) {
   return better(found, {.predicted_return = choice.predicted_return, .excess = choice.excess});
@@ -26,11 +28,13 @@ std::optional<SearchResult> search_for_solving(TrialSearches& searches, SearchRe
     if (auto judged = searches.best_that_solves(found))
       if (judged->excess <= choice.excess && (!solving || judged->solving > solving->solving))
         solving = std::move(judged);
-    if (solving && solving->solving >= kOften &&
+    if (solving && solving->solving >= kNearlyAlways &&
         within(limits.tolerance, choice.predicted_return, solving->predicted_return))
       break;
     if (i > limits.searches) break;
-    found = again(i);
+    std::vector<Vector> best = {choice.theta};
+    if (solving) best.insert(best.begin(), solving->theta);
+    found = again(i, best);
     if (is_better(found, choice)) choice.take(found);
   }
   if (solving && solving->excess > choice.excess) solving.reset();  // a later search found a safer one
@@ -67,11 +71,8 @@ void prefer_solving_where_uncertain(TrialSearches& searches, const SearchResult&
                                     Choice& choice) {
   const double tolerance = retry.uncertain_tolerance;
   if (tolerance == 0) return;
-  const auto again = [&](Index i) {
-    SearchResult more = searches.search_means({choice.theta}, i);
-    SearchResult judged = searches.judge(more.theta);
-    judged.runners_up = std::move(more.runners_up);
-    return judged;
+  const auto again = [&](Index i, const std::vector<Vector>& best) {
+    return searches.search_solving(best, std::abs(choice.predicted_return), i);
   };
   Retry limits = retry;
   limits.tolerance = tolerance;

@@ -24,8 +24,9 @@ struct Choice {
 /// True if the choice solves the task in simulated episodes often enough for a trial.
 bool often_solves(const Choice& choice);
 
-/// Runs the i-th further search, i = 1, 2, …
-using SearchAgain = std::function<SearchResult(Index i)>;
+/// Runs the i-th further search, i = 1, 2, … best: the policy that solves the task most often so far, if one does, and
+/// that of the highest return.
+using SearchAgain = std::function<SearchResult(Index i, const std::vector<Vector>& best)>;
 
 /// Searches for policies that keep the task's limits, where the choice keeps them too rarely or less safe policies
 /// promise more: `safety.searches` times at most, near the best of all that `found` has. `found` becomes what the
@@ -51,7 +52,8 @@ void prefer_new(TrialSearches& searches, const std::vector<Vector>& tried, const
                 const Retry& retry, Choice& choice);
 
 /// Gives up a little of the return (`retry.uncertain_tolerance`), where the model is uncertain, for the policy that
-/// most often solves the task. Where none does so often (about half of the episodes), searches go on in the means.
+/// most often solves the task. Where none does so nearly always, searches go on in which an episode that solves the
+/// task is worth as much again.
 void prefer_solving_where_uncertain(TrialSearches& searches, const SearchResult& found, const Retry& retry,
                                     Choice& choice);
 

@@ -18,7 +18,9 @@ Choice search_prior(TrialSearches& searches, const Known& known, const Options& 
   }
   Choice choice = choice_of(found);
   prefer_safe(searches, options.search.safety, found, choice);
-  const auto again = [&](Index i) { return searches.search({choice.theta}, options.prior_searches - 1 + i); };
+  const auto again = [&](Index i, const std::vector<Vector>& best) {
+    return searches.search({best.back()}, options.prior_searches - 1 + i);
+  };
   prefer_solving_where_sure(searches, found, again, options.retry, choice);
   return choice;
 }
@@ -50,8 +52,8 @@ void prefer_lasting(TrialSearches& searches, TrialSearches& longer, const Search
     if (static_cast<Index>(2 * starts.size()) < options.search.race.descents) starts.push_back(other);
   const SearchResult further = longer.search(starts, 0);
   Choice lasting = choice_of(further);
-  const auto again = [&](Index i) {
-    starts.front() = lasting.theta;
+  const auto again = [&](Index i, const std::vector<Vector>& best) {
+    starts.front() = best.back();
     return longer.search(starts, i);
   };
   prefer_solving_where_sure(longer, further, again, options.retry, lasting);

@@ -18,6 +18,15 @@ SearchOptions in_means(SearchOptions options) {
   return options;
 }
 
+/// The task with a bonus for every episode that solves it.
+Task with_bonus(Task task, double bonus) {
+  task.episode_reward = [of_task = std::move(task.episode_reward), solved = task.solved,
+                         bonus](const Episode& episode) {
+    return (of_task ? of_task(episode) : 0) + (solved(episode) ? bonus : 0);
+  };
+  return task;
+}
+
 /// Twice the rollouts of another search, for descents that begin at the starts alone.
 SearchOptions for_safety(SearchOptions options, std::size_t starts) {
   constexpr Index kRollouts = 8, kFewer = 4;
@@ -42,8 +51,17 @@ SearchResult TrialSearches::search(const std::vector<Vector>& starts, Index i) {
   return counted(search_policy(problem_, starts, options_, key(Stage::search, i)));
 }
 
-SearchResult TrialSearches::search_means(const std::vector<Vector>& starts, Index i) {
-  return counted(search_policy(problem_, starts, in_means(options_), key(Stage::mean_search, i)));
+SearchResult TrialSearches::search_solving(const std::vector<Vector>& starts, double bonus, Index i) {
+  const Task task = with_bonus(problem_.task, bonus);
+  SearchOptions options = options_;
+  if (needs_derivatives(options.method)) options.method = Method::race;  // a bonus has none
+  SearchResult found =
+      counted(search_policy(with_task(problem_, task), starts, options, key(Stage::solving_search, i)));
+  SearchResult judged = judge(found.theta);
+  judged.runners_up = std::move(found.runners_up);
+  judged.rollouts += found.rollouts;
+  judged.failed_rollouts += found.failed_rollouts;
+  return judged;
 }
 
 SearchResult TrialSearches::search_safe(const std::vector<Vector>& starts, Index i) {

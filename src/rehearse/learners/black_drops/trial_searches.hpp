@@ -17,8 +17,9 @@ class TrialSearches {
   /// The i-th search that simulates the model's uncertainty. Its first descents begin at `starts`.
   SearchResult search(const std::vector<Vector>& starts, Index i);
 
-  /// The i-th search that follows the mean predictions.
-  SearchResult search_means(const std::vector<Vector>& starts, Index i);
+  /// The i-th search for policies that solve the task: an episode that does earns `bonus` more. The result's predicted
+  /// return is without it. Of a task that can tell.
+  SearchResult search_solving(const std::vector<Vector>& starts, double bonus, Index i);
 
   /// The i-th search near some policies for one that keeps the task's limits: each descent begins at one of them, and
   /// several rollouts are one evaluation, which tells how often a limit is broken.

@@ -58,7 +58,7 @@ TEST(SearchPolicy, OfAnotherStageOrNumberDrawsItsOwnNumbersInAnyOrder) {
   const Task task = slider::task();
   const SearchProblem problem{model, *policy, task, serial_evaluator(), {}};
   const std::vector<StreamKey> keys = {
-      {.stage = Stage::search}, {.stage = Stage::search, .search = 1}, {.stage = Stage::mean_search}};
+      {.stage = Stage::search}, {.stage = Stage::search, .search = 1}, {.stage = Stage::solving_search}};
   const auto search = [&](const StreamKey& key) { return search_policy(problem, {}, small(), key).theta; };
   std::vector<Vector> forwards, backwards;
   for (const StreamKey& key : keys) forwards.push_back(search(key));

@@ -27,19 +27,31 @@ struct TrialSearchesTest : ::testing::Test {
 };
 
 TEST_F(TrialSearchesTest, EachHasItsOwnNumbersWhateverCameBefore) {
+  task.solved = [](const Episode&) { return true; };
   TrialSearches one = searches(), other = searches();
   const SearchResult first = one.search({}, 0), second = one.search({}, 1);
   EXPECT_NE(first.theta, second.theta);
   EXPECT_EQ(other.search({}, 1).theta, second.theta);
   EXPECT_EQ(one.judge(first.theta).predicted_return, other.judge(first.theta).predicted_return);
-  EXPECT_EQ(one.search_means({}, 0).theta, other.search_means({}, 0).theta);
+  EXPECT_EQ(one.search_solving({}, 1, 0).theta, other.search_solving({}, 1, 0).theta);
+}
+
+TEST_F(TrialSearchesTest, PoliciesThatSolveTheTaskAreSearchedFor) {
+  task.solved = [](const Episode& e) { return e.true_states(e.steps(), 0) > 1; };
+  TrialSearches trial = searches();
+  const SearchResult highest = trial.search({}, 0), solving = trial.search_solving({}, 20, 0);
+  const Vector often = trial.compare_solving({highest.theta, solving.theta});
+  EXPECT_LT(often(0), 0.1) << "the highest return is that of a slider at 0";
+  EXPECT_GT(often(1), 0.9);
+  EXPECT_LT(solving.predicted_return, highest.predicted_return) << "without the bonus";
 }
 
 TEST_F(TrialSearchesTest, AllRolloutsAreCounted) {
+  task.solved = [](const Episode&) { return true; };
   TrialSearches trial = searches();
   Index rollouts = trial.search({}, 0).rollouts;
   EXPECT_EQ(trial.rollouts(), rollouts);
-  rollouts += trial.search_means({}, 0).rollouts;
+  rollouts += trial.search_solving({}, 1, 0).rollouts;
   rollouts += trial.judge(Vector{{-5, 0}}).rollouts;
   EXPECT_EQ(trial.rollouts(), rollouts);
   EXPECT_EQ(trial.failed_rollouts(), 0);
