@@ -232,7 +232,7 @@ void evaluate_robustness(const Work& work) {
 
 int evaluate(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments) try {
   const Work work = prepared(catalogue, arguments);
-  if (work.resolved.scenario.require_ready) work.resolved.scenario.require_ready();
+  if (work.resolved.scenario.require_ready) work.resolved.scenario.require_ready(scenario::PlantUse::driven);
   announce(work, arguments);
   const SignalWatch watch([] { return std::string("interrupted; nothing is written"); });
   (arguments.robustness ? evaluate_robustness : evaluate_episodes)(work);

@@ -199,7 +199,8 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
         "--out: there is no [plant] whose motion it could show; in a copy, name the dynamics of a prior there");
   const scenario::Details details = builder->details();
   print_task(scenario, builder->summary(), details);
-  if (scenario.require_ready) scenario.require_ready();
+  if (scenario.require_ready)
+    scenario.require_ready(driven ? scenario::PlantUse::driven : scenario::PlantUse::left_alone);
   const robot_file::Tried tried = tried_out(scenario);
   if (arguments.no_plant)
     put("plant\n  left alone\n");

@@ -22,7 +22,8 @@ Found check(const Robot& robot, const std::string& name, bool plant) {
     const experiment::Catalogue catalogue = own.catalogue();
     scenario::Scenario scenario = catalogue.scenario_or_throw(name)->build();
     if (!plant) scenario.make_plant = nullptr;
-    if (scenario.require_ready) scenario.require_ready();
+    if (scenario.require_ready)
+      scenario.require_ready(plant ? scenario::PlantUse::driven : scenario::PlantUse::left_alone);
     own.try_out(scenario);
     std::vector<std::string> states;
     for (Index i = 0; i < scenario.task.actuators().own_states(); ++i)

@@ -183,7 +183,7 @@ py::dict evaluate(const Robot& robot, const std::string& folder, const Evaluatio
     const experiment::Learned learned = policy_of(wanted, run);
     const experiment::Resolved resolved =
         experiment::read_run(catalogue, folder, run.as_identified(wanted.options)).resolved;
-    if (resolved.scenario.require_ready) resolved.scenario.require_ready();
+    if (resolved.scenario.require_ready) resolved.scenario.require_ready(scenario::PlantUse::driven);
     outcomes = experiment::evaluate(resolved, learned, wanted.plan, *make_stoppable(options.evaluator, options.stop));
   });
   std::vector<double> returns;

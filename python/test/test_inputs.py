@@ -38,6 +38,8 @@ rate = { velocity = "force", position = "velocity" }
     ({"horizon": 50.5}, "horizon = 50.5, must be a whole number"),
     ({"states": [rehearse.State("velocity"), rehearse.State("velocity")]}, "line 8, `name = \"velocity\"`: the name 'velocity' is given twice"),
     ({"priors": {"slow motor": rehearse.Model(change, parameters={"mass": 1.0})}}, "'slow motor' must be of letters"),
+    ({"priors": {"light": rehearse.Model(change, parameters={"mass.cart": 1.0})}},
+     "parameters.*: the name of parameter 'mass.cart' must be of letters"),
     ({"success": rehearse.Success("positon > 1")}, "unknown name 'positon', did you mean 'position'"),
 ])
 def test_a_robot_is_refused_where_it_is_made(changes, message):

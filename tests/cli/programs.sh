@@ -108,6 +108,12 @@ wait $process
 [ $? = 130 ] || fail "a check that is stopped: $(cat output)"
 [ "$(tail -n 1 log)" = end ] || fail "a driver whose check is stopped is told $(tail -n 1 log)"
 
+# A driver whose robot is left alone is not even started.
+rm log
+"$program" check slow.toml --no-plant >output 2>&1 || fail "check without the plant: $(cat output)"
+"$program" learn slow.toml --learner gp-mi --trials 0 --out alone >output 2>&1 || fail "a run to be told: $(cat output)"
+[ -e log ] && fail "a driver is started whose robot is left alone: $(cat log)"
+
 # refused PATTERN SED : exit 2 before there is a folder
 refused() {
   sed "$2" tired.toml >wrong.toml

@@ -28,7 +28,9 @@ void require_plant(const Resolved& resolved) {
 
 /// Throws InvalidInput, for instance where a program cannot be started.
 void require_ready(const Resolved& resolved) {
-  if (resolved.scenario.require_ready) resolved.scenario.require_ready();
+  const bool driven = resolved.spec.trials > 0;
+  if (resolved.scenario.require_ready)
+    resolved.scenario.require_ready(driven ? scenario::PlantUse::driven : scenario::PlantUse::left_alone);
 }
 
 /// The same for a run that has begun, as RunFailed: the robot may be ready later, and the run is as good as before.

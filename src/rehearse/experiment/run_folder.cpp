@@ -42,10 +42,12 @@ RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comme
   static std::mutex beginning;  // the unborn folder has the name of the process, which another thread would share
   const std::lock_guard one_at_a_time(beginning);
   if (fs::exists(fs::symlink_status(path))) throw InvalidInput(already_exists(path));
+  const std::string text = to_toml(spec, comments);
+  require_readable(spec, text);  // not after hours of trials
   const fs::path unborn = make_unborn(path);
   try {
     files::FolderLock lock(unborn);
-    files::write_file(unborn / kSpec, to_toml(spec, comments), files::Durability::power);
+    files::write_file(unborn / kSpec, text, files::Durability::power);
     if (robot) keep_robot(*robot, unborn);
     files::write_file(unborn / kCheckpoint, to_checkpoint({}, fingerprint(spec)), files::Durability::power);
     if (!files::rename_new(unborn, path)) throw InvalidInput(already_exists(path));

@@ -18,7 +18,7 @@ inline constexpr const char* kNextFolder = "next";  // of the policy that was as
 class RunFolder {
  public:
   /// A new folder with a complete spec and no trial. It appears in one step, or not at all.
-  /// Throws InvalidInput if there is anything of that name.
+  /// Throws InvalidInput if there is anything of that name, or if the spec would not be read back as it is.
   /// robot: the file that describes the robot, if there is one; it is kept, with the files that it names.
   static RunFolder create(const std::filesystem::path& path, const Spec& spec, const Comments& comments = {},
                           const std::optional<RobotFile>& robot = {});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,11 @@ std::string value(const std::string& text) {
   return in_quotes(text);
 }
 
+/// True if TOML would take the shorter of two dotted keys for a value and for a table.
+bool excludes(const std::string& name, const std::string& other) {
+  return name.starts_with(other + '.') || other.starts_with(name + '.');
+}
+
 std::string dotted_key(const std::string& name) {
   const auto bare = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; };
   std::string key;
@@ -63,10 +69,15 @@ std::string option_line(const std::string& option, const std::string& name, cons
 }
 
 std::string section(const Spec& spec, std::string_view name, const Comments& comments) {
+  const std::string prefix = fmt::format("{}.", name);
   std::string lines;
-  for (const auto& [key, text] : spec.options)
-    if (key.starts_with(fmt::format("{}.", name)))
-      lines += option_line(dotted_key(key.substr(name.size() + 1)) + " = " + value(text), key, comments);
+  for (const auto& [key, text] : spec.options) {
+    if (!key.starts_with(prefix)) continue;
+    const bool whole = std::ranges::any_of(
+        spec.options, [&](const auto& other) { return other.first.starts_with(prefix) && excludes(key, other.first); });
+    const std::string own = key.substr(prefix.size());
+    lines += option_line((whole ? in_quotes(own) : dotted_key(own)) + " = " + value(text), key, comments);
+  }
   return lines.empty() ? lines : fmt::format("\n[{}]\n{}", name, lines);
 }
 
@@ -161,6 +172,26 @@ Index SpecFile::line_of_names(const std::string& violation) const {
 }
 
 Spec from_toml(std::string_view text, const std::string& source_name) { return SpecFile(text, source_name).spec(); }
+
+void require_readable(const Spec& spec, const std::string& text) {
+  constexpr const char* kUnreadable = "a run of this spec could not be opened again: its spec.toml would ";
+  std::optional<Spec> back;
+  try {
+    back = from_toml(text, "");
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(fmt::format("{}not be read: {}", kUnreadable, error.what()));
+  }
+  Violations violations;
+  const auto name_missing = [&](const Spec& of, const Spec& other, const char* how) {
+    for (const auto& option : of.options)
+      if (std::ranges::find(other.options, option) == other.options.end())
+        violations.add(fmt::format("{}{} {} = {}", kUnreadable, how, option.first, option.second));
+  };
+  name_missing(spec, *back, "lack");
+  name_missing(*back, spec, "have");
+  violations.require(to_toml(*back) == to_toml(spec), fmt::format("{}be that of another one", kUnreadable));
+  violations.throw_if_any();
+}
 
 std::uint64_t fingerprint(const Spec& spec) { return files::checksum(to_toml(spec.without_end())); }
 

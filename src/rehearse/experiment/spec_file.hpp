@@ -39,6 +39,9 @@ class SpecFile {
 /// The spec alone; throws as SpecFile does.
 Spec from_toml(std::string_view text, const std::string& source_name);
 
+/// Throws InvalidInput, with the options that would differ, if the text of a spec.toml does not give the spec back.
+void require_readable(const Spec& spec, const std::string& text);
+
 /// A checksum of everything in the spec but its end, which may change during a run.
 std::uint64_t fingerprint(const Spec& spec);
 

@@ -168,13 +168,28 @@ std::function<std::vector<std::string>()> DynamicsMaker::faults() const {
   };
 }
 
-std::function<void()> DynamicsMaker::require_ready() const {
-  std::vector<system::Program> programs;
-  for (const Dynamics& dynamics : robot_.dynamics)
-    if (std::holds_alternative<ProgramSource>(dynamics.source)) programs.push_back(program(dynamics));
-  if (programs.empty()) return nullptr;
-  return [programs, folder = folder_] {
-    for (const system::Program& program : programs) require_with_files(program);
+bool DynamicsMaker::is_of_a_prior(const Dynamics& dynamics) const {
+  return std::ranges::find(robot_.priors, dynamics.name, &Variant::dynamics) != robot_.priors.end();
+}
+
+bool DynamicsMaker::is_of_the_plant(const Dynamics& dynamics) const {
+  return robot_.has_plant && robot_.plant_function.empty() && robot_.plant.dynamics == dynamics.name;
+}
+
+std::function<void(scenario::PlantUse)> DynamicsMaker::require_ready() const {
+  std::vector<system::Program> always, driven;
+  for (const Dynamics& dynamics : robot_.dynamics) {
+    if (!std::holds_alternative<ProgramSource>(dynamics.source)) continue;
+    if (is_of_a_prior(dynamics))
+      always.push_back(program(dynamics));
+    else if (is_of_the_plant(dynamics))
+      driven.push_back(program(dynamics));
+  }
+  if (always.empty() && driven.empty()) return nullptr;
+  return [always, driven, folder = folder_](scenario::PlantUse plant) {
+    for (const system::Program& program : always) require_with_files(program);
+    if (plant == scenario::PlantUse::left_alone) return;  // its program may move a robot as soon as it starts
+    for (const system::Program& program : driven) require_with_files(program);
   };
 }
 

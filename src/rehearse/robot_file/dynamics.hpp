@@ -9,6 +9,7 @@
 #include "rehearse/files/toml_reader.hpp"
 #include "rehearse/robot_file/robot.hpp"
 #include "rehearse/scenario/drawing.hpp"
+#include "rehearse/scenario/scenario.hpp"
 #include "rehearse/system/plant.hpp"
 #include "rehearse/system/program_simulator.hpp"
 #include "rehearse/system/simulated_plant.hpp"
@@ -35,11 +36,14 @@ class DynamicsMaker {
   /// A function that reports the processes of these simulators that had to be replaced so far; null: there are none.
   std::function<std::vector<std::string>()> faults() const;
 
-  /// A function that throws InvalidInput, with the reason, if a program does not answer; null if there are no programs.
-  std::function<void()> require_ready() const;
+  /// A function that throws InvalidInput, with the reason, if a program of a prior does not answer, or the plant's
+  /// where it is driven; null if there are no such programs.
+  std::function<void(scenario::PlantUse)> require_ready() const;
 
  private:
   system::Program program(const Dynamics& dynamics) const;
+  bool is_of_a_prior(const Dynamics& dynamics) const;
+  bool is_of_the_plant(const Dynamics& dynamics) const;
   mujoco::ModelDescription model(const Dynamics& dynamics) const;
 
   const Robot& robot_;

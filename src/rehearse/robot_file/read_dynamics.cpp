@@ -24,6 +24,14 @@ bool looks_like_a_file(const std::string& argument, bool first) {
   return !argument.starts_with('-') && path.is_relative() && (named || (first && path.has_parent_path()));
 }
 
+/// True if a name has letters (of any alphabet: Python's keywords have), digits, - and _. Options are named after
+/// parameters, and a dot would make one the beginning of another; formulas know fewer names.
+bool is_name_of_parameter(const std::string& name) {
+  std::string ascii = name;
+  std::erase_if(ascii, [](unsigned char c) { return c >= 0x80; });
+  return !name.empty() && (ascii.empty() || is_word(ascii));
+}
+
 class DynamicsReader {
  public:
   DynamicsReader(Robot& robot, const scenario::ReadFile& read_file, files::FileViolations& violations)
@@ -84,6 +92,9 @@ class DynamicsReader {
     for (const auto& [name, node] : in_order(*values)) {
       double value = 0;
       std::string unit;
+      if (!is_name_of_parameter(name))
+        violations_.add(files::line_of(*node),
+                        fmt::format("the name of parameter '{}' must be of letters, digits, - and _", name));
       if (const toml::table* with_unit = node->as_table()) {
         Table entry(*with_unit, name, violations_);
         if (!entry.number("value", value)) entry.wrong("value", fmt::format("parameter {} needs a value", name));

@@ -29,6 +29,9 @@ struct NamedPrior {
   std::vector<std::string> lacks = {};  // parts of what it simulates that the task's states leave out, a line each
 };
 
+/// What a user of a scenario is about to do with the plant, which may be a real robot.
+enum class PlantUse { driven, left_alone };
+
 /// A task, a plant to do it on, guesses of the plant, and the policy to learn.
 struct Scenario {
   std::string name;
@@ -38,8 +41,10 @@ struct Scenario {
   std::shared_ptr<const system::Simulator> oracle;  // the plant's own dynamics, for `--prior oracle`; may be null
   std::vector<std::string> oracle_lacks;            // properties of the plant that its oracle lacks, a line each
   std::shared_ptr<const policy::Policy> policy;
-  std::optional<Drawing> drawing;       // empty: it cannot be shown
-  std::function<void()> require_ready;  // throws InvalidInput with why plant or priors cannot be used; null: they can
+  std::optional<Drawing> drawing;  // empty: it cannot be shown
+  // Throws InvalidInput with why a prior cannot be used, or the plant where it is driven; a plant that is left alone is
+  // not even asked. Null: they can.
+  std::function<void(PlantUse)> require_ready;
   std::function<std::vector<std::string>()> faults;  // of programs so far, a sentence each; null: there are none
   Vector stand_in_noise;  // standard deviations (dx) of what is measured where a prior plays the robot; empty: 0
   Index evaluations = 0;  // extra episodes of each trial's policy on a plant of their own, which are no

@@ -31,6 +31,24 @@ TEST(RunFolder, AnExistingFolderIsNeverOverwritten) {
   EXPECT_EQ(files::read_file(folder / "file"), "mine");
 }
 
+TEST(RunFolder, ASpecThatCouldNotBeReadBackIsRefusedBeforeThereIsAFolder) {
+  const fs::path folder = fake::test_folder();
+  Spec spec = line_spec(1);
+  spec.options = {{"learner.a\x7f", "1"}};
+  const auto message = fake::message_of<InvalidInput>([&] { RunFolder::create(folder / "run", spec, {}, {}); });
+  EXPECT_TRUE(message.starts_with("a run of this spec could not be opened again")) << message;
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST(RunFolder, ARunWhoseOptionBeginsAnotherIsOpened) {
+  const fs::path run = fake::test_folder() / "run";
+  Spec spec = line_spec(1);
+  spec.options = {{"scenario.plant.lag_s", "1"}, {"scenario.plant.lag_s.f", "2"}};
+  RunFolder::create(run, spec, {}, {});
+  EXPECT_EQ(RunFolder::open(run).spec().options, spec.options);
+  EXPECT_EQ(RunFolder::read(run).history.done(), 0);
+}
+
 TEST(RunFolder, FilesOfOthersStayBesideTheNextPolicy) {
   const fs::path path = fake::test_folder() / "run";
   const RunFolder folder = RunFolder::create(path, line_spec(1), {}, {});

@@ -62,6 +62,43 @@ TEST(SpecFile, KeepsTextThatLooksLikeSomethingElse) {
   EXPECT_EQ(back.options.size(), options.size());
 }
 
+TEST(SpecFile, AKeyThatBeginsAnotherIsQuotedWhole) {
+  const Options options = {{"scenario.plant.lag_s", "1"},
+                           {"scenario.plant.lag_s.f", "2"},
+                           {"scenario.plant.mass", "3"},
+                           {"learner.a.b.c", "4"},
+                           {"learner.a", "5"},
+                           {"learner.a.d e", "6"},
+                           {"prior.leg", "7"},
+                           {"prior.leg.mass", "8"},
+                           {"prior.legs.mass", "9"},
+                           {"prior.plant.lag_s.f", "10"}};
+  const Spec spec{.scenario = "line", .learner = "echo", .options = options};
+  const std::string text = to_toml(spec);
+  EXPECT_EQ(text.substr(text.find("\n[scenario]")),
+            "\n[scenario]\n\"plant.lag_s\" = 1\n\"plant.lag_s.f\" = 2\nplant.mass = 3\n"
+            "\n[learner]\n\"a.b.c\" = 4\n\"a\" = 5\n\"a.d e\" = 6\n"
+            "\n[prior]\n\"leg\" = 7\n\"leg.mass\" = 8\nlegs.mass = 9\nplant.lag_s.f = 10\n");
+  const Spec back = from_toml(text, "spec.toml");
+  EXPECT_EQ(back.options, options);
+  EXPECT_EQ(fingerprint(back), fingerprint(spec));
+  EXPECT_NO_THROW(require_readable(spec, text));
+}
+
+TEST(SpecFile, WhatWouldNotComeBackIsNamed) {
+  const auto complaint_about = [](const Spec& spec) {
+    return fake::message_of<InvalidInput>([&] { require_readable(spec, to_toml(spec)); });
+  };
+  const std::string begin = "a run of this spec could not be opened again: its spec.toml would ";
+  EXPECT_EQ(complaint_about({.scenario = "line", .learner = "echo", .options = {{"gain", "2"}, {"learner.a", "1"}}}),
+            begin + "lack gain = 2");
+  EXPECT_TRUE(complaint_about({.scenario = "line", .learner = "echo", .options = {{"learner.a\x7f", "1"}}})
+                  .starts_with(begin + "not be read: line "));
+  const Spec spec{.scenario = "line", .learner = "echo"};
+  EXPECT_EQ(fake::message_of<InvalidInput>([&] { require_readable(spec, to_toml({.scenario = "cart"})); }),
+            begin + "be that of another one");
+}
+
 TEST(SpecFile, SaysWhereItIsWrong) {
   const auto complaint_about = [](const std::string& text) {
     return fake::message_of<InvalidInput>([&] { from_toml(text, "x.toml"); });

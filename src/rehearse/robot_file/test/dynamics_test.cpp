@@ -1,8 +1,13 @@
 #include "rehearse/robot_file/dynamics.hpp"
 
+#include <filesystem>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/robot_file/read.hpp"
 #include "rehearse/robot_file/robot_file.hpp"
 #include "rehearse/robot_file/test/example.hpp"
@@ -36,7 +41,7 @@ std::optional<std::string> echo_folder(const std::string& path) {
 TEST(Dynamics, APriorMayBeAProgram) {
   const scenario::Scenario scenario = builder(with_echo(), "swing.toml", echo_folder)->build();
   ASSERT_TRUE(scenario.require_ready);
-  EXPECT_NO_THROW(scenario.require_ready());
+  EXPECT_NO_THROW(scenario.require_ready(scenario::PlantUse::left_alone));
   const scenario::NamedPrior& prior = scenario.priors.front();
   ASSERT_EQ(prior.name, "echo");
   Matrix X{{1, 2}, {3, 4}}, U{{0.5}, {1}}, dX(2, 2);
@@ -51,12 +56,47 @@ TEST(Dynamics, AProgramThatCannotBeAskedIsSaidBeforeARun) {
   const auto broken = [](const std::string&) -> std::optional<std::string> { return "import no_such_module"; };
   const scenario::Scenario scenario = builder(with_echo(), "swing.toml", broken)->build();
   try {
-    scenario.require_ready();
+    scenario.require_ready(scenario::PlantUse::left_alone);
     FAIL();
   } catch (const InvalidInput& error) {
     EXPECT_NE(std::string(error.what()).find("no_such_module"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("\n`files = […]` names"), std::string::npos) << error.what();
   }
+}
+
+/// The programs of such names, in the order in which they were started to see whether they answer.
+std::string started(const std::string& robot, scenario::PlantUse plant) {
+  constexpr const char* kLogged = R"py(
+import json, sys
+with open(sys.argv[2], "a") as log:
+    log.write(sys.argv[1] + " ")
+sys.stdin.readline()
+print(json.dumps({"rehearse": 1, "messages": ["change", "reset", "step"]}), flush=True)
+)py";
+  const files::TemporaryFolder folder;
+  const std::filesystem::path log = folder.path() / "log";
+  std::string text = robot;
+  for (const std::string name : {"driver", "model", "spare"})
+    text +=
+        fmt::format("[dynamics.{0}]\nprogram = [\"python3\", \"logged.py\", \"{0}\", \"{1}\"]\n", name, log.string());
+  const auto file = [&](const std::string& path) -> std::optional<std::string> {
+    return path == "logged.py" ? std::optional<std::string>(kLogged) : std::nullopt;
+  };
+  const scenario::Scenario scenario = builder(text, "swing.toml", file)->build();
+  if (scenario.require_ready) scenario.require_ready(plant);
+  return std::filesystem::exists(log) ? files::read_file(log) : "";
+}
+
+TEST(Dynamics, TheProgramOfAPlantThatIsLeftAloneIsNotStarted) {
+  using scenario::PlantUse;
+  const std::string of_plant = example::with("[plant]", "[plant]\ndynamics = \"driver\"");
+  EXPECT_EQ(started(of_plant, PlantUse::left_alone), "");
+  EXPECT_EQ(started(of_plant, PlantUse::driven), "driver ");
+  const std::string of_both = of_plant + "[prior.model]\ndynamics = \"model\"\n";
+  EXPECT_EQ(started(of_both, PlantUse::left_alone), "model ");
+  EXPECT_EQ(started(of_both, PlantUse::driven), "model driver ");
+  const std::string of_one = of_plant + "[prior.same]\ndynamics = \"driver\"\n";
+  for (const PlantUse use : {PlantUse::left_alone, PlantUse::driven}) EXPECT_EQ(started(of_one, use), "driver ");
 }
 
 constexpr const char* kTwoRods = R"xml(<mujoco>

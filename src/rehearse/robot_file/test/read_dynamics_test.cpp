@@ -42,6 +42,18 @@ TEST(ReadDynamics, HostsAndModulesAreNoFiles) {
   EXPECT_EQ(complaint_of_program("program = [\"python3\", \"-m\", \"lab.driver\"]").find("no file"), std::string::npos);
 }
 
+TEST(ReadDynamics, AParameterHasAWordForItsName) {
+  for (const std::string name : {"leg.mass", "leg mass", "leg=1", "leg,mass"}) {
+    const std::string complaint = "the name of parameter '" + name + "' must be of letters, digits, - and _";
+    EXPECT_EQ(complaint_of_program("program = [\"sim\"]\nparameters.leg = 1\nparameters.\"" + name + "\" = 2"),
+              "swing.toml: line 45: " + complaint);
+    const std::string equations = example::with("{ m = 1,", "{ \"" + name + "\" = 1, m = 1,");
+    EXPECT_EQ(example::complaint_of(equations), "swing.toml: line 33: " + complaint);
+  }
+  for (const std::string name : {"leg", "leg_mass", "leg-mass", "μ", "größe_2"})
+    EXPECT_EQ(complaint_of_program("program = [\"sim\"]\nparameters.\"" + name + "\" = 2"), "");
+}
+
 TEST(ReadDynamics, WhatIsWrongWithAProgramIsSaid) {
   const auto expect = [](const std::string& lines, const std::string& part) {
     const std::string complaint = complaint_of_program(lines);

@@ -96,6 +96,8 @@ TEST(ReadModel, WhatIsWrongIsSaidWithItsLine) {
   expect(kRod + "\nparameters.k = { value = 2, sets = \"body rod\" }", "KIND ELEMENT FIELD");
   expect(kRod + "\nparameters.k = { value = 2, sets = \"body rot mass\" }", "line 47: [dynamics.rod]: parameter 'k'");
   expect(kRod + "\nparameters.k = { value = 2, sets = \"body rod maas\" }", "mass");
+  expect(kRod + "\nparameters.\"rod.mass\" = { value = 2, sets = \"body rod mass\" }",
+         "line 47: the name of parameter 'rod.mass' must be of letters, digits, - and _");
   expect(kRod + "\nsubsteps = 0", "substeps = 0, must be");
   expect(kRod + "\nkeyframe = \"up\"", "line 47: [dynamics.rod]: keyframe");
   expect("state.angle = { position = { hinge = \"2\" } }\naction.u = \"motor\"",
