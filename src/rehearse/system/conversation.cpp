@@ -70,6 +70,7 @@ bool Conversation::ask(std::string_view message, Process::Limits limits, Read re
     declined_ = true;
     return wrong(error.what());
   } catch (const std::runtime_error& error) {
+    process_->distrust();
     return wrong(error.what());
   }
 }

@@ -34,6 +34,7 @@ class ProgramWorker final : public Worker {
   std::string problem() const override { return conversation_.problem(); }
   bool declined() const override { return began_ && conversation_.declined(); }
   bool costly() const override { return !began_ || conversation_.late(); }
+  void leave() noexcept override { conversation_.leave(); }
 
  private:
   Conversation conversation_;
