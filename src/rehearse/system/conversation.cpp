@@ -55,7 +55,9 @@ bool Conversation::hear(std::string_view message, const Process::Complete& compl
       break;
   }
   late_ = true;
-  return wrong(fmt::format("it did not answer within {:g} s", limits.seconds));
+  const std::string written = process_->unused();
+  return wrong(fmt::format("it did not answer within {:g} s{}", limits.seconds,
+                           written.empty() ? "" : "; it wrote: " + messages::excerpt(written)));
 }
 
 /// Sends a line, and reads the line of the answer by read(text), which throws std::runtime_error where it is wrong.
@@ -70,6 +72,7 @@ bool Conversation::ask(std::string_view message, Process::Limits limits, Read re
     declined_ = true;
     return wrong(error.what());
   } catch (const std::runtime_error& error) {
+    process_->distrust();
     return wrong(error.what());
   }
 }

@@ -34,6 +34,11 @@ class Conversation {
   /// Says that the episode is over, to a program that understands it. False: see `problem`.
   bool end();
 
+  /// Ends the program's input, so that it may end before this object waits for that. Nothing else may be called.
+  void leave() noexcept {
+    if (process_) process_->leave();
+  }
+
  private:
   using Fault = std::function<std::string(std::string_view written)>;  // why that is no answer, for people
   static std::string is_other(std::string_view written);

@@ -24,6 +24,24 @@ template <class... Args>
   throw std::runtime_error(fmt::format(format, std::forward<Args>(args)...));
 }
 
+/// The beginning of a text; what is no character, or none to print, is a question mark. Line ends stay.
+std::string beginning(std::string_view text, std::size_t most) {
+  std::string part(text.substr(0, most));
+  for (std::size_t at = 0; at < part.size();) {
+    const std::size_t size = character_at(part, at);
+    const auto byte = static_cast<unsigned char>(part[at]);
+    if (size == 0 || (size == 1 && part[at] != '\n' && (byte < 32 || byte == 127))) part[at] = '?';
+    at += std::max<std::size_t>(size, 1);
+  }
+  return part;
+}
+
+/// An error may be a traceback of many lines, and its whole text goes into messages and into the run's warnings.
+std::string shortened(const std::string& error) {
+  constexpr std::size_t kMost = 1000;  // bytes
+  return beginning(error, kMost) + (error.size() > kMost ? " …" : "");
+}
+
 /// Numbers that JSON's readers take for floating-point ones: 1.0, not 1.
 void write(std::string& text, double value) {
   if (!std::isfinite(value)) {
@@ -85,7 +103,8 @@ Json object_of(std::string_view text) {
   if (json.is_discarded()) refuse("it answered what is no JSON: {}", excerpt(text));
   if (!json.is_object()) refuse("it answered what is no JSON object: {}", excerpt(text));
   if (const auto error = json.find("error"); error != json.end())
-    throw Declined("it answered an error: " + (error->is_string() ? error->get<std::string>() : error->dump()));
+    throw Declined("it answered an error: " +
+                   shortened(error->is_string() ? error->get<std::string>() : error->dump()));
   return json;
 }
 
@@ -142,12 +161,7 @@ void read_messages(const Json& object, Hello& hello) {
 
 std::string excerpt(std::string_view text) {
   constexpr std::size_t kMost = 120;
-  std::string line(text.substr(0, std::min(text.find('\n'), kMost)));
-  for (std::size_t at = 0; at < line.size();) {
-    const std::size_t size = character_at(line, at);
-    if (size == 0 || (size == 1 && (static_cast<unsigned char>(line[at]) < 32 || line[at] == 127))) line[at] = '?';
-    at += std::max<std::size_t>(size, 1);
-  }
+  const std::string line = beginning(text.substr(0, text.find('\n')), kMost);
   return line + (text.size() > line.size() + 1 ? " …" : "");
 }
 

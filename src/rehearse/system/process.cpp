@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstring>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -23,22 +24,37 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kLastWords = 2000;  // bytes of standard error that are kept
-constexpr std::size_t kPipe = 1 << 20;    // bytes: a batch goes through without the two waiting for each other
-constexpr double kForever = 1e9;          // s
+constexpr std::size_t kLastWords = 2000;           // bytes of standard error that are kept
+constexpr std::size_t kPipe = 1 << 20;             // bytes: a batch goes through without the two waiting for each other
+constexpr double kForever = 1e9;                   // s
+constexpr std::chrono::milliseconds kGrace{1000};  // for a program to end by itself once its input has ended
 
-/// The programs that run, for kill_programs; 0 where a place is free.
-std::array<std::atomic<pid_t>, 1024> running{};
-static_assert(std::atomic<pid_t>::is_always_lock_free);  // it is read in handlers of signals
+/// The programs that run, for kill_programs.
+struct Place {
+  std::atomic<pid_t> process{0};  // 0: the place is free
+  std::atomic<int> input{-1};
+};
+std::array<Place, 1024> running;
+std::atomic<bool> all_end = false;                       // kill_programs was called
+static_assert(std::atomic<pid_t>::is_always_lock_free);  // handlers of signals read it
 
-void note_running(pid_t process) {
-  for (auto& place : running)
-    if (pid_t free = 0; place.compare_exchange_strong(free, process)) return;
+void note_running(pid_t process, int input) {
+  for (Place& place : running)
+    if (pid_t free = 0; place.process.compare_exchange_strong(free, process)) return place.input.store(input);
 }
 
 void note_ended(pid_t process) {
-  for (auto& place : running)
-    if (pid_t own = process; place.compare_exchange_strong(own, 0)) return;
+  for (Place& place : running) {
+    if (place.process.load() != process) continue;
+    place.input.store(-1);
+    return place.process.store(0);
+  }
+}
+
+/// True while a child runs. One that ended keeps its number until it is waited for, so its group can still be killed.
+bool runs(pid_t process) noexcept {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
 }
 
 [[noreturn]] void fail(int error, const std::string& what) {
@@ -126,7 +142,7 @@ Process::Process(const std::vector<std::string>& command, const std::filesystem:
   close_all({streams.input[1], streams.output[1], streams.error[1]});
   input_ = streams.input[0], output_ = streams.output[0], error_ = streams.error[0];
   if (failed == 0) {
-    note_running(process_);
+    note_running(process_, input_);
     return;
   }
   close_all({input_, output_, error_});
@@ -134,11 +150,33 @@ Process::Process(const std::vector<std::string>& command, const std::filesystem:
 }
 
 Process::~Process() {
+  if (process_ > 0 && trusted_) await_end();
+  if (process_ > 0) {
+    note_ended(process_);
+    kill(-process_, SIGKILL);
+  }
   close_all({input_, output_, error_});
-  if (process_ < 0) return;
-  note_ended(process_);
-  kill(-process_, SIGKILL);
-  while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  while (process_ > 0 && waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+/// A shutdown ends the input even where another process was just forked with a copy of our end.
+void Process::leave() noexcept {
+  if (left_at_) return;
+  shutdown(input_, SHUT_WR);
+  input_open_ = false;
+  left_at_ = Clock::now();
+}
+
+/// Its last words are read, and forgotten: a program that writes to a closed or full pipe would not come to its end.
+void Process::await_end() noexcept {
+  leave();
+  thread_local std::array<char, 1 << 16> buffer;
+  std::array<pollfd, 2> ready{{{output_, POLLIN, 0}, {error_, POLLIN, 0}}};
+  for (int ms = 1; runs(process_) && Clock::now() < *left_at_ + kGrace; ms = std::min(2 * ms, 20)) {
+    if (poll(ready.data(), ready.size(), ms) <= 0) continue;
+    for (pollfd& stream : ready)
+      if (stream.revents != 0 && read_some(stream.fd, buffer) == 0) stream.fd = -1;
   }
 }
 
@@ -177,6 +215,14 @@ bool Process::has_unasked_answer(const Complete& complete, std::size_t most) {
 }
 
 Process::Outcome Process::exchange(std::string_view message, const Complete& complete, Limits limits) {
+  const Outcome outcome = heard(message, complete, limits);
+  if (outcome == Outcome::answered) return outcome;
+  if (all_end) std::this_thread::sleep_for(2 * kGrace);  // kill_programs ended it: nobody is to hear of a fault
+  trusted_ = false;
+  return outcome;
+}
+
+Process::Outcome Process::heard(std::string_view message, const Complete& complete, Limits limits) {
   if (has_unasked_answer(complete, limits.bytes)) return Outcome::unasked;
   const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(std::min(limits.seconds, kForever)));
@@ -221,9 +267,21 @@ std::string Process::end() {
   return fmt::format("it ended with exit status {}", WEXITSTATUS(status));
 }
 
+/// It sends no SIGTERM: that ends many programs before they have read that their input ended.
 void kill_programs() noexcept {
-  for (const auto& place : running)
-    if (const pid_t process = place.load(); process > 0) kill(-process, SIGKILL);
+  constexpr std::chrono::duration<int, std::milli> kPause{5};
+  all_end = true;
+  for (const Place& place : running)
+    if (const int input = place.input.load(); input >= 0) shutdown(input, SHUT_WR);
+  const auto any_runs = [] {
+    return std::any_of(running.begin(), running.end(), [](const Place& place) {
+      const pid_t process = place.process.load();
+      return process > 0 && runs(process);
+    });
+  };
+  for (int tries = 0; tries < kGrace / kPause && any_runs(); ++tries) poll(nullptr, 0, kPause.count());
+  for (const Place& place : running)
+    if (const pid_t process = place.process.load(); process > 0) kill(-process, SIGKILL);
 }
 
 }  // namespace rehearse::system

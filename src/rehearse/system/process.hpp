@@ -1,8 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,8 +16,9 @@
 namespace rehearse::system {
 
 /// A program that runs beside this one, with its standard streams in our hands; started without a shell, in a process
-/// group of its own, which is killed with this object. What it writes to standard error is read all the time, and its
-/// end is kept. One thread.
+/// group of its own, which is killed with this object. A program that was never late or wrong is first left to end by
+/// itself, so that a robot's driver can take the torque off. What it writes to standard error is read all the time, and
+/// its end is kept. One thread.
 class Process {
  public:
   /// command: the program, as the shell's PATH finds it or by its path from the folder, and its arguments. folder:
@@ -47,7 +50,16 @@ class Process {
   const std::string& last_words() const { return errors_; }
   std::string end();
 
+  /// Ends its input. The destructor does so, too, and waits at most a second from then on before it kills: who owns
+  /// several programs ends the inputs of all first, and waits once.
+  void leave() noexcept;
+
+  /// Says that its answer was wrong: the destructor kills it at once.
+  void distrust() { trusted_ = false; }
+
  private:
+  Outcome heard(std::string_view message, const Complete& complete, Limits limits);
+  void await_end() noexcept;
   bool has_unasked_answer(const Complete& complete, std::size_t most);
   bool send(std::string_view& left);
   bool receive();
@@ -55,12 +67,14 @@ class Process {
 
   pid_t process_ = -1;
   int input_ = -1, output_ = -1, error_ = -1;
-  bool input_open_ = true, spoken_ = false;
+  bool input_open_ = true, spoken_ = false, trusted_ = true;
+  std::optional<std::chrono::steady_clock::time_point> left_at_;  // its input was ended
   std::string received_, answer_, errors_;
 };
 
-/// Kills the programs of all objects, each with its group. For a process that ends without their destructors: it may be
-/// called in a handler of signals.
+/// Ends the inputs of all objects' programs, waits at most a second until they have ended, and kills them, each with
+/// its group. For a process that ends right after it, without their destructors. It may be called in a handler of
+/// signals.
 void kill_programs() noexcept;
 
 }  // namespace rehearse::system

@@ -34,6 +34,7 @@ class ProgramWorker final : public Worker {
   std::string problem() const override { return conversation_.problem(); }
   bool declined() const override { return began_ && conversation_.declined(); }
   bool costly() const override { return !began_ || conversation_.late(); }
+  void leave() noexcept override { conversation_.leave(); }
 
  private:
   Conversation conversation_;
@@ -66,6 +67,11 @@ class EpisodePlant final : public Plant {
       : program_(program), phi_(std::move(phi)), around_(std::move(around)), conversation_(std::move(conversation)) {}
 
   Vector reset(Rng& rng) override {
+    if (!not_ended_.empty())
+      throw Unavailable(
+          fmt::format("the message \"end\" of the last episode, at which the robot's torque is taken off, was not "
+                      "answered well: {}",
+                      std::exchange(not_ended_, {})));
     const Vector start = around_.start(rng);
     const auto seed = static_cast<std::uint64_t>(rng.uniform() * 0x1p53);
     rng_ = rng;
@@ -80,7 +86,9 @@ class EpisodePlant final : public Plant {
   }
 
   void finish() noexcept override try {
-    if (conversation_ && !conversation_->end()) conversation_.reset();
+    if (!conversation_ || conversation_->end()) return;
+    not_ended_ = conversation_->problem();
+    conversation_.reset();
   } catch (...) {
     conversation_.reset();
   }
@@ -104,6 +112,7 @@ class EpisodePlant final : public Plant {
   Vector phi_;
   StartAndSensors around_;
   std::unique_ptr<Conversation> conversation_;  // null: the last one failed
+  std::string not_ended_;                       // why the last episode's end was not answered well, for the next reset
   std::optional<Rng> rng_;
   Vector truth_;
 };

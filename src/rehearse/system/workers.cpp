@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace rehearse::system {
 namespace {
@@ -42,6 +43,12 @@ class Progress {
 };
 
 }  // namespace
+
+Workers::~Workers() {
+  std::vector<std::unique_ptr<Worker>> workers;
+  while (auto worker = idle_.take()) workers.push_back(std::move(worker));
+  for (const auto& worker : workers) worker->leave();
+}
 
 void Workers::change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const {
   std::unique_ptr<Worker> worker = idle_.take();

@@ -36,6 +36,9 @@ class Worker {
 
   /// True if it kept its caller waiting, or never got ready.
   virtual bool costly() const { return false; }
+
+  /// The last call: it may begin to end, and its destructor waits until it has.
+  virtual void leave() noexcept {}
 };
 
 /// A pool of workers, one for each concurrent call, started when they are needed. A row that a worker does not answer
@@ -50,6 +53,9 @@ class Workers {
     Index patience = 0;  // consecutive faults, of all calls, before a row is tried that was answered before; 0: endless
   };
   explicit Workers(Options options) : options_(std::move(options)) {}
+  ~Workers();  // all workers leave before it waits for one of them
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
 
   /// X: n × dx, U: n × du, dX: n × dx. Throws Unavailable where patience ends and even that row is not answered, nor,
   /// where none ever was, any of some rows of these.

@@ -28,6 +28,15 @@ TEST(Conversation, GoesOnAfterAnError) {
   EXPECT_FALSE(robot.declined());
 }
 
+TEST(Conversation, OneThatIsLateIsQuoted) {
+  Program program = test_program({"sh", "-c", "read line; echo '[1]'; sleep 100"});
+  program.start_s = 0.5;
+  EXPECT_EQ(Conversation(program).problem(),
+            "the program 'sh -c read line; echo '[1]'; sleep 100': it did not answer within 0.5 s; it wrote: [1]");
+  program.command = {"sleep", "100"};
+  EXPECT_EQ(Conversation(program).problem(), "the program 'sleep 100': it did not answer within 0.5 s");
+}
+
 TEST(Conversation, AProblemNamesTheProgramAndItsLastWords) {
   const Conversation conversation(test_program({"sh", "-c", "echo words >&2"}));
   EXPECT_EQ(conversation.problem(),

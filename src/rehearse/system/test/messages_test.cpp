@@ -98,6 +98,21 @@ TEST(Messages, DeepAnswersAreRefused) {
   expect_refused([&] { read_state("{\"state\":" + deep + "}", 2); });
 }
 
+TEST(Messages, ALongErrorIsCutAndHasNoEscapes) {
+  const auto why = [](const std::string& error) -> std::string {
+    try {
+      read_end("{\"error\":" + error + "}");
+    } catch (const Declined& declined) {
+      return declined.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why("\"line 1\\nline\\u001b 2\""), "it answered an error: line 1\nline? 2");
+  EXPECT_EQ(why("\"" + std::string(1000, 'x') + "\""), "it answered an error: " + std::string(1000, 'x'));
+  EXPECT_EQ(why("\"" + std::string(9000, 'x') + "\""), "it answered an error: " + std::string(1000, 'x') + " …");
+  EXPECT_LT(why("[\"" + std::string(9000, 'x') + "\"]").size(), 1100u);
+}
+
 TEST(Messages, ALongLineIsCutAndHasNoEscapes) {
   EXPECT_EQ(excerpt("a\033[31mb"), "a?[31mb");
   EXPECT_EQ(excerpt("θ\xff\xce"), "θ??");

@@ -1,11 +1,18 @@
 #include "rehearse/system/process.hpp"
 
+#include <array>
+#include <chrono>
+#include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+
+#include "rehearse/files/temporary_folder.hpp"
 
 namespace rehearse::system {
 namespace {
@@ -83,6 +90,65 @@ TEST(Process, ItsChildrenEndWithIt) {
   }
   for (int i = 0; i < 100 && is_alive(child); ++i) usleep(10000);
   EXPECT_FALSE(is_alive(child));
+}
+
+/// A driver that takes a fifth of a second after the end of its input, and writes to both of its streams on the way.
+std::vector<std::string> driver(const std::string& mark) {
+  return {"sh", "-c", "echo on; while read line; do :; done; sleep 0.2; echo off; echo off >&2; echo off > \"$0\"",
+          mark};
+}
+
+TEST(Process, OneThatDidNoWrongEndsByItself) {
+  const files::TemporaryFolder folder;
+  const auto mark = folder.path() / "off";
+  {
+    Process process(driver(mark), "");
+    ASSERT_EQ(say(process, ""), Process::Outcome::answered);
+  }
+  EXPECT_TRUE(std::filesystem::exists(mark));
+}
+
+TEST(Process, OneThatIsLateOrWrongIsKilledAtOnce) {
+  const files::TemporaryFolder folder;
+  for (const bool late : {false, true}) {
+    const auto mark = folder.path() / (late ? "late" : "wrong");
+    {
+      Process process(driver(mark), "");
+      ASSERT_EQ(say(process, ""), Process::Outcome::answered);
+      if (late)
+        EXPECT_EQ(say(process, "x\n", {.seconds = 0.1}), Process::Outcome::late);
+      else
+        process.distrust();
+    }
+    usleep(500'000);
+    EXPECT_FALSE(std::filesystem::exists(mark)) << late;
+  }
+}
+
+// A second for all; each would have its own.
+TEST(Process, SeveralThatGoOnAreWaitedForTogether) {
+  std::array<std::optional<Process>, 5> processes;
+  for (auto& process : processes) process.emplace(std::vector<std::string>{"sh", "-c", "echo on; exec sleep 100"}, "");
+  for (auto& process : processes) ASSERT_EQ(say(*process, ""), Process::Outcome::answered);
+  const auto begin = std::chrono::steady_clock::now();
+  for (auto& process : processes) process->leave();
+  for (auto& process : processes) process.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(4));
+}
+
+TEST(KillPrograms, LetsThemEndBefore) {
+  const files::TemporaryFolder folder;
+  const auto mark = folder.path() / "off";
+  const auto end = [&] {
+    Process process(driver(mark), "");
+    Process other({"sh", "-c", "echo $$; exec sleep 100"}, "");
+    const bool on = say(process, "") == Process::Outcome::answered && say(other, "") == Process::Outcome::answered;
+    const pid_t endless = std::stoi(std::string(other.answer()));
+    kill_programs();
+    for (int i = 0; i < 100 && is_alive(endless); ++i) usleep(10000);
+    _exit(on && std::filesystem::exists(mark) && !is_alive(endless) ? 7 : 1);
+  };
+  EXPECT_EXIT(end(), ::testing::ExitedWithCode(7), "");
 }
 
 }  // namespace

@@ -230,6 +230,34 @@ TEST(ProgramPlant, IsToldOfTheEndOfAnEpisode) {
   }
 }
 
+TEST(ProgramPlant, AnEndThatIsNotAnsweredWellIsSaidByTheNextReset) {
+  const std::string serve =
+      R"(while read -r line; do case $line in *rehearse*) echo '{"rehearse":1,"messages":["reset","step","end"]}';; )"
+      R"(*reset*) echo '{"state":[1,2,3]}';; *end*) )";
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {R"(echo '{"done":true}';;)", "its answer has no \"end\": {\"done\":true}"},
+      {R"(echo '{"error":"it still moves"}';;)", "it still moves"},
+      {"exit 3;;", "exit status 3"},
+      {"sleep 100;;", "within 0.3 s"}};
+  for (const auto& [answer, why] : wrong) {
+    Program program = test_program({"sh", "-c", serve + answer + " esac; done"});
+    program.answer_s = why.starts_with("within") ? 0.3 : 5;
+    const auto plant = make_program_plant(program, shift_of(3), {Vector{{1, 2, 3}}, Vector::Zero(3), {}});
+    Rng rng({.seed = 1});
+    plant->reset(rng);
+    plant->finish();
+    try {
+      plant->reset(rng);
+      FAIL() << why;
+    } catch (const Unavailable& error) {
+      const std::string said = error.what();
+      EXPECT_EQ(said.find("the message \"end\" of the last episode, at which the robot's torque is taken off"), 0u);
+      EXPECT_NE(said.find(why), std::string::npos) << said;
+    }
+    EXPECT_EQ(plant->reset(rng), (Vector{{1, 2, 3}})) << "another process";
+  }
+}
+
 TEST(ProgramPlant, ARobotKeepsItsState) {
   const auto plant = make_program_plant(robot_program(), shift_of(3), {Vector{{1, 2, 3}}, Vector::Zero(3), {}});
   Rng rng({.seed = 1});

@@ -1,6 +1,8 @@
 #include "rehearse/system/workers.hpp"
 
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -12,12 +14,18 @@ namespace {
 struct Script {
   std::vector<double> bad;
   bool by_row = false, costly = false, declines = false;
-  Index asked = 0, started = 0;
+  Index asked = 0, started = 0, left = 0, ended = 0;
+  Index left_before = 0;  // workers that had left when the first of them was destroyed
 };
 
 class ScriptedWorker final : public Worker {
  public:
   explicit ScriptedWorker(Script& script) : script_(script) { ++script_.started; }
+  ~ScriptedWorker() override {
+    if (script_.ended++ == 0) script_.left_before = script_.left;
+  }
+  ScriptedWorker(const ScriptedWorker&) = delete;
+  ScriptedWorker& operator=(const ScriptedWorker&) = delete;
 
   Index change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector&, MatrixView dX) override {
     ++script_.asked;
@@ -30,6 +38,7 @@ class ScriptedWorker final : public Worker {
   std::string problem() const override { return "scripted"; }
   bool costly() const override { return script_.costly; }
   bool declined() const override { return script_.declines; }
+  void leave() noexcept override { ++script_.left; }
 
  private:
   Script& script_;
@@ -111,6 +120,27 @@ TEST(Workers, PatienceEndsInCallsOfOneRow) {
         for (int i = 0; i < 6; ++i) ask(1);
       },
       Unavailable);
+}
+
+TEST(Workers, AllLeaveBeforeTheFirstIsWaitedFor) {
+  Script script;
+  {
+    std::function<void()> ask;
+    bool within = false;
+    const Workers workers({.start = [&] {
+      if (!std::exchange(within, true)) ask();  // a call within a call takes a worker of its own
+      return std::make_unique<ScriptedWorker>(script);
+    }});
+    ask = [&] {
+      Matrix dX(1, 1);
+      workers.change(Matrix::Ones(1, 1), Matrix::Ones(1, 1), {}, dX);
+    };
+    ask();
+    EXPECT_EQ(script.started, 2);
+    EXPECT_EQ(script.ended, 0);
+  }
+  EXPECT_EQ(script.left_before, 2);
+  EXPECT_EQ(script.ended, 2);
 }
 
 }  // namespace
