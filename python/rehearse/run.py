@@ -167,7 +167,7 @@ class Run:
         if trial is not None and policy is not None:
             raise _core.InvalidInput("trial and policy name two policies")
         result = _core.evaluate(self._core, str(self.folder), whole_or_none("trial", trial), _json_of(policy),
-                                whole("episodes", episodes), number("seconds", seconds), whole("seed", seed, 0, 2**64 - 1),
+                                whole("episodes", episodes), number("seconds", seconds), whole("seed", seed, 0, 2**53),
                                 option_texts(options), threads)
         return Evaluation(np.array(result["total_reward"]), result["solved"], result["solved_at_end"],
                           result["ended_s"], result["broke"])

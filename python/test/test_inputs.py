@@ -300,6 +300,11 @@ def test_numbers_are_refused_by_name(tmp_path):
         learn(cart(), tmp_path / "none", seed=2**63)
     with pytest.raises(rehearse.InvalidInput, match="seed = -1, must be ≥ 0"):
         run.evaluate(3, seed=-1)
+    with pytest.raises(rehearse.InvalidInput, match="seed = 9007199254740993, must be ≤ 9007199254740992"):
+        run.evaluate(3, seed=2**53 + 1)
+    for episodes in (0, 10**12):
+        with pytest.raises(rehearse.InvalidInput, match=f"episodes = {episodes}, must be between 1 and 1000000$"):
+            run.evaluate(episodes)
     with pytest.raises(rehearse.InvalidInput, match="trial 1 of .* has no predictions"):
         learn(cart(priors=None), tmp_path / "first", learner="black-drops").prediction(1)
     assert not (tmp_path / "none").exists()
