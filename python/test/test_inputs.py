@@ -274,6 +274,33 @@ def test_what_an_environment_leaves_out_is_named(returned, message):
     assert played.step(np.zeros(1)) == ([0.0], True)
 
 
+def stepping(*ends):
+    """An environment whose steps end with these."""
+    env = Environment()
+    env.step = lambda _: ([0.0, 1.0], 0.0, *ends)
+    return environment.Environment(env, None, Task(3))
+
+
+@pytest.mark.parametrize("ends, message", [
+    (("no", False, {}), "step returned terminated = 'no', must be True or False"),
+    ((None, False, {}), "step returned terminated = None, must"),
+    ((2, False, {}), "step returned terminated = 2, must"),
+    ((np.array([True, False]), False, {}), r"step returned terminated = array\(\[ True, False\]\), must"),
+    ((False, "no", {}), "step returned truncated = 'no', must"),
+    (("False", {}), "step returned done = 'False', must"),
+])
+def test_an_episode_is_over_or_not(ends, message):
+    with pytest.raises(ValueError, match=f"^{message}"):
+        stepping(*ends).step(np.zeros(1))
+
+
+@pytest.mark.parametrize("like", [bool, int, float, np.bool_, np.int64, lambda truth: np.array([truth])])
+def test_an_episode_is_over_by_any_truth(like):
+    for truth in (False, True):
+        assert stepping(like(truth), like(False), {}).step(np.zeros(1))[1] is truth
+        assert stepping(like(truth), {}).step(np.zeros(1))[1] is truth
+
+
 # Numbers.
 
 
