@@ -323,6 +323,8 @@ def test_numbers_are_refused_by_name(tmp_path):
                 call(trial)
     with pytest.raises(TypeError, match="trials = 2.5, must be a whole number"):
         run.resume(2.5)
+    with pytest.raises(rehearse.InvalidInput, match="^trials = -3, must be ≥ 1 where Rehearse drives the plant$"):
+        run.resume(-3)
     with pytest.raises(rehearse.InvalidInput, match="seed = 9223372036854775808, must be ≤ 9007199254740992"):
         learn(cart(), tmp_path / "none", seed=2**63)
     with pytest.raises(rehearse.InvalidInput, match="seed = -1, must be ≥ 0"):
