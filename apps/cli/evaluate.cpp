@@ -55,11 +55,9 @@ Wanted wanted(const EvaluateArguments& arguments) {
   Violations violations;
   Wanted wanted;
   wanted.trial = trial_of(arguments.trial, violations);
-  Index seed = 1;
   const Fields fields = [&](FieldVisitor& v) {
-    v.integer("episodes", wanted.plan.episodes, "episodes on the plant", between(1, 1e6));
+    wanted.plan.fields(v);
     v.number("seconds", wanted.plan.seconds, "length of an episode [s]", above(0));
-    v.integer("seed", seed, "of starts and noise", between(0, 9007199254740992.0));
   };
   set_text(fields, "episodes", arguments.episodes, violations);
   set_text(fields, "seconds", arguments.seconds, violations);
@@ -74,7 +72,7 @@ Wanted wanted(const EvaluateArguments& arguments) {
     violations.add(error);
   }
   violations.throw_if_any();
-  if (arguments.seed) wanted.seed = seed;
+  if (arguments.seed) wanted.seed = wanted.plan.seed;
   return wanted;
 }
 
@@ -171,7 +169,7 @@ Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& a
   GivenPolicy policy = policy_wanted(arguments, wanted, run);
   wanted.settings = run.as_identified(wanted.settings);
   experiment::Resolved resolved = experiment::read_run(catalogue, folder, wanted.settings).resolved;
-  wanted.plan.seed = static_cast<std::uint64_t>(wanted.seed.value_or(resolved.spec.seed));
+  wanted.plan.seed = wanted.seed.value_or(resolved.spec.seed);
   const std::shared_ptr<const Evaluator> threads = make_thread_evaluator(static_cast<int>(wanted.threads));
   return {catalogue,
           folder,

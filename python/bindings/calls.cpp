@@ -18,9 +18,13 @@ std::string shape_of(const py::array& array) {
   return fmt::format("({}{})", shape, array.ndim() == 1 ? "," : "");
 }
 
-[[noreturn]] void refuse(const std::string& name, const std::string& result) {
+[[noreturn]] void refuse(const std::string& name, const std::string& result, const char* wanted) {
   PyErr_Clear();
-  throw py::value_error(fmt::format("{} returned {}, must be an array of numbers", name, result));
+  throw py::value_error(fmt::format("{} returned {}, must be {}", name, result, wanted));
+}
+
+std::string type_of(const py::object& result) {
+  return result.is_none() ? "None" : py::str(py::type::of(result).attr("__name__"));
 }
 
 bool is_masked(const py::object& result) { return py::hasattr(result, "filled"); }
@@ -28,12 +32,13 @@ bool is_masked(const py::object& result) { return py::hasattr(result, "filled");
 /// Raises ValueError where NumPy makes no array of a result. What is masked is NaN.
 template <class Array>
 Array array_of(const py::object& result, const std::string& name) {
-  if (result.is_none()) refuse(name, "None");
+  constexpr const char* kWanted = "an array of numbers";
+  if (result.is_none()) refuse(name, "None", kWanted);
   const py::array given = py::array::ensure(
       is_masked(result) ? result.attr("astype")("float64").attr("filled")(py::float_(std::nan(""))) : result);
-  if (given && given.dtype().kind() == 'c') refuse(name, "complex numbers");
+  if (given && given.dtype().kind() == 'c') refuse(name, "complex numbers", kWanted);
   if (const Array array = Array::ensure(given)) return array;
-  refuse(name, py::str(py::type::of(result).attr("__name__")));
+  refuse(name, type_of(result), kWanted);
 }
 
 }  // namespace
@@ -95,6 +100,17 @@ void call(const Callable& of, const std::function<void(const py::object& functio
     of.failure->keep(error, of.name);
     throw system::Unavailable(fmt::format("{}: {}", of.name, error.what()));
   }
+}
+
+double number_of(const py::object& result, const std::string& name) {
+  constexpr const char* kWanted = "a number";
+  const py::array array = py::array::ensure(result);
+  if (array && array.size() != 1) refuse(name, "an array of shape " + shape_of(array), kWanted);
+  if (array && array.dtype().kind() == 'c') refuse(name, "a complex number", kWanted);  // NumPy would drop a part
+  const double number = PyFloat_AsDouble(result.ptr());  // takes no texts, as float() does
+  if (!PyErr_Occurred()) return number;
+  if (PyErr_ExceptionMatches(PyExc_TypeError) != 0) refuse(name, type_of(result), kWanted);
+  throw py::error_already_set();
 }
 
 void write_result(const py::object& result, const std::string& name, VectorView values) {

@@ -51,6 +51,9 @@ struct Callable {
 /// Calls what Python needs a lock for. An exception is kept, and becomes system::Unavailable, which ends a run.
 void call(const Callable& of, const std::function<void(const py::object& function)>& work);
 
+/// The number that a function returned. Raises ValueError.
+double number_of(const py::object& result, const std::string& name);
+
 /// The numbers that a function returned, into a vector or a matrix of the right size. Raises ValueError.
 void write_result(const py::object& result, const std::string& name, VectorView values);
 void write_truths(const py::object& result, const std::string& name, VectorView values);  // True and False alone

@@ -84,7 +84,7 @@ std::function<double(const Episode&)> of_episodes(const Callable& of) {
   return [of](const Episode& episode) {
     double reward = 0;
     call(of, [&](const py::object& function) {
-      reward = py::float_(function(to_array(episode.true_states), to_array(episode.actions)));
+      reward = number_of(function(to_array(episode.true_states), to_array(episode.actions)), of.name);
     });
     return reward;
   };

@@ -247,7 +247,7 @@ void add_runs(py::module_& module) {
   module.def(
       "evaluate",
       [](const Robot& robot, const std::string& folder, std::optional<Index> trial, const std::string& policy,
-         Index episodes, double seconds, std::uint64_t seed, const Options& options, int threads) {
+         Index episodes, double seconds, Index seed, const Options& options, int threads) {
         return evaluate(robot, folder, {trial, policy, {episodes, seconds, seed}, options}, {threads});
       },
       "robot"_a, "folder"_a, "trial"_a, "policy"_a, "episodes"_a, "seconds"_a, "seed"_a, "options"_a, "threads"_a);

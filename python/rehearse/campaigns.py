@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
-from .checks import function_or_none, read_text, threads_of, whole
+from .checks import function_or_none, path_of, path_or_none, read_text, threads_of, whole
 from .progress import show
 from .robot import Robot
 from .run import PathLike, Progress, Robots, Run, begun_with, name_of, robot_of, write_report
@@ -33,7 +33,7 @@ class Campaign:
     """
 
     def __init__(self, folder: PathLike, robot: Union[Robot, None] = None) -> None:
-        self.folder = Path(folder).absolute()
+        self.folder = Path(path_of("folder", folder)).absolute()
         if not (self.folder / "summary.json").exists():
             raise _core.InvalidInput(f"{folder} is not the folder of a campaign")
         self._robot = begun_with(robot)
@@ -143,7 +143,7 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
     keys = {key: [entry] if key in ("learners", "priors") and isinstance(entry, str) else entry
             for key, entry in keys.items() if entry is not None}
     text, source, scenario, core, own = _given(given, robot, keys)
-    folder = os.fspath(out) if out else f"runs/{Path(source).stem}"
+    folder = path_or_none("out", out) or f"runs/{Path(source).stem}"
     threads, progress = threads_of(threads), function_or_none("progress", progress)
     if own is not None and own.has_environment:
         threads = 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from operator import index
 from pathlib import Path
 from typing import Any, Union
@@ -65,6 +65,25 @@ def text(name: str, value: Any) -> str:
     return value
 
 
+def texts(name: str, value: Any, kinds: str) -> list[str]:
+    """One text, or several. kinds: what it must be, for the message."""
+    several = [value] if isinstance(value, str) or not isinstance(value, Iterable) else list(value)
+    if not all(isinstance(each, str) for each in several):
+        raise TypeError(f"{name} = {value!r}, must be {kinds}")
+    return several
+
+
+def path_of(name: str, value: Any, kinds: str = "a path") -> str:
+    if not isinstance(value, (str, os.PathLike)):
+        raise TypeError(f"{name} = {value!r}, must be {kinds}")
+    return os.fsdecode(value)
+
+
+def path_or_none(name: str, value: Any, kinds: str = "a path or None") -> str:
+    """An empty text is none."""
+    return "" if value is None else path_of(name, value, kinds)
+
+
 def mapping(name: str, value: Any) -> Mapping[str, Any]:
     if not isinstance(value, Mapping):
         raise TypeError(f"{name} is a {type(value).__name__}, must be a dictionary")
@@ -117,14 +136,20 @@ def option_texts(options: Union[Mapping[str, Any], None]) -> list[tuple[str, str
 def read_text(path: Union[str, os.PathLike[str]]) -> str:
     """The text of a file of ours, which is UTF-8 whatever the locale."""
     try:
-        return Path(path).read_text(encoding="utf-8")
+        return Path(path_of("path", path)).read_text(encoding="utf-8")
     except UnicodeDecodeError:
         raise InvalidInput(f"{os.fspath(path)} is no text: it has bytes that are not UTF-8") from None
 
 
+def read_if_any(name: str, path: Any, kinds: str) -> str:
+    """The text of a file of ours; of None an empty one. kinds: what the argument must be, for the message."""
+    given = path_or_none(name, path, kinds)
+    return read_text(given) if given else ""
+
+
 def write_page(path: Union[str, os.PathLike[str]], page: str) -> Path:
     """Writes a page. A file of that name that is none is left as it is."""
-    if Path(path).suffix != ".html":
+    if Path(path_of("path", path)).suffix != ".html":
         raise InvalidInput(f"{os.fspath(path)}: must end in .html")
     _core.write_page(os.fspath(path), page)
     return Path(path)

@@ -83,18 +83,20 @@ class Environment:
             return self._state(result), False
         if len(result) == 5:
             observation, _, terminated, truncated, _ = result
+            terminated, truncated = _truth("terminated", terminated), _truth("truncated", truncated)
         elif len(result) == 4:
             observation, _, done, info = result
+            done = _truth("done", done)
             truncated = bool(done and isinstance(info, Mapping) and info.get("TimeLimit.truncated", False))
             terminated = done and not truncated
         else:
             raise ValueError(f"step returned {len(result)} things, must be an observation, four or five")
-        self._over = bool(truncated and not terminated)
+        self._over = truncated and not terminated
         if self._over and self._step < self._task.horizon:
             raise RuntimeError(
                 f"the environment ended the episode after {self._step} of {self._task.horizon} steps by its own limit of "
                 "time: give it a longer one (max_episode_steps), or the robot a shorter horizon")
-        return self._state(observation), bool(terminated)
+        return self._state(observation), terminated
 
     def _state(self, observation: Any) -> Array:
         state = self._observe(observation) if self._observe else observation
@@ -126,6 +128,14 @@ class Environment:
         self._last = given
         continued: Array = given + 2 * math.pi * self._turns
         return continued
+
+
+def _truth(name: str, value: Any) -> bool:
+    """A truth, of NumPy too, or 0 or 1. Python would take any text for True, "no" as well."""
+    given = np.asarray(value)
+    if given.size != 1 or given.dtype.kind not in "biuf" or given.item() not in (0, 1):
+        raise ValueError(f"step returned {name} = {value!r}, must be True or False")
+    return bool(given.item())
 
 
 @dataclass(frozen=True)

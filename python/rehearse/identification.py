@@ -12,7 +12,7 @@ from typing import Any, Union
 
 from . import _core
 from .arrays import Array
-from .checks import option_texts, threads_of, write_page
+from .checks import option_texts, text, threads_of, write_page
 from .run import Robots, robot_of
 from .tables import as_files, from_csv, without_path
 
@@ -71,12 +71,13 @@ def identify(robot: Robots, logs: Sequence[Any], *, held_out: Sequence[Any] = ()
     options: as of `rehearse identify --set`. The same result for any number of threads.
     """
     logs, held_out = _several(logs), _several(held_out)
+    prior = None if prior is None else text("prior", prior)
     with tempfile.TemporaryDirectory() as folder, without_path(folder):
         learned_from = as_files(logs, folder, "log")
         forecast = as_files(held_out, folder, "held-out")
         core, scenario = robot_of(robot)
         result = _core.identify(core, scenario, prior, option_texts(options), learned_from, forecast, threads_of(threads))
-    tables = {Path(name).stem: from_csv(text) for name, text in result["tables"]}
+    tables = {Path(name).stem: from_csv(table) for name, table in result["tables"]}
     summary = "\n\n".join("\n  ".join([title, *lines]) for title, lines in result["summary"])
     return Identification(tables, summary, result["notes"], result["page"])
 

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import InvalidInput
 from .arrays import Array
-from .checks import number, option_texts, read_text, vector, whole
+from .checks import number, option_texts, path_of, read_text, vector, whole
 from .exported import Exported
 
 
@@ -131,7 +131,7 @@ class Policy:
     def export(self, path: Union[str, os.PathLike[str]]) -> Path:
         """Writes it for others: .h (C99), .json, or .py (NumPy alone), by the name's end (docs/export.md). A file of
         that name that is no policy is left as it is."""
-        path = Path(path)
+        path = Path(path_of("path", path))
         name = path.stem
         texts = {".h": lambda: self._core.to_c(name), ".json": self._core.to_json, ".py": self._core.to_numpy}
         if path.suffix not in texts:

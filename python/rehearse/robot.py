@@ -17,7 +17,7 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
-from .checks import mapping, number, read_text
+from .checks import mapping, number, read_text, texts
 from .environment import Task, environment_maker, is_environment
 from .parts import (Action, Body, Distance, EpisodeFunction, Limit, Model, State, StateFunction, StepFunction,
                     Success)
@@ -161,7 +161,7 @@ class Robot:
 
     def _reward(self, reward: Any) -> dict[str, Any]:
         if isinstance(reward, Distance):
-            of = [reward.of] if isinstance(reward.of, str) else list(reward.of)
+            of = texts("of of Distance", reward.of, "a formula, or several")
             return {"distance": of, "width": number("width", reward.width)}
         return {"formula": self._formula("reward", reward, "add_step_function")}
 

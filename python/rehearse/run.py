@@ -15,8 +15,8 @@ import numpy as np
 
 from . import _core
 from .arrays import Array
-from .checks import (function_or_none, number, option_texts, read_text, text, threads_of, truth, whole, whole_or_none,
-                     write_page)
+from .checks import (function_or_none, number, option_texts, path_of, path_or_none, read_if_any, text, texts,
+                     threads_of, truth, whole, whole_or_none, write_page)
 from .evaluation import Evaluation
 from .policy import Policy
 from .progress import show
@@ -56,7 +56,7 @@ class Run:
     """
 
     def __init__(self, folder: PathLike, robot: Union[Robot, None] = None) -> None:
-        self.folder = Path(folder).absolute()
+        self.folder = Path(path_of("folder", folder)).absolute()
         if not (self.folder / "spec.toml").exists():
             raise _core.InvalidInput(f"{folder} is not a run folder")
         self._robot = begun_with(robot)
@@ -167,7 +167,7 @@ class Run:
         if trial is not None and policy is not None:
             raise _core.InvalidInput("trial and policy name two policies")
         result = _core.evaluate(self._core, str(self.folder), whole_or_none("trial", trial), _json_of(policy),
-                                whole("episodes", episodes), number("seconds", seconds), whole("seed", seed, 0, 2**64 - 1),
+                                whole("episodes", episodes), number("seconds", seconds), whole("seed", seed, 0, 2**53),
                                 option_texts(options), threads)
         return Evaluation(np.array(result["total_reward"]), result["solved"], result["solved_at_end"],
                           result["ended_s"], result["broke"])
@@ -236,9 +236,9 @@ def learn(robot: Robots, learner: str = "", *, prior: Union[str, Sequence[str], 
     """
     trials, seed, threads = whole("trials", trials), whole("seed", seed, 0, 2**53), threads_of(threads)
     core, scenario = robot_of(robot)
-    names = ",".join([prior] if isinstance(prior, str) else list(prior or []))
+    names = ",".join(texts("prior", [] if prior is None else prior, "a name, several, or None"))
     folder = _core.learn(core, scenario, text("learner", learner), names, text("preset", preset), _json_of(policy), trials,
-                         truth("until_solved", until_solved), seed, option_texts(options), os.fspath(out) if out else "",
+                         truth("until_solved", until_solved), seed, option_texts(options), path_or_none("out", out),
                          threads, function_or_none("progress", progress))
     return Run(folder, robot if isinstance(robot, Robot) else None)
 
@@ -267,9 +267,7 @@ def robot_of(robot: Robots) -> tuple[Any, str]:
 
 def name_of(robot: PathLike) -> str:
     """The name or the path of a robot that is no object."""
-    if not isinstance(robot, (str, os.PathLike)):
-        raise TypeError(f"robot = {robot!r}, must be a Robot, the name of a built-in one, or a path")
-    return os.fspath(robot)
+    return path_of("robot", robot, "a Robot, the name of a built-in one, or a path")
 
 
 def begun_with(robot: Any) -> Union[Robot, None]:
@@ -283,12 +281,13 @@ def write_report(folder: Path, out: Union[PathLike, None]) -> Path:
     """The page of a run or of a campaign."""
     from .__main__ import share
 
-    return write_page(Path(out) if out else folder / "report.html", _core.report(str(folder), str(share())))
+    return write_page(path_or_none("out", out) or folder / "report.html", _core.report(str(folder), str(share())))
 
 
 def _json_of(policy: Union[Policy, PathLike, None]) -> str:
     """The text of a policy, or of its file; "": none."""
-    return policy._core.to_json() if isinstance(policy, Policy) else read_text(policy) if policy else ""
+    return (policy._core.to_json() if isinstance(policy, Policy)
+            else read_if_any("policy", policy, "a Policy, its JSON file, or None"))
 
 
 def _best_of(trials: list[Trial]) -> Union[Trial, None]:

@@ -276,6 +276,33 @@ def test_what_an_environment_leaves_out_is_named(returned, message):
     assert played.step(np.zeros(1)) == ([0.0], True)
 
 
+def stepping(*ends):
+    """An environment whose steps end with these."""
+    env = Environment()
+    env.step = lambda _: ([0.0, 1.0], 0.0, *ends)
+    return environment.Environment(env, None, Task(3))
+
+
+@pytest.mark.parametrize("ends, message", [
+    (("no", False, {}), "step returned terminated = 'no', must be True or False"),
+    ((None, False, {}), "step returned terminated = None, must"),
+    ((2, False, {}), "step returned terminated = 2, must"),
+    ((np.array([True, False]), False, {}), r"step returned terminated = array\(\[ True, False\]\), must"),
+    ((False, "no", {}), "step returned truncated = 'no', must"),
+    (("False", {}), "step returned done = 'False', must"),
+])
+def test_an_episode_is_over_or_not(ends, message):
+    with pytest.raises(ValueError, match=f"^{message}"):
+        stepping(*ends).step(np.zeros(1))
+
+
+@pytest.mark.parametrize("like", [bool, int, float, np.bool_, np.int64, lambda truth: np.array([truth])])
+def test_an_episode_is_over_by_any_truth(like):
+    for truth in (False, True):
+        assert stepping(like(truth), like(False), {}).step(np.zeros(1))[1] is truth
+        assert stepping(like(truth), {}).step(np.zeros(1))[1] is truth
+
+
 # Numbers.
 
 
@@ -298,10 +325,17 @@ def test_numbers_are_refused_by_name(tmp_path):
                 call(trial)
     with pytest.raises(TypeError, match="trials = 2.5, must be a whole number"):
         run.resume(2.5)
+    with pytest.raises(rehearse.InvalidInput, match="^trials = -3, must be ≥ 1 where Rehearse drives the plant$"):
+        run.resume(-3)
     with pytest.raises(rehearse.InvalidInput, match="seed = 9223372036854775808, must be ≤ 9007199254740992"):
         learn(cart(), tmp_path / "none", seed=2**63)
     with pytest.raises(rehearse.InvalidInput, match="seed = -1, must be ≥ 0"):
         run.evaluate(3, seed=-1)
+    with pytest.raises(rehearse.InvalidInput, match="seed = 9007199254740993, must be ≤ 9007199254740992"):
+        run.evaluate(3, seed=2**53 + 1)
+    for episodes in (0, 10**12):
+        with pytest.raises(rehearse.InvalidInput, match=f"episodes = {episodes}, must be between 1 and 1000000$"):
+            run.evaluate(episodes)
     with pytest.raises(rehearse.InvalidInput, match="trial 1 of .* has no predictions"):
         learn(cart(priors=None), tmp_path / "first", learner="black-drops").prediction(1)
     assert not (tmp_path / "none").exists()

@@ -188,6 +188,24 @@ def test_wrong_results_say_what_they_must_be(tmp_path, wrong, message):
         learn(cart(reward=wrong), tmp_path / "run")
 
 
+@pytest.mark.parametrize("returned, message", [
+    (None, "None"),
+    (np.zeros(16), r"an array of shape \(16,\)"),
+    ("1.5", "str"),
+    (np.complex64(1j), "a complex number"),
+])
+def test_the_reward_of_an_episode_is_a_number(tmp_path, returned, message):
+    with pytest.raises(ValueError, match=f"^episode_reward returned {message}, must be a number$"):
+        learn(cart(episode_reward=lambda states, actions: returned), tmp_path / "run")
+
+
+@pytest.mark.parametrize("number", [-2, np.float32(-2), np.array(-2.0)])
+def test_the_reward_of_an_episode_may_be_any_number(tmp_path, number):
+    plain = learn(cart(), tmp_path / "plain", trials=1).trials["return"]
+    run = learn(cart(episode_reward=lambda states, actions: number), tmp_path / "run", trials=1)
+    np.testing.assert_allclose(run.trials["return"], plain - 2)
+
+
 @pytest.mark.parametrize("masked", [False, True])
 def test_rows_that_are_nan_end_their_rollouts_alone(tmp_path, masked):
     def holes(states, actions, mass, friction):

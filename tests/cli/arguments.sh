@@ -84,6 +84,7 @@ expect 2 "unknown option 'plant.b3', did you mean 'plant.b" 1 learn pendubot --l
 expect 2 "unknown option 'prior.l9', did you mean 'prior.l" 1 learn pendubot --learner gp-mi --set prior.l9=1
 expect 2 "plant.m1 = heavy, must be a number" 1 learn pendubot --learner gp-mi --set plant.m1=heavy
 expect 2 "plant.m1 = -1, must be > 0" 1 learn pendubot --learner gp-mi --set plant.m1=-1
+expect 2 "box_low = 2, must be < box_high = 1.2" 1 learn pendubot --learner gp-mi --set box_low=2
 expect 2 "l2 = 99, must be between" 1 learn pendubot --learner gp-mi --set prior.l2=99
 expect 2 "--seed = x" 4 learn pendubot --learner gp-mi --seed x --trials -1 --set colour=red --prior usful
 expect 2 "the scenario gives no initial_reward" 1 learn pendubot --learner gp-mi --set reward.learned=true

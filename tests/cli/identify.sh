@@ -27,6 +27,8 @@ refused "units.csv: row 1: .* is in 'furlong'" my_robot.toml units.csv
 refused "cannot read none.csv: it is not there" my_robot.toml none.csv
 refused "unknown option 'rowz', did you mean 'rows'" my_robot.toml "$(log 1)" --set rowz=3
 refused "zeros: there is no state 'thet'" my_robot.toml "$(log 1)" --set zeros=thet
+refused "fit_horizon_s = 1e+300, must be > 0 and ≤ 1000000" my_robot.toml "$(log 1)" --set fit_horizon_s=1e300
+refused "zeros = theta,theta has 'theta' twice" my_robot.toml "$(log 1)" --set zeros=theta,theta
 refused "unknown scenario 'my_robo'" my_robo "$(log 1)"
 cp "$(log 1)" copy.csv
 refused "$(log 1) and copy.csv are the same" my_robot.toml "$(log 1)" "$(log 2)" --held-out copy.csv

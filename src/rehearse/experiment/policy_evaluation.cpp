@@ -34,7 +34,7 @@ Outcome outcome_of(const Episode& episode, const Task& task) {
 }
 
 StreamKey stream_of(const EvaluationPlan& plan, const Learned& learned, Index episode) {
-  return {.seed = plan.seed,
+  return {.seed = static_cast<std::uint64_t>(plan.seed),
           .trial = static_cast<std::uint64_t>(learned.trial),
           .stage = Stage::evaluation,
           .search = 1,  // 0 is that of expected_return
@@ -71,7 +71,7 @@ Index EvaluationPlan::steps(const Task& task) const {
   violations.require(wanted >= static_cast<double>(task.horizon) && wanted <= kLongest,
                      fmt::format("seconds = {}, must be between {} (an episode of the task) and {}", seconds,
                                  task.episode_s(), kLongest * task.dt_s));
-  violations.require(episodes >= 1, fmt::format("episodes = {}, must be ≥ 1", episodes));
+  violations.add(field_violations([plan = *this](FieldVisitor& v) mutable { plan.fields(v); }));
   violations.throw_if_any();
   return static_cast<Index>(wanted);
 }
@@ -118,8 +118,7 @@ Summary summary_of(const std::vector<Outcome>& outcomes) {
 }
 
 std::vector<std::string> about_cells(const EvaluationAbout& about) {
-  return {files::Csv::cell(about.trial), about.settings, files::Csv::cell(static_cast<Index>(about.seed)),
-          files::Csv::cell(about.seconds)};
+  return {files::Csv::cell(about.trial), about.settings, files::Csv::cell(about.seed), files::Csv::cell(about.seconds)};
 }
 
 std::string evaluation_csv(const std::vector<Outcome>& outcomes, const EvaluationAbout& about) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rehearse/core/evaluator.hpp"
+#include "rehearse/core/options.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/policy/policy.hpp"
 
@@ -18,10 +19,16 @@ bool has_robot(const Resolved& resolved);
 /// The settings of an evaluation: episodes on the plant that do not count as interaction.
 struct EvaluationPlan {
   Index episodes = 100;
-  double seconds = 0;      // of an episode, at least the task's; 0: the task's
-  std::uint64_t seed = 1;  // of starts and noise
+  double seconds = 0;  // of an episode, at least the task's; 0: the task's
+  Index seed = 1;      // of starts and noise
 
-  /// Steps of an episode. Throws InvalidInput.
+  /// Those whose bounds no task decides.
+  void fields(FieldVisitor& v) {
+    v.integer("episodes", episodes, "episodes on the plant", between(1, 1e6));
+    v.integer("seed", seed, "of starts and noise", between(0, 9007199254740992.0));  // 2^53, as a run's
+  }
+
+  /// Steps of an episode. Throws InvalidInput for whatever is wrong with the plan.
   Index steps(const Task& task) const;
 };
 
@@ -66,7 +73,7 @@ Summary summary_of(const std::vector<Outcome>& outcomes);
 struct EvaluationAbout {
   Index trial = 1;       // of the policy
   std::string settings;  // "plant.m1=0.6"
-  std::uint64_t seed = 1;
+  Index seed = 1;
   double seconds = 0;  // of an episode
 };
 

@@ -97,9 +97,10 @@ Spec extended_spec(Spec spec, const std::filesystem::path& path, std::optional<U
   if (!until) return spec;
   spec.trials = until->trials;
   spec.until_solved = until->solved;
+  if (spec.trials < 1)  // a line that says it all: bounds of a new run, and trials that are done, say less
+    throw InvalidInput(fmt::format("trials = {}, must be ≥ 1 where Rehearse drives the plant", spec.trials));
   Violations violations;
   violations.add(field_violations([&](FieldVisitor& v) { spec.fields(v); }));
-  violations.require(spec.trials > 0, "trials = 0, must be ≥ 1 where Rehearse drives the plant");
   violations.require(spec.trials >= done,
                      fmt::format("trials = {}, but {} trials of {} are done", spec.trials, done, path.string()));
   violations.throw_if_any();

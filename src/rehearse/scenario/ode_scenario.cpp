@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rehearse/core/errors.hpp"
+
 namespace rehearse::scenario {
 
 void OdeOptions::fields(FieldVisitor& v) {
@@ -32,6 +34,12 @@ void OdeOptions::fields_of_robot(FieldVisitor& v, std::vector<Parameter>& plant)
   v.integer("substeps", substeps, expert("integration steps per control step, of priors and oracle"), between(1, 1e4));
   v.integer("evaluations", evaluations, "extra episodes for each trial's expected_return; 0: none", between(0, 1e6));
   policy.fields(v);
+}
+
+Interval OdeOptions::box() const {
+  if (!(box_low < box_high))
+    throw InvalidInput("box_low = " + to_text(box_low) + ", must be < box_high = " + to_text(box_high));
+  return {box_low, box_high};
 }
 
 Vector OdeOptions::measurement_std(Index states) const {

@@ -26,7 +26,8 @@ struct OdeOptions {
   Index evaluations = 0;            // extra episodes for each trial's expected_return; the authors' code: 500
   PolicyOptions policy;
 
-  Interval box() const { return {box_low, box_high}; }
+  /// The bounds of all parameters that may be tuned. Throws InvalidInput where they are none, once for all of them.
+  Interval box() const;
   Vector measurement_std(Index states) const;
   void fields(FieldVisitor& v);
 

@@ -13,10 +13,7 @@ namespace rehearse::study {
 namespace {
 
 constexpr double kStretchS = 1;
-
-Index steps_of(double time_s, const Task& task) {
-  return std::max<Index>(1, static_cast<Index>(std::llround(time_s / task.dt_s)));
-}
+constexpr double kMostSteps = 1e12;  // more than a log has, and whole numbers can still be computed with
 
 /// Around the prior at the φ of the zeros, but for GP-MI, which moves it.
 identification::Learned learned_beyond(const LogModel& model, const Task& task, const prior::Prior& prior,
@@ -43,16 +40,26 @@ identification::Learned learned_beyond(const LogModel& model, const Task& task, 
 
 }  // namespace
 
+Index steps_of(double time_s, const Task& task) {
+  return static_cast<Index>(std::clamp(std::round(time_s / task.dt_s), 1.0, kMostSteps));
+}
+
 std::vector<Index> states_named(const std::string& names, const Task& task) {
   std::vector<Index> states;
   const std::vector<std::string> known = task.state_names();
   std::istringstream all(names);
+  Violations violations;
   for (std::string name; std::getline(all, name, ',');) {
     const auto found = std::ranges::find(known, name);
+    const Index state = found - known.begin();
     if (found == known.end())
-      throw InvalidInput(fmt::format("zeros: there is no state '{}'{}", name, did_you_mean(name, known)));
-    states.push_back(found - known.begin());
+      violations.add(fmt::format("zeros: there is no state '{}'{}", name, did_you_mean(name, known)));
+    else if (std::ranges::find(states, state) != states.end())
+      violations.add(fmt::format("zeros = {} has '{}' twice, must name each state once", names, name));
+    else
+      states.push_back(state);
   }
+  violations.throw_if_any();
   return states;
 }
 

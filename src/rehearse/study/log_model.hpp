@@ -9,7 +9,10 @@
 
 namespace rehearse::study {
 
-/// The states that `zeros` names. Throws InvalidInput if there is no such state.
+/// Control steps in a time, at least one.
+Index steps_of(double time_s, const Task& task);
+
+/// The states that `zeros` names. Throws InvalidInput if there is no such state, or if one is named twice.
 std::vector<Index> states_named(const std::string& names, const Task& task);
 
 /// The zeros and parameters that these options look for. The prior must outlive it.

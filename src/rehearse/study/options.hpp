@@ -15,6 +15,9 @@ enum class Beyond {
   gp_mi,    // GPs and the parameters anew, by steps (Chatzilygeroudis 2018)
 };
 
+/// Bounds of times of logs.
+inline Bound seconds_of_logs() { return {.low = 0, .high = 1e6, .low_open = true}; }
+
 /// Options for learning a robot from logs alone.
 struct Options {
   std::string zeros;           // states, "q1,q2"
@@ -31,11 +34,11 @@ struct Options {
     v.number("zero_range", zero_range, "how far such a zero may be off, in the state's unit", above(0));
     v.number("zero_s", zero_s,
              "the first seconds of a held-out log, from which its zeros are estimated; forecasts begin then [s]",
-             above(0));
+             seconds_of_logs());
     v.number("fit_horizon_s", fit_horizon_s, expert("how far zeros and first parameters are made to predict [s]"),
-             above(0));
+             seconds_of_logs());
     v.integer("rows", rows, "control steps that the GPs learn from, evenly spread stretches of the logs", at_least(20));
-    v.number("every_s", every_s, "time between starts of forecasts [s]", above(0));
+    v.number("every_s", every_s, "time between starts of forecasts [s]", seconds_of_logs());
     v.integer("particles", particles, "particles of a forecast", between(2, 10000));
     v.choice("beyond", beyond, "what is learned beyond the parameters that predict best over some steps",
              {"chosen", "nothing", "gp", "gp-mi"});

@@ -19,10 +19,10 @@ class Student {
  public:
   Student(const Problem& problem, const Options& options, const Evaluator& evaluator, const ProgressSink& progress)
       : problem_(problem), options_(options), evaluator_(evaluator), progress_(progress) {
-    plan_.every = std::max<Index>(1, std::llround(options.every_s / problem.task.dt_s));
+    plan_.every = steps_of(options.every_s, problem.task);
     plan_.particles = options.particles;
     for (const double horizon_s : kHorizonsS) {
-      const auto steps = std::max<Index>(1, std::llround(horizon_s / problem.task.dt_s));
+      const Index steps = steps_of(horizon_s, problem.task);
       if (!plan_.horizons.empty() && plan_.horizons.back() == steps) continue;
       plan_.horizons.push_back(steps);
       study_.horizons_s.push_back(seconds(steps, problem.task.dt_s));

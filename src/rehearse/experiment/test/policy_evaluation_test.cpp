@@ -136,7 +136,10 @@ TEST(PolicyEvaluation, SaysWhatIsWrong) {
   };
   EXPECT_NE(said({.seconds = 0.5}).find("seconds = 0.5, must be between 1.2"), std::string::npos)
       << said({.seconds = 0.5});
-  EXPECT_NE(said({.episodes = 0}), "");
+  EXPECT_EQ(said({.episodes = 0}), "episodes = 0, must be between 1 and 1000000");
+  EXPECT_EQ(said({.episodes = 1000000000000, .seed = -1}),
+            "episodes = 1000000000000, must be between 1 and 1000000\n"
+            "seed = -1, must be between 0 and 9007199254740992");
   Learned wrong = slow_policy();
   wrong.theta = Vector::Zero(3);
   EXPECT_THROW(evaluate(line_where(), wrong, EvaluationPlan{}, serial_evaluator()), InvalidInput);

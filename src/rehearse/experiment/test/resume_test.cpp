@@ -91,6 +91,14 @@ TEST(Resume, ExtendsARunAndNeverShrinksIt) {
   EXPECT_NE(message.find("trials = 5, but 6 trials of"), std::string::npos) << message;
 }
 
+TEST(Resume, NamesTheNumberOfTrialsThatIsNone) {
+  const fs::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(2), folder, {});
+  for (const Index trials : {0, -3})
+    EXPECT_EQ(fake::message_of<InvalidInput>([&] { resume_run(fake::catalogue(), folder, trials, {}); }),
+              "trials = " + std::to_string(trials) + ", must be ≥ 1 where Rehearse drives the plant");
+}
+
 /// The message of what fails when the run in a folder is resumed.
 bool may_resuming_help(const fs::path& folder) {
   try {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "oscillator.hpp"
+#include "rehearse/core/errors.hpp"
 
 namespace rehearse::scenario {
 namespace {
@@ -60,6 +61,19 @@ TEST(OdeScenario, OptionsReachTheirParts) {
   Matrix U(1, 1);  // θ · (x / scale), squashed into [−2, 1]
   s.policy->act(Matrix{{0, 0.3, 0}}, Matrix{{0, 4}}, 0, U);
   EXPECT_NEAR(U(0, 0), -0.5 + 1.5 * std::tanh(0.6), 1e-14);
+}
+
+TEST(OdeScenario, ABoxWithoutRoomIsRefusedOnce) {
+  for (const auto& [low, text] : {std::pair{7.5, "7.5"}, {5.0, "5"}}) {
+    oscillator::Options options;  // with box_high = 5
+    options.ode.box_low = low;
+    try {
+      oscillator::make(options);
+      ADD_FAILURE() << "box_low = " << low;
+    } catch (const InvalidInput& error) {
+      EXPECT_EQ(std::string(error.what()), std::string("box_low = ") + text + ", must be < box_high = 5");
+    }
+  }
 }
 
 TEST(LimitWithin, HoldsWhereAStateIsNearerToZero) {
