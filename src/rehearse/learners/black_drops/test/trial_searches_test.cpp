@@ -37,11 +37,12 @@ TEST_F(TrialSearchesTest, EachHasItsOwnNumbersWhateverCameBefore) {
 }
 
 TEST_F(TrialSearchesTest, PoliciesThatSolveTheTaskAreSearchedFor) {
-  task.solved = [](const Episode& e) { return e.true_states(e.steps(), 0) > 1; };
+  task.solved = [](const Episode& e) { return e.true_states(e.steps(), 0) > 0.3; };
+  options.race.max_evaluations = 3000;
   TrialSearches trial = searches();
-  const SearchResult highest = trial.search({}, 0), solving = trial.search_solving({}, 20, 0);
+  const SearchResult highest = trial.search({}, 0), solving = trial.search_solving({}, 50, 0);
   const Vector often = trial.compare_solving({highest.theta, solving.theta});
-  EXPECT_LT(often(0), 0.1) << "the highest return is that of a slider at 0";
+  EXPECT_LT(often(0), 0.5) << "the highest return is that of a slider at 0";
   EXPECT_GT(often(1), 0.9);
   EXPECT_LT(solving.predicted_return, highest.predicted_return) << "without the bonus";
 }
