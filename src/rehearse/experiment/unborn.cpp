@@ -44,8 +44,8 @@ bool has_a_beginning(const fs::path& folder) {
   return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), is_of_a_beginning);
 }
 
-/// Of the run's own name alone: other machines may be making other runs here, and the number of a process says nothing
-/// of theirs. Throws where somebody holds its lock.
+/// Removes an unborn folder of the run's own name whose process has ended. Those of other names stay: other machines
+/// may be making them, and the numbers of their processes say nothing here. Throws where somebody holds its lock.
 void remove_if_abandoned(const fs::directory_entry& entry, const std::string& own_name) {
   if (name_of_unborn(entry.path().filename().string()) != own_name) return;
   if (!fs::is_directory(entry.symlink_status()) || is_alive(entry.path()) || !has_a_beginning(entry.path())) return;

@@ -29,7 +29,7 @@ struct NamedPrior {
   std::vector<std::string> lacks = {};  // parts of what it simulates that the task's states leave out, a line each
 };
 
-/// What a user of a scenario is about to do with the plant, which may be a real robot.
+/// Whether the plant, which may be a real robot, is about to move. Programs of a plant that is left alone do not start.
 enum class PlantUse { driven, left_alone };
 
 /// A task, a plant to do it on, guesses of the plant, and the policy to learn.

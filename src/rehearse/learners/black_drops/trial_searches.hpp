@@ -18,7 +18,7 @@ class TrialSearches {
   SearchResult search(const std::vector<Vector>& starts, Index i);
 
   /// The i-th search for policies that solve the task: an episode that does earns `bonus` more. The result's predicted
-  /// return is without it. Of a task that can tell.
+  /// return is without it. The task must have a test of success.
   SearchResult search_solving(const std::vector<Vector>& starts, double bonus, Index i);
 
   /// The i-th search near some policies for one that keeps the task's limits: each descent begins at one of them, and
