@@ -151,6 +151,14 @@ def fixtures(program, root, folder):
     (folder / "web").mkdir()
 
 
+def copy(source, target):
+    """Copies a file, and links a program: one that is written while another thread starts a process is busy, and cannot be run."""
+    if os.access(source, os.X_OK):
+        os.symlink(source, target)
+    else:
+        shutil.copy2(source, target)
+
+
 class Checker:
     def __init__(self, program, root, ready):
         self.program, self.root, self.ready = program, root, ready
@@ -204,7 +212,7 @@ class Checker:
 
     def furnish(self, folder):
         if not folder.exists():
-            shutil.copytree(self.ready, folder, symlinks=True, ignore=shutil.ignore_patterns(*SHARED))
+            shutil.copytree(self.ready, folder, symlinks=True, ignore=shutil.ignore_patterns(*SHARED), copy_function=copy)
             for name in SHARED:
                 (folder / name).symlink_to(self.ready / name)
 
