@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include <fmt/format.h>
@@ -13,7 +14,6 @@
 #include "rehearse/files/csv.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/statistics/intervals.hpp"
-#include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -52,14 +52,26 @@ std::optional<Rate> rate_of(const std::vector<Outcome>& outcomes, std::optional<
 
 std::string cell(const std::optional<bool>& flag) { return !flag ? "" : *flag ? "1" : "0"; }
 
-/// There must be one.
-std::unique_ptr<system::Plant> make_robot(const Resolved& resolved) {
-  const scenario::Scenario& scenario = resolved.scenario;
-  if (scenario.make_plant) return scenario.make_plant();
-  const prior::Prior& prior = *resolved.stand_in();
-  return system::make_simulated_plant(prior.simulator, prior.space.values(),
-                                      {scenario.task.start_mean, scenario.task.start_std, scenario.stand_in_noise});
-}
+/// The robot of some episodes, one after the other; there must be one. A step that a prior which plays it cannot
+/// simulate is a fall, as in the rollouts that the policy was learned in.
+class Robot {
+ public:
+  explicit Robot(const Resolved& resolved) : stand_in_(resolved.stand_in()), noise_(resolved.scenario.stand_in_noise) {
+    if (resolved.scenario.make_plant) plant_ = resolved.scenario.make_plant();
+  }
+
+  Episode episode(const Learned& learned, const Task& task, const Rng& rng, const std::function<void()>& ask) {
+    const policy::Policy& policy = *learned.policy;
+    if (plant_) return rollout::execute(*plant_, policy, learned.theta, task, rng, ask);
+    const Vector phi = stand_in_->space.values();
+    return rollout::execute({*stand_in_->simulator, phi, noise_}, policy, learned.theta, task, rng, ask);
+  }
+
+ private:
+  std::unique_ptr<system::Plant> plant_;
+  const prior::Prior* stand_in_;
+  const Vector& noise_;
+};
 
 }  // namespace
 
@@ -92,12 +104,12 @@ std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, 
   const Index parts = (plan.episodes + kEpisodesOfAPlant - 1) / kEpisodesOfAPlant;
   const auto ask = [&] { evaluator.stop_if_asked(); };
   evaluator.for_each(parts, [&](Index of) {
-    const auto plant = make_robot(resolved);
+    Robot robot(resolved);
     const Index first = of * kEpisodesOfAPlant, end = std::min(first + kEpisodesOfAPlant, plan.episodes);
     for (Index i = first; i < end; ++i)
       outcomes[static_cast<std::size_t>(i)] = named_failure(learned.trial, "plant of the evaluation", [&] {
         const Rng rng(stream_of(plan, learned, i));
-        return outcome_of(rollout::execute(*plant, *learned.policy, learned.theta, longer, rng, ask), scenario.task);
+        return outcome_of(robot.episode(learned, longer, rng, ask), scenario.task);
       });
   });
   return outcomes;

@@ -1,6 +1,9 @@
 #include "rehearse/lqr/hold.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
 
 #include <Eigen/LU>
 
@@ -91,6 +94,21 @@ bool needs_only_what_is_seen(const Task& task, Matrix& gain) {
   return true;
 }
 
+/// The step for feedback by the state alone: the action before is that of the hold. Feedback that knew it and is then
+/// cut off from it may be unstable.
+PlannedStep without_action_before(PlannedStep step, const Columns& columns) {
+  const Index dx = columns.dx, du = columns.du;
+  LinearStep& f = step.dynamics;
+  Matrix by(dx, dx + du);
+  by << f.by.topLeftCorner(dx, dx), f.by.topRightCorner(dx, du);
+  f = {.by = std::move(by), .variance = f.variance.head(dx).eval(), .variance_by = Matrix::Zero(dx, dx + du)};
+  std::vector<Index> kept(static_cast<std::size_t>(columns.all() - columns.before));
+  for (Index i = 0; i < std::ssize(kept); ++i) kept[static_cast<std::size_t>(i)] = i < dx ? i : i + columns.before;
+  step.cost.gradient = step.cost.gradient(kept).eval();
+  step.cost.hessian = step.cost.hessian(kept, kept).eval();
+  return step;
+}
+
 }  // namespace
 
 std::optional<Hold> find_hold(const Problem& problem, const StepCosts& costs, const Vector& state, const Vector& action,
@@ -101,11 +119,15 @@ std::optional<Hold> find_hold(const Problem& problem, const StepCosts& costs, co
   step.action.setZero();
   step.cost.gradient.setZero();  // it is the cheapest point that stays
   // Feedback far within the bounds: they are as if they were not there.
-  const auto found = repeated_step(step);
+  const auto found = repeated_step(without_action_before(std::move(step), costs.columns()));
   if (!found) return std::nullopt;
-  Matrix gain = costs.half_ranges().asDiagonal() * found->feedback.gain.leftCols(costs.columns().dx);
+  Matrix gain = costs.half_ranges().asDiagonal() * found->feedback.gain;
   if (!needs_only_what_is_seen(problem.task, gain)) return std::nullopt;
-  return Hold{{u, x, std::move(gain)}, found->before};
+  const Index n = costs.columns().planner_state(), dx = x.size();
+  Value value{Vector::Zero(n), Matrix::Zero(n, n)};
+  value.s.head(dx) = found->before.s;
+  value.S.topLeftCorner(dx, dx) = found->before.S;
+  return Hold{{u, x, std::move(gain)}, std::move(value)};
 }
 
 }  // namespace rehearse::lqr

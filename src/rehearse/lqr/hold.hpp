@@ -12,7 +12,8 @@ namespace rehearse::lqr {
 /// Linear feedback about a state in which the robot stays, for ever, and what it costs to come there from beside it.
 struct Hold {
   policy::FeedbackStage stage;
-  Value value;  // by the planner's state less that of the stage
+  Value value;  // by the planner's state less that of the stage; 0 by the action before, which is taken to be the
+                // stage's
 };
 
 /// The cheapest state in which the robot stays, near `state` and `action`, and the feedback of an infinite horizon

@@ -26,7 +26,9 @@ Matrix Trajectory::rows(const Columns& columns) const {
 }
 
 Vector Trajectory::times(const Task& task) const {
-  return Vector::LinSpaced(steps, begin_s, begin_s + static_cast<double>(steps - 1) * task.dt_s);
+  Vector times(steps);
+  for (Index t = 0; t < steps; ++t) times(t) = begin_s + static_cast<double>(t) * task.dt_s;  // as rollouts have it
+  return times;
 }
 
 std::vector<PlannedStep> planned_steps(const Problem& problem, const StepCosts& costs, const Trajectory& trajectory,

@@ -40,7 +40,7 @@ struct Fitc {
         Kmm(theta.signal_variance() * gp::correlations(points, points)),
         Kmn(theta.signal_variance() * gp::correlations(points, inputs)),
         L(Kmm) {
-    L.diagonal().array() += ridge;
+    L.diagonal().array() += ridge * theta.signal_variance();
     if (!factorise(L)) return;
     V = solve(L, Kmn);
     const double noise = theta.noise_variance();

@@ -1,6 +1,7 @@
 #pragma once
 // GPs of many points by few inducing inputs Z (m × D) that the outputs share: FITC (Snelson 2006), PILCO's for more
-// than 300 rows, with m = 300. `ridge` is added to the covariance of the inducing inputs (PILCO: 1e-6).
+// than 300 rows, with m = 300. `ridge`, as a fraction of the signal's variance, is added to the variance of the
+// inducing inputs (PILCO: 1e-6 whatever the signal, which drowns states that change little in their unit).
 
 #include <vector>
 

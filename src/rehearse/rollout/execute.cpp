@@ -143,7 +143,7 @@ Episode execute(const SimulatedRobot& robot, const policy::Policy& policy, const
     system::change_contained(robot.simulator, x.transpose(), u.transpose(), robot.phi, change);
     return x + change.transpose();
   };
-  const auto plant = system::make_simulated_plant(motion, {task.start_mean, task.start_std, {}});
+  const auto plant = system::make_simulated_plant(motion, {task.start_mean, task.start_std, robot.measurement_std});
   return run(*plant, policy, theta, task, rng, before_step, true);
 }
 

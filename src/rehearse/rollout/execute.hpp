@@ -25,10 +25,10 @@ Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector
 struct SimulatedRobot {
   const system::Simulator& simulator;
   const Vector& phi;
+  Vector measurement_std = {};  // dx; empty: it is measured without noise
 };
 
-/// One episode on it, from the task's start and measured without noise. A step that cannot be simulated ends it like a
-/// fall.
+/// One episode on it, from the task's start. A step that cannot be simulated ends it like a fall.
 Episode execute(const SimulatedRobot& robot, const policy::Policy& policy, const Vector& theta, const Task& task,
                 Rng rng, const std::function<void()>& before_step = {});
 

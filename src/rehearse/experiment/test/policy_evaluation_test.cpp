@@ -130,6 +130,24 @@ TEST(PolicyEvaluation, ThePriorPlaysARobotThatHasNoPlant) {
             std::string::npos);
 }
 
+TEST(PolicyEvaluation, AStepThatThePriorCannotSimulateIsAFall) {
+  Resolved told = line_where();
+  told.scenario.make_plant = nullptr;
+  const auto before = told.prior->simulator;
+  told.prior->simulator = system::make_simulator(
+      told.prior->space,
+      [before](const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) {
+        before->change(X, U, phi, dX);
+        for (Index i = 0; i < X.rows(); ++i)
+          if (X(i, 0) < 0.5) dX.row(i).setConstant(kNaN);
+      });
+  const auto outcomes = evaluate(told, slow_policy(), {.episodes = 3, .seconds = 5}, serial_evaluator());
+  for (const Outcome& each : outcomes) {
+    ASSERT_TRUE(each.ended_s);
+    EXPECT_GT(*each.ended_s, 0);
+  }
+}
+
 TEST(PolicyEvaluation, SaysWhatIsWrong) {
   const auto said = [](const EvaluationPlan& plan) {
     return message_of<InvalidInput>([&] { evaluate(line_where(), slow_policy(), plan, serial_evaluator()); });

@@ -8,6 +8,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/learners/json.hpp"
+#include "rehearse/learners/pilco/prior_store.hpp"
 #include "rehearse/learners/pilco/trials.hpp"
 #include "rehearse/rollout/execute.hpp"
 
@@ -15,8 +16,6 @@ namespace rehearse::learners::pilco {
 namespace {
 
 using nlohmann::json;
-
-constexpr const char* kStored = "prior";
 
 /// The state of the phase.
 struct State {
@@ -27,20 +26,17 @@ struct State {
   json learner;
 };
 
-std::string to_bytes(const State& state) {
+json to_work(const State& state) {
   json all = {{"knowledge", to_json(state.knowledge)}, {"over", state.over}};
   if (!state.over) {
     all["learner"] = state.learner;
     all["settled"] = state.settled;
     for (const Episode& episode : state.episodes) all["episodes"].push_back(learners::to_json(episode));
   }
-  std::string bytes;
-  json::to_cbor(all, bytes);
-  return bytes;
+  return all;
 }
 
-State to_state(const std::string& bytes) {
-  const json all = json::from_cbor(bytes);
+State to_state(const json& all) {
   State state{.knowledge = to_knowledge(all.at("knowledge")), .over = all.at("over").get<bool>()};
   if (state.over) return state;
   state.learner = all.at("learner");
@@ -102,11 +98,11 @@ class PriorPhase {
   }
 
   void restore() {
-    const auto bytes = setting_.store ? setting_.store->read(kStored) : std::nullopt;
-    if (!bytes) return;
+    const auto work = kept_work(setting_);
+    if (!work) return;
     const json fresh = trials_.save();
     try {
-      State state = to_state(*bytes);
+      State state = to_state(*work);
       if (!state.over) trials_.load(state.episodes, state.learner);
       state_ = std::move(state);
     } catch (const std::exception&) {  // not one of ours: as if nothing had been kept
@@ -114,9 +110,7 @@ class PriorPhase {
     }
   }
 
-  void keep() const {
-    if (setting_.store) setting_.store->write(kStored, to_bytes(state_));
-  }
+  void keep() const { keep_work(setting_, to_work(state_)); }
 
   void one_episode() {
     const Proposal& proposal = asked();

@@ -6,33 +6,23 @@
 #include <nlohmann/json.hpp>
 
 #include "rehearse/learners/pilco/initial_policy.hpp"
+#include "rehearse/learners/pilco/prior_store.hpp"
 
 namespace rehearse::learners::pilco {
 namespace {
 
-using nlohmann::json;
-
-constexpr const char* kStoredPolicies = "prior";
-
 /// The knowledge kept in the store; empty if there is none, or none that fits.
 PriorKnowledge kept_policies(const Setting& setting) {
-  const auto bytes = setting.store ? setting.store->read(kStoredPolicies) : std::nullopt;
-  if (!bytes) return {};
+  const auto work = kept_work(setting);
+  if (!work) return {};
   try {
-    PriorKnowledge knowledge = to_knowledge(json::from_cbor(*bytes));
+    PriorKnowledge knowledge = to_knowledge(*work);
     for (const Vector& theta : knowledge.policies)
       if (theta.size() != setting.policy->parameters()) return {};
     return knowledge;
   } catch (const std::exception&) {
     return {};
   }
-}
-
-void keep_policies(const Setting& setting, const PriorKnowledge& knowledge) {
-  if (!setting.store) return;
-  std::string bytes;
-  json::to_cbor(to_json(knowledge), bytes);
-  setting.store->write(kStoredPolicies, bytes);
 }
 
 /// The search number `number`, from 0 on, and what it adds.
@@ -72,7 +62,7 @@ PriorKnowledge search_on_prior(const Setting& setting, const Options& options) {
     search_once(problem, search, key, knowledge);
     if (knowledge.policies.size() == searches && !knowledge.predicted_return)
       knowledge.notes.emplace_back("the first policy is as drawn: none had an expected return on the prior");
-    keep_policies(setting, knowledge);
+    keep_work(setting, to_json(knowledge));
   }
   return knowledge;
 }

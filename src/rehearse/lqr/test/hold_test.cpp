@@ -9,6 +9,14 @@
 namespace rehearse::lqr {
 namespace {
 
+/// x' = (A + B K) x, with A = (1, dt; dt, 1): both eigenvalues are within the unit circle.
+void expect_stable(const Matrix& gain) {
+  const double trace = 2 + line::kDt * gain(0, 1),
+               determinant = 1 + line::kDt * gain(0, 1) - line::kDt * line::kDt * (1 + gain(0, 0));
+  EXPECT_LT(std::abs(trace), 1 + determinant);
+  EXPECT_LT(determinant, 1);
+}
+
 TEST(Hold, IsWhereTheRobotStaysAndEarnsMost) {
   const Task task = upright::task(2, 0);
   const upright::Model model;
@@ -17,12 +25,7 @@ TEST(Hold, IsWhereTheRobotStaysAndEarnsMost) {
   ASSERT_TRUE(hold);
   EXPECT_NEAR(hold->stage.state.norm(), 0, 1e-5);
   EXPECT_NEAR(hold->stage.action(0), 0, 1e-5);
-  // x' = (A + B K) x, with A = (1, dt; dt, 1): both eigenvalues are within the unit circle.
-  const auto k = hold->stage.gain;
-  const double trace = 2 + line::kDt * k(0, 1),
-               determinant = 1 + line::kDt * k(0, 1) - line::kDt * line::kDt * (1 + k(0, 0));
-  EXPECT_LT(std::abs(trace), 1 + determinant);
-  EXPECT_LT(determinant, 1);
+  expect_stable(hold->stage.gain);
 }
 
 TEST(Hold, MayNeedAnAction) {
@@ -59,6 +62,21 @@ TEST(Hold, KnowsItsActionBeforeAndTheTime) {
   };
   ASSERT_TRUE(hold(3));
   EXPECT_LT(std::abs(hold(3)->stage.state(0)), 0.3) << "where less action is needed";
+}
+
+TEST(Hold, IsStableWithoutTheActionBefore) {
+  Task task = upright::task(2, 0);
+  const upright::Model model;
+  for (const double weight : {0.1, 1.0, 10.0, 100.0}) {
+    task.cost = [weight](const Steps& steps, VectorView costs) {
+      costs = weight * (steps.U - steps.U_before).rowwise().squaredNorm();
+    };
+    const StepCosts costs(task, {.scale = CostScale::linear, .action_cost = 1e-3});
+    const auto hold = find_hold({model, task, serial_evaluator()}, costs, Vector{{0.1, 0}}, Vector{{0}}, 0);
+    ASSERT_TRUE(hold) << weight;
+    expect_stable(hold->stage.gain);
+    EXPECT_EQ(hold->value.S.rows(), 3) << "by the action before, too";
+  }
 }
 
 TEST(Hold, IsNotOfStatesThatAPolicyDoesNotSee) {

@@ -20,7 +20,7 @@ struct Data {
 TEST(Fitc, EvidenceIsThatOfItsCovariance) {
   const Data d;
   Matrix Kmm = gp::naive::covariance(d.Z, d.Z, d.theta);
-  Kmm.diagonal().array() += 1e-6;
+  Kmm.diagonal().array() += 1e-6 * d.theta.signal_variance();
   const Matrix Kmn = gp::naive::covariance(d.Z, d.X, d.theta), Q = Kmn.transpose() * Kmm.llt().solve(Kmn);
   Matrix covariance = Q;
   covariance.diagonal().setConstant(d.theta.signal_variance() + d.theta.noise_variance());
@@ -29,6 +29,15 @@ TEST(Fitc, EvidenceIsThatOfItsCovariance) {
       -0.5 * d.y.dot(llt.solve(d.y)) - llt.matrixLLT().diagonal().array().log().sum() - 12.5 * std::log(2 * M_PI);
   EXPECT_NEAR(fitc_evidence(d.X, d.y, d.Z, d.theta), expected, 1e-9 * std::abs(expected));
   EXPECT_NEAR(fitc_evidence(d.X, d.y, d.X, d.theta, nullptr, 1e-10), gp::naive::evidence(d.X, d.y, d.theta), 1e-6);
+}
+
+TEST(Fitc, UnitsOfTheTargetsDoNotMatter) {
+  const Data d;
+  const double mm = 1e-3;  // targets in thousandths of their unit
+  const gp::Hyperparameters small = gp::naive::hyperparameters(3, 1, 1.3 * mm, 0.3 * mm);
+  ASSERT_NEAR(small.signal_variance(), mm * mm * d.theta.signal_variance(), 1e-12);
+  const double expected = fitc_evidence(d.X, d.y, d.Z, d.theta) - 25 * std::log(mm);
+  EXPECT_NEAR(fitc_evidence(d.X, mm * d.y, d.Z, small), expected, 1e-9 * std::abs(expected));
 }
 
 TEST(Fitc, GradientAgreesWithDifferences) {

@@ -124,7 +124,7 @@ std::string contradiction() {
   };
   EXPECT_THROW(learn_on_prior(with_store, options()), Interrupted);
   nlohmann::json kept = nlohmann::json::from_cbor(store->kept["prior"]);
-  kept["episodes"].erase(0);
+  kept["work"]["episodes"].erase(0);
   std::string bytes;
   nlohmann::json::to_cbor(kept, bytes);
   return bytes;

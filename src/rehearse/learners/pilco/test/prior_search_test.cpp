@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "rehearse/learners/pilco/prior_store.hpp"
 #include "rehearse/learners/test/memory_store.hpp"
 #include "slider.hpp"
 
@@ -58,12 +59,10 @@ TEST(PriorSearch, BeginsAnewWhereTheStoreHoldsSomethingElse) {
   const PriorKnowledge whole = search_on_prior(searched_setting(), few_searches(2));
   PriorKnowledge other = whole;
   other.policies[0] = Vector::Zero(3);
-  std::string of_another_policy;
-  nlohmann::json::to_cbor(to_json(other), of_another_policy);
-  for (const std::string& bytes : {std::string("nothing of ours"), of_another_policy}) {
+  for (const nlohmann::json& work : {nlohmann::json("nothing of ours"), to_json(other)}) {
     Setting stored = searched_setting();
     stored.store = std::make_shared<MemoryStore>();
-    stored.store->write("prior", bytes);
+    keep_work(stored, work);
     EXPECT_EQ(to_json(search_on_prior(stored, few_searches(2))), to_json(whole));
   }
 }
