@@ -26,6 +26,19 @@ void expect_agreement(const MomentMatching& matching, const nlohmann::json& test
   EXPECT_LT(reference::error(result.gain, reference::matrix(expected["V"])), tolerance) << test["hyp"] << test["m"];
 }
 
+/// PILCO's ridge is 1e-6 whatever the signal.
+std::vector<MomentTerm> fitc_as_in_pilco(const Reference& reference, const std::string& name) {
+  std::vector<MomentTerm> terms;
+  for (const gp::Hyperparameters& theta : reference.hyperparameters(name)) {
+    const auto output = static_cast<Index>(terms.size());
+    MomentTerm term =
+        fitc_terms(reference.X, reference.Y.col(output), reference.Z, {theta}, 1e-6 / theta.signal_variance()).front();
+    term.output = output;
+    terms.push_back(std::move(term));
+  }
+  return terms;
+}
+
 TEST(MomentMatching, AgreesWithPilco) {
   const Reference reference;
   for (const auto& test : reference.data["cases"]) {
@@ -33,8 +46,7 @@ TEST(MomentMatching, AgreesWithPilco) {
     const gp::Posterior posterior = reference.posterior(name);
     expect_agreement({exact_terms(posterior), 4}, test, test["gp0"], 1e-7);
     expect_agreement({mean_terms(posterior, 1e-6), 4}, test, test["gp2_meanonly"], 1e-7);
-    expect_agreement({fitc_terms(reference.X, reference.Y, reference.Z, reference.hyperparameters(name)), 4}, test,
-                     test["gp1_fitc15"], 1e-6);
+    expect_agreement({fitc_as_in_pilco(reference, name), 4}, test, test["gp1_fitc15"], 1e-6);
   }
 }
 

@@ -34,10 +34,8 @@ prior::Prior changed() {
 
 prior::Prior broken() {
   prior::Prior prior = slider::prior(0.5, 0);
-  prior.simulator = system::make_simulator(
-      prior.space, [](const ConstMatrixView&, const ConstMatrixView&, const Vector&, MatrixView dX) {
-        dX.setConstant(-kNaN);
-      });
+  prior.simulator = system::make_simulator(prior.space, [](const ConstMatrixView&, const ConstMatrixView&,
+                                                           const Vector&, MatrixView dX) { dX.setConstant(-kNaN); });
   return prior;
 }
 
