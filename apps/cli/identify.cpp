@@ -1,7 +1,12 @@
 // A robot from logs alone.
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
@@ -22,19 +27,53 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string already_there(const std::string& path) {
+  return fmt::format("{} exists already; --out DIR names another folder", path);
+}
+
 void check_out(const std::optional<std::string>& out, Violations& violations) {
   if (!out) return;
   std::error_code ignored;
   violations.require(!out->empty(), "--out names no folder");
-  violations.require(!fs::exists(*out, ignored),
-                     fmt::format("{} exists already; --out DIR names another folder", *out));
+  violations.require(!fs::exists(*out, ignored), already_there(*out));
 }
 
-void write(const fs::path& folder, const study::Study& study, const study::Problem& problem, const std::string& robot) {
-  fs::create_directories(folder);
-  for (const auto& [name, text] : study::csv_files(study, problem)) files::write_file(folder / name, text);
-  files::write_file(folder / "identify.html", study::page(study, problem, robot));
-  put("\n{} opens in a browser; tables are beside it\n", (folder / "identify.html").string());
+/// A folder that is there at once with all that is in it, or not at all: made beside it under a hidden name, so that it
+/// is known before the work that it can be written.
+class WholeFolder {
+ public:
+  explicit WholeFolder(fs::path path) : path_(std::move(path)) {
+    if (!path_.has_filename()) path_ = path_.parent_path();
+    made_ = path_.parent_path() / fmt::format(".{}.{}", path_.filename().string(), ::getpid());
+    try {
+      fs::create_directories(made_);
+    } catch (const fs::filesystem_error& error) {
+      throw InvalidInput(fmt::format("cannot create {}: {}", path_.string(), error.code().message()));
+    }
+  }
+  ~WholeFolder() {
+    std::error_code ignored;
+    fs::remove_all(made_, ignored);
+  }
+  WholeFolder(const WholeFolder&) = delete;
+  WholeFolder& operator=(const WholeFolder&) = delete;
+
+  void write(const std::vector<std::pair<std::string, std::string>>& texts) const {
+    for (const auto& [name, text] : texts) files::write_file(made_ / name, text);
+    if (!files::rename_new(made_, path_)) throw InvalidInput(already_there(path_.string()));
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_, made_;
+};
+
+void write(const WholeFolder& folder, const study::Study& study, const study::Problem& problem,
+           const std::string& robot) {
+  auto texts = study::csv_files(study, problem);
+  texts.emplace_back("identify.html", study::page(study, problem, robot));
+  folder.write(texts);
+  put("\n{} opens in a browser; tables are beside it\n", (folder.path() / "identify.html").string());
 }
 
 }  // namespace
@@ -57,6 +96,8 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
   };
   const std::vector<study::Log> logs = said(read.logs), held_out = said(read.held_out);
   violations.throw_if_any();
+  std::optional<WholeFolder> out;
+  if (arguments.out) out.emplace(*arguments.out);
   const study::Problem problem = setup.problem(logs, held_out);
   StatusLine line;
   const auto evaluator =
@@ -71,7 +112,7 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
       put("\n{}\n", section.title);
       for (const std::string& text : study::lines_of(section)) put("  {}\n", text);
     }
-    if (arguments.out) write(*arguments.out, study, problem, setup.scenario.name);
+    if (out) write(*out, study, problem, setup.scenario.name);
     return kSuccess;
   } catch (const Interrupted&) {
     line.clear();

@@ -209,8 +209,12 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   else if (!details.plant.empty())
     put("plant\n");
   print_lines("  ", details.plant);
-  put("priors, on {} steps of {} under random actions{}\n", tried.steps,
-      driven ? "the plant" : "the first prior, which plays the robot here", early_ends(tried, scenario.task));
+  const bool anything = driven || !scenario.priors.empty();
+  if (anything)
+    put("priors, on {} steps of {} under random actions{}\n", tried.steps,
+        driven ? "the plant" : "the first prior, which plays the robot here", early_ends(tried, scenario.task));
+  else
+    put("priors\n");
   const Index rows_of_search = usual_search(catalogue) * scenario.task.horizon;
   for (std::size_t i = 0; i < tried.priors.size(); ++i) {
     print_speed(tried.priors[i], tried.steps, rows_of_search);
@@ -225,7 +229,10 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   if (arguments.out && !tried.end) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
   const bool noted = std::ranges::any_of(tried.priors, [](const auto& prior) { return !prior.notes.empty(); });
-  put("\n{}; to learn: {}{}\n", noted ? "nothing is broken, but see what is noted above" : "all is well",
+  put("\n{}; to learn: {}{}\n",
+      !anything ? "the task is understood; nothing was tried, as there is neither a plant nor a prior"
+      : noted   ? "nothing is broken, but see what is noted above"
+                : "all is well",
       command_line({"learn", arguments.robot, "--learner", scenario.priors.empty() ? "black-drops" : "gp-mi"}),
       driven || arguments.no_plant ? "" : " --trials 0");
   return kSuccess;

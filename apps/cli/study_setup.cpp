@@ -61,7 +61,7 @@ StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyReque
     if (key.starts_with("prior."))
       of_prior.emplace_back(key.substr(6), text);
     else if (!set_one(own, key, text, violations) && !set_one(of_robot, key, text, violations))
-      violations.add(experiment::unknown_option(key, known_keys(own, of_robot)));
+      violations.add(experiment::unknown_option(key, known_keys(own, of_robot), "identify or the robot"));
   }
   try {
     setup.scenario = builder->build();

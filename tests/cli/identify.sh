@@ -43,6 +43,10 @@ mkdir d1 d2 && cp "$(log 1)" d1/log.csv && cp "$(log 2)" d2/log.csv
 "$program" identify my_robot.toml d1/log.csv d2/log.csv "${few[@]}" --out twins >output 2>&1 || fail "twins: $(cat output)"
 head -1 twins/parameters.csv | grep -q "value without d1/log.csv,.*value without d2/log.csv," ||
   fail "parameters.csv begins with $(head -1 twins/parameters.csv)"
+touch file && "$program" identify my_robot.toml "$(log 1)" --out file/never >output 2>&1
+[ $? = 2 ] && grep -q "cannot create file/never" output && ! grep -q "Parameters" output || fail "not known before: $(cat output)"
+refused "\`list\` of identify or the robot names all" my_robot.toml "$(log 1)" --set zzzzz=1
+[ -z "$(find . -maxdepth 1 -name '.*.[0-9]*')" ] || fail "it leaves $(find . -maxdepth 1 -name '.*.[0-9]*')"
 mkdir never && "$program" identify my_robot.toml "$(log 1)" --out never >output 2>&1
 [ $? = 2 ] && grep -q "never exists already" output || fail "an existing folder: $(cat output)"
 finish

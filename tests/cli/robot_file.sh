@@ -23,6 +23,10 @@ grep -q "as moment matching (PILCO) needs it; PILCO takes no cost" output || fai
 "$program" check untried.toml >output 2>&1 || fail "check of a robot without a plant: $(cat output)"
 grep -q "steps of the first prior, which plays the robot here" output && ! grep -q "the prior errs by" output ||
   fail "a prior that plays the robot itself has errors: $(cat output)"
+sed '/^\[dynamics.rod\]/,/^tune =/d' my_robot.toml >bare.toml
+"$program" check bare.toml >output 2>&1 || fail "check of a robot with neither a plant nor a prior: $(cat output)"
+grep -q "nothing was tried, as there is neither a plant nor a prior; to learn: .* --learner black-drops --trials 0" output &&
+  ! grep -q "0 steps" output || fail "check of a robot with neither a plant nor a prior: $(cat output)"
 sed 's/"-cos(theta)"\]/"-l * cos(theta)"]/' my_robot.toml >long.toml
 "$program" check long.toml >output 2>&1
 [ $? = 2 ] && grep -q "'l' is a parameter, which the formulas of \[dynamics.rod\] alone know" output ||

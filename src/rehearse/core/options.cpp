@@ -107,6 +107,9 @@ class Setter final : public FieldVisitor {
     if (!match(name)) return;
     Index parsed = 0;
     const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), parsed);
+    double too_large = 0;
+    if (error == std::errc::result_out_of_range && from_text(text_, too_large))
+      check(violation(name, too_large, bound));
     if (error != std::errc{} || end != text_.data() + text_.size()) wrong("a whole number");
     check(violation(name, as_double(parsed), bound));
     value = parsed;

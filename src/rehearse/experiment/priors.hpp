@@ -18,8 +18,9 @@ std::vector<std::string> split_names(const std::string& text);
 /// name it is.
 std::string phi_text(const std::string& names, std::size_t i, double value);
 
-/// "unknown option 'x', did you mean 'y'?"
-std::string unknown_option(const std::string& key, const std::vector<std::string>& known);
+/// "unknown option 'x', did you mean 'y'?"; `of`: what `list` shows options of.
+std::string unknown_option(const std::string& key, const std::vector<std::string>& known,
+                           const std::string& of = "a robot or learner");
 
 /// The priors that a spec names, with the values that their parameters start from.
 class ChosenPriors {
