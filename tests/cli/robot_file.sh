@@ -26,7 +26,7 @@ grep -q "steps of the first prior, which plays the robot here" output && ! grep 
 sed '/^\[dynamics.rod\]/,/^tune =/d' my_robot.toml >bare.toml
 "$program" check bare.toml >output 2>&1 || fail "check of a robot with neither a plant nor a prior: $(cat output)"
 grep -q "nothing was tried, as there is neither a plant nor a prior; to learn: .* --learner black-drops --trials 0" output &&
-  ! grep -q "0 steps" output || fail "check of a robot with neither a plant nor a prior: $(cat output)"
+  ! grep -q "on 0 steps" output || fail "check of a robot with neither a plant nor a prior: $(cat output)"
 sed 's/"-cos(theta)"\]/"-l * cos(theta)"]/' my_robot.toml >long.toml
 "$program" check long.toml >output 2>&1
 [ $? = 2 ] && grep -q "'l' is a parameter, which the formulas of \[dynamics.rod\] alone know" output ||

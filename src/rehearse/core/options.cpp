@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -108,8 +109,10 @@ class Setter final : public FieldVisitor {
     Index parsed = 0;
     const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), parsed);
     double too_large = 0;
-    if (error == std::errc::result_out_of_range && from_text(text_, too_large))
+    if (error == std::errc::result_out_of_range && from_text(text_, too_large)) {
       check(violation(name, too_large, bound));
+      wrong(fmt::format("within ±{}", std::numeric_limits<Index>::max()));
+    }
     if (error != std::errc{} || end != text_.data() + text_.size()) wrong("a whole number");
     check(violation(name, as_double(parsed), bound));
     value = parsed;
