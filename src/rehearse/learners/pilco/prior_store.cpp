@@ -14,19 +14,19 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kStored = "prior";
-constexpr int kCompared = 16;  // steps
+constexpr Index kCompared = 16;  // steps
 
-/// The bits of some steps of the prior, from the task's start under random actions.
+/// The bits of some steps of the prior, from the task's start under fixed actions all over their bounds: no random
+/// numbers, which belong to the learning.
 std::vector<std::uint64_t> steps_of(const Setting& setting) {
   const Task& task = setting.task;
   const Vector phi = setting.prior->space.values();
   Matrix X = task.start_mean.transpose(), U(1, task.action_size()), change(1, task.state_size());
-  Rng rng(StreamKey{.seed = setting.seed, .phase = Phase::prior});
   std::vector<std::uint64_t> bits;
-  for (int t = 0; t < kCompared; ++t) {
+  for (Index t = 0; t < kCompared; ++t) {
     for (Index a = 0; a < U.cols(); ++a) {
       const Interval bounds = task.actions[static_cast<std::size_t>(a)].bounds;
-      U(0, a) = rng.uniform(bounds.low, bounds.high);
+      U(0, a) = std::lerp(bounds.low, bounds.high, static_cast<double>((7 * t + 3 * a) % kCompared) / (kCompared - 1));
     }
     setting.prior->mean(X, U, phi, change);
     for (const double number : change.reshaped())
