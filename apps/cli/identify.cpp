@@ -2,11 +2,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
@@ -16,6 +14,7 @@
 #include "apps/cli/study_setup.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/events.hpp"
+#include "rehearse/files/new_folder.hpp"
 #include "rehearse/files/write.hpp"
 #include "rehearse/study/page.hpp"
 #include "rehearse/study/study.hpp"
@@ -38,42 +37,13 @@ void check_out(const std::optional<std::string>& out, Violations& violations) {
   violations.require(!fs::exists(*out, ignored), already_there(*out));
 }
 
-/// A folder that is there at once with all that is in it, or not at all: made beside it under a hidden name, so that it
-/// is known before the work that it can be written.
-class WholeFolder {
- public:
-  explicit WholeFolder(fs::path path) : path_(std::move(path)) {
-    if (!path_.has_filename()) path_ = path_.parent_path();
-    made_ = path_.parent_path() / fmt::format(".{}.{}", path_.filename().string(), ::getpid());
-    try {
-      fs::create_directories(made_);
-    } catch (const fs::filesystem_error& error) {
-      throw InvalidInput(fmt::format("cannot create {}: {}", path_.string(), error.code().message()));
-    }
-  }
-  ~WholeFolder() {
-    std::error_code ignored;
-    fs::remove_all(made_, ignored);
-  }
-  WholeFolder(const WholeFolder&) = delete;
-  WholeFolder& operator=(const WholeFolder&) = delete;
-
-  void write(const std::vector<std::pair<std::string, std::string>>& texts) const {
-    for (const auto& [name, text] : texts) files::write_file(made_ / name, text);
-    if (!files::rename_new(made_, path_)) throw InvalidInput(already_there(path_.string()));
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_, made_;
-};
-
-void write(const WholeFolder& folder, const study::Study& study, const study::Problem& problem,
+void write(files::NewFolder& folder, const std::string& out, const study::Study& study, const study::Problem& problem,
            const std::string& robot) {
-  auto texts = study::csv_files(study, problem);
-  texts.emplace_back("identify.html", study::page(study, problem, robot));
-  folder.write(texts);
-  put("\n{} opens in a browser; tables are beside it\n", (folder.path() / "identify.html").string());
+  const char* const page = "identify.html";
+  for (const auto& [name, text] : study::csv_files(study, problem)) files::write_file(folder.hidden() / name, text);
+  files::write_file(folder.hidden() / page, study::page(study, problem, robot));
+  if (!folder.appear()) throw InvalidInput(already_there(out));
+  put("\n{} opens in a browser; tables are beside it\n", (fs::path(out) / page).string());
 }
 
 }  // namespace
@@ -96,7 +66,7 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
   };
   const std::vector<study::Log> logs = said(read.logs), held_out = said(read.held_out);
   violations.throw_if_any();
-  std::optional<WholeFolder> out;
+  std::optional<files::NewFolder> out;
   if (arguments.out) out.emplace(*arguments.out);
   const study::Problem problem = setup.problem(logs, held_out);
   StatusLine line;
@@ -112,7 +82,7 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
       put("\n{}\n", section.title);
       for (const std::string& text : study::lines_of(section)) put("  {}\n", text);
     }
-    if (out) write(*out, study, problem, setup.scenario.name);
+    if (out) write(*out, *arguments.out, study, problem, setup.scenario.name);
     return kSuccess;
   } catch (const Interrupted&) {
     line.clear();

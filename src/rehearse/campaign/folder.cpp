@@ -11,7 +11,7 @@
 #include "rehearse/campaign/summary.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/spec_file.hpp"
-#include "rehearse/experiment/unborn.hpp"
+#include "rehearse/files/new_folder.hpp"
 #include "rehearse/files/seal.hpp"
 
 namespace rehearse::campaign {
@@ -81,8 +81,8 @@ void check_only_adds(const CampaignPlan& begun, const CampaignPlan& plan, const 
 }
 
 /// A folder left behind by a run of the plan that was killed while it was made.
-bool is_unborn(const std::string& entry, const CampaignPlan& plan) {
-  const auto name = experiment::name_of_unborn(entry);
+bool is_abandoned(const std::string& entry, const CampaignPlan& plan) {
+  const auto name = files::name_of_hidden(entry);
   return name &&
          std::any_of(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) { return run.name == *name; });
 }
@@ -159,11 +159,11 @@ RunOutcome rows_of(const fs::path& file, Index trials) {
 
 }  // namespace
 
-void CampaignFolder::remove_unborn(const CampaignPlan& plan) const {
-  std::vector<fs::path> unborn;
+void CampaignFolder::remove_abandoned(const CampaignPlan& plan) const {
+  std::vector<fs::path> abandoned;
   for (const auto& entry : fs::directory_iterator(path_ / kRuns))
-    if (is_unborn(entry.path().filename().string(), plan)) unborn.push_back(entry.path());
-  for (const fs::path& path : unborn) fs::remove_all(path);
+    if (is_abandoned(entry.path().filename().string(), plan)) abandoned.push_back(entry.path());
+  for (const fs::path& path : abandoned) fs::remove_all(path);
 }
 
 CampaignFolder CampaignFolder::open(const experiment::Catalogue& catalogue, const fs::path& given,

@@ -33,7 +33,7 @@ class CampaignFolder {
   RunOutcome read(const PlannedRun& run) const;
 
   /// Removes what runs of the plan left behind that were killed while their folders were made.
-  void remove_unborn(const CampaignPlan& plan) const;
+  void remove_abandoned(const CampaignPlan& plan) const;
 
   /// Folders under runs/ that are none of the plan's, in order of name.
   std::vector<Skipped> strangers(const CampaignPlan& plan) const;

@@ -5,11 +5,12 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/abandoned.hpp"
 #include "rehearse/experiment/checkpoint.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/experiment/tables.hpp"
-#include "rehearse/experiment/unborn.hpp"
+#include "rehearse/files/new_folder.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -39,24 +40,20 @@ RunFolder::RunFolder(fs::path path, Spec spec, files::FolderLock lock)
 RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comments& comments,
                             const std::optional<RobotFile>& robot) {
   const fs::path path = files::without_slash(given);
-  static std::mutex beginning;  // the unborn folder has the name of the process, which another thread would share
-  const std::lock_guard one_at_a_time(beginning);
+  static std::mutex making;  // a process makes one folder of a name at a time
+  const std::lock_guard one_at_a_time(making);
   if (fs::exists(fs::symlink_status(path))) throw InvalidInput(already_exists(path));
   const std::string text = to_toml(spec, comments);
   require_readable(spec, text);  // not after hours of trials
-  const fs::path unborn = make_unborn(path);
-  try {
-    files::FolderLock lock(unborn);
-    files::write_file(unborn / kSpec, text, files::Durability::power);
-    if (robot) keep_robot(*robot, unborn);
-    files::write_file(unborn / kCheckpoint, to_checkpoint({}, fingerprint(spec)), files::Durability::power);
-    if (!files::rename_new(unborn, path)) throw InvalidInput(already_exists(path));
-    return {path, spec, std::move(lock)};
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove_all(unborn, ignored);
-    throw;
-  }
+  remove_abandoned(path);
+  files::NewFolder folder(path);
+  for (const char* inner : kFirstFolders) fs::create_directory(folder.hidden() / inner);
+  files::FolderLock lock(folder.hidden());
+  files::write_file(folder.hidden() / kSpec, text, files::Durability::power);
+  if (robot) keep_robot(*robot, folder.hidden());
+  files::write_file(folder.hidden() / kCheckpoint, to_checkpoint({}, fingerprint(spec)), files::Durability::power);
+  if (!folder.appear()) throw InvalidInput(already_exists(path));
+  return {path, spec, std::move(lock)};
 }
 
 namespace {

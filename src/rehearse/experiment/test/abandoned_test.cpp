@@ -1,4 +1,4 @@
-#include "rehearse/experiment/unborn.hpp"
+#include "rehearse/experiment/abandoned.hpp"
 
 #include <fstream>
 
@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "fake.hpp"
-#include "rehearse/core/errors.hpp"
 #include "rehearse/files/write.hpp"
 
 namespace rehearse::experiment {
@@ -25,31 +24,23 @@ pid_t dead_process() {
 }
 
 fs::path begun(const fs::path& folder, const std::string& name, pid_t process) {
-  fs::path unborn = folder / fmt::format(".{}.{}", name, process);
-  fs::create_directories(unborn / "trajectories");
-  std::ofstream(unborn / "spec.toml.tmp") << "half";
-  return unborn;
+  fs::path hidden = folder / fmt::format(".{}.{}", name, process);
+  fs::create_directories(hidden / "trajectories");
+  std::ofstream(hidden / "spec.toml.tmp") << "half";
+  return hidden;
 }
 
-TEST(Unborn, HasAName) {
-  EXPECT_EQ(name_of_unborn(".run.12"), "run");
-  EXPECT_EQ(name_of_unborn(".a.b-1.12"), "a.b-1");
-  for (const char* other : {"run.12", ".run", ".run.", ".run.x", ".run.1x", "..12", ".12", ""})
-    EXPECT_FALSE(name_of_unborn(other)) << other;
-}
-
-TEST(Unborn, OnesOfDeadProcessesGo) {
+TEST(Abandoned, FoldersOfDeadProcessesGo) {
   const fs::path folder = fake::test_folder();
   const pid_t dead = dead_process();
   const fs::path same = begun(folder, "run", dead);
   const fs::path empty = folder / fmt::format(".run.{}", dead_process());
   fs::create_directory(empty);
-  const fs::path unborn = make_unborn(folder / "run");
-  EXPECT_TRUE(fs::is_directory(unborn / "predictions"));
+  remove_abandoned(folder / "run");
   for (const fs::path& gone : {same, empty}) EXPECT_FALSE(fs::exists(gone)) << gone;
 }
 
-TEST(Unborn, WhatMayBeSomebodysStays) {
+TEST(Abandoned, WhatMayBeSomebodysStays) {
   const fs::path folder = fake::test_folder();
   const fs::path alive = begun(folder, "run", ::getppid()), theirs = begun(folder, "run", dead_process()),
                  trials = begun(folder, "run", dead_process()), locked = begun(folder, "run", dead_process()),
@@ -60,16 +51,9 @@ TEST(Unborn, WhatMayBeSomebodysStays) {
   fs::create_directories(target / "trajectories");
   fs::create_directory_symlink(target, link);
   const files::FolderLock lock(locked);
-  make_unborn(folder / "run");
+  remove_abandoned(folder / "run");
   for (const fs::path& kept : {alive, theirs, trials, locked, of_another_machine, target / "trajectories", link})
     EXPECT_TRUE(fs::exists(kept)) << kept;
-}
-
-TEST(Unborn, NeedsAFolderAroundIt) {
-  const fs::path folder = fake::test_folder();
-  std::ofstream(folder / "file") << "no folder";
-  EXPECT_NE(fake::message_of<InvalidInput>([&] { make_unborn(folder / "file" / "run"); }).find("cannot create"),
-            std::string::npos);
 }
 
 }  // namespace
