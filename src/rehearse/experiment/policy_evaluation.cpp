@@ -63,8 +63,8 @@ class Robot {
   Episode episode(const Learned& learned, const Task& task, const Rng& rng, const std::function<void()>& ask) {
     const policy::Policy& policy = *learned.policy;
     if (plant_) return rollout::execute(*plant_, policy, learned.theta, task, rng, ask);
-    const Vector phi = stand_in_->space.values();
-    return rollout::execute({*stand_in_->simulator, phi, noise_}, policy, learned.theta, task, rng, ask);
+    return rollout::execute({stand_in_->simulator, stand_in_->space.values(), noise_}, policy, learned.theta, task, rng,
+                            ask);
   }
 
  private:

@@ -138,12 +138,8 @@ Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector
 
 Episode execute(const SimulatedRobot& robot, const policy::Policy& policy, const Vector& theta, const Task& task,
                 Rng rng, const std::function<void()>& before_step) {
-  const auto motion = [&](const Vector& x, const Vector& u) -> Vector {  // NaN after a step that failed
-    Matrix change(1, x.size());
-    system::change_contained(robot.simulator, x.transpose(), u.transpose(), robot.phi, change);
-    return x + change.transpose();
-  };
-  const auto plant = system::make_simulated_plant(motion, {task.start_mean, task.start_std, robot.measurement_std});
+  const auto plant = system::make_simulated_plant(robot.simulator, robot.phi,
+                                                  {task.start_mean, task.start_std, robot.measurement_std});
   return run(*plant, policy, theta, task, rng, before_step, true);
 }
 

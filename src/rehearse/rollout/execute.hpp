@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,8 @@ Episode execute(system::Plant& plant, const policy::Policy& policy, const Vector
 
 /// A simulator at φ in the place of the plant.
 struct SimulatedRobot {
-  const system::Simulator& simulator;
-  const Vector& phi;
+  std::shared_ptr<const system::Simulator> simulator;
+  Vector phi;
   Vector measurement_std = {};  // dx; empty: it is measured without noise
 };
 

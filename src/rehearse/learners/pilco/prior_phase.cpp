@@ -119,9 +119,8 @@ class PriorPhase {
                         .phase = Phase::prior,
                         .purpose = Purpose::start_state};
     const prior::Prior& prior = *setting_.prior;
-    const Vector phi = prior.space.values();
-    const Episode episode = rollout::execute({*prior.simulator, phi}, *proposal.policy, proposal.theta, setting_.task,
-                                             Rng(key), [&] { setting_.evaluator->stop_if_asked(); });
+    const Episode episode = rollout::execute({prior.simulator, prior.space.values()}, *proposal.policy, proposal.theta,
+                                             setting_.task, Rng(key), [&] { setting_.evaluator->stop_if_asked(); });
     note_failure(episode);
     state_.settled = taught_nothing(proposal, episode) ? state_.settled + 1 : 0;
     trials_.tell(episode);

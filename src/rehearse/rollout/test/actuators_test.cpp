@@ -81,7 +81,7 @@ TEST(ActuatedRollouts, AreThoseOfASimulatorInThePlaceOfThePlant) {
         dX.col(1) = 0.1 * X.col(0);
       });
   const auto simulator = system::with_actuators(cart, task.actuators());
-  const Episode simulated = execute({*simulator, Vector()}, *policy, theta, task, Rng({.seed = 1}));
+  const Episode simulated = execute({simulator, Vector()}, *policy, theta, task, Rng({.seed = 1}));
   const auto plant = plant_of(task);
   const Episode episode = execute(*plant, *policy, theta, task, Rng({.seed = 1}));
   EXPECT_TRUE(simulated.states.isApprox(episode.states, 1e-12));

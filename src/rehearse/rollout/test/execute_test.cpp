@@ -252,7 +252,7 @@ TEST(Execute, ASimulatorInThePlaceOfThePlant) {
         dX.col(1) = 0.1 * X.col(0);
       });
   const Vector theta = cart::candidates(1), phi{{0.2}};
-  const Episode episode = execute({*simulator, phi}, *cart::policy(), theta, task, kRng);
+  const Episode episode = execute({simulator, phi}, *cart::policy(), theta, task, kRng);
   ASSERT_EQ(episode.steps(), 20);
   EXPECT_EQ(episode.states, episode.true_states);
   EXPECT_NE(episode.states(0, 0), 0) << "it starts as the task says";
@@ -260,7 +260,7 @@ TEST(Execute, ASimulatorInThePlaceOfThePlant) {
     EXPECT_DOUBLE_EQ(episode.states(t + 1, 0), episode.states(t, 0) + 0.2 * episode.actions(t, 0));
     EXPECT_DOUBLE_EQ(episode.states(t + 1, 1), episode.states(t, 1) + 0.1 * episode.states(t, 0));
   }
-  EXPECT_EQ(episode.states, execute({*simulator, phi}, *cart::policy(), theta, task, kRng).states);
+  EXPECT_EQ(episode.states, execute({simulator, phi}, *cart::policy(), theta, task, kRng).states);
 }
 
 TEST(Execute, AStepThatCannotBeSimulatedIsAFall) {
@@ -274,7 +274,7 @@ TEST(Execute, AStepThatCannotBeSimulatedIsAFall) {
         else
           dX.setConstant(0.1);
       });
-  const Episode episode = execute({*simulator, Vector()}, *cart::policy(), cart::candidates(1), task, kRng);
+  const Episode episode = execute({simulator, Vector()}, *cart::policy(), cart::candidates(1), task, kRng);
   EXPECT_EQ(episode.steps(), 3);
   EXPECT_EQ(episode.states.rows(), 4);
   EXPECT_TRUE(episode.ended && episode.states.allFinite());

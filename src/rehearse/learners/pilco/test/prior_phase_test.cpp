@@ -70,7 +70,7 @@ TEST(PriorPhase, TheFirstTrialIsThePolicyOfThePrior) {
   // On the prior it does as well as was predicted.
   const prior::Prior prior = slider::prior(0.5, 0);
   const Episode there =
-      rollout::execute({*prior.simulator, prior.space.values()}, *first.policy, first.theta, task(), Rng({}));
+      rollout::execute({prior.simulator, prior.space.values()}, *first.policy, first.theta, task(), Rng({}));
   EXPECT_NEAR(there.total_reward(), *first.predicted_return, 1.5);
 }
 
