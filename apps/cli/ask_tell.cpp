@@ -146,7 +146,7 @@ std::pair<experiment::RunStatus, bool> status_in(const experiment::Catalogue& ca
 /// True if Rehearse drives the plant and the run has reached its end.
 bool is_complete(const experiment::Resolved& resolved, const experiment::History& history) {
   if (history.trials.empty() || resolved.spec.trials == 0 || !resolved.scenario.make_plant) return false;
-  return resolved.spec.ends_with(history.done(), history.trials.back().solved.value_or(false));
+  return resolved.spec.ends_with(history.done(), history.ends_solved());
 }
 
 }  // namespace

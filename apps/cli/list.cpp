@@ -152,8 +152,7 @@ void print_one(Builder& builder, const std::string& kind, const std::string& nam
 }
 
 [[noreturn]] void refuse(const experiment::Catalogue& catalogue, const std::string& name) {
-  for (const auto& missing : catalogue.not_built)
-    if (missing.name == name) throw InvalidInput(catalogue.why_missing("scenario", name));
+  if (catalogue.left_out(name)) throw InvalidInput(catalogue.why_missing("scenario", name));
   std::vector<std::string> known;
   for (const auto& builder : catalogue.scenario_builders()) known.push_back(builder->name());
   for (const auto& builder : catalogue.learner_builders()) known.push_back(builder->name());

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/campaign/seeds.hpp"
-#include "rehearse/files/toml_reader.hpp"
+#include "rehearse/experiment/spec_file.hpp"
 
 namespace rehearse::campaign {
 namespace {
@@ -70,19 +70,10 @@ class CampaignReader {
     for (const auto& [key, node] : files::leaves(table)) {
       if (node->is_array())
         violations_.add(files::line_of(*node), fmt::format("{}: one value; several go into [vary]", key));
-      else if (const auto text = value_text(key, *node))
-        options.push_back({key, *text, files::line_of(*node)});
+      else if (auto option = experiment::read_option(key, *node, violations_))
+        options.push_back(*std::move(option));
     }
     return options;
-  }
-
-  std::optional<std::string> value_text(const std::string& key, const toml::node& node) {
-    try {
-      return files::text_of(node);
-    } catch (const InvalidInput& error) {
-      violations_.add(files::line_of(node), fmt::format("{}: {}", key, error.what()));
-      return std::nullopt;
-    }
   }
 
   void read_options() {
@@ -107,7 +98,8 @@ class CampaignReader {
       Axis axis{.key = key, .line = files::line_of(*node)};
       if (const auto* list = node->as_array())
         for (const toml::node& element : *list)
-          if (const auto text = value_text(key, element)) axis.texts.push_back(*text);
+          if (const auto option = experiment::read_option(key, element, violations_))
+            axis.texts.push_back(option->text);
       const std::vector<std::string>& texts = axis.texts;
       for (const std::string& text : texts)
         if (std::count(texts.begin(), texts.end(), text) > 1)

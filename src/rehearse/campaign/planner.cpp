@@ -72,9 +72,7 @@ class Planner {
     const auto builder = catalogue_.learner(name);
     if (!builder) {
       const std::string why = catalogue_.why_missing("learner", name);
-      const bool left_out = std::any_of(catalogue_.not_built.begin(), catalogue_.not_built.end(),
-                                        [&](const experiment::NotBuilt& missing) { return missing.name == name; });
-      if (left_out)
+      if (catalogue_.left_out(name))
         plan_.missing.push_back({name, why});
       else
         violations_.add(line("learners"), why);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/angle.hpp"
 #include "rehearse/core/errors.hpp"
 
 namespace rehearse {
@@ -121,6 +122,13 @@ std::vector<std::string> Task::descriptor_labels() const {
   std::vector<std::string> labels;
   for (std::size_t d = 1; d <= descriptor_bounds.size(); ++d) labels.push_back(fmt::format("descriptor {}", d));
   return labels;
+}
+
+Vector Task::difference(const ConstVectorView& a, const ConstVectorView& b) const {
+  Vector apart = a - b;
+  for (Index i = 0; i < apart.size(); ++i)
+    if (states[static_cast<std::size_t>(i)].kind == StateKind::angle) apart(i) = shorter_way(apart(i));
+  return apart;
 }
 
 std::vector<std::string> Task::violations() const {

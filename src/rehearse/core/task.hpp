@@ -94,6 +94,9 @@ struct Task {
   std::vector<Interval> action_bounds() const;
   std::vector<std::string> descriptor_labels() const;  // its names; of one without, "descriptor 1", …
 
+  /// a − b of two states (dx), angles the shorter way round.
+  Vector difference(const ConstVectorView& a, const ConstVectorView& b) const;
+
   /// A line for everything that is missing or contradicts itself.
   std::vector<std::string> violations() const;
 };

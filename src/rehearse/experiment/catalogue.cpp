@@ -1,5 +1,6 @@
 #include "rehearse/experiment/catalogue.hpp"
 
+#include <algorithm>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -97,9 +98,14 @@ const RobotFile* Catalogue::robot(const std::string& scenario) const {
   return nullptr;
 }
 
+const NotBuilt* Catalogue::left_out(const std::string& name) const {
+  const auto found = std::ranges::find(not_built, name, &NotBuilt::name);
+  return found == not_built.end() ? nullptr : &*found;
+}
+
 std::string Catalogue::why_missing(const std::string& kind, const std::string& name) const {
-  for (const NotBuilt& missing : not_built)
-    if (missing.name == name) return fmt::format("{} '{}' is not built: {}", kind, name, missing.reason);
+  if (const NotBuilt* missing = left_out(name))
+    return fmt::format("{} '{}' is not built: {}", kind, name, missing->reason);
   const auto known = kind == "scenario" ? names_of(scenario_builders()) : names_of(learner_builders());
   if (name.empty()) return fmt::format("no {} is named (known: {})", kind, fmt::join(known, ", "));
   return unknown_name(kind, name, known) +

@@ -70,6 +70,9 @@ struct Catalogue {
   /// Throws InvalidInput, with why, if there is none of that name.
   std::unique_ptr<scenario::ScenarioBuilder> scenario_or_throw(const std::string& name) const;
 
+  /// The scenario or learner of that name, if the build leaves it out; else null.
+  const NotBuilt* left_out(const std::string& name) const;
+
   /// One line that says why there is no `kind` ("scenario", "learner") of that name, and what is closest to it.
   std::string why_missing(const std::string& kind, const std::string& name) const;
 

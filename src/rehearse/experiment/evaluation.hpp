@@ -10,8 +10,7 @@ namespace rehearse::experiment {
 
 /// Mean return of the trial's policy over the scenario's `evaluations` episodes, on a plant made for them and from
 /// random streams of their own: the trial, and whatever follows it, never notices. Empty if the scenario asks for none.
-/// Asks the evaluator before every step whether to stop. Throws what the
-/// plant throws.
+/// Asks the evaluator before every step whether to stop. Throws what the plant throws.
 std::optional<double> expected_return(const Resolved& resolved, const TrialRecord& trial, const Evaluator& evaluator);
 
 }  // namespace rehearse::experiment

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "rehearse/rollout/forecast.hpp"
 #include "rehearse/statistics/quantiles.hpp"
@@ -19,26 +18,17 @@ std::vector<Index> horizons_up_to(Index steps) {
   return horizons;
 }
 
-/// A turn more or less is the same angle.
-void wrap_angles(const Task& task, Matrix& differences) {
-  for (Index s = 0; s < task.state_size(); ++s)
-    if (task.states[static_cast<std::size_t>(s)].kind == StateKind::angle)
-      differences.col(s) =
-          differences.col(s).unaryExpr([](double d) { return std::remainder(d, 2 * std::numbers::pi); });
-}
-
 /// predicted: what rollout::forecast gives for this horizon.
 ForecastError compare(const Task& task, const Episode& episode, Index horizon, const Matrix& predicted) {
-  Matrix differences = predicted - episode.states.middleRows(horizon, predicted.rows());
-  wrap_angles(task, differences);
   ForecastError error{horizon, 0, 0, Vector::Zero(predicted.cols())};
-  for (Index i = 0; i < differences.rows(); ++i) {
-    if (!differences.row(i).allFinite()) {
+  for (Index i = 0; i < predicted.rows(); ++i) {
+    const Vector off = task.difference(predicted.row(i).transpose(), episode.states.row(horizon + i).transpose());
+    if (!off.allFinite()) {
       ++error.failed;
       continue;
     }
     ++error.compared;
-    error.rms += differences.row(i).cwiseAbs2().transpose();
+    error.rms += off.cwiseAbs2();
   }
   error.rms = (error.rms / static_cast<double>(error.compared)).cwiseSqrt();  // 0/0 is NaN, as promised
   return error;

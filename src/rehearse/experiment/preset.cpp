@@ -6,8 +6,8 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
+#include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/files/regular_file.hpp"
-#include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -18,19 +18,14 @@ std::vector<FileOption> options_in(const toml::table* table, files::FileViolatio
   std::vector<FileOption> options;
   if (!table) return options;
   for (const auto& [key, node] : files::leaves(*table)) {
-    try {
-      options.push_back({key, files::text_of(*node), files::line_of(*node)});
-    } catch (const InvalidInput& error) {
-      violations.add(files::line_of(*node), fmt::format("{}: {}", key, error.what()));
-    }
+    if (auto option = read_option(key, *node, violations)) options.push_back(*std::move(option));
   }
   return options;
 }
 
 /// True if the catalogue has this scenario or learner (`there`), or names it as one that the build leaves out.
 bool is_known(const Catalogue& catalogue, const std::string& name, bool there) {
-  return there || std::any_of(catalogue.not_built.begin(), catalogue.not_built.end(),
-                              [&](const NotBuilt& missing) { return missing.name == name; });
+  return there || catalogue.left_out(name);
 }
 
 }  // namespace

@@ -75,6 +75,7 @@ struct History {
   std::optional<TrialRecord> asked;  // the trial that was asked for and is to come: what is known before it
 
   Index done() const { return static_cast<Index>(trials.size()); }
+  bool ends_solved() const { return !trials.empty() && trials.back().solved.value_or(false); }
 };
 
 /// True if Rehearse drove none of the trials: the robot is not the plant, even where there is one.

@@ -13,10 +13,7 @@
 namespace rehearse::experiment {
 namespace {
 
-bool is_over(const Spec& spec, const History& history) {
-  const bool solved = history.done() > 0 && history.trials.back().solved.value_or(false);
-  return spec.ends_with(history.done(), solved);
-}
+bool is_over(const Spec& spec, const History& history) { return spec.ends_with(history.done(), history.ends_solved()); }
 
 void require_plant(const Resolved& resolved) {
   if (!resolved.scenario.make_plant)

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/core/angle.hpp"
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/files/checksum.hpp"
 #include "rehearse/rollout/execute.hpp"
@@ -73,7 +73,7 @@ std::vector<std::string> sentences_on_start(const Episode& episode, const Task& 
     const Vector x = episode.states.col(i);
     const double mean = task.start_mean(i), range = x.maxCoeff() - x.minCoeff();
     const bool angle = state.kind == StateKind::angle;
-    const double away = angle ? std::remainder(x(0) - mean, 2 * std::numbers::pi) : x(0) - mean;
+    const double away = angle ? shorter_way(x(0) - mean) : x(0) - mean;
     const double usual =
         std::max({0.1 * range, 6 * task.start_std(i), 4 * unsteadiness(x), 0.01 * std::abs(mean), kRounding});
     if (std::abs(away) > usual)

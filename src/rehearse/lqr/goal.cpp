@@ -79,9 +79,8 @@ class Search {
     std::iota(order.begin(), order.end(), Index{0});
     std::ranges::stable_sort(order, [&](Index a, Index b) { return of_staying(a) < of_staying(b); });
     const auto differs = [&](Index a, Index b) {
-      return state_difference(problem_.task, states_.row(a).transpose(), states_.row(b).transpose())
-                 .cwiseAbs()
-                 .maxCoeff() > kApart;
+      return problem_.task.difference(states_.row(a).transpose(), states_.row(b).transpose()).cwiseAbs().maxCoeff() >
+             kApart;
     };
     for (const Index i : order)
       if (chosen.size() < kBegun && std::ranges::all_of(chosen, [&](Index other) { return differs(i, other); }))

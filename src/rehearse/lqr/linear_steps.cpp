@@ -1,17 +1,6 @@
 #include "rehearse/lqr/linear_steps.hpp"
 
-#include <cmath>
-#include <numbers>
-
 namespace rehearse::lqr {
-
-Vector state_difference(const Task& task, const ConstVectorView& a, const ConstVectorView& b) {
-  Vector difference = a - b;
-  for (Index i = 0; i < difference.size(); ++i)
-    if (task.states[static_cast<std::size_t>(i)].kind == StateKind::angle)
-      difference(i) = std::remainder(difference(i), 2 * std::numbers::pi);
-  return difference;
-}
 
 Matrix Trajectory::rows(const Columns& columns) const {
   Matrix W(steps, columns.all());

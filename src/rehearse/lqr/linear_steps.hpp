@@ -18,9 +18,6 @@ struct Trajectory {
   Vector times(const Task& task) const;
 };
 
-/// a − b, angles the shorter way round.
-Vector state_difference(const Task& task, const ConstVectorView& a, const ConstVectorView& b);
-
 /// The steps of a trajectory as the planner sees them. at: written, the model's predictions there.
 std::vector<PlannedStep> planned_steps(const Problem& problem, const StepCosts& costs, const Trajectory& trajectory,
                                        dynamics::Linearised& at);

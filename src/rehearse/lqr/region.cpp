@@ -151,7 +151,7 @@ class Widening {
     const double most_lost = kLost * lost_at_first.mean();
     Index back = 0;
     for (Index i = 0; i < to.rows(); ++i) {
-      const Vector left = state_difference(problem_.task, to.row(i).transpose(), state_)(seen_);
+      const Vector left = problem_.task.difference(to.row(i).transpose(), state_)(seen_);
       back += left.dot(bowl.shape * left) < kReturned * level && lost_at_last(i) <= most_lost;
     }
     return static_cast<double>(back) >= kReturning * kDrawn;

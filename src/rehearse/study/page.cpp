@@ -91,7 +91,7 @@ Curves curves(const Study& study, const Task& task, const Tested& tested, std::s
   return c;
 }
 
-/// A bar in its box for each continuous parameter: the interval of all logs, and thin ones of those without one.
+/// A bar between bounds for each continuous parameter: the interval of all logs, and thin ones of those without one.
 std::string parameter_bars(const Study& study) {
   const auto& posterior = study.model.learned.posterior;
   if (!posterior) return "";
@@ -121,7 +121,7 @@ std::string parameter_bars(const Study& study) {
         fmt::format("<line class=\"measured\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>", mean, y, y + 12);
   }
   return fmt::format(
-      "<h2>Parameters in their boxes</h2><div>Thick: 95 % from all logs; thin: without one of them.</div>"
+      "<h2>Parameters between their bounds</h2><div>Thick: 95 % from all logs; thin: without one of them.</div>"
       "<div class=\"wide\"><svg viewBox=\"0 0 {} {}\">{}</svg></div>\n",
       kWidth, row * static_cast<double>(posterior->parameters.size()), svg);
 }

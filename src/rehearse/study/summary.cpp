@@ -42,14 +42,14 @@ std::string interval_of(const LogModel& model, std::size_t continuous) {
   return fmt::format("{:.4g} to {:.4g}", interval.low, interval.high);
 }
 
-/// Parameters that are not at an end of their boxes, where they would predict best: because errors are large, and tell
-/// little. Then a box may be the reason.
+/// Parameters that are not at a bound, where they would predict best: because errors are large, and tell
+/// little. Then a bound may be the reason.
 Lines ends(const Zeros& zeros, const ParameterSpace& space) {
   Lines lines;
   for (const Index i : space.of_kind(Parameter::Kind::continuous)) {
     const auto end = identification::end_at(space[i], zeros.closest_phi(i));
     if (end && !identification::end_at(space[i], zeros.phi(i)))
-      lines.push_back(fmt::format("{} would predict best at the end of its box, {:.3g}: a better value may lie beyond",
+      lines.push_back(fmt::format("{} would predict best at its bound, {:.3g}: a better value may lie beyond",
                                   space[i].name, *end));
   }
   return lines;

@@ -1,6 +1,7 @@
 #include "rehearse/core/task.hpp"
 
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -190,6 +191,12 @@ TEST(Task, OfAWrongStartIsWrongWithMemoryToo) {
   EXPECT_TRUE(right.violations().empty());
   EXPECT_EQ(right.start_mean.head(2), (Vector{{1, 2}}));
   EXPECT_EQ(right.start_std, Vector::Zero(right.state_size()));
+}
+
+TEST(Task, DifferencesOfAnglesAreTheShorterWayRound) {
+  const Vector difference = task().difference(Vector{{7, 3}}, Vector{{0, -3}});
+  EXPECT_EQ(difference(0), 7);
+  EXPECT_NEAR(difference(1), 6 - 2 * std::numbers::pi, 1e-12);
 }
 
 }  // namespace

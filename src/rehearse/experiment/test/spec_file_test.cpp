@@ -112,7 +112,7 @@ TEST(SpecFile, SaysWhereItIsWrong) {
       "x.toml: line 3: unknown key 'trails' in [run], did you mean 'trials'? (known: scenario, robot, learner, prior, "
       "trials, until_solved, seed, start, told_by)\n"
       "x.toml: line 4: seed = -1, must be between 0 and 9007199254740992\n"
-      "x.toml: line 6: a value must be a number, true, false or text\n"
+      "x.toml: line 6: learner.x: a value must be a number, true, false or text\n"
       "x.toml: line 7: unknown key 'lerner', did you mean 'learner'? (known: format, run, scenario, learner, prior)");
 }
 

@@ -12,7 +12,7 @@ std::optional<policy::HandOver> find_goal(const lqr::Problem& problem, StreamKey
 }
 
 bool acts_at_start(const policy::HandOver& goal, const Task& task) {
-  const Vector apart = lqr::state_difference(task, task.start_mean, goal.feedback.state);
+  const Vector apart = task.difference(task.start_mean, goal.feedback.state);
   return apart.dot(goal.shape * apart) < 1;
 }
 

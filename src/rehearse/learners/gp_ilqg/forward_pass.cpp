@@ -45,7 +45,7 @@ Vector ForwardPass::beside_hold(const Trajectory& trajectory) const {
   const lqr::Columns& columns = costs_.columns();
   Vector beside(columns.planner_state());
   beside.head(columns.dx) =
-      lqr::state_difference(problem_.task, trajectory.states.row(trajectory.steps).transpose(), hold_->stage.state);
+      problem_.task.difference(trajectory.states.row(trajectory.steps).transpose(), hold_->stage.state);
   if (columns.before > 0)
     beside.tail(columns.before) = (trajectory.actions.row(trajectory.steps - 1).transpose() - hold_->stage.action)
                                       .cwiseQuotient(costs_.half_ranges());

@@ -1,7 +1,5 @@
 #include "rehearse/lqr/linear_steps.hpp"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 
 #include "line.hpp"
@@ -41,14 +39,6 @@ TEST(LinearSteps, RememberTheActionWhereACostNeedsIt) {
   dynamics::Linearised at;
   const auto steps = planned_steps(problem, costs, trajectory, at);
   EXPECT_TRUE(steps[1].dynamics.by.isApprox(Matrix{{1, 0.1, 0, 0}, {0, 1, 0, 0.4}, {0, 0, 0, 1}}, 1e-8));
-}
-
-TEST(StateDifference, TakesTheShorterWayRound) {
-  Task task = line::task();
-  task.states[0].kind = StateKind::angle;
-  const Vector difference = state_difference(task, Vector{{3, 7}}, Vector{{-3, 0}});
-  EXPECT_NEAR(difference(0), 6 - 2 * std::numbers::pi, 1e-12);
-  EXPECT_EQ(difference(1), 7);
 }
 
 }  // namespace

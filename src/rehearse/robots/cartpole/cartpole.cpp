@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "rehearse/core/angle.hpp"
 #include "rehearse/core/vector_math.hpp"
 #include "rehearse/reward/saturating.hpp"
 #include "rehearse/scenario/builder.hpp"
@@ -43,7 +44,7 @@ void squared_tip_distance(const ConstMatrixView& X, VectorView d2) {
 /// exp(−(Δθ/3)² − x²), Δθ from the upright (Amadio 2022): it has a slope far from the goal, too.
 Reward wide_reward() {
   const auto squared_distance = [](const ConstMatrixView& X, VectorView d2) {
-    const auto from_hanging = X.col(3).array().unaryExpr([](double angle) { return std::remainder(angle, 2 * kPi); });
+    const auto from_hanging = X.col(3).array().unaryExpr([](double angle) { return shorter_way(angle); });
     d2 = ((kPi - from_hanging.abs()) / kAngleWidth).square() + (X.col(0).array() / kCartWidth).square();
   };
   return reward::saturating(squared_distance, std::numbers::sqrt2 / 2);
