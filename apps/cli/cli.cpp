@@ -1,6 +1,7 @@
 #include "rehearse/cli/cli.hpp"
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -94,6 +95,7 @@ int rehearse::cli(int argc, char** argv, const std::vector<RobotMaker>& robots,
                   const std::vector<LearnerFamily>& learners, const char* share) {
   using namespace rehearse::apps;
   keep_standard_descriptors();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its write
   const Launch started = launch(argc, argv);
   ProcessGroup processes;
   End end = end_of([&]() -> int {

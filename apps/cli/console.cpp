@@ -57,7 +57,13 @@ std::string Console::number(Index trial) const {
   return trials_ >= trial ? fmt::format("{:>2}/{}", trial, trials_) : fmt::format("{}", trial);
 }
 
-/// At once, since programs that fail often make a search slow; how often it was in all is said at the end.
+void Console::look_for_faults() {
+  constexpr auto kPeriod = std::chrono::seconds(1);
+  if (std::this_thread::get_id() != owner_ || Clock::now() < next_look_) return;
+  next_look_ = Clock::now() + kPeriod;
+  say_first_faults();
+}
+
 void Console::say_first_faults() {
   const std::vector<std::string> faults = faults_ ? faults_() : std::vector<std::string>();
   if (faults.empty()) return;
@@ -66,14 +72,14 @@ void Console::say_first_faults() {
 }
 
 void Console::progress(Index trial, const Progress& progress) {
-  say_first_faults();
+  look_for_faults();
   if (progress.phase != phase_) phase_begin_ = Clock::now();
   phase_ = progress.phase;
   if (!line_.is_due()) return;
   std::string line = fmt::format("trial {}  {} {:.0f} %", number(trial), progress.phase, 100 * progress.done);
+  line += time_left(progress);
   if (progress.rollouts > 0)
     line += fmt::format("  best predicted return {:.3f}  {:.0f} rollouts/s", progress.best, progress.rollouts_per_s);
-  line += time_left(progress);
   line_.show(line);
 }
 
@@ -87,7 +93,7 @@ std::string Console::time_left(const Progress& progress) const {
     return fmt::format("  about {} left", duration_text(rest));
   }
   if (progress.done < 0.02) return "";
-  return fmt::format("  about {} left of {}", duration_text(in_phase * (1 / progress.done - 1)), progress.phase);
+  return fmt::format(", {} left", duration_text(in_phase * (1 / progress.done - 1)));
 }
 
 void Console::trial_done(const experiment::TrialRecord& record) {
@@ -99,6 +105,11 @@ void Console::trial_done(const experiment::TrialRecord& record) {
   for (std::size_t i = 0; i < std::min(phi_names_.size(), record.phi.size()); ++i)
     line += fmt::format("  {} {}", phi_names_[i], experiment::phi_text(priors_, i, record.phi[i]));
   line_.print(line);
+}
+
+void Console::interrupted() {
+  clear_line();
+  say_first_faults();
 }
 
 void Console::finished(const experiment::RunResult& result) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "apps/cli/status_line.hpp"
@@ -26,6 +27,13 @@ class Console final : public experiment::RunListener {
   /// Wipes the line that is being rewritten.
   void clear_line() { line_.clear(); }
 
+  /// Says the first faults of the robot's programs at once, since programs that fail often make work slow; how often it
+  /// was in all is said at the end. Any thread; the one that made this looks, once a second.
+  void look_for_faults();
+
+  /// The same, if the work ends here.
+  void interrupted();
+
   /// Any thread.
   Index trials_done() const { return done_; }
 
@@ -38,6 +46,7 @@ class Console final : public experiment::RunListener {
   void say_first_faults();
 
   Begin begins_;
+  std::thread::id owner_ = std::this_thread::get_id();
   StatusLine line_;
   Index trials_ = 0;
   std::atomic<Index> done_ = 0;
@@ -47,7 +56,7 @@ class Console final : public experiment::RunListener {
   std::function<std::vector<std::string>()> faults_;  // of the robot's programs; null: said, or it has none
   std::vector<std::string> phi_names_;
   std::string phase_;
-  Clock::time_point begin_, trial_begin_, phase_begin_;
+  Clock::time_point begin_, trial_begin_, phase_begin_, next_look_;
 };
 
 }  // namespace rehearse::apps

@@ -13,6 +13,7 @@ namespace {
 
 std::string advice_after(const experiment::RunFailed& error, const std::filesystem::path& folder,
                          const std::string& again) {
+  if (!std::filesystem::exists(folder)) return "nothing was begun; once the cause is gone, the same command begins";
   if (error.resume_may_help()) {
     const std::filesystem::path copies = folder / experiment::kRobotFolder;
     return fmt::format("what was done is kept; once the cause is gone: {}{}", again,
@@ -30,7 +31,7 @@ std::string advice_after(const experiment::RunFailed& error, const std::filesyst
 
 std::string interrupted(const Console& console, const std::filesystem::path& folder, const std::string& again) {
   if (!std::filesystem::exists(folder)) return "interrupted before anything was done";
-  return fmt::format("interrupted after {} trials; to continue: {}", console.trials_done(), again);
+  return fmt::format("interrupted after {}; to continue: {}", counted(console.trials_done(), "trial"), again);
 }
 
 }  // namespace
@@ -39,14 +40,18 @@ int on_console(const std::filesystem::path& folder, Index threads, Console& cons
                const std::function<void(const experiment::RunOptions&)>& work) {
   const experiment::RunOptions options{.evaluator = make_thread_evaluator(static_cast<int>(threads)),
                                        .listener = &console,
-                                       .stop = [] { return caught_signal() != 0; },
+                                       .stop =
+                                           [&] {
+                                             console.look_for_faults();
+                                             return caught_signal() != 0;
+                                           },
                                        .cache = cache_folder};
   try {
     const SignalWatch watch([&] { return interrupted(console, folder, again); });
     work(options);
     return kSuccess;
   } catch (const Interrupted&) {
-    console.clear_line();
+    console.interrupted();
     complain(interrupted(console, folder, again));
     return exit_code_of_signal();
   } catch (const experiment::RunFailed& error) {

@@ -242,9 +242,9 @@ std::string repeated_options(const CLI::App& app) {
   return lines;
 }
 
-/// The options that are given twice, or the first unknown flag with the most similar one; else the message of CLI11.
-std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
-  if (std::string repeated = repeated_options(app); !repeated.empty()) return repeated;
+/// A line for each unknown flag, with the most similar one.
+std::string unknown_flags(const CLI::App& app) {
+  std::string lines;
   for (const CLI::App* command : app.get_subcommands()) {
     std::vector<std::string> known;
     for (const CLI::Option* option : command->get_options())
@@ -252,9 +252,17 @@ std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
     for (const std::string& given : command->remaining()) {
       if (!given.starts_with("--")) continue;
       const std::string flag = given.substr(0, given.find('='));
-      return fmt::format("unknown flag '{}' of {}{}", flag, command->get_name(), suggestions(flag, known));
+      lines += fmt::format("{}unknown flag '{}' of {}{}", lines.empty() ? "" : "\n", flag, command->get_name(),
+                           suggestions(flag, known));
     }
   }
+  return lines;
+}
+
+/// The options that are given twice, or the unknown flags; else the message of CLI11.
+std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
+  for (std::string lines : {repeated_options(app), unknown_flags(app)})
+    if (!lines.empty()) return lines;
   return error.what();
 }
 

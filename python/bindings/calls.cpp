@@ -10,6 +10,8 @@
 namespace rehearse::python {
 namespace {
 
+thread_local int functions_of_robots = 0;  // in which this thread is
+
 using FortranArray = py::array_t<double, py::array::f_style | py::array::forcecast>;
 
 std::string shape_of(const py::array& array) {
@@ -87,7 +89,18 @@ py::array_t<double> to_vector(const ConstVectorView& x) {
   return array;
 }
 
+bool in_function_of_robot() { return functions_of_robots > 0; }
+
 void call(const Callable& of, const std::function<void(const py::object& function)>& work) {
+  struct Inside {
+    Inside() { ++functions_of_robots; }
+    ~Inside() { --functions_of_robots; }
+  };
+  const Inside inside;
+  call_between(of, work);
+}
+
+void call_between(const Callable& of, const std::function<void(const py::object& function)>& work) {
   const py::gil_scoped_acquire lock;
   try {
     try {

@@ -48,8 +48,15 @@ struct Callable {
   std::shared_ptr<Failure> failure;
 };
 
-/// Calls what Python needs a lock for. An exception is kept, and becomes system::Unavailable, which ends a run.
+/// Calls what Python needs a lock for, between the steps of work. An exception is kept, and becomes
+/// system::Unavailable, which ends a run.
+void call_between(const Callable& of, const std::function<void(const py::object& function)>& work);
+
+/// The same for a function of a robot, in the middle of work: this thread's memory is in use.
 void call(const Callable& of, const std::function<void(const py::object& function)>& work);
+
+/// True while this thread is in a function of a robot.
+bool in_function_of_robot();
 
 /// The number that a function returned. Raises ValueError.
 double number_of(const py::object& result, const std::string& name);

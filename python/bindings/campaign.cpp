@@ -80,7 +80,7 @@ class CampaignTeller final : public campaign::CampaignListener {
   void tell(Event event) {
     if (function_.failure->any()) return;
     try {
-      call(function_, [&](const py::object& function) { function(event()); });
+      call_between(function_, [&](const py::object& function) { function(event()); });
     } catch (const system::Unavailable&) {  // the exception is kept
     }
   }
@@ -114,6 +114,7 @@ campaign::Campaign watched(const std::function<bool()>& stop, const std::functio
 
 void do_campaign(const Robot& robot, const CampaignRequest& request, const Settings& settings) {
   require_processor();
+  require_outside_of_robots();
   const Robot own = robot.for_work();
   CampaignTeller teller({shared(settings.listener), "progress", own.failure()});
   const bool heard = !settings.listener.is_none();

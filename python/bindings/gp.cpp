@@ -56,7 +56,7 @@ std::shared_ptr<Fitted> fit_outputs(const MatrixIn& X, const MatrixIn& Y, double
 std::shared_ptr<Fitted> fit(const MatrixIn& X, const MatrixIn& Y, bool trend, double tolerance,
                             const OptionTexts& texts, int threads) {
   gp::FitOptions options;
-  set_options([&](FieldVisitor& v) { options.fields(v); }, texts);
+  set_options([&](FieldVisitor& v) { options.fields(v); }, texts, {"trend", "tolerance", "threads"});
   options.trend = trend;
   require_outputs(Y);
   if (X.rows() != Y.rows()) throw InvalidInput(fmt::format("X has {} rows and y {}", X.rows(), Y.rows()));

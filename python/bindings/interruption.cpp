@@ -1,5 +1,6 @@
 #include "python/bindings/interruption.hpp"
 
+#include "rehearse/core/errors.hpp"
 #include "rehearse/core/events.hpp"
 
 namespace rehearse::python {
@@ -52,6 +53,11 @@ bool Interruption::asked() {
   }
   next_ = Clock::now() + std::chrono::milliseconds(50);
   return asked_;
+}
+
+void require_outside_of_robots() {
+  if (in_function_of_robot())
+    throw InvalidInput("a function of a robot may not begin work on robots: it is called in the middle of some");
 }
 
 void do_unlocked(const std::shared_ptr<Failure>& failure,

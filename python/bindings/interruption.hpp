@@ -47,6 +47,9 @@ class Interruption {
   std::atomic<bool> asked_ = false;
 };
 
+/// Throws InvalidInput in a function of a robot.
+void require_outside_of_robots();
+
 /// Does the work without the interpreter's lock. stop: true once it is to end with Interrupted. Raises what a function
 /// of Python raised, as it was; KeyboardInterrupt where Ctrl-C stopped it.
 void do_unlocked(const std::shared_ptr<Failure>& failure,

@@ -27,15 +27,15 @@ optim::Cmaes make_cmaes(const Vector& mean, double sigma, const Pairs& bounds, s
                         const OptionTexts& texts) {
   require_processor();
   optim::CmaesOptions options;
-  set_options([&](FieldVisitor& v) { options.fields(v); }, texts);
+  set_options([&](FieldVisitor& v) { options.fields(v); }, texts, {"bounds", "seed", "max_evaluations"});
   return {mean, sigma, intervals(bounds), options, StreamKey{.seed = seed, .purpose = Purpose::search}};
 }
 
+/// With the interpreter's lock, as all methods of a search: other threads may have the same one.
 void tell_cmaes(optim::Cmaes& search, const Vector& values) {
   if (values.size() != search.population())
     throw InvalidInput(
         fmt::format("values has {} entries, must have {}, one a candidate", values.size(), search.population()));
-  const Unlocked unlocked;
   search.tell(values);
 }
 
@@ -56,7 +56,7 @@ qd::Niches niches_of(const Space& space, std::uint64_t seed, const Evaluator& ev
 qd::MapElites make_map_elites(const Pairs& bounds, const Space& space, std::uint64_t seed, const OptionTexts& texts) {
   require_processor();
   qd::MapElitesOptions options;
-  set_options([&](FieldVisitor& v) { options.fields(v); }, texts);
+  set_options([&](FieldVisitor& v) { options.fields(v); }, texts, {"bins", "niches", "seed"});
   const auto parameters = static_cast<Index>(bounds.size());
   std::optional<qd::MapElites> search;
   do_unlocked(std::make_shared<Failure>(), [&](const std::function<bool()>& stop) {
@@ -72,7 +72,6 @@ void tell_map_elites(qd::MapElites& search, const Vector& performances, const Ma
     throw InvalidInput(fmt::format("performances has {} entries and descriptors is {} × {}, must be {} and {} × {}",
                                    performances.size(), descriptors.rows(), descriptors.cols(), rows, rows,
                                    dimensions));
-  const Unlocked unlocked;
   search.tell(performances, descriptors);
 }
 

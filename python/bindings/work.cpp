@@ -42,7 +42,7 @@ class Listener final : public experiment::RunListener {
   template <class Event>
   void tell(Event event) {
     try {
-      call(function_, [&](const py::object& function) { function(event()); });
+      call_between(function_, [&](const py::object& function) { function(event()); });
     } catch (const system::Unavailable&) {
       throw Interrupted();  // the exception is kept, and the run can be resumed
     }
@@ -57,6 +57,7 @@ class Listener final : public experiment::RunListener {
 
 void work_with(const Robot& robot, const Settings& settings, const Work& work) {
   require_processor();
+  require_outside_of_robots();
   const Robot own = robot.for_work();
   Listener listener({shared(settings.listener), "progress", own.failure()});
   const bool heard = !settings.listener.is_none();

@@ -23,6 +23,8 @@ from .toml import quoting, table
 Options = Mapping[str, Any]
 Names = Union[str, Sequence[str]]
 
+_TEXTS = ("run", "claim", "learner", "prior", "priors", "variant", "variants", "state", "measure", "required", "result",
+          "reason")
 _QUARTILES = ("quartile_1", "median", "quartile_3")
 
 
@@ -185,15 +187,15 @@ def _text(keys: Mapping[str, Any]) -> str:
     """A campaign's file: values first, then tables, and lists of tables."""
     tables = {key: entry for key, entry in keys.items() if isinstance(entry, Mapping)}
     lists = {key: entry for key, entry in keys.items()
-             if isinstance(entry, (list, tuple)) and all(isinstance(each, Mapping) for each in entry)}
+             if isinstance(entry, (list, tuple)) and entry and all(isinstance(each, Mapping) for each in entry)}
     parts = [table("", {key: entry for key, entry in keys.items() if key not in tables and key not in lists})]
-    parts += [table(f"[{key}]", entry) for key, entry in tables.items()]
-    parts += [table(f"[[{key}]]", each) for key, entries in lists.items() for each in entries]
+    parts += [table(f"[{key}]", entry, every=True) for key, entry in tables.items()]
+    parts += [table(f"[[{key}]]", each, every=True) for key, entries in lists.items() for each in entries]
     return "\n\n".join(parts) + "\n"
 
 
 def _table_of(rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> Array:
-    return structured({name: column_of([row[name] for row in rows]) for name in names})
+    return structured({name: column_of([row[name] for row in rows], text=name in _TEXTS) for name in names})
 
 
 def _of_group(group: Mapping[str, Any]) -> dict[str, Any]:

@@ -120,12 +120,14 @@ def vector(name: str, given: Any) -> Array:
 
 
 def option_text(value: Any) -> str:
-    """An option's value as `--set` has it."""
-    if isinstance(value, (bool, np.bool_)):
+    """An option's value as `--set` has it: several texts with commas."""
+    if hasattr(value, "tolist"):  # of NumPy
+        value = value.tolist()
+    if isinstance(value, (list, tuple)) and all(isinstance(each, str) for each in value):
+        return ",".join(value)
+    if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    return str(value)
+    return repr(value) if isinstance(value, float) else str(value)
 
 
 def option_texts(options: Union[Mapping[str, Any], None]) -> list[tuple[str, str]]:

@@ -41,7 +41,8 @@ class Environment:
         space = getattr(environment, "action_space", None)
         self._shape = getattr(space, "shape", None)
         self._dtype = getattr(space, "dtype", None)
-        if space is not None and hasattr(space, "n"):
+        whole = self._dtype is not None and np.dtype(self._dtype).kind in "biu"
+        if space is not None and (hasattr(space, "n") or whole):
             raise InvalidInput("the environment chooses among actions by number; its actions must be continuous")
         if self._shape is not None:
             task.compare_actions(space)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from .arrays import Array
-from .checks import not_negative, numbers, option_text, threads_of
+from .checks import not_negative, numbers, option_text, threads_of, truth
 
 
 class GaussianProcess:
@@ -23,7 +23,7 @@ class GaussianProcess:
     """
 
     def __init__(self, *, trend: bool = False, tolerance: float = 0.0, threads: int = 0, **options: Any) -> None:
-        self.trend = trend
+        self.trend = truth("trend", trend)
         self.tolerance = not_negative("tolerance", tolerance)
         self.threads = threads_of(threads)
         self.options = options
@@ -93,14 +93,17 @@ class GaussianProcess:
         return self._shaped(mean), self._shaped(np.sqrt(variance))
 
     def score(self, X: npt.ArrayLike, y: npt.ArrayLike) -> float:
-        """R² of the predicted means, 1 at best, as scikit-learn has it: of several outputs the mean."""
+        """R² of the predicted means, 1 at best, as scikit-learn has it: of several outputs the mean. Targets that are all
+        the same have 1 where they are predicted exactly, else 0."""
         targets, _ = _targets(y)
         means = self._fitted.predict_mean(_inputs(X))
         if targets.shape != means.shape:
             raise _core.InvalidInput(f"y is {targets.shape[0]} × {targets.shape[1]}, must be {means.shape[0]} × "
                                      f"{means.shape[1]}")
         residual = ((targets - means) ** 2).sum(axis=0)
-        return float(np.mean(1 - residual / ((targets - targets.mean(axis=0)) ** 2).sum(axis=0)))
+        spread = ((targets - targets.mean(axis=0)) ** 2).sum(axis=0)
+        same = spread == 0
+        return float(np.mean(np.where(same, residual == 0, 1 - residual / np.where(same, 1, spread))))
 
     def __getstate__(self) -> dict[str, Any]:
         """For pickle and copy: the data and the hyperparameters; what loads it predicts the same bytes."""

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import InvalidInput
 from .arrays import Array
-from .checks import number, option_texts, path_of, read_text, vector, whole
+from .checks import number, numbers, option_texts, path_of, read_text, vector, whole
 from .exported import Exported
 
 
@@ -62,14 +62,14 @@ class Policy:
         return self
 
     def act(self, states: npt.ArrayLike, time_s: float = 0.0, memory: Union[Array, None] = None) -> Array:
-        """Actions (du, or n × du) for states (dx, or n × dx) at a time since the start. NaN where a state, or the
-        time, is not finite.
+        """Actions (du, or n × du) for states (dx, or n × dx) at a time since the start. NaN where a state is masked, or
+        it or the time is not finite.
 
         memory: of a robot whose actions have a rate, a filter, a delay, a lag or are remembered: what `start` gave
         before the first step. It holds the last commands, and is changed: act once each time step. Without it the
         states must have its columns, too, as trajectories do.
         """
-        x, time_s = np.asarray(states, dtype=float), number("time_s", time_s)
+        x, time_s = numbers("states", states), number("time_s", time_s)
         if memory is None:
             return self._core.act(x, time_s)
         shape = (*x.shape[:-1], len(self._core.start()))

@@ -99,12 +99,12 @@ class Robot:
             parts.append(table(f"[prior.{value(prior)}]", {"dynamics": prior, "tune": tune}))
         parts += self._plant(plant, observe, Task(horizon, states, actions), list(map(str, priors or {})),
                              measurement_noise)
-        parts.append(table("[policy]", mapping("policy", policy or {})))
+        parts.append(table("[policy]", mapping("policy", policy or {}), every=True))
         parts += [table("[[body]]", {"name": b.name, "from": list(b.start), "to": list(b.end), "width_m": b.width_m})
                   for b in bodies]
         self.text = "\n".join(part for part in parts if part)
         self._source, self._folder = f"robot {name}", ""
-        self._core = self._checked()
+        self._check()
 
     @classmethod
     def from_file(cls, path: Union[str, os.PathLike[str]], *, plant: Any = None,
@@ -115,7 +115,7 @@ class Robot:
         robot._functions = []
         robot.has_environment = False
         robot._source, robot._folder = os.fspath(path), os.path.abspath(Path(path).parent)
-        about = robot._make().about()
+        about = robot._core.about()
         robot.name, robot._dt_s = about["name"], about["dt_s"]
         if plant is not None:
             if about["has_plant"]:
@@ -123,35 +123,26 @@ class Robot:
             task = Task(about["horizon"], [State(**state) for state in about["states"]],
                         [Action(**action) for action in about["actions"]])
             robot.text += "\n\n" + "\n".join(robot._plant(plant, observe, task, about["dynamics"], 0.0))
-        robot._core = robot._make()
         robot._core.check()
         return robot
 
     def __repr__(self) -> str:
         return f"<rehearse.Robot {self.name}>"
 
-    def __getstate__(self) -> dict[str, Any]:
-        """For pickle and copy: its text and its functions, which pickle must know, too: no lambdas."""
-        return {name: part for name, part in self.__dict__.items() if name != "_core"}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
-        self._core = self._make()
-
-    def _make(self) -> Any:
+    @property
+    def _core(self) -> Any:
+        """The robot for C++, made anew: the garbage collector could not see what functions of a kept one hold."""
         core = _core.Robot(self.text, self._source, self._folder)
         for add, *arguments in self._functions:
             getattr(core, add)(*arguments)
         return core
 
-    def _checked(self) -> Any:
+    def _check(self) -> None:
         """Refuses a robot that is wrong; lines of its text, which nobody may have seen, are quoted."""
-        core = self._make()
         try:
-            core.check()
+            self._core.check()
         except _core.InvalidInput as error:
             raise _core.InvalidInput(quoting(self.text, self._source, str(error))) from None
-        return core
 
     def _formula(self, name: str, formula: Any, add: str = "add_state_function") -> Union[str, None]:
         if not callable(formula):
@@ -261,11 +252,11 @@ def _require(given: Any, kind: type, name: str, like: str) -> None:
 def _state(state: State) -> str:
     known = State("")
     given = {key: getattr(state, key) for key in State.__dataclass_fields__}
-    return table("[[state]]", {k: v for k, v in given.items() if k == "name" or v != getattr(known, k)})
+    return table("[[state]]", {k: v for k, v in given.items() if k == "name" or v != getattr(known, k)}, every=True)
 
 
 def _action(action: Action) -> str:
     known = Action("", (0.0, 0.0))
     given = {key: getattr(action, key) for key in ("max_rate", "filter_s", "delay_s", "lag_s", "remember")}
     return table("[[action]]", {"name": action.name, "unit": action.unit, "bounds": _bounds(f"bounds of {action.name}", action.bounds),
-                                **{k: v for k, v in given.items() if v != getattr(known, k)}})
+                                **{k: v for k, v in given.items() if v != getattr(known, k)}}, every=True)

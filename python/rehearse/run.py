@@ -76,7 +76,7 @@ class Run:
         if not path.exists():
             known = ", ".join(sorted(file.stem for file in self.folder.glob("*.csv")))
             raise _core.InvalidInput(f"{self.folder} has no {name}.csv (known: {known})")
-        return read_csv(path)
+        return read_csv(path, texts=("limit",))
 
     def trajectory(self, trial: int) -> Array:
         """What the robot did: time, states measured and true, actions, reward; a row a step."""

@@ -122,7 +122,7 @@ class MapElites(_Search):
 
     def statistics(self, floor: float = 0.0) -> dict[str, float]:
         """filled niches, coverage, qd_score (sum of performances above floor), best, mean."""
-        return dict(self._core.statistics(floor))
+        return dict(self._core.statistics(number("floor", floor)))
 
     @property
     def evaluations(self) -> int:

@@ -28,10 +28,10 @@ def structured(columns: Mapping[str, Array]) -> Array:
     return table
 
 
-def column_of(values: Sequence[Any]) -> Array:
-    """Texts, whole numbers, or numbers, of which None is NaN."""
-    if any(isinstance(value, str) for value in values):
-        return np.array(values, dtype=str)
+def column_of(values: Sequence[Any], *, text: bool = False) -> Array:
+    """Texts, whole numbers, or numbers, of which None is NaN. text: they are texts even where there are none."""
+    if text or any(isinstance(value, str) for value in values):
+        return _texts_of([str(value) for value in values])
     return np.array(values, dtype=float if None in values or not values else None)
 
 
@@ -41,7 +41,7 @@ def from_csv(text: str, texts: Collection[str] = ()) -> Array:
     Names are those of the header without their units. texts: columns that are texts, whatever is in them.
     """
     rows = list(csv.reader(io.StringIO(text)))
-    header = [re.sub(r" \[[^\]]*\]$", "", name) for name in rows[0]] if rows else []
+    header = [re.sub(r" \[.*\]$", "", name) for name in rows[0]] if rows else []
     cells = {name: [row[i] for row in rows[1:]] for i, name in enumerate(header)}
     return structured({name: _texts_of(column) if name in texts else _parsed(column) for name, column in cells.items()})
 
@@ -67,7 +67,7 @@ def _parsed(cells: list[str]) -> Array:
 def to_csv(columns: Any) -> str:
     """An episode as a file: a structured array, a DataFrame, or a dictionary of columns.
 
-    An index with a name is a column, too. A column may be one shorter than the longest: no action follows the last state.
+    An index with a name is a column, too. A column may be one shorter than `time`: no action follows the last state.
     None and what is masked are NaN. What is no column of numbers is written as it is, for the reader to say so where the
     task has it, else to leave it.
     """
@@ -82,10 +82,11 @@ def to_csv(columns: Any) -> str:
         raise TypeError(f"{type(columns).__name__}: an episode is a path, a structured array, a DataFrame, or a "
                         "dictionary of columns: time, states and actions by name")
     numeric = {name: array for name, column in named.items() if (array := _numbers(name, column)) is not None}
-    rows = max((len(column) for column in numeric.values()), default=0)
+    rows = len(numeric["time"]) if "time" in numeric else max((len(column) for column in numeric.values()), default=0)
     for name, column in numeric.items():
-        if len(column) < rows - 1:
-            raise InvalidInput(f"column {name} has {len(column)} numbers, the longest {rows}")
+        if not rows - 1 <= len(column) <= rows:
+            raise InvalidInput(f"column {name} has {len(column)} numbers, column time {rows}" if "time" in numeric else
+                               f"column {name} has {len(column)} numbers, the longest {rows}")
     cells = {name: _cells(numeric[name], rows) if name in numeric else _texts(column) for name, column in named.items()}
     table = [[name, *column, *[""] * (rows - len(column))] for name, column in cells.items()
              if rows - 1 <= len(column) <= rows]
@@ -121,16 +122,14 @@ def without_path(folder: str) -> Iterator[None]:
 
 
 def _numbers(name: str, column: Any) -> Union[Array, None]:
-    """None: it holds something else, such as texts, complex numbers or times of day."""
+    """None: it holds something else, such as texts, complex numbers, times of day, images, or one number alone."""
     try:
         array = numbers(name, column)
     except (TypeError, ValueError):
         return None
     if array.ndim == 2 and array.shape[1] == 1:
         array = array[:, 0]
-    if array.ndim != 1:
-        raise InvalidInput(f"column {name} is an array of shape {array.shape}, must be one number a row")
-    return array
+    return array if array.ndim == 1 else None
 
 
 def _cells(column: Array, rows: int) -> list[str]:
@@ -139,4 +138,4 @@ def _cells(column: Array, rows: int) -> list[str]:
 
 
 def _texts(column: Any) -> list[str]:
-    return [] if np.ndim(column) == 0 else ["" if value is None else str(value) for value in column]
+    return [] if np.ndim(column) not in (1, 2) else ["" if value is None else str(value) for value in column]

@@ -47,10 +47,10 @@ def _line(head: str, key: Any, entry: Any) -> str:
         raise InvalidInput(f"{head} {key}: {error}".lstrip()) from None
 
 
-def table(head: str, entries: Mapping[str, Any]) -> str:
-    """A table with its head; what is None or an empty text or dictionary is left out."""
+def table(head: str, entries: Mapping[str, Any], *, every: bool = False) -> str:
+    """A table with its head. every: with all entries; else without those that are None or an empty text or dictionary."""
     lines = [_line(head, key, entry) for key, entry in entries.items()
-             if entry is not None and not (isinstance(entry, (str, Mapping)) and not entry)]
+             if every or entry is not None and not (isinstance(entry, (str, Mapping)) and not entry)]
     if head and not lines:
         return "" if head in ("[define]", "[policy]") else head
     return "\n".join([head, *lines] if head else lines)

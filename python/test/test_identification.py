@@ -42,7 +42,7 @@ def test_a_summary_is_text_in_a_notebook():
 def test_logs_that_are_wrong_are_named():
     wrong = log(1)
     wrong["velocity"] = wrong["velocity"][:10]
-    with pytest.raises(rehearse.InvalidInput, match="velocity has 10 numbers, the longest 60"):
+    with pytest.raises(rehearse.InvalidInput, match="velocity has 10 numbers, column time 60"):
         rehearse.identify(cart(plant=None), [wrong])
     del wrong["velocity"]
     with pytest.raises(rehearse.InvalidInput, match="log-1.csv.*velocity"):

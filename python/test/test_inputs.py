@@ -106,7 +106,16 @@ def test_a_column_without_numbers_is_named(moved, run, wrong, message):
 
 def test_what_is_no_column_is_left_out(moved, run, silent):
     columns = {name: moved[name] for name in ("time", "velocity", "position", "force")}
-    assert run.tell({**columns, "operator": "me", "events": ["started", "stopped"]})["trial"] == 1
+    more = {"operator": "me", "events": ["started", "stopped"], "episode": 5, "images": np.zeros((16, 3, 3))}
+    assert run.tell({**columns, **more})["trial"] == 1
+
+
+def test_a_column_of_another_length_is_named(moved, run):
+    columns = {name: moved[name] for name in ("time", "velocity", "position", "force")}
+    with pytest.raises(rehearse.InvalidInput, match="column camera has 100 numbers, column time 16"):
+        run.tell({**columns, "camera": np.arange(100)})
+    with pytest.raises(rehearse.InvalidInput, match="column force has 3 numbers, column time 16"):
+        run.tell({**columns, "force": np.ones(3)})
 
 
 # Asking.
@@ -212,6 +221,10 @@ def test_an_environment_has_the_actions_of_the_robot(tmp_path, silent):
     third = [rehearse.Action("force", (-5 / 3, 5 / 3))]
     learn(boxed(Box([-5 / 3], [5 / 3]), actions=third), tmp_path / "same")
     learn(boxed(Box([-np.inf], [np.inf])), tmp_path / "unbounded")
+    whole = Box([-5], [5])
+    whole.dtype = np.dtype("int64")
+    with pytest.raises(rehearse.InvalidInput, match="its actions must be continuous"):
+        learn(boxed(whole), tmp_path / "whole")
     with pytest.raises(UserWarning, match=r"has force between -1 and 1, Action\('force'\) between -5 and 5"):
         learn(boxed(Box([-1], [1])), tmp_path / "other")
 

@@ -96,6 +96,7 @@ def test_a_gp_scores_and_is_copied():
     assert gp.score(X_new, y_new) > 0.9
     with pytest.raises(rehearse.InvalidInput, match="must be 60 × 1"):
         gp.score(X_new, y_new[:5])
+    assert gp.score(X_new, np.zeros(60)) == 0 and gp.score(X_new[:1], gp.predict(X_new[:1])) == 1
     X[:] = 0  # the data are its own
     loaded = pickle.loads(pickle.dumps(gp))
     np.testing.assert_array_equal(loaded.predict(X_new, return_std=True), gp.predict(X_new, return_std=True))
@@ -111,6 +112,10 @@ def test_a_gp_has_the_manners_of_scikit_learn():
     assert gp.set_params(trend=False, starts=2) is gp and gp.get_params()["starts"] == 2 and not gp.trend
     with pytest.raises(rehearse.InvalidInput, match="tolerance"):
         gp.set_params(tolerance=-1)
+    with pytest.raises(TypeError, match="trend = 'no', must be True or False"):
+        rehearse.GaussianProcess(trend="no")
+    with pytest.raises(rehearse.InvalidInput, match="did you mean 'tolerance'"):
+        rehearse.GaussianProcess(tolerence=0.1).fit(*data(20))
     assert gp.fit(*data(20)).n_features_in_ == 2
     sklearn = pytest.importorskip("sklearn.base")
     assert sklearn.clone(gp).get_params() == gp.get_params()
@@ -177,6 +182,8 @@ def test_cmaes_finds_the_top_of_a_ridge():
         inside.tell([1.0])
     with pytest.raises(rehearse.InvalidInput, match="did you mean 'population'"):
         rehearse.Cmaes([0.5], 0.3, populatoin=8)
+    with pytest.raises(rehearse.InvalidInput, match="did you mean 'max_evaluations'"):
+        rehearse.Cmaes([0.5], 0.3, max_evaluation=8)
     with pytest.raises(rehearse.InvalidInput, match="max_evaluations = 0, must be ≥ 1"):
         rehearse.Cmaes([0.5], 0.3, max_evaluations=0)
     short = rehearse.Cmaes([3.0, -2.0, 1.0], 0.5, max_evaluations=50, population=8)

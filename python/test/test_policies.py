@@ -145,4 +145,5 @@ def test_no_action_follows_from_what_is_no_number(tmp_path):
     for policy in own, rehearse.Policy.load(own.export(tmp_path / "policy.json")):
         for states, time_s in ([np.inf, 1], 0), ([np.nan, 1], 0), ([0, 1], np.nan), ([0, 1], np.inf):
             assert np.isnan(policy.act(states, time_s)).all()
+        assert np.isnan(policy.act(np.ma.array([0.5, 1.0], mask=[True, False]))).all()
         assert np.isfinite(policy.act([[0, 1], [1, 0]])).all()

@@ -165,8 +165,18 @@ std::string in_lower_case(std::string_view text) {
 
 bool lacks_groups(std::string_view name, std::string_view whole) { return whole.ends_with(fmt::format(".{}", name)); }
 
+/// What two names begin with that says nothing of what was meant: dashes, and groups of options.
+std::size_t common_groups(std::string_view a, std::string_view b) {
+  const auto [end, none] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  const std::string_view same = a.substr(0, static_cast<std::size_t>(end - a.begin()));
+  const std::size_t dot = same.find_last_of('.');
+  return dot != std::string_view::npos ? dot + 1 : same.starts_with("--") ? 2 : 0;
+}
+
 /// True if `other` may have been meant: at most half of the letters of `name` are wrong, or one is short for the other.
 bool is_like(std::string_view name, std::string_view other) {
+  const std::size_t common = common_groups(name, other);
+  name.remove_prefix(common), other.remove_prefix(common);
   const std::size_t most = (name.size() + 1) / 2;
   return lacks_groups(name, other) || other.starts_with(name) || name.starts_with(other) ||
          edit_distance(in_lower_case(name), in_lower_case(other)) <= most;

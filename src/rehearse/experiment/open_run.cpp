@@ -134,8 +134,20 @@ const learners::Proposal& OpenRun::propose() {
   if (proposal.model) predict(trial, proposal);
   if (proposal.archive) folder_.write_archive(*proposal.archive);
   history_.asked = record_before(trial, proposal, parts_.resolved());
+  note_lost_rows(*history_.asked);
   folder_.write_checkpoint(history_);
   return proposal;
+}
+
+void OpenRun::note_lost_rows(TrialRecord& record) {
+  const auto& lost_rows = parts_.resolved().scenario.lost_rows;
+  const Index all = lost_rows ? lost_rows() : 0, lost = all - lost_rows_;
+  lost_rows_ = all;
+  if (lost > 0)
+    record.notes.push_back(
+        fmt::format("nondeterministic: a program hung or died at {} simulated rows, twice each, which count as failed; "
+                    "another time it may answer them",
+                    lost));
 }
 
 void OpenRun::predict(Index trial, const learners::Proposal& proposal) const {

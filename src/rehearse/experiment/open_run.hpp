@@ -51,6 +51,7 @@ class OpenRun {
   Episode as_told(const Episode& episode) const;
   std::vector<Episode> as_told(const std::vector<Log>& logs) const;
   void tell_last();
+  void note_lost_rows(TrialRecord& record);
   void predict(Index trial, const learners::Proposal& proposal) const;
   void draw(const char* kind, Index trial, const Matrix& states) const;
   double interaction_s(const Episode& last) const;
@@ -60,6 +61,7 @@ class OpenRun {
   Participants& parts_;
   const RunFolder& folder_;
   History history_;
+  Index lost_rows_ = 0;                           // of programs, as far as they are noted
   const learners::Proposal* proposal_ = nullptr;  // of the trial that is asked for, once the learner has it
 };
 

@@ -47,11 +47,13 @@ std::vector<std::string> sentences_on(const Vector& deviations, const Task& task
   for (Index i = 0; i < deviations.size(); ++i) {
     const ActionVariable& action = task.actions[static_cast<std::size_t>(i)];
     if (!is_within(kSameActions, deviations(i), action))
-      sentences.push_back(fmt::format(
-          "{} differs from what the policy says of the measured states by {:.3g} {} "
-          "(root mean square): another policy, a state of another unit or sign, a delay, or a weak motor{}",
-          action.name, deviations(i), action.unit,
-          is_within(kOtherActions, deviations(i), action) ? "" : "; `tell --undo` takes a wrong file back"));
+      sentences.push_back(
+          fmt::format("{} differs from what the policy says of the measured states by {:.3g} {} "
+                      "(root mean square): another policy, a state of another unit or sign, a delay, or a weak motor{}",
+                      action.name, deviations(i), action.unit,
+                      is_within(kOtherActions, deviations(i), action)
+                          ? ""
+                          : "; `tell --undo` (in Python `take_back()`) takes a wrong file back"));
   }
   return sentences;
 }
@@ -92,7 +94,7 @@ std::string cause_of_end(const Episode& episode) {
 std::string cut_short(const ToldFile& file, Index steps, Index horizon, const std::vector<std::string>& notes) {
   return fmt::format(
       "{}: {} of {} steps, which take {} rows: the last has the final state, and needs no action. If the "
-      "operator cut the episode short, say why: --stopped \"…\"{}{}",
+      "operator cut the episode short, say why: --stopped \"…\" (in Python stopped=\"…\"){}{}",
       file.path.string(), steps, horizon, horizon + 1,
       notes.empty() ? "" : ". How the file was read: ", fmt::join(notes, "; "));
 }

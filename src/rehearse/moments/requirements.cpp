@@ -16,10 +16,13 @@ FeatureMap model_features(const Task& task, bool joint_angles) {
 std::vector<std::string> without_moments(const Task& task, const policy::Policy& policy, const User& user) {
   const auto& [who, otherwise, joint_angles] = user;
   Violations violations;
+  const bool chosen = policy.name() == "mlp" || policy.name() == "linear";  // by the option `policy`
   violations.require(analytic_options(policy).has_value(),
-                     fmt::format("policy = {} has no analytic moments, which {} needs: choose policy = rbf "
-                                 "(--set policy=rbf), policy = linear with policy_squash = sine, or {}",
-                                 policy.name(), who, otherwise));
+                     fmt::format("policy = {} has no analytic moments, which {} needs: choose {}{}", policy.name(), who,
+                                 chosen ? "policy = rbf (--set policy=rbf), policy = linear with policy_squash = sine, "
+                                          "or "
+                                        : "",
+                                 otherwise));
   violations.require(!task.cost,
                      fmt::format("the task has a cost of steps, whose moments are not known: choose {}", otherwise));
   violations.require(!task.episode_reward,

@@ -168,6 +168,15 @@ std::function<std::vector<std::string>()> DynamicsMaker::faults() const {
   };
 }
 
+std::function<Index()> DynamicsMaker::lost_rows() const {
+  if (programs_.empty()) return nullptr;
+  return [programs = programs_] {
+    Index lost = 0;
+    for (const auto& [name, program] : programs) lost += program->faults().lost;
+    return lost;
+  };
+}
+
 bool DynamicsMaker::is_of_a_prior(const Dynamics& dynamics) const {
   return std::ranges::find(robot_.priors, dynamics.name, &Variant::dynamics) != robot_.priors.end();
 }

@@ -36,6 +36,9 @@ class DynamicsMaker {
   /// A function that reports the processes of these simulators that had to be replaced so far; null: there are none.
   std::function<std::vector<std::string>()> faults() const;
 
+  /// A function that counts the rows that they gave up so far though another try might answer them; null: as above.
+  std::function<Index()> lost_rows() const;
+
   /// A function that throws InvalidInput, with the reason, if a program of a prior does not answer, or the plant's
   /// where it is driven; null if there are no such programs.
   std::function<void(scenario::PlantUse)> require_ready() const;

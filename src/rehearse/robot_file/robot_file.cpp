@@ -88,6 +88,7 @@ class Builder final : public scenario::ScenarioBuilder {
                                  .lacks = lines_of_prior(prior)});
     if (has_actuators_) put_actuators_in_front(scenario, actuators);
     scenario.faults = dynamics.faults();
+    scenario.lost_rows = dynamics.lost_rows();
     return scenario;
   }
 

@@ -46,6 +46,7 @@ struct Scenario {
   // not even asked. Null: they can.
   std::function<void(PlantUse)> require_ready;
   std::function<std::vector<std::string>()> faults;  // of programs so far, a sentence each; null: there are none
+  std::function<Index()> lost_rows;  // rows so far that programs may answer another time, but did not; null: none
   Vector stand_in_noise;  // standard deviations (dx) of what is measured where a prior plays the robot; empty: 0
   Index evaluations = 0;  // extra episodes of each trial's policy on a plant of their own, which are no
                           // interaction: their mean return is recorded as expected_return; 0: none

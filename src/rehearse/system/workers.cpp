@@ -13,11 +13,23 @@ constexpr Index kCostly = 8;  // faults that one slow fault counts as
 /// The rows to compute next.
 class Progress {
  public:
-  Progress(Index rows, bool row_by_row) : rows_(rows), ask_(rows), row_by_row_(row_by_row) {}
+  Progress(const ConstMatrixView& X, const ConstMatrixView& U, bool row_by_row)
+      : X_(X), U_(U), rows_(X.rows()), ask_(rows_), row_by_row_(row_by_row) {}
 
   bool done() const { return done_ == rows_; }
   Index first() const { return done_; }
-  Index count() const { return std::min(ask_, rows_ - done_); }
+
+  /// Up to the next row that is one of those given up.
+  Index count() const {
+    const Index most = std::min(ask_, rows_ - done_);
+    Index count = 1;
+    while (count < most && !is_given_up(done_ + count)) ++count;
+    return count;
+  }
+
+  /// True if the same row was given up before: it takes as long to find that out again.
+  bool is_hopeless() const { return is_given_up(done_); }
+  void skip() { ++done_; }
 
   void answered(Index rows) {
     if (rows == count()) ask_ = std::min(2 * ask_, rows_);
@@ -31,12 +43,22 @@ class Progress {
     const bool may_be_killed_from_outside = !declined && (one || (all && !costly));
     if (++failures_ == 1 && may_be_killed_from_outside) return false;
     failures_ = 0;
-    if (one) return true;
+    if (one) {
+      given_up_.push_back(done_);
+      return true;
+    }
     ask_ = (count() + 1) / 2;
     return false;
   }
 
  private:
+  bool is_given_up(Index row) const {
+    return std::ranges::any_of(
+        given_up_, [&](Index other) { return X_.row(row) == X_.row(other) && U_.row(row) == U_.row(other); });
+  }
+
+  const ConstMatrixView &X_, &U_;
+  std::vector<Index> given_up_;
   Index rows_, done_ = 0, ask_;
   Index failures_ = 0;  // of the same rows
   bool row_by_row_;
@@ -52,7 +74,13 @@ Workers::~Workers() {
 
 void Workers::change(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi, MatrixView dX) const {
   std::unique_ptr<Worker> worker = idle_.take();
-  for (Progress rows(X.rows(), options_.row_by_row); !rows.done();) {
+  for (Progress rows(X, U, options_.row_by_row); !rows.done();) {
+    if (rows.is_hopeless()) {
+      if (!bears(1)) worker = one_that_answers(std::move(worker), X, U, phi);
+      dX.row(rows.first()).setConstant(kNaN);
+      rows.skip();
+      continue;
+    }
     if (!worker) worker = options_.start();
     const Index first = rows.first(), count = rows.count();
     const Index answered =
@@ -67,6 +95,7 @@ void Workers::change(const ConstMatrixView& X, const ConstMatrixView& U, const V
     if (!rows.gives_up(costly, declined)) continue;
     dX.row(rows.first()).setConstant(kNaN);
     rows.answered(1);
+    if (!declined) lose();
   }
   idle_.give_back(std::move(worker));
 }
@@ -90,12 +119,24 @@ void Workers::remember(const ConstMatrixView& X, const ConstMatrixView& U, const
   if (!known_) known_ = {X, U, phi};
 }
 
-bool Workers::note(const Worker& worker) const {
+void Workers::lose() const {
   const std::lock_guard lock(mutex_);
-  ++faults_.count;
-  faults_.last = worker.problem();
-  faults_in_a_row_ += worker.costly() ? kCostly : 1;
+  ++faults_.lost;
+}
+
+bool Workers::bears(Index faults) const {
+  const std::lock_guard lock(mutex_);
+  faults_in_a_row_ += faults;
   return options_.patience == 0 || faults_in_a_row_ < options_.patience;
+}
+
+bool Workers::note(const Worker& worker) const {
+  {
+    const std::lock_guard lock(mutex_);
+    ++faults_.count;
+    faults_.last = worker.problem();
+  }
+  return bears(worker.costly() ? kCostly : 1);
 }
 
 /// worker: to be asked first; null: none is left.

@@ -16,6 +16,7 @@ namespace rehearse::system {
 /// The faults of workers so far.
 struct Faults {
   Index count = 0;
+  Index lost = 0;    // rows that were given up though another try might answer them: of workers that died or hung
   std::string last;  // for people
 };
 
@@ -44,7 +45,8 @@ class Worker {
 /// A pool of workers, one for each concurrent call, started when they are needed. A row that a worker does not answer
 /// is given once more to a new one and comes back as NaN if that fails, too: a worker that is killed from outside
 /// changes no number. One that declines is kept, and not asked for that row again. Where a batch is answered as a whole
-/// it is halved until the row is found, and grows again from there: such rows are seldom alone. Any thread.
+/// it is halved until the row is found, and grows again from there: such rows are seldom alone. Rows of a call that are
+/// the same as one that came back as NaN are not asked for. Any thread.
 class Workers {
  public:
   struct Options {
@@ -71,6 +73,8 @@ class Workers {
 
   static KnownRows some_of(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi);
   void remember(const ConstMatrixView& X, const ConstMatrixView& U, const Vector& phi) const;  // a row was answered
+  void lose() const;                                                                           // a row was given up
+  bool bears(Index faults) const;         // so many more in a row; false: patience ends
   bool note(const Worker& worker) const;  // a fault; false: patience ends
   std::unique_ptr<Worker> one_that_answers(std::unique_ptr<Worker> worker, const ConstMatrixView& X,
                                            const ConstMatrixView& U, const Vector& phi) const;

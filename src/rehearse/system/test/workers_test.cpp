@@ -97,6 +97,25 @@ TEST(Workers, ManyBadRowsSideBySideTakeFewMoreWorkersThanTheyAre) {
   EXPECT_LT(script.started, 3 * 100 + 40);
 }
 
+TEST(Workers, RowsThatAreTheSameAsABadOneAreNotAskedForAgain) {
+  for (const bool by_row : {false, true}) {
+    Script once{.bad = {0}, .by_row = by_row, .costly = true}, often = once;
+    const auto ask = [](Script& script, const Matrix& X) {
+      Matrix dX(X.rows(), 1);
+      Workers({.start = [&script] { return std::make_unique<ScriptedWorker>(script); }, .row_by_row = script.by_row})
+          .change(X, Matrix::Ones(X.rows(), 1), {}, dX);
+      return dX;
+    };
+    ask(once, Matrix{{0}});
+    EXPECT_EQ(ask(often, Matrix::Zero(64, 1)).array().isNaN().count(), 64);
+    EXPECT_LE(often.asked, once.asked + 6) << "the halving of the batch";
+    const Matrix dX = ask(often, Matrix{{0}, {1}, {0}, {2}});
+    EXPECT_TRUE(std::isnan(dX(2, 0)));
+    EXPECT_EQ(dX(1, 0), 2);
+    EXPECT_EQ(dX(3, 0), 3);
+  }
+}
+
 TEST(Workers, PatienceEnds) {
   Script script{.bad = {0, 1, 2, 3, 4, 5, 6, 7}};
   EXPECT_THROW(asked_of(script, 8, 6), Unavailable) << "no row was ever answered";
