@@ -309,7 +309,7 @@ def test_what_is_wrong_is_said_and_leaves_no_folder(tmp_path):
     refused("learners must be a list of names", cart(), learners=[])
     refused("priors must be a list of names", cart(), priors=[])
     refused("hidden: None must be a text, a number", cart(), set={"hidden": None})
-    refused("selection = '', must be a whole number", cart(), set={"search.selection": ""})
+    refused("search.selection = , must be a whole number", cart(), set={"search.selection": ""})
     refused("nan must be a finite number", cart(), set={"plant.mass": float("nan")})
     refused("threads = -1, must be ≥ 0", cart(), threads=-1)
     refused("^progress = 3, must be a function or None$", cart(), TypeError, progress=3)

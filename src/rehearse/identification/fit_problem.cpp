@@ -14,9 +14,12 @@ void FitProblem::refit(Fit& fit, const gp::FitOptions& options) const {
   fit.log_evidences.resize(outputs);
   evaluator.for_each(outputs, [&](Index e) {
     gp::FitStart& kernel = fit.kernels[static_cast<std::size_t>(e)];
-    if (kernel.hyperparameters.inputs() == 0)
+    const bool told = residuals.told_by_servos(e);  // so its targets are 0, and nothing is to be learned
+    if (kernel.hyperparameters.inputs() == 0 || told)
       kernel.hyperparameters =
           gp::default_start(*rows.inputs, rows.targets.col(e), residuals.scale()(e), options.bounds, options.trend);
+    fit.log_evidences(e) = 0;
+    if (told) return;
     gp::Fit fitted = gp::fit(*rows.inputs, rows.targets.col(e), residuals.scale()(e), kernel, options);
     kernel = {std::move(fitted.hyperparameters), std::move(fitted.inverse_hessian)};
     fit.log_evidences(e) = fitted.log_evidence;

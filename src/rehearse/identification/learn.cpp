@@ -6,6 +6,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/actuated_model.hpp"
+#include "rehearse/dynamics/integration.hpp"
 #include "rehearse/dynamics/residuals.hpp"
 #include "rehearse/dynamics/servos.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
@@ -68,12 +69,19 @@ std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const 
   return std::nullopt;
 }
 
+/// The variances of noise of the changes that a model predicts (dx): of positions, that of their rates is a part.
+Vector noise_of_changes(const dynamics::GpModel& model, const dynamics::Residuals& rows) {
+  Matrix variances = model.posterior().noise_variances().transpose();
+  dynamics::add_variances_of_integrals(rows.kinematics(), variances);
+  return variances.transpose();
+}
+
 /// A note if the model errs at the rows it was told by much more than their noise: their images say something else.
 std::optional<std::string> contradicts_image(const dynamics::GpModel& model, const dynamics::Residuals& rows) {
   const Dataset& data = rows.data();
   Matrix mean(data.size(), data.changes.cols());
   model.predict_mean(data.states, data.actions, mean);
-  const Vector noise = model.posterior().noise_variances().cwiseSqrt();
+  const Vector noise = noise_of_changes(model, rows).cwiseSqrt();
   for (Index e = 0; e < noise.size(); ++e) {
     const double error = (data.changes.col(e) - mean.col(e)).norm() / std::sqrt(static_cast<double>(data.size()));
     if (error > kContradiction * noise(e) && error > kContradictionOfChanges * rows.scale()(e))
@@ -99,12 +107,14 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
       residuals.features(), residuals.kinematics(), mean,
       gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance), options.variance,
       residuals.midpoint());
-  model->set_measurement_std(smoothed
-                                 ? smoothed->measurement_std
-                                 : measurement_std(*model, residuals.data(), model->posterior().noise_variances()));
+  model->set_measurement_std(smoothed ? smoothed->measurement_std
+                                      : measurement_std(*model, residuals.data(), noise_of_changes(*model, residuals)));
   learned.model = model;
   if (problem.prior) learned.state.phi = fit.phi;
-  learned.log_evidence = fit.log_evidences.sum();
+  double evidence = 0;
+  for (Index e = 0; e < fit.log_evidences.size(); ++e)
+    if (!residuals.told_by_servos(e)) evidence += fit.log_evidences(e);
+  learned.log_evidence = evidence;
   learned.left_out_rows = left_out;
   learned.evaluations = fit.evaluations;
   if (options.mirror) {

@@ -29,7 +29,7 @@ Quadratic cost_to_go(const PlannedStep& step, const Value& after, double uncerta
   for (Index i = 0; i < n && uncertainty > 0; ++i) {
     if (!(f.variance(i) > kNoVariance)) continue;
     const Vector by = f.variance_by.row(i).transpose();
-    const double weight = uncertainty * after.S(i, i);
+    const double weight = uncertainty * curvature_at_next(step, after, i);
     q.gradient += 0.5 * weight * by;
     q.hessian +=
         weight / (4 * f.variance(i)) * by * by.transpose();  // of the standard deviation's square, to first order
@@ -38,6 +38,11 @@ Quadratic cost_to_go(const PlannedStep& step, const Value& after, double uncerta
 }
 
 }  // namespace
+
+double curvature_at_next(const PlannedStep& step, const Value& after, Index i) {
+  const Index z = step.dynamics.by.cols(), reached = step.cost.gradient.size() - z;
+  return after.S(i, i) + (i < reached ? step.cost.hessian(z + i, z + i) : 0);
+}
 
 std::optional<BackwardStep> backward_step(const PlannedStep& step, const Value& after, double damping,
                                           double uncertainty) {

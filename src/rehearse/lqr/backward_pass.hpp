@@ -38,9 +38,15 @@ struct BackwardPass {
   std::vector<Value> values;       // of the state before each step, and at the end
 };
 
+/// The curvature of all costs by entry i of the state that a step leads to: of those that follow, and of the step's own
+/// by the state reached.
+double curvature_at_next(const PlannedStep& step, const Value& after, Index i);
+
 /// One step of dynamic programming (Lee 2017; Li 2004): the best feedback within bounds of the actions (Tassa 2014),
 /// and the cost to go before it, `before`. damping: added to the curvature by the actions. Where `uncertainty` is 1
-/// the model's variance V of a state costs half tr(S V); 0: nothing. nullopt where the curvature is not positive.
+/// the model's variance V of a state costs half tr(S V), S the curvature of all costs by that state (Lee's rewards are
+/// of the state before a step, so that his S of the next state has them, too); 0: nothing. nullopt where the curvature
+/// is not positive.
 struct BackwardStep {
   Feedback feedback;
   Value before;

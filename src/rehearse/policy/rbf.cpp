@@ -135,7 +135,8 @@ class RbfNetwork final : public Rbf, public Describable, public Differentiable {
       const Mean::Slopes by = mean.pull_back(scaled, k, by_mean);
       by_inputs += by.inputs;
       by_centres += by.centres;
-      by_theta.segment(a * inputs, inputs) += by.log_lengths;
+      by_theta.segment(a * inputs, inputs) +=
+          (theta.segment(a * inputs, inputs).array().abs() < kLargestLogLength).select(by.log_lengths, 0.0);
       by_theta.segment(targets, centres) += by.targets;
     }
     by_theta.segment(actions * inputs, centres * inputs) += by_centres.transpose().reshaped();

@@ -150,11 +150,12 @@ void Lockstep::settle(Index row, Index t) {
   if (alive) {
     const auto remaining = static_cast<double>(task_.horizon - t);
     const bool went_on = finite(row);
+    const double left = remaining / static_cast<double>(task_.horizon);
     m_.returns(row) += went_on ? m_.reward(row) : remaining * task_.reward_floor;
     failed_ += !went_on;
     alive = went_on;
+    if (!went_on) m_.broken.row(row).setConstant(left);  // what cannot be simulated cannot be judged
     if (went_on && (breaks(row) || ended(row))) {
-      const double left = remaining / static_cast<double>(task_.horizon);
       m_.broken.row(row) = (m_.holds.row(row).array().abs() > 0).select(m_.broken.row(row), left);
       m_.returns(row) += (remaining - 1) * task_.reward_floor;
       alive = false;

@@ -82,5 +82,18 @@ TEST(FitProblem, AParameterDoesNotWinByFailingWhereItIsWrong) {
   }
 }
 
+TEST(FitProblem, WhatServosTellIsNotLearned) {
+  Kinematics behind_servo{.dt_s = 0.1};
+  behind_servo.servos.push_back({.action = 0, .position = 1});
+  const Dataset data = swing::data(30, 1);
+  const dynamics::Residuals residuals(data, swing::features(), behind_servo);
+  const FitProblem problem{residuals, nullptr, Score::product, {}, serial_evaluator()};
+  Fit fit = unfitted({}, 2, {});
+  problem.refit(fit);
+  EXPECT_EQ(fit.log_evidences(1), 0);
+  EXPECT_EQ(fit.score, fit.log_evidences(0));
+  EXPECT_EQ(hyperparameters(fit).back().inputs(), 4);
+}
+
 }  // namespace
 }  // namespace rehearse::identification

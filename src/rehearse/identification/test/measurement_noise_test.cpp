@@ -46,20 +46,33 @@ TEST(MeasurementStd, SolvesForWhatMeasurementsAdd) {
   EXPECT_LT(std(1), 0.005);
 }
 
-TEST(MeasurementStd, OfLearnedModelsIsAboutTheTrueOne) {
+/// Steps of the swing, measured with noise of these deviations.
+Dataset measured_swing(Index rows, const Vector& std) {
   Rng rng({.purpose = Purpose::test});
-  const Vector std{{0.05, 0.02}};
-  Dataset data = swing::data(200, 1);
+  Dataset data = swing::data(rows, 1);
   for (Index i = 0; i < data.size(); ++i)
     for (Index d = 0; d < 2; ++d) {
       const double before = std(d) * rng.normal(), after = std(d) * rng.normal();
       data.states(i, d) += before;
       data.changes(i, d) += after - before;
     }
+  return data;
+}
+
+TEST(MeasurementStd, OfLearnedModelsIsAboutTheTrueOne) {
+  const Vector std{{0.05, 0.02}};
+  const Dataset data = measured_swing(200, std);
   const prior::Prior prior = swing::prior_at(swing::kTruth);
   const Learned learned = learn({data, swing::features(), {}, &prior}, FixedPrior{}, {}, serial_evaluator());
   const Vector found = learned.model->measurement_std();
   for (Index d = 0; d < 2; ++d) EXPECT_NEAR(found(d) / std(d), 1, 0.25) << d;
+}
+
+TEST(MeasurementStd, CountsTheNoiseOfRatesInPositionsThatFollowFromThem) {
+  const Dataset data = measured_swing(300, Vector{{0.2, 0.005}});  // of the rate most
+  const Learned learned =
+      learn({data, swing::features(), swing::kinematics(), nullptr}, ZeroMean{}, {}, serial_evaluator());
+  EXPECT_NEAR(learned.model->measurement_std()(0) / 0.2, 1, 0.25);
 }
 
 }  // namespace

@@ -112,7 +112,9 @@ class Improvement {
     const Index steps = std::min(trajectory.steps, static_cast<Index>(pass.feedback.size()));
     for (Index t = 0; t < steps; ++t)
       for (Index i = 0; i < variance.cols(); ++i)
-        sum += 0.5 * pass.values[static_cast<std::size_t>(t) + 1].S(i, i) * variance(t, i);
+        sum += 0.5 * variance(t, i) *
+               lqr::curvature_at_next(planned_[static_cast<std::size_t>(t)],
+                                      pass.values[static_cast<std::size_t>(t) + 1], i);
     return options_.uncertainty * sum;
   }
 

@@ -63,9 +63,23 @@ TEST(BackwardPass, AvoidsWhatTheModelDoesNotKnow) {
   const Value after{Vector::Zero(1), Matrix{{3}}};
   const auto one = backward_step(unsure, after, 0, 1);
   ASSERT_TRUE(one);
-  // Half tr(S V) has the slopes 0.3 and 0.6; its curvature by u is 3 · 0.4² / (4 · 0.5).
-  EXPECT_NEAR(one->feedback.open(0), -0.6 / (5 + 0.24), 1e-12);
+  // The costs that follow and the step's own have the curvature 4 at the next state. Half of 4 V has the slopes 0.4 and
+  // 0.8; its curvature by u is 4 · 0.4² / (4 · 0.5).
+  EXPECT_NEAR(one->feedback.open(0), -0.8 / (5 + 0.32), 1e-12);
   EXPECT_EQ(backward_step(unsure, after, 0, 0)->feedback.open(0), 0);
+}
+
+TEST(BackwardPass, AvoidsUncertaintyOfTheStateThatItsOwnCostLooksAt) {
+  // x' = u with the variance 4 u², and a cost of (x' − 1)² / 2: expected to be (u − 1)² / 2 + 2 u², least at 0.2.
+  const double u = 0.2;
+  PlannedStep own{
+      .dynamics = {.by = Matrix{{0, 1}}, .variance = Vector{{4 * u * u}}, .variance_by = Matrix{{0, 8 * u}}},
+      .cost = {.value = 0, .gradient = Vector{{0, 0, u - 1}}, .hessian = Matrix::Zero(3, 3)},
+      .action = Vector{{u}}};
+  own.cost.hessian(2, 2) = 1;
+  EXPECT_NEAR(backward_step(own, kNothing, 0, 1)->feedback.open(0), 0, 1e-12);
+  EXPECT_NEAR(backward_step(own, kNothing, 0, 0)->feedback.open(0), 0.8, 1e-12);
+  EXPECT_EQ(curvature_at_next(own, {Vector::Zero(1), Matrix{{3}}}, 0), 4);
 }
 
 TEST(BackwardPass, SaysWhereThereIsNoMinimum) {

@@ -68,6 +68,16 @@ TEST(Limits, AreBrokenByWhatCannotBeJudged) {
   EXPECT_EQ(simulated.broken[0], Matrix::Ones(1, 3)) << "in the first step";
 }
 
+TEST(Limits, AreBrokenByWhatCannotBeSimulated) {
+  Task task = cart::task();
+  task.limits = {above(1, -1e9, "place")};
+  Index steps = 0;
+  const auto bad = [&](double, double) { return ++steps > 3 * 5; };  // in the sixth step, for three candidates
+  const Simulated simulated = simulate_cart(task, cart::candidates(3), 1, kUnclipped, cart::Model(0, bad));
+  EXPECT_EQ(simulated.failed, 3);
+  EXPECT_EQ(simulated.broken[0], Matrix::Constant(1, 3, 15.0 / 20)) << "and the earlier, the worse";
+}
+
 TEST(Limits, ThatAreKeptChangeNothing) {
   Task task = cart::task();
   const Simulated without = simulate_cart(task, cart::candidates(5), 3, kUnclipped, cart::Model(0.01));
