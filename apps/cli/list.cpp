@@ -13,6 +13,7 @@
 #include "apps/cli/study_setup.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
+#include "rehearse/core/text_table.hpp"
 #include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/spec.hpp"
 
@@ -134,6 +135,37 @@ void print(const experiment::Catalogue& catalogue, bool with_options) {
 
 std::string remark_of(const IdentifyEntry& /*entry*/) { return "takes a prior, and options of the robot beside these"; }
 
+std::string parameter_text(const Parameter& parameter) {
+  if (parameter.kind == Parameter::Kind::continuous)
+    return fmt::format("{:.6g}, {:.6g} to {:.6g}", parameter.value, parameter.box.low, parameter.box.high);
+  if (parameter.kind == Parameter::Kind::discrete)
+    return fmt::format("{:.6g}, of {}", parameter.value, fmt::join(parameter.choices, " "));
+  return fmt::format("{:.6g}, fixed", parameter.value);
+}
+
+/// The parameters of each prior, a row a name: the value that learning starts from, and its bounds.
+void print_parameters(scenario::ScenarioBuilder& builder) {
+  std::vector<std::vector<std::string>> rows{{"PARAMETER"}};
+  const std::vector<scenario::NamedPrior> priors = builder.build().priors;
+  for (const scenario::NamedPrior& prior : priors) {
+    rows.front().push_back(prior.name);
+    for (const Parameter& parameter : prior.parameters.all()) {
+      const std::string label =
+          "prior." + parameter.name + (parameter.unit.empty() ? "" : fmt::format(" [{}]", parameter.unit));
+      auto row = std::ranges::find(rows, label, [](const auto& each) { return each.front(); });
+      if (row == rows.end()) row = rows.insert(row, {label});
+      row->resize(rows.front().size());
+      row->back() = parameter_text(parameter);
+    }
+  }
+  if (rows.size() == 1) return;
+  put("\nWhere the parameters of priors start; prior.PRIOR.NAME is that of one prior alone\n");
+  for (const std::string& line : aligned(rows)) put("{}\n", line);
+}
+
+template <class Other>
+void print_parameters(Other& /*has none*/) {}
+
 /// Prints the options for everyone; those for experts on request, else their number.
 template <class Builder>
 void print_one(Builder& builder, const std::string& kind, const std::string& name, bool with_expert) {
@@ -144,6 +176,7 @@ void print_one(Builder& builder, const std::string& kind, const std::string& nam
   const std::vector<Field> hidden(middle, shown.end());
   shown.erase(middle, shown.end());
   if (!shown.empty()) put("\n{}", options_table(shown, terminal_width()));
+  print_parameters(builder);
   if (hidden.empty()) return;
   if (with_expert)
     put("\nFor experts\n{}", options_table(hidden, terminal_width()));

@@ -40,6 +40,7 @@ grep -qE '^search\.method +race +restarts +race, restarts, ' stdout || fail "'li
 grep -q '^search.restarts.step ' stdout && fail "'list gp-mi' shows options for experts"
 expect 0 "search.restarts.cmaes.max_condition  " - list gp-mi --expert
 expect 0 "mass of the first link [kg]" - list pendubot
+grep -q '^prior.m2 \[kg\] .*0.75, 0.05 to 1.2' stdout || fail "'list pendubot' does not say where priors start"
 grep -q '^box_low .* 0 (the ' stdout || fail "'list pendubot' does not say whose box_low is"
 expect 0 '"help": "mass of the first link [kg]"' - list pendubot --json
 expect 0 "zero_range " - list identify
