@@ -33,9 +33,9 @@ std::string outcome_text(const RunOutcome& outcome, Index trials) {
 }
 
 /// "3 of 3 (0.29 to 1)"
-std::string rate_text(const std::optional<campaign::SuccessRate>& rate) {
+std::string rate_text(const std::optional<statistics::Rate>& rate) {
   if (!rate) return "-";
-  return fmt::format("{} of {} ({:.2g} to {:.2g})", rate->count, rate->runs, rate->interval.low, rate->interval.high);
+  return fmt::format("{} of {} ({:.2g} to {:.2g})", rate->count, rate->of, rate->interval.low, rate->interval.high);
 }
 
 std::string numbers_text(const statistics::FiveNumbers& five) {

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using experiment::GivenPolicy, experiment::PastRun, experiment::Rate, experiment::Summary, experiment::TrialRecord;
+using experiment::GivenPolicy, experiment::PastRun, experiment::Summary, experiment::TrialRecord;
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// The arguments as what they mean.
@@ -93,7 +93,7 @@ GivenPolicy policy_wanted(const EvaluateArguments& arguments, const Wanted& want
                                   run.resolved.scenario);
 }
 
-std::string rate_text(const Rate& rate) {
+std::string rate_text(const statistics::Rate& rate) {
   return fmt::format("{} of {} episodes, {:.3g} % (95 % interval {:.3g} to {:.3g} %)", rate.count, rate.of,
                      100 * rate.value(), 100 * rate.interval.low, 100 * rate.interval.high);
 }

@@ -26,16 +26,15 @@ std::vector<const RunOutcome*> runs_of(const Campaign& campaign, std::size_t gro
 
 /// Counts the runs for which `solved` holds among those whose trial `trial` is decided.
 template <class Solved>
-std::optional<SuccessRate> success_rate(const std::vector<const RunOutcome*>& runs, Index trial, Solved solved) {
-  SuccessRate rate;
+std::optional<statistics::Rate> success_rate(const std::vector<const RunOutcome*>& runs, Index trial, Solved solved) {
+  Index count = 0, of = 0;
   for (const RunOutcome* run : runs) {
     if (!run->decided(trial)) continue;
     if (std::any_of(run->solved.begin(), run->solved.end(), [](const auto& s) { return !s; })) return std::nullopt;
-    ++rate.runs;
-    rate.count += solved(*run);
+    ++of;
+    count += solved(*run);
   }
-  rate.interval = statistics::rate_interval(rate.count, rate.runs);
-  return rate;
+  return statistics::rate(count, of);
 }
 
 TrialStatistics statistics_of(const std::vector<const RunOutcome*>& runs, Index trial) {
@@ -79,11 +78,11 @@ Json to_json(const statistics::FiveNumbers& five) {
           {"max", number(five.max)}};
 }
 
-Json to_json(const std::optional<SuccessRate>& rate) {
+Json to_json(const std::optional<statistics::Rate>& rate) {
   if (!rate) return {};
-  return {{"runs", rate->runs},
+  return {{"runs", rate->of},
           {"count", rate->count},
-          {"rate", number(static_cast<double>(rate->count) / static_cast<double>(rate->runs))},
+          {"rate", number(rate->value())},
           {"low", number(rate->interval.low)},
           {"high", number(rate->interval.high)}};
 }

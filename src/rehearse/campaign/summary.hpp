@@ -5,15 +5,10 @@
 #include <string>
 
 #include "rehearse/campaign/results.hpp"
+#include "rehearse/statistics/intervals.hpp"
 #include "rehearse/statistics/quantiles.hpp"
 
 namespace rehearse::campaign {
-
-struct SuccessRate {
-  Index runs = 0;  // those that have the trial, and those that failed before it and count as not solved
-  Index count = 0;
-  Interval interval;
-};
 
 /// Statistics of one trial, over the runs of a group.
 struct TrialStatistics {
@@ -21,7 +16,9 @@ struct TrialStatistics {
   Index runs = 0;            // that have this trial
   double interaction_s = 0;  // median
   statistics::FiveNumbers total_reward, best_return;
-  std::optional<SuccessRate> solved, solved_by;  // in this trial; in this or one before
+  // In this trial; in this or one before; of the runs that have the trial, and those that failed before it, which count
+  // as not solved. Empty: the scenario cannot say.
+  std::optional<statistics::Rate> solved, solved_by;
 };
 
 /// One entry for every trial that a run of the group has reached.

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "rehearse/experiment/evaluation.hpp"
+#include "rehearse/experiment/expected_return.hpp"
 #include "rehearse/experiment/failures.hpp"
 #include "rehearse/experiment/forecast.hpp"
 #include "rehearse/experiment/motion.hpp"

@@ -42,12 +42,10 @@ StreamKey stream_of(const EvaluationPlan& plan, const Learned& learned, Index ep
           .candidate = static_cast<std::uint64_t>(episode)};
 }
 
-Rate rate_of(Index count, Index of) { return {count, of, statistics::rate_interval(count, of)}; }
-
-std::optional<Rate> rate_of(const std::vector<Outcome>& outcomes, std::optional<bool> Outcome::*what) {
+std::optional<statistics::Rate> rate_of(const std::vector<Outcome>& outcomes, std::optional<bool> Outcome::*what) {
   if (std::ranges::any_of(outcomes, [&](const Outcome& each) { return !(each.*what); })) return {};
-  return rate_of(std::ranges::count_if(outcomes, [&](const Outcome& each) { return *(each.*what); }),
-                 static_cast<Index>(outcomes.size()));
+  return statistics::rate(std::ranges::count_if(outcomes, [&](const Outcome& each) { return *(each.*what); }),
+                          static_cast<Index>(outcomes.size()));
 }
 
 std::string cell(const std::optional<bool>& flag) { return !flag ? "" : *flag ? "1" : "0"; }
@@ -119,13 +117,14 @@ Summary summary_of(const std::vector<Outcome>& outcomes) {
   Summary summary{.solved = rate_of(outcomes, &Outcome::solved),
                   .solved_at_end = rate_of(outcomes, &Outcome::solved_at_end)};
   const auto fell = [](const Outcome& each) { return each.ended_s.has_value(); };
-  summary.ended = rate_of(std::ranges::count_if(outcomes, fell), static_cast<Index>(outcomes.size()));
+  summary.ended = statistics::rate(std::ranges::count_if(outcomes, fell), static_cast<Index>(outcomes.size()));
   std::map<std::string, Index> broke;
   for (const Outcome& each : outcomes) {
     summary.returns.push_back(each.total_reward);
     for (const std::string& limit : each.broke) ++broke[limit];
   }
-  for (const auto& [limit, count] : broke) summary.broke[limit] = rate_of(count, static_cast<Index>(outcomes.size()));
+  for (const auto& [limit, count] : broke)
+    summary.broke[limit] = statistics::rate(count, static_cast<Index>(outcomes.size()));
   return summary;
 }
 

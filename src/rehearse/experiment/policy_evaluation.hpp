@@ -10,6 +10,7 @@
 #include "rehearse/core/options.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/policy/policy.hpp"
+#include "rehearse/statistics/intervals.hpp"
 
 namespace rehearse::experiment {
 
@@ -54,17 +55,10 @@ struct Outcome {
 std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, const EvaluationPlan& plan,
                               const Evaluator& evaluator);
 
-/// A count of episodes as a rate with its exact 95 % interval.
-struct Rate {
-  Index count = 0, of = 0;
-  Interval interval;
-  double value() const { return static_cast<double>(count) / static_cast<double>(of); }
-};
-
 struct Summary {
-  std::optional<Rate> solved, solved_at_end;  // empty: the task cannot say
-  Rate ended;                                 // early
-  std::map<std::string, Rate> broke;          // by limit; only those that were broken
+  std::optional<statistics::Rate> solved, solved_at_end;  // empty: the task cannot say
+  statistics::Rate ended;                                 // early
+  std::map<std::string, statistics::Rate> broke;          // by limit; only those that were broken
   std::vector<double> returns;
 };
 Summary summary_of(const std::vector<Outcome>& outcomes);

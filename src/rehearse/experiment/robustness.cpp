@@ -45,7 +45,7 @@ Resolved with_prior_at(Resolved run, const std::string& parameter, double value)
   return run;
 }
 
-void add_rate(std::vector<std::string>& row, const std::optional<Rate>& rate) {
+void add_rate(std::vector<std::string>& row, const std::optional<statistics::Rate>& rate) {
   using files::Csv;
   if (!rate) return row.resize(row.size() + 3);
   row.insert(row.end(), {Csv::cell(rate->value()), Csv::cell(rate->interval.low), Csv::cell(rate->interval.high)});

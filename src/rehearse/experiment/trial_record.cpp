@@ -36,9 +36,9 @@ std::vector<LimitRecord> limits_of(const Task& task, const learners::Proposal& p
   for (std::size_t l = 0; l < task.limits.size(); ++l) {
     LimitRecord record{.limit = task.limits[l].name, .allowed = task.limits[l].risk};
     if (l < proposal.risks.size()) {
-      const auto [broken, episodes] = proposal.risks[l];
-      record.predicted = static_cast<double>(broken) / static_cast<double>(episodes);
-      record.interval = statistics::rate_interval(broken, episodes);
+      const statistics::Rate risk = statistics::rate(proposal.risks[l].broken, proposal.risks[l].episodes);
+      record.predicted = risk.value();
+      record.interval = risk.interval;
     }
     records.push_back(std::move(record));
   }

@@ -76,6 +76,8 @@ Interval rate_interval(Index successes, Index runs) {
           successes == runs ? 1 : boost::math::ibeta_inv(k + 1, n - k, 1 - kTail)};
 }
 
+Rate rate(Index count, Index of) { return {count, of, rate_interval(count, of)}; }
+
 Index runs_to_exclude(double probability) {
   return static_cast<Index>(std::ceil(std::log(kTail) / std::log1p(-probability)));
 }

@@ -14,6 +14,15 @@ inline constexpr double kConfidence = 0.95;
 /// runs ≥ 0, successes in 0..runs.
 Interval rate_interval(Index successes, Index runs);
 
+/// A count of independent runs as a rate with that interval.
+struct Rate {
+  Index count = 0, of = 0;
+  Interval interval;
+
+  double value() const { return static_cast<double>(count) / static_cast<double>(of); }  // NaN of no runs
+};
+Rate rate(Index count, Index of);
+
 /// The least runs without a success after which the interval above ends at this probability, in (0, 1), or below.
 Index runs_to_exclude(double probability);
 

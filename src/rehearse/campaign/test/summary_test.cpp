@@ -69,7 +69,7 @@ TEST(Summary, FailedRunsCountAsNotSolvedAndKeepTheirRows) {
   EXPECT_EQ(kept, failed.done());
   const std::vector<TrialStatistics> trials = trial_statistics(campaign, 1);
   ASSERT_FALSE(trials.empty());
-  EXPECT_EQ(trials.back().solved_by->runs, 2);
+  EXPECT_EQ(trials.back().solved_by->of, 2);
 }
 
 }  // namespace

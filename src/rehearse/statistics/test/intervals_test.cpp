@@ -113,5 +113,12 @@ TEST(MeanInterval, CoversTheCentreAsOftenAsItSays) {
   EXPECT_NEAR(covered, 475, 19);
 }
 
+TEST(Rate, IsACountWithItsInterval) {
+  const Rate three = rate(3, 12);
+  EXPECT_EQ(three.value(), 0.25);
+  EXPECT_EQ(three.interval.low, rate_interval(3, 12).low);
+  EXPECT_TRUE(std::isnan(rate(0, 0).value()));
+}
+
 }  // namespace
 }  // namespace rehearse::statistics

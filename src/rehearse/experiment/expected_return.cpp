@@ -1,4 +1,4 @@
-#include "rehearse/experiment/evaluation.hpp"
+#include "rehearse/experiment/expected_return.hpp"
 
 #include <memory>
 

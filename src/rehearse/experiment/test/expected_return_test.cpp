@@ -1,4 +1,4 @@
-#include "rehearse/experiment/evaluation.hpp"
+#include "rehearse/experiment/expected_return.hpp"
 
 #include <stdexcept>
 #include <utility>
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 using fake::column_of, fake::line_spec, fake::results_of;
 
-TEST(Evaluation, ExpectedReturnWithoutNoiseIsTheReturn) {
+TEST(ExpectedReturn, WithoutNoiseIsTheReturn) {
   const fs::path folder = fake::test_folder() / "run";
   Spec spec = line_spec(3);
   spec.options = {{"noise", "0"}, {"evaluations", "7"}};
@@ -30,7 +30,7 @@ TEST(Evaluation, ExpectedReturnWithoutNoiseIsTheReturn) {
 }
 
 // Seed 3. The start is N(1, 0.1²): returns differ, their means hardly.
-TEST(Evaluation, ExpectedReturnIsAMeanOverManyEpisodes) {
+TEST(ExpectedReturn, IsAMeanOverManyEpisodes) {
   const fs::path folder = fake::test_folder();
   std::vector<double> means;
   for (const char* evaluations : {"1", "2", "400", "800"}) {
@@ -44,7 +44,7 @@ TEST(Evaluation, ExpectedReturnIsAMeanOverManyEpisodes) {
   EXPECT_NEAR(means[2], means[3], 0.1);
 }
 
-TEST(Evaluation, EvaluationsChangeNothingElse) {
+TEST(ExpectedReturn, EvaluationsChangeNothingElse) {
   const fs::path folder = fake::test_folder();
   start_run(fake::catalogue(), line_spec(4), folder / "without", {});
   Spec spec = line_spec(4);
@@ -56,7 +56,7 @@ TEST(Evaluation, EvaluationsChangeNothingElse) {
     EXPECT_EQ(files::read_file(folder / "with" / file), files::read_file(folder / "without" / file)) << file;
 }
 
-TEST(Evaluation, ExpectedReturnsSurviveAResume) {
+TEST(ExpectedReturn, SurvivesAResume) {
   const fs::path folder = fake::test_folder();
   Spec spec = line_spec(2);
   spec.options = {{"evaluations", "5"}};
@@ -94,7 +94,7 @@ Catalogue evaluations_fail(Index& robot_episodes) {
   });
 }
 
-TEST(Evaluation, AFailingEvaluationLosesNoEpisode) {
+TEST(ExpectedReturn, AFailingEvaluationLosesNoEpisode) {
   const fs::path folder = fake::test_folder();
   Spec spec = line_spec(4);
   spec.options = {{"evaluations", "5"}};
