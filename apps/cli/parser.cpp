@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "apps/cli/help.hpp"
+#include "apps/cli/parse_errors.hpp"
 #include "apps/cli/program.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
@@ -228,42 +229,6 @@ std::vector<std::string> words_of(int argc, char** argv) {
   words.erase(words.begin());
   words.emplace_back("--help");
   return words;
-}
-
-/// A line for each option that is given more often than it has values.
-std::string repeated_options(const CLI::App& app) {
-  std::string lines;
-  for (const CLI::App* command : app.get_subcommands())
-    for (const CLI::Option* option : command->get_options())
-      if (option->get_items_expected_max() == 1 && option->count() > 1 &&
-          option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw)
-        lines += fmt::format("{}{} is given {} times, must be once", lines.empty() ? "" : "\n", option->get_name(),
-                             option->count());
-  return lines;
-}
-
-/// A line for each unknown flag, with the most similar one.
-std::string unknown_flags(const CLI::App& app) {
-  std::string lines;
-  for (const CLI::App* command : app.get_subcommands()) {
-    std::vector<std::string> known;
-    for (const CLI::Option* option : command->get_options())
-      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    for (const std::string& given : command->remaining()) {
-      if (!given.starts_with("--")) continue;
-      const std::string flag = given.substr(0, given.find('='));
-      lines += fmt::format("{}unknown flag '{}' of {}{}", lines.empty() ? "" : "\n", flag, command->get_name(),
-                           suggestions(flag, known));
-    }
-  }
-  return lines;
-}
-
-/// The options that are given twice, or the unknown flags; else the message of CLI11.
-std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
-  for (std::string lines : {repeated_options(app), unknown_flags(app)})
-    if (!lines.empty()) return lines;
-  return error.what();
 }
 
 }  // namespace

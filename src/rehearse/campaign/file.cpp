@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/campaign/seeds.hpp"
-#include "rehearse/experiment/spec_file.hpp"
+#include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::campaign {
 namespace {
@@ -70,8 +70,8 @@ class CampaignReader {
     for (const auto& [key, node] : files::leaves(table)) {
       if (node->is_array())
         violations_.add(files::line_of(*node), fmt::format("{}: one value; several go into [vary]", key));
-      else if (auto option = experiment::read_option(key, *node, violations_))
-        options.push_back(*std::move(option));
+      else if (const auto text = files::text_of(key, *node, violations_))
+        options.push_back({key, *text, files::line_of(*node)});
     }
     return options;
   }
@@ -98,8 +98,7 @@ class CampaignReader {
       Axis axis{.key = key, .line = files::line_of(*node)};
       if (const auto* list = node->as_array())
         for (const toml::node& element : *list)
-          if (const auto option = experiment::read_option(key, element, violations_))
-            axis.texts.push_back(option->text);
+          if (const auto text = files::text_of(key, element, violations_)) axis.texts.push_back(*text);
       const std::vector<std::string>& texts = axis.texts;
       for (const std::string& text : texts)
         if (std::count(texts.begin(), texts.end(), text) > 1)

@@ -6,8 +6,8 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
-#include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/files/regular_file.hpp"
+#include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::experiment {
 namespace {
@@ -18,7 +18,8 @@ std::vector<FileOption> options_in(const toml::table* table, files::FileViolatio
   std::vector<FileOption> options;
   if (!table) return options;
   for (const auto& [key, node] : files::leaves(*table)) {
-    if (auto option = read_option(key, *node, violations)) options.push_back(*std::move(option));
+    if (const auto text = files::text_of(key, *node, violations))
+      options.push_back({key, *text, files::line_of(*node)});
   }
   return options;
 }

@@ -7,6 +7,7 @@
 
 #include "rehearse/experiment/location.hpp"
 #include "rehearse/files/checksum.hpp"
+#include "rehearse/files/toml_reader.hpp"
 #include "rehearse/files/write.hpp"
 
 namespace rehearse::experiment {
@@ -105,7 +106,8 @@ std::vector<FileOption> read_options(const toml::table& file, files::TomlReader&
     const std::string_view section = std::string_view(key).substr(0, key.find('.'));
     if (section.size() == key.size() || std::find(kSections.begin(), kSections.end(), section) == kSections.end())
       continue;
-    if (auto option = read_option(key, *node, violations)) options.push_back(*std::move(option));
+    if (const auto text = files::text_of(key, *node, violations))
+      options.push_back({key, *text, files::line_of(*node)});
   }
   return options;
 }
@@ -127,16 +129,6 @@ std::string to_toml(const Spec& spec, const Comments& comments) {
   if (spec.told_by == ToldBy::measured) text += option_line("told_by = \"measured\"", "told_by", comments);
   for (std::string_view name : kSections) text += section(spec, name, comments);
   return text;
-}
-
-std::optional<FileOption> read_option(const std::string& key, const toml::node& value,
-                                      files::FileViolations& violations) {
-  try {
-    return FileOption{key, files::text_of(value), files::line_of(value)};
-  } catch (const InvalidInput& error) {
-    violations.add(files::line_of(value), fmt::format("{}: {}", key, error.what()));
-    return std::nullopt;
-  }
 }
 
 SpecFile::SpecFile(std::string_view text, const std::string& source) : source_(source) {

@@ -3,14 +3,12 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/experiment/spec.hpp"
-#include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::experiment {
 
@@ -37,10 +35,6 @@ class SpecFile {
   std::vector<FileOption> options_;
   std::map<std::string, Index> run_lines_;  // of [run] ("") and its keys
 };
-
-/// The option that a key and its value in a TOML file name; nothing, and a violation, where that is no value.
-std::optional<FileOption> read_option(const std::string& key, const toml::node& value,
-                                      files::FileViolations& violations);
 
 /// The spec alone; throws as SpecFile does.
 Spec from_toml(std::string_view text, const std::string& source_name);

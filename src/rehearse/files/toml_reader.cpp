@@ -112,6 +112,15 @@ std::string text_of(const toml::node& node) {
   throw InvalidInput("a value must be a number, true, false or text");
 }
 
+std::optional<std::string> text_of(const std::string& key, const toml::node& node, FileViolations& violations) {
+  try {
+    return text_of(node);
+  } catch (const InvalidInput& error) {
+    violations.add(line_of(node), fmt::format("{}: {}", key, error.what()));
+    return std::nullopt;
+  }
+}
+
 std::vector<std::pair<std::string, const toml::node*>> leaves(const toml::table& table, const std::string& prefix) {
   std::vector<std::pair<std::string, const toml::node*>> all;
   for (const auto& [key, node] : table) {

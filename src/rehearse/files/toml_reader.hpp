@@ -1,6 +1,7 @@
 #pragma once
 // Reading of TOML files that reports all errors at once, each with its line.
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -41,6 +42,9 @@ Index line_of(const toml::node& node);
 
 /// The text of a value, as `--set` takes it. Throws InvalidInput if it is an array, a table or a date.
 std::string text_of(const toml::node& node);
+
+/// The same of a key; nothing, and a violation, where it is none.
+std::optional<std::string> text_of(const std::string& key, const toml::node& node, FileViolations& violations);
 
 /// Everything under a table that is no table itself, by dotted name ("PREFIX.a.b", without a prefix "a.b"), in the
 /// order of the file, which a TOML table does not keep.

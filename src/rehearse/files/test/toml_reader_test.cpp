@@ -148,6 +148,10 @@ TEST(Toml, LeavesKeepTheOrderOfTheFile) {
   EXPECT_EQ(all, "p.z=1 p.a.c=true p.b.y=t p.b.x ");
   EXPECT_EQ(line_of(*leaves(table).back().second), 5);
   EXPECT_THROW(text_of(*leaves(table).back().second), InvalidInput);
+  FileViolations violations("x.toml");
+  EXPECT_EQ(text_of("key", *leaves(table).back().second, violations), std::nullopt);
+  EXPECT_EQ(message_of<InvalidInput>([&] { violations.throw_if_any(); }),
+            "x.toml: line 5: key: a value must be a number, true, false or text");
   EXPECT_TRUE(
       message_of<InvalidInput>([] { parse_toml("a = 1\nb = = 2\n", "x.toml"); }).starts_with("x.toml: line 2: "));
 }
