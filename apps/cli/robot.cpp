@@ -12,6 +12,7 @@
 #include "apps/cli/arguments.hpp"
 #include "apps/cli/commands.hpp"
 #include "apps/cli/complain.hpp"
+#include "apps/cli/output_file.hpp"
 #include "apps/cli/program.hpp"
 #include "apps/cli/signals.hpp"
 #include "apps/cli/status_line.hpp"
@@ -189,6 +190,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   require_page(arguments.out, violations);
   violations.require(!arguments.out || !arguments.no_plant, "--out shows the plant's motion: leave --no-plant out");
   violations.throw_if_any();
+  if (arguments.out) check_output(page_file(*arguments.out, "--out FILE.html"));  // before the robot moves
   const experiment::Catalogue catalogue = with_robot(built_in, arguments.robot);
   const auto builder = catalogue.scenario_or_throw(catalogue.scenario_name(arguments.robot));
   scenario::Scenario scenario = builder->build();
@@ -224,11 +226,13 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   }
   for (const std::string& line : scenario.oracle_lacks) put("  oracle: not all of the plant. {}\n", line);
   if (scenario.priors.empty()) put("  none: learners without a prior can be used\n");
-  if (scenario.faults) print_lines("  ", scenario.faults());
+  const std::vector<std::string> faults = scenario.faults ? scenario.faults() : std::vector<std::string>();
+  print_lines("  ", faults);
   const std::vector<std::string> complaints = robot_file::complaints(tried);
   if (arguments.out && !tried.end) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
-  const bool noted = std::ranges::any_of(tried.priors, [](const auto& prior) { return !prior.notes.empty(); });
+  const bool noted =
+      !faults.empty() || std::ranges::any_of(tried.priors, [](const auto& prior) { return !prior.notes.empty(); });
   put("\n{}; to learn: {}{}\n",
       !anything ? "the task is understood; nothing was tried, as there is neither a plant nor a prior"
       : noted   ? "nothing is broken, but see what is noted above"

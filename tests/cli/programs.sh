@@ -148,6 +148,14 @@ grep -q "its program failed" output && fail "NaN costs processes: $(cat output)"
 check_prior 'str(u[0])'
 [ $status = 2 ] && grep -q "which is neither a number nor null" output || fail "texts: $(cat output)"
 
+# A program that answers twice: no answer can be trusted.
+sed 's/print(json.dumps({"change": rows}), flush=True)/print(json.dumps({"change": rows}) + "\\n" + json.dumps({"change": rows}), flush=True)/' \
+  tired.py >twice.py
+sed 's|tired\.py|twice.py|; s|/count"|/answers"|' tired.toml >twice.toml
+touch answers.repaired
+"$program" learn twice.toml --learner black-drops-prior --trials 1 "${few[@]}" --threads 1 --out twice >output 2>&1
+[ $? = 1 ] && grep -q "an answer that nobody asked for" output || fail "a program that answers twice: $(cat output)"
+
 # A program that hangs does not outlive Rehearse.
 cat >hangs.py <<'PY'
 import os, sys

@@ -120,7 +120,8 @@ class CampaignReader {
   void read_variant(const toml::table& table) {
     files::TomlReader reader(table, "[[variant]]", violations_);
     Variant variant{.line = files::line_of(table)};
-    if (!reader.take("name", variant.name)) violations_.add(variant.line, "the variant has no name");
+    reader.take("name", variant.name);
+    if (variant.name.empty()) violations_.add(variant.line, "the variant has no name");
     const bool plain = std::all_of(variant.name.begin(), variant.name.end(), [](char c) {
       return std::isalnum(static_cast<unsigned char>(c)) || std::string_view("._+-").find(c) != std::string_view::npos;
     });

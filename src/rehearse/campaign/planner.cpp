@@ -269,7 +269,8 @@ class Planner {
   }
 
   void check_used(const std::string& key, Index line) {
-    if (!used_.contains(key)) violations_.add(line, experiment::unknown_option(key, known_options_));
+    if (!used_.contains(key) && !is_among(key, known_options_))
+      violations_.add(line, experiment::unknown_option(key, known_options_));
   }
 
   const experiment::Catalogue& catalogue_;

@@ -2,6 +2,9 @@
 
 #include <filesystem>
 
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/files/toml_reader.hpp"
 
@@ -9,9 +12,13 @@ namespace rehearse::campaign {
 
 experiment::Catalogue with_robot_of(const experiment::Catalogue& catalogue, std::string_view text,
                                     const std::string& source) {
-  const std::string scenario = files::parse_toml(text, source)["scenario"].value_or(std::string());
+  const toml::table campaign = files::parse_toml(text, source);
+  const std::string scenario = campaign["scenario"].value_or(std::string());
   if (!scenario.ends_with(".toml")) return catalogue;
   const std::filesystem::path file = std::filesystem::path(source).parent_path() / scenario;
+  if (!std::filesystem::exists(file))
+    throw InvalidInput(fmt::format("{}: line {}: scenario = '{}': there is no file {}", source,
+                                   files::line_of(*campaign.get("scenario")), scenario, file.string()));
   return catalogue.with_robot(files::read_file(file, files::Links::follow), scenario, file.parent_path());
 }
 

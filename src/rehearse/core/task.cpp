@@ -19,15 +19,19 @@ Index index_of(const std::vector<StateVariable>& states, const std::string& name
   return -1;
 }
 
-/// The number of rates behind a state, each the rate of the one before; as many as there are states: they go in a
-/// circle.
-Index rates_behind(const std::vector<StateVariable>& states, Index state) {
+/// The number of states behind one, each named by the one before as its `next`; as many as there are states: they go in
+/// a circle.
+Index behind(const std::vector<StateVariable>& states, Index state, std::string StateVariable::*next) {
   Index count = 0;
   for (; count < static_cast<Index>(states.size()); ++count) {
-    state = index_of(states, states[static_cast<std::size_t>(state)].rate);
+    state = index_of(states, states[static_cast<std::size_t>(state)].*next);
     if (state < 0) break;
   }
   return count;
+}
+
+Index rates_behind(const std::vector<StateVariable>& states, Index state) {
+  return behind(states, state, &StateVariable::rate);
 }
 
 /// The first action of its type.
@@ -144,12 +148,15 @@ std::vector<std::string> Task::violations() const {
     found.require(!can_follow || rates_behind(states, i) < state_size(),
                   fmt::format("state {}: its rates go in a circle", state.name));
   }
-  for (const StateVariable& state : states) {
+  for (Index i = 0; i < state_size(); ++i) {
+    const StateVariable& state = states[static_cast<std::size_t>(i)];
     const Index parent = index_of(states, state.parent);
     const bool angles = parent >= 0 && state.kind == StateKind::angle &&
                         states[static_cast<std::size_t>(parent)].kind == StateKind::angle;
     found.require(state.parent.empty() || (angles && state.parent != state.name),
                   fmt::format("state {}: {} cannot carry it, both must be angles", state.name, state.parent));
+    found.require(behind(states, i, &StateVariable::parent) < state_size(),
+                  fmt::format("state {}: its parents go in a circle", state.name));
   }
   for (const ActionVariable& action : actions)
     found.require(

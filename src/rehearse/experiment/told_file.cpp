@@ -152,8 +152,9 @@ bool repeats(const Episode& read, const Episode& kept, Index most_steps) {
 }
 
 bool goes_on_after(const Episode& read, const Episode& kept, const Task& task) {
-  return read.steps() > kept.steps() && repeats(read, kept, task.horizon) &&
-         rollout::judged(read, task).steps() > kept.steps();
+  const Index steps = std::min(read.steps(), task.horizon);  // what comes after them is not read
+  return steps > kept.steps() && repeats(read, kept, task.horizon) &&
+         rollout::judged(read.part(0, steps), task).steps() > kept.steps();
 }
 
 bool follows_policy(const Episode& read, const scenario::Scenario& scenario, const TrialRecord& asked) {

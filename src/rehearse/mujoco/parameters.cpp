@@ -51,7 +51,7 @@ Parameters::Parameters(mjModel& original, const std::vector<ModelParameter>& par
   check_conflicts(parameters, violations);
 }
 
-/// Two that set the same number are a mistake: the first would do nothing.
+/// Two that set the same number are a mistake: the first would do nothing. So is one that scales the same number twice.
 void Parameters::check_conflicts(const std::vector<ModelParameter>& parameters, Violations& violations) const {
   for (std::size_t i = 0; i < moves_.size() && !moves_[i].scale; ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -61,6 +61,13 @@ void Parameters::check_conflicts(const std::vector<ModelParameter>& parameters, 
                                  parameters[static_cast<std::size_t>(moves_[i].parameter)].name,
                                  moves_[i].entries.field->name, moves_[i].entries.field->kind));
     }
+  for (std::size_t i = 0; i < moves_.size(); ++i)
+    for (std::size_t j = 0; j < i && moves_[i].scale; ++j)
+      if (moves_[j].scale && moves_[j].parameter == moves_[i].parameter &&
+          overlap(moves_[i].entries, moves_[j].entries))
+        violations.add(fmt::format("'{}' scales the {} of the same {} twice, must be once",
+                                   parameters[static_cast<std::size_t>(moves_[i].parameter)].name,
+                                   moves_[i].entries.field->name, moves_[i].entries.field->kind));
 }
 
 bool Parameters::apply(mjModel& original, const Vector& phi, mjModel& model) const {

@@ -102,10 +102,13 @@ std::shared_ptr<const system::Simulator> DynamicsMaker::simulator(const Variant&
 std::function<std::unique_ptr<system::Plant>()> DynamicsMaker::plant(const Variant& variant,
                                                                      const system::StartAndSensors& around) const {
   const Dynamics& dynamics = robot_.dynamics_of(variant);
-  if (std::holds_alternative<ProgramSource>(dynamics.source))
-    return [program = program(dynamics), phi = variant.parameters, around, folder = folder_] {
-      return system::make_program_plant(program, phi, around);
+  if (std::holds_alternative<ProgramSource>(dynamics.source)) {
+    const auto oracle = std::ranges::find(programs_, variant.name, [](const auto& named) { return named.first; });
+    const auto shared = oracle == programs_.end() ? nullptr : oracle->second;  // so that its faults are counted
+    return [program = program(dynamics), phi = variant.parameters, around, folder = folder_, simulator = shared] {
+      return system::make_program_plant(program, phi, around, simulator);
     };
+  }
   if (std::holds_alternative<ModelSource>(dynamics.source))
     return [options = mujoco::PlantOptions{model(dynamics), variant.parameters.values(), around}, folder = folder_] {
       return mujoco::make_plant(options);

@@ -44,10 +44,8 @@ class Relations {
     if (!other(own.name, own.rate))
       return fmt::format("state {}: its rate '{}' is not another state{}", own.name, own.rate,
                          did_you_mean(own.rate, names_but(own.name)));
-    const State* behind = &state;
-    for (std::size_t i = 0; behind && i < states_.size(); ++i)
-      behind = other(behind->variable.name, behind->variable.rate);
-    return behind ? fmt::format("state {}: its rates go in a circle", own.name) : "";
+    return go_in_a_circle(state, &StateVariable::rate) ? fmt::format("state {}: its rates go in a circle", own.name)
+                                                       : "";
   }
 
   std::string wrong_parent(const State& state) const {
@@ -58,10 +56,20 @@ class Relations {
       return fmt::format("state {}: its parent '{}' is not another state{}", own.name, own.parent,
                          did_you_mean(own.parent, names_but(own.name)));
     const bool angles = own.kind == StateKind::angle && parent->variable.kind == StateKind::angle;
-    return angles ? "" : fmt::format("state {}: {} cannot carry it, both must be angles", own.name, own.parent);
+    if (!angles) return fmt::format("state {}: {} cannot carry it, both must be angles", own.name, own.parent);
+    return go_in_a_circle(state, &StateVariable::parent) ? fmt::format("state {}: its parents go in a circle", own.name)
+                                                         : "";
   }
 
  private:
+  /// True if the states that each name the next one come back to one of them.
+  bool go_in_a_circle(const State& state, std::string StateVariable::*next) const {
+    const State* behind = &state;
+    for (std::size_t i = 0; behind && i < states_.size(); ++i)
+      behind = other(behind->variable.name, behind->variable.*next);
+    return behind != nullptr;
+  }
+
   /// Null: there is no other state of that name.
   const State* other(const std::string& own, const std::string& name) const {
     const auto found = std::ranges::find(states_, name, [](const State& each) { return each.variable.name; });

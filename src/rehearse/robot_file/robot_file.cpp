@@ -73,8 +73,8 @@ class Builder final : public scenario::ScenarioBuilder {
     if (!robot_.plant_function.empty()) {
       scenario.make_plant = function_of(robot_.functions.plants, robot_.plant_function);
     } else if (robot_.has_plant) {
-      scenario.make_plant = dynamics.plant(plant, around);
       scenario.oracle = dynamics.simulator(plant, robot_.options.substeps);
+      scenario.make_plant = dynamics.plant(plant, around);
       scenario.oracle_lacks = oracle_lacks();
     }
     if (!around.measurement_std.isZero(0)) {

@@ -128,9 +128,11 @@ Vector root_mean_squares(const Matrix& columns) {
 }
 
 bool moves(const LogModel& model) {
+  constexpr double kRounding = 1e-9;  // of the mean of equal numbers, beside them
   const Matrix& states = model.data.states;
   const Vector spread = root_mean_squares(states.rowwise() - states.colwise().mean());
-  return (root_mean_squares(model.data.changes).array() < spread.array()).any();
+  const Vector least = root_mean_squares(model.data.changes).cwiseMax(kRounding * root_mean_squares(states));
+  return (least.array() < spread.array()).any();
 }
 
 }  // namespace rehearse::study

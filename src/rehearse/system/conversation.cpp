@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/system/answers.hpp"
+#include "rehearse/system/simulator.hpp"
 
 namespace rehearse::system {
 namespace {
@@ -47,7 +48,10 @@ bool Conversation::hear(std::string_view message, const Process::Complete& compl
     case Process::Outcome::wrong:
       return wrong(fault(process_->unused()));
     case Process::Outcome::unasked:
-      return wrong(fmt::format("it wrote an answer that nobody asked for: {}", messages::excerpt(process_->unused())));
+      wrong(
+          fmt::format("it wrote an answer that nobody asked for, so answers before may be those of other messages: {}",
+                      messages::excerpt(process_->unused())));
+      throw Unavailable(problem_);  // another process would do the same
     case Process::Outcome::flooded:
       return wrong(fmt::format("it wrote more than {} bytes without an answer: {}", limits.bytes,
                                messages::excerpt(process_->unused())));

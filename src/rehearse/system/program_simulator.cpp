@@ -148,10 +148,11 @@ void ProgramSimulator::change(const ConstMatrixView& X, const ConstMatrixView& U
 }
 
 std::unique_ptr<Plant> make_program_plant(const Program& program, const ParameterSpace& phi,
-                                          const StartAndSensors& around) {
+                                          const StartAndSensors& around,
+                                          std::shared_ptr<const ProgramSimulator> simulator) {
   if (auto conversation = begun(program); conversation->has_episodes())
     return std::make_unique<EpisodePlant>(program, std::move(conversation), phi.values(), around);
-  const auto simulator = std::make_shared<ProgramSimulator>(program, phi);
+  if (!simulator) simulator = std::make_shared<ProgramSimulator>(program, phi);
   const auto motion = [simulator, program, phi = phi.values()](const Vector& x, const Vector& u) -> Vector {
     Matrix dX(1, x.size());
     const Index faults = simulator->faults().count;

@@ -31,10 +31,12 @@ class ProgramSimulator final : public Simulator {
 };
 
 /// The robot that a program is, or plays. Where it can `reset` and `step` it keeps its own state, and it measures; else
-/// it is asked for changes of state, and starts and is measured as `around` says. phi: the values of the program's
-/// parameters. Throws InvalidInput, with why, where the program cannot be started or is another robot's.
+/// it is asked for changes of state by `simulator`, which knows its faults, and starts and is measured as `around`
+/// says. phi: the values of the program's parameters. Throws InvalidInput, with why, where the program cannot be
+/// started or is another robot's.
 std::unique_ptr<Plant> make_program_plant(const Program& program, const ParameterSpace& phi,
-                                          const StartAndSensors& around);
+                                          const StartAndSensors& around,
+                                          std::shared_ptr<const ProgramSimulator> simulator = nullptr);
 
 /// Starts the program, says hello, and ends it. Throws InvalidInput with why that cannot be done.
 void require_program(const Program& program);

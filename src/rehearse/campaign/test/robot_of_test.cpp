@@ -50,7 +50,9 @@ TEST(RobotOfACampaign, IsReadFromBesideTheCampaign) {
 TEST(RobotOfACampaign, ABuiltInOneNeedsNoFile) {
   const auto catalogue = with_robot_of(reading_catalogue(), "scenario = \"line\"\n", "c.toml");
   EXPECT_TRUE(catalogue.robots.empty());
-  EXPECT_THROW(with_robot_of(reading_catalogue(), "scenario = \"nowhere.toml\"\n", "c.toml"), InvalidInput);
+  EXPECT_EQ(message_of<InvalidInput>(
+                [] { with_robot_of(reading_catalogue(), "format = 1\nscenario = \"nowhere.toml\"\n", "c.toml"); }),
+            "c.toml: line 2: scenario = 'nowhere.toml': there is no file nowhere.toml");
 }
 
 TEST(RobotOfACampaign, RobotsOfOneNameAreOneFile) {

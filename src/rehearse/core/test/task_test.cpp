@@ -65,6 +65,11 @@ TEST(Task, EachViolationIsNamed) {
   EXPECT_EQ(after([](Task& t) { t.states[0].rate = t.states[1].name, t.states[1].rate = t.states[0].name; }),
             (Lines{"state " + task().states[0].name + ": its rates go in a circle",
                    "state " + task().states[1].name + ": its rates go in a circle"}));
+  EXPECT_EQ(after([](Task& t) {
+              t.states[0] = {"phi", "rad", StateKind::angle, "", "theta"};
+              t.states[1].parent = "phi";
+            }),
+            (Lines{"state phi: its parents go in a circle", "state theta: its parents go in a circle"}));
   EXPECT_EQ(after([](Task& t) { t.states[0].rate = "speed"; }),
             Lines{"state " + task().states[0].name + ": its rate speed is not another state"});
   EXPECT_EQ(after([](Task& t) { t.actions[0].target_of = "nobody"; }),

@@ -41,5 +41,17 @@ TEST(ToldFile, RepeatsAnEpisodeUpToItsEnd) {
   EXPECT_FALSE(repeats(read, read.part(0, 0), 5)) << "it says nothing";
 }
 
+TEST(ToldFile, DoesNotGoOnAfterTheHorizon) {
+  Task task = fake::line_task();
+  Episode read{.states = Matrix::Zero(task.horizon + 4, task.state_size()),
+               .actions = Matrix::Zero(task.horizon + 3, task.action_size()),
+               .rewards = Vector::Zero(task.horizon + 3)};
+  read.true_states = read.states;
+  EXPECT_FALSE(goes_on_after(read, read.part(0, task.horizon), task)) << "it was told as a whole";
+  Episode stopped = read.part(0, 2);
+  stopped.ended = true;
+  EXPECT_TRUE(goes_on_after(read, stopped, task));
+}
+
 }  // namespace
 }  // namespace rehearse::experiment

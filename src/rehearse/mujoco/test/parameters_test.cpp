@@ -127,6 +127,10 @@ TEST(Parameters, WrongOnesAreAllNamed) {
             "parameter 'b': body has no field 'mas', did you mean 'mass'? (known: inertia, ipos, mass, pos)\n"
             "parameter 'c' stands twice\n"
             "'b' and 'c' both set the mass of the same body, must be one");
+  const Target twice{"body", "arm", "mass", -1, Apply::scale};
+  model.parameters = {{"d", "", 1, {twice, twice}}};
+  EXPECT_EQ(complaint_of([&] { make_simulator(model, {}); }),
+            "'d' scales the mass of the same body twice, must be once");
 }
 
 }  // namespace

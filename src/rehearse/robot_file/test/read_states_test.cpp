@@ -50,6 +50,9 @@ TEST(ReadStates, NamesOfOthersAreSaidWithLineAndTheNearest) {
          "3: state q1: an angle is in rad; a log in degrees says so in its header: q1 [deg]");
   EXPECT_EQ(ReadStates(states_of("rate = \"q2\"", "rate = \"q1\"")).complaint,
             "x.toml: line 3: state q1: its rates go in a circle\nx.toml: line 6: state q2: its rates go in a circle");
+  EXPECT_EQ(
+      ReadStates(states_of("angle = true\nparent = \"q2\"", "angle = true\nparent = \"q1\"")).complaint,
+      "x.toml: line 4: state q1: its parents go in a circle\nx.toml: line 8: state q2: its parents go in a circle");
   EXPECT_EQ(ReadStates("[[state]]\nname = \"q\"\nrate = \"dq\"\n").complaint,
             "x.toml: line 3: state q: its rate 'dq' is not another state");
 }

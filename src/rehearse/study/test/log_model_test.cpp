@@ -78,6 +78,10 @@ TEST(LogModel, KnowsNoiseFromMotion) {
   };
   EXPECT_TRUE(moves(learned(1)));
   EXPECT_FALSE(moves(learned(0)));
+  LogModel still = learned(0);
+  still.data.states.setConstant(0.1);  // whose mean is not 0.1 to the last digit
+  still.data.changes.setZero();
+  EXPECT_FALSE(moves(still));
 }
 
 }  // namespace
