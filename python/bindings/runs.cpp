@@ -17,9 +17,7 @@
 #include "rehearse/experiment/preset_check.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run.hpp"
-#include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/experiment/tables.hpp"
-#include "rehearse/files/regular_file.hpp"
 
 namespace rehearse::python {
 namespace {
@@ -74,19 +72,6 @@ void warn(const std::vector<std::string>& lines) {
     if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 2) != 0) throw py::error_already_set();
 }
 
-/// The catalogue for the run in a folder. Throws InvalidInput where the robot that is given has another name than the
-/// run's: the functions of one would play the other.
-experiment::Catalogue of_run(experiment::Catalogue catalogue, const std::string& folder) {
-  const std::filesystem::path spec = std::filesystem::path(folder) / "spec.toml";
-  if (catalogue.robots.empty() || !std::filesystem::exists(spec)) return catalogue;
-  const std::string name = experiment::from_toml(files::read_file(spec), spec.string()).scenario;
-  const std::string& given = catalogue.robots.front().name;
-  if (given != name)
-    throw InvalidInput(
-        fmt::format("{} is a run of the robot '{}', the one that is given is '{}'", folder, name, given));
-  return catalogue;
-}
-
 /// Makes the folder, and runs all trials. Returns the folder.
 std::string learn(const Robot& robot, const Request& request, const std::string& out, const Settings& settings) {
   std::filesystem::path folder = out;
@@ -105,7 +90,7 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
 void resume(const Robot& robot, const std::string& folder, std::optional<Index> trials, const Settings& settings) {
   const auto go_on = [&](const Robot& own, const experiment::RunOptions& options) {
     const auto until = trials ? std::optional<experiment::Until>(*trials) : std::nullopt;
-    experiment::resume_run(of_run(own.catalogue(), folder), folder, until, options);
+    experiment::resume_run(own.catalogue(), folder, until, options);
   };
   resumable(robot, folder, [&] { work_with(robot, settings, go_on); });
 }
@@ -114,7 +99,7 @@ Policy ask(const Robot& robot, const std::string& folder, const Settings& settin
   std::optional<experiment::AskResult> asked;
   std::optional<Policy> policy;
   work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
-    asked = experiment::ask_run(of_run(own.catalogue(), folder), folder, options);
+    asked = experiment::ask_run(own.catalogue(), folder, options);
     policy.emplace(policy_of(asked->trial, asked->resolved.scenario),
                    experiment::exported_policy(asked->resolved, asked->trial, nullptr));
   });
@@ -127,7 +112,7 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
   std::optional<experiment::TellResult> told;
   work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
     experiment::TellRequest request{.files = {files.begin(), files.end()}, .stopped = stopped};
-    told = experiment::tell_run(of_run(own.catalogue(), folder), folder, request, options);
+    told = experiment::tell_run(own.catalogue(), folder, request, options);
   });
   Strings logs, notes;
   for (const experiment::Log& log : told->logs) {
@@ -144,7 +129,7 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
 py::dict take_back(const Robot& robot, const std::string& folder, const Settings& settings) {
   experiment::TakeBackResult taken;
   work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
-    taken = experiment::take_back(of_run(own.catalogue(), folder), folder, options);
+    taken = experiment::take_back(own.catalogue(), folder, options);
   });
   Strings files;
   for (const std::filesystem::path& file : taken.files) files.push_back(file.string());
@@ -153,7 +138,7 @@ py::dict take_back(const Robot& robot, const std::string& folder, const Settings
 
 /// The contents of a run folder, without its tables.
 py::dict describe(const Robot& robot, const std::string& folder) {
-  const auto [resolved, history, in_use] = experiment::status_of(of_run(robot.to_look(), folder), folder);
+  const auto [resolved, history, in_use] = experiment::status_of(robot.to_look(), folder);
   const std::vector<std::string> names = experiment::tunable_names(resolved.prior);
   const Spec& spec = resolved.spec;
   py::list trials;
@@ -171,7 +156,7 @@ py::dict describe(const Robot& robot, const std::string& folder) {
 }
 
 Policy policy(const Robot& robot, const std::string& folder, std::optional<Index> trial) {
-  const experiment::PastRun run = experiment::read_run(of_run(robot.to_look(), folder), folder);
+  const experiment::PastRun run = experiment::read_run(robot.to_look(), folder);
   return {policy_of(run.trial(trial), run.resolved.scenario), experiment::exported_policy(run, trial)};
 }
 
@@ -193,7 +178,7 @@ experiment::Learned policy_of(const Evaluation& wanted, const experiment::PastRu
 py::dict evaluate(const Robot& robot, const std::string& folder, const Evaluation& wanted, const Settings& settings) {
   std::vector<experiment::Outcome> outcomes;
   work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
-    const experiment::Catalogue catalogue = of_run(own.catalogue(), folder);
+    const experiment::Catalogue catalogue = own.catalogue();
     const experiment::PastRun run = experiment::read_run(catalogue, folder);
     const experiment::Learned learned = policy_of(wanted, run);
     const experiment::Resolved resolved =

@@ -165,7 +165,8 @@ std::string in_lower_case(std::string_view text) {
 
 bool lacks_groups(std::string_view name, std::string_view whole) { return whole.ends_with(fmt::format(".{}", name)); }
 
-/// What two names begin with that says nothing of what was meant: dashes, and groups of options.
+/// The length of the dashes, or of the groups of options, that two names have in common: they say nothing of what was
+/// meant.
 std::size_t common_groups(std::string_view a, std::string_view b) {
   const auto [end, none] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
   const std::string_view same = a.substr(0, static_cast<std::size_t>(end - a.begin()));

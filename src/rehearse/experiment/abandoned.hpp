@@ -1,5 +1,5 @@
 #pragma once
-// What runs leave behind that were killed while their folder was made (files/new_folder.hpp).
+// The hidden folders of runs that were killed while their folder was made (files/new_folder.hpp).
 
 #include <array>
 #include <filesystem>

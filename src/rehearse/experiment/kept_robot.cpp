@@ -1,12 +1,30 @@
 #include "rehearse/experiment/kept_robot.hpp"
 
+#include <fmt/format.h>
+
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/spec_file.hpp"
 #include "rehearse/files/write.hpp"
 
 namespace rehearse::experiment {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+void require_name_of_run(const std::string& given, const fs::path& folder) {
+  const fs::path spec = folder / "spec.toml";
+  if (!fs::exists(spec)) return;
+  const std::string name = from_toml(files::read_file(spec), spec.string()).scenario;
+  if (given != name)
+    throw InvalidInput(
+        fmt::format("{} is a run of the robot '{}', the one that is given is '{}'", folder.string(), name, given));
+}
+
+}  // namespace
+
 Catalogue with_robot_of_run(const Catalogue& catalogue, const fs::path& folder) {
+  for (const RobotFile& given : catalogue.robots) require_name_of_run(given.name, folder);
   const fs::path file = folder / kRobotFile;
   Catalogue of_run =
       fs::exists(file) ? catalogue.with_robot(files::read_file(file), file.string(), folder / kRobotFolder) : catalogue;

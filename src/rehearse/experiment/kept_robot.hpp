@@ -11,7 +11,8 @@ namespace rehearse::experiment {
 inline constexpr const char* kRobotFile = "robot.toml";
 inline constexpr const char* kRobotFolder = "robot";  // with the files that it names
 
-/// The catalogue with the robot that a run folder keeps, if it keeps one.
+/// The catalogue with the robot that a run folder keeps, if it keeps one. Throws InvalidInput where the catalogue has a
+/// robot of another name: the functions of one would play the other.
 Catalogue with_robot_of_run(const Catalogue& catalogue, const std::filesystem::path& folder);
 
 /// Writes the file that describes the robot and those that it names.
