@@ -12,6 +12,13 @@ inline constexpr Index kFewInputs = 16;
 /// The options of a fit for GPs of so many inputs.
 gp::FitOptions fit_options(gp::FitOptions options, Index inputs);
 
+/// Is the robot its own mirror image, so that predictions know the image of each row, too?
+enum class Mirror {
+  off,        // it is not, or nobody asks
+  on,         // it is
+  automatic,  // it is where that makes its data clearly likelier
+};
+
 /// Options for learning the GPs of a dynamics model.
 struct GpOptions {
   gp::FitOptions fit;
@@ -19,9 +26,9 @@ struct GpOptions {
   bool joint_angles = true;      // inputs have those that the task names too
   bool integrate_rates = false;  // positions follow from their rates, GPs learn what is left (integration.hpp)
   bool midpoint = false;         // inputs are those halfway along a step (GpModel)
-  bool smooth = false;      // noisy states are smoothed where that makes what was measured likelier (smoothing.hpp); φ
-                            // moves with them where the score is the product and the search alternating
-  bool mirror = false;      // the robot is its own mirror image: predictions know the image of each row, too (mirrored)
+  bool smooth = false;  // noisy states are smoothed where that makes what was measured likelier (smoothing.hpp); φ
+                        // moves with them where the score is the product and the search alternating
+  Mirror mirror = Mirror::off;
   double tolerance = 0.01;  // error allowed to predictions, as a fraction of σ_n (gp::Posterior); 0: none
   void fields(FieldVisitor& v) {
     v.group("fit", fit, kExpert);
@@ -36,8 +43,10 @@ struct GpOptions {
               published(false));
     v.boolean("smooth", smooth, "noisy states are smoothed where that raises the likelihood of the measurements",
               published(false));
-    v.boolean("mirror", mirror,
-              "the robot is its own mirror image: changes have opposite signs where states and actions have");
+    v.choice("mirror", mirror,
+             "the robot is its own mirror image: changes have opposite signs where states and actions have; auto: if "
+             "its data say so",
+             {"off", "on", "auto"}, published("off"));
     v.number("tolerance", tolerance,
              "largest error of approximate predictions, as a fraction of the noise's standard deviation; 0: exact",
              between(0, 1), published(0));

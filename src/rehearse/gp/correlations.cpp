@@ -12,13 +12,14 @@ Matrix correlations(const Matrix& A, const Matrix& B) {
   return C;
 }
 
-Matrix covariance(const Matrix& X, const Hyperparameters& kernel) {
-  const Matrix scaled = X * kernel.lengths().cwiseInverse().asDiagonal();
-  Matrix K = kernel.signal_variance() * correlations(scaled, scaled);
+Matrix covariance(const Matrix& A, const Matrix& B, const Hyperparameters& kernel) {
+  const auto times = [](const Matrix& X, const Vector& factors) { return Matrix(X * factors.asDiagonal()); };
+  const Vector inverse_lengths = kernel.lengths().cwiseInverse();
+  Matrix K = kernel.signal_variance() * correlations(times(A, inverse_lengths), times(B, inverse_lengths));
   if (!kernel.has_trend()) return K;
   const Vector deviations = kernel.log_trend.array().exp();
-  const Matrix Z = X * deviations.tail(X.cols()).asDiagonal();
-  const Matrix products = (Z * Z.transpose()).array() + deviations(0) * deviations(0);
+  const Vector slopes = deviations.tail(A.cols());
+  const Matrix products = (times(A, slopes) * times(B, slopes).transpose()).array() + deviations(0) * deviations(0);
   return K + products.cwiseAbs2();
 }
 

@@ -9,7 +9,9 @@ namespace rehearse::gp {
 /// thread.
 Matrix correlations(const Matrix& A, const Matrix& B);
 
-/// The covariance (n × n) of the latent function, without noise, at inputs X (n × D). Any thread.
-Matrix covariance(const Matrix& X, const Hyperparameters& kernel);
+/// The covariance (n × m) of the latent function, without noise, at inputs A (n × D) with that at B (m × D). Any
+/// thread.
+Matrix covariance(const Matrix& A, const Matrix& B, const Hyperparameters& kernel);
+inline Matrix covariance(const Matrix& X, const Hyperparameters& kernel) { return covariance(X, X, kernel); }
 
 }  // namespace rehearse::gp

@@ -21,6 +21,7 @@ struct ZeroMean {
     gp.fit.penalties.length = gp.fit.penalties.snr = true;  // the authors' code, without a prior only
     gp.integrate_rates = true;
     gp.fit.trend = true;
+    gp.mirror = dynamics::Mirror::automatic;
   }
   void fields(FieldVisitor& v) { v.group("gp", gp); }
 };

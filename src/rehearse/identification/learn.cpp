@@ -1,5 +1,6 @@
 #include "rehearse/identification/learn.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/identification/alternating.hpp"
 #include "rehearse/identification/fit_problem.hpp"
+#include "rehearse/identification/mirror_image.hpp"
 #include "rehearse/identification/nested.hpp"
 #include "rehearse/identification/smoothing/measurement_noise.hpp"
 #include "rehearse/identification/smoothing/smoothing.hpp"
@@ -19,10 +21,8 @@
 namespace rehearse::identification {
 namespace {
 
-constexpr double kImageError = 1e-3;  // of the changes of a state: less is what a simulator's integrator errs by
-constexpr double kContradiction = 3;  // standard deviations of the noise, where at most one is expected, and
-constexpr double kContradictionOfChanges = 0.01;  // of the changes' deviation: where noise is none, rounding is more
-constexpr double kStill = 1e-9;                   // where a state never changes
+// A robot is taken for its own mirror image where its data are likelier by so many nats an output: 1000 to 1.
+constexpr double kOddNats = 7;
 
 /// The input of every kind of learning.
 struct Given {
@@ -44,31 +44,6 @@ gp::FitOptions fit_options(const GpOptions& options, const dynamics::Residuals& 
   return dynamics::fit_options(options.fit, residuals.features().features() + residuals.data().actions.cols());
 }
 
-/// The rows, and what the mirror image of the robot would have done.
-Dataset mirrored(const Dataset& data) {
-  const auto both = [](const Matrix& rows) {
-    Matrix all(2 * rows.rows(), rows.cols());
-    all << rows, -rows;
-    return all;
-  };
-  return {.states = both(data.states),
-          .actions = both(data.actions),
-          .changes = both(data.changes),
-          .rewards = data.rewards.replicate(2, 1)};
-}
-
-/// A note if the prior does not do the opposite at the images of the rows. `targets`: those of the rows, then of
-/// images.
-std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const Matrix& targets) {
-  if (targets.rows() != 2 * rows.size()) return std::nullopt;  // rows that are left out have no partner
-  const Matrix errors = targets.topRows(rows.size()) + targets.bottomRows(rows.size());
-  for (Index e = 0; e < errors.cols(); ++e)
-    if (const double largest = errors.col(e).cwiseAbs().maxCoeff(); largest > kImageError * rows.scale()(e) + kStill)
-      return fmt::format("mirror is set, but the prior is not its own mirror image: output {} differs by {:.2g}", e,
-                         largest);
-  return std::nullopt;
-}
-
 /// The variances of noise of the changes that a model predicts (dx): of positions, that of their rates is a part.
 Vector noise_of_changes(const dynamics::GpModel& model, const dynamics::Residuals& rows) {
   Matrix variances = model.posterior().noise_variances().transpose();
@@ -76,28 +51,28 @@ Vector noise_of_changes(const dynamics::GpModel& model, const dynamics::Residual
   return variances.transpose();
 }
 
-/// A note if the model errs at the rows it was told by much more than their noise: their images say something else.
-std::optional<std::string> contradicts_image(const dynamics::GpModel& model, const dynamics::Residuals& rows) {
-  const Dataset& data = rows.data();
-  Matrix mean(data.size(), data.changes.cols());
-  model.predict_mean(data.states, data.actions, mean);
-  const Vector noise = noise_of_changes(model, rows).cwiseSqrt();
-  for (Index e = 0; e < noise.size(); ++e) {
-    const double error = (data.changes.col(e) - mean.col(e)).norm() / std::sqrt(static_cast<double>(data.size()));
-    if (error > kContradiction * noise(e) && error > kContradictionOfChanges * rows.scale()(e))
-      return fmt::format("mirror is set, but measured steps contradict it: output {} errs by {:.2g} times its noise", e,
-                         error / noise(e));
-  }
-  return std::nullopt;
+/// Do predictions know the images of the measured rows, too? As the user says, or as the data do where the prior does
+/// not contradict it.
+bool knows_images(const FitProblem& problem, const Fit& fit, const GpOptions& options) {
+  const dynamics::Residuals& residuals = problem.residuals;
+  if (options.mirror != dynamics::Mirror::automatic) return options.mirror == dynamics::Mirror::on;
+  const dynamics::Residuals::Rows both = residuals.of(with_images(residuals.data())).at(problem.prior, fit.phi);
+  if (both.targets.rows() != 2 * residuals.size() || both.inputs->dimensions() > dynamics::kFewInputs) return false;
+  if (not_its_image(residuals, both.targets)) return false;
+  std::vector<bool> learned;
+  for (Index e = 0; e < both.targets.cols(); ++e) learned.push_back(!residuals.told_by_servos(e));
+  const auto outputs = static_cast<double>(std::ranges::count(learned, true));
+  return nats_for_odd(both, hyperparameters(fit), learned) > kOddNats * outputs;
 }
 
 /// `smoothed`: null if measurement noise is to be estimated from the kernels' noise.
-Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, const Smoothed* smoothed) {
+Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, bool images,
+                 const Smoothed* smoothed) {
   const dynamics::Residuals& residuals = problem.residuals;
   dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
   const Index left_out = rows.left_out;
   // Images have the kernels and φ of the rows: they tell no more of these, and their errors are the same.
-  if (options.mirror) rows = residuals.of(mirrored(residuals.data())).at(problem.prior, fit.phi);
+  if (images) rows = residuals.of(with_images(residuals.data())).at(problem.prior, fit.phi);
   if (!rows.inputs) throw NoUsableRow("no row of the data set has a finite prior mean: nothing to learn from");
   std::optional<dynamics::Mean> mean;
   if (problem.prior) mean = dynamics::Mean{*problem.prior, fit.phi};
@@ -117,8 +92,11 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
   learned.log_evidence = evidence;
   learned.left_out_rows = left_out;
   learned.evaluations = fit.evaluations;
-  if (options.mirror) {
-    if (auto note = contradicts_image(*model, residuals)) learned.notes.push_back(std::move(*note));
+  if (options.mirror == dynamics::Mirror::automatic && images)
+    learned.notes.emplace_back("the data are likelier of a robot that is its own mirror image: it is learned as one");
+  if (options.mirror == dynamics::Mirror::on) {
+    if (auto note = contradicts_image(*model, residuals, noise_of_changes(*model, residuals)))
+      learned.notes.push_back(std::move(*note));
     if (auto note = not_its_image(residuals, rows.targets)) learned.notes.push_back(std::move(*note));
   }
   for (Index e = 0; e < fit.log_evidences.size(); ++e)
@@ -156,8 +134,9 @@ Learned learn_gps(const Given& given, const GpOptions& options, const prior::Pri
   const FitProblem problem{residuals, prior, Score::product, fit_options(options, residuals), given.evaluator};
   Fit fit = unfitted(prior ? prior->space.values() : Vector(), residuals.scale().size(), given.start.kernels);
   problem.refit(fit);
+  const bool images = knows_images(problem, fit, options);
   const auto finish = [&](const FitProblem& of, const Fit& made, const Smoothed* smoothed) {
-    return model_of(of, made, options, smoothed);
+    return model_of(of, made, options, images, smoothed);
   };
   return smoothed_if_likelier(given, options, problem, fit, false, finish);
 }
@@ -182,8 +161,9 @@ Learned learn_kind(const GpMi& kind, const Given& given) {
   Fit found = kind.search == PhiSearch::nested ? search_nested(kind, problem, given.start)
                                                : search_by_turns(kind, problem, given.start);
   if (!std::isfinite(found.score)) problem.refit(found);
+  const bool images = knows_images(problem, found, kind.gp);
   const auto finish = [&](const FitProblem& of, const Fit& fit, const Smoothed* smoothed) {
-    Learned learned = model_of(of, fit, kind.gp, smoothed);
+    Learned learned = model_of(of, fit, kind.gp, images, smoothed);
     learned.score = fit.score;
     add_posterior(
         learned, prior,
