@@ -1,5 +1,6 @@
 #include "rehearse/gp/cholesky.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "rehearse/gp/kernel.hpp"
@@ -15,6 +16,22 @@ double factorise(const ScaledCovariance& c, double* tiles) {
     if (tiles_cholesky(c.n, tiles)) return jitter;
   }
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+double factorise(const Matrix& covariance, double noise_ratio, double* tiles) {
+  for (const double jitter : kJitterLadder) {
+    lower_to_tiles(covariance, tiles);
+    for (Index i = 0; i < covariance.rows(); ++i) tiles[entry_offset(i, i)] += noise_ratio + jitter;
+    if (tiles_cholesky(covariance.rows(), tiles)) return jitter;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+void lower_to_tiles(const Matrix& lower, double* tiles) {
+  std::fill(tiles, tiles + tiles_size(lower.rows()), 0.0);
+  for (Index i = lower.rows(); i < padded(lower.rows()); ++i) tiles[entry_offset(i, i)] = 1;
+  for (Index j = 0; j < lower.cols(); ++j)
+    for (Index i = j; i < lower.rows(); ++i) tiles[entry_offset(i, j)] = lower(i, j);
 }
 
 }  // namespace rehearse::gp

@@ -23,4 +23,10 @@ struct ScaledCovariance {
 /// was enough. No allocation.
 double factorise(const ScaledCovariance& covariance, double* tiles);
 
+/// The same of a matrix over σ_f² that is given without noise (n × n, its lower triangle).
+double factorise(const Matrix& covariance, double noise_ratio, double* tiles);
+
+/// The lower triangle (n × n) and its padding, 1 on the diagonal, as tiles (tiles.hpp).
+void lower_to_tiles(const Matrix& lower, double* tiles);
+
 }  // namespace rehearse::gp

@@ -117,4 +117,18 @@ std::optional<Summary> summarise(const Matrix& C, double noise_ratio, const Cons
   return summary;
 }
 
+Matrix probes(const Inputs& inputs) {
+  const Index n = inputs.size();
+  Matrix unit(4 * n, inputs.dimensions());
+  for (Index i = 0; i < n; ++i) {
+    const auto x = inputs.unit().row(i), next = inputs.unit().row((i + 1) % n),
+               other = inputs.unit().row((i + n / 2) % n);
+    unit.row(i) = x;
+    unit.row(n + i) = (x + next) / 2;
+    unit.row(2 * n + i) = (x + other) / 2;
+    unit.row(3 * n + i) = 1.5 * x - 0.5 * other;
+  }
+  return (unit * inputs.half_range().asDiagonal()).rowwise() + inputs.center().transpose();
+}
+
 }  // namespace rehearse::gp

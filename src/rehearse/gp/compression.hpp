@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rehearse/core/types.hpp"
+#include "rehearse/gp/inputs.hpp"
 
 namespace rehearse::gp {
 
@@ -32,5 +33,9 @@ struct Summary {
 /// factorisation fails.
 std::optional<Summary> summarise(const Matrix& C, double noise_ratio, const ConstVectorView& y,
                                  const ConstVectorView& weights, double t, Index most);
+
+/// Where the errors of few points are measured (4 n × D): the training inputs; points halfway from each to the next,
+/// and to one half the data further; and as far beyond it.
+Matrix probes(const Inputs& inputs);
 
 }  // namespace rehearse::gp

@@ -64,6 +64,15 @@ double log_constant(Index n, const double* tiles, double log_signal) {
   return -sum - static_cast<double>(n) * (log_signal + kLogTwoPi / 2);
 }
 
+/// Of the covariance whose factor the workspace holds with this jitter; the weights become b.
+Evidence of_factor(const ConstVectorView& y, double log_signal, double jitter, Workspace& workspace) {
+  const Index n = y.size();
+  Eigen::Map<Vector>(workspace.weights(), n) = y * std::exp(-log_signal);
+  Eigen::Map<Vector>(workspace.weights() + n, padded(n) - n).setZero();
+  const double quadratic = solve(n, workspace.tiles(), workspace.weights());
+  return {.value = log_constant(n, workspace.tiles(), log_signal) - quadratic / 2, .jitter = jitter};
+}
+
 /// The workspace holds the factor, b and the scaled inputs; K = σ_f² (C + (noise_ratio + jitter) I).
 bool differentiate(Index n, Index D, double noise_ratio, double jitter, Workspace& workspace, Vector& gradient) {
   tiles_invert_factor(n, workspace.tiles());
@@ -113,14 +122,21 @@ Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVec
   if (gradient) gradient->resize(flat.size());
   const double jitter = y.allFinite() ? factorise_at(inputs, flat, noise, workspace) : kNaN;
   if (std::isnan(jitter)) return failure(gradient);
-  Eigen::Map<Vector>(workspace.weights(), n) = y * std::exp(-flat(D));
-  Eigen::Map<Vector>(workspace.weights() + n, padded(n) - n).setZero();
-  const double quadratic = solve(n, workspace.tiles(), workspace.weights());
-  const double value = log_constant(n, workspace.tiles(), flat(D)) - quadratic / 2;
-  if (!std::isfinite(value)) return failure(gradient);
+  const Evidence found = of_factor(y, flat(D), jitter, workspace);
+  if (!found.ok()) return failure(gradient);
   const double noise_ratio = std::exp(2 * (flat(D + 1) - flat(D)));
   if (gradient && !differentiate(n, D, noise_ratio, jitter, workspace, *gradient)) return failure(gradient);
-  return {.value = value, .jitter = jitter};
+  return found;
+}
+
+Evidence evidence(const Matrix& covariance, const ConstVectorView& y, const Hyperparameters& kernel,
+                  Workspace& workspace) {
+  const double noise_ratio = kernel.noise_variance() / kernel.signal_variance();
+  const bool finite = covariance.allFinite() && y.allFinite() && std::isfinite(noise_ratio);
+  const double jitter = finite ? factorise(covariance, noise_ratio, workspace.tiles()) : kNaN;
+  if (std::isnan(jitter)) return failure(nullptr);
+  const Evidence found = of_factor(y, kernel.log_signal, jitter, workspace);
+  return found.ok() ? found : failure(nullptr);
 }
 
 Whitening::Whitening(const Inputs& inputs, const Hyperparameters& kernel)

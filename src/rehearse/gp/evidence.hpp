@@ -80,6 +80,11 @@ class KnownNoise {
 Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVectorView& flat, Workspace& workspace,
                   Vector* gradient = nullptr, const KnownNoise* noise = nullptr);
 
+/// The same of a covariance over σ_f² that is given, without noise (n × n, of which the lower triangle counts), in a
+/// workspace that has been resized for it. Its tiles become the factor, as those of the other do without a gradient.
+Evidence evidence(const Matrix& covariance, const ConstVectorView& y, const Hyperparameters& kernel,
+                  Workspace& workspace);
+
 /// An output's kernel held while its targets change. With K = L Lᵀ, whitened targets are w = L⁻¹ y, and the log
 /// evidence of y is a constant less ‖w‖²/2. Immutable; any thread.
 class Whitening {

@@ -7,8 +7,10 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/tiles.hpp"
+#include "rehearse/gp/cholesky.hpp"
 #include "rehearse/gp/compression.hpp"
 #include "rehearse/gp/evidence.hpp"
+#include "rehearse/gp/odd.hpp"
 #include "rehearse/gp/prediction_chunk.hpp"
 #include "rehearse/gp/sizes.hpp"
 #include "rehearse/gp/slope_chunk.hpp"
@@ -47,13 +49,6 @@ Matrix correlations(Index n, Index D, Workspace& workspace) {
   return C;
 }
 
-void to_tiles(const Matrix& lower, double* tiles) {
-  std::fill(tiles, tiles + tiles_size(lower.rows()), 0.0);
-  for (Index i = lower.rows(); i < padded(lower.rows()); ++i) tiles[entry_offset(i, i)] = 1;
-  for (Index j = 0; j < lower.cols(); ++j)
-    for (Index i = j; i < lower.rows(); ++i) tiles[entry_offset(i, j)] = lower(i, j);
-}
-
 /// The inverse of the factor in `tiles`, as predictions read it.
 Vector packed_inverse(Index n, double* tiles) {
   tiles_invert_factor(n, tiles);
@@ -74,21 +69,6 @@ double remainder(double noise_ratio, double tolerance) {
   return tolerance * tolerance * std::min(share, 1.0);
 }
 
-/// The training inputs; points halfway from each to the next, and to one half the data further; and as far beyond it.
-Matrix probes(const Inputs& inputs) {
-  const Index n = inputs.size();
-  Matrix unit(4 * n, inputs.dimensions());
-  for (Index i = 0; i < n; ++i) {
-    const auto x = inputs.unit().row(i), next = inputs.unit().row((i + 1) % n),
-               other = inputs.unit().row((i + n / 2) % n);
-    unit.row(i) = x;
-    unit.row(n + i) = (x + next) / 2;
-    unit.row(2 * n + i) = (x + other) / 2;
-    unit.row(3 * n + i) = 1.5 * x - 0.5 * other;
-  }
-  return (unit * inputs.half_range().asDiagonal()).rowwise() + inputs.center().transpose();
-}
-
 }  // namespace
 
 /// Calls visit(first row, rows, chunk) for each chunk of F's rows.
@@ -96,6 +76,7 @@ template <class Chunk, class Visit>
 void Posterior::for_each_chunk(const ConstMatrixView& F, Visit visit) const {
   thread_local Chunk s;
   s.resize(size(), dimensions());
+  if (odd()) s.resize_for_images(size());
   for (Index first = 0; first < F.rows(); first += kChunk) {
     const Index rows = std::min<Index>(kChunk, F.rows() - first);
     s.load(inputs_, F, first, rows);
@@ -104,8 +85,9 @@ void Posterior::for_each_chunk(const ConstMatrixView& F, Visit visit) const {
 }
 
 Posterior::Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperparameters> hyperparameters,
-                     double tolerance)
-    : inputs_(std::move(inputs)), hyperparameters_(std::move(hyperparameters)) {
+                     double tolerance, Vector signs)
+    : inputs_(std::move(inputs)), hyperparameters_(std::move(hyperparameters)), signs_(std::move(signs)) {
+  if (odd()) require_size("signs of images", signs_.size(), dimensions());
   check(inputs_, Y, hyperparameters_);
   const Index E = outputs();
   factors_.resize(dimensions(), E);
@@ -123,15 +105,16 @@ Posterior::Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperp
 Posterior::Output Posterior::condition(Index e, const ConstVectorView& y, Workspace& workspace) {
   const Index n = size();
   const Hyperparameters& theta = hyperparameters_[static_cast<std::size_t>(e)];
-  const Evidence value = evidence(inputs_, y, theta.flat(), workspace);
+  Evidence value = evidence(inputs_, y, theta.flat(), workspace);
+  if (odd() && value.ok()) value = evidence(odd_covariance(inputs_, signs_, theta), y, theta, workspace);
   if (!value.ok()) throw InvalidInput(fmt::format("gp hyperparameters[{}] are too extreme to condition on data", e));
   noise_variances_(e) = theta.noise_variance();
   log_evidences_(e) = value.value;
   jitters_(e) = value.jitter;
   factors_.col(e) = workspace.factors();
   trend_factors_.col(e) = workspace.trend_factors();
-  Output output{.points = (inputs_.unit() * workspace.factors().asDiagonal()).transpose(),
-                .trend_points = trend_points(e),
+  Output output{.points = scaled(e, inputs_.unit()),
+                .images = odd() ? scaled(e, unit_images(inputs_, signs_)) : PosteriorPoints{},
                 .weights = Vector::Map(workspace.weights(), n) * std::exp(theta.log_signal),
                 .trend_form = {},
                 .support = n,
@@ -154,15 +137,22 @@ Matrix Posterior::trend_map(Index e) const {
   return map;
 }
 
-Matrix Posterior::trend_points(Index e) const {
+PosteriorPoints Posterior::scaled(Index e, const Matrix& unit) const {
   const Matrix map = trend_map(e);
-  if (map.size() == 0) return Matrix(0, size());
-  return (map.rightCols(dimensions()) * inputs_.unit().transpose()).colwise() + map.col(0);
+  Matrix trend(0, unit.rows());
+  if (map.size() > 0) trend = (map.rightCols(dimensions()) * unit.transpose()).colwise() + map.col(0);
+  return {.scaled = (unit * factors_.col(e).asDiagonal()).transpose(), .trend = std::move(trend)};
 }
 
-/// Σ_i w_i (z · z_i)² = xᵀ Mᵀ Z W Zᵀ M x.
+/// Σ_i w_i (z · z_i)² = xᵀ Mᵀ Z W Zᵀ M x, less that of images.
 Vector Posterior::trend_form(Index e, const Output& output) const {
-  const Matrix Z = trend_map(e).transpose() * output.trend_points, A = Z * output.weights.asDiagonal() * Z.transpose();
+  const Matrix map = trend_map(e).transpose();
+  const auto form_of = [&](const PosteriorPoints& points) {
+    const Matrix Z = map * points.trend;
+    return Matrix(Z * output.weights.asDiagonal() * Z.transpose());
+  };
+  Matrix A = form_of(output.points);
+  if (odd()) A -= form_of(output.images);
   Vector form(A.rows() * (A.rows() + 1) / 2);
   double* entry = form.data();
   for (Index i = 0; i < A.rows(); ++i)
@@ -177,7 +167,8 @@ std::optional<Posterior::Output> Posterior::compress(Index e, const ConstVectorV
   const double noise_ratio = noise_variances_(e) / exact.signal_variance + jitters_(e);
   if (noise_ratio < kLeastNoiseRatio) return std::nullopt;  // before C is made
   const auto worthwhile = static_cast<Index>(0.75 * static_cast<double>(size()));
-  const Matrix C = correlations(size(), dimensions(), workspace);
+  const Matrix C = odd() ? odd_covariance(inputs_, signs_, hyperparameters_[static_cast<std::size_t>(e)])
+                         : correlations(size(), dimensions(), workspace);
   if (noise_ratio < kLeastNoiseRatio * C.diagonal().maxCoeff()) return std::nullopt;
   const auto summary = summarise(C, noise_ratio, y, exact.weights, remainder(noise_ratio, tolerance), worthwhile);
   if (!summary) return std::nullopt;
@@ -192,14 +183,14 @@ std::optional<Posterior::Output> Posterior::compress(Index e, const ConstVectorV
 std::optional<Posterior::Output> Posterior::condition(const Summary& summary, const Output& exact,
                                                       Workspace& workspace) {
   const auto r = static_cast<Index>(summary.points.size());
-  to_tiles(summary.covariance, workspace.tiles());
+  lower_to_tiles(summary.covariance, workspace.tiles());
   if (!tiles_cholesky(r, workspace.tiles())) return std::nullopt;
   Vector weights = Vector::Zero(padded(r));
   weights.head(r) = summary.targets;
   tiles_solve(r, workspace.tiles(), weights.data());
   tiles_solve_transposed(r, workspace.tiles(), weights.data());
-  return Output{.points = exact.points(Eigen::all, summary.points),
-                .trend_points = exact.trend_points(Eigen::all, summary.points),
+  return Output{.points = exact.points.at(summary.points),
+                .images = exact.images.scaled.size() > 0 ? exact.images.at(summary.points) : PosteriorPoints{},
                 .weights = weights.head(r),
                 .trend_form = {},
                 .support = r,
@@ -213,17 +204,23 @@ void Posterior::use_all_for_mean(const Output& exact, std::vector<Index> order, 
   for (const Index i : order) first[static_cast<std::size_t>(i)] = true;
   for (Index i = 0; i < exact.support; ++i)
     if (!first[static_cast<std::size_t>(i)]) order.push_back(i);
-  few.points = exact.points(Eigen::all, order);
-  few.trend_points = exact.trend_points(Eigen::all, order);
+  few.points = exact.points.at(order);
+  if (exact.images.scaled.size() > 0) few.images = exact.images.at(order);
   few.weights = exact.weights(order);
+}
+
+/// Scales a chunk's queries for an output, and says what their variances are before any data.
+void Posterior::scale(Index e, PredictionChunk& s) const {
+  s.scale(factors_.col(e));
+  s.expand(inputs_, trend_factors_.col(e));
+  if (odd()) s.subtract_images(inputs_, signs_, factors_.col(e), trend_factors_.rows() > 0);
 }
 
 /// The largest difference between the two standard deviations that was met.
 double Posterior::deviation_error(Index e, const Output& exact, const Output& other) const {
   double error = 0;
   for_each_chunk<PredictionChunk>(probes(inputs_), [&](Index, Index rows, PredictionChunk& s) {
-    s.scale(factors_.col(e));
-    s.expand(inputs_, trend_factors_.col(e));
+    scale(e, s);
     s.predict(exact, rows, false);
     Vector deviation(rows);
     for (Index q = 0; q < rows; ++q) deviation(q) = std::sqrt(s.variance(q, exact));
@@ -238,8 +235,10 @@ template <class Write>
 void Posterior::predict(const ConstMatrixView& F, bool only_mean, Write write) const {
   for_each_chunk<PredictionChunk>(F, [&](Index first, Index rows, PredictionChunk& s) {
     for (Index e = 0; e < outputs(); ++e) {
-      s.scale(factors_.col(e));
-      if (!only_mean) s.expand(inputs_, trend_factors_.col(e));
+      if (only_mean)
+        s.scale(factors_.col(e));
+      else
+        scale(e, s);
       s.predict(output(e), rows, only_mean);
       for (Index q = 0; q < rows; ++q) write(first + q, q, e, s);
     }
@@ -272,12 +271,11 @@ void Posterior::linearise(const ConstMatrixView& F, MatrixView mean, MatrixView 
     require_shape("derivatives", slopes->rows(), slopes->cols(), F.rows(), outputs() * D);
   for_each_chunk<SlopeChunk>(F, [&](Index first, Index rows, SlopeChunk& s) {
     for (Index e = 0; e < outputs(); ++e) {
-      s.scale(factors_.col(e));
-      s.expand(inputs_, trend_factors_.col(e));
+      scale(e, s);
       s.linearise(output(e), rows);
       for (Index q = 0; q < rows; ++q) mean(first + q, e) = s.mean(q);
       for (Index q = 0; q < rows; ++q) variance(first + q, e) = s.variance(q, output(e));
-      const Scales scales{inputs_, factors_.col(e), trend_factors_.col(e)};
+      const Scales scales{inputs_, factors_.col(e), trend_factors_.col(e), signs_};
       s.slopes(output(e), scales, mean_by.block(first, e * D, rows, D), variance_by.block(first, e * D, rows, D));
     }
   });

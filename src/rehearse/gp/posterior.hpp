@@ -26,8 +26,11 @@ class Posterior {
   /// there, the error of the mean is at most tolerance · σ_n · max(1, s̃/σ_f), where s̃ exceeds σ_f only far from the
   /// data of a trend; that of the standard deviation too if σ_n² ≥ σ_f²/100. Elsewhere the latter is at most tolerance
   /// · s̃, and measured at, between and beyond the training inputs, where it is kept below a fifth of tolerance · σ_n.
-  Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperparameters> hyperparameters,
-            double tolerance = 0);
+  ///
+  /// `signs` (D) of images: the functions are odd (odd.hpp); empty: they are not. The evidence is that of odd functions
+  /// then.
+  Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperparameters> hyperparameters, double tolerance = 0,
+            Vector signs = {});
 
   Index size() const { return inputs_.size(); }
   Index dimensions() const { return inputs_.dimensions(); }
@@ -56,8 +59,8 @@ class Posterior {
   Index mean_points(Index e) const { return output(e).weights.size(); }
   Index variance_points(Index e) const { return output(e).support; }
 
-  // For moment matching, without tolerance or trend; with c the correlations (the covariance without σ_f²) and K/σ_f² =
-  // L Lᵀ:
+  // For moment matching, without tolerance, trend or signs; with c the correlations (the covariance without σ_f²) and
+  // K/σ_f² = L Lᵀ:
   const Vector& weights(Index e) const { return output(e).weights; }  // n, w = σ_f² K⁻¹y: the mean is Σ_i w_i c(x, x_i)
   Matrix inverse_factor(Index e) const;                               // n × n, L⁻¹, lower; a copy
 
@@ -69,7 +72,9 @@ class Posterior {
   std::optional<Output> compress(Index e, const ConstVectorView& y, const Output& exact, double tolerance,
                                  Workspace& workspace) const;
   static std::optional<Output> condition(const Summary& summary, const Output& exact, Workspace& workspace);
-  Matrix trend_points(Index e) const;
+  bool odd() const { return signs_.size() > 0; }
+  PosteriorPoints scaled(Index e, const Matrix& unit) const;
+  void scale(Index e, PredictionChunk& s) const;
   Matrix trend_map(Index e) const;
   Vector trend_form(Index e, const Output& output) const;
   static void use_all_for_mean(const Output& exact, std::vector<Index> order, Output& few);
@@ -81,6 +86,7 @@ class Posterior {
 
   Inputs inputs_;
   std::vector<Hyperparameters> hyperparameters_;
+  Vector signs_;          // D, or none
   Matrix factors_;        // D × E, from unit inputs to inputs / ℓ
   Matrix trend_factors_;  // 1 + D × E, from inputs to z
   std::vector<Output> outputs_;

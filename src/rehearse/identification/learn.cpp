@@ -51,28 +51,24 @@ Vector noise_of_changes(const dynamics::GpModel& model, const dynamics::Residual
   return variances.transpose();
 }
 
-/// Do predictions know the images of the measured rows, too? As the user says, or as the data do where the prior does
-/// not contradict it.
-bool knows_images(const FitProblem& problem, const Fit& fit, const GpOptions& options) {
+/// Is the robot learned as its own mirror image? As the user says, or as the data do where the prior does not
+/// contradict it.
+bool is_odd(const FitProblem& problem, const Fit& fit, const GpOptions& options) {
   const dynamics::Residuals& residuals = problem.residuals;
   if (options.mirror != dynamics::Mirror::automatic) return options.mirror == dynamics::Mirror::on;
-  const dynamics::Residuals::Rows both = residuals.of(with_images(residuals.data())).at(problem.prior, fit.phi);
-  if (both.targets.rows() != 2 * residuals.size() || both.inputs->dimensions() > dynamics::kFewInputs) return false;
-  if (not_its_image(residuals, both.targets)) return false;
-  std::vector<bool> learned;
-  for (Index e = 0; e < both.targets.cols(); ++e) learned.push_back(!residuals.told_by_servos(e));
-  const auto outputs = static_cast<double>(std::ranges::count(learned, true));
-  return nats_for_odd(both, hyperparameters(fit), learned) > kOddNats * outputs;
+  const dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
+  if (!rows.inputs || rows.inputs->dimensions() > dynamics::kFewInputs) return false;
+  if (problem.prior && not_its_image(residuals, *problem.prior, fit.phi)) return false;
+  Index learned = 0;
+  for (Index e = 0; e < rows.targets.cols(); ++e) learned += !residuals.told_by_servos(e);
+  return nats_for_odd(residuals, rows, fit) > kOddNats * static_cast<double>(learned);
 }
 
 /// `smoothed`: null if measurement noise is to be estimated from the kernels' noise.
-Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, bool images,
+Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, bool odd,
                  const Smoothed* smoothed) {
   const dynamics::Residuals& residuals = problem.residuals;
-  dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
-  const Index left_out = rows.left_out;
-  // Images have the kernels and φ of the rows: they tell no more of these, and their errors are the same.
-  if (images) rows = residuals.of(with_images(residuals.data())).at(problem.prior, fit.phi);
+  const dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
   if (!rows.inputs) throw NoUsableRow("no row of the data set has a finite prior mean: nothing to learn from");
   std::optional<dynamics::Mean> mean;
   if (problem.prior) mean = dynamics::Mean{*problem.prior, fit.phi};
@@ -80,8 +76,9 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
   learned.state.kernels = hyperparameters(fit);
   const auto model = std::make_shared<dynamics::GpModel>(
       residuals.features(), residuals.kinematics(), mean,
-      gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance), options.variance,
-      residuals.midpoint());
+      gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance,
+                    odd ? signs_of_images(residuals.features(), residuals.data().actions.cols()) : Vector()),
+      options.variance, residuals.midpoint());
   model->set_measurement_std(smoothed ? smoothed->measurement_std
                                       : measurement_std(*model, residuals.data(), noise_of_changes(*model, residuals)));
   learned.model = model;
@@ -90,14 +87,15 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
   for (Index e = 0; e < fit.log_evidences.size(); ++e)
     if (!residuals.told_by_servos(e)) evidence += fit.log_evidences(e);
   learned.log_evidence = evidence;
-  learned.left_out_rows = left_out;
+  learned.left_out_rows = rows.left_out;
   learned.evaluations = fit.evaluations;
-  if (options.mirror == dynamics::Mirror::automatic && images)
+  if (options.mirror == dynamics::Mirror::automatic && odd)
     learned.notes.emplace_back("the data are likelier of a robot that is its own mirror image: it is learned as one");
   if (options.mirror == dynamics::Mirror::on) {
-    if (auto note = contradicts_image(*model, residuals, noise_of_changes(*model, residuals)))
-      learned.notes.push_back(std::move(*note));
-    if (auto note = not_its_image(residuals, rows.targets)) learned.notes.push_back(std::move(*note));
+    std::optional<std::string> note;
+    if (problem.prior) note = not_its_image(residuals, *problem.prior, fit.phi);
+    if (!note) note = contradicts_image(*model, residuals, noise_of_changes(*model, residuals));
+    if (note) learned.notes.push_back(std::move(*note));
   }
   for (Index e = 0; e < fit.log_evidences.size(); ++e)
     if (!std::isfinite(fit.log_evidences(e)))
@@ -134,9 +132,9 @@ Learned learn_gps(const Given& given, const GpOptions& options, const prior::Pri
   const FitProblem problem{residuals, prior, Score::product, fit_options(options, residuals), given.evaluator};
   Fit fit = unfitted(prior ? prior->space.values() : Vector(), residuals.scale().size(), given.start.kernels);
   problem.refit(fit);
-  const bool images = knows_images(problem, fit, options);
+  const bool odd = is_odd(problem, fit, options);
   const auto finish = [&](const FitProblem& of, const Fit& made, const Smoothed* smoothed) {
-    return model_of(of, made, options, images, smoothed);
+    return model_of(of, made, options, odd, smoothed);
   };
   return smoothed_if_likelier(given, options, problem, fit, false, finish);
 }
@@ -161,9 +159,9 @@ Learned learn_kind(const GpMi& kind, const Given& given) {
   Fit found = kind.search == PhiSearch::nested ? search_nested(kind, problem, given.start)
                                                : search_by_turns(kind, problem, given.start);
   if (!std::isfinite(found.score)) problem.refit(found);
-  const bool images = knows_images(problem, found, kind.gp);
+  const bool odd = is_odd(problem, found, kind.gp);
   const auto finish = [&](const FitProblem& of, const Fit& fit, const Smoothed* smoothed) {
-    Learned learned = model_of(of, fit, kind.gp, images, smoothed);
+    Learned learned = model_of(of, fit, kind.gp, odd, smoothed);
     learned.score = fit.score;
     add_posterior(
         learned, prior,

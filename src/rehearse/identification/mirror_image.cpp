@@ -1,13 +1,11 @@
 #include "rehearse/identification/mirror_image.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
-#include "rehearse/core/errors.hpp"
-#include "rehearse/gp/correlations.hpp"
+#include "rehearse/gp/odd.hpp"
 
 namespace rehearse::identification {
 namespace {
@@ -17,52 +15,43 @@ constexpr double kContradiction = 3;  // standard deviations of the noise, where
 constexpr double kContradictionOfChanges = 0.01;  // of the changes' deviation: where noise is none, rounding is more
 constexpr double kStill = 1e-9;                   // where a state never changes
 
-/// log p(y) + n/2 log 2π of a normal distribution with this covariance; NaN if that is not positive definite.
-double log_likelihood(const Matrix& covariance, const ConstVectorView& y) {
-  const Eigen::LLT<Matrix> factor(covariance);
-  if (factor.info() != Eigen::Success) return std::numeric_limits<double>::quiet_NaN();
-  const Matrix& L = factor.matrixLLT();
-  return -0.5 * factor.matrixL().solve(y).squaredNorm() - L.diagonal().array().log().sum();
-}
-
 }  // namespace
 
-Dataset with_images(const Dataset& data) {
-  const auto both = [](const Matrix& rows) {
-    Matrix all(2 * rows.rows(), rows.cols());
-    all << rows, -rows;
-    return all;
-  };
-  return {.states = both(data.states),
-          .actions = both(data.actions),
-          .changes = both(data.changes),
-          .rewards = data.rewards.replicate(2, 1)};
+Vector signs_of_images(const FeatureMap& features, Index actions) {
+  Vector signs = Vector::Constant(features.features() + actions, -1);
+  Index f = 0;
+  for (const StateKind kind : features.kinds()) {
+    if (kind == StateKind::angle) signs(f) = 1;
+    f += kind == StateKind::angle ? 2 : kind == StateKind::plain ? 1 : 0;
+  }
+  for (std::size_t j = 0; j < features.joints().size(); ++j, f += 2) signs(f) = 1;
+  return signs;
 }
 
-double nats_for_odd(const dynamics::Residuals::Rows& rows, const std::vector<gp::Hyperparameters>& kernels,
-                    const std::vector<bool>& wanted) {
-  const Index n = rows.targets.rows() / 2;
-  const Matrix inputs = rows.inputs->values();
-  const Matrix X = inputs.topRows(n), images = inputs.bottomRows(n);
+double nats_for_odd(const dynamics::Residuals& residuals, const dynamics::Residuals::Rows& rows, const Fit& fit) {
+  const Vector signs = signs_of_images(residuals.features(), residuals.data().actions.cols());
   double nats = 0;
   for (Index e = 0; e < rows.targets.cols(); ++e) {
-    if (!wanted[static_cast<std::size_t>(e)]) continue;
-    const gp::Hyperparameters& kernel = kernels[static_cast<std::size_t>(e)];
-    Matrix any = gp::covariance(X, kernel);
-    any.diagonal().array() += kernel.noise_variance();
-    const auto y = rows.targets.col(e).head(n);
-    nats += log_likelihood(any - gp::covariance(X, images, kernel), y) - log_likelihood(any, y);
+    if (residuals.told_by_servos(e)) continue;
+    const gp::Hyperparameters& kernel = fit.kernels[static_cast<std::size_t>(e)].hyperparameters;
+    nats += gp::odd_evidence(*rows.inputs, signs, rows.targets.col(e), kernel).value - fit.log_evidences(e);
   }
   return nats;
 }
 
-std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const Matrix& targets) {
-  if (targets.rows() != 2 * rows.size()) return std::nullopt;  // rows that are left out have no partner
-  const Matrix errors = targets.topRows(rows.size()) + targets.bottomRows(rows.size());
-  for (Index e = 0; e < errors.cols(); ++e)
-    if (const double largest = errors.col(e).cwiseAbs().maxCoeff(); largest > kImageError * rows.scale()(e) + kStill)
+std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const prior::Prior& prior,
+                                         const Vector& phi) {
+  const Dataset& data = rows.data();
+  const Dataset images{.states = -data.states, .actions = -data.actions, .changes = -data.changes, .rewards = {}};
+  const Matrix errors = rows.targets(&prior, phi) + rows.of(images).targets(&prior, phi);
+  for (Index e = 0; e < errors.cols(); ++e) {
+    double largest = 0;  // where the prior says both
+    for (Index i = 0; i < errors.rows(); ++i)
+      if (std::isfinite(errors(i, e))) largest = std::max(largest, std::abs(errors(i, e)));
+    if (largest > kImageError * rows.scale()(e) + kStill)
       return fmt::format("mirror is set, but the prior is not its own mirror image: output {} differs by {:.2g}", e,
                          largest);
+  }
   return std::nullopt;
 }
 

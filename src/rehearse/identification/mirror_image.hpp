@@ -4,30 +4,26 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "rehearse/dynamics/gp_model.hpp"
 #include "rehearse/dynamics/residuals.hpp"
-#include "rehearse/gp/hyperparameters.hpp"
+#include "rehearse/identification/fit_problem.hpp"
 
 namespace rehearse::identification {
 
-/// The rows, and after them their images.
-Dataset with_images(const Dataset& data);
+/// The signs of images of GP inputs: features, of which cosines stay, then so many actions (gp/odd.hpp).
+Vector signs_of_images(const FeatureMap& features, Index actions);
 
-/// By how many nats the targets of `rows` (those of with_images, and their kernels, one an output) are likelier as those
-/// of odd functions, which change their signs with their inputs, than as those of any function: log p(y | odd) − log
-/// p(y), summed over the outputs that are `wanted`. The covariance of an odd function is k(x, y) − k(x, −y), so that rows
-/// without another's image near them tell nothing. NaN where it cannot be computed.
-double nats_for_odd(const dynamics::Residuals::Rows& rows, const std::vector<gp::Hyperparameters>& kernels,
-                    const std::vector<bool>& wanted);
+/// By how many nats the targets of the fit are likelier as those of odd functions, with the same kernels, than as those
+/// of any: log p(y | odd) − log p(y), over the outputs that GPs learn. Rows without another's image near them tell
+/// nothing. NaN where it cannot be computed.
+double nats_for_odd(const dynamics::Residuals& residuals, const dynamics::Residuals::Rows& rows, const Fit& fit);
 
-/// A note if the prior does not do the opposite at the images of the rows. `targets`: those of the rows, then of
-/// images.
-std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const Matrix& targets);
+/// A note if the prior at φ does not do the opposite at the images of the rows.
+std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const prior::Prior& prior, const Vector& phi);
 
-/// A note if the model errs at the rows it was told by much more than their noise, whose variances are given (dx): their
-/// images say something else.
+/// A note if the model errs at the rows it was told by much more than their noise, whose variances are given (dx):
+/// their images say something else.
 std::optional<std::string> contradicts_image(const dynamics::GpModel& model, const dynamics::Residuals& rows,
                                              const Vector& noise);
 

@@ -7,21 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "naive.hpp"
+#include "predict.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/random.hpp"
 
 namespace rehearse::gp {
 namespace {
-
-struct Prediction {
-  Matrix mean, variance;
-};
-
-Prediction predict(const Posterior& posterior, const Matrix& F) {
-  Prediction p{Matrix(F.rows(), posterior.outputs()), Matrix(F.rows(), posterior.outputs())};
-  posterior.predict(F, p.mean, p.variance);
-  return p;
-}
 
 std::vector<Hyperparameters> three_outputs(Index D) {
   return {naive::hyperparameters(D, 1, 2, 0.1), naive::hyperparameters(D, 3, 0.5, 0.01),

@@ -61,6 +61,18 @@ TEST(SlopeChunk, KnowsTrends) {
     expect_slopes(Posterior(Inputs(X), y, {theta}, tolerance), 2 * naive::normals(150, 3, 8));
 }
 
+TEST(SlopeChunk, KnowsOddFunctions) {
+  const Matrix X = naive::normals(220, 3, 17).array() + 0.5;
+  const Vector signs{{-1, 1, -1}};
+  for (const double trend : {0.0, 0.4}) {
+    Hyperparameters theta = naive::hyperparameters(3, 2, 1, 0.3);
+    if (trend > 0) theta = naive::with_trend(theta, trend);
+    const Vector y = naive::draw(X, theta, 18);
+    for (const double tolerance : {0.0, 0.01})
+      expect_slopes(Posterior(Inputs(X), y, {theta}, tolerance, signs), naive::normals(150, 3, 8));
+  }
+}
+
 TEST(SlopeChunk, AMissingRowDisturbsNoOther) {
   const Posterior posterior(Inputs(Matrix{{0.0}, {1.0}}), Matrix{{1.0}, {-1.0}},
                             {{.log_lengths = Vector::Zero(1), .log_signal = 0, .log_noise = -40}});

@@ -17,6 +17,13 @@ inline Learned learn_swing(const Dataset& data, const Kind& kind, const prior::P
   return learn({data, features(), {}, prior}, kind, start, evaluator);
 }
 
+/// Of the changes that a model predicts: root mean square.
+inline double error(const dynamics::DynamicsModel& model, const Dataset& data) {
+  Matrix mean(data.size(), data.states.cols());
+  model.predict_mean(data.states, data.actions, mean);
+  return rms(mean - data.changes);
+}
+
 /// The swing whose simulator fails where the angle is above `limit`.
 inline prior::Prior failing_above(double limit, std::vector<Parameter> parameters) {
   return swing::prior(std::move(parameters),

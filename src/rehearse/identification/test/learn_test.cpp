@@ -12,7 +12,7 @@
 namespace rehearse::identification {
 namespace {
 
-using swing::failing_above, swing::learn_swing;
+using swing::error, swing::failing_above, swing::learn_swing;
 
 struct Prediction {
   Matrix mean, variance;
@@ -22,10 +22,6 @@ Prediction predict(const dynamics::DynamicsModel& model, const Dataset& data) {
   model.predict(data.states, data.actions, p.mean, p.variance);
   return p;
 }
-double error(const dynamics::DynamicsModel& model, const Dataset& data) {
-  return swing::rms(predict(model, data).mean - data.changes);
-}
-
 // Seeds 1 and 2, 100 rows to learn from and 200 to predict; no noise: nothing is left to chance but the two draws.
 TEST(Learn, ZeroMeanPredictsHeldOutSteps) {
   const Dataset data = swing::data(100, 1), held_out = swing::data(200, 2);
@@ -36,88 +32,6 @@ TEST(Learn, ZeroMeanPredictsHeldOutSteps) {
   EXPECT_EQ(learned.state.kernels.size(), 2u);
   const Prediction p = predict(*learned.model, held_out);
   EXPECT_GE(p.variance.minCoeff(), 0);
-}
-
-// Rows on one side of the hanging pendulum tell of the other side.
-TEST(Learn, ARobotThatIsItsMirrorImageIsLearnedFromOneSide) {
-  Dataset data = swing::data(200, 1), held_out = swing::data(200, 2);
-  const auto keep = [](Dataset& of, auto side) {
-    std::vector<Index> rows;
-    for (Index i = 0; i < of.size(); ++i)
-      if (side(std::sin(of.states(i, 1)))) rows.push_back(i);
-    of = {Matrix(of.states(rows, Eigen::all)), Matrix(of.actions(rows, Eigen::all)),
-          Matrix(of.changes(rows, Eigen::all)), Vector()};
-  };
-  keep(data, [](double sine) { return sine > 0; });
-  keep(held_out, [](double sine) { return sine < 0; });
-  ASSERT_GT(held_out.size(), 50);
-  ZeroMean plain, mirrored;
-  plain.gp.mirror = dynamics::Mirror::off;
-  mirrored.gp.mirror = dynamics::Mirror::on;
-  const Learned one_side = learn_swing(data, plain), both_sides = learn_swing(data, mirrored);
-  EXPECT_LT(error(*both_sides.model, held_out), 0.03 * swing::rms(held_out.changes));
-  EXPECT_GT(error(*one_side.model, held_out), 3 * error(*both_sides.model, held_out));
-}
-
-TEST(Learn, DataTellWhetherARobotIsItsMirrorImage) {
-  ZeroMean asks;
-  ASSERT_EQ(asks.gp.mirror, dynamics::Mirror::automatic);
-  Dataset data = swing::data(60, 1);
-  const std::string found = "the data are likelier of a robot that is its own mirror image: it is learned as one";
-  EXPECT_EQ(learn_swing(data, asks).notes, std::vector<std::string>{found});
-  const auto told = [&](const Kind& kind) { return error(*learn_swing(data, kind).model, swing::data(200, 2)); };
-  ZeroMean on, off;
-  on.gp.mirror = dynamics::Mirror::on;
-  off.gp.mirror = dynamics::Mirror::off;
-  EXPECT_EQ(told(asks), told(on));
-  data.changes.col(0).array() += 0.05;  // a motor that pulls to one side
-  EXPECT_EQ(learn_swing(data, asks).notes, std::vector<std::string>{});
-  EXPECT_EQ(told(asks), told(off));
-}
-
-// Around a prior that leans as the robot does, what is left may be odd, but the robot is not.
-TEST(Learn, APriorThatIsNotItsMirrorImageAsksNoData) {
-  Dataset data = swing::data(60, 1);
-  FixedPrior asks;
-  asks.gp.mirror = dynamics::Mirror::automatic;
-  const auto leaning = [](double push) {
-    return swing::prior({}, [push](const Vector& x, const Vector& u, const Vector&, Vector& dxdt) {
-      swing::ode(x, u, Vector{{1.2, 0.1}}, dxdt);
-      dxdt(0) += push;
-    });
-  };
-  const prior::Prior symmetric = leaning(0), leans = leaning(0.5);
-  EXPECT_EQ(learn_swing(data, asks, &symmetric).notes.size(), 1u);
-  data.changes.col(0).array() += 0.05;  // what the push does in a step
-  EXPECT_EQ(learn_swing(data, asks, &leans).notes, std::vector<std::string>{});
-}
-
-TEST(Learn, APriorThatIsNotItsMirrorImageIsSaid) {
-  const Dataset data = swing::data(40, 1);
-  FixedPrior mirrored;
-  mirrored.gp.mirror = dynamics::Mirror::on;
-  const prior::Prior symmetric = swing::prior_at(swing::kTruth);
-  EXPECT_EQ(learn_swing(data, mirrored, &symmetric).notes, std::vector<std::string>{});
-  const prior::Prior leaning = swing::prior({}, [](const Vector& x, const Vector& u, const Vector&, Vector& dxdt) {
-    swing::ode(x, u, swing::kTruth, dxdt);
-    dxdt(0) += 0.5;
-  });
-  const std::vector<std::string> notes = learn_swing(data, mirrored, &leaning).notes;
-  ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("not its own mirror image: output 0 differs by 0.1"), std::string::npos) << notes[0];
-  EXPECT_EQ(learn_swing(data, FixedPrior{}, &leaning).notes, std::vector<std::string>{});
-}
-
-TEST(Learn, StepsThatContradictTheMirrorImageAreSaid) {
-  ZeroMean mirrored;
-  mirrored.gp.mirror = dynamics::Mirror::on;
-  Dataset data = swing::data(100, 1);
-  EXPECT_EQ(learn_swing(data, mirrored).notes, std::vector<std::string>{});
-  data.changes.col(0).array() += 0.2;  // a motor that pulls to one side
-  const std::vector<std::string> notes = learn_swing(data, mirrored).notes;
-  ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("measured steps contradict it: output 0"), std::string::npos) << notes[0];
-  EXPECT_EQ(learn_swing(data, ZeroMean{}).notes, std::vector<std::string>{});
 }
 
 TEST(Learn, NoisyVarianceAddsTheLearnedNoise) {
