@@ -44,8 +44,7 @@ struct GpOptions {
     v.boolean("smooth", smooth, "noisy states are smoothed where that raises the likelihood of the measurements",
               published(false));
     v.choice("mirror", mirror,
-             "the robot is its own mirror image: changes have opposite signs where states and actions have; auto: if "
-             "its data say so",
+             "opposite states and actions change by the opposite (a mirror image); auto: where the data say so",
              {"off", "on", "auto"}, published("off"));
     v.number("tolerance", tolerance,
              "largest error of approximate predictions, as a fraction of the noise's standard deviation; 0: exact",
