@@ -46,11 +46,12 @@ TEST(Odd, CovarianceAndEvidenceAreTheBooks) {
   for (const bool trend : {false, true}) {
     for (const Hyperparameters& theta : thetas(trend)) {
       const Matrix expected = odd(X, X, theta) / theta.signal_variance();
-      EXPECT_LT((odd_covariance(Inputs(X), kOddSigns, theta) - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.norm());
+      EXPECT_LT((odd_covariance(Inputs(X), kOddSigns, theta) - expected).cwiseAbs().maxCoeff(),
+                1e-12 * expected.norm());
       const Vector y = naive::normals(40, 1, 2);
       const Eigen::LLT<Matrix> llt(noisy(X, theta));
-      const double evidence = -0.5 * y.dot(llt.solve(y)) - llt.matrixLLT().diagonal().array().log().sum() -
-                              20 * std::log(2 * M_PI);
+      const double evidence =
+          -0.5 * y.dot(llt.solve(y)) - llt.matrixLLT().diagonal().array().log().sum() - 20 * std::log(2 * M_PI);
       EXPECT_NEAR(odd_evidence(Inputs(X), kOddSigns, y, theta).value, evidence, 1e-8 * std::abs(evidence));
     }
   }
