@@ -127,7 +127,9 @@ class Setter final : public FieldVisitor {
   }
   void visit(const std::string& name, int& value, const std::vector<std::string>& names) override {
     if (!match(name)) return;
-    const auto found_name = std::find(names.begin(), names.end(), text_);
+    // A choice between on, off and more was a boolean before it had more, or is taken for one.
+    const std::string_view text = text_ == "true" ? "on" : text_ == "false" ? "off" : text_;
+    const auto found_name = std::find(names.begin(), names.end(), text);
     if (found_name == names.end()) wrong(fmt::format("one of {}", fmt::join(names, ", ")));
     value = static_cast<int>(found_name - names.begin());
   }

@@ -1,6 +1,7 @@
 #pragma once
-// The covariance of every GP here: squared exponential with one length scale per input, plus noise, and if asked for a
-// quadratic trend, which goes on where there are no data (Rasmussen 2006, eqs 5.1 and 4.17; Amadio 2022):
+// The covariance k of every GP here, from which that of odd functions (odd.hpp) is made: squared exponential with one
+// length scale per input, plus noise, and if asked for a quadratic trend, which goes on where there are no data
+// (Rasmussen 2006, eqs 5.1 and 4.17; Amadio 2022):
 //
 //   k(x, y) = σ_f² exp(−½ Σ_d (x_d − y_d)² / ℓ_d²) + (τ_0² + Σ_d τ_d² x_d y_d)² + σ_n² δ_xy
 

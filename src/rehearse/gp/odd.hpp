@@ -5,7 +5,7 @@
 //   k(x, y) − k(x, ȳ)
 //
 // with k of hyperparameters.hpp, which is the same for the images of both. So each target tells two values, at its
-// input and at the image. Far from their images, inputs have the variance of k.
+// input and at the image. Without a trend, inputs far from their images have the variance of k.
 
 #include "rehearse/gp/evidence.hpp"
 #include "rehearse/gp/hyperparameters.hpp"

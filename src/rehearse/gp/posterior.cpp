@@ -169,7 +169,10 @@ std::optional<Posterior::Output> Posterior::compress(Index e, const ConstVectorV
   const auto worthwhile = static_cast<Index>(0.75 * static_cast<double>(size()));
   const Matrix C = odd() ? odd_covariance(inputs_, signs_, hyperparameters_[static_cast<std::size_t>(e)])
                          : correlations(size(), dimensions(), workspace);
-  if (noise_ratio < kLeastNoiseRatio * C.diagonal().maxCoeff()) return std::nullopt;
+  double largest = C.diagonal().maxCoeff();
+  if (odd() && exact.points.trend.size() > 0)  // C is a difference of covariances of that size
+    largest = 1 + std::pow(exact.points.trend.colwise().squaredNorm().maxCoeff(), 2);
+  if (noise_ratio < kLeastNoiseRatio * largest) return std::nullopt;
   const auto summary = summarise(C, noise_ratio, y, exact.weights, remainder(noise_ratio, tolerance), worthwhile);
   if (!summary) return std::nullopt;
   std::optional<Output> few = condition(*summary, exact, workspace);

@@ -108,7 +108,8 @@ class SlopeChunk : public PredictionChunk {
       const double half_range = scales.inputs.half_range()(d), middle = scales.inputs.center()(d) / half_range;
       const double factor = 4 * scales.factors(d) * scales.factors(d) / half_range;
       for (Index q = 0; q < variance_by.rows(); ++q)
-        variance_by(q, d) += factor * (unit[at(d * kChunk + q)] + middle) * image_correlations[q];
+        if (image_correlations[q] > 0)  // or the other factor may be infinite
+          variance_by(q, d) += factor * (unit[at(d * kChunk + q)] + middle) * image_correlations[q];
     }
   }
 

@@ -47,6 +47,7 @@ std::vector<gp::Hyperparameters> hyperparameters(const Fit& fit);
 struct WarmStart {
   std::vector<gp::Hyperparameters> kernels;  // one an output; empty: from the data
   std::optional<Vector> phi;                 // of the prior; empty: its own values
+  bool odd = false;                          // the robot was taken for its own mirror image
 };
 
 }  // namespace rehearse::identification

@@ -1,6 +1,5 @@
 #include "rehearse/identification/learn.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -21,7 +20,8 @@
 namespace rehearse::identification {
 namespace {
 
-// A robot is taken for its own mirror image where its data are likelier by so many nats an output: 1000 to 1.
+// A robot is taken for its own mirror image where its data are likelier by so many nats an output, on average: 1000
+// to 1.
 constexpr double kOddNats = 7;
 
 /// The input of every kind of learning.
@@ -89,8 +89,7 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
   learned.log_evidence = evidence;
   learned.left_out_rows = rows.left_out;
   learned.evaluations = fit.evaluations;
-  if (options.mirror == dynamics::Mirror::automatic && odd)
-    learned.notes.emplace_back("the data are likelier of a robot that is its own mirror image: it is learned as one");
+  learned.state.odd = odd;
   if (options.mirror == dynamics::Mirror::on) {
     std::optional<std::string> note;
     if (problem.prior) note = not_its_image(residuals, *problem.prior, fit.phi);
@@ -100,6 +99,16 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
   for (Index e = 0; e < fit.log_evidences.size(); ++e)
     if (!std::isfinite(fit.log_evidences(e)))
       learned.notes.push_back(fmt::format("the kernel of output {} could not be fitted", e));
+  return learned;
+}
+
+/// A note where the data's answer to `automatic` is another than the time before.
+Learned with_answer(Learned learned, const WarmStart& before, const GpOptions& options) {
+  if (options.mirror != dynamics::Mirror::automatic || learned.state.odd == before.odd) return learned;
+  learned.notes.emplace_back(
+      learned.state.odd
+          ? "the data are likelier of a robot that is its own mirror image: it is learned as one from now on"
+          : "the data no longer say that the robot is its own mirror image: it is learned without");
   return learned;
 }
 
@@ -136,7 +145,7 @@ Learned learn_gps(const Given& given, const GpOptions& options, const prior::Pri
   const auto finish = [&](const FitProblem& of, const Fit& made, const Smoothed* smoothed) {
     return model_of(of, made, options, odd, smoothed);
   };
-  return smoothed_if_likelier(given, options, problem, fit, false, finish);
+  return with_answer(smoothed_if_likelier(given, options, problem, fit, false, finish), given.start, options);
 }
 
 Learned learn_kind(const ZeroMean& kind, const Given& given) { return learn_gps(given, kind.gp, nullptr); }
@@ -170,7 +179,7 @@ Learned learn_kind(const GpMi& kind, const Given& given) {
   };
   // Smoothing climbs the product of likelihoods by turns; what another score or search chose stays.
   const bool moves_phi = kind.score == Score::product && kind.search == PhiSearch::alternating;
-  return smoothed_if_likelier(given, kind.gp, problem, found, moves_phi, finish);
+  return with_answer(smoothed_if_likelier(given, kind.gp, problem, found, moves_phi, finish), given.start, kind.gp);
 }
 
 Learned learn_kind(const Mi& kind, const Given& given) {

@@ -33,7 +33,7 @@ struct Learned {
   std::optional<SmoothedRows> smoothed;   // where states were smoothed
   Index left_out_rows = 0;                // rows whose prior mean was not finite
   Index evaluations = 0;                  // of φ
-  std::vector<std::string> notes;         // numerical failures survived
+  std::vector<std::string> notes;         // numerical failures survived, and what is said of a mirror image
 };
 
 /// The data, and the prior if there is one, that a model is learned from. Both must outlive the call.

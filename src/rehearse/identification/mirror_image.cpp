@@ -45,9 +45,11 @@ std::optional<std::string> not_its_image(const dynamics::Residuals& rows, const 
   const Dataset images{.states = -data.states, .actions = -data.actions, .changes = -data.changes, .rewards = {}};
   const Matrix errors = rows.targets(&prior, phi) + rows.of(images).targets(&prior, phi);
   for (Index e = 0; e < errors.cols(); ++e) {
-    double largest = 0;  // where the prior says both
+    double largest = 0;
+    Index both = 0;  // rows where the prior is finite, as at their images
     for (Index i = 0; i < errors.rows(); ++i)
-      if (std::isfinite(errors(i, e))) largest = std::max(largest, std::abs(errors(i, e)));
+      if (std::isfinite(errors(i, e))) largest = std::max(largest, std::abs(errors(i, e))), ++both;
+    if (both == 0) return "mirror is set, but the prior is not finite at the images of the data";
     if (largest > kImageError * rows.scale()(e) + kStill)
       return fmt::format("mirror is set, but the prior is not its own mirror image: output {} differs by {:.2g}", e,
                          largest);

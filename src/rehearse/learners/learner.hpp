@@ -46,7 +46,7 @@ struct Proposal {
   std::function<ExpectedEpisode()> moments;    // what that model expects of the policy from the task's start,
                                                // by moment matching; empty: it has no analytic moments
   Index left_out_rows = 0;                     // training rows whose prior mean was not finite
-  std::vector<std::string> notes;              // numerical failures survived, a line each
+  std::vector<std::string> notes;              // numerical failures survived, and what users should know, a line each
   std::shared_ptr<const std::string> archive;  // of elites, as bytes (qd/archive_bytes.hpp)
   double model_s = 0;                          // time spent learning the model
   double search_s = 0;                         // and searching the policy

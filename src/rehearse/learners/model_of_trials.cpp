@@ -63,6 +63,7 @@ void ModelOfTrials::save(json& state) const {
   state["kernels"] = kernels;
   state["kernel_inputs"] = start_.kernels.empty() ? 0 : start_.kernels.front().inputs();
   state["phi"] = start_.phi ? to_json(*start_.phi) : json();
+  state["odd"] = start_.odd;
 }
 
 void ModelOfTrials::restore(const std::vector<Episode>& episodes, const json& state) {
@@ -73,6 +74,7 @@ void ModelOfTrials::restore(const std::vector<Episode>& episodes, const json& st
   for (const Vector& flat : to_vectors(state.at("kernels")))
     start_.kernels.push_back(gp::Hyperparameters::from_flat(flat, state.at("kernel_inputs").get<Index>()));
   if (!state.at("phi").is_null()) start_.phi = to_vector(state.at("phi"));
+  start_.odd = state.value("odd", false);  // states of before it was asked lack it
 }
 
 }  // namespace rehearse::learners

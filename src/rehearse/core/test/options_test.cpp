@@ -55,6 +55,17 @@ TEST(Options, AreFiniteUnlessTheirBoundAllowsOther) {
   EXPECT_THROW(set_field(exact, "seed", "9223372036854775807"), InvalidInput);
 }
 
+TEST(Options, AChoiceThatHasOnAndOffTakesTrueAndFalse) {
+  enum class Image { off, on, automatic } image = Image::automatic;
+  const Fields fields = [&](FieldVisitor& v) { v.choice("image", image, "is used", {"off", "on", "auto"}); };
+  EXPECT_TRUE(set_field(fields, "image", "true"));
+  EXPECT_EQ(image, Image::on);
+  EXPECT_TRUE(set_field(fields, "image", "false"));
+  EXPECT_EQ(image, Image::off);
+  Outer options;
+  EXPECT_EQ(refusal(options, "colour", "true"), "colour = true, must be one of red, green");
+}
+
 TEST(Options, AreListedInTheirOrder) {
   Outer options;
   const std::vector<std::pair<std::string, std::string>> expected = {

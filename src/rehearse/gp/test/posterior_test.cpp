@@ -167,11 +167,15 @@ TEST(Posterior, TwoThreadsGiveTheSameBytes) {
 TEST(Posterior, OneThreadUsesManyPosteriorsInTurn) {
   const Posterior small = make(9, 2), large = make(140, 6);
   const Matrix few = naive::normals(3, 2, 10), many = naive::normals(100, 6, 11);
-  const Prediction first = predict(small, few);
+  const Posterior odd(Inputs(naive::normals(30, 3, 1)), naive::normals(30, 3, 2), three_outputs(3), 0,
+                      Vector{{-1, 1, -1}});
+  const Prediction first = predict(small, few), of_odd = predict(odd, many.leftCols(3));
   predict(large, many);
-  const Prediction again = predict(small, few);
+  const Prediction again = predict(small, few), of_odd_again = predict(odd, many.leftCols(3));
   EXPECT_EQ(first.mean, again.mean);
   EXPECT_EQ(first.variance, again.variance);
+  EXPECT_EQ(of_odd.mean, of_odd_again.mean);
+  EXPECT_EQ(of_odd.variance, of_odd_again.variance);
 }
 
 TEST(Posterior, MissingRowsStayAlone) {

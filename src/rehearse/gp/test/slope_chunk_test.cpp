@@ -68,8 +68,9 @@ TEST(SlopeChunk, KnowsOddFunctions) {
     Hyperparameters theta = naive::hyperparameters(3, 2, 1, 0.3);
     if (trend > 0) theta = naive::with_trend(theta, trend);
     const Vector y = naive::draw(X, theta, 18);
-    for (const double tolerance : {0.0, 0.01})
-      expect_slopes(Posterior(Inputs(X), y, {theta}, tolerance, signs), naive::normals(150, 3, 8));
+    const Posterior all(Inputs(X), y, {theta}, 0, signs), few(Inputs(X), y, {theta}, 0.01, signs);
+    EXPECT_LT(few.variance_points(0), 220);
+    for (const Posterior* posterior : {&all, &few}) expect_slopes(*posterior, naive::normals(150, 3, 8));
   }
 }
 

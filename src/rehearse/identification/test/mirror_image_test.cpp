@@ -91,8 +91,12 @@ TEST(LearnedMirrorImage, DataTellWhetherARobotIsItsMirrorImage) {
   ZeroMean asks;
   ASSERT_EQ(asks.gp.mirror, dynamics::Mirror::automatic);
   Dataset data = swing::data(60, 1);
-  const std::string found = "the data are likelier of a robot that is its own mirror image: it is learned as one";
-  EXPECT_EQ(learn_swing(data, asks).notes, std::vector<std::string>{found});
+  const std::string found =
+      "the data are likelier of a robot that is its own mirror image: it is learned as one from now on";
+  const Learned first = learn_swing(data, asks);
+  EXPECT_EQ(first.notes, std::vector<std::string>{found});
+  EXPECT_TRUE(first.state.odd);
+  EXPECT_EQ(learn_swing(data, asks, nullptr, first.state).notes, std::vector<std::string>{}) << "said once";
   const auto told = [&](const Kind& kind) { return error(*learn_swing(data, kind).model, swing::data(200, 2)); };
   ZeroMean on, off;
   on.gp.mirror = dynamics::Mirror::on;
@@ -101,6 +105,9 @@ TEST(LearnedMirrorImage, DataTellWhetherARobotIsItsMirrorImage) {
   data.changes.col(0).array() += 0.05;  // a motor that pulls to one side
   EXPECT_EQ(learn_swing(data, asks).notes, std::vector<std::string>{});
   EXPECT_EQ(told(asks), told(off));
+  EXPECT_EQ(
+      learn_swing(data, asks, nullptr, first.state).notes,
+      std::vector<std::string>{"the data no longer say that the robot is its own mirror image: it is learned without"});
 }
 
 // Around a prior that leans as the robot does, what is left may be odd, but the robot is not.
