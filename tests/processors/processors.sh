@@ -16,13 +16,14 @@ run() { # run FOLDER RUN LAUNCHER… : the run named RUN
     gp-mi-noise) arguments=(pendubot --learner gp-mi --prior useful "${few[@]}" --set measurement_noise=0.01 --set start_noise=0.001) ;;
     mi) arguments=(pendubot --learner mi --prior misleading "${few[@]}") ;;
     black-drops) arguments=(cartpole --learner black-drops "${few[@]}") ;;
-    black-drops-prior) arguments=(pendulum --learner black-drops-prior "${few[@]}") ;;
+    black-drops-prior) arguments=(pendulum --learner black-drops-prior "${few[@]}" --set model.gp.mirror=on) ;;
     gp-mi-pendulum) arguments=(pendulum --learner gp-mi "${few[@]}") ;;
     pilco) arguments=(pendulum --learner pilco "${short[@]}") ;;
     pilco-prior) arguments=(pendulum --learner pilco-prior "${short[@]}" --set pilco.prior_episodes=2) ;;
     pi-rem) arguments=(pendubot --learner pi-rem --prior useful --set centres=10 "${short[@]}") ;;
     ite) arguments=(pendubot --learner ite --prior misleading --set archive.niches=200 --set archive.evaluations=3000) ;;
-    gp-ilqg) arguments=(pendubot --learner gp-ilqg --prior useful --set search.starts=4 --set search.iterations=20) ;;
+    gp-ilqg) arguments=(pendubot --learner gp-ilqg --prior useful --set search.starts=4 --set search.iterations=20
+      --set model.gp.mirror=on) ;;
     hexapod) arguments=(hexapod --learner gp-mi --set damage=rear-left --set search.race.max_evaluations=12
       --set search.race.descents=2 --set search.selection=1 --set retry.searches=0) ;;
   esac
