@@ -64,7 +64,8 @@ double log_constant(Index n, const double* tiles, double log_signal) {
   return -sum - static_cast<double>(n) * (log_signal + kLogTwoPi / 2);
 }
 
-/// Of the covariance whose factor the workspace holds with this jitter; the weights become b.
+/// The evidence of targets y (n) from the factor of their covariance over σ_f², which the workspace's tiles hold, made
+/// with this jitter; not finite where it cannot be computed. The workspace's weights become b.
 Evidence of_factor(const ConstVectorView& y, double log_signal, double jitter, Workspace& workspace) {
   const Index n = y.size();
   Eigen::Map<Vector>(workspace.weights(), n) = y * std::exp(-log_signal);

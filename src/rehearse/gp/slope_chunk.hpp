@@ -90,7 +90,8 @@ class SlopeChunk : public PredictionChunk {
     for (std::size_t i = 0; i < from.size(); ++i) to[i] += sign * from[i];
   }
 
-  /// What points beyond the support, or their images, add to the mean and its derivatives.
+  /// Adds to the means of the first rows, and to the sums of their derivatives, those of the points beyond the support,
+  /// times the sign: 1 for the output's points, −1 for its images. The variance does not know these points.
   void add_mean(const PosteriorPoints& points, const PosteriorOutput& output, Index rows, double sign) {
     const Index D = points.scaled.rows(), count = output.weights.size() - output.support;
     const KernelPoints from{points.from(output.support).scaled};

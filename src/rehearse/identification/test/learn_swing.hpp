@@ -17,7 +17,7 @@ inline Learned learn_swing(const Dataset& data, const Kind& kind, const prior::P
   return learn({data, features(), {}, prior}, kind, start, evaluator);
 }
 
-/// Of the changes that a model predicts: root mean square.
+/// The root mean square error, over rows and outputs, of the changes that a model predicts at the rows of the data.
 inline double error(const dynamics::DynamicsModel& model, const Dataset& data) {
   Matrix mean(data.size(), data.states.cols());
   model.predict_mean(data.states, data.actions, mean);
