@@ -34,8 +34,8 @@ struct Summary {
 std::optional<Summary> summarise(const Matrix& C, double noise_ratio, const ConstVectorView& y,
                                  const ConstVectorView& weights, double t, Index most);
 
-/// The inputs (4 n × D) at which the errors of few points are measured: the training inputs; points halfway from each to
-/// the next, and to one half the data further; and as far beyond it.
+/// The inputs (4 n × D) at which the errors of few points are measured: the training inputs; points halfway from each
+/// to the next, and to one half the data further; and as far beyond it.
 Matrix probes(const Inputs& inputs);
 
 }  // namespace rehearse::gp
