@@ -40,20 +40,12 @@ double solve(Index n, const double* tiles, double* b) {
 
 /// Scales the inputs and factorises K/σ_f² into the workspace's tiles; returns the jitter, NaN if that is not possible.
 double factorise_at(const Inputs& inputs, const ConstVectorView& flat, const KnownNoise* noise, Workspace& workspace) {
-  const Index n = inputs.size(), D = inputs.dimensions();
-  workspace.resize(n, D, flat.size() > D + 2);
-  workspace.factors() = inputs.half_range().array() * (-flat.head(D)).array().exp();
-  workspace.trend_factors() = (flat.tail(workspace.trend_factors().size()).array() - flat(D) / 2).exp();
+  const Index D = inputs.dimensions();
   const double noise_ratio = std::exp(2 * (flat(D + 1) - flat(D)));
-  if (!workspace.factors().allFinite() || !workspace.trend_factors().allFinite() || !std::isfinite(noise_ratio) ||
-      !std::isfinite(std::exp(-flat(D))))
+  if (!scale_inputs(inputs, flat, workspace) || !std::isfinite(noise_ratio) || !std::isfinite(std::exp(-flat(D))))
     return kNaN;
-  scale_inputs(inputs.unit().data(), n, D, workspace.factors().data(), workspace.scaled());
-  if (workspace.trend())
-    trend_inputs(inputs.unit().data(), inputs.center().data(), inputs.half_range().data(), n, D,
-                 workspace.trend_factors().data(), workspace.trend());
-  return factorise({workspace.scaled(), n, D, noise_ratio, workspace.trend(), noise ? noise->tiles() : nullptr,
-                    std::exp(-2 * flat(D))},
+  return factorise({workspace.scaled(), inputs.size(), D, noise_ratio, workspace.trend(),
+                    noise ? noise->tiles() : nullptr, std::exp(-2 * flat(D))},
                    workspace.tiles());
 }
 
@@ -105,6 +97,19 @@ void Workspace::resize(Index n, Index dimensions, bool trend) {
   factors_.resize(dimensions);
   trend_factors_.resize(trend ? dimensions + 1 : 0);
   trend_.resize(trend ? rows * (columns + 1) : 0);
+}
+
+bool scale_inputs(const Inputs& inputs, const ConstVectorView& flat, Workspace& workspace) {
+  const Index n = inputs.size(), D = inputs.dimensions();
+  workspace.resize(n, D, flat.size() > D + 2);
+  workspace.factors() = inputs.half_range().array() * (-flat.head(D)).array().exp();
+  workspace.trend_factors() = (flat.tail(workspace.trend_factors().size()).array() - flat(D) / 2).exp();
+  if (!workspace.factors().allFinite() || !workspace.trend_factors().allFinite()) return false;
+  scale_inputs(inputs.unit().data(), n, D, workspace.factors().data(), workspace.scaled());
+  if (workspace.trend())
+    trend_inputs(inputs.unit().data(), inputs.center().data(), inputs.half_range().data(), n, D,
+                 workspace.trend_factors().data(), workspace.trend());
+  return true;
 }
 
 KnownNoise::KnownNoise(const Matrix& covariance)

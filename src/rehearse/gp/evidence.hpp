@@ -74,6 +74,10 @@ class KnownNoise {
   std::vector<double> tiles_;
 };
 
+/// Writes the inputs over their lengths, and those of the trend, into the workspace, which is resized for them. False
+/// if a factor is not finite.
+bool scale_inputs(const Inputs& inputs, const ConstVectorView& flat, Workspace& workspace);
+
 /// The log evidence of targets y (n) at flat log hyperparameters (D + 2, or 2 D + 3; Rasmussen 2006, eq. 5.8) and,
 /// unless null, its gradient with respect to them (eq. 5.9); with `noise` unless null. Throws
 /// InvalidInput on wrong sizes, on no value of `flat` or `y`: what cannot be computed has value and gradient NaN.
@@ -81,7 +85,8 @@ Evidence evidence(const Inputs& inputs, const ConstVectorView& y, const ConstVec
                   Vector* gradient = nullptr, const KnownNoise* noise = nullptr);
 
 /// The same of a covariance over σ_f² that is given, without noise (n × n, of which the lower triangle counts), in a
-/// workspace that has been resized for it. Its tiles become the factor, as those of the other do without a gradient.
+/// workspace that has been resized for it. Its tiles become the factor, as those of the other do without a gradient;
+/// what else it holds stays.
 Evidence evidence(const Matrix& covariance, const ConstVectorView& y, const Hyperparameters& kernel,
                   Workspace& workspace);
 

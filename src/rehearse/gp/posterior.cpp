@@ -95,18 +95,23 @@ Posterior::Posterior(Inputs inputs, const ConstMatrixView& Y, std::vector<Hyperp
   noise_variances_.resize(E), log_evidences_.resize(E), jitters_.resize(E);
   Workspace workspace;
   for (Index e = 0; e < E; ++e) {
-    Output exact = condition(e, Y.col(e), workspace);
-    std::optional<Output> few = compress(e, Y.col(e), exact, tolerance, workspace);
+    const Matrix odd_C =
+        odd() ? odd_covariance(inputs_, signs_, hyperparameters_[static_cast<std::size_t>(e)]) : Matrix();
+    Output exact = condition(e, Y.col(e), odd_C, workspace);
+    std::optional<Output> few = compress(e, Y.col(e), exact, tolerance, odd_C, workspace);
     outputs_.push_back(few ? std::move(*few) : std::move(exact));
     outputs_.back().trend_form = trend_form(e, outputs_.back());
   }
 }
 
-Posterior::Output Posterior::condition(Index e, const ConstVectorView& y, Workspace& workspace) {
+Posterior::Output Posterior::condition(Index e, const ConstVectorView& y, const Matrix& odd_C, Workspace& workspace) {
   const Index n = size();
   const Hyperparameters& theta = hyperparameters_[static_cast<std::size_t>(e)];
-  Evidence value = evidence(inputs_, y, theta.flat(), workspace);
-  if (odd() && value.ok()) value = evidence(odd_covariance(inputs_, signs_, theta), y, theta, workspace);
+  Evidence value{.value = kNaN};
+  if (!odd())
+    value = evidence(inputs_, y, theta.flat(), workspace);
+  else if (scale_inputs(inputs_, theta.flat(), workspace))
+    value = evidence(odd_C, y, theta, workspace);
   if (!value.ok()) throw InvalidInput(fmt::format("gp hyperparameters[{}] are too extreme to condition on data", e));
   noise_variances_(e) = theta.noise_variance();
   log_evidences_(e) = value.value;
@@ -162,13 +167,13 @@ Vector Posterior::trend_form(Index e, const Output& output) const {
 
 /// The workspace holds the inputs scaled for this output.
 std::optional<Posterior::Output> Posterior::compress(Index e, const ConstVectorView& y, const Output& exact,
-                                                     double tolerance, Workspace& workspace) const {
+                                                     double tolerance, const Matrix& odd_C,
+                                                     Workspace& workspace) const {
   if (tolerance <= 0) return std::nullopt;
   const double noise_ratio = noise_variances_(e) / exact.signal_variance + jitters_(e);
   if (noise_ratio < kLeastNoiseRatio) return std::nullopt;  // before C is made
   const auto worthwhile = static_cast<Index>(0.75 * static_cast<double>(size()));
-  const Matrix C = odd() ? odd_covariance(inputs_, signs_, hyperparameters_[static_cast<std::size_t>(e)])
-                         : correlations(size(), dimensions(), workspace);
+  const Matrix C = odd() ? odd_C : correlations(size(), dimensions(), workspace);
   double largest = C.diagonal().maxCoeff();
   if (odd() && exact.points.trend.size() > 0)  // C is a difference of covariances of that size
     largest = 1 + std::pow(exact.points.trend.colwise().squaredNorm().maxCoeff(), 2);

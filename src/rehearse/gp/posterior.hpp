@@ -68,9 +68,10 @@ class Posterior {
   using Output = PosteriorOutput;
 
   const Output& output(Index e) const { return outputs_[static_cast<std::size_t>(e)]; }
-  Output condition(Index e, const ConstVectorView& y, Workspace& workspace);
+  // odd_C: n × n covariances over σ_f² of an odd function (odd.hpp); of others not read.
+  Output condition(Index e, const ConstVectorView& y, const Matrix& odd_C, Workspace& workspace);
   std::optional<Output> compress(Index e, const ConstVectorView& y, const Output& exact, double tolerance,
-                                 Workspace& workspace) const;
+                                 const Matrix& odd_C, Workspace& workspace) const;
   static std::optional<Output> condition(const Summary& summary, const Output& exact, Workspace& workspace);
   bool odd() const { return signs_.size() > 0; }
   PosteriorPoints scaled(Index e, const Matrix& unit) const;
