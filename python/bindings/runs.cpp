@@ -143,16 +143,21 @@ py::dict describe(const Robot& robot, const std::string& folder) {
   const Spec& spec = resolved.spec;
   py::list trials;
   for (const experiment::TrialRecord& trial : history.trials) trials.append(trial_of(trial, names));
+  py::object asked = py::none();
+  if (history.asked) asked = trial_of(*history.asked, names);
+  py::dict options;
+  for (const auto& [name, value] : spec.options) options[py::str(name)] = value;
   py::list states, actions;
   for (const StateVariable& state : resolved.scenario.task.states)
     states.append(py::make_tuple(state.name, state.unit));
   for (const ActionVariable& action : resolved.scenario.task.actions)
     actions.append(py::make_tuple(action.name, action.unit));
   return py::dict(py::arg("robot") = spec.scenario, py::arg("learner") = spec.learner, py::arg("prior") = spec.prior,
-                  py::arg("seed") = spec.seed, py::arg("planned") = spec.trials, py::arg("trials") = trials,
+                  py::arg("seed") = spec.seed, py::arg("planned") = spec.trials,
+                  py::arg("until_solved") = spec.until_solved, py::arg("options") = options, py::arg("trials") = trials,
                   py::arg("states") = states, py::arg("actions") = actions,
                   py::arg("dt_s") = resolved.scenario.task.dt_s, py::arg("horizon") = resolved.scenario.task.horizon,
-                  py::arg("in_use") = in_use, py::arg("asked") = history.asked.has_value());
+                  py::arg("in_use") = in_use, py::arg("asked") = asked);
 }
 
 Policy policy(const Robot& robot, const std::string& folder, std::optional<Index> trial) {

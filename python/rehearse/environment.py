@@ -183,6 +183,11 @@ def is_environment(plant: Any) -> bool:
     return hasattr(plant, "reset") and hasattr(plant, "step") and not isinstance(plant, type)
 
 
+def is_real(plant: Any) -> bool:
+    """A class whose objects have `end` drives a robot, of which there is one."""
+    return callable(getattr(plant, "end", None))
+
+
 def _made(make: Callable[[], Any], observe: Any, task: Task) -> Environment:
     return Environment(make(), observe, task)
 

@@ -17,6 +17,8 @@ def rk4(rates: Callable[..., Any], dt_s: float, substeps: int = 4) -> Callable[.
 
     It takes `substeps` steps of Runge and Kutta's fourth order in a control step, the action held.
     """
+    if not callable(rates):
+        raise TypeError(f"rates is a {type(rates).__name__}, must be a function(states, actions, **parameters)")
     return _Change(rates, number("dt_s", dt_s), whole("substeps", substeps, 1))
 
 

@@ -26,6 +26,8 @@ class Policy:
     """
 
     def __init__(self, core: Union[_core.Policy, Exported]) -> None:
+        if not isinstance(core, (_core.Policy, Exported)):
+            raise TypeError("policies come of Run.policy, Policy.of, and of files by Policy.load")
         self._core = core
 
     @classmethod

@@ -18,7 +18,7 @@ import numpy as np
 from . import _core
 from .arrays import Array
 from .checks import mapping, number, read_text, texts
-from .environment import Task, environment_maker, is_environment
+from .environment import Task, environment_maker, is_environment, is_real
 from .parts import (Action, Body, Distance, EpisodeFunction, Limit, Model, State, StateFunction, StepFunction,
                     Success)
 from .toml import quoting, table, value
@@ -65,6 +65,8 @@ class Robot:
         bodies: Sequence[Body] = (),
         summary: str = "",
     ) -> None:
+        if callable(cost):
+            raise TypeError("cost is a function, must be a formula; what a function costs is subtracted in reward")
         _require(states, State, "states", "[State(\"angle\", angle=True), …]")
         _require(actions, Action, "actions", "[Action(\"torque\", (-1, 1)), …]")
         _require(limits, Limit, "limits", "[Limit(\"abs(x) < 1\"), …]")
@@ -76,7 +78,7 @@ class Robot:
         self.name = name
         self._dt_s = number("dt_s", dt_s)
         self._functions: list[tuple[Any, ...]] = []
-        self.has_environment = False  # one object, for one thread
+        self.one_at_a_time = False  # its plant: one object, or a real robot
         parts = [table("", {"format": 1, "name": name, "summary": summary, "dt_s": self._dt_s, "horizon": horizon,
                             "ended": self._formula("ended", ended)})]
         parts += [_state(state) for state in states]
@@ -113,7 +115,7 @@ class Robot:
         robot = cls.__new__(cls)
         robot.text = read_text(path)
         robot._functions = []
-        robot.has_environment = False
+        robot.one_at_a_time = False
         robot._source, robot._folder = os.fspath(path), os.path.abspath(Path(path).parent)
         about = robot._core.about()
         robot.name, robot._dt_s = about["name"], about["dt_s"]
@@ -173,6 +175,8 @@ class Robot:
         if not isinstance(model.rates, Mapping):
             raise TypeError(f"{name}: rates is a {type(model.rates).__name__}, must be formulas by state; a function is "
                             "change=, and change=rk4(f, dt_s) where it returns derivatives")
+        if model.change is not None and not callable(model.change):
+            raise TypeError(f"{name}: change is a {type(model.change).__name__}, must be a function; formulas are rates=")
         dt_s = getattr(model.change, "dt_s", None)  # of rk4
         if dt_s is not None and dt_s != self._dt_s:
             raise _core.InvalidInput(f"{name}: rk4 was given dt_s = {dt_s}, the robot {self._dt_s}")
@@ -196,7 +200,7 @@ class Robot:
             return [self._dynamics(name, plant),
                     table("[plant]", {"dynamics": name, "measurement_noise": given,
                                       "delay_s": dict(plant.delay_s), "lag_s": dict(plant.lag_s)})]
-        self.has_environment = is_environment(plant)
+        self.one_at_a_time = is_environment(plant) or is_real(plant)
         self._functions.append(("add_plant", "plant", environment_maker(plant, observe, task)))
         return [table("[plant]", {"function": "plant", "measurement_noise": given})]
 

@@ -60,10 +60,21 @@ class Run:
         if not (self.folder / "spec.toml").exists():
             raise _core.InvalidInput(f"{folder} is not a run folder")
         self._robot = begun_with(robot)
-        #: The trial that `ask` gave the policy of, with what is predicted of it; None before `ask`, and once it is told.
-        self.asked: Union[Trial, None] = None
 
     # Results.
+
+    @property
+    def spec(self) -> dict[str, Any]:
+        """What the run is: robot, learner, prior, seed, planned (trials; 0: by `ask` and `tell`), until_solved, and options,
+        every one by its name, as texts."""
+        about = self._describe()
+        return {name: about[name] for name in ("robot", "learner", "prior", "seed", "planned", "until_solved", "options")}
+
+    @property
+    def asked(self) -> Union[Trial, None]:
+        """The trial that `ask` gave the policy of, with what is predicted of it; None before `ask`, and once it is told."""
+        asked = self._describe()["asked"]
+        return asked and replace(Trial(**asked), total_reward=float("nan"))
 
     @property
     def trials(self) -> Array:
@@ -83,7 +94,7 @@ class Run:
         return self._table_of(trial, "trajectories")
 
     def prediction(self, trial: int) -> Array:
-        """What the model expected: mean and quantiles of each state; a row a step."""
+        """What the model expected: mean and quantiles of each state; a row a step. Of the trial that is asked for, too."""
         return self._table_of(trial, "predictions")
 
     @property
@@ -112,7 +123,6 @@ class Run:
         """Goes on to the end, or to another number of trials. The same bytes as if it had never stopped."""
         _core.resume(self._core, str(self.folder), whole_or_none("trials", trials), threads_of(threads),
                      function_or_none("progress", progress))
-        self.asked = None
         return self
 
     def ask(self, *, threads: int = 0, progress: Progress = None) -> Policy:
@@ -121,8 +131,7 @@ class Run:
         `asked` is then what is predicted of it, the risks of limits too; its notes are warnings.
         """
         policy, trial = _core.ask(self._core, str(self.folder), threads_of(threads), function_or_none("progress", progress))
-        self.asked = replace(Trial(**trial), total_reward=float("nan"))
-        for note in self.asked.notes:
+        for note in trial["notes"]:
             warnings.warn(note, stacklevel=2)
         return Policy(policy)
 
@@ -143,7 +152,8 @@ class Run:
             files = as_files(episodes, folder, "episode")
             with without_path(folder):
                 told = dict(_core.tell(self._core, str(self.folder), files, stopped, at_fault, threads_of(threads)))
-        self.asked = None
+        if told["known_before"]:
+            warnings.warn("this was told before: nothing changes", stacklevel=2)
         for note in told["notes"]:
             warnings.warn(note, stacklevel=2)
         return told
@@ -151,9 +161,7 @@ class Run:
     def take_back(self, *, threads: int = 0) -> dict[str, Any]:
         """Takes the last `tell` back, when it took the wrong file: the folder is as before, byte for byte, but for
         taken-back, where what was told is kept. Again, it takes back the one before. Returns trial (None: logs) and files."""
-        taken = dict(_core.take_back(self._core, str(self.folder), threads_of(threads)))
-        self.asked = None
-        return taken
+        return dict(_core.take_back(self._core, str(self.folder), threads_of(threads)))
 
     def evaluate(self, episodes: int = 100, *, trial: Union[int, None] = None,
                  policy: Union[Policy, PathLike, None] = None, seconds: float = 0.0, seed: Union[int, None] = None,
@@ -161,8 +169,8 @@ class Run:
         """Episodes of a policy on the plant that are no trials; where there is none, the prior plays the robot, with the
         parameters of the newest model. policy: another than a trial's. seconds: of an episode; 0: the task's. seed: None
         is the run's. options: what is changed, {"plant.m": 0.6}. An environment that is an object, not a function that
-        makes one, is used by one thread."""
-        threads = 1 if self._robot is not None and self._robot.has_environment else threads_of(threads)
+        makes one, and a class with `end`, which is a real robot, are used by one thread."""
+        threads = 1 if self._robot is not None and self._robot.one_at_a_time else threads_of(threads)
         seed = self._describe()["seed"] if seed is None else seed
         if trial is not None and policy is not None:
             raise _core.InvalidInput("trial and policy name two policies")
@@ -207,9 +215,9 @@ class Run:
 
     def _table_of(self, trial: int, kind: str) -> Array:
         given, done = whole("trial", trial), len(self.trials)
-        if not 1 <= given <= done:
-            raise _core.InvalidInput(f"trial = {given}, must be between 1 and {done}, the trials that are done")
         path = self.folder / kind / f"trial-{given:03}.csv"
+        if not path.exists() and not 1 <= given <= done:
+            raise _core.InvalidInput(f"trial = {given}, must be between 1 and {done}, the trials that are done")
         if not path.exists():
             raise _core.InvalidInput(f"trial {given} of {self.folder} has no {kind}")
         return read_csv(path)
@@ -219,7 +227,7 @@ class Run:
 
 
 def learn(robot: Robots, learner: str = "", *, prior: Union[str, Sequence[str], None] = None, trials: int = 10,
-          until_solved: bool = False, seed: int = 1, preset: str = "",
+          until_solved: bool = False, seed: int = 1, preset: PathLike = "",
           policy: Union[Policy, PathLike, None] = None, options: Union[Mapping[str, Any], None] = None,
           out: Union[PathLike, None] = None, threads: int = 0, progress: Progress = show) -> Run:
     """Learns a policy in a handful of trials, in a new folder.
@@ -237,8 +245,8 @@ def learn(robot: Robots, learner: str = "", *, prior: Union[str, Sequence[str], 
     trials, seed, threads = whole("trials", trials), whole("seed", seed, 0, 2**53), threads_of(threads)
     core, scenario = robot_of(robot)
     names = ",".join(texts("prior", [] if prior is None else prior, "a name, several, or None"))
-    folder = _core.learn(core, scenario, text("learner", learner), names, text("preset", preset), _json_of(policy), trials,
-                         truth("until_solved", until_solved), seed, option_texts(options), path_or_none("out", out),
+    folder = _core.learn(core, scenario, text("learner", learner), names, path_of("preset", preset, "a name or a path"), _json_of(policy),
+                         trials, truth("until_solved", until_solved), seed, option_texts(options), path_or_none("out", out),
                          threads, function_or_none("progress", progress))
     return Run(folder, robot if isinstance(robot, Robot) else None)
 
@@ -260,6 +268,8 @@ def robot_of(robot: Robots) -> tuple[Any, str]:
     if isinstance(robot, Robot):
         return robot._core, robot.name
     name = name_of(robot)
+    if Path(name).name == "spec.toml":
+        raise _core.InvalidInput(f"{name} is a run's spec, not a robot: `rehearse learn {name}` repeats the run")
     if name.endswith(".toml"):
         return robot_of(Robot.from_file(name))
     return _core.Robot("", "", ""), name

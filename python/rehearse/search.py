@@ -102,7 +102,7 @@ class MapElites(_Search):
     def __init__(self, bounds: npt.ArrayLike, descriptor_bounds: npt.ArrayLike, *,
                  niches: int = 1000, bins: Union[Sequence[int], None] = None, seed: int = 1, **options: Any) -> None:
         texts = {name: option_text(value) for name, value in options.items()}
-        grid = [] if bins is None else [whole("bins", each) for each in bins]
+        grid = [] if bins is None else [whole("bins", each) for each in np.atleast_1d(np.asarray(bins, dtype=object))]
         self._core = _core.MapElites(_pairs("bounds", bounds), _pairs("descriptor_bounds", descriptor_bounds), grid,
                                      whole("niches", niches), _seed(seed), texts)
 

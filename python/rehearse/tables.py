@@ -68,8 +68,8 @@ def to_csv(columns: Any) -> str:
     """An episode as a file: a structured array, a DataFrame, or a dictionary of columns.
 
     An index with a name is a column, too. A column may be one shorter than `time`: no action follows the last state.
-    None and what is masked are NaN. What is no column of numbers is written as it is, for the reader to say so where the
-    task has it, else to leave it.
+    What is masked, None, and what pandas takes for missing are empty cells, which are missing samples. What is no column
+    of numbers is written as it is, for the reader to say so where the task has it, else to leave it.
     """
     if isinstance(columns, np.ndarray) and columns.dtype.names:
         named = {name: columns[name] for name in columns.dtype.names}
@@ -87,7 +87,8 @@ def to_csv(columns: Any) -> str:
         if not rows - 1 <= len(column) <= rows:
             raise InvalidInput(f"column {name} has {len(column)} numbers, column time {rows}" if "time" in numeric else
                                f"column {name} has {len(column)} numbers, the longest {rows}")
-    cells = {name: _cells(numeric[name], rows) if name in numeric else _texts(column) for name, column in named.items()}
+    cells = {name: _cells(numeric[name], _missing(column), rows) if name in numeric else _texts(column)
+             for name, column in named.items()}
     table = [[name, *column, *[""] * (rows - len(column))] for name, column in cells.items()
              if rows - 1 <= len(column) <= rows]
     out = io.StringIO()
@@ -132,9 +133,21 @@ def _numbers(name: str, column: Any) -> Union[Array, None]:
     return array if array.ndim == 1 else None
 
 
-def _cells(column: Array, rows: int) -> list[str]:
+def _missing(column: Any) -> Array:
+    """Of each number of a column whether it stands for a sample that is missing. NaN of NumPy alone may as well come of
+    a sensor that failed."""
+    if hasattr(column, "isna"):
+        return np.asarray(column.isna())
+    if isinstance(column, np.ma.MaskedArray):
+        mask: Array = np.ma.getmaskarray(column)  # type: ignore[no-untyped-call]
+        return mask.reshape(-1)
+    return np.array([each is None for each in column], dtype=bool)
+
+
+def _cells(column: Array, missing: Array, rows: int) -> list[str]:
     """The last row may have no action."""
-    return ["" if np.isnan(number) and row == rows - 1 else repr(float(number)) for row, number in enumerate(column)]
+    return ["" if left_out or (np.isnan(number) and row == rows - 1) else repr(float(number))
+            for row, (number, left_out) in enumerate(zip(column, missing))]
 
 
 def _texts(column: Any) -> list[str]:

@@ -96,12 +96,36 @@ def test_columns_of_other_kinds_are_numbers(moved, run, silent, like):
 @pytest.mark.parametrize("wrong, message", [
     (["much"] * 16, "force = 'much', must be a finite number"),
     (np.ones(16) + 1j, r"force = '\(1\+1j\)', must be a finite number"),
-    (np.ma.masked_equal(np.arange(16) % 4, 2), "force = 'nan', must be a finite number"),
+    (np.where(np.arange(16) % 4 == 2, np.nan, 1.0), "force = 'nan', must be a finite number"),
 ])
 def test_a_column_without_numbers_is_named(moved, run, wrong, message):
     columns = {name: moved[name] for name in ("time", "velocity", "position")}
     with pytest.raises(rehearse.InvalidInput, match=message):
         run.tell({**columns, "force": wrong})
+
+
+class Series(np.ndarray):
+    """As far as pandas' matters here."""
+
+    def __new__(cls, values):
+        return np.asarray(values).view(cls)
+
+    def isna(self):
+        return np.isnan(np.asarray(self))
+
+
+@pytest.mark.parametrize("like", [
+    lambda position: np.ma.masked_array(position, np.arange(16) == 7),
+    lambda position: [None if row == 7 else each for row, each in enumerate(position)],
+    lambda position: Series(np.where(np.arange(16) == 7, np.nan, position)),
+])
+def test_missing_samples_are_empty_cells(moved, run, like):
+    columns = {name: moved[name] for name in ("time", "velocity", "force")}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of how the episode was read
+        assert run.tell({**columns, "position": like(moved["position"])})["trial"] == 1
+    between = (moved["position"][6] + moved["position"][8]) / 2
+    assert run.trajectory(1)["position"][7] == pytest.approx(between)
 
 
 def test_what_is_no_column_is_left_out(moved, run, silent):
@@ -126,9 +150,13 @@ def test_what_is_predicted_of_a_trial_is_kept(moved, run):
     run.tell(moved)
     assert run.asked is None
     run.ask()
+    assert len(run.prediction(2)) == 16
+    with pytest.warns(UserWarning, match="told before"):
+        assert run.tell(moved)["trial"] == 1
+    assert rehearse.open_run(run.folder).asked.trial == 2, "another process knows it, too"
     assert run.asked.trial == 2 and run.asked.predicted_return > 0 and run.asked.phi["mass"] > 1
     run.take_back()
-    assert run.asked is None
+    assert run.asked.trial == 1, "its policy is asked for, as before it was told"
 
 
 def test_notes_of_a_trial_to_come_are_warnings(tmp_path):

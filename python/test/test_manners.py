@@ -153,8 +153,10 @@ def test_a_wrong_part_of_a_robot_is_named(changes, message):
 
 
 def test_a_wrong_value_of_a_file_is_said_with_its_key():
-    with pytest.raises(rehearse.InvalidInput, match=r"^\[reward\] cost: <function .* must be a text, a number"):
+    with pytest.raises(TypeError, match="cost is a function, must be a formula"):
         cart(cost=lambda states: states)
+    with pytest.raises(rehearse.InvalidInput, match=r"^\[reward\] cost: <object object .* must be a text, a number"):
+        cart(cost=object())
     with pytest.raises(rehearse.InvalidInput, match=r"^\[\[action\]\] bounds: -inf must be a finite number"):
         cart(actions=[rehearse.Action("force", (-np.inf, 5))])
 

@@ -123,8 +123,10 @@ def test_an_environment_that_can_be_called_is_one_object(tmp_path):
         def __call__(self):
             raise AssertionError("it is no function that makes environments")
 
-    assert cart(Callable()).has_environment and cart(Environment()).has_environment
-    assert not cart(Callable).has_environment and not cart(lambda: Callable()).has_environment
+    assert cart(Callable()).one_at_a_time and cart(Environment()).one_at_a_time
+    real = type("Real", (Callable,), {"end": lambda self: None})
+    assert cart(real).one_at_a_time, "there is one robot, however often its class is called"
+    assert not cart(Callable).one_at_a_time and not cart(lambda: Callable()).one_at_a_time
     assert len(learn(cart(Callable()), tmp_path / "run").evaluate(30).returns) == 30
 
 

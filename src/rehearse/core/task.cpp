@@ -140,7 +140,10 @@ std::vector<std::string> Task::violations() const {
   found.require(!states.empty(), "task has no states");
   found.require(!actions.empty(), "task has no actions");
   for (const std::string& name : ambiguous_names(*this))
-    found.add(fmt::format("{}: must be one of time, reward, states, \"true\" states and actions alone", name));
+    found.add(fmt::format(
+        "{}: two columns of a trajectory would have this name, which are time, reward, the states, \"true\" "
+        "and a state, and the actions: choose another",
+        name));
   for (Index i = 0; i < state_size(); ++i) {
     const StateVariable& state = states[static_cast<std::size_t>(i)];
     const bool can_follow = state.rate.empty() || (index_of(states, state.rate) >= 0 && state.rate != state.name);

@@ -92,7 +92,7 @@ bool are_logs(const History& history, const TellRequest& request) {
 
 void check(const History& history, const std::vector<ToldFile>& files, const TellRequest& request) {
   if (are_logs(history, request) && request.stopped)
-    throw InvalidInput(fmt::format("--stopped is for the episode of a trial, but {}",
+    throw InvalidInput(fmt::format("--stopped (in Python stopped=) is for the episode of a trial, but {}",
                                    history.asked ? "several files are logs" : "none was asked for"));
   if (are_logs(history, request)) return;
   if (!history.asked)
@@ -111,7 +111,7 @@ void refuse_what_goes_on(const TrialRecord& trial, const Episode& kept, const To
   if (!read || !goes_on_after(*read, kept, task)) return;
   throw InvalidInput(fmt::format(
       "{} has {} steps, of which {} were told as trial {}, stopped there; to tell the whole instead, take that "
-      "back: `tell` with --undo",
+      "back: `tell --undo` (in Python `take_back()`)",
       file.path.string(), read->steps(), kept.steps(), trial.trial));
 }
 

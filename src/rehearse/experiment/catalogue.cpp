@@ -1,6 +1,7 @@
 #include "rehearse/experiment/catalogue.hpp"
 
 #include <algorithm>
+#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -25,6 +26,19 @@ std::vector<std::string> names_of(const std::vector<std::unique_ptr<Builder>>& b
   std::vector<std::string> names;
   for (const auto& builder : builders) names.push_back(builder->name());
   return names;
+}
+
+/// The first line in which two texts differ, as each has it.
+std::string first_difference(const std::string& text, const std::string& other) {
+  std::istringstream of_text(text), of_other(other);
+  std::string line, others;
+  while (true) {
+    const bool more = static_cast<bool>(std::getline(of_text, line));
+    const bool more_there = static_cast<bool>(std::getline(of_other, others));
+    if (!more) line.clear();
+    if (!more_there) others.clear();
+    if (line != others || !(more || more_there)) return fmt::format("`{}` in the one, `{}` in the other", line, others);
+  }
 }
 
 }  // namespace
@@ -71,7 +85,8 @@ Catalogue Catalogue::with_robot(const std::string& text, const std::string& sour
   const std::string name = builder->name();
   if (const RobotFile* same = robot(name)) {
     if (same->text == text) return *this;
-    throw InvalidInput(fmt::format("{} and {} are two robots of one name, '{}'", source, same->source, name));
+    throw InvalidInput(fmt::format("{} and {} are two robots of one name, '{}': {}", source, same->source, name,
+                                   first_difference(text, same->text)));
   }
   if (scenario(name)) throw InvalidInput(fmt::format("{}: name = '{}' is that of another scenario", source, name));
   Catalogue with = *this;

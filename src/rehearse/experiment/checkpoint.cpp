@@ -92,7 +92,6 @@ json from_record(const TrialRecord& r) {
             {"policy", r.policy},
             {"theta", to_json(r.theta)},
             {"forecast", forecast},
-            {"left_out_rows", r.left_out_rows},
             {"notes", r.notes},
             {"model_s", r.model_s},
             {"search_s", r.search_s},
@@ -120,7 +119,6 @@ TrialRecord to_record(const json& j) {
   r.policy = j.value("policy", "");
   r.theta = to_vector(j.at("theta"));
   for (const json& f : j.at("forecast")) r.forecast.push_back(to_forecast(f));
-  j.at("left_out_rows").get_to(r.left_out_rows);
   j.at("notes").get_to(r.notes);
   j.at("model_s").get_to(r.model_s);
   j.at("search_s").get_to(r.search_s);

@@ -16,7 +16,8 @@ const TrialRecord& PastRun::trial(std::optional<Index> number) const {
   const Index done = history.done();
   if (history.asked && number == history.asked->trial) return *history.asked;
   const std::string asked =
-      history.asked ? fmt::format("; trial {0} is asked for, --trial {0}", history.asked->trial) : "";
+      history.asked ? fmt::format("; trial {0} is asked for, --trial {0} (in Python trial={0})", history.asked->trial)
+                    : "";
   if (done == 0) throw InvalidInput("no trial is done yet" + asked);
   if (!number) return best_trial(history.trials);
   if (*number < 1 || *number > done)

@@ -50,7 +50,6 @@ struct TrialRecord {
   std::string policy;                                  // the name of the policy with the parameters theta
   Vector theta;
   std::vector<ForecastError> forecast;
-  Index left_out_rows = 0;
   std::vector<std::string> notes;
   double model_s = 0;
   double search_s = 0;

@@ -17,10 +17,10 @@ bool is_over(const Spec& spec, const History& history) { return spec.ends_with(h
 
 void require_plant(const Resolved& resolved) {
   if (!resolved.scenario.make_plant)
-    throw InvalidInput(
-        fmt::format("{} has no plant that could be driven: in a run that began with --trials 0 `ask` and `tell` go on "
-                    "a trial at a time",
-                    resolved.spec.scenario));
+    throw InvalidInput(fmt::format(
+        "{} has no plant that could be driven: in a run that began with --trials 0 (in Python trials=0) `ask` and "
+        "`tell` go on a trial at a time",
+        resolved.spec.scenario));
 }
 
 /// Throws InvalidInput, for instance where a program cannot be started.
@@ -127,7 +127,7 @@ RunResult resume_run(const Catalogue& built_in, const std::filesystem::path& pat
   if (extended.trials == 0)
     throw InvalidInput(
         fmt::format("{} goes on by `ask` and `tell`, a trial at a time; where there is a [plant], "
-                    "--trials N lets Rehearse drive it",
+                    "--trials N (in Python trials=N) lets Rehearse drive it",
                     path.string()));
   Participants participants(resolve(catalogue, extended), options);
   if (!is_over(extended, history)) {

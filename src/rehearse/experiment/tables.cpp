@@ -134,12 +134,8 @@ std::string limits_csv(const std::vector<TrialRecord>& trials) {
 
 std::string notes_csv(const std::vector<TrialRecord>& trials) {
   files::Csv csv({"trial", "note"});
-  for (const TrialRecord& t : trials) {
+  for (const TrialRecord& t : trials)
     for (const std::string& note : t.notes) csv.row({files::Csv::cell(t.trial), note});
-    if (t.left_out_rows > 0)
-      csv.row({files::Csv::cell(t.trial),
-               fmt::format("{} training rows left out: the prior's prediction was not finite", t.left_out_rows)});
-  }
   return csv.text();
 }
 

@@ -179,8 +179,9 @@ ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario,
   const bool whole = episode.steps() == task.horizon || episode.ended;
   if (!whole && !stopped) throw InvalidInput(cut_short(file, episode.steps(), task.horizon, told.notes));
   if (whole && stopped)
-    throw InvalidInput(fmt::format("{}: --stopped is for an episode that was cut short, but this one {}",
-                                   file.path.string(), episode.ended ? "ended by itself" : "has all its steps"));
+    throw InvalidInput(
+        fmt::format("{}: --stopped (in Python stopped=) is for an episode that was cut short, but this one {}",
+                    file.path.string(), episode.ended ? "ended by itself" : "has all its steps"));
   if (stopped && stopped->at_fault)
     rollout::fail(episode, task, "stopped by the operator: " + stopped->reason);
   else if (stopped)

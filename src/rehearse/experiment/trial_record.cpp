@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/tables.hpp"
 #include "rehearse/identification/identifiability.hpp"
@@ -57,10 +59,15 @@ TrialRecord record_before(Index trial, const learners::Proposal& proposal, const
                      .phi = tunable_values(proposal, resolved.prior),
                      .policy = proposal.policy->name(),
                      .theta = proposal.theta,
-                     .left_out_rows = proposal.left_out_rows,
                      .notes = proposal.notes,
                      .model_s = proposal.model_s,
                      .search_s = proposal.search_s};
+  if (proposal.left_out_rows > 0)
+    record.notes.push_back(
+        fmt::format("{} training rows left out: the prior's prediction was not finite", proposal.left_out_rows));
+  if (2 * proposal.failed_rollouts > proposal.rollouts)
+    record.notes.push_back(fmt::format("{} of {} rollouts failed: the model's predictions were not finite",
+                                       proposal.failed_rollouts, proposal.rollouts));
   if (proposal.posterior && !record.phi.empty())
     add_posterior(record, *proposal.posterior, tunable_names(resolved.prior));
   return record;

@@ -13,6 +13,7 @@
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/robot_file/differences.hpp"
+#include "rehearse/robot_file/row_laws.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::robot_file {
@@ -134,7 +135,7 @@ std::string other_things(const Task& task, const Steps& one, const Steps& other)
       difference(task, apart(one.dX.topRows(rows), other.dX.topRows(rows)), Vector::Zero(one.dX.cols()));
   return fmt::format(
       "the plant does other things from the same start and the same random numbers ({}): a simulation must repeat "
-      "itself; a real robot is left alone by --no-plant",
+      "itself; a real robot is left alone by --no-plant (in Python plant=False)",
       by.empty() ? "episodes end at other steps" : by);
 }
 
@@ -182,12 +183,12 @@ std::string broken_law(const Task& task, const scenario::NamedPrior& prior, cons
         "predicts something else from the same states and actions a second time ({}), so no run of it "
         "can be repeated",
         again);
-  const Steps turned{.X = steps.X.colwise().reverse(), .U = steps.U.colwise().reverse()};
-  const Matrix place = apart(predictions(prior, turned, prior.parameters.values()).colwise().reverse(), predicted);
+  const Steps few{.X = elsewhere(steps.X), .U = elsewhere(steps.U)};
+  const Matrix place = apart(predictions(prior, few, prior.parameters.values()), elsewhere(predicted));
   const std::string moved = difference(task, place, rounding(steps.X, predicted));
   return moved.empty() ? moved
                        : fmt::format(
-                             "predicts something else where the rows of a batch stand in reverse ({}): a row's "
+                             "predicts something else of the same rows in another batch ({}): a row's "
                              "prediction must depend on that row alone",
                              moved);
 }
@@ -278,6 +279,7 @@ Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator, In
     tried.broken.emplace_back("the plant comes to states that are not finite");
   else if (again.X.rows() != steps.X.rows() || again.dX != steps.dX)
     tried.broken.push_back(other_things(task, steps, again));
+  for (const std::string& line : broken_row_laws(task, steps.X, steps.U, steps.dX)) tried.broken.push_back(line);
   if (steps.X.rows() == 0) return tried;
   if (steps.dX.isZero(0))
     tried.broken.emplace_back("no step changes any state: is a formula infinite where it starts?");

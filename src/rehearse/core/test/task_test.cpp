@@ -74,12 +74,14 @@ TEST(Task, EachViolationIsNamed) {
             Lines{"state " + task().states[0].name + ": its rate speed is not another state"});
   EXPECT_EQ(after([](Task& t) { t.actions[0].target_of = "nobody"; }),
             Lines{"action u: nobody must be a state that is no angle, to have it as a target"});
-  EXPECT_EQ(after([](Task& t) { t.actions[0].name = t.states[0].name; }),
-            Lines{"v: must be one of time, reward, states, \"true\" states and actions alone"});
-  EXPECT_EQ(after([](Task& t) { t.actions[0].name = "true theta"; }),
-            Lines{"true theta: must be one of time, reward, states, \"true\" states and actions alone"});
-  EXPECT_EQ(after([](Task& t) { t.states[0].name = "reward"; }),
-            Lines{"reward: must be one of time, reward, states, \"true\" states and actions alone"});
+  const auto twice = [](const std::string& name) {
+    return Lines{name +
+                 ": two columns of a trajectory would have this name, which are time, reward, the states, \"true\" "
+                 "and a state, and the actions: choose another"};
+  };
+  EXPECT_EQ(after([](Task& t) { t.actions[0].name = t.states[0].name; }), twice("v"));
+  EXPECT_EQ(after([](Task& t) { t.actions[0].name = "true theta"; }), twice("true theta"));
+  EXPECT_EQ(after([](Task& t) { t.states[0].name = "reward"; }), twice("reward"));
   const std::string first = task().states[0].name, second = task().states[1].name;
   EXPECT_EQ(after([&](Task& t) { t.states[0].parent = second; }),
             Lines{"state " + first + ": " + second + " cannot carry it, both must be angles"});

@@ -46,6 +46,26 @@ TEST(Catalogue, NamesNoLearnersThatBeginWithAPolicyWhereThereAreNone) {
   EXPECT_EQ(fake::catalogue().why_no_start("echo"), "learner echo cannot begin with a policy");
 }
 
+TEST(Catalogue, SaysWhereTwoRobotsOfOneNameDiffer) {
+  Catalogue catalogue;
+  catalogue.read_robot = [](std::string_view, const std::string&, const scenario::ReadFile&) {
+    return std::make_unique<fake::LineBuilder>();
+  };
+  const Catalogue one = catalogue.with_robot("a = 1\nb = 2\n", "line.toml", fake::test_folder());
+  const auto complaint_of = [&](const std::string& text) {
+    try {
+      (void)one.with_robot(text, "other.toml", fake::test_folder());
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(complaint_of("a = 1\nb = 2\n"), "none");
+  const std::string both = "other.toml and line.toml are two robots of one name, 'line': ";
+  EXPECT_EQ(complaint_of("a = 1\nb = 3\n"), both + "`b = 3` in the one, `b = 2` in the other");
+  EXPECT_EQ(complaint_of("a = 1\n"), both + "`` in the one, `b = 2` in the other");
+}
+
 // Arguments of programs are asked for, which may be scripts.
 TEST(Catalogue, ATextThatIsTooLongForAPathIsNoFileOfARobot) {
   Catalogue catalogue;

@@ -37,7 +37,7 @@ TEST(PastRun, HasTheTrialThatIsAskedFor) {
   EXPECT_EQ(run.trial(1).theta, asked.trial.theta);
   for (const std::optional<Index> number : {std::optional<Index>(), std::optional<Index>(2)})
     EXPECT_EQ(message_of<InvalidInput>([&] { run.trial(number); }),
-              "no trial is done yet; trial 1 is asked for, --trial 1");
+              "no trial is done yet; trial 1 is asked for, --trial 1 (in Python trial=1)");
 }
 
 TEST(PastRun, TheNewestModelIsWhatPlaysARobotWithoutAPlant) {

@@ -46,6 +46,18 @@ TEST(TrialRecord, HasTheTunableParametersAndWhatCameOfTheTrial) {
   EXPECT_TRUE(record.forecast.empty()) << "there is no model";
 }
 
+TEST(TrialRecord, NotesSayWhereThePriorFailed) {
+  const Resolved resolved = resolve(fake::catalogue(), line_spec(1));
+  learners::Proposal proposal;
+  proposal.policy = resolved.scenario.policy;
+  proposal.rollouts = 100, proposal.failed_rollouts = 50;
+  EXPECT_EQ(record_before(1, proposal, resolved).notes, std::vector<std::string>{});
+  proposal.failed_rollouts = 51, proposal.left_out_rows = 19;
+  EXPECT_EQ(record_before(2, proposal, resolved).notes,
+            (std::vector<std::string>{"19 training rows left out: the prior's prediction was not finite",
+                                      "51 of 100 rollouts failed: the model's predictions were not finite"}));
+}
+
 TEST(TrialRecord, SaysOfEachLimitWhatWasExpectedAndWhatHappened) {
   Resolved resolved = resolve(fake::catalogue(), line_spec(1));
   resolved.scenario.task.limits = {{.name = "end", .risk = 0.05}, {.name = "speed", .risk = 0.01}};
