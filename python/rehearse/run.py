@@ -66,7 +66,7 @@ class Run:
     @property
     def spec(self) -> dict[str, Any]:
         """What the run is: robot, learner, prior, seed, planned (trials; 0: by `ask` and `tell`), until_solved, and options,
-        every one by its name, as texts."""
+        every one as `options=` takes it: {"learner.search.finalists": "4", "scenario.start_noise": "0", …}."""
         about = self._describe()
         return {name: about[name] for name in ("robot", "learner", "prior", "seed", "planned", "until_solved", "options")}
 

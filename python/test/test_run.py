@@ -95,7 +95,7 @@ def test_to_look_at_a_run_its_functions_are_not_needed(tmp_path):
 def test_tables_know_their_columns(tmp_path):
     run = learn(cart(), tmp_path / "run")
     assert (run.spec["robot"], run.spec["learner"], run.spec["seed"]) == ("cart", "gp-mi", 1)
-    assert run.spec["options"]["model.gp.mirror"] == "off"
+    assert run.spec["options"]["learner.model.gp.mirror"] == "off"
     with pytest.raises(rehearse.InvalidInput, match="is a run's spec, not a robot: `rehearse learn "):
         rehearse.learn(run.folder / "spec.toml")
     moved = run.trajectory(1)
