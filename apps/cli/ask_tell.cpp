@@ -188,9 +188,13 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
   if (arguments.stopped && arguments.stopped->empty()) throw InvalidInput("--stopped says no reason");
   experiment::TellRequest request{.files = {arguments.files.begin(), arguments.files.end()}, .stopped = {}};
   if (arguments.stopped) request.stopped = {*arguments.stopped, !arguments.no_fault};
+  std::vector<std::string> again = {"tell", arguments.folder};  // which changes nothing if it was told
+  again.insert(again.end(), arguments.files.begin(), arguments.files.end());
+  if (arguments.stopped) again.insert(again.end(), {"--stopped", *arguments.stopped});
+  if (arguments.no_fault) again.emplace_back("--no-fault");
   Console console(Console::Begin::silent);
-  return on_console(arguments.folder, threads_or_throw(arguments.threads), console,
-                    command_line({"ask", arguments.folder}), [&](const experiment::RunOptions& options) {
+  return on_console(arguments.folder, threads_or_throw(arguments.threads), console, command_line(again),
+                    [&](const experiment::RunOptions& options) {
                       const experiment::TellResult told =
                           experiment::tell_run(catalogue, arguments.folder, request, options);
                       console.clear_line();

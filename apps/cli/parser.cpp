@@ -250,6 +250,9 @@ void define(CLI::App& app, Typed& typed) {
   add_replay(app, typed.replay);
   add_export(app, typed.export_policy);
   add_evaluate(app, typed.evaluate);
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (CLI::Option* option : command->get_options())
+      if (option->get_items_expected_max() == 0) option->disable_flag_override();  // no --until-solved=3
   app.footer(fmt::format(kExample, program_name()));  // last, so that no command takes it over
 }
 

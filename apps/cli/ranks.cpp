@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "rehearse/core/errors.hpp"
 #ifdef REHEARSE_MPI
@@ -28,15 +29,14 @@ int number_in(const char* variable, int otherwise) {
 #ifdef REHEARSE_MPI
 
 void check_arguments(Ranks& ranks, int argc, char** argv) {
-  std::string line;
-  for (int i = 1; i < argc; ++i) line += fmt::format(" {}", argv[i]);
+  const std::string line = fmt::format("{}", fmt::join(argv + std::min(argc, 1), argv + argc, " "));
   const std::vector<std::string> lines = ranks.exchange("arguments", line);
   for (std::size_t i = 1; i < lines.size(); ++i)
     if (lines[i] != lines[0])
       throw InvalidInput(
           fmt::format("processes that are started together need the same arguments, but rank 0 has '{}' "
                       "and rank {} '{}'",
-                      lines[0].substr(1), i, lines[i].substr(1)));
+                      lines[0], i, lines[i]));
 }
 
 #endif

@@ -107,9 +107,10 @@ void print_parameters(const ParameterSpace& parameters) {
   if (!fixed.empty()) put("    fixed: {}\n", fmt::join(fixed, ", "));
 }
 
-/// The episodes that a search simulates, unless an option says otherwise.
+/// The episodes that a search simulates, unless an option says otherwise; 0: not known.
 Index usual_search(const experiment::Catalogue& catalogue) {
   const auto learner = catalogue.learner("gp-mi");
+  if (!learner) return 0;
   const auto options = list_fields([&](FieldVisitor& v) { learner->fields(v); });
   const auto found = std::ranges::find(options, "search.race.max_evaluations", [](const auto& o) { return o.first; });
   return std::stoll(found->second);
@@ -117,9 +118,10 @@ Index usual_search(const experiment::Catalogue& catalogue) {
 
 /// Prints how fast a prior is, and how long a search takes whose time goes to it.
 void print_speed(const robot_file::PriorTried& tried, Index steps, Index rows_of_search) {
-  put("  {}: {:.2g} rows a second on one thread, so about {} for a search of {:.2g} rows{}\n", tried.name,
-      tried.rows_per_s, duration_text(static_cast<double>(rows_of_search) / tried.rows_per_s),
-      static_cast<double>(rows_of_search),
+  const auto rows = static_cast<double>(rows_of_search);
+  put("  {}: {:.2g} rows a second on one thread{}{}\n", tried.name, tried.rows_per_s,
+      rows > 0 ? fmt::format(", so about {} for a search of {:.2g} rows", duration_text(rows / tried.rows_per_s), rows)
+               : "",
       tried.failed > 0 ? fmt::format("; {} of {} rows failed", tried.failed, steps) : "");
 }
 
@@ -157,7 +159,9 @@ void write_motion(const experiment::Catalogue& catalogue, const std::string& sce
   const files::TemporaryFolder folder;
   experiment::Spec spec;
   spec.scenario = scenario, spec.learner = "black-drops", spec.trials = 1;
-  experiment::start_run(catalogue, spec, folder.path() / "run", {});
+  experiment::RunOptions options;
+  options.stop = [] { return caught_signal() != 0; };
+  experiment::start_run(catalogue, spec, folder.path() / "run", options);
   replay({.folder = (folder.path() / "run").string(),
           .trial = "1",
           .out = page,
@@ -176,9 +180,7 @@ std::string text_of_new(const std::string& name, const std::string& path) {
   return text.replace(text.find(old_name), old_name.size(), fmt::format("name = \"{}\"", name));
 }
 
-/// Ctrl-C ends the episode, so that a program is told to take the torque off the motors.
 robot_file::Tried tried_out(const scenario::Scenario& scenario) {
-  const SignalWatch watch([] { return std::string("interrupted"); });
   const auto stoppable = make_stoppable(make_thread_evaluator(1), [] { return caught_signal() != 0; });
   return robot_file::try_out(scenario, *stoppable);
 }
@@ -203,6 +205,8 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   print_task(scenario, builder->summary(), details);
   if (scenario.require_ready)
     scenario.require_ready(driven ? scenario::PlantUse::driven : scenario::PlantUse::left_alone);
+  // Ctrl-C ends an episode, so that a program is told to take the torque off the motors.
+  const SignalWatch watch([] { return std::string("interrupted"); });
   const robot_file::Tried tried = tried_out(scenario);
   if (arguments.no_plant)
     put("plant\n  left alone\n");

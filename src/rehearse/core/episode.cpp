@@ -1,5 +1,6 @@
 #include "rehearse/core/episode.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rehearse {
@@ -30,6 +31,27 @@ void Dataset::append(const Episode& episode) {
   append_rows(changes, episode.states.bottomRows(steps) - episode.states.topRows(steps));
   rewards.conservativeResize(rewards.size() + steps);
   rewards.tail(steps) = episode.rewards;
+}
+
+Dataset spread_rows(const std::vector<Episode>& logs, Index rows, Index length) {
+  if (logs.empty()) return {};
+  length = std::clamp<Index>(rows / std::ssize(logs), 1, length);  // each log has a stretch
+  Index all = 0;
+  for (const Episode& log : logs) all += log.steps();
+  Dataset data;
+  for (const Episode& log : logs) {
+    const double share = std::min(1.0, static_cast<double>(rows) / static_cast<double>(all));
+    const double wanted = share * static_cast<double>(log.steps());
+    const auto stretches = std::max<Index>(1, std::llround(wanted / static_cast<double>(length)));
+    if (share == 1 || stretches * length >= log.steps()) {
+      data.append(log);
+      continue;
+    }
+    const Index room = log.steps() - length;
+    for (Index i = 0; i < stretches; ++i)
+      data.append(log.part(stretches == 1 ? room / 2 : i * room / (stretches - 1), length));
+  }
+  return data;
 }
 
 }  // namespace rehearse

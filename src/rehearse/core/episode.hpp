@@ -47,4 +47,7 @@ struct Dataset {
   void append(const Episode& episode);
 };
 
+/// Evenly spread stretches of `length` steps, about `rows` steps of all logs; all, where they have no more.
+Dataset spread_rows(const std::vector<Episode>& logs, Index rows, Index length);
+
 }  // namespace rehearse

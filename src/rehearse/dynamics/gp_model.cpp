@@ -90,7 +90,7 @@ void GpModel::linearise(const ConstMatrixView& X, const ConstMatrixView& U, Line
   if (variance_ == PredictedVariance::noisy) at.variance.rowwise() += posterior_.noise_variances().transpose();
   add_variances_of_integrals(kinematics_, at.variance);
   finish(point, X, at.mean);
-  if (mean_) SimulatorModel(mean_->prior, mean_->phi).linearise(X, U, of_prior);
+  if (prior_) prior_->linearise(X, U, of_prior);
   for (Index i = 0; i < dx; ++i) {
     to_states(point, mean_by.middleCols(i * D, D), of_prior.mean_by, at.mean_by.middleCols(i * inputs, inputs));
     to_states(point, variance_by.middleCols(i * D, D), of_prior.mean_by, at.variance_by.middleCols(i * inputs, inputs));

@@ -37,6 +37,7 @@ class GpModel final : public DynamicsModel {
       : features_(std::move(features)),
         kinematics_(std::move(kinematics)),
         mean_(std::move(mean)),
+        prior_(mean_ ? std::optional<SimulatorModel>({mean_->prior, mean_->phi}) : std::nullopt),
         posterior_(std::move(posterior)),
         variance_(variance),
         midpoint_(midpoint) {}
@@ -61,6 +62,7 @@ class GpModel final : public DynamicsModel {
   FeatureMap features_;
   Kinematics kinematics_;
   std::optional<Mean> mean_;
+  std::optional<SimulatorModel> prior_;  // at that mean
   gp::Posterior posterior_;
   PredictedVariance variance_;
   bool midpoint_;

@@ -29,9 +29,10 @@ double zero_if_finite(double value) { return std::isfinite(value) ? 0 : value; }
 }  // namespace
 
 std::vector<Index> finite_rows(const Matrix& Y) {
+  constexpr double kLargest = 1e150;  // whose square is a number, too
   std::vector<Index> rows;
   for (Index i = 0; i < Y.rows(); ++i)
-    if (Y.row(i).allFinite()) rows.push_back(i);
+    if ((Y.row(i).array().abs() <= kLargest).all()) rows.push_back(i);
   return rows;
 }
 
@@ -41,7 +42,7 @@ Residuals::Residuals(const Dataset& data, FeatureMap features, Kinematics kinema
       kinematics_(std::move(kinematics)),
       midpoint_(midpoint),
       without_prior_(inputs_of(data, features_, kinematics_, midpoint)),
-      scale_(standard_deviations(data.changes)) {}
+      scale_(standard_deviations(data.changes(finite_rows(data.changes), Eigen::all))) {}
 
 Matrix Residuals::prior_mean(const prior::Prior& prior, const Vector& phi) const {
   Matrix mean(data_.size(), data_.states.cols());
@@ -71,15 +72,16 @@ Matrix Residuals::targets(const prior::Prior* prior, const Vector& phi) const {
 }
 
 Residuals::Rows Residuals::at(const prior::Prior* prior, const Vector& phi) const {
-  if (!prior) return {without_prior_, targets(nullptr), 0, {}};
-  const Matrix mean = prior_mean(*prior, phi);
-  Matrix targets = this->targets(&mean);
-  const bool all = targets.allFinite();
-  if (all && !midpoint_) return {without_prior_, std::move(targets), 0, {}};
+  Matrix mean;
+  if (prior) mean = prior_mean(*prior, phi);
+  Matrix targets = this->targets(prior ? &mean : nullptr);
   std::vector<Index> rows = finite_rows(targets);
+  const bool all = static_cast<Index>(rows.size()) == size();
+  if (all && !(prior && midpoint_)) return {without_prior_, std::move(targets), 0, {}};
   if (rows.empty()) return {nullptr, {}, size(), {}};
   Matrix states = data_.states(rows, Eigen::all);
-  if (midpoint_) states += 0.5 * mean(rows, Eigen::all);
+  if (midpoint_ && prior) states += 0.5 * mean(rows, Eigen::all);
+  if (midpoint_ && !prior) add_half_step(kinematics_, Matrix(states), states);
   auto inputs = std::make_shared<gp::Inputs>(gp_inputs(features_, states, data_.actions(rows, Eigen::all)));
   if (all) return {std::move(inputs), std::move(targets), 0, {}};
   return {std::move(inputs), targets(rows, Eigen::all), size() - static_cast<Index>(rows.size()), std::move(rows)};

@@ -54,7 +54,7 @@ class Residuals {
   Vector scale_;
 };
 
-/// The rows without a number that is not finite.
+/// The rows whose numbers are finite and can be squared.
 std::vector<Index> finite_rows(const Matrix& Y);
 
 }  // namespace rehearse::dynamics

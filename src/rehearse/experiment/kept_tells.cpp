@@ -44,9 +44,9 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   return files;
 }
 
-/// Leaves `to` as `from` is, not there for instance.
+/// Leaves `to` as `from` is. Of the deciding files `done` alone may not be there.
 void make_alike(const fs::path& from, const fs::path& to) {
-  if (!fs::exists(from)) {
+  if (from.filename() == kDeciding.front() && !fs::exists(from)) {
     fs::remove(to);
     return;
   }
@@ -54,8 +54,12 @@ void make_alike(const fs::path& from, const fs::path& to) {
   if (!files::holds(to, bytes)) files::write_file(to, bytes, files::Durability::power);
 }
 
+/// At once: a tell that a kill leaves half removed would be taken for a whole one.
 void remove_tell(const RunFolder& run, const fs::path& folder) {
-  fs::remove_all(folder);
+  const fs::path removed = tells_of(run) / ".removed";
+  fs::remove_all(removed);
+  fs::rename(folder, removed);
+  fs::remove_all(removed);
   std::error_code not_empty;
   fs::remove(tells_of(run), not_empty);
 }

@@ -186,8 +186,10 @@ void RunFolder::remove_after(const History& history) const {
   fs::remove(motion_file(path_, "trial", trial));
   fs::remove(trial_file(path_ / "predictions", foreseen));
   fs::remove(motion_file(path_, "prediction", foreseen));
-  for (auto log = static_cast<Index>(history.logs.size()) + 1; fs::remove(log_file(path_, log)); ++log) {
-  }
+  const auto kept = static_cast<Index>(history.logs.size());
+  Index last = kept;
+  while (fs::exists(log_file(path_, last + 1))) ++last;
+  for (Index log = last; log > kept; --log) fs::remove(log_file(path_, log));  // a kill leaves no gap in the numbers
   if (history.logs.empty()) fs::remove(path_ / "logs.csv");
   std::error_code not_empty;
   for (const char* folder : {"motion", "logs"}) fs::remove(path_ / folder, not_empty);

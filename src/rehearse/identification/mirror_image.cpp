@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -62,8 +63,10 @@ std::optional<std::string> contradicts_image(const dynamics::GpModel& model, con
   const Dataset& data = rows.data();
   Matrix mean(data.size(), data.changes.cols());
   model.predict_mean(data.states, data.actions, mean);
+  const std::vector<Index> known = dynamics::finite_rows(data.changes - mean);  // of the others the prior failed
   for (Index e = 0; e < noise.size(); ++e) {
-    const double error = (data.changes.col(e) - mean.col(e)).norm() / std::sqrt(static_cast<double>(data.size()));
+    const Vector errors = (data.changes.col(e) - mean.col(e))(known);
+    const double error = errors.norm() / std::sqrt(static_cast<double>(errors.size()));
     const double deviation = std::sqrt(noise(e));
     if (error > kContradiction * deviation && error > kContradictionOfChanges * rows.scale()(e))
       return fmt::format("mirror is set, but measured steps contradict it: output {} errs by {:.2g} times its noise", e,

@@ -16,8 +16,8 @@ ModelOfTrials::ModelOfTrials(const Setting& setting, identification::Kind kind, 
     : setting_(setting), kind_(std::move(kind)), prior_variance_(prior_variance) {}
 
 void ModelOfTrials::study(const std::vector<Episode>& logs) {
-  for (const Episode& log : logs) logs_.append(log);
-  data_ = logs_;
+  logs_.add(logs, setting_.task.dt_s);
+  data_ = logs_.rows();
 }
 
 void ModelOfTrials::add(const Episode& episode) {
@@ -42,6 +42,7 @@ identification::WarmStart ModelOfTrials::learn(Proposal& proposal) const {
     proposal.log_evidence = learned.log_evidence;
     proposal.left_out_rows = learned.left_out_rows;
     proposal.notes = std::move(learned.notes);
+    if (const std::string note = logs_.note(); trials_ == 0 && !note.empty()) proposal.notes.push_back(note);
     return std::move(learned.state);
   } catch (const InvalidInput& failed) {
     if (!setting_.prior) throw;
@@ -67,7 +68,7 @@ void ModelOfTrials::save(json& state) const {
 }
 
 void ModelOfTrials::restore(const std::vector<Episode>& episodes, const json& state) {
-  data_ = logs_;
+  data_ = logs_.rows();
   trials_ = 0;
   for (const Episode& episode : episodes) add(episode);
   start_ = {};

@@ -5,6 +5,7 @@
 #include "rehearse/identification/fit_problem.hpp"
 #include "rehearse/identification/kinds.hpp"
 #include "rehearse/learners/learner.hpp"
+#include "rehearse/learners/logs.hpp"
 
 namespace rehearse::learners {
 
@@ -19,7 +20,7 @@ class ModelOfTrials {
   void add(const Episode& episode);              // of a trial
 
   /// True if there are neither trials nor logs.
-  bool without_data() const { return trials_ == 0 && logs_.size() == 0; }
+  bool without_data() const { return trials_ == 0 && logs_.rows().size() == 0; }
   const Dataset& data() const { return data_; }  // of logs and trials
 
   /// Writes the model, and its properties, into a proposal. Returns the start of the next one, for `keep`: an
@@ -37,7 +38,7 @@ class ModelOfTrials {
   const Setting& setting_;
   identification::Kind kind_;
   double prior_variance_;
-  Dataset logs_;  // of other controllers
+  Logs logs_;
   Dataset data_;
   std::uint64_t trials_ = 0;
   identification::WarmStart start_;

@@ -51,7 +51,7 @@ Parameters::Parameters(mjModel& original, const std::vector<ModelParameter>& par
   check_conflicts(parameters, violations);
 }
 
-/// Two that set the same number are a mistake: the first would do nothing. So is one that scales the same number twice.
+/// Two that set the same number are a mistake: the first would do nothing. So is one that moves the same number twice.
 void Parameters::check_conflicts(const std::vector<ModelParameter>& parameters, Violations& violations) const {
   for (std::size_t i = 0; i < moves_.size() && !moves_[i].scale; ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -63,11 +63,12 @@ void Parameters::check_conflicts(const std::vector<ModelParameter>& parameters, 
     }
   for (std::size_t i = 0; i < moves_.size(); ++i)
     for (std::size_t j = 0; j < i && moves_[i].scale; ++j)
-      if (moves_[j].scale && moves_[j].parameter == moves_[i].parameter &&
-          overlap(moves_[i].entries, moves_[j].entries))
-        violations.add(fmt::format("'{}' scales the {} of the same {} twice, must be once",
-                                   parameters[static_cast<std::size_t>(moves_[i].parameter)].name,
-                                   moves_[i].entries.field->name, moves_[i].entries.field->kind));
+      if (moves_[j].parameter == moves_[i].parameter && overlap(moves_[i].entries, moves_[j].entries))
+        violations.add(
+            fmt::format(fmt::runtime(moves_[j].scale ? "'{}' scales the {} of the same {} twice, must be once"
+                                                     : "'{}' sets and scales the {} of the same {}, must do one"),
+                        parameters[static_cast<std::size_t>(moves_[i].parameter)].name, moves_[i].entries.field->name,
+                        moves_[i].entries.field->kind));
 }
 
 bool Parameters::apply(mjModel& original, const Vector& phi, mjModel& model) const {

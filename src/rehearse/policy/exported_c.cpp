@@ -22,8 +22,8 @@ constexpr const char* kFrame = R"(/* @NAME@: a @MARK@.
  *
  * To test it:  cc -std=c99 -DREHEARSE_POLICY_MAIN -x c FILE -o test -lm && ./test
  */
-#ifndef REHEARSE_POLICY_@UPPER@
-#define REHEARSE_POLICY_@UPPER@
+#ifndef REHEARSE_POLICY_@UPPER@_H
+#define REHEARSE_POLICY_@UPPER@_H
 
 #include <math.h>
 

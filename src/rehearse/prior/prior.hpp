@@ -22,8 +22,11 @@ struct Prior {
 
   /// The simulator of the robot's own states, by what moves it.
   Prior behind_actuators() const {
-    const auto robot = simulator->behind_actuators();
-    return {name, robot ? robot : simulator, space};
+    const auto robot_of = [](const auto& of) {
+      const auto robot = of ? of->behind_actuators() : nullptr;
+      return robot ? robot : of;
+    };
+    return {name, robot_of(simulator), space, robot_of(driven)};
   }
 
   /// Expected state changes (n × dx), contained: rows that fail are NaN. Returns how many failed.

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/files/regular_file.hpp"
@@ -86,13 +87,13 @@ double farthest_row_s(const std::vector<Sample>& samples, const Grid& grid) {
   return farthest_s;
 }
 
-void note_resampling(const Channels& channels, const Grid& grid, Index changed, bool average,
+void note_resampling(const Channels& channels, const Grid& grid, const Resampled& changed, bool average,
                      std::vector<std::string>& notes) {
   const double little_s = kLittle * grid.dt_s;
   if (grid.start_s > little_s)
     notes.push_back(
         fmt::format("step 0 is at {:.13g} s, the first time at which all columns have numbers", grid.start_s));
-  if (changed == 0) return;
+  if (changed.states == 0 && changed.actions == 0) return;
   const auto& samples = channels.states.front().samples;
   const double usual_s = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
   const bool one_row_a_step = usual_s >= grid.dt_s - little_s && !average;
@@ -101,11 +102,15 @@ void note_resampling(const Channels& channels, const Grid& grid, Index changed, 
                                 off_s, grid.dt_s));
     return;
   }
-  notes.push_back(
-      fmt::format("{} of {} control steps of {} s lie between rows, which are {:.3g} s apart on average: "
-                  "states are {}, actions are means of what rows hold until the next",
-                  changed, grid.steps, grid.dt_s, usual_s,
-                  average ? "on lines through the rows around them" : "interpolated linearly"));
+  std::vector<std::string> how;
+  if (changed.states > 0)
+    how.push_back(fmt::format("states are {} in {} of {} control steps of {} s",
+                              average ? "on lines through the rows around them" : "interpolated linearly",
+                              changed.states, grid.steps, grid.dt_s));
+  if (changed.actions > 0)
+    how.push_back(
+        fmt::format("actions are means of what rows hold until the next, in {} of {}", changed.actions, grid.steps));
+  notes.push_back(fmt::format("rows are {:.3g} s apart on average: {}", usual_s, fmt::join(how, "; ")));
 }
 
 void check_size(double bytes, const std::string& source, const ReadOptions& options) {

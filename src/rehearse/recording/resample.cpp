@@ -14,7 +14,8 @@ namespace rehearse::recording {
 namespace {
 
 constexpr double kNear = 1e-4;  // of dt: a row so near to the begin of a step is taken as it is
-constexpr double kEnd = 0.01;   // of dt: so much may be missing at the end of the last step
+constexpr double kEnd = 0.01;   // of dt: so much may be missing at the end of the last step,
+constexpr double kLate = 0.5;   // or of the time from row to row, of dt at most: clocks of loops are late now and then
 
 using Samples = std::vector<Sample>;
 
@@ -56,11 +57,13 @@ void check_unit_of_time(const Channels& channels, double max_gap_s, Problems& pr
   }
 }
 
-/// exact: becomes false unless the value is that of a row.
+/// exact: becomes false unless the value is that of a row. Beyond the last one it goes on as it did.
 double state_at(const Samples& samples, double time_s, double near_s, bool& exact) {
-  const auto after = from(samples, time_s - near_s);
-  if (after == samples.end()) return samples.back().value;
-  if (after->time_s <= time_s + near_s || after == samples.begin()) return after->value;
+  auto after = from(samples, time_s - near_s);
+  if (after == samples.end() && samples.size() == 1) return samples.back().value;
+  if (after == samples.end()) --after;
+  const bool there = std::abs(after->time_s - time_s) <= near_s;
+  if (there || after == samples.begin()) return after->value;
   exact = false;
   const Sample& before = *std::prev(after);
   const double part = (time_s - before.time_s) / (after->time_s - before.time_s);
@@ -150,7 +153,8 @@ Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& 
   for (const Channel& truth : channels.truths) end_s = std::min(end_s, truth.samples.back().time_s);
   for (const Channel& action : channels.actions)
     end_s = std::min(end_s, action.samples.back().time_s + last_hold_s(action, channels, dt_s, max_gap_s));
-  const double steps = std::floor((end_s - begin_s) / dt_s + kEnd);
+  const double late = kLate * std::min(1.0, median_gap_s(channels.states.front().samples) / dt_s);
+  const double steps = std::floor((end_s - begin_s) / dt_s + std::max(kEnd, late));
   if (!(steps >= 1))
     problems.add(0, "length",
                  fmt::format("all columns together cover {:.6g} s, must cover a control step of {} s",
@@ -174,13 +178,16 @@ void check_gaps(const Channels& channels, const Grid& grid, double max_gap_s, Pr
   check_unit_of_time(channels, max_gap_s, problems);
 }
 
-Index resample(const Channels& channels, const Grid& grid, bool average, Episode& episode) {
-  std::vector<char> exact(static_cast<std::size_t>(grid.steps) + 1, 1);
-  episode.states = states_on(channels.states, grid, average, exact);
-  episode.true_states = channels.truths.empty() ? episode.states : states_on(channels.truths, grid, average, exact);
-  episode.actions = actions_on(channels.actions, grid, exact);
+Resampled resample(const Channels& channels, const Grid& grid, bool average, Episode& episode) {
+  std::vector<char> states(static_cast<std::size_t>(grid.steps) + 1, 1), actions = states;
+  episode.states = states_on(channels.states, grid, average, states);
+  episode.true_states = channels.truths.empty() ? episode.states : states_on(channels.truths, grid, average, states);
+  episode.actions = actions_on(channels.actions, grid, actions);
   episode.rewards = Vector::Zero(grid.steps);
-  return std::min(grid.steps, static_cast<Index>(std::ranges::count(exact, char{0})));
+  const auto count = [&](const std::vector<char>& exact) {
+    return std::min(grid.steps, static_cast<Index>(std::ranges::count(exact, char{0})));
+  };
+  return {count(states), count(actions)};
 }
 
 }  // namespace rehearse::recording

@@ -29,7 +29,12 @@ void cut(Channels& channels, const Grid& grid);
 /// A problem if neighbouring samples that the grid needs are more than `max_gap_s` apart.
 void check_gaps(const Channels& channels, const Grid& grid, double max_gap_s, Problems& problems);
 
-/// The episode on the grid (recording.hpp says how). Returns how many steps are not rows of the file as they are.
-Index resample(const Channels& channels, const Grid& grid, bool average, Episode& episode);
+/// Steps that are not rows of the file as they are.
+struct Resampled {
+  Index states = 0, actions = 0;
+};
+
+/// The episode on the grid (recording.hpp says how).
+Resampled resample(const Channels& channels, const Grid& grid, bool average, Episode& episode);
 
 }  // namespace rehearse::recording

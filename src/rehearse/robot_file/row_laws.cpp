@@ -51,9 +51,8 @@ std::vector<std::string> broken_row_laws(const Task& task, const Matrix& X, cons
     };
     const Vector first = of(X, U, next);
     if (differ(first, of(X, U, next)))
-      lines.push_back(
-          fmt::format("{} answers something else of the same steps a second time, so no run of it can be repeated",
-                      name));
+      lines.push_back(fmt::format(
+          "{} answers something else of the same steps a second time, so no run of it can be repeated", name));
     else if (differ(elsewhere(first), of(elsewhere(X), elsewhere(U), elsewhere(next))))
       lines.push_back(
           fmt::format("{} answers something else of the same steps in another batch: what it says of a row must depend "

@@ -52,11 +52,12 @@ class Chunk {
     const Matrix going = X_;
     for (Index row = 0; row < rows_; ++row)  // what has failed is no input for a model
       if (!X_.row(row).allFinite()) X_.row(row) = episode_.states.row(starts_[static_cast<std::size_t>(row)]);
-    draw(Purpose::simulated_noise, t);
-    if (model.certain())
+    if (model.certain()) {
       model.predict_mean(X_, U_, change_);
-    else
+    } else {
+      draw(Purpose::simulated_noise, t);
       model.sample(X_, U_, normals_, change_);
+    }
     X_ = going + change_;
   }
 

@@ -28,12 +28,14 @@ struct ForecastPlan {
   Vector start_std;  // dx, of the states' uncertainty beside measurement noise; empty: none
 };
 
-/// Means and deviations of particles that start from the measured states, with an error of measurement, and carry the
-/// model's uncertainty; what is measured in the end (T+1 × dx) has an error, too.
+/// The random numbers of the particles, and what computes them.
 struct Draws {
   StreamKey key;
   const Evaluator& evaluator;
 };
+
+/// Means and deviations of particles that start from the measured states, with an error of measurement, and carry the
+/// model's uncertainty; what is measured in the end (T+1 × dx) has an error, too.
 Forecasts make_forecasts(const dynamics::DynamicsModel& model, const Episode& log, const Matrix& measured,
                          const ForecastPlan& plan, const Draws& draws);
 

@@ -67,26 +67,6 @@ ZeroProblem zero_problem(const prior::Prior& prior, const Task& task, const Opti
   return {prior, states_named(options.zeros, task), options.zero_range, steps_of(options.fit_horizon_s, task)};
 }
 
-Dataset spread_rows(const std::vector<Episode>& logs, Index rows, Index length) {
-  length = std::clamp<Index>(rows / std::ssize(logs), 1, length);  // each log has a stretch
-  Index all = 0;
-  for (const Episode& log : logs) all += log.steps();
-  Dataset data;
-  for (const Episode& log : logs) {
-    const double share = std::min(1.0, static_cast<double>(rows) / static_cast<double>(all));
-    const double wanted = share * static_cast<double>(log.steps());
-    const auto stretches = std::max<Index>(1, std::llround(wanted / static_cast<double>(length)));
-    if (share == 1 || stretches * length >= log.steps()) {
-      data.append(log);
-      continue;
-    }
-    const Index room = log.steps() - length;
-    for (Index i = 0; i < stretches; ++i)
-      data.append(log.part(stretches == 1 ? room / 2 : i * room / (stretches - 1), length));
-  }
-  return data;
-}
-
 LogModel learn_logs(const std::vector<Episode>& logs, const Task& task, const prior::Prior& prior,
                     const Options& options, const Evaluator& evaluator) {
   LogModel model{.zeros = find_zeros(logs, zero_problem(prior, task, options), evaluator)};

@@ -48,7 +48,4 @@ Vector root_mean_squares(const Matrix& columns);
 /// measurement change by √2 times their spread, and parameters fitted to them are meaningless (von Neumann 1941).
 bool moves(const LogModel& model);
 
-/// Evenly spread stretches of `length` rows, about `rows` of them all in all.
-Dataset spread_rows(const std::vector<Episode>& logs, Index rows, Index length);
-
 }  // namespace rehearse::study

@@ -98,6 +98,10 @@ TEST(ClaimPlan, SaysWhatIsWrongWithClaims) {
   EXPECT_EQ(about(success + "at_least_runs = 3\n"), "c.toml: line 6: at_least_runs = 3, but the claim is about 2 runs");
   EXPECT_EQ(about("learner = \"echo\"\nreached_by = 2\nat_most_runs = 2\n"),
             "c.toml: line 6: reached_by needs return_at_least");
+  EXPECT_EQ(about(success + "at_least_runs = 2\nat_most_runs = 1\n"),
+            "c.toml: line 6: at_most_runs = 1, must be ≥ at_least_runs = 2");
+  EXPECT_EQ(about(success + "at_least_rate = 0.9\nat_most_rate = 0.1\n"),
+            "c.toml: line 6: at_most_rate = 0.1, must be ≥ at_least_rate = 0.9");
   EXPECT_EQ(about(success + "at_least_rate = 95\n"), "c.toml: line 10: at_least_rate = 95, must be between 0 and 1");
   EXPECT_EQ(about("learner = \"echo\"\nsolved_by = 4\nat_least_runs = 1\n"),
             "c.toml: line 9: solved_by = 4, must be between 1 and 3");

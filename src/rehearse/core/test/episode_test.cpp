@@ -29,6 +29,18 @@ TEST(Episode, ThatIsShorterIsCutShortUnlessItEnded) {
   EXPECT_FALSE(e.is_cut_short(5));
 }
 
+TEST(Episode, RowsOfManyAreEvenlySpreadStretches) {
+  const std::vector<Episode> logs = {episode(400, 0), episode(400, 7)};
+  EXPECT_EQ(spread_rows(logs, 800, 50).size(), 800);
+  EXPECT_EQ(spread_rows(logs, 10000, 50).size(), 800);
+  const Dataset data = spread_rows(logs, 200, 50);
+  EXPECT_EQ(data.size(), 200);
+  EXPECT_EQ(data.states.row(0), logs[0].states.row(0));
+  EXPECT_EQ(data.states.row(50), logs[0].states.row(350));
+  EXPECT_EQ(spread_rows(std::vector<Episode>(20, episode(400, 0)), 100, 50).size(), 100) << "stretches are shorter";
+  EXPECT_EQ(spread_rows({}, 100, 50).size(), 0);
+}
+
 TEST(Episode, PartsAreEpisodes) {
   Episode e = episode(5, 0);
   e.charged = -3, e.ended = true;

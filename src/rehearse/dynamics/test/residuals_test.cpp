@@ -89,6 +89,21 @@ TEST(Residuals, RowsThatFailAreLeftOut) {
   EXPECT_EQ(rows.targets, Matrix::Zero(20 - positive, 2));
 }
 
+// A robot may diverge in an episode. Squares of its numbers would be infinite, and no kernel could be fitted.
+TEST(Residuals, RowsThatCannotBeSquaredAreLeftOut) {
+  Dataset data = swing::data(20, 1);
+  const Vector scale = Residuals(data, swing::features()).scale();
+  data.changes(7, 0) = 1e160;
+  for (const bool midpoint : {false, true}) {
+    const Residuals residuals(data, swing::features(), swing::kinematics(), midpoint);
+    const Residuals::Rows rows = residuals.at(nullptr, {});
+    EXPECT_EQ(rows.left_out, 1);
+    EXPECT_EQ(rows.inputs->size(), 19);
+    EXPECT_TRUE(rows.targets.allFinite() && rows.targets.cwiseAbs().maxCoeff() < 100);
+    EXPECT_LT((residuals.scale() - scale).cwiseAbs().maxCoeff(), 0.5 * scale.maxCoeff());
+  }
+}
+
 TEST(Residuals, NoRowLeftHasNoInputs) {
   const Dataset data = swing::data(20, 1);
   const auto fails = [](const Vector&, const Vector&, const Vector&, Vector&) { throw 1; };

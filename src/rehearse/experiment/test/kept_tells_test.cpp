@@ -66,6 +66,21 @@ TEST_F(KeptTells, OneThatNeverCameAboutGivesWay) {
   EXPECT_FALSE(fs::exists(path / "told/001"));
 }
 
+// A kill may come while a tell is removed.
+TEST_F(KeptTells, OneThatIsHalfRemovedIsNone) {
+  const RunFolder run = RunFolder::open(path);
+  keep_tell(run, {file("a.csv", "A")});
+  change(run, 1);
+  keep_tell(run, {file("b.csv", "B")});
+  change(run, 2);
+  fs::create_directories(path / "told" / ".removed" / "before");
+  EXPECT_EQ(last_tell(run).files.front().filename(), "001-b.csv");
+  forget_tell(run);
+  EXPECT_FALSE(fs::exists(path / "told" / ".removed"));
+  change(run, 1);
+  EXPECT_EQ(last_tell(run).files.front().filename(), "001-a.csv");
+}
+
 TEST_F(KeptTells, LongNamesAreCut) {
   const RunFolder run = RunFolder::open(path);
   std::string umlauts = "a";

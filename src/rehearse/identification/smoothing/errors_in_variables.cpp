@@ -59,8 +59,9 @@ Matrix ErrorsInVariables::covariance(std::size_t b, Matrix of_errors, const Vect
   return C;
 }
 
-void ErrorsInVariables::factorise(const Vector& W) {
+bool ErrorsInVariables::factorise(const Vector& W) {
   for_each_block([&](std::size_t b) { blocks_of_r_[b].factor = covariance(b, covariance_of_errors(b), W).llt(); });
+  return std::ranges::all_of(blocks_of_r_, [](const auto& of) { return of.factor.info() == Eigen::Success; });
 }
 
 Vector ErrorsInVariables::stacked(const Matrix& rows) const {
@@ -137,6 +138,10 @@ void ErrorsInVariables::give_others(std::size_t b, const Vector& r, const Vector
       if (i / rows != e) others.push_back(i);
     const auto own = Eigen::seqN(e * rows, rows);
     const Eigen::LLT<Matrix> factor = Matrix(C(others, others)).llt();
+    if (factor.info() != Eigen::Success) {
+      given.residuals.middleRows(first, rows).setConstant(kNaN);
+      return;
+    }
     const Matrix across = factor.matrixL().solve(Matrix(S(others, own)));
     given.residuals.col(e).segment(first, rows) =
         r(own) - across.transpose() * factor.matrixL().solve(Vector(r(others)));

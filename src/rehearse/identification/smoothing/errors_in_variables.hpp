@@ -44,8 +44,9 @@ class ErrorsInVariables {
   const Vector& variances() const { return R_; }  // dx; empty at first
   void set_variances(Vector R) { R_ = std::move(R); }
 
-  /// With w of variances W (dx); to be done again where a variance or the linearisation has changed.
-  void factorise(const Vector& W);
+  /// With w of variances W (dx); to be done again where a variance or the linearisation has changed. False if it is not
+  /// possible.
+  bool factorise(const Vector& W);
 
   /// Rows × dx as a vector.
   Vector stacked(const Matrix& rows) const;

@@ -53,14 +53,14 @@ class Smoother {
   /// False if a number is not finite.
   bool round(bool moves_phi) {
     if (!linearise()) return false;
-    steps_.factorise(noise_variances());
+    if (!steps_.factorise(noise_variances())) return false;
     if (moves_phi && !move_phi()) return false;
     const Matrix targets = on_path().targets(problem_.prior, estimate_.phi);
     const Vector r = steps_.residuals(targets);
     const Vector least = kLeastVariance * problem_.residuals.scale().cwiseAbs2();
     for (int i = 0; i < kVarianceSteps; ++i) {
       steps_.improve_variances(r, least);
-      steps_.factorise(noise_variances());
+      if (!steps_.factorise(noise_variances())) return false;
     }
     estimate_.score = steps_.log_evidence(r);
     score_of_own_errors_ = score_of_own_errors(r);
@@ -188,8 +188,7 @@ class Smoother {
     ErrorsInVariables own(problem_.residuals.data(), problem_.evaluator, Measurements::own);
     own.set_variances(steps_.variances());
     linearise(own);
-    own.factorise(noise_variances());
-    return own.log_evidence(r);
+    return own.factorise(noise_variances()) ? own.log_evidence(r) : kNaN;
   }
 
   /// φ by Gauss–Newton steps, halved until they lead down.
@@ -234,6 +233,8 @@ class Smoother {
       Matrix C = K + given_.errors[e];
       C.diagonal().array() += noise;
       const Eigen::LLT<Matrix> factor = C.llt();
+      white_variances_(column) = kNaN;
+      if (factor.info() != Eigen::Success) return;
       const Vector weights = factor.solve(given_.residuals.col(column));
       const double left = K.trace() - factor.matrixL().solve(K).squaredNorm();
       double& white = white_variances_(column);

@@ -27,7 +27,7 @@ struct Steps {
     ErrorsInVariables errors(data, serial_evaluator(), measurements);
     errors.set_variances(R);
     errors.linearise(before, after, [&](Index e, Index, Index) { return K[static_cast<std::size_t>(e)]; });
-    errors.factorise(W);
+    EXPECT_TRUE(errors.factorise(W));
     return errors;
   }
 
@@ -130,6 +130,11 @@ TEST(ErrorsInVariables, MovesThePathByWhatIsExpectedOfTheErrors) {
   // Residuals on the new path are those of measurements again once the errors are added.
   const Matrix shift = (Matrix(5, 2) << 0, 0, 1, 2, 2, 3, 9, 9, 10, 10).finished() - errors.states();
   EXPECT_LT((errors.residuals(Matrix::Zero(3, 2)) - Vector(steps.made_of(shift).reshaped())).norm(), 1e-10);
+}
+
+TEST(ErrorsInVariables, SayWhereTheirCovarianceCannotBeFactorised) {
+  ErrorsInVariables errors = Steps().errors();
+  EXPECT_FALSE(errors.factorise(Vector::Constant(2, -1e6)));
 }
 
 }  // namespace

@@ -155,5 +155,22 @@ TEST(LearnedMirrorImage, StepsThatContradictTheMirrorImageAreSaid) {
   EXPECT_EQ(learn_swing(data, ZeroMean{}).notes, std::vector<std::string>{});
 }
 
+TEST(LearnedMirrorImage, StepsThatContradictItAreSaidWhereThePriorFailsAtOthers) {
+  FixedPrior mirrored;
+  mirrored.gp.mirror = dynamics::Mirror::on;
+  Dataset data = swing::data(100, 1);
+  data.changes.col(0).array() += 0.2;
+  const double far = 0.9 * data.actions.cwiseAbs().maxCoeff();
+  const auto fails = [far](const Vector& x, const Vector& u, const Vector& phi, Vector& dxdt) {
+    swing::ode(x, u, phi, dxdt);
+    if (std::abs(u(0)) > far) dxdt(0) = kNaN;
+  };
+  const prior::Prior prior = swing::prior({swing::length(0.3), swing::friction()}, fails);
+  const auto learned = learn_swing(data, mirrored, &prior);
+  EXPECT_GT(learned.left_out_rows, 0);
+  ASSERT_EQ(learned.notes.size(), 1u);
+  EXPECT_NE(learned.notes[0].find("measured steps contradict it: output 0"), std::string::npos) << learned.notes[0];
+}
+
 }  // namespace
 }  // namespace rehearse::identification

@@ -271,14 +271,14 @@ Entry<Options> entry(const char* name, const char* summary, identification::Kind
           .violations = violations_with};
 }
 
-}  // namespace
-
-/// Removes the reward and the test of success from the task of a learner that learns the reward.
+/// Removes the reward, the cost and the test of success from the task of a learner that learns the reward.
 void forget_reward(Task& task) {
   task.reward = nullptr;
   task.cost = nullptr;
   task.solved = nullptr;
 }
+
+}  // namespace
 
 std::unique_ptr<Learner> make(Setting setting, Options options) {
   setting = checked(std::move(setting), options, prior_use(options), violations_with);

@@ -9,6 +9,7 @@ namespace rehearse::learners::pilco {
 
 using nlohmann::json;
 
+/// The terms of a model have the same centres, so they are written once.
 json to_json(const PriorKnowledge& knowledge) {
   json terms = json::array();
   for (const moments::MomentTerm& term : knowledge.network)

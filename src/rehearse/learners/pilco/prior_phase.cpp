@@ -161,7 +161,6 @@ class PriorPhase {
 
 }  // namespace
 
-/// The terms of a model have the same centres.
 PriorKnowledge learn_on_prior(const Setting& setting, const Options& options) {
   return PriorPhase(setting, options).run();
 }

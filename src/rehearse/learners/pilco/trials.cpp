@@ -92,7 +92,7 @@ json Trials::save() const {
 }
 
 void Trials::restore(const std::vector<Episode>& episodes, const json& state) {
-  data_ = logs_;
+  data_ = logs_.rows();
   solved_ = false;
   earned_.reset();
   repeated_ = false;
@@ -110,12 +110,12 @@ void Trials::restore(const std::vector<Episode>& episodes, const json& state) {
 }
 
 void Trials::study(const std::vector<Episode>& logs) {
-  for (const Episode& log : logs) logs_.append(log);
-  data_ = logs_;
+  logs_.add(logs, setting_.task.dt_s);
+  data_ = logs_.rows();
 }
 
 Proposal Trials::propose(const Vector* known) {
-  Proposal proposal = trials_ == 0 && logs_.size() == 0 ? first_proposal() : next_proposal(known);
+  Proposal proposal = trials_ == 0 && logs_.rows().size() == 0 ? first_proposal() : next_proposal(known);
   if (prior_ && !proposal.phi) proposal.phi = setting_.prior->space.values();
   return proposal;
 }
@@ -143,6 +143,7 @@ Proposal Trials::next_proposal(const Vector* known) {
   proposal.model_s = seconds([&] { model = learn_model(); });
   proposal.model = model.model;
   proposal.notes = std::move(model.notes);
+  if (const std::string note = logs_.note(); trials_ == 0 && !note.empty()) proposal.notes.push_back(note);
   if (options_.pi_rem) proposal.phi = model.state.phi;
   proposal.posterior = std::move(model.posterior);
   proposal.left_out_rows = model.left_out_rows;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "rehearse/learners/logs.hpp"
 #include "rehearse/learners/pilco/prior_knowledge.hpp"
 #include "rehearse/learners/trial_learner.hpp"
 
@@ -48,8 +49,8 @@ class Trials final : public TrialLearner {
   Options options_;
   LearnOnPrior learn_on_prior_;
   std::optional<PriorKnowledge> prior_;  // once it is learned
-  Dataset logs_;                         // of other controllers
-  Dataset data_;                         // logs and trials
+  Logs logs_;
+  Dataset data_;                  // logs and trials
   bool solved_ = false;           // by the last trial, as far as known: by its true states, which are noise-free where
   std::optional<double> earned_;  // the plant knows them, unless the run tells measured ones; so is what it earned
   bool repeated_ = false;         // it earned what the one before did

@@ -131,6 +131,9 @@ TEST(Parameters, WrongOnesAreAllNamed) {
   model.parameters = {{"d", "", 1, {twice, twice}}};
   EXPECT_EQ(complaint_of([&] { make_simulator(model, {}); }),
             "'d' scales the mass of the same body twice, must be once");
+  model.parameters = {{"d", "", 1, {twice, {"body", "arm", "mass"}}}};
+  EXPECT_EQ(complaint_of([&] { make_simulator(model, {}); }),
+            "'d' sets and scales the mass of the same body, must do one");
 }
 
 }  // namespace

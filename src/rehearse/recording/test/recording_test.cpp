@@ -74,8 +74,8 @@ TEST(Recording, AnotherRateIsResampled) {
   }
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_EQ(notes[0],
-            "32 of 32 control steps of 0.05 s lie between rows, which are 0.0033 s apart on average: states are "
-            "interpolated linearly, actions are means of what rows hold until the next");
+            "rows are 0.0033 s apart on average: states are interpolated linearly in 32 of 32 control steps of 0.05 s; "
+            "actions are means of what rows hold until the next, in 32 of 32");
 }
 
 TEST(Recording, ALoopThatIsALittleLateIsSaidToBeSo) {

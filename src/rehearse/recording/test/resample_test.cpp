@@ -19,7 +19,8 @@ TEST(Resample, RowsAtStepsAreTakenAsTheyAre) {
   const Grid grid = grid_of(channels, 0.1, 0.3, problems);
   EXPECT_TRUE(problems.empty());
   Episode episode;
-  EXPECT_EQ(resample(channels, grid, false, episode), 0);
+  const Resampled changed = resample(channels, grid, false, episode);
+  EXPECT_EQ(changed.states + changed.actions, 0);
   EXPECT_EQ(episode.states, (Matrix{{0.1}, {0.7}, {0.3}}));
   EXPECT_EQ(episode.actions, (Matrix{{1.1}, {2.3}}));
   EXPECT_EQ(episode.true_states, episode.states);
@@ -34,7 +35,9 @@ TEST(Resample, BetweenRowsStatesAreInterpolatedAndActionsAreMeans) {
   EXPECT_EQ(grid.start_s, 0.25);
   EXPECT_EQ(grid.steps, 2);
   Episode episode;
-  EXPECT_EQ(resample(channels, grid, false, episode), 2);  // the first begins with a row, which does not hold
+  const Resampled changed = resample(channels, grid, false, episode);
+  EXPECT_EQ(changed.states, 2) << "the first is that of a row";
+  EXPECT_EQ(changed.actions, 2) << "the first begins with a row, which does not hold";
 
   EXPECT_EQ(episode.states, (Matrix{{1}, {3}, {5}}));
   EXPECT_EQ(episode.actions, (Matrix{{1}, {6}}));  // 4 for 0.25 s, 0 for 0.75 s; 0 for 0.25 s, 8 for 0.75 s
@@ -54,13 +57,29 @@ TEST(Resample, TheLastActionHoldsUntilTheLastRow) {
   EXPECT_EQ(steps({{0, 1}, {0.1, 1}, {0.2, 1}, {0.3, 1}}, {{0, 1}, {0.1, 1}}), 2) << "the controller stopped before";
 }
 
+// The clock of a loop is late now and then: its first row by 40 ms here, so that the last comes too early.
+TEST(Resample, AStepMayLackHalfOfTheTimeFromRowToRow) {
+  const auto states_of = [](double first_s) {
+    Problems problems("f");
+    const Channels channels{{with("x", {{first_s, first_s}, {0.1, 0.1}, {0.2, 0.2}, {0.3, 0.3}})},
+                            {with("u", {{first_s, 1}, {0.1, 1}, {0.2, 1}})},
+                            {}};
+    Episode episode;
+    resample(channels, grid_of(channels, 0.1, 0.3, problems), false, episode);
+    EXPECT_TRUE(problems.empty());
+    return episode.states;
+  };
+  EXPECT_TRUE(states_of(0.04).isApprox(Matrix{{0.04}, {0.14}, {0.24}, {0.34}})) << "the last goes on as before";
+  EXPECT_EQ(states_of(0.06).rows(), 3);
+}
+
 TEST(Resample, FastRecordingsAreAveraged) {
   Channel fast{"x", "", {}};
   for (int i = 0; i <= 40; ++i) fast.samples.push_back({0.05 * i, 3 * 0.05 * i + (i % 2 == 0 ? 0.1 : -0.1), i + 2});
   const Channels channels{{fast}, {with("u", {{0, 4}, {1, 0}})}, {}};
   Problems problems("f");
   Episode episode;
-  EXPECT_EQ(resample(channels, grid_of(channels, 1, 3, problems), true, episode), 2);
+  EXPECT_EQ(resample(channels, grid_of(channels, 1, 3, problems), true, episode).states, 2);
   for (Index k = 0; k < 3; ++k) EXPECT_NEAR(episode.states(k, 0), 3 * static_cast<double>(k), 0.03);
 }
 

@@ -23,7 +23,9 @@ void rows_alone(const ConstMatrixView& X, const ConstMatrixView& U, const ConstM
 }
 
 TEST(RowLaws, HoldWhereEachRowStandsForItself) {
-  const Limit near{.name = "near", .text = {}, .holds = [](const Steps& s, VectorView kept) { kept = (s.X.col(0).array() < 4).cast<double>(); }};
+  const Limit near{.name = "near", .text = {}, .holds = [](const Steps& s, VectorView kept) {
+                     kept = (s.X.col(0).array() < 4).cast<double>();
+                   }};
   EXPECT_EQ(broken(rows_alone, {near}, [](const ConstMatrixView& X, VectorView holds) { holds = X.col(0); }),
             std::vector<std::string>{});
   EXPECT_EQ(elsewhere(kActions), (Matrix{{0.4}, {0.3}}));

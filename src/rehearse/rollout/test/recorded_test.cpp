@@ -34,7 +34,8 @@ TEST(SimulateRecorded, AfterAnEarlyEndARowIsNan) {
   const Recorded recorded = simulate_recorded({cart::Model(), *cart::policy(), task, kKey}, left, 2);
   bool ended = false;
   for (const Matrix& states : recorded.states) {
-    EXPECT_TRUE(ended ? states.array().isNaN().all() : (states.array().isFinite().all() || (ended = true)));
+    ended = ended || states.array().isNaN().any();
+    EXPECT_TRUE(ended ? states.array().isNaN().all() : states.array().isFinite().all());
   }
   EXPECT_TRUE(ended);
   EXPECT_LT((recorded.rewards.rowwise().sum() - recorded.returns).norm(), 1e-12);

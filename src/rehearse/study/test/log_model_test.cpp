@@ -8,21 +8,6 @@
 namespace rehearse::study {
 namespace {
 
-TEST(LogModel, RowsAreEvenlySpreadStretches) {
-  const std::vector<Episode> logs = {swinging_log(1, 0).episode, swinging_log(2, 0).episode};
-  EXPECT_EQ(spread_rows(logs, 800, 50).size(), 800);
-  EXPECT_EQ(spread_rows(logs, 10000, 50).size(), 800);
-  const Dataset data = spread_rows(logs, 200, 50);
-  EXPECT_EQ(data.size(), 200);
-  EXPECT_EQ(data.states.row(0), logs[0].states.row(0));
-  EXPECT_EQ(data.states.row(50), logs[0].states.row(350));
-}
-
-TEST(LogModel, ManyLogsHaveShortStretches) {
-  const std::vector<Episode> logs(20, swinging_log(1, 0).episode);
-  EXPECT_EQ(spread_rows(logs, 100, 50).size(), 100);
-}
-
 TEST(LogModel, StatesAreFoundByName) {
   EXPECT_EQ(states_named("q,dq", swinging_task()), (std::vector<Index>{1, 0}));
   EXPECT_TRUE(states_named("", swinging_task()).empty());
