@@ -54,7 +54,7 @@ TEST(TrialRecord, NotesSayWhereThePriorFailed) {
   EXPECT_EQ(record_before(1, proposal, resolved).notes, std::vector<std::string>{});
   proposal.failed_rollouts = 51, proposal.left_out_rows = 19;
   EXPECT_EQ(record_before(2, proposal, resolved).notes,
-            (std::vector<std::string>{"19 training rows left out: the prior's prediction was not finite",
+            (std::vector<std::string>{"19 training rows left out: a change, or the prior's prediction of it, was not finite",
                                       "51 of 100 rollouts failed: the model's predictions were not finite"}));
 }
 
