@@ -64,7 +64,8 @@ TrialRecord record_before(Index trial, const learners::Proposal& proposal, const
                      .search_s = proposal.search_s};
   if (proposal.left_out_rows > 0)
     record.notes.push_back(
-        fmt::format("{} training rows left out: a change, or the prior's prediction of it, was not finite", proposal.left_out_rows));
+        fmt::format("{} training rows left out: a change, or the prior's prediction of it, was not finite",
+                    proposal.left_out_rows));
   if (2 * proposal.failed_rollouts > proposal.rollouts)
     record.notes.push_back(fmt::format("{} of {} rollouts failed: the model's predictions were not finite",
                                        proposal.failed_rollouts, proposal.rollouts));
