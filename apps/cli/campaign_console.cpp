@@ -144,11 +144,7 @@ void CampaignConsole::started(const Campaign& campaign, Index at_once) {
   else
     line_.print(fmt::format("{}: share {} of {}, {} of {} in {}", plan_.title, share_.number, share_.of,
                             counted(plan_.runs.size(), "run"), counted(plan_.trials, "trial"), folder_));
-  for (const auto& [name, reason] : plan_.missing) line_.print(fmt::format("missing: {}", reason));
-  for (const auto& [path, reason] : campaign.skipped) line_.print(fmt::format("skipped: {}: {}", path, reason));
-  for (std::size_t i = 0; i < campaign.runs.size(); ++i)
-    if (campaign.runs[i].state == RunState::failed)
-      line_.print(fmt::format("skipped: {}: {}", plan_.runs[i].name, campaign.runs[i].reason));
+  for (const std::string& remark : campaign.remarks()) line_.print(remark);
   if (ended_ > 0) line_.print(fmt::format("{} of {} done already", ended_, counted(plan_.runs.size(), "run")));
 }
 

@@ -37,16 +37,10 @@ class CampaignTeller final : public campaign::CampaignListener {
   void started(const campaign::Campaign& begun, Index /*at_once*/) override {
     plan_ = begun.plan;
     ended_ = begun.count(RunState::done) + begun.count(RunState::failed);
-    std::vector<std::string> notes;
-    for (const auto& [name, reason] : plan_.missing) notes.push_back("missing: " + reason);
-    for (const auto& [path, reason] : begun.skipped) notes.push_back(fmt::format("skipped: {}: {}", path, reason));
-    for (std::size_t i = 0; i < begun.runs.size(); ++i)
-      if (begun.runs[i].state == RunState::failed)
-        notes.push_back(fmt::format("skipped: {}: {}", plan_.runs[i].name, begun.runs[i].reason));
     tell([&] {
       return py::dict(py::arg("kind") = "campaign", py::arg("title") = plan_.title, py::arg("robot") = plan_.scenario,
                       py::arg("trials") = plan_.trials, py::arg("runs") = plan_.runs.size(), py::arg("ended") = ended_,
-                      py::arg("notes") = notes);
+                      py::arg("notes") = begun.remarks());
     });
   }
 

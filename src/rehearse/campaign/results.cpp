@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <fmt/format.h>
+
 namespace rehearse::campaign {
 
 void RunOutcome::fail(std::string why) {
@@ -24,6 +26,16 @@ std::optional<Index> RunOutcome::first_success(Index until) const {
 
 double RunOutcome::best_return(Index until) const {
   return *std::max_element(returns.begin(), returns.begin() + std::min(until, done()));
+}
+
+std::vector<std::string> Campaign::remarks() const {
+  std::vector<std::string> lines;
+  for (const auto& [name, reason] : plan.missing) lines.push_back(fmt::format("missing: {}", reason));
+  for (const auto& [path, reason] : skipped) lines.push_back(fmt::format("skipped: {}: {}", path, reason));
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (runs[i].state == RunState::failed)
+      lines.push_back(fmt::format("skipped: {}: {}", plan.runs[i].name, runs[i].reason));
+  return lines;
 }
 
 Index Campaign::count(RunState state) const {

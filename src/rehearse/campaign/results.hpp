@@ -51,6 +51,8 @@ struct Campaign {
     return runs[group * plan.seeds.size() + seed];
   }
   Index count(RunState state) const;
+  /// What is not run, or is in the folder and none of its own, and failed before; a line each.
+  std::vector<std::string> remarks() const;
   bool complete() const { return count(RunState::done) == static_cast<Index>(runs.size()); }
 };
 

@@ -56,11 +56,11 @@ Matrix Residuals::targets(const Matrix* prior_mean) const {
   if (prior_mean) targets -= *prior_mean;
   subtract_integrals(kinematics_, data_.states, prior_mean != nullptr, targets);
   for (Index state = 0; state < targets.cols(); ++state)
-    if (told_by_servos(state)) targets.col(state) = targets.col(state).unaryExpr(&zero_if_finite);
+    if (predicted_by_servos(state)) targets.col(state) = targets.col(state).unaryExpr(&zero_if_finite);
   return targets;
 }
 
-bool Residuals::told_by_servos(Index state) const {
+bool Residuals::predicted_by_servos(Index state) const {
   return std::ranges::any_of(kinematics_.servos,
                              [&](const auto& servo) { return state == servo.position || state == servo.rate; });
 }

@@ -36,7 +36,7 @@ class Residuals {
   const FeatureMap& features() const { return features_; }
   const Kinematics& kinematics() const { return kinematics_; }
   bool midpoint() const { return midpoint_; }
-  bool told_by_servos(Index state) const;
+  bool predicted_by_servos(Index state) const;
   Index size() const { return data_.size(); }
 
   /// The residuals of other rows, with the same features, kinematics and midpoint.

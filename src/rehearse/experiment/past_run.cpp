@@ -53,7 +53,7 @@ PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder
 std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario) {
   if (trial.policy == scenario.policy->name()) return scenario.policy;
   const Task& task = scenario.task;
-  if (trial.policy == policy::kSchedule) return policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
+  if (trial.policy == policy::kSchedule) return policy::make_schedule(task);
   if (trial.policy == policy::kHandOver) return policy::make_hand_over(task, scenario.policy);
   if (trial.policy == policy::kTracking)
     return policy::make_tracking(task, trial.theta.size() / policy::numbers_of_stage(task));

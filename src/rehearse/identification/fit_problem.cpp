@@ -14,7 +14,7 @@ void FitProblem::refit(Fit& fit, const gp::FitOptions& options) const {
   fit.log_evidences.resize(outputs);
   evaluator.for_each(outputs, [&](Index e) {
     gp::FitStart& kernel = fit.kernels[static_cast<std::size_t>(e)];
-    const bool told = residuals.told_by_servos(e);  // so its targets are 0, and nothing is to be learned
+    const bool told = residuals.predicted_by_servos(e);  // so its targets are 0, and nothing is to be learned
     if (kernel.hyperparameters.inputs() == 0 || told)
       kernel.hyperparameters =
           gp::default_start(*rows.inputs, rows.targets.col(e), residuals.scale()(e), options.bounds, options.trend);
@@ -30,7 +30,7 @@ void FitProblem::refit(Fit& fit, const gp::FitOptions& options) const {
 double FitProblem::charged_score(const Vector& log_evidences, Index left_out) const {
   std::vector<double> learned;
   for (Index e = 0; e < log_evidences.size(); ++e) {
-    if (residuals.told_by_servos(e)) continue;
+    if (residuals.predicted_by_servos(e)) continue;
     const double uninformed =
         -0.5 - std::log(gp::usable_scale(residuals.scale()(e))) - 0.5 * std::log(2 * std::numbers::pi);
     learned.push_back(log_evidences(e) + static_cast<double>(left_out) * uninformed);

@@ -60,7 +60,7 @@ bool is_odd(const FitProblem& problem, const Fit& fit, const GpOptions& options)
   if (!rows.inputs || rows.inputs->dimensions() > dynamics::kFewInputs) return false;
   if (problem.prior && not_its_image(residuals, *problem.prior, fit.phi)) return false;
   Index learned = 0;
-  for (Index e = 0; e < rows.targets.cols(); ++e) learned += !residuals.told_by_servos(e);
+  for (Index e = 0; e < rows.targets.cols(); ++e) learned += !residuals.predicted_by_servos(e);
   return nats_for_odd(residuals, rows, fit) > kOddNats * static_cast<double>(learned);
 }
 
@@ -85,7 +85,7 @@ Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& opt
   if (problem.prior) learned.state.phi = fit.phi;
   double evidence = 0;
   for (Index e = 0; e < fit.log_evidences.size(); ++e)
-    if (!residuals.told_by_servos(e)) evidence += fit.log_evidences(e);
+    if (!residuals.predicted_by_servos(e)) evidence += fit.log_evidences(e);
   learned.log_evidence = evidence;
   learned.left_out_rows = rows.left_out;
   learned.evaluations = fit.evaluations;

@@ -33,7 +33,7 @@ double nats_for_odd(const dynamics::Residuals& residuals, const dynamics::Residu
   const Vector signs = signs_of_images(residuals.features(), residuals.data().actions.cols());
   double nats = 0;
   for (Index e = 0; e < rows.targets.cols(); ++e) {
-    if (residuals.told_by_servos(e)) continue;
+    if (residuals.predicted_by_servos(e)) continue;
     const gp::Hyperparameters& kernel = fit.kernels[static_cast<std::size_t>(e)].hyperparameters;
     nats += gp::odd_evidence(*rows.inputs, signs, rows.targets.col(e), kernel).value - fit.log_evidences(e);
   }

@@ -71,11 +71,8 @@ class Around {
     if (told.factor.size() == 0) return {};
     const Vector way = options.misfit_share * way_to_explain(J, explained(stack), deviations(stack), z);
     const Matrix covariance = covariance_of(told, z) + way * way.transpose();
-    if (!covariance.allFinite()) return {};
-    const auto scale = coordinates_.widths().asDiagonal();
-    PhiPosterior posterior{.mean = phi_(coordinates_.parameters()), .covariance = scale * covariance * scale};
-    for (const Index i : coordinates_.parameters()) posterior.parameters.push_back(prior_.space[i]);
-    follow(weak_directions(told), stack, posterior);
+    std::optional<PhiPosterior> posterior = posterior_of(covariance, prior_.space, phi_);
+    if (posterior) follow(weak_directions(told), stack, *posterior);
     return posterior;
   }
 
@@ -187,6 +184,17 @@ std::vector<Interval> PhiPosterior::intervals() const {
     all[k] = {std::max(parameters[k].box.low, range.low), std::min(parameters[k].box.high, range.high)};
   }
   return all;
+}
+
+std::optional<PhiPosterior> posterior_of(const Matrix& covariance, const ParameterSpace& space, const Vector& phi) {
+  const Coordinates coordinates(space, phi);
+  const Index q = coordinates.size();
+  if (q == 0 || !covariance.allFinite()) return {};
+  const auto scale = coordinates.widths().asDiagonal();
+  PhiPosterior posterior{.mean = phi(coordinates.parameters()),
+                         .covariance = scale * covariance.topLeftCorner(q, q) * scale};
+  for (const Index i : coordinates.parameters()) posterior.parameters.push_back(space[i]);
+  return posterior;
 }
 
 std::optional<PhiPosterior> phi_posterior(const FitProblem& problem, const Fit& fit,

@@ -48,6 +48,10 @@ struct PhiPosteriorOptions {
       "observations per degree of freedom of the prior's model error; fewer: wider intervals";
 };
 
+/// The posterior at φ of a space's continuous parameters, whose covariance in fractions of their boxes has the first
+/// rows and columns of `covariance`; empty if there are none, or a number is not finite.
+std::optional<PhiPosterior> posterior_of(const Matrix& covariance, const ParameterSpace& space, const Vector& phi);
+
 /// Laplace's approximation around the fit with its kernels K_e held: with J_e the derivatives of the prior mean of
 /// output e, the precision is the sum over the outputs of J_eᵀ K_e⁻¹ J_e (Gauss and Newton's; Rasmussen 2006, section
 /// 2.7), plus that of a uniform distribution in the box. What φ cannot explain looks like the prior's own doing, so

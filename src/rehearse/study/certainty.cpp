@@ -40,19 +40,4 @@ Matrix covariance(const FittedSquares& fitted) {
   return (H / inflation(fitted) + identification::kBoxPrecision * one).llt().solve(one);
 }
 
-std::optional<identification::PhiPosterior> posterior_of(const Matrix& covariance, const ParameterSpace& space,
-                                                         const Vector& phi) {
-  const std::vector<Index> continuous = space.of_kind(Parameter::Kind::continuous);
-  const auto q = static_cast<Index>(continuous.size());
-  if (q == 0 || !covariance.allFinite()) return std::nullopt;
-  identification::PhiPosterior posterior{.mean = phi(continuous)};
-  Vector widths(q);
-  for (Index i = 0; i < q; ++i) {
-    posterior.parameters.push_back(space[continuous[static_cast<std::size_t>(i)]]);
-    widths(i) = posterior.parameters.back().box.high - posterior.parameters.back().box.low;
-  }
-  posterior.covariance = widths.asDiagonal() * covariance.topLeftCorner(q, q) * widths.asDiagonal();
-  return posterior;
-}
-
 }  // namespace rehearse::study

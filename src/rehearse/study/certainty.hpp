@@ -23,9 +23,4 @@ double inflation(const FittedSquares& fitted);
 /// and that of the boxes.
 Matrix covariance(const FittedSquares& fitted);
 
-/// The knowledge of a space's continuous parameters, the first coordinates of `covariance`; empty if there are none, or
-/// a number is not finite.
-std::optional<identification::PhiPosterior> posterior_of(const Matrix& covariance, const ParameterSpace& space,
-                                                         const Vector& phi);
-
 }  // namespace rehearse::study

@@ -160,7 +160,7 @@ Zeros find_zeros(const std::vector<Episode>& logs, const ZeroProblem& problem, c
   return {phi,
           errors.offsets(z),
           errors.offsets(upwards),
-          posterior_of(left, problem.prior.space, phi),
+          identification::posterior_of(left, problem.prior.space, phi),
           errors.phi(closest),
           Errors::usual(errors.raw(z))};
 }

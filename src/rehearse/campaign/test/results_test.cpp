@@ -32,6 +32,20 @@ TEST(RunOutcome, IsReadFromATableUpToThePlannedTrials) {
   EXPECT_EQ(two.trials.rows.size(), 2u);
 }
 
+TEST(Campaign, RemarksSayWhatIsNotRun) {
+  Campaign campaign;
+  campaign.plan.missing.push_back({"ite", "learner 'ite' is not built"});
+  campaign.plan.runs.resize(2);
+  campaign.plan.runs[1].name = "line-echo-2";
+  campaign.skipped.push_back({"runs/other", "it is no run of this campaign"});
+  campaign.runs.resize(2);
+  EXPECT_EQ(campaign.remarks().size(), 2u);
+  campaign.runs[1].fail("the plant failed");
+  EXPECT_EQ(campaign.remarks(), (std::vector<std::string>{"missing: learner 'ite' is not built",
+                                                          "skipped: runs/other: it is no run of this campaign",
+                                                          "skipped: line-echo-2: the plant failed"}));
+}
+
 TEST(RunOutcome, ALastTrialStandsForLaterOnesOnceTheRunIsDone) {
   RunOutcome outcome = outcome_of(three_trials(), 3);
   EXPECT_EQ(outcome.row_of(3), 2u);

@@ -104,7 +104,7 @@ class BlackDrops final : public TrialLearner {
   std::shared_ptr<const policy::Policy> policy_named(const std::string& name) const {
     if (name == setting_.policy->name()) return setting_.policy;
     if (name == policy::kHandOver) return policy::make_hand_over(setting_.task, setting_.policy);
-    return schedule();  // it explored
+    return policy::make_schedule(setting_.task);  // it explored
   }
 
   void search(Proposal& proposal, const Task& task) const {
@@ -169,14 +169,9 @@ class BlackDrops final : public TrialLearner {
       return;
     }
     const Task& task = setting_.task;
-    proposal.policy = schedule();
+    proposal.policy = policy::make_schedule(task);
     const double fraction = task.limits.empty() ? 1 : options_.first_trial.cautious;
     proposal.theta = smaller_actions(task, random_actions(task, options_.first_trial, episode_stream), fraction);
-  }
-
-  std::shared_ptr<const policy::Policy> schedule() const {
-    const Task& task = setting_.task;
-    return policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
   }
 
   /// A policy that teaches nothing new would be proposed for ever.
@@ -189,7 +184,7 @@ class BlackDrops final : public TrialLearner {
   }
 
   void explore(const SearchProblem& problem, Proposal& proposal) const {
-    const auto random = schedule();
+    const auto random = policy::make_schedule(setting_.task);
     const SearchProblem of_actions{problem.model, *random, problem.task, problem.evaluator, problem.progress};
     SearchResult found = safe_random_actions(of_actions, options_, stream());
     proposal.rollouts += found.rollouts;

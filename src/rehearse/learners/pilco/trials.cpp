@@ -50,7 +50,7 @@ Proposal proposal_of(const PriorKnowledge& knowledge, const Setting& setting, co
 
 Proposal random_actions(const Setting& setting, double hold_s, const StreamKey& key) {
   const Task& task = setting.task;
-  return {.policy = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon),
+  return {.policy = policy::make_schedule(task),
           .theta = policy::random_schedule(task, policy::RandomActions::uniform, hold_s, key)};
 }
 

@@ -20,7 +20,7 @@ Setting slider_setting() {
 /// An episode of the slider under pulls that change.
 Episode an_episode(std::uint64_t trial) {
   const Task task = slider::task();
-  const auto random = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
+  const auto random = policy::make_schedule(task);
   const Vector theta = policy::random_schedule(task, policy::RandomActions::uniform, 0, {.trial = trial});
   Proposal proposal{.policy = random, .theta = theta};
   return slider::run_trial(proposal, trial);

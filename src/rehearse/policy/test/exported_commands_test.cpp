@@ -32,7 +32,7 @@ std::vector<Case> remembering_cases() {
   add("linear", make_linear({features, scale, squash}));
   add("mlp", make_mlp({features, scale, 10, squash}));
   add("rbf", make_rbf({features, scale, 10, 0.01, task.action_bounds()}));
-  add("schedule", make_schedule(task.action_bounds(), task.dt_s, task.horizon));
+  add("schedule", make_schedule(task));
   add("tracking", make_tracking(task, 5));
   return all;
 }

@@ -125,7 +125,7 @@ TEST(ReturnGradients, HaveTheSameBytesForAnyNumberOfThreads) {
 
 TEST(ReturnGradients, RefuseWhatTheyCannotKnow) {
   const Task task = cart::task();
-  const auto schedule = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
+  const auto schedule = policy::make_schedule(task);
   const Matrix Theta = Matrix::Zero(schedule->parameters(), 1);
   EXPECT_THROW(return_gradients({Curved(), *schedule, task, kKey}, Theta, {0, 1}, serial_evaluator()), InvalidInput);
   const auto policy = cart::policy();

@@ -30,10 +30,10 @@ TEST(Certainty, WhatIsNotToldIsAnywhereInItsBox) {
   fitted.derivatives.conservativeResize(1000, 2);
   fitted.derivatives.col(1).setZero();
   const ParameterSpace space({Parameter::continuous("a", 1, {0, 2}), Parameter::continuous("b", 5, {0, 10})});
-  const auto posterior = posterior_of(covariance(fitted), space, Vector{{1, 5}});
+  const auto posterior = identification::posterior_of(covariance(fitted), space, Vector{{1, 5}});
   ASSERT_TRUE(posterior);
   EXPECT_NEAR(posterior->covariance(1, 1), 100.0 / 12, 1e-6);
-  EXPECT_FALSE(posterior_of(covariance(fitted), space.fixed_at(Vector{{1, 5}}), Vector{{1, 5}}));
+  EXPECT_FALSE(identification::posterior_of(covariance(fitted), space.fixed_at(Vector{{1, 5}}), Vector{{1, 5}}));
 }
 
 TEST(Certainty, ErrorsThatTellNothingLeaveTheBoxes) {
@@ -41,7 +41,7 @@ TEST(Certainty, ErrorsThatTellNothingLeaveTheBoxes) {
   fitted.derivatives.setZero();
   EXPECT_NEAR(inflation(fitted), 4 * fitted.errors.squaredNorm() / 1000, 1e-12);
   const ParameterSpace space({Parameter::continuous("a", 1, {0, 2})});
-  const auto posterior = posterior_of(covariance(fitted), space, Vector{{1}});
+  const auto posterior = identification::posterior_of(covariance(fitted), space, Vector{{1}});
   ASSERT_TRUE(posterior);
   EXPECT_NEAR(posterior->covariance(0, 0), 4.0 / 12, 1e-9);
 }

@@ -25,7 +25,7 @@ TEST(SafeRandomActions, AreAsLargeAsTheLimitsAllow) {
     };
     task.limits = {{"pull", "", holds, 0.05}};
     const dynamics::SimulatorModel model(slider::prior(), slider::kTruth);
-    const auto schedule = policy::make_schedule(task.action_bounds(), task.dt_s, task.horizon);
+    const auto schedule = policy::make_schedule(task);
     const ProgressSink nobody;
     const auto found = safe_random_actions({model, *schedule, task, serial_evaluator(), nobody}, {}, {.seed = 2});
     EXPECT_EQ(found.rollouts % found.risks.front().episodes, 0);

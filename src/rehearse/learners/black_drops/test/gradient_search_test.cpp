@@ -152,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(Names, ByGradient, ::testing::Values("black-drops", "gp
 
 TEST(ByGradientTest, APolicyWithoutDerivativesIsRefused) {
   Setting setting = slider::setting();
-  setting.policy = policy::make_schedule(setting.task.action_bounds(), setting.task.dt_s, setting.task.horizon);
+  setting.policy = policy::make_schedule(setting.task);
   try {
     by_gradient("gp-mi")->build(setting);
     FAIL();
