@@ -19,8 +19,8 @@ struct Grid {
 };
 
 /// From where all channels have begun to where a state ends, or the last action, which holds for a step or, where rows
-/// are further apart, until the next would come: for a last action no longer than `max_gap_s`. A problem if that is
-/// less than a step.
+/// are further apart, until the next would come: for a last action no longer than `max_gap_s`. The last step
+/// may lack half of the time from row to row, half a step at most. A problem if all that is less than a step.
 Grid grid_of(const Channels& channels, double dt_s, double max_gap_s, Problems& problems);
 
 /// Leaves out samples that no step of the grid needs, behind its end.
