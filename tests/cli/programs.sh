@@ -95,18 +95,26 @@ for line in sys.stdin:
     kind, = {"rehearse", "reset", "step", "end"} & json.loads(line).keys()
     with open(sys.argv[1], "a") as log:
         log.write(kind + "\n")
-    time.sleep(0.1 if kind == "step" else 0)
+    slow = kind == "step" and open(sys.argv[1]).read().count("end") >= int(sys.argv[2])
+    time.sleep(0.1 if slow else 0)
     answers = {"rehearse": {"rehearse": 1, "messages": ["reset", "step", "end"]}, "end": {"end": True}}
     print(json.dumps(answers.get(kind, {"state": [0.0, 0.0]})), flush=True)
 PY
-sed "s|\"driver.py\".*|\"slow_driver.py\", \"$PWD/log\"]|" driven.toml >slow.toml
-"$program" check slow.toml >output 2>&1 &
-process=$!
-until grep -q step log 2>/dev/null || ! kill -0 $process 2>/dev/null; do sleep 0.05; done
-kill -INT $process
-wait $process
-[ $? = 130 ] || fail "a check that is stopped: $(cat output)"
-[ "$(tail -n 1 log)" = end ] || fail "a driver whose check is stopped is told $(tail -n 1 log)"
+# stopped EPISODES [ARGUMENTS]: Ctrl-C after so many episodes of a check.
+stopped() {
+  rm -f log
+  sed "s|\"driver.py\".*|\"slow_driver.py\", \"$PWD/log\", \"$1\"]|" driven.toml >slow.toml
+  "$program" check slow.toml "${@:2}" >output 2>&1 &
+  process=$!
+  until [ "$(grep -c end log 2>/dev/null)" = "$1" ] && [ "$(tail -n 1 log)" = step ] || ! kill -0 $process 2>/dev/null; do sleep 0.05; done
+  kill -INT $process
+  wait $process
+  [ $? = 130 ] || fail "a check that is stopped after $1 episodes: $(cat output)"
+  [ "$(tail -n 1 log)" = end ] || fail "a driver whose check is stopped after $1 episodes is told $(tail -n 1 log)"
+}
+stopped 6 --out motion.html # its own episode, after those that are tried
+[ -e motion.html ] && fail "a check that is stopped leaves a page"
+stopped 0
 
 # A driver whose robot is left alone is not even started.
 rm log
