@@ -44,7 +44,9 @@ std::string unknown_flags(const CLI::App& app) {
 std::string why_not_parsed(const CLI::App& app, const CLI::ParseError& error) {
   for (std::string lines : {repeated_options(app), unknown_flags(app)})
     if (!lines.empty()) return lines;
-  return error.what();
+  const std::string why = error.what(), flag = why.substr(0, why.find(' '));
+  if (why == CLI::ArgumentMismatch::FlagOverride(flag).what()) return fmt::format("--{} takes no value", flag);
+  return why;
 }
 
 }  // namespace rehearse::apps

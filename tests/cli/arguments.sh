@@ -27,6 +27,8 @@ done
 expect 0 "Example" - help
 expect 0 "--prior" - help learn
 expect 2 "unknown command 'lern', did you mean 'learn'?" 1 help lern
+expect 2 "--until-solved takes no value" 1 learn pendubot --until-solved=3
+expect 2 "--json takes no value" 1 list --json=no
 expect 0 "misleading" - list
 expect 0 '"takes_prior": true' - list --json
 expect 0 "search.race.max_evaluations = " - list --options

@@ -118,6 +118,18 @@ TEST(ExportedC, TestsItself) {
     }
 }
 
+// REHEARSE_POLICY_MAIN asks for the test, and must not be what a policy of that name is guarded by.
+TEST(ExportedC, MayBeCalledMain) {
+  const auto ways = compilers({"gcc -std=c99"});
+  if (ways.empty()) GTEST_SKIP() << "there is no compiler";
+  exports::write(test_folder() / "main.h",
+                 to_c(exports::exported(exports::cases().front(), exports::asked(2, 0.1)), "main"));
+  exports::write(test_folder() / "uses.c", "#include \"main.h\"\nint main(void) { return MAIN_ACTIONS == 0; }\n");
+  const Ran compiled = run(ways.front() + " " + (test_folder() / "uses.c").string() + " -o " +
+                           (test_folder() / "uses").string() + " -lm");
+  EXPECT_TRUE(compiled.status == 0 && compiled.output.empty()) << compiled.output;
+}
+
 TEST(ExportedC, NamesThatEndCommentsDoNoHarm) {
   const auto ways = compilers({"gcc -std=c99"});
   if (ways.empty()) GTEST_SKIP() << "there is no compiler";
