@@ -51,7 +51,8 @@ class Checked:
 
 
 def check(robot: Robots, *, plant: bool = True) -> Checked:
-    """Tries plant and priors on three episodes of random actions, as `rehearse check` does (docs/does-not-learn.md).
+    """Tries plant and priors on three episodes of random actions, which the plant does twice, as `rehearse check` does
+    (docs/does-not-learn.md).
 
     Where there is no plant, or plant=False, the first prior plays the robot. A plant that is a real robot moves. Raises
     InvalidInput, or what a function raises.

@@ -16,7 +16,8 @@ from .checks import not_negative, numbers, option_text, threads_of, truth
 class GaussianProcess:
     """GP regression with a squared exponential kernel, a length an input, and noise.
 
-    `fit` maximises the evidence (Rasmussen 2006, eq. 5.8), from several starts; several outputs are independent GPs.
+    `fit` maximises the evidence (Rasmussen 2006, eq. 5.8), from several starts; several outputs are independent GPs. The
+    mean before data is 0: subtract that of y, where it is far from it.
     trend: adds a quadratic trend, which goes on where there are no data. tolerance: predictions from fewer points, with
     errors up to this fraction of the noise; 0: exact. options: as of `model.gp.fit`, {"starts": 1}. Where there is one
     input, X may be n numbers instead of n × 1. Ctrl-C stops a fit.

@@ -61,7 +61,8 @@ class Action:
 
 @dataclass(frozen=True)
 class Distance:
-    """The reward exp(−Σ (distance / width)² / 2), of formulas that are all 0 at the goal: "1 + cos(angle)".
+    """The reward exp(−Σ (distance / width)² / 2), of formulas that are all 0 at the goal: "1 + cos(angle)". width: the
+    distance at which 0.61 is earned.
 
     All learners can use it; a function as reward is nothing for PILCO, which needs derivatives.
     """
@@ -72,7 +73,8 @@ class Distance:
 
 @dataclass(frozen=True)
 class Success:
-    """A trial is solved where this holds in the last seconds of a complete episode. when: a formula or a function."""
+    """A trial is solved where this holds in the last seconds of a complete episode. when: a formula, or function(states) →
+    n truths. last_s: how long [s]; 0: in the last state."""
 
     when: Union[str, StateFunction]
     last_s: float = 0.0

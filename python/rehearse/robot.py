@@ -27,7 +27,10 @@ from .toml import quoting, table, value
 class Robot:
     """A robot, its task, and guesses of its dynamics.
 
-    name: letters, digits, - and _. dt_s: seconds of a control step. horizon: control steps of an episode.
+    name: letters, digits, - and _. dt_s: seconds of a control step. horizon: control steps of an episode. states,
+    actions: lists of `State` and `Action`, in the order of the columns that functions get. success: a `Success`, or
+    None. limits: a list of `Limit`. define: names for parts of formulas. bodies: a list of `Body`, what reports draw.
+    summary: a line about it.
     reward: what a step earns by the state that it reaches: a `Distance`, a formula, or function(states, actions,
     next_states) → n numbers. cost: a formula that is subtracted. episode_reward: what a whole episode adds to
     its return, a formula (docs/own-robot.md) or function(states, actions) → a number, of T + 1 and T rows. floor: what every step earns that a fall leaves out.

@@ -42,9 +42,14 @@ class Cmaes(_Search):
                  seed: int = 1, max_evaluations: Union[int, None] = None, **options: Any) -> None:
         self._max_evaluations = None if max_evaluations is None else whole("max_evaluations", max_evaluations, 1)
         texts = {name: option_text(value) for name, value in options.items()}
+        start = vector("mean", np.atleast_1d(numbers("mean", mean)))
         pairs = [] if bounds is None else _pairs("bounds", bounds)
-        self._core = _core.Cmaes(vector("mean", np.atleast_1d(numbers("mean", mean))), number("sigma", sigma), pairs,
-                                 _seed(seed), texts)
+        if bounds is not None and len(pairs) != len(start):
+            raise _core.InvalidInput(f"bounds has {len(pairs)} pairs, must have {len(start)}, one for each number of mean")
+        for i, (x, (low, high)) in enumerate(zip(start, pairs)):
+            if low < high and not low <= x <= high:
+                raise _core.InvalidInput(f"mean[{i}] = {x:g}, must be between {low:g} and {high:g}")
+        self._core = _core.Cmaes(start, number("sigma", sigma), pairs, _seed(seed), texts)
 
     def ask(self) -> Array:
         """The candidates of this generation, λ × n; the same until `tell`."""

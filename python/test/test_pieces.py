@@ -182,6 +182,10 @@ def test_cmaes_finds_the_top_of_a_ridge():
         inside.tell([1.0])
     with pytest.raises(rehearse.InvalidInput, match="did you mean 'population'"):
         rehearse.Cmaes([0.5], 0.3, populatoin=8)
+    with pytest.raises(rehearse.InvalidInput, match="^bounds has 1 pairs, must have 2, one for each number of mean"):
+        rehearse.Cmaes([0.5, 0.5], 0.3, [(0, 1)])
+    with pytest.raises(rehearse.InvalidInput, match=r"^mean\[1\] = 5, must be between 0 and 1"):
+        rehearse.Cmaes([0.5, 5], 0.3, [(0, 1), (0, 1)])
     with pytest.raises(rehearse.InvalidInput, match="did you mean 'max_evaluations'"):
         rehearse.Cmaes([0.5], 0.3, max_evaluation=8)
     with pytest.raises(rehearse.InvalidInput, match="max_evaluations = 0, must be ≥ 1"):
