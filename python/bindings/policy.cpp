@@ -1,8 +1,10 @@
 #include "python/bindings/policy.hpp"
 
 #include <cmath>
+#include <ranges>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -13,23 +15,13 @@
 
 namespace rehearse::python {
 
-namespace {
-
-std::string names_of(const std::vector<StateVariable>& states) {
-  std::string names;
-  for (const StateVariable& state : states) names += (names.empty() ? "" : ", ") + state.name;
-  return names;
-}
-
-}  // namespace
-
 py::array_t<double> Policy::act(const py::array_t<double, py::array::f_style | py::array::forcecast>& states,
                                 double time_s) const {
   const auto dx = static_cast<Index>(exported_.states.size());
   const bool one = states.ndim() == 1;
   if (states.ndim() < 1 || states.ndim() > 2 || states.shape(one ? 0 : 1) != dx)
-    throw InvalidInput(
-        fmt::format("states must be an array of {0} numbers, or n × {0}: {1}", dx, names_of(exported_.states)));
+    throw InvalidInput(fmt::format("states must be an array of {0} numbers, or n × {0}: {1}", dx,
+                                   fmt::join(exported_.states | std::views::transform(&StateVariable::name), ", ")));
   const Index rows = one ? 1 : states.shape(0);
   const ConstMatrixView X = Matrix::Map(states.data(), rows, dx);
   Matrix U(rows, policy_->actions());

@@ -19,8 +19,9 @@ from .parts import Action, Body, Distance, Limit, Model, State, Success
 from .policy import Policy
 from .progress import show
 from .robot import Robot
-from .run import Run, Trial, learn, open_run, resume
+from .run import Run, learn, open_run, resume
 from .search import Cmaes, MapElites
+from .trial import Trial
 
 __all__ = [
     "Action", "Body", "Campaign", "Checked", "Cmaes", "Distance", "Evaluation", "GaussianProcess", "Identification",

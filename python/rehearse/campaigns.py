@@ -128,12 +128,11 @@ def campaign(given: Robots, robot: Union[Robots, None] = None, *, learners: Unio
     """Runs a grid of learners × priors × varied options × seeds; it goes on where the folder has begun.
 
     given: a campaign's file, "NAME.toml"; or a robot as `learn` takes it, and the keys of such a file as arguments
-    (docs/campaigns.md): learners and seeds ("1-30", [1, 2, 5], or a number: that seed alone) at least. robot: the robot that a file's `scenario`
-    names, where it is an object. out: by default runs/NAME of a file, runs/ROBOT-campaign. threads: 0 are all cores;
-    as many runs go at once, any number gives the same bytes, which are those of the command line. An environment that
-    is given as an object, not as a function that makes one, and a class with `end`, which is a real robot, are used by one
-    run at a time. progress: function(event),
-    see `show`.
+    (docs/campaigns.md): learners and seeds ("1-30", [1, 2, 5], or a number: that seed alone) at least. robot: the robot
+    that a file's `scenario` names, where it is an object. out: by default runs/NAME of a file, runs/ROBOT-campaign.
+    threads: 0 are all cores; as many runs go at once, any number gives the same bytes, which are those of the command
+    line. An environment that is given as an object, not as a function that makes one, and a class with `end`, which is a
+    real robot, are used by one run at a time. progress: function(event), see `show`.
 
     A run that fails is recorded, and does not stop the others. Ctrl-C stops it, and the same call goes on; finished runs
     are not repeated. So does an exception of a function of the robot, which comes out as it is. Raises InvalidInput with

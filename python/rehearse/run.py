@@ -6,7 +6,7 @@ import os
 import tempfile
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from html import escape
 from pathlib import Path
 from typing import Any, Union
@@ -22,31 +22,11 @@ from .policy import Policy
 from .progress import show
 from .robot import Robot
 from .tables import as_files, html_table, read_csv, without_path
+from .trial import Trial, best_of
 
 Robots = Union[Robot, str, os.PathLike[str]]
 PathLike = Union[str, os.PathLike[str]]
 Progress = Union[Callable[[dict[str, Any]], None], None]
-
-
-@dataclass(frozen=True)
-class Trial:
-    """One trial: what was predicted before it, and what came of it.
-
-    phi, intervals: parameters of the prior that chose its policy, and their 95 % intervals. limits: risk and outcome of
-    each. cut_short: by no fault of the policy, so that the return does not compare. warnings: what the trials before
-    cannot tell of the parameters. None: does not apply, or is not known. total_reward: NaN of a trial that is to come.
-    """
-
-    trial: int
-    total_reward: float
-    predicted_return: Union[float, None]
-    solved: Union[bool, None]
-    cut_short: bool
-    phi: dict[str, float]
-    intervals: dict[str, tuple[float, float]]
-    limits: list[dict[str, Any]]
-    warnings: list[str]
-    notes: list[str]
 
 
 class Run:
@@ -94,7 +74,8 @@ class Run:
         return self._table_of(trial, "trajectories")
 
     def prediction(self, trial: int) -> Array:
-        """What the model expected: mean and quantiles of each state; a row a step. Of the trial that is asked for, too."""
+        """What the model expected: mean and quantiles of each state; a row a step. The trial that is asked for has
+        one, too."""
         return self._table_of(trial, "predictions")
 
     @property
@@ -106,7 +87,7 @@ class Run:
     def best(self) -> Union[Trial, None]:
         """The trial of the highest return, of equals the first, none that was cut short unless all were; None before
         there is one."""
-        return _best_of(self.details)
+        return best_of(self.details)
 
     @property
     def solved_at(self) -> Union[int, None]:
@@ -205,7 +186,7 @@ class Run:
 
     def __repr__(self) -> str:
         trials = self.details
-        best = _best_of(trials)
+        best = best_of(trials)
         earned = f", best return {best.total_reward:.4g}" if best else ""
         return f"<rehearse.Run {self.folder}: {len(trials)} trials{earned}>"
 
@@ -214,13 +195,14 @@ class Run:
         return self._robot._core if self._robot is not None else _core.Robot("", "", "")
 
     def _table_of(self, trial: int, kind: str) -> Array:
-        given, done = whole("trial", trial), len(self.trials)
+        given = whole("trial", trial)
         path = self.folder / kind / f"trial-{given:03}.csv"
-        if not path.exists() and not 1 <= given <= done:
+        if path.exists():
+            return read_csv(path)
+        done = len(self.trials)
+        if not 1 <= given <= done:
             raise _core.InvalidInput(f"trial = {given}, must be between 1 and {done}, the trials that are done")
-        if not path.exists():
-            raise _core.InvalidInput(f"trial {given} of {self.folder} has no {kind}")
-        return read_csv(path)
+        raise _core.InvalidInput(f"trial {given} of {self.folder} has no {kind}")
 
     def _describe(self) -> dict[str, Any]:
         return dict(_core.describe(self._core, str(self.folder)))
@@ -298,11 +280,6 @@ def _json_of(policy: Union[Policy, PathLike, None]) -> str:
     """The text of a policy, or of its file; "": none."""
     return (policy._core.to_json() if isinstance(policy, Policy)
             else read_if_any("policy", policy, "a Policy, its JSON file, or None"))
-
-
-def _best_of(trials: list[Trial]) -> Union[Trial, None]:
-    compared = [trial for trial in trials if not trial.cut_short] or trials[:1]
-    return max(compared, key=lambda trial: trial.total_reward) if compared else None
 
 
 def _number(value: Union[float, None]) -> str:

@@ -211,10 +211,10 @@ class CampaignReader {
     success.at_most_runs = count(reader, "at_most_runs");
     if (!success.at_least_rate && !success.at_most_rate && !success.at_least_runs && !success.at_most_runs)
       violations_.add(reader.line(), "how many? at_least_runs, at_most_runs, at_least_rate or at_most_rate");
-    if (success.at_most_runs.value_or(success.at_least_runs.value_or(0)) < success.at_least_runs.value_or(0))
+    if (success.at_least_runs && success.at_most_runs && *success.at_most_runs < *success.at_least_runs)
       violations_.add(reader.line(), fmt::format("at_most_runs = {}, must be ≥ at_least_runs = {}",
                                                  *success.at_most_runs, *success.at_least_runs));
-    if (success.at_most_rate.value_or(1) < success.at_least_rate.value_or(0))
+    if (success.at_least_rate && success.at_most_rate && *success.at_most_rate < *success.at_least_rate)
       violations_.add(reader.line(), fmt::format("at_most_rate = {}, must be ≥ at_least_rate = {}",
                                                  *success.at_most_rate, *success.at_least_rate));
     return success;

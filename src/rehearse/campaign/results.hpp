@@ -51,7 +51,8 @@ struct Campaign {
     return runs[group * plan.seeds.size() + seed];
   }
   Index count(RunState state) const;
-  /// What is not run, or is in the folder and none of its own, and failed before; a line each.
+  /// A line for each learner that is missing, each thing in the folder that is none of its own, and each run that
+  /// failed before.
   std::vector<std::string> remarks() const;
   bool complete() const { return count(RunState::done) == static_cast<Index>(runs.size()); }
 };

@@ -24,13 +24,13 @@ struct GpModel::Point {
 const GpModel::Point& GpModel::look_at(const ConstMatrixView& X, const ConstMatrixView& U) const {
   thread_local Point point;
   point.inputs.resize(X.rows(), features_.features() + U.cols());
-  if (mean_) {
+  if (prior_) {
     point.prior_mean.resize(X.rows(), X.cols());
-    mean_->prior.mean(X, U, mean_->phi, point.prior_mean);
+    prior_->predict_mean(X, U, point.prior_mean);
   }
   if (midpoint_) {
     point.middle = X;
-    if (mean_)
+    if (prior_)
       point.middle += 0.5 * point.prior_mean;
     else
       add_half_step(kinematics_, X, point.middle);
@@ -42,8 +42,8 @@ const GpModel::Point& GpModel::look_at(const ConstMatrixView& X, const ConstMatr
 }
 
 void GpModel::finish(const Point& point, const ConstMatrixView& X, MatrixView mean) const {
-  add_integrals(kinematics_, X, mean_.has_value(), mean);
-  if (mean_) mean += point.prior_mean;
+  add_integrals(kinematics_, X, prior_.has_value(), mean);
+  if (prior_) mean += point.prior_mean;
 }
 
 void GpModel::predict(const ConstMatrixView& X, const ConstMatrixView& U, MatrixView mean, MatrixView variance) const {
@@ -72,7 +72,7 @@ void GpModel::to_states(const Point& point, const ConstMatrixView& by_inputs, co
   by_actions = by_inputs.rightCols(du);
   if (!midpoint_) return;
   by_place = by_states;
-  if (!mean_) return add_half_step_of_derivatives(kinematics_, by_place, by);
+  if (!prior_) return add_half_step_of_derivatives(kinematics_, by_place, by);
   for (Index k = 0; k < dx; ++k)  // it is X + ½ prior mean
     for (Index j = 0; j < by.cols(); ++j)
       by.col(j).array() += 0.5 * by_place.col(k).array() * prior_by.col(k * by.cols() + j).array();
@@ -95,8 +95,8 @@ void GpModel::linearise(const ConstMatrixView& X, const ConstMatrixView& U, Line
     to_states(point, mean_by.middleCols(i * D, D), of_prior.mean_by, at.mean_by.middleCols(i * inputs, inputs));
     to_states(point, variance_by.middleCols(i * D, D), of_prior.mean_by, at.variance_by.middleCols(i * inputs, inputs));
   }
-  add_integrals_of_derivatives(kinematics_, mean_.has_value(), at);
-  if (mean_) at.mean_by += of_prior.mean_by;
+  add_integrals_of_derivatives(kinematics_, prior_.has_value(), at);
+  if (prior_) at.mean_by += of_prior.mean_by;
 }
 
 }  // namespace rehearse::dynamics

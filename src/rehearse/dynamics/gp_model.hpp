@@ -36,8 +36,7 @@ class GpModel final : public DynamicsModel {
           PredictedVariance variance, bool midpoint = false)
       : features_(std::move(features)),
         kinematics_(std::move(kinematics)),
-        mean_(std::move(mean)),
-        prior_(mean_ ? std::optional<SimulatorModel>({mean_->prior, mean_->phi}) : std::nullopt),
+        prior_(mean ? std::optional<SimulatorModel>({std::move(mean->prior), std::move(mean->phi)}) : std::nullopt),
         posterior_(std::move(posterior)),
         variance_(variance),
         midpoint_(midpoint) {}
@@ -47,7 +46,7 @@ class GpModel final : public DynamicsModel {
   /// Analytic but for the prior, whose derivatives are by differences.
   void linearise(const ConstMatrixView& X, const ConstMatrixView& U, Linearised& at) const override;
 
-  Index rows_at_once() const override { return mean_ ? mean_->prior.simulator->rows_at_once() : 0; }
+  Index rows_at_once() const override { return prior_ ? prior_->rows_at_once() : 0; }
   const Vector& measurement_std() const override { return measurement_std_; }
   void set_measurement_std(Vector std) { measurement_std_ = std::move(std); }
 
@@ -61,8 +60,7 @@ class GpModel final : public DynamicsModel {
 
   FeatureMap features_;
   Kinematics kinematics_;
-  std::optional<Mean> mean_;
-  std::optional<SimulatorModel> prior_;  // at that mean
+  std::optional<SimulatorModel> prior_;  // at the φ of the mean; none: the mean is 0
   gp::Posterior posterior_;
   PredictedVariance variance_;
   bool midpoint_;

@@ -44,7 +44,7 @@ std::vector<fs::path> files_of(const fs::path& folder) {
   return files;
 }
 
-/// Leaves `to` as `from` is. Of the deciding files `done` alone may not be there.
+/// Leaves `to` as `from` is. The file `done` alone may be missing.
 void make_alike(const fs::path& from, const fs::path& to) {
   if (from.filename() == kDeciding.front() && !fs::exists(from)) {
     fs::remove(to);

@@ -126,9 +126,9 @@ std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task) {
   for (const ToldFile& file : files) {
     try {
       recording::Recording read = recording::read_recording(file.bytes, file.path.string(), task);
-      for (std::size_t i = 0; i < logs.size(); ++i)
-        if (logs[i].episode.states == read.episode.states && logs[i].episode.actions == read.episode.actions)
-          violations.add(fmt::format("{} and {} have the same numbers", logs[i].name, file.path.string()));
+      for (const Log& log : logs)
+        if (log.episode.states == read.episode.states && log.episode.actions == read.episode.actions)
+          violations.add(fmt::format("{} and {} have the same numbers", log.name, file.path.string()));
       read.episode.rewards.resize(read.episode.steps());
       logs.push_back({file.path.filename().string(), file.checksum, rollout::as_measured(std::move(read.episode), task),
                       std::move(read.notes)});

@@ -15,7 +15,7 @@ namespace rehearse::policy {
 /// there are no bounds.
 std::shared_ptr<const Policy> make_schedule(std::vector<Interval> bounds, double dt_s, Index steps);
 
-/// Of a task's actions, for its whole horizon.
+/// The schedule of a task's actions, for its whole horizon.
 inline std::shared_ptr<const Policy> make_schedule(const Task& task) {
   return make_schedule(task.action_bounds(), task.dt_s, task.horizon);
 }
