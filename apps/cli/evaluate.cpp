@@ -17,9 +17,8 @@
 #include "apps/cli/status_line.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/events.hpp"
-#include "rehearse/experiment/given_policy.hpp"
 #include "rehearse/experiment/past_run.hpp"
-#include "rehearse/experiment/robustness.hpp"
+#include "rehearse/experiment/prepared_evaluation.hpp"
 #include "rehearse/files/regular_file.hpp"
 #include "rehearse/statistics/quantiles.hpp"
 
@@ -28,15 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using experiment::GivenPolicy, experiment::PastRun, experiment::Summary, experiment::TrialRecord;
-using Settings = std::vector<std::pair<std::string, std::string>>;
+using experiment::EvaluationRequest, experiment::PreparedEvaluation, experiment::Summary;
 
 /// The arguments as what they mean.
 struct Wanted {
-  std::optional<Index> trial;
-  experiment::EvaluationPlan plan;
-  std::optional<Index> seed;
-  Settings settings;
+  EvaluationRequest request;
   Index threads = 0;
   OutputFile table;
 };
@@ -53,44 +48,27 @@ OutputFile table_of(const EvaluateArguments& arguments) {
 
 Wanted wanted(const EvaluateArguments& arguments) {
   Violations violations;
-  Wanted wanted;
-  wanted.trial = trial_of(arguments.trial, violations);
+  Wanted wanted{.request = {.folder = arguments.folder}, .table = table_of(arguments)};
+  EvaluationRequest& request = wanted.request;
+  request.trial = trial_of(arguments.trial, violations);
   const Fields fields = [&](FieldVisitor& v) {
-    wanted.plan.fields(v);
-    v.number("seconds", wanted.plan.seconds, "length of an episode [s]", above(0));
+    request.plan.fields(v);
+    v.number("seconds", request.plan.seconds, "length of an episode [s]", above(0));
   };
   set_text(fields, "episodes", arguments.episodes, violations);
   set_text(fields, "seconds", arguments.seconds, violations);
   set_text(fields, "seed", arguments.seed, violations);
+  request.seed_of_run = !arguments.seed;
   wanted.threads = threads_of(arguments.threads, violations);
-  wanted.settings = settings_of(arguments.set, violations);
+  request.settings = settings_of(arguments.set, violations);
   violations.require(!arguments.policy || !arguments.trial, "--trial and --policy name two policies");
-  wanted.table = table_of(arguments);
   try {
     if (arguments.out) check_output(wanted.table);
   } catch (const InvalidInput& error) {
     violations.add(error);
   }
   violations.throw_if_any();
-  if (arguments.seed) wanted.seed = wanted.plan.seed;
   return wanted;
-}
-
-std::string settings_text(const Settings& settings) {
-  std::vector<std::string> parts;
-  for (const auto& [key, value] : settings) parts.push_back(key + "=" + value);
-  return fmt::format("{}", fmt::join(parts, " "));
-}
-
-GivenPolicy policy_wanted(const EvaluateArguments& arguments, const Wanted& wanted, const PastRun& run) {
-  if (!arguments.policy) {
-    const TrialRecord& trial = run.trial(wanted.trial);
-    const bool done = trial.trial <= run.history.done();
-    return {{policy_of(trial, run.resolved.scenario), trial.theta, trial.trial},
-            done ? std::optional(trial.total_reward) : std::nullopt};
-  }
-  return experiment::given_policy(files::read_file(*arguments.policy, files::Links::follow), *arguments.policy,
-                                  run.resolved.scenario);
 }
 
 std::string rate_text(const statistics::Rate& rate) {
@@ -132,25 +110,20 @@ void write_table(const OutputFile& table, const std::string& text) {
   put("{} has the numbers\n", path);
 }
 
-/// A policy, what is set, and how it is evaluated.
+/// What is evaluated, and how.
 struct Work {
   const experiment::Catalogue& catalogue;
-  fs::path folder;
-  Wanted wanted;
-  GivenPolicy policy;
-  experiment::Resolved resolved;
-  bool told = false;  // the run's trials were on a robot that is not its plant
+  PreparedEvaluation prepared;
+  OutputFile table;
   std::shared_ptr<const Evaluator> evaluator;
 
-  const Task& task() const { return resolved.scenario.task; }
-  double episode_s() const { return seconds(wanted.plan.steps(task()), task().dt_s); }
-  experiment::EvaluationAbout about() const {
-    return {policy.learned.trial, settings_text(wanted.settings), wanted.plan.seed, episode_s()};
-  }
+  const experiment::Resolved& resolved() const { return prepared.resolved; }
+  double task_s() const { return resolved().scenario.task.episode_s(); }
+  double episode_s() const { return prepared.about().seconds; }
 };
 
 /// A run keeps its robot, so a plant that the file gets later is of use in another run only.
-void require_robot(const PastRun& run) {
+void require_robot(const experiment::PastRun& run) {
   if (experiment::has_robot(run.resolved)) return;
   const std::string way =
       command_line({"learn", "COPY.toml", "--learner", run.resolved.spec.learner, "--trials", "0", "--out", "OTHER"});
@@ -161,43 +134,36 @@ void require_robot(const PastRun& run) {
 }
 
 Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments) {
-  Wanted wanted = apps::wanted(arguments);
-  const fs::path folder = arguments.folder;
-  const PastRun run = experiment::read_run(catalogue, folder);
-  check_output(wanted.table);  // not after hours of episodes
-  require_robot(run);
-  GivenPolicy policy = policy_wanted(arguments, wanted, run);
-  wanted.settings = run.as_identified(wanted.settings);
-  experiment::Resolved resolved = experiment::read_run(catalogue, folder, wanted.settings).resolved;
-  wanted.plan.seed = wanted.seed.value_or(resolved.spec.seed);
-  const std::shared_ptr<const Evaluator> threads = make_thread_evaluator(static_cast<int>(wanted.threads));
-  return {catalogue,
-          folder,
-          std::move(wanted),
-          std::move(policy),
-          std::move(resolved),
-          experiment::was_told(run.history),
-          make_stoppable(threads, [] { return caught_signal() != 0; })};
+  auto [request, threads, table] = wanted(arguments);
+  require_robot(experiment::read_run(catalogue, request.folder));
+  check_output(table);  // not after hours of episodes
+  if (arguments.policy) {
+    request.policy = files::read_file(*arguments.policy, files::Links::follow);
+    request.policy_source = *arguments.policy;
+  }
+  return {catalogue, experiment::prepare_evaluation(catalogue, std::move(request)), std::move(table),
+          make_stoppable(make_thread_evaluator(static_cast<int>(threads)), [] { return caught_signal() != 0; })};
 }
 
 void announce(const Work& work, const EvaluateArguments& arguments) {
-  const std::string settings = settings_text(work.wanted.settings);
-  const std::string whose = arguments.policy ? *arguments.policy : fmt::format("trial {}", work.policy.learned.trial);
-  const auto& earned = work.policy.total_reward;
-  if (const prior::Prior* prior = work.resolved.stand_in())
+  const auto& [request, policy, resolved, told] = work.prepared;
+  const std::string settings = work.prepared.about().settings;
+  const std::string whose = arguments.policy ? *arguments.policy : fmt::format("trial {}", policy.learned.trial);
+  const auto& earned = policy.total_reward;
+  if (const prior::Prior* prior = resolved.stand_in())
     put("there is no [plant]: the prior {} plays the robot, as it was identified, without the GPs\n", prior->name);
-  else if (work.told)
+  else if (told)
     put("the plant plays the robot: a simulator, not the robot that was told of\n");
   put("the policy of {}{}: {} of {:g} s, seed {}{}{}\n", whose, earned ? fmt::format(" (return {:.4g})", *earned) : "",
-      counted(work.wanted.plan.episodes, "episode"), work.episode_s(), work.wanted.plan.seed,
-      settings.empty() ? "" : ", ", settings);
+      counted(request.plan.episodes, "episode"), work.episode_s(), request.plan.seed, settings.empty() ? "" : ", ",
+      settings);
 }
 
 /// Ways to policies that hold longer, where this one does not and the learner has some that it did not take.
 void advise(const Work& work, const Summary& summary) {
   if (!summary.solved_at_end || summary.solved_at_end->count >= summary.solved->count) return;
   const auto leaves_out = [&](const std::string& option, const std::string& value) {
-    const Settings& options = work.resolved.spec.options;
+    const learners::OptionTexts& options = work.resolved().spec.options;
     return std::ranges::find(options, std::pair(option, value)) != options.end();
   };
   std::vector<std::string> ways;
@@ -207,30 +173,23 @@ void advise(const Work& work, const Summary& summary) {
 }
 
 void evaluate_episodes(const Work& work) {
-  const auto outcomes = experiment::evaluate(work.resolved, work.policy.learned, work.wanted.plan, *work.evaluator);
+  const auto outcomes = experiment::evaluate(work.prepared, *work.evaluator);
   const Summary summary = experiment::summary_of(outcomes);
-  print_summary(summary, work.task().episode_s(), work.episode_s());
+  print_summary(summary, work.task_s(), work.episode_s());
   advise(work, summary);
-  write_table(work.wanted.table, experiment::evaluation_csv(outcomes, work.about()));
+  write_table(work.table, experiment::evaluation_csv(outcomes, work.prepared.about()));
 }
 
 void evaluate_robustness(const Work& work) {
-  const auto changed = [&](const std::string& key, const std::string& value) {
-    Settings settings = work.wanted.settings;
-    settings.emplace_back(key, value);
-    return experiment::read_run(work.catalogue, work.folder, settings).resolved;
-  };
-  const auto all =
-      experiment::robustness(changed, work.resolved, work.policy.learned, work.wanted.plan, *work.evaluator);
+  const auto all = experiment::robustness(work.catalogue, work.prepared, *work.evaluator);
   print_robustness(all);
-  write_table(work.wanted.table, experiment::robustness_csv(all, work.about()));
+  write_table(work.table, experiment::robustness_csv(all, work.prepared.about()));
 }
 
 }  // namespace
 
 int evaluate(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments) try {
   const Work work = prepared(catalogue, arguments);
-  if (work.resolved.scenario.require_ready) work.resolved.scenario.require_ready(scenario::PlantUse::driven);
   announce(work, arguments);
   const SignalWatch watch([] { return std::string("interrupted; nothing is written"); });
   (arguments.robustness ? evaluate_robustness : evaluate_episodes)(work);

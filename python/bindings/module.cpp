@@ -8,6 +8,7 @@
 #include "python/bindings/campaign.hpp"
 #include "python/bindings/catalogue.hpp"
 #include "python/bindings/check.hpp"
+#include "python/bindings/evaluation.hpp"
 #include "python/bindings/identify.hpp"
 #include "python/bindings/interruption.hpp"
 #include "python/bindings/outputs.hpp"
@@ -59,6 +60,7 @@ PYBIND11_MODULE(_core, module) {
   python::add_robot(module);
   python::add_policy(module);
   python::add_runs(module);
+  python::add_evaluation(module);
   python::add_campaign(module);
   python::add_catalogue(module);
   python::add_check(module);

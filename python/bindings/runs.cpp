@@ -13,7 +13,6 @@
 #include "rehearse/experiment/exported_policy.hpp"
 #include "rehearse/experiment/given_policy.hpp"
 #include "rehearse/experiment/past_run.hpp"
-#include "rehearse/experiment/policy_evaluation.hpp"
 #include "rehearse/experiment/preset_check.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run.hpp"
@@ -165,47 +164,6 @@ Policy policy(const Robot& robot, const std::string& folder, std::optional<Index
   return {policy_of(run.trial(trial), run.resolved.scenario), experiment::exported_policy(run, trial)};
 }
 
-/// The policy and the settings of an evaluation, and the options that differ from the run's.
-struct Evaluation {
-  std::optional<Index> trial;
-  std::string policy;  // instead of that of a trial, as JSON; empty: none
-  experiment::EvaluationPlan plan;
-  Options options;
-};
-
-experiment::Learned policy_of(const Evaluation& wanted, const experiment::PastRun& run) {
-  const scenario::Scenario& scenario = run.resolved.scenario;
-  if (!wanted.policy.empty()) return experiment::given_policy(wanted.policy, "policy", scenario).learned;
-  const experiment::TrialRecord& trial = run.trial(wanted.trial);
-  return {policy_of(trial, scenario), trial.theta, trial.trial};
-}
-
-py::dict evaluate(const Robot& robot, const std::string& folder, const Evaluation& wanted, const Settings& settings) {
-  std::vector<experiment::Outcome> outcomes;
-  work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
-    const experiment::Catalogue catalogue = own.catalogue();
-    const experiment::PastRun run = experiment::read_run(catalogue, folder);
-    const experiment::Learned learned = policy_of(wanted, run);
-    const experiment::Resolved resolved =
-        experiment::read_run(catalogue, folder, run.as_identified(wanted.options)).resolved;
-    if (resolved.scenario.require_ready) resolved.scenario.require_ready(scenario::PlantUse::driven);
-    outcomes = experiment::evaluate(resolved, learned, wanted.plan, *make_stoppable(options.evaluator, options.stop));
-  });
-  std::vector<double> returns;
-  std::vector<std::optional<bool>> solved, solved_at_end;
-  std::vector<std::optional<double>> ended_s;
-  std::vector<std::vector<std::string>> broke;
-  for (const experiment::Outcome& outcome : outcomes) {
-    returns.push_back(outcome.total_reward);
-    solved.push_back(outcome.solved);
-    solved_at_end.push_back(outcome.solved_at_end);
-    ended_s.push_back(outcome.ended_s);
-    broke.push_back(outcome.broke);
-  }
-  return py::dict(py::arg("total_reward") = returns, py::arg("solved") = solved,
-                  py::arg("solved_at_end") = solved_at_end, py::arg("ended_s") = ended_s, py::arg("broke") = broke);
-}
-
 }  // namespace
 
 void add_runs(py::module_& module) {
@@ -249,13 +207,6 @@ void add_runs(py::module_& module) {
       "robot"_a, "folder"_a, "threads"_a);
   module.def("describe", &describe, "robot"_a, "folder"_a);
   module.def("policy", &policy, "robot"_a, "folder"_a, "trial"_a);
-  module.def(
-      "evaluate",
-      [](const Robot& robot, const std::string& folder, std::optional<Index> trial, const std::string& policy,
-         Index episodes, double seconds, Index seed, const Options& options, int threads) {
-        return evaluate(robot, folder, {trial, policy, {episodes, seconds, seed}, options}, {threads});
-      },
-      "robot"_a, "folder"_a, "trial"_a, "policy"_a, "episodes"_a, "seconds"_a, "seed"_a, "options"_a, "threads"_a);
 }
 
 }  // namespace rehearse::python

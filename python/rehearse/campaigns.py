@@ -16,7 +16,8 @@ from .arrays import Array
 from .checks import function_or_none, path_of, path_or_none, read_text, threads_of, whole
 from .progress import show
 from .robot import Robot
-from .run import PathLike, Progress, Robots, Run, begun_with, name_of, robot_of, write_report
+from .given_robot import Robots, begun_with, name_of, robot_of
+from .run import PathLike, Progress, Run, write_report
 from .tables import column_of, html_table, read_csv, structured
 from .toml import quoting, table
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from . import _core
 from .checks import truth
-from .run import Robots, robot_of
+from .given_robot import Robots, robot_of
 
 
 @dataclass(frozen=True)

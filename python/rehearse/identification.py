@@ -13,7 +13,7 @@ from typing import Any, Union
 from . import _core
 from .arrays import Array
 from .checks import option_texts, text, threads_of, write_page
-from .run import Robots, robot_of
+from .given_robot import Robots, robot_of
 from .tables import as_files, from_csv, without_path
 
 

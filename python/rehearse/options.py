@@ -8,7 +8,7 @@ from typing import Union
 
 from . import _core
 from .checks import truth
-from .run import Robots, robot_of
+from .given_robot import Robots, robot_of
 
 
 @dataclass(frozen=True)

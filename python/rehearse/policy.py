@@ -16,6 +16,7 @@ from ._core import InvalidInput
 from .arrays import Array
 from .checks import number, numbers, option_texts, path_of, read_text, vector, whole
 from .exported import Exported
+from .given_robot import Robots, robot_of
 
 
 class Policy:
@@ -37,12 +38,10 @@ class Policy:
         return cls(Exported(read_text(path), str(path)))
 
     @classmethod
-    def of(cls, robot: Any, theta: Union[npt.ArrayLike, None] = None, *,
+    def of(cls, robot: Robots, theta: Union[npt.ArrayLike, None] = None, *,
            options: Union[Mapping[str, Any], None] = None) -> Policy:
         """The policy that learners of a robot search for, at any θ; None: zeros. robot: as in `learn`; options: of the
         policy, {"policy": "mlp", "hidden": 8}. docs/python.md has the order of θ."""
-        from .run import robot_of
-
         core, scenario = robot_of(robot)
         given = None if theta is None else vector("theta", theta)
         return cls(_core.policy_for(core, scenario, option_texts(options), given))

@@ -18,13 +18,13 @@ from .arrays import Array
 from .checks import (function_or_none, number, option_texts, path_of, path_or_none, read_if_any, text, texts,
                      threads_of, truth, whole, whole_or_none, write_page)
 from .evaluation import Evaluation
+from .given_robot import Robots, begun_with, robot_of
 from .policy import Policy
 from .progress import show
 from .robot import Robot
-from .tables import as_files, html_table, read_csv, without_path
+from .tables import as_files, from_csv, html_table, read_csv, without_path
 from .trial import Trial, best_of
 
-Robots = Union[Robot, str, os.PathLike[str]]
 PathLike = Union[str, os.PathLike[str]]
 Progress = Union[Callable[[dict[str, Any]], None], None]
 
@@ -151,15 +151,17 @@ class Run:
         parameters of the newest model. policy: another than a trial's. seconds: of an episode; 0: the task's. seed: None
         is the run's. options: what is changed, {"plant.m": 0.6}. An environment that is an object, not a function that
         makes one, and a class with `end`, which is a real robot, are used by one thread."""
-        threads = 1 if self._robot is not None and self._robot.one_at_a_time else threads_of(threads)
-        seed = self._describe()["seed"] if seed is None else seed
-        if trial is not None and policy is not None:
-            raise _core.InvalidInput("trial and policy name two policies")
-        result = _core.evaluate(self._core, str(self.folder), whole_or_none("trial", trial), _json_of(policy),
-                                whole("episodes", episodes), number("seconds", seconds), whole("seed", seed, 0, 2**53),
-                                option_texts(options), threads)
+        result = _core.evaluate(self._core, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
         return Evaluation(np.array(result["total_reward"]), result["solved"], result["solved_at_end"],
                           result["ended_s"], result["broke"])
+
+    def robustness(self, episodes: int = 100, *, trial: Union[int, None] = None,
+                   policy: Union[Policy, PathLike, None] = None, seconds: float = 0.0, seed: Union[int, None] = None,
+                   options: Union[Mapping[str, Any], None] = None, threads: int = 0) -> Array:
+        """Such episodes with one parameter of the robot changed at a time, by factors of 0.75 to 1.25: the rows of
+        robustness.csv (docs/evaluate.md). An environment has no parameters to change."""
+        text = _core.robustness(self._core, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
+        return from_csv(text, texts=("settings", "parameter"))
 
     def report(self, out: Union[PathLike, None] = None) -> Path:
         """Writes the page of the run, by default report.html in its folder."""
@@ -193,6 +195,17 @@ class Run:
     @property
     def _core(self) -> Any:
         return self._robot._core if self._robot is not None else _core.Robot("", "", "")
+
+    def _request(self, trial: Union[int, None], policy: Union[Policy, PathLike, None], episodes: int, seconds: float,
+                 seed: Union[int, None], options: Union[Mapping[str, Any], None]) -> Any:
+        if trial is not None and policy is not None:
+            raise _core.InvalidInput("trial and policy name two policies")
+        return _core.EvaluationRequest(str(self.folder), whole_or_none("trial", trial), _json_of(policy) or None, option_texts(options),
+                                       whole("episodes", episodes), number("seconds", seconds),
+                                       None if seed is None else whole("seed", seed, 0, 2**53))
+
+    def _threads_of(self, threads: int) -> int:
+        return 1 if self._robot is not None and self._robot.one_at_a_time else threads_of(threads)
 
     def _table_of(self, trial: int, kind: str) -> Array:
         given = whole("trial", trial)
@@ -243,30 +256,6 @@ def resume(folder: PathLike, robot: Union[Robot, None] = None, trials: Union[int
            progress: Progress = show) -> Run:
     """Goes on with a run; see `Run.resume`."""
     return Run(folder, robot).resume(trials, threads=threads, progress=progress)
-
-
-def robot_of(robot: Robots) -> tuple[Any, str]:
-    """The robot for C++, and the name of its scenario."""
-    if isinstance(robot, Robot):
-        return robot._core, robot.name
-    name = name_of(robot)
-    if Path(name).name == "spec.toml":
-        raise _core.InvalidInput(f"{name} is a run's spec, not a robot: `rehearse learn {name}` repeats the run")
-    if name.endswith(".toml"):
-        return robot_of(Robot.from_file(name))
-    return _core.Robot("", "", ""), name
-
-
-def name_of(robot: PathLike) -> str:
-    """The name or the path of a robot that is no object."""
-    return path_of("robot", robot, "a Robot, the name of a built-in one, or a path")
-
-
-def begun_with(robot: Any) -> Union[Robot, None]:
-    """The robot that a folder is opened with, or None."""
-    if robot is not None and not isinstance(robot, Robot):
-        raise TypeError(f"robot is {robot!r}, must be the Robot that the folder began with")
-    return robot
 
 
 def write_report(folder: Path, out: Union[PathLike, None]) -> Path:

@@ -136,6 +136,8 @@ def test_an_environment_is_the_plant(tmp_path):
     assert evaluation.table.dtype.names == ("return", "solved", "solved_at_end", "ended_s", "broke")
     assert evaluation.broke == [[], [], []] and list(evaluation.table["broke"]) == ["", "", ""]
     assert np.isnan(evaluation.table["ended_s"]).all() and "<td>3</td>" in evaluation._repr_html_()
+    with pytest.raises(rehearse.InvalidInput, match="has no parameter scenario.plant.NAME that could be changed"):
+        run.robustness(3)
 
 
 def test_an_environment_must_fit_the_robot(tmp_path):
@@ -296,6 +298,9 @@ def test_ask_and_tell_are_learn(tmp_path):
     assert len(run.evaluate(3).returns) == 3  # the prior plays the robot
     heavy = run.evaluate(3, options={"prior.mass": 4.5})
     assert (heavy.returns != run.evaluate(3).returns).all()
+    changed = run.robustness(3, options={"prior.mass": 4.5})
+    assert set(changed["parameter"]) == {"mass", "friction"} and list(changed["factor"]) == [0.75, 0.875, 1, 1.125, 1.25] * 2
+    assert changed["return_50"][2] == np.median(heavy.returns)
 
 
 def test_what_was_told_can_be_taken_back(tmp_path):

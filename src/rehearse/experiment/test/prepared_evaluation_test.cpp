@@ -1,0 +1,63 @@
+#include "rehearse/experiment/prepared_evaluation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "line_run.hpp"
+#include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/exported_policy.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+using fake::line_spec;
+
+/// A run of two trials, of a seed other than a plan's default.
+std::filesystem::path line_folder(const std::string& learner = "echo") {
+  std::filesystem::path folder = fake::test_folder() / "run";
+  start_run(fake::catalogue(), line_spec(2, learner), folder, {});
+  return folder;
+}
+
+TEST(PreparedEvaluation, HasTheBestPolicyAndTheSeedOfTheRun) {
+  const std::filesystem::path folder = line_folder();
+  const PastRun run = read_run(fake::catalogue(), folder);
+  const PreparedEvaluation prepared = prepare_evaluation(fake::catalogue(), {.folder = folder});
+  EXPECT_EQ(prepared.policy.learned.trial, run.trial({}).trial);
+  EXPECT_EQ(prepared.policy.learned.theta, run.trial({}).theta);
+  EXPECT_EQ(prepared.policy.total_reward, run.trial({}).total_reward);
+  EXPECT_EQ(prepared.request.plan.seed, 3);
+  EXPECT_FALSE(prepared.told);
+  const PreparedEvaluation first = prepare_evaluation(
+      fake::catalogue(), {.folder = folder, .trial = 1, .plan = {.seed = 8}, .seed_of_run = false});
+  EXPECT_EQ(first.policy.learned.theta, run.trial(1).theta);
+  EXPECT_EQ(first.request.plan.seed, 8);
+}
+
+TEST(PreparedEvaluation, MayHaveAnotherPolicyAndOtherSettings) {
+  const std::filesystem::path folder = line_folder("echo-alone");  // whose first policy, a schedule, can be exported
+  const std::string file = policy::to_json(exported_policy(read_run(fake::catalogue(), folder), 1));
+  const PreparedEvaluation prepared = prepare_evaluation(
+      fake::catalogue(), {.folder = folder, .policy = file, .settings = {{"noise", "0.5"}, {"plant.gain", "2"}}});
+  EXPECT_EQ(prepared.policy.learned.trial, 1);
+  EXPECT_EQ(prepared.about().settings, "noise=0.5 plant.gain=2");
+  EXPECT_DOUBLE_EQ(prepared.about().seconds, prepared.resolved.scenario.task.episode_s());
+  const auto all = robustness(fake::catalogue(), prepared, serial_evaluator());
+  ASSERT_EQ(all.size(), kFactors.size());
+  EXPECT_EQ(all.front().value, 2 * kFactors.front()) << "of what is set";
+  EXPECT_EQ(all[2].summary.returns, summary_of(evaluate(prepared, serial_evaluator())).returns);
+}
+
+TEST(PreparedEvaluation, SaysWhatIsWrong) {
+  const std::filesystem::path folder = line_folder();
+  const auto said = [&](const EvaluationRequest& request) {
+    return fake::message_of<InvalidInput>([&] { prepare_evaluation(fake::catalogue(), request); });
+  };
+  EXPECT_NE(said({.folder = folder / "none"}).find("is not a folder"), std::string::npos);
+  EXPECT_NE(said({.folder = folder, .trial = 7}).find("trial = 7"), std::string::npos);
+  EXPECT_EQ(said({.folder = folder, .policy = "[]", .policy_source = "it.json"}),
+            "it.json is no policy that `export` wrote as JSON");
+  EXPECT_NE(said({.folder = folder, .settings = {{"nois", "1"}}}).find("nois"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rehearse::experiment
