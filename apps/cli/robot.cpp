@@ -221,6 +221,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
         driven ? "the plant" : "the first prior, which plays the robot here", early_ends(tried, scenario.task));
   else
     put("priors\n");
+  print_lines("  ", tried.notes);
   const Index rows_of_search = usual_search(catalogue) * scenario.task.horizon;
   for (std::size_t i = 0; i < tried.priors.size(); ++i) {
     print_speed(tried.priors[i], tried.steps, rows_of_search);
@@ -235,8 +236,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   const std::vector<std::string> complaints = robot_file::complaints(tried);
   if (arguments.out && !tried.end) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
-  const bool noted =
-      !faults.empty() || std::ranges::any_of(tried.priors, [](const auto& prior) { return !prior.notes.empty(); });
+  const bool noted = !faults.empty() || robot_file::has_notes(tried);
   put("\n{}; to learn: {}{}\n",
       !anything ? "the task is understood; nothing was tried, as there is neither a plant nor a prior"
       : noted   ? "nothing is broken, but see what is noted above"

@@ -60,7 +60,7 @@ void add_check(py::module_& module) {
         return py::dict("steps"_a = found.tried.steps, "episodes"_a = found.tried.episodes,
                         "ended"_a = found.tried.ended, "broke"_a = broke,
                         "changes"_a = by_state(found.states, found.tried.change), "priors"_a = priors,
-                        "complaints"_a = robot_file::complaints(found.tried));
+                        "notes"_a = found.tried.notes, "complaints"_a = robot_file::complaints(found.tried));
       },
       "robot"_a, "name"_a, "plant"_a);
 }

@@ -61,9 +61,9 @@ std::string robustness(const Robot& robot, const EvaluationRequest& request, int
 void add_evaluation(py::module_& module) {
   using namespace py::literals;
   py::class_<EvaluationRequest>(module, "EvaluationRequest")
-      .def(py::init([](const std::string& folder, std::optional<Index> trial,
-                       const std::optional<std::string>& policy, const learners::OptionTexts& settings, Index episodes,
-                       double seconds, std::optional<Index> seed) {
+      .def(py::init([](const std::string& folder, std::optional<Index> trial, const std::optional<std::string>& policy,
+                       const learners::OptionTexts& settings, Index episodes, double seconds,
+                       std::optional<Index> seed) {
              return EvaluationRequest{.folder = folder,
                                       .trial = trial,
                                       .policy = policy,

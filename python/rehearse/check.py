@@ -24,8 +24,8 @@ class PriorChecked:
 @dataclass(frozen=True)
 class Checked:
     """The findings of `check`. steps: of the plant, in so many episodes; ended: those that ended early; broke: of each limit,
-    those that broke it. changes: of each state, root mean square change in a step. complaints: what is wrong, a line
-    each."""
+    those that broke it. changes: of each state, root mean square change in a step. notes: on what may be wrong with the
+    task; complaints: what is wrong; a line each."""
 
     steps: int
     episodes: int
@@ -33,19 +33,20 @@ class Checked:
     broke: dict[str, int]
     changes: dict[str, float]
     priors: list[PriorChecked]
+    notes: list[str]
     complaints: list[str]
 
     def __str__(self) -> str:
         early = [f"{self.ended} of {self.episodes} episodes ended early"] if self.ended else []
         early += [f"{count} of {self.episodes} episodes broke the limit {limit}" for limit, count in self.broke.items() if count]
-        lines = [", ".join([f"{self.steps} steps under random actions", *early])]
+        lines = [", ".join([f"{self.steps} steps under random actions", *early]), *self.notes]
         for prior in self.priors:
             failed = f", {prior.failed} rows failed" if prior.failed else ""
             lines.append(f"prior {prior.name}: {prior.rows_per_s:.2g} rows a second on one thread{failed}")
             lines += [f"  {state}: a step changes it by {change:.3g}, the prior errs by {prior.errors[state]:.3g}"
                       for state, change in self.changes.items()]
             lines += ["  " + note for note in prior.notes]
-        noted = any(prior.notes for prior in self.priors)
+        noted = self.notes or any(prior.notes or prior.failed for prior in self.priors)
         well = "nothing is broken, but see what is noted above" if noted else "all is well"
         return "\n".join([*lines, *(self.complaints or [well])])
 

@@ -150,8 +150,8 @@ check_prior 'u[0] + random.random()'
 [ $status = 2 ] && grep -q "prior slow: predicts something else .* a second time" output || fail "a noisy prior: $(cat output)"
 check_prior 'u[0] + 0.1 * i'
 [ $status = 2 ] && grep -q "prior slow: .* same rows in another batch" output || fail "a place in the batch: $(cat output)"
-check_prior 'u[0] if i > 3 else float("nan")'
-[ $status = 2 ] && grep -q "prior slow: 4 of [0-9]* rows have no prediction" output || fail "NaN: $(cat output)"
+check_prior 'u[0] if abs(u[0]) < 2 else float("nan")'
+[ $status = 0 ] && grep -q "slow: .*[1-9] of 120 rows failed" output || fail "NaN: $(cat output)"
 grep -q "its program failed" output && fail "NaN costs processes: $(cat output)"
 check_prior 'str(u[0])'
 [ $status = 2 ] && grep -q "which is neither a number nor null" output || fail "texts: $(cat output)"

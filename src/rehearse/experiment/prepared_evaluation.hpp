@@ -16,11 +16,11 @@ namespace rehearse::experiment {
 
 /// What a user asks to evaluate of a run.
 struct EvaluationRequest {
-  std::filesystem::path folder;                 // of the run
-  std::optional<Index> trial = {};  // whose policy; empty: the one with the highest return
+  std::filesystem::path folder;            // of the run
+  std::optional<Index> trial = {};         // whose policy; empty: the one with the highest return
   std::optional<std::string> policy = {};  // instead of a trial's, as `export` writes it in JSON
-  std::string policy_source = "policy";         // what messages call it, such as its file
-  learners::OptionTexts settings = {};  // options that differ from the run's
+  std::string policy_source = "policy";    // what messages call it, such as its file
+  learners::OptionTexts settings = {};     // options that differ from the run's
   EvaluationPlan plan = {};
   bool seed_of_run = true;  // instead of the plan's
 };
@@ -37,10 +37,12 @@ struct PreparedEvaluation {
 };
 
 /// Reads the run, which may be going on. Where the prior plays the robot, its parameters are those of the newest model.
-/// Throws InvalidInput if the run, the policy or a setting is wrong, or the robot is not ready (Scenario::require_ready).
+/// Throws InvalidInput if the run, the policy or a setting is wrong, or the robot is not ready
+/// (Scenario::require_ready).
 PreparedEvaluation prepare_evaluation(const Catalogue& catalogue, EvaluationRequest request);
 
-/// The episodes, or those with one parameter of the robot changed at a time: as the functions of these names for a policy.
+/// The episodes, or those with one parameter of the robot changed at a time: as the functions of these names for a
+/// policy.
 std::vector<Outcome> evaluate(const PreparedEvaluation& prepared, const Evaluator& evaluator);
 std::vector<Changed> robustness(const Catalogue& catalogue, const PreparedEvaluation& prepared,
                                 const Evaluator& evaluator);

@@ -1,5 +1,7 @@
 #include "rehearse/robot_file/complaints.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace rehearse::robot_file {
@@ -18,11 +20,17 @@ std::vector<std::string> complaints(const Tried& tried) {
           "takes it all the same",
           prior.name, name, prior.states));
     if (!prior.broken.empty()) lines.push_back(fmt::format("prior {}: {}", prior.name, prior.broken));
-    if (prior.failed > 0)
-      lines.push_back(fmt::format("prior {}: {} of {} rows have no prediction{}", prior.name, prior.failed, tried.steps,
-                                  fails ? "; is dt_s in seconds?" : ""));
+    if (fails)
+      lines.push_back(
+          fmt::format("prior {}: none of {} rows has a prediction; is dt_s in seconds?", prior.name, tried.steps));
   }
   return lines;
+}
+
+bool has_notes(const Tried& tried) {
+  return !tried.notes.empty() || std::ranges::any_of(tried.priors, [](const PriorTried& prior) {
+    return prior.failed > 0 || !prior.notes.empty();
+  });
 }
 
 }  // namespace rehearse::robot_file

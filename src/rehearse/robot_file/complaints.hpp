@@ -7,4 +7,7 @@ namespace rehearse::robot_file {
 /// A line for everything that a learner would stumble over; none: all is well.
 std::vector<std::string> complaints(const Tried& tried);
 
+/// True if something may be wrong that a learner takes all the same.
+bool has_notes(const Tried& tried);
+
 }  // namespace rehearse::robot_file

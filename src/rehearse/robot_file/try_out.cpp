@@ -14,6 +14,7 @@
 #include "rehearse/core/stopwatch.hpp"
 #include "rehearse/robot_file/differences.hpp"
 #include "rehearse/robot_file/row_laws.hpp"
+#include "rehearse/robot_file/whole_turns.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::robot_file {
@@ -247,8 +248,9 @@ std::string why_falls_pay(const Task& task, const Steps& steps) {
     if (reward < task.reward_floor && std::isfinite(reward)) sum += reward, least = std::min(least, reward), ++below;
   if (2 * below <= rewards.size()) return {};
   return fmt::format(
-      "steps earn about {:.3g}, and each step that is left after a fall earns reward.floor = {:g}: "
-      "falling pays; set floor to {} or less",
+      "steps under random actions earn about {:.3g}, and each step that is left after a fall earns reward.floor = "
+      "{:g}: "
+      "falling pays, unless the goal earns more; floor = {} would be safe",
       sum / static_cast<double>(below), task.reward_floor, to_text(least));
 }
 
@@ -274,7 +276,8 @@ Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator, In
   if (task.ended && holds(task.ended, task.start_mean))
     tried.broken.emplace_back("an episode ends where it starts: `ended` holds in the start");
   for (const std::string& line : hopeless_limits(task, steps, episodes)) tried.broken.push_back(line);
-  if (const std::string line = why_falls_pay(task, steps); !line.empty()) tried.broken.push_back(line);
+  if (const std::string line = why_falls_pay(task, steps); !line.empty()) tried.notes.push_back(line);
+  for (const std::string& line : where_turns_count(task, seed)) tried.notes.push_back(line);
   if (!steps.dX.allFinite())
     tried.broken.emplace_back("the plant comes to states that are not finite");
   else if (again.X.rows() != steps.X.rows() || again.dX != steps.dX)

@@ -31,6 +31,7 @@ struct Tried {
   double start_reward = 0;         // of the start, without an action
   std::vector<PriorTried> priors;
   std::vector<std::string> broken;  // laws of plants and simulators, a line each
+  std::vector<std::string> notes;   // on what may be wrong with the task, a sentence each
 };
 
 /// Use it before anything is learned: tries plant and priors of a scenario on some episodes of random actions. Finds

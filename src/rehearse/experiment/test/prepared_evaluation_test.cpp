@@ -27,8 +27,8 @@ TEST(PreparedEvaluation, HasTheBestPolicyAndTheSeedOfTheRun) {
   EXPECT_EQ(prepared.policy.total_reward, run.trial({}).total_reward);
   EXPECT_EQ(prepared.request.plan.seed, 3);
   EXPECT_FALSE(prepared.told);
-  const PreparedEvaluation first = prepare_evaluation(
-      fake::catalogue(), {.folder = folder, .trial = 1, .plan = {.seed = 8}, .seed_of_run = false});
+  const PreparedEvaluation first =
+      prepare_evaluation(fake::catalogue(), {.folder = folder, .trial = 1, .plan = {.seed = 8}, .seed_of_run = false});
   EXPECT_EQ(first.policy.learned.theta, run.trial(1).theta);
   EXPECT_EQ(first.request.plan.seed, 8);
 }

@@ -224,14 +224,24 @@ TEST(TryOut, SaysWhereFallingPays) {
     return text.replace(text.find(dt), dt.size(), dt + "\nended = \"abs(rate) > 100\"");
   };
   const std::string negative = with(reward, "formula = \"-1 - 0.5 * (height > 2)\"");
-  EXPECT_EQ(tried(with_end(negative)).broken,
-            std::vector<std::string>{"steps earn about -1, and each step that is left after a fall earns "
-                                     "reward.floor = 0: falling pays; set floor to -1 or less"});
-  EXPECT_FALSE(tried(with_end(with(reward, "formula = \"1\"\ncost = \"2\""))).broken.empty()) << "costs count";
-  EXPECT_TRUE(tried(negative).broken.empty()) << "nothing ends its episodes";
-  EXPECT_TRUE(tried(with_end(with(reward, "formula = \"-1\"\nfloor = -1"))).broken.empty());
-  EXPECT_TRUE(tried(with_end(kSwing)).broken.empty());
-  EXPECT_FALSE(tried(negative + "[[limit]]\nkeep = \"abs(rate) < 100\"\n").broken.empty());
+  EXPECT_EQ(
+      tried(with_end(negative)).notes,
+      std::vector<std::string>{"steps under random actions earn about -1, and each step that is left after a fall "
+                               "earns reward.floor = 0: falling pays, unless the goal earns more; floor = -1 would "
+                               "be safe"});
+  EXPECT_FALSE(tried(with_end(with(reward, "formula = \"1\"\ncost = \"2\""))).notes.empty()) << "costs count";
+  EXPECT_TRUE(tried(negative).notes.empty()) << "nothing ends its episodes";
+  EXPECT_TRUE(tried(with_end(with(reward, "formula = \"-1\"\nfloor = -1"))).notes.empty());
+  EXPECT_TRUE(tried(with_end(kSwing)).notes.empty());
+  EXPECT_FALSE(tried(negative + "[[limit]]\nkeep = \"abs(rate) < 100\"\n").notes.empty());
+}
+
+TEST(TryOut, SaysWhereWholeTurnsCount) {
+  const std::string reward = "distance = [\"1 - height\", \"sin(angle)\"]\nwidth = 0.5";
+  const Tried found = tried(with(reward, "formula = \"-abs(angle)\""));
+  ASSERT_EQ(found.notes.size(), 1u);
+  EXPECT_EQ(found.notes[0].find("the reward says something else when angle is a whole turn further"), 0u);
+  EXPECT_EQ(found.broken, std::vector<std::string>{});
 }
 
 TEST(TryOut, ARobotThatFailsIsNotMovedAgain) {
