@@ -25,7 +25,8 @@ void restrict_kernels() {
 void prepare() {
   if ((hwy::SupportedTargets() & (HWY_AVX2 | kWide)) == 0)
     throw InvalidInput(
-        "this processor lacks AVX2 or fused multiply-adds (FMA), which Rehearse needs; x86-64 processors since 2013 "
+        "this processor lacks AVX2 or fused multiply-adds (FMA), which Rehearse needs; most x86-64 processors since "
+        "2013 "
         "have them");
   restrict_kernels();
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
