@@ -10,6 +10,8 @@ namespace rehearse::python {
 
 namespace py = pybind11;
 
+constexpr const char* kPageArgument = "out=\"FILE.html\"";  // as messages name it
+
 void add_outputs(py::module_& module) {
   using namespace py::literals;
   module.def(
@@ -19,9 +21,18 @@ void add_outputs(py::module_& module) {
       },
       "folder"_a, "share"_a);
   module.def(
+      "replay",
+      [](const std::string& folder, Index trial, const std::string& headline, const std::string& share) {
+        return apps::replay_page(folder, trial, share, headline).html;
+      },
+      "folder"_a, "trial"_a, "headline"_a, "share"_a);
+  module.def(
+      "check_page", [](const std::string& path) { apps::check_output(apps::page_file(path, kPageArgument)); },
+      "path"_a);
+  module.def(
       "write_page",
       [](const std::string& path, const std::string& text) {
-        apps::write_output(apps::page_file(path, "report(\"FILE.html\")"), text);
+        apps::write_output(apps::page_file(path, kPageArgument), text);
       },
       "path"_a, "text"_a);
   module.def(

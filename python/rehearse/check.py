@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import os
+import tempfile
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Union
 
 from . import _core
-from .checks import truth
+from ._core import InvalidInput
+from .checks import page_path, path_of, truth
 from .given_robot import Robots, robot_of
+from .run import learn, write_replay
+from .tables import without_path
 
 
 @dataclass(frozen=True)
@@ -51,15 +58,28 @@ class Checked:
         return "\n".join([*lines, *(self.complaints or [well])])
 
 
-def check(robot: Robots, *, plant: bool = True) -> Checked:
+def check(robot: Robots, *, plant: bool = True, out: Union[str, os.PathLike[str], None] = None) -> Checked:
     """Tries plant and priors on three episodes of random actions, which the plant does twice, as `rehearse check` does
     (docs/does-not-learn.md).
 
-    Where there is no plant, or plant=False, the first prior plays the robot. A plant that is a real robot moves. Raises
+    Where there is no plant, or plant=False, the first prior plays the robot. out: a page, "robot.html", that shows how the
+    plant moves in one more episode. A plant that is a real robot moves. Raises
     InvalidInput, or what a function raises.
 
     >>> print(rehearse.check(robot))
     """
+    if out is not None and not truth("plant", plant):
+        raise InvalidInput("out shows the plant's motion: leave plant=False out")
+    page = None if out is None else page_path(path_of("out", out))  # before the robot moves
     found = _core.check(*robot_of(robot), truth("plant", plant))
     priors = [PriorChecked(**prior) for prior in found.pop("priors")]
+    if page is not None:
+        _show_motion(robot, page)
     return Checked(priors=priors, **found)
+
+
+def _show_motion(robot: Robots, page: Path) -> None:
+    """The first trial of a learner that has no model yet: random actions."""
+    with tempfile.TemporaryDirectory() as folder, without_path(folder):
+        run = learn(robot, "black-drops", trials=1, out=Path(folder) / "run", progress=None)
+        write_replay(run.folder, 1, page, f"{run.spec['robot']}: an episode of random actions")

@@ -149,12 +149,19 @@ def read_if_any(name: str, path: Any, kinds: str) -> str:
     return read_text(given) if given else ""
 
 
-def write_page(path: Union[str, os.PathLike[str]], page: str) -> Path:
-    """Writes a page. A file of that name that is none is left as it is."""
+def page_path(path: Union[str, os.PathLike[str]]) -> Path:
+    """The path of a page that can be written. A file of that name that is none is left as it is."""
     if Path(path_of("path", path)).suffix != ".html":
         raise InvalidInput(f"{os.fspath(path)}: must end in .html")
-    _core.write_page(os.fspath(path), page)
+    _core.check_page(os.fspath(path))
     return Path(path)
+
+
+def write_page(path: Union[str, os.PathLike[str]], page: str) -> Path:
+    """Writes a page."""
+    path = page_path(path)
+    _core.write_page(str(path), page)
+    return path
 
 
 def write_text(path: Union[str, os.PathLike[str]], content: str) -> Path:

@@ -167,6 +167,10 @@ class Run:
         """Writes the page of the run, by default report.html in its folder."""
         return write_report(self.folder, out)
 
+    def replay(self, trial: int, out: Union[PathLike, None] = None) -> Path:
+        """Writes a page that shows how the robot moved in a trial, by default replay-003.html in the folder."""
+        return write_replay(self.folder, whole("trial", trial), out)
+
     def plot(self, trial: Union[int, None] = None) -> Any:
         """A Matplotlib figure: returns by trial, and the states of one of them as predicted and as they were."""
         from .plots import plot_run
@@ -263,6 +267,14 @@ def write_report(folder: Path, out: Union[PathLike, None]) -> Path:
     from .__main__ import share
 
     return write_page(path_or_none("out", out) or folder / "report.html", _core.report(str(folder), str(share())))
+
+
+def write_replay(folder: Path, trial: int, out: Union[PathLike, None], headline: str = "") -> Path:
+    """The page of a trial's motion. headline: "": learner and robot."""
+    from .__main__ import share
+
+    page = _core.replay(str(folder), trial, headline, str(share()))
+    return write_page(path_or_none("out", out) or folder / f"replay-{trial:03}.html", page)
 
 
 def _json_of(policy: Union[Policy, PathLike, None]) -> str:

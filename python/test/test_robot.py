@@ -170,7 +170,7 @@ begun.wait(30)
     assert len(rehearse.open_run(tmp_path / "run").trials) < 3
 
 
-def test_check_finds_what_a_learner_would_stumble_over():
+def test_check_finds_what_a_learner_would_stumble_over(tmp_path):
     found = rehearse.check(cart())
     assert found.complaints == [] and str(found).endswith("all is well")
     assert found.steps == 45 and list(found.changes) == ["velocity", "position"]
@@ -188,6 +188,12 @@ def test_check_finds_what_a_learner_would_stumble_over():
     assert "mass changes no prediction" in complaint
     with pytest.raises(ZeroDivisionError):
         rehearse.check(cart(reward=lambda *of: 1 / 0))
+    bodies = [rehearse.Body("cart", ("position", "0"), ("position", "0.1"))]
+    rehearse.check(cart(bodies=bodies), out=tmp_path / "cart.html")
+    assert "cart: an episode of random actions" in (tmp_path / "cart.html").read_text(encoding="utf-8")
+    for page, why in ((tmp_path / "cart.txt", "must end in .html"), (tmp_path / "none" / "cart.html", "none")):
+        with pytest.raises(rehearse.InvalidInput, match=why):
+            rehearse.check(cart(), out=page)
     with pytest.raises(rehearse.InvalidInput, match="unknown scenario 'pendubott', did you mean 'pendubot'"):
         rehearse.check("pendubott")
 

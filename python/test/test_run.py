@@ -123,6 +123,13 @@ def test_data_frames_and_figures(tmp_path):
     assert (tmp_path / "figure.png").stat().st_size > 10000
 
 
+def test_a_trial_is_replayed(tmp_path):
+    run = learn(cart(bodies=[rehearse.Body("cart", ("position", "0"), ("position", "0.1"))]), tmp_path / "run", trials=1)
+    assert run.replay(1) == run.folder / "replay-001.html" and (run.folder / "replay-001.html").stat().st_size > 10000
+    with pytest.raises(rehearse.InvalidInput, match="trial 2 is not in"):
+        run.replay(2)
+
+
 def test_an_environment_is_the_plant(tmp_path):
     environment = Environment()
     run = learn(cart(environment), tmp_path / "run")

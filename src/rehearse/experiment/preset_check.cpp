@@ -1,11 +1,10 @@
 #include "rehearse/experiment/preset_check.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
+#include "rehearse/experiment/location.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/files/toml_reader.hpp"
 
@@ -32,11 +31,8 @@ std::vector<std::string> violations(const Preset& preset, const Catalogue& catal
   const std::vector<std::string> before = said_of(catalogue, spec);
   for (const std::string& violation : said_of(catalogue, with_options(spec, own))) {
     if (is_among(violation, before)) continue;
-    const auto causes = [&](const FileOption& option) {
-      return is_among(violation, said_of(catalogue, with_options(spec, {option})));
-    };
-    const auto option = std::find_if(own.begin(), own.end(), causes);
-    lines.push_back(files::in_file(preset.source(), option == own.end() ? 0 : option->line,
+    const FileOption* option = cause(catalogue, spec, own, violation);
+    lines.push_back(files::in_file(preset.source(), option ? option->line : 0,
                                    fmt::format("{} (learner {} on {})", violation, spec.learner, spec.scenario)));
   }
   return lines;
