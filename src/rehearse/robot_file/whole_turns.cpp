@@ -1,5 +1,6 @@
 #include "rehearse/robot_file/whole_turns.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <numbers>
 #include <utility>
@@ -12,7 +13,8 @@
 namespace rehearse::robot_file {
 namespace {
 
-constexpr Index kTried = 1000;  // states
+constexpr Index kTried = 1000;  // states; fewer where their episodes would have more than so many rows in all
+constexpr Index kRows = 100000;
 constexpr double kTolerance = 1e-6;
 
 using Answers = std::function<Vector(const Matrix& X)>;
@@ -51,7 +53,8 @@ std::vector<std::pair<std::string, Answers>> answers_of(const Task& task) {
 /// The start, with the angles anywhere.
 Matrix turned_states(const Task& task, std::uint64_t seed) {
   Rng rng({.seed = seed, .trial = 1, .purpose = Purpose::start_state});
-  Matrix X = task.start_mean.transpose().replicate(kTried, 1);
+  const Index tried = std::clamp<Index>(kRows / (task.horizon + 1), 1, kTried);
+  Matrix X = task.start_mean.transpose().replicate(tried, 1);
   for (Index i = 0; i < X.rows(); ++i)
     for (Index j = 0; j < X.cols(); ++j)
       if (task.states[static_cast<std::size_t>(j)].kind == StateKind::angle)

@@ -11,11 +11,11 @@ namespace {
 
 constexpr Index kFollowedAtOnce = 64;  // rows of a task of the evaluator
 
-/// The predicted states; failed ones, which are no input for a model, replaced by states of the episode.
-Matrix known_states(const Matrix& predicted, const Episode& episode) {
+/// The predicted states; failed ones, which are no input for a model or a policy, replaced by rows of `others`.
+Matrix known_states(const Matrix& predicted, const Matrix& others) {
   Matrix states = predicted;
   for (Index i = 0; i < states.rows(); ++i)
-    if (!states.row(i).allFinite()) states.row(i) = episode.states.row(i);
+    if (!states.row(i).allFinite()) states.row(i) = others.row(i);
   return states;
 }
 
@@ -36,7 +36,7 @@ std::vector<Matrix> forecast(const dynamics::DynamicsModel& model, const Episode
       const Index rows = episode.steps() - step;
       predicted.conservativeResize(rows, Eigen::NoChange);
       mean.resize(rows, predicted.cols());
-      model.predict_mean(known_states(predicted, episode), episode.actions.middleRows(step, rows), mean);
+      model.predict_mean(known_states(predicted, episode.states), episode.actions.middleRows(step, rows), mean);
       predicted += mean;  // what has failed stays NaN
     }
     arrived.push_back(predicted);
@@ -52,12 +52,10 @@ Matrix follow(const dynamics::DynamicsModel& model, const Task& task, const Fixe
   evaluator.for_each(chunks, [&](Index chunk) {
     const Index first = chunk * kFollowedAtOnce, rows = std::min(kFollowedAtOnce, states.rows() - first);
     const Matrix from = states.middleRows(first, rows), Theta = policy.theta.transpose().replicate(rows, 1);
-    Matrix now = from, known(rows, states.cols()), change(rows, states.cols()), actions(rows, task.action_size());
+    Matrix now = from, change(rows, states.cols()), actions(rows, task.action_size());
     for (Index t = 0; t < steps; ++t) {
       evaluator.stop_if_asked();
-      known = now;
-      for (Index i = 0; i < rows; ++i)
-        if (!now.row(i).allFinite()) known.row(i) = from.row(i);  // no input for a model or a policy
+      const Matrix known = known_states(now, from);
       policy.policy.act(Theta, known, static_cast<double>(t) * task.dt_s, actions);
       actuators.command(known, actions);
       model.predict_mean(known, actions, change);
