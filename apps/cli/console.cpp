@@ -79,7 +79,7 @@ void Console::progress(Index trial, const Progress& progress) {
   std::string line = fmt::format("trial {}  {} {:.0f} %", number(trial), progress.phase, 100 * progress.done);
   line += time_left(progress);
   if (progress.rollouts > 0)
-    line += fmt::format("  best predicted return {:.3f}  {:.0f} rollouts/s", progress.best, progress.rollouts_per_s);
+    line += fmt::format("  predicted {:.3f}  {:.0f} rollouts/s", progress.best, progress.rollouts_per_s);
   line_.show(line);
 }
 
@@ -90,7 +90,7 @@ std::string Console::time_left(const Progress& progress) const {
   if (done_ > done_before_ && trials_ > done_) {
     const double per_trial = Seconds(trial_begin_ - begin_).count() / static_cast<double>(done_ - done_before_);
     const double rest = static_cast<double>(trials_ - done_ - 1) * per_trial + std::max(0.0, per_trial - in_trial);
-    return fmt::format("  about {} left", duration_text(rest));
+    return fmt::format(", {} left", duration_text(rest));
   }
   if (progress.done < 0.02) return "";
   return fmt::format(", {} left", duration_text(in_phase * (1 / progress.done - 1)));
@@ -123,6 +123,9 @@ void Console::finished(const experiment::RunResult& result) {
                                  : (says_when_solved_ ? "not solved in " : "") + counted(result.trials, "trial");
   line_.print(fmt::format("{}, best return {:.3f}, in {}; its page: {}", solved, result.best_return, folder,
                           command_line({"report", folder})));
+  constexpr Index kMany = 3;  // trials after which something may be wrong with file, model or search
+  if (says_when_solved_ && !result.solved_at && result.trials >= kMany)
+    line_.print("what to look at where trials do not get better, a delay for example: docs/does-not-learn.md");
 }
 
 }  // namespace rehearse::apps

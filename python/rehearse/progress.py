@@ -30,6 +30,7 @@ def show(event: dict[str, Any]) -> None:
         text = f"trial {event['trial']}: return {event['total_reward']:.3f}"
         text += "" if predicted is None else f", predicted {predicted:.3f}"
         text += {True: ", solved", False: ", not solved", None: ""}[event["solved"]]
+        text += "".join(f", broke {limit['name']}" for limit in event["limits"] if limit["broken"])
         text += "".join(f", {name} {number:.4g}" for name, number in event["phi"].items())
         print(f"\r{text:100}" if live else text, flush=True)
         for note in event["notes"]:

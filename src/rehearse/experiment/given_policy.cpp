@@ -1,5 +1,8 @@
 #include "rehearse/experiment/given_policy.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -45,12 +48,20 @@ bool answers_alike(const policy::Policy& policy, const Vector& theta, const Task
   return true;
 }
 
-InvalidInput no_export(const std::string& source) {
-  return InvalidInput(fmt::format("{} is no policy that `export` wrote as JSON", source));
+InvalidInput no_export(const std::string& source, const std::string& why = "") {
+  return InvalidInput(fmt::format("{} is no policy that `export` wrote as JSON{}", source, why));
+}
+
+/// The JSON of a file. Throws InvalidInput, with the line where it ceases to be JSON.
+json parsed(const std::string& text, const std::string& source) try {
+  return json::parse(text);
+} catch (const json::parse_error& error) {
+  const std::string_view before = std::string_view(text).substr(0, error.byte);
+  throw no_export(source, fmt::format(": line {} is no JSON", 1 + std::ranges::count(before, '\n')));
 }
 
 std::string kind_of(const std::string& text, const std::string& source) try {
-  return json::parse(text).at("policy");
+  return parsed(text, source).at("policy");
 } catch (const json::exception&) {
   throw no_export(source);
 }
@@ -58,7 +69,7 @@ std::string kind_of(const std::string& text, const std::string& source) try {
 }  // namespace
 
 GivenPolicy given_policy(const std::string& text, const std::string& source, const scenario::Scenario& scenario) try {
-  const json file = json::parse(text);
+  const json file = parsed(text, source);
   if (file.at("format") != 1) throw InvalidInput(fmt::format("{}: another version of Rehearse wrote it", source));
   TrialRecord record{.trial = file.at("trial"), .policy = file.at("policy")};
   constexpr Index kLastTrial = 4294967295;  // of random streams

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::array<const char*, 3> kDeciding{"done", "spec.toml", "checkpoint"};
 constexpr const char *kBefore = "before", *kFiles = "files";
 
-fs::path tells_of(const RunFolder& run) { return run.path() / "told"; }
+fs::path tells_of(const RunFolder& run) { return run.path() / kToldFolder; }
 
 bool is_number(const std::string& name) {
   return name.size() <= 18 && name.find_first_not_of("0123456789") == std::string::npos;

@@ -24,6 +24,9 @@ std::vector<std::string> known_names(const scenario::Scenario& scenario) {
 
 std::string unknown_prior(const scenario::Scenario& scenario, const std::string& name) {
   const std::vector<std::string> known = known_names(scenario);
+  if (name == scenario::kOracle)
+    return fmt::format("scenario {} has no oracle: it has no plant, or none that is a simulator for a prior{}",
+                       scenario.name, suggestions(name, known));
   if (known.empty()) return fmt::format("unknown prior '{}': scenario {} has no priors", name, scenario.name);
   return fmt::format("unknown prior '{}' of scenario {}{}", name, scenario.name, suggestions(name, known));
 }

@@ -47,7 +47,9 @@ class Resolver {
     if (!scenario_builder_) violations_.add(catalogue.why_missing("scenario", spec.scenario));
     if (!learner_builder_) violations_.add(catalogue.why_missing("learner", spec.learner));
     check_robot(catalogue.robot(spec.scenario));
-    if (!scenario_builder_ || !learner_builder_) violations_.throw_if_any();
+    if (scenario_builder_ && learner_builder_) return;
+    check_the_known_one();
+    violations_.throw_if_any();
   }
 
   Resolved resolve() {
@@ -84,6 +86,23 @@ class Resolver {
   }
 
  private:
+  /// Where scenario or learner is unknown: the values of the other one's options, and the names of priors.
+  void check_the_known_one() {
+    const auto check = [&](auto* builder, std::string_view section) {
+      if (!builder) return;
+      for (const auto& [key, text] : spec_.options) {
+        const std::string_view name = key.starts_with(section) ? std::string_view(key).substr(section.size()) : key;
+        contained([&] { return set_field(fields_of(*builder), name, text); });
+      }
+      if (check_.conditions) violations_.add(field_violations(fields_of(*builder)));
+    };
+    check(scenario_builder_.get(), kScenario);
+    check(learner_builder_.get(), kLearner);
+    if (!scenario_builder_) return;
+    if (const auto scenario = contained([&] { return scenario_builder_->build(); }))
+      ChosenPriors(*scenario, split_names(spec_.prior), violations_);
+  }
+
   void check_robot(const RobotFile* file) {
     const std::string checksum = file ? checksum_of(*file) : "";
     if (!spec_.robot.empty() && spec_.robot != checksum)

@@ -43,7 +43,7 @@ RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comme
   static std::mutex making;  // a process makes one folder of a name at a time
   const std::lock_guard one_at_a_time(making);
   if (fs::exists(fs::symlink_status(path))) throw InvalidInput(already_exists(path));
-  const std::string text = to_toml(spec, comments);
+  const std::string text = spec.trials == 0 ? of_told_run(to_toml(spec, comments)) : to_toml(spec, comments);
   require_readable(spec, text);  // not after hours of trials
   remove_abandoned(path);
   files::NewFolder folder(path);
@@ -111,7 +111,9 @@ void RunFolder::change_end(Until until, const Comments& comments) {
   Spec changed = spec_;
   changed.trials = until.trials;
   changed.until_solved = until.solved;
-  files::write_file(path_ / kSpec, to_toml(changed, comments), files::Durability::power);
+  const std::string text = to_toml(changed, comments);
+  const bool told = fs::exists(path_ / kToldFolder);
+  files::write_file(path_ / kSpec, told ? of_told_run(text) : text, files::Durability::power);
   spec_ = std::move(changed);
   mark_unfinished();
 }

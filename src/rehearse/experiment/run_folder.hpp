@@ -11,6 +11,8 @@
 
 namespace rehearse::experiment {
 
+inline constexpr const char* kToldFolder = "told";  // what each `tell` was told (kept_tells.hpp)
+
 inline constexpr const char* kNextFolder = "next";  // of the policy that was asked for
 
 /// The folder of one run, locked while this lives. The checkpoint is the truth and each file is replaced in one step:

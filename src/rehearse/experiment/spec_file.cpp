@@ -114,6 +114,13 @@ std::vector<FileOption> read_options(const toml::table& file, files::TomlReader&
 
 }  // namespace
 
+std::string of_told_run(std::string toml) {
+  return toml.replace(
+      0, toml.find('\n'),
+      "# A run of Rehearse that is told of its robot: `rehearse learn` of this file begins one that was "
+      "told nothing yet.");
+}
+
 std::string to_toml(const Spec& spec, const Comments& comments) {
   std::string text = fmt::format(
       "# A run of Rehearse, complete: `rehearse learn` of this file gives the same trials.csv.\n"

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace rehearse::robot_file {
 
@@ -31,6 +32,20 @@ std::string difference(const Task& task, const Matrix& distances, const Vector& 
                                                               : "from a prediction to none";
   return fmt::format("{} of {} rows, {} {}", (excess.rowwise().maxCoeff().array() > 0).count(), excess.rows(),
                      task.states[static_cast<std::size_t>(state)].name, by);
+}
+
+std::string without_prediction(const Task& task, const Matrix& X, const Matrix& U, const Matrix& predicted) {
+  Index first = -1, count = 0;
+  for (Index row = predicted.rows() - 1; row >= 0; --row)
+    if (!predicted.row(row).allFinite()) first = row, ++count;
+  if (first < 0) return {};
+  std::vector<std::string> values;
+  for (Index j = 0; j < X.cols(); ++j)
+    values.push_back(fmt::format("{} = {:.4g}", task.states[static_cast<std::size_t>(j)].name, X(first, j)));
+  for (Index j = 0; j < U.cols(); ++j)
+    values.push_back(fmt::format("{} = {:.4g}", task.actions[static_cast<std::size_t>(j)].name, U(first, j)));
+  return fmt::format("{} of {} rows have no prediction; the first: {}", count, predicted.rows(),
+                     fmt::join(values, ", "));
 }
 
 }  // namespace rehearse::robot_file

@@ -18,4 +18,8 @@ Vector rounding(const Matrix& X, const Matrix& dX);
 /// The rows and the state that are further apart than tolerated, for people; empty: there are none.
 std::string difference(const Task& task, const Matrix& distances, const Vector& tolerated);
 
+/// The first row of states X and actions U that has no prediction, and how many have none, for people; empty: all have
+/// one.
+std::string without_prediction(const Task& task, const Matrix& X, const Matrix& U, const Matrix& predicted);
+
 }  // namespace rehearse::robot_file

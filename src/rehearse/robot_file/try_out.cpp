@@ -203,6 +203,7 @@ PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const 
   tried.rows_per_s = watch.per_s(steps.X.rows());
   tried.error = root_mean_square(predicted - steps.dX);
   tried.broken = broken_law(task, prior, steps, before, predicted);
+  if (tried.failed > 0) tried.notes.push_back(without_prediction(task, steps.X, steps.U, predicted));
   const std::string rounded = difference(task, apart(before, predicted), Vector::Zero(before.cols()));
   if (tried.broken.empty() && !rounded.empty())
     tried.notes.push_back(

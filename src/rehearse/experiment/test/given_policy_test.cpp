@@ -40,7 +40,8 @@ TEST(GivenPolicy, SaysWhatIsWrong) {
   const auto said = [&](const std::string& text) {
     return message_of<InvalidInput>([&] { given_policy(text, "it.json", whole_line()); });
   };
-  for (const char* text : {"", "{}", "[1]", "{\"format\": 1}"})
+  EXPECT_EQ(said("{\n \"format\": 1,\n"), "it.json is no policy that `export` wrote as JSON: line 3 is no JSON");
+  for (const char* text : {"{}", "[1]", "{\"format\": 1}"})
     EXPECT_EQ(said(text), "it.json is no policy that `export` wrote as JSON") << text;
   const auto changed = [&](const std::string& what, const std::string& by) {
     std::string text = file;

@@ -150,6 +150,10 @@ TEST(Spec, SaysWhatIsWrong) {
   EXPECT_EQ(complaint({.scenario = "lime", .learner = "eco"}),
             "unknown scenario 'lime', did you mean 'line'? (known: line)\n"
             "unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)");
+  EXPECT_EQ(complaint(spec_of("eco", "nera", {{"scenario.noise", "-1"}, {"search.step", "1"}})),
+            "unknown learner 'eco', did you mean 'echo'? (known: echo, echo-alone)\n"
+            "noise = -1, must be ≥ 0\n"
+            "unknown prior 'nera' of scenario line, did you mean 'near'? (known: near, far, oracle)");
   EXPECT_EQ(complaint({.scenario = "hexapod", .learner = "echo"}),
             "scenario 'hexapod' is not built: DART 6.12 was not found");
   EXPECT_EQ(complaint({.scenario = "line"}), "no learner is named (known: echo, echo-alone)");

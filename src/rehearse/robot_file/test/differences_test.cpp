@@ -38,5 +38,14 @@ TEST(Differences, AreSaidOfTheFarthestState) {
   EXPECT_EQ(difference(task, Matrix(0, 2), tolerated), "");
 }
 
+TEST(Differences, NameTheFirstRowWithoutAPrediction) {
+  Task task = task_of({"level"});
+  task.actions = {{.name = "pump"}};
+  const Matrix X{{0.5}, {-0.01}, {-1}}, U{{1}, {2}, {3}};
+  EXPECT_EQ(without_prediction(task, X, U, Matrix{{1}, {2}, {3}}), "");
+  EXPECT_EQ(without_prediction(task, X, U, Matrix{{1}, {kNone}, {kNone}}),
+            "2 of 3 rows have no prediction; the first: level = -0.01, pump = 2");
+}
+
 }  // namespace
 }  // namespace rehearse::robot_file

@@ -47,6 +47,12 @@ TEST(Hints, NameTheDelay) {
             "have 0.25 times the errors");
 }
 
+TEST(Hints, OfADelayNameWhatLearnersKnowItBy) {
+  EXPECT_EQ(line_of({.delay_s = 0.06, .errors = 0.25}, swinging_task()),
+            "actions seem to act 0.06 s later than their rows say (--set read.action_delay_s; to learn, delay_s of the "
+            "action): short forecasts would have 0.25 times the errors");
+}
+
 TEST(Hints, NameTheActionOfTheOtherSign) {
   std::vector<Episode> logs = {swinging_log(1, 0).episode, swinging_log(2, 0).episode};
   for (Episode& log : logs) log.actions *= -1;
