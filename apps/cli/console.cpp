@@ -123,9 +123,6 @@ void Console::finished(const experiment::RunResult& result) {
                                  : (says_when_solved_ ? "not solved in " : "") + counted(result.trials, "trial");
   line_.print(fmt::format("{}, best return {:.3f}, in {}; its page: {}", solved, result.best_return, folder,
                           command_line({"report", folder})));
-  constexpr Index kMany = 3;  // trials after which something may be wrong with file, model or search
-  if (says_when_solved_ && !result.solved_at && result.trials >= kMany)
-    line_.print("what to look at where trials do not get better, a delay for example: docs/does-not-learn.md");
 }
 
 }  // namespace rehearse::apps

@@ -6,6 +6,7 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/on_console.hpp"
 #include "apps/cli/program.hpp"
+#include "apps/cli/second_look.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/given_policy.hpp"
 #include "rehearse/experiment/preset_check.hpp"
@@ -93,11 +94,14 @@ Spec resolved_spec(const Catalogue& catalogue, const Spec& spec, const std::opti
   }
 }
 
-int run_on_console(const std::filesystem::path& folder, Index threads,
+int run_on_console(const Catalogue& catalogue, const std::filesystem::path& folder, Index threads,
                    const std::function<experiment::RunResult(const RunOptions&)>& run) {
   Console console;
   return on_console(folder, threads, console, command_line({"resume", folder.string()}),
-                    [&](const RunOptions& options) { console.finished(run(options)); });
+                    [&](const RunOptions& options) {
+                      console.finished(run(options));
+                      for (const std::string& line : second_look(catalogue, folder, options)) put("{}\n", line);
+                    });
 }
 
 }  // namespace
@@ -120,7 +124,7 @@ int learn(const Catalogue& built_in, const LearnArguments& arguments) {
     spec = experiment::with_start(catalogue, spec, files::read_file(*arguments.policy, files::Links::follow),
                                   *arguments.policy);
   const std::filesystem::path folder = arguments.out.value_or("runs/" + experiment::run_name(spec));
-  return run_on_console(folder, threads, [&](const RunOptions& options) {
+  return run_on_console(catalogue, folder, threads, [&](const RunOptions& options) {
     return experiment::start_run(catalogue, spec, folder, options);
   });
 }
@@ -132,7 +136,7 @@ int resume(const Catalogue& catalogue, const ResumeArguments& arguments) {
   const Index threads = threads_of(arguments.threads, violations);
   violations.throw_if_any();
   const auto until = arguments.trials ? std::optional<experiment::Until>(numbers.trials) : std::nullopt;
-  return run_on_console(arguments.folder, threads, [&](const RunOptions& options) {
+  return run_on_console(catalogue, arguments.folder, threads, [&](const RunOptions& options) {
     return experiment::resume_run(catalogue, arguments.folder, until, options);
   });
 }

@@ -134,4 +134,16 @@ grep -q "oracle: not all of the plant. u: the plant has delay_s = 0.2" output ||
 grep -q "warning: the oracle is not all of the plant: u: the plant has delay_s = 0.2" output || fail "learn: $(cat output)"
 refused "learner ite needs a descriptor, .*not a robot's file" learn late.toml --learner ite --out left
 
+# Trials that do not get better are looked at again, whoever drives the robot.
+delay="actions seem to act 0.2 s later than their rows say"
+"$program" learn late.toml --learner gp-mi --prior useful --trials 3 "${few[@]}" --out unsolved >output 2>&1 || fail "unsolved: $(cat output)"
+grep -q "not solved in 3 trials" output && grep -q "$delay" output && grep -q "what to look at.*does-not-learn" output ||
+  fail "nothing is said of a delay: $(cat output)"
+"$program" learn late.toml --learner gp-mi --prior useful --trials 0 "${few[@]}" --out told >/dev/null 2>&1
+for trial in 1 2 3; do
+  "$program" ask told --threads 1 >/dev/null 2>&1
+  "$program" tell told unsolved/trajectories/trial-00$trial.csv >output 2>&1 || fail "tell: $(cat output)"
+done
+grep -q "$delay" output || fail "tell says nothing of a delay: $(cat output)"
+
 finish

@@ -1,0 +1,48 @@
+#include "apps/cli/second_look.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+
+#include "rehearse/core/events.hpp"
+#include "rehearse/experiment/past_run.hpp"
+#include "rehearse/study/hints.hpp"
+
+namespace rehearse::apps {
+namespace {
+
+constexpr Index kMany = 3;  // trials after which something may be wrong with file, model or search
+constexpr auto kLongest = std::chrono::seconds(10);
+
+bool is_unsolved(const experiment::PastRun& run) {
+  const auto solved = [](const experiment::TrialRecord& trial) { return trial.solved.value_or(false); };
+  return run.resolved.scenario.task.solved && run.history.done() >= kMany &&
+         std::ranges::none_of(run.history.trials, solved);
+}
+
+std::vector<study::Hint> hints_of(const experiment::PastRun& run, const experiment::RunOptions& options) try {
+  if (!run.resolved.prior || !run.resolved.prior->space.has_tunable()) return {};
+  const auto end = std::chrono::steady_clock::now() + kLongest;
+  const auto in_time = make_stoppable(
+      options.evaluator, [&] { return std::chrono::steady_clock::now() > end || (options.stop && options.stop()); });
+  return study::find_hints(run.history.episodes, run.resolved.scenario.task, *run.resolved.prior, {}, *in_time);
+} catch (const Interrupted&) {
+  return {};
+} catch (const std::exception&) {  // what the prior throws is no fault of the trials, which are done
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> second_look(const experiment::Catalogue& catalogue, const std::filesystem::path& folder,
+                                     const experiment::RunOptions& options) {
+  const experiment::PastRun run = experiment::read_run(catalogue, folder);
+  std::vector<std::string> lines;
+  if (!is_unsolved(run)) return lines;
+  for (const study::Hint& hint : hints_of(run, options))
+    lines.push_back(study::line_of(hint, run.resolved.scenario.task));
+  lines.emplace_back("what to look at where trials do not get better: docs/does-not-learn.md");
+  return lines;
+}
+
+}  // namespace rehearse::apps
