@@ -7,6 +7,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include "apps/cli/second_look.hpp"
 #include "python/bindings/policy.hpp"
 #include "python/bindings/work.hpp"
 #include "rehearse/experiment/ask_tell.hpp"
@@ -71,6 +72,13 @@ void warn(const std::vector<std::string>& lines) {
     if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 2) != 0) throw py::error_already_set();
 }
 
+/// Other readings of the trials, such as a delay, where trials do not get better; none where nothing is found.
+Strings other_readings(const experiment::Catalogue& catalogue, const std::filesystem::path& folder,
+                       const experiment::RunOptions& options) {
+  Strings lines = apps::second_look(catalogue, folder, options);
+  return lines.size() > 1 ? lines : Strings();  // the last one says where to read on
+}
+
 /// Makes the folder, and runs all trials. Returns the folder.
 std::string learn(const Robot& robot, const Request& request, const std::string& out, const Settings& settings) {
   std::filesystem::path folder = out;
@@ -81,6 +89,7 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
     warn(run.warnings);
     if (folder.empty()) folder = "runs/" + run_name(run.spec);
     experiment::start_run(catalogue, run.spec, folder, options);
+    warn(other_readings(catalogue, folder, options));
   };
   resumable(robot, folder, [&] { work_with(robot, settings, run_all); });
   return folder.string();
@@ -90,6 +99,7 @@ void resume(const Robot& robot, const std::string& folder, std::optional<Index> 
   const auto go_on = [&](const Robot& own, const experiment::RunOptions& options) {
     const auto until = trials ? std::optional<experiment::Until>(*trials) : std::nullopt;
     experiment::resume_run(own.catalogue(), folder, until, options);
+    warn(other_readings(own.catalogue(), folder, options));
   };
   resumable(robot, folder, [&] { work_with(robot, settings, go_on); });
 }
@@ -109,9 +119,11 @@ Policy ask(const Robot& robot, const std::string& folder, const Settings& settin
 py::dict tell(const Robot& robot, const std::string& folder, const Strings& files,
               const std::optional<experiment::Stop>& stopped, const Settings& settings) {
   std::optional<experiment::TellResult> told;
+  Strings readings;
   work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
     experiment::TellRequest request{.files = {files.begin(), files.end()}, .stopped = stopped};
     told = experiment::tell_run(own.catalogue(), folder, request, options);
+    if (told->trial) readings = other_readings(own.catalogue(), folder, options);
   });
   Strings logs, notes;
   for (const experiment::Log& log : told->logs) {
@@ -119,6 +131,7 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
     notes.insert(notes.end(), log.notes.begin(), log.notes.end());
   }
   if (told->trial) notes = told->trial->notes;
+  notes.insert(notes.end(), readings.begin(), readings.end());
   return py::dict(py::arg("trial") = told->trial ? std::optional(told->trial->trial) : std::nullopt,
                   py::arg("total_reward") = told->trial ? std::optional(told->trial->total_reward) : std::nullopt,
                   py::arg("logs") = logs, py::arg("known_before") = told->known_before,

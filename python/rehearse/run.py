@@ -238,6 +238,7 @@ def learn(robot: Robots, learner: str = "", *, prior: Union[str, Sequence[str], 
     first trial. options: as of `--set`, {"hidden": 20}. out: by default runs/ROBOT-LEARNER-PRIOR-SEED. threads: 0 are all cores; any
     number gives the same bytes, which are those of the command line. progress: function(event), see `show`.
 
+    Where three trials or more are not solved, and actions seem to act late or the other way, a warning says so.
     Ctrl-C stops it, and `Run.resume` goes on. An exception of a function of the robot stops it, too, and comes out as
     it is. Raises InvalidInput with a line for everything that is wrong, RunFailed where plant or learner fail.
     """

@@ -310,6 +310,22 @@ def test_ask_and_tell_are_learn(tmp_path):
     assert changed["return_50"][2] == np.median(heavy.returns)
 
 
+def test_trials_that_do_not_get_better_are_looked_at_again(tmp_path):
+    """The force acts two steps late, which no model knows."""
+    late = rehearse.Model(change, parameters={"mass": 1.0, "friction": 0.3}, delay_s={"force": 0.2})
+    prior = rehearse.Model(change, parameters={"mass": 1.3, "friction": 0.3}, tune={"mass": (0.2, 5)})
+    robot = cart(plant=late, priors={"light": prior}, success=rehearse.Success("position > 1e6"))
+    with pytest.warns(UserWarning, match="actions seem to act 0.2 s later"):
+        run = learn(robot, tmp_path / "run", trials=3)
+    told = learn(cart(plant=None, priors={"light": prior}, success=rehearse.Success("position > 1e6")), tmp_path / "told", trials=0)
+    for trial in (1, 2):
+        told.ask()
+        told.tell(run.trajectory(trial))
+    told.ask()
+    with pytest.warns(UserWarning, match="actions seem to act 0.2 s later"):
+        told.tell(run.trajectory(3))
+
+
 def test_what_was_told_can_be_taken_back(tmp_path):
     anew = {**QUICK, "start_from_best": False}  # the policies of both trials differ
     whole = learn(cart(), tmp_path / "whole", options=anew)
