@@ -200,9 +200,7 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
                           experiment::tell_run(catalogue, arguments.folder, request, options);
                       console.clear_line();
                       print_told(told, arguments.folder);
-                      if (!told.trial) return;
-                      for (const std::string& line : second_look(catalogue, arguments.folder, options))
-                        put("{}\n", line);
+                      if (told.trial) put_second_look(second_look(catalogue, arguments.folder, options));
                     });
 }
 

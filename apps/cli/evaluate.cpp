@@ -110,7 +110,7 @@ void write_table(const OutputFile& table, const std::string& text) {
   put("{} has the numbers\n", path);
 }
 
-/// What is evaluated, and how.
+/// An evaluation that is ready to run, and the table that it writes.
 struct Work {
   const experiment::Catalogue& catalogue;
   PreparedEvaluation prepared;
@@ -135,13 +135,14 @@ void require_robot(const experiment::PastRun& run) {
 
 Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments) {
   auto [request, threads, table] = wanted(arguments);
-  require_robot(experiment::read_run(catalogue, request.folder));
+  const experiment::PastRun run = experiment::read_run(catalogue, request.folder);
+  require_robot(run);
   check_output(table);  // not after hours of episodes
   if (arguments.policy) {
     request.policy = files::read_file(*arguments.policy, files::Links::follow);
     request.policy_source = *arguments.policy;
   }
-  return {catalogue, experiment::prepare_evaluation(catalogue, std::move(request)), std::move(table),
+  return {catalogue, experiment::prepare_evaluation(catalogue, run, std::move(request)), std::move(table),
           make_stoppable(make_thread_evaluator(static_cast<int>(threads)), [] { return caught_signal() != 0; })};
 }
 

@@ -100,7 +100,7 @@ int run_on_console(const Catalogue& catalogue, const std::filesystem::path& fold
   return on_console(folder, threads, console, command_line({"resume", folder.string()}),
                     [&](const RunOptions& options) {
                       console.finished(run(options));
-                      for (const std::string& line : second_look(catalogue, folder, options)) put("{}\n", line);
+                      put_second_look(second_look(catalogue, folder, options));
                     });
 }
 

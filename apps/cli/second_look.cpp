@@ -4,6 +4,7 @@
 #include <chrono>
 #include <exception>
 
+#include "apps/cli/program.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/study/hints.hpp"
@@ -34,15 +35,19 @@ std::vector<study::Hint> hints_of(const experiment::PastRun& run, const experime
 
 }  // namespace
 
-std::vector<std::string> second_look(const experiment::Catalogue& catalogue, const std::filesystem::path& folder,
-                                     const experiment::RunOptions& options) {
+SecondLook second_look(const experiment::Catalogue& catalogue, const std::filesystem::path& folder,
+                       const experiment::RunOptions& options) {
   const experiment::PastRun run = experiment::read_run(catalogue, folder);
-  std::vector<std::string> lines;
-  if (!is_unsolved(run)) return lines;
+  if (!is_unsolved(run)) return {};
+  SecondLook look{.readings = {}, .read_on = "what to look at where trials do not get better: docs/does-not-learn.md"};
   for (const study::Hint& hint : hints_of(run, options))
-    lines.push_back(study::line_of(hint, run.resolved.scenario.task));
-  lines.emplace_back("what to look at where trials do not get better: docs/does-not-learn.md");
-  return lines;
+    look.readings.push_back(study::line_of(hint, run.resolved.scenario.task));
+  return look;
+}
+
+void put_second_look(const SecondLook& look) {
+  for (const std::string& line : look.readings) put("{}\n", line);
+  if (!look.read_on.empty()) put("{}\n", look.read_on);
 }
 
 }  // namespace rehearse::apps

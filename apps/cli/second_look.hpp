@@ -9,11 +9,18 @@
 
 namespace rehearse::apps {
 
-/// Lines for people where three trials or more did not solve the task; else none. They have every reading of the trials
-/// with which the prior's parameters would predict them much better, such as a delay of the actions, as `identify`
-/// finds them in logs, and where to read on. Nothing is said of readings where that takes longer than some seconds, or
-/// the prior fails.
-std::vector<std::string> second_look(const experiment::Catalogue& catalogue, const std::filesystem::path& folder,
-                                     const experiment::RunOptions& options);
+/// A second look at a run of which three trials or more did not solve the task, in lines for people; else empty.
+struct SecondLook {
+  std::vector<std::string> readings;  // with which the prior's parameters would predict the trials much better
+  std::string read_on;                // where there is more on trials that do not get better
+};
+
+/// Looks for other readings of the trials, such as a delay of the actions, as `identify` does in logs. None are found
+/// where that takes longer than some seconds, or the prior fails. Throws InvalidInput if it is no run folder.
+SecondLook second_look(const experiment::Catalogue& catalogue, const std::filesystem::path& folder,
+                       const experiment::RunOptions& options);
+
+/// Prints it.
+void put_second_look(const SecondLook& look);
 
 }  // namespace rehearse::apps

@@ -20,7 +20,7 @@ using EvaluationWork = std::function<void(const Catalogue&, const PreparedEvalua
 void with_evaluation(const Robot& robot, const EvaluationRequest& request, int threads, const EvaluationWork& work) {
   work_with(robot, {threads}, [&](const Robot& own, const experiment::RunOptions& options) {
     const Catalogue catalogue = own.catalogue();
-    work(catalogue, experiment::prepare_evaluation(catalogue, request),
+    work(catalogue, experiment::prepare_evaluation(catalogue, experiment::read_run(catalogue, request.folder), request),
          *make_stoppable(options.evaluator, options.stop));
   });
 }

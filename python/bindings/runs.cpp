@@ -75,8 +75,9 @@ void warn(const std::vector<std::string>& lines) {
 /// Other readings of the trials, such as a delay, where trials do not get better; none where nothing is found.
 Strings other_readings(const experiment::Catalogue& catalogue, const std::filesystem::path& folder,
                        const experiment::RunOptions& options) {
-  Strings lines = apps::second_look(catalogue, folder, options);
-  return lines.size() > 1 ? lines : Strings();  // the last one says where to read on
+  auto [readings, read_on] = apps::second_look(catalogue, folder, options);
+  if (!readings.empty()) readings.push_back(read_on);
+  return readings;
 }
 
 /// Makes the folder, and runs all trials. Returns the folder.

@@ -70,7 +70,9 @@ def check(robot: Robots, *, plant: bool = True, out: Union[str, os.PathLike[str]
     """
     if out is not None and not truth("plant", plant):
         raise InvalidInput("out shows the plant's motion: leave plant=False out")
-    page = None if out is None else page_path(path_of("out", out))  # before the robot moves
+    page = None if out is None else page_path(path_of("out", out))
+    if page is not None:
+        _core.check_page(str(page))  # before the robot moves
     found = _core.check(*robot_of(robot), truth("plant", plant))
     priors = [PriorChecked(**prior) for prior in found.pop("priors")]
     if page is not None:

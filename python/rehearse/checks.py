@@ -150,15 +150,14 @@ def read_if_any(name: str, path: Any, kinds: str) -> str:
 
 
 def page_path(path: Union[str, os.PathLike[str]]) -> Path:
-    """The path of a page that can be written. A file of that name that is none is left as it is."""
+    """The path of a page."""
     if Path(path_of("path", path)).suffix != ".html":
         raise InvalidInput(f"{os.fspath(path)}: must end in .html")
-    _core.check_page(os.fspath(path))
     return Path(path)
 
 
 def write_page(path: Union[str, os.PathLike[str]], page: str) -> Path:
-    """Writes a page."""
+    """Writes a page. A file of that name that is none is left as it is."""
     path = page_path(path)
     _core.write_page(str(path), page)
     return path

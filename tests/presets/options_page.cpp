@@ -23,9 +23,9 @@ constexpr const char* kIntroduction =
     "scenario, `--expert` more. Units stand in brackets; an option without one is a count, a fraction or a choice. A\n"
     "published value stands beside a default that is another: it is the paper's, unless brackets name another "
     "source.\n\n"
-    "Of the options of runs `--set` takes `told_by` alone. `--trials`, `--until-solved`, `--seed` and `--policy` set "
-    "the\n"
-    "others, which are keys of `spec.toml`.\n\n"
+    "`--set` takes one of the options of runs, `told_by`. `--trials`, `--until-solved`, `--seed` and `--policy` set "
+    "the "
+    "others, which are keys\nof `spec.toml`.\n\n"
     "Made by `scripts/published` from what the options say of themselves (`fields()`).\n";
 
 /// Options of a learner, a scenario, or of several that have them with the same default.

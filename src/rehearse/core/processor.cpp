@@ -26,8 +26,7 @@ void prepare() {
   if ((hwy::SupportedTargets() & (HWY_AVX2 | kWide)) == 0)
     throw InvalidInput(
         "this processor lacks AVX2 or fused multiply-adds (FMA), which Rehearse needs; most x86-64 processors since "
-        "2013 "
-        "have them");
+        "2013 have them");
   restrict_kernels();
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   constexpr std::ptrdiff_t kFirst = 32 << 10, kSecond = 256 << 10, kThird = 2 << 20;  // bytes; Eigen's own defaults

@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "rehearse/experiment/past_run.hpp"
-
 namespace rehearse::experiment {
 namespace {
 
@@ -28,8 +26,7 @@ EvaluationAbout PreparedEvaluation::about() const {
           seconds(request.plan.steps(task), task.dt_s)};
 }
 
-PreparedEvaluation prepare_evaluation(const Catalogue& catalogue, EvaluationRequest request) {
-  const PastRun run = read_run(catalogue, request.folder);
+PreparedEvaluation prepare_evaluation(const Catalogue& catalogue, const PastRun& run, EvaluationRequest request) {
   GivenPolicy policy = policy_wanted(request, run);
   request.settings = run.as_identified(request.settings);
   Resolved resolved = read_run(catalogue, request.folder, request.settings).resolved;

@@ -8,13 +8,14 @@
 #include "rehearse/core/evaluator.hpp"
 #include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/experiment/given_policy.hpp"
+#include "rehearse/experiment/past_run.hpp"
 #include "rehearse/experiment/policy_evaluation.hpp"
 #include "rehearse/experiment/robustness.hpp"
 #include "rehearse/learners/learner.hpp"
 
 namespace rehearse::experiment {
 
-/// What a user asks to evaluate of a run.
+/// The evaluation of a run that a user asks for: a policy, options that differ from the run's, and episodes.
 struct EvaluationRequest {
   std::filesystem::path folder;            // of the run
   std::optional<Index> trial = {};         // whose policy; empty: the one with the highest return
@@ -36,10 +37,10 @@ struct PreparedEvaluation {
   EvaluationAbout about() const;
 };
 
-/// Reads the run, which may be going on. Where the prior plays the robot, its parameters are those of the newest model.
-/// Throws InvalidInput if the run, the policy or a setting is wrong, or the robot is not ready
-/// (Scenario::require_ready).
-PreparedEvaluation prepare_evaluation(const Catalogue& catalogue, EvaluationRequest request);
+/// Finds the policy in the run, which may be going on, and makes the robot. Where the prior plays it, its parameters
+/// are those of the newest model. run: the one in request.folder. Throws InvalidInput if the policy or a setting is
+/// wrong, or the robot is not ready (Scenario::require_ready).
+PreparedEvaluation prepare_evaluation(const Catalogue& catalogue, const PastRun& run, EvaluationRequest request);
 
 /// The episodes, or those with one parameter of the robot changed at a time: as the functions of these names for a
 /// policy.

@@ -56,9 +56,7 @@ class Resolver {
     set_preferences();
     if (default_preset_) set_defaults(*default_preset_);
     for (const auto& [key, text] : spec_.options) set_option(key, text);
-    if (check_.conditions)
-      for (const Fields& fields : {fields_of(*scenario_builder_), fields_of(*learner_builder_)})
-        violations_.add(field_violations(fields));
+    check_conditions();
     const std::vector<std::string> names = prior_names();
     const auto scenario = contained([&] { return scenario_builder_->build(); });
     if (!scenario) violations_.throw_if_any();
@@ -88,19 +86,23 @@ class Resolver {
  private:
   /// Where scenario or learner is unknown: the values of the other one's options, and the names of priors.
   void check_the_known_one() {
-    const auto check = [&](auto* builder, std::string_view section) {
-      if (!builder) return;
-      for (const auto& [key, text] : spec_.options) {
-        const std::string_view name = key.starts_with(section) ? std::string_view(key).substr(section.size()) : key;
-        contained([&] { return set_field(fields_of(*builder), name, text); });
-      }
-      if (check_.conditions) violations_.add(field_violations(fields_of(*builder)));
-    };
-    check(scenario_builder_.get(), kScenario);
-    check(learner_builder_.get(), kLearner);
+    for (const auto& [key, text] : spec_.options) contained([&] { return set_named(key, text); });
+    check_conditions();
     if (!scenario_builder_) return;
     if (const auto scenario = contained([&] { return scenario_builder_->build(); }))
       ChosenPriors(*scenario, split_names(spec_.prior), violations_);
+  }
+
+  /// The options of the scenario, or of the learner; one that is unknown has none.
+  template <class Builder>
+  static Fields options_of(const std::unique_ptr<Builder>& builder) {
+    return builder ? fields_of(*builder) : [](FieldVisitor&) {};
+  }
+
+  void check_conditions() {
+    if (!check_.conditions) return;
+    for (const Fields& fields : {options_of(scenario_builder_), options_of(learner_builder_)})
+      violations_.add(field_violations(fields));
   }
 
   void check_robot(const RobotFile* file) {
@@ -134,7 +136,7 @@ class Resolver {
 
   /// Returns false if there is no such option. Throws InvalidInput.
   bool set_named(std::string_view key, const std::string& text) {
-    const Fields scenario = fields_of(*scenario_builder_), learner = fields_of(*learner_builder_);
+    const Fields scenario = options_of(scenario_builder_), learner = options_of(learner_builder_);
     return set_field(scenario, key, text) || set_field(learner, key, text) ||
            (key.starts_with(kScenario) && set_field(scenario, key.substr(kScenario.size()), text)) ||
            (key.starts_with(kLearner) && set_field(learner, key.substr(kLearner.size()), text));

@@ -11,6 +11,10 @@ namespace {
 
 using fake::line_spec;
 
+PreparedEvaluation prepared_of(const EvaluationRequest& request) {
+  return prepare_evaluation(fake::catalogue(), read_run(fake::catalogue(), request.folder), request);
+}
+
 /// A run of two trials, of a seed other than a plan's default.
 std::filesystem::path line_folder(const std::string& learner = "echo") {
   std::filesystem::path folder = fake::test_folder() / "run";
@@ -21,14 +25,14 @@ std::filesystem::path line_folder(const std::string& learner = "echo") {
 TEST(PreparedEvaluation, HasTheBestPolicyAndTheSeedOfTheRun) {
   const std::filesystem::path folder = line_folder();
   const PastRun run = read_run(fake::catalogue(), folder);
-  const PreparedEvaluation prepared = prepare_evaluation(fake::catalogue(), {.folder = folder});
+  const PreparedEvaluation prepared = prepared_of({.folder = folder});
   EXPECT_EQ(prepared.policy.learned.trial, run.trial({}).trial);
   EXPECT_EQ(prepared.policy.learned.theta, run.trial({}).theta);
   EXPECT_EQ(prepared.policy.total_reward, run.trial({}).total_reward);
   EXPECT_EQ(prepared.request.plan.seed, 3);
   EXPECT_FALSE(prepared.told);
   const PreparedEvaluation first =
-      prepare_evaluation(fake::catalogue(), {.folder = folder, .trial = 1, .plan = {.seed = 8}, .seed_of_run = false});
+      prepared_of({.folder = folder, .trial = 1, .plan = {.seed = 8}, .seed_of_run = false});
   EXPECT_EQ(first.policy.learned.theta, run.trial(1).theta);
   EXPECT_EQ(first.request.plan.seed, 8);
 }
@@ -36,8 +40,8 @@ TEST(PreparedEvaluation, HasTheBestPolicyAndTheSeedOfTheRun) {
 TEST(PreparedEvaluation, MayHaveAnotherPolicyAndOtherSettings) {
   const std::filesystem::path folder = line_folder("echo-alone");  // whose first policy, a schedule, can be exported
   const std::string file = policy::to_json(exported_policy(read_run(fake::catalogue(), folder), 1));
-  const PreparedEvaluation prepared = prepare_evaluation(
-      fake::catalogue(), {.folder = folder, .policy = file, .settings = {{"noise", "0.5"}, {"plant.gain", "2"}}});
+  const PreparedEvaluation prepared =
+      prepared_of({.folder = folder, .policy = file, .settings = {{"noise", "0.5"}, {"plant.gain", "2"}}});
   EXPECT_EQ(prepared.policy.learned.trial, 1);
   EXPECT_EQ(prepared.about().settings, "noise=0.5 plant.gain=2");
   EXPECT_DOUBLE_EQ(prepared.about().seconds, prepared.resolved.scenario.task.episode_s());
@@ -50,7 +54,7 @@ TEST(PreparedEvaluation, MayHaveAnotherPolicyAndOtherSettings) {
 TEST(PreparedEvaluation, SaysWhatIsWrong) {
   const std::filesystem::path folder = line_folder();
   const auto said = [&](const EvaluationRequest& request) {
-    return fake::message_of<InvalidInput>([&] { prepare_evaluation(fake::catalogue(), request); });
+    return fake::message_of<InvalidInput>([&] { prepared_of(request); });
   };
   EXPECT_NE(said({.folder = folder / "none"}).find("is not a folder"), std::string::npos);
   EXPECT_NE(said({.folder = folder, .trial = 7}).find("trial = 7"), std::string::npos);
