@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import sys
+import time
 from typing import Any
+
+_QUIET_S = 30.0  # between lines on what is being done, where the last line cannot be written anew
+_said_s = time.monotonic()
 
 
 def show(event: dict[str, Any]) -> None:
-    """Prints a line a trial; on a terminal or in a notebook, a last line says what is being done.
+    """Prints a line a trial; a last line says what is being done, which elsewhere than on a terminal or in a notebook is a line
+    every half a minute.
 
     Give another function(event) as `progress=`, or None. An event is a dictionary whose `kind` is
     "started" (robot, learner, prior, seed, trials, done, folder),
@@ -18,13 +23,17 @@ def show(event: dict[str, Any]) -> None:
     "run" at the end of each (run, learner, prior, variant, seed, failed: why or None, trials, first_success,
     best_return, ended, runs).
     """
+    global _said_s
     kind = event["kind"]
     live = sys.stdout.isatty() or "ipykernel" in sys.modules
-    if kind == "progress" and live:
+    if kind == "progress" and not live and time.monotonic() < _said_s + _QUIET_S:
+        return
+    _said_s = time.monotonic()
+    if kind == "progress":
         best = f", best predicted return {event['best']:.3f}" if event["rollouts"] else ""
         run = f"{event['run']}: " if "run" in event else ""
         text = f"{run}trial {event['trial']}: {event['phase']} {100 * event['done']:.0f} %{best}"
-        print(f"\r{text[:100]:100}", end="", flush=True)
+        print(f"\r{text[:100]:100}" if live else text, end="" if live else "\n", flush=True)
     elif kind == "trial":
         predicted = event["predicted_return"]
         text = f"trial {event['trial']}: return {event['total_reward']:.3f}"

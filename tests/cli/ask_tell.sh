@@ -6,6 +6,7 @@ trials=$2
 
 # With this seed no two trials are alike: an episode that was told before does not count again.
 short=(--set search.race.max_evaluations=600 --set search.race.descents=2 --set search.selection=10 --seed 2)
+other=("${short[@]:0:6}" --seed 5)  # whose first policy is another
 results=(trials.csv errors.csv notes.csv policy.json trajectories/trial-002.csv predictions/trial-003.csv)
 
 # killed SECONDS ARGS… : a command that is killed on its way, then done to its end
@@ -113,7 +114,7 @@ if command -v cc >/dev/null; then bash -c "$of_c" >said 2>&1 || fail "$of_c: $(c
 if python3 -c 'import numpy' 2>/dev/null; then bash -c "$of_python" >said 2>&1 || fail "$of_python: $(cat said)"; fi
 
 # Logs first: the first policy of a learner without a prior is not random any more.
-"$program" learn pendulum --learner black-drops "${short[@]}" --trials 0 --out logs >/dev/null || fail "logs"
+"$program" learn pendulum --learner black-drops "${other[@]}" --trials 0 --out logs >/dev/null || fail "logs"
 "$program" tell logs black-drops-driven/trajectories/trial-001.csv black-drops-driven/trajectories/trial-002.csv \
   >stdout 2>stderr || fail "tell logs: $(cat stderr)"
 grep -q "log trial-001.csv: " stdout || fail "tell says $(cat stdout)"
@@ -122,8 +123,15 @@ grep -q "log trial-001.csv: " stdout || fail "tell says $(cat stdout)"
 grep -q '"policy": "schedule"' logs/next/policy.json && fail "the first policy is still random"
 grep -q "predicted return" stdout || fail "nothing is predicted after logs"
 
+# The episode of the policy that was asked for is no log.
+"$program" learn pendulum --learner black-drops "${short[@]}" --trials 0 --out glob >/dev/null || fail "glob"
+"$program" ask glob >/dev/null || fail "ask before a glob"
+"$program" tell glob black-drops-driven/trajectories/trial-00?.csv 2>stderr && fail "the trial becomes a log"
+grep -q "trial-001.csv has the actions of the policy that was asked for: tell it alone, as trial 1" stderr ||
+  fail "tell says $(cat stderr)"
+
 # Several files are logs after `ask`, too, and all is as if it had not been asked.
-"$program" learn pendulum --learner black-drops "${short[@]}" --trials 0 --out late >/dev/null || fail "late"
+"$program" learn pendulum --learner black-drops "${other[@]}" --trials 0 --out late >/dev/null || fail "late"
 "$program" ask late >/dev/null || fail "ask before logs"
 killed 0.05 tell late black-drops-driven/trajectories/trial-001.csv black-drops-driven/trajectories/trial-002.csv
 grep -q "log trial-002.csv: " stdout || fail "several files after ask are no logs: $(cat stdout)"

@@ -90,6 +90,16 @@ bool are_logs(const History& history, const TellRequest& request) {
   return history.done() == 0 && (!history.asked || request.files.size() > 1);
 }
 
+/// Throws InvalidInput where logs have the episode among them that was asked for: it would be no trial.
+void refuse_trial_among_logs(const scenario::Scenario& scenario, const History& history,
+                             const std::vector<ToldFile>& files) {
+  for (const ToldFile& file : files)
+    if (is_of_policy_asked_for(file, scenario, history))
+      throw InvalidInput(fmt::format(
+          "{} has the actions of the policy that was asked for: tell it alone, as trial {}; several files are logs",
+          file.path.string(), history.asked->trial));
+}
+
 void check(const History& history, const std::vector<ToldFile>& files, const TellRequest& request) {
   if (are_logs(history, request) && request.stopped)
     throw InvalidInput(fmt::format("--stopped (in Python stopped=) is for the episode of a trial, but {}",
@@ -146,7 +156,7 @@ TellResult tell_logs(Reopened& reopened, const std::vector<ToldFile>& files) {
 TellResult tell_trial(Reopened& reopened, const std::vector<ToldFile>& files, const std::optional<Stop>& stopped) {
   const Resolved& resolved = reopened.resolved();
   const History& history = reopened.run().history();
-  const ToldEpisode episode = episode_of(files.front(), resolved.scenario, *history.asked, stopped);
+  const ToldEpisode episode = episode_of(files.front(), resolved.scenario, *history.asked, history.trials, stopped);
   keep_tell(reopened.folder(), files);
   reopened.run().record(episode.episode, files.front().checksum, episode.notes);
   update_next_files(reopened.folder(), resolved, history);  // before anything can fail: nobody runs an old policy again
@@ -183,6 +193,7 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Tell
     }
   }
   if (!news.empty()) check(history, news, request);
+  if (are_logs(history, request)) refuse_trial_among_logs(resolved.scenario, history, news);
   return reopened.attempt([&] {
     if (!news.empty())
       return are_logs(history, request) ? tell_logs(reopened, news) : tell_trial(reopened, news, request.stopped);

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "rehearse/core/angle.hpp"
-#include "rehearse/experiment/past_run.hpp"
+#include "rehearse/experiment/policy_match.hpp"
 #include "rehearse/files/checksum.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/statistics/quantiles.hpp"
@@ -17,46 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSameActions = 0.01;  // of the range of an action: motors are not exact
-constexpr double kOtherActions = 0.2;  // likewise: beyond, the file may be a wrong one
-
-constexpr double kRounding = 1e-9;  // likewise, of numbers in a file
-
-/// Root mean square differences of the actions (du) from those of the policy in the measured states.
-Vector deviations(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& asked) {
-  const Task& task = scenario.task;
-  const auto policy = policy_of(asked, scenario);
-  const Actuators actuators = task.actuators();
-  Matrix u(1, task.action_size());
-  Vector squared = Vector::Zero(task.action_size());
-  for (Index t = 0; t < episode.steps(); ++t) {
-    policy->act(asked.theta.transpose(), episode.states.middleRows(t, 1), static_cast<double>(t) * task.dt_s, u);
-    actuators.command(episode.states.middleRows(t, 1), u);
-    squared += (u - episode.actions.row(t)).transpose().cwiseAbs2();
-  }
-  return (squared / static_cast<double>(episode.steps())).cwiseSqrt();
-}
-
-bool is_within(double part, double deviation, const ActionVariable& action) {
-  return deviation <= part * (action.bounds.high - action.bounds.low);
-}
-
-/// A sentence for each action that was not the policy's.
-std::vector<std::string> sentences_on(const Vector& deviations, const Task& task) {
-  std::vector<std::string> sentences;
-  for (Index i = 0; i < deviations.size(); ++i) {
-    const ActionVariable& action = task.actions[static_cast<std::size_t>(i)];
-    if (!is_within(kSameActions, deviations(i), action))
-      sentences.push_back(
-          fmt::format("{} differs from what the policy says of the measured states by {:.3g} {} "
-                      "(root mean square): another policy, a state of another unit or sign, a delay, or a weak motor{}",
-                      action.name, deviations(i), action.unit,
-                      is_within(kOtherActions, deviations(i), action)
-                          ? ""
-                          : "; `tell --undo` (in Python `take_back()`) takes a wrong file back"));
-  }
-  return sentences;
-}
+constexpr double kRounding = 1e-9;  // of the range of an action, of numbers in a file
 
 /// A typical change of slope from step to step: of a state at rest some 1.6 standard deviations of its noise.
 double unsteadiness(const ConstVectorView& x) {
@@ -169,7 +130,7 @@ bool follows_policy(const Episode& read, const scenario::Scenario& scenario, con
 }
 
 ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked,
-                       const std::optional<Stop>& stopped) {
+                       const std::vector<TrialRecord>& earlier, const std::optional<Stop>& stopped) {
   const Task& task = scenario.task;
   recording::Recording read =
       recording::read_recording(file.bytes, file.path.string(), task, {.max_steps = task.horizon});
@@ -191,7 +152,7 @@ ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario,
     told.notes.push_back(fmt::format("stopped by the operator after {} of {} steps, by no fault of the policy: {}",
                                      episode.steps(), task.horizon, stopped->reason));
   for (std::string& sentence : sentences_on_start(episode, task)) told.notes.push_back(std::move(sentence));
-  for (std::string& sentence : sentences_on(deviations(episode, scenario, asked), task))
+  for (std::string& sentence : sentences_on_policy(episode, scenario, asked, earlier))
     told.notes.push_back(std::move(sentence));
   return told;
 }

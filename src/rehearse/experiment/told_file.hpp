@@ -50,9 +50,9 @@ struct ToldEpisode {
   std::vector<std::string> notes;  // remarks on reading, and differences from the policy that was asked for
 };
 
-/// The episode of a trial that was asked for. Throws InvalidInput if it is shorter than the task's horizon, and neither
-/// a fall nor `stopped` says why.
+/// The episode of a trial that was asked for, after the earlier ones. Throws InvalidInput if it is shorter than the
+/// task's horizon, and neither a fall nor `stopped` says why.
 ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked,
-                       const std::optional<Stop>& stopped);
+                       const std::vector<TrialRecord>& earlier, const std::optional<Stop>& stopped);
 
 }  // namespace rehearse::experiment

@@ -49,6 +49,15 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// "1,5"
+bool has_decimal_comma(std::string cell) {
+  const auto comma = cell.find(',');
+  if (comma == std::string::npos) return false;
+  cell[comma] = '.';
+  double value = 0;
+  return from_text(cell, value);
+}
+
 class Finder {
  public:
   Finder(const statistics::Table& table, const Task& task, Problems& problems, std::vector<std::string>& notes)
@@ -130,12 +139,21 @@ class Finder {
     const auto at = std::ranges::find(titles_, name, &Title::name) - titles_.begin();
     if (count == 1) return static_cast<int>(at);
     if (count > 1) problems_.add(1, "twice " + name, fmt::format("there are {} columns {}", count, name));
+    if (count == 0) problems_.add(1, "missing " + name, fmt::format("there is no column {}{}", name, others()));
+    return -1;
+  }
+
+  /// The columns that are nobody's, of which one may be the missing one.
+  std::string others() const {
+    constexpr std::size_t kMost = 8;
     std::vector<std::string> names;
     for (const Title& title : titles_)
       if (!wanted_.contains(title.name) && !title.name.empty()) names.push_back(title.name);
-    const std::string nearest = names.empty() ? "" : fmt::format("; the nearest is '{}'", closest(name, names));
-    if (count == 0) problems_.add(1, "missing " + name, fmt::format("there is no column {}{}", name, nearest));
-    return -1;
+    if (names.empty()) return "";
+    const std::size_t more = names.size() - std::min(names.size(), kMost);
+    names.resize(names.size() - more);
+    return fmt::format("; unused columns: {}{}", fmt::join(names, ", "),
+                       more > 0 ? fmt::format(" and {} more", more) : "");
   }
 
   double scale_of(int column, const std::string& name, const std::string& unit) {
@@ -164,7 +182,8 @@ class Finder {
     double value = 0;
     if (!from_text(cell, value) || !std::isfinite(value)) {
       problems_.add(in_file(row), "number in " + name,
-                    fmt::format("{} = '{}', must be a finite number", name, cell.substr(0, 40)));
+                    fmt::format("{} = '{}', must be a finite number{}", name, cell.substr(0, 40),
+                                has_decimal_comma(cell) ? ", whose decimals have a point" : ""));
       return std::nullopt;
     }
     if (std::abs(value) > largest) {

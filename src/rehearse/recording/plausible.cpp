@@ -39,6 +39,17 @@ double usual_around(const std::vector<double>& sizes, std::ptrdiff_t i) {
   return around[2];
 }
 
+/// The change that nine of ten do not exceed; where a state is at rest for so long, the smallest one, which is a step
+/// of its sensor's resolution.
+double usual_change(const std::vector<double>& sizes) {
+  const double usual = statistics::quantile(sizes, 0.9);
+  if (usual > 0) return usual;
+  double smallest = INFINITY;
+  for (const double size : sizes)
+    if (size > 0) smallest = std::min(smallest, size);
+  return smallest;
+}
+
 /// The rate at a time, held from its last sample.
 double held(const Channel& rate, double time_s) {
   const auto after = std::ranges::upper_bound(rate.samples, time_s, {}, &Sample::time_s);
@@ -105,7 +116,7 @@ void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::v
 void check_jumps(const Channel& state, const Channel* rate, Problems& problems) {
   const auto [beyond, allowed] = changes_of(state, rate);
   if (beyond.size() < 8) return;
-  const double usual = statistics::quantile(beyond, 0.9);
+  const double usual = usual_change(beyond);
   for (std::size_t i = 0; i < beyond.size(); ++i) {
     const double around = usual_around(beyond, static_cast<std::ptrdiff_t>(i));
     const double bound = std::max({allowed[i], kOutlier * usual, kOutlier * around});

@@ -18,8 +18,8 @@ Index unwrap(Channel& angle);
 void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::vector<std::string>& notes);
 
 /// A problem for every jump that no robot makes: a change between neighbouring samples that is ten times as large as
-/// those around it and nine of ten of all, and larger than the spread of the state, or, of a state with a rate, twice
-/// as large as the rate ever allows. rate: null, or the channel of the rate.
+/// those around it and nine of ten of all (of a state at rest: as the smallest), and larger than the spread of the
+/// state, or, of a state with a rate, twice as large as the rate ever allows. rate: null, or the channel of the rate.
 void check_jumps(const Channel& state, const Channel* rate, Problems& problems);
 
 /// A note if a state does not change as its rate says: a wrong unit, scale or sign. A rate that explains the changes

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <system_error>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,9 +39,14 @@ std::string_view cleaned(std::string_view text, std::vector<std::string>& notes)
   while (text.ends_with("\n\n") || text.ends_with("\n\r\n")) text.remove_suffix(text.ends_with("\n\n") ? 1 : 2);
   const std::string_view header = text.substr(0, text.find('\n'));
   if (header.find(',') == std::string_view::npos)
-    for (const auto& [separator, name] : {std::pair{';', "';'"}, std::pair{'\t', "tabs"}})
+    for (const auto& [separator, name, sed] :
+         {std::tuple{';', "';'", "s/,/./g; s/;/,/g"}, std::tuple{'\t', "tabs", "s/,/./g; s/\\t/,/g"}})
       if (header.find(separator) != std::string_view::npos)
-        throw InvalidInput(fmt::format("columns are separated by {}, must be by ','", name));
+        throw InvalidInput(text.find(',') == std::string_view::npos
+                               ? fmt::format("columns are separated by {}, must be by ','", name)
+                               : fmt::format("columns are separated by {}, must be by ',', and decimals have a comma, "
+                                             "must have a point: sed '{}' makes it so",
+                                             name, sed));
   return text;
 }
 
@@ -75,6 +81,9 @@ void check_channels(Channels& channels, const Task& task, Problems& problems, st
     keep_in_bounds(channels.actions[a], task.actions[a].bounds, problems, notes);
 }
 
+/// True if rows seem to be the control steps of a loop that is slower than the task says.
+bool loop_is_slow(double usual_s, double dt_s) { return usual_s > dt_s * 1.02 && usual_s < dt_s * 3; }
+
 /// The largest distance of a control step to the nearest row.
 double farthest_row_s(const std::vector<Sample>& samples, const Grid& grid) {
   double farthest_s = 0;
@@ -98,8 +107,11 @@ void note_resampling(const Channels& channels, const Grid& grid, const Resampled
   const double usual_s = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
   const bool one_row_a_step = usual_s >= grid.dt_s - little_s && !average;
   if (const double off_s = one_row_a_step ? farthest_row_s(samples, grid) : grid.dt_s; off_s <= little_s) {
-    notes.push_back(fmt::format("rows are up to {:.2g} s off the control steps of {} s: numbers are interpolated",
-                                off_s, grid.dt_s));
+    notes.push_back(off_s > 0
+                        ? fmt::format("rows are up to {:.2g} s off the control steps of {} s: numbers are interpolated",
+                                      off_s, grid.dt_s)
+                        : fmt::format("cells are empty at {} of {} control steps: numbers are interpolated there",
+                                      std::max(changed.states, changed.actions), grid.steps));
     return;
   }
   std::vector<std::string> how;
@@ -110,7 +122,12 @@ void note_resampling(const Channels& channels, const Grid& grid, const Resampled
   if (changed.actions > 0)
     how.push_back(
         fmt::format("actions are means of what rows hold until the next, in {} of {}", changed.actions, grid.steps));
-  notes.push_back(fmt::format("rows are {:.3g} s apart on average: {}", usual_s, fmt::join(how, "; ")));
+  notes.push_back(fmt::format("rows are {:.3g} s apart on average: {}{}", usual_s, fmt::join(how, "; "),
+                              loop_is_slow(usual_s, grid.dt_s)
+                                  ? fmt::format(". A loop that runs so makes control steps of {:.3g} s, where the task "
+                                                "has {} s: set dt_s, or make the loop faster",
+                                                usual_s, grid.dt_s)
+                                  : ""));
 }
 
 void check_size(double bytes, const std::string& source, const ReadOptions& options) {

@@ -1,5 +1,6 @@
 #include "rehearse/robot_file/differences.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -46,6 +47,21 @@ std::string without_prediction(const Task& task, const Matrix& X, const Matrix& 
     values.push_back(fmt::format("{} = {:.4g}", task.actions[static_cast<std::size_t>(j)].name, U(first, j)));
   return fmt::format("{} of {} rows have no prediction; the first: {}", count, predicted.rows(),
                      fmt::join(values, ", "));
+}
+
+std::string worse_than_nothing(const Task& task, const Vector& errors, const Vector& changes) {
+  constexpr double kClearly = 1.5;  // noise of measurements is in both, and priors that are far off are mended
+  constexpr std::size_t kMost = 4;
+  if ((errors.array() > changes.array()).all())
+    return "it errs by more than a step changes each state: does it give changes of state, not the next one?";
+  std::vector<std::string> names;
+  for (Index s = 0; s < errors.size(); ++s)
+    if (errors(s) > kClearly * changes(s)) names.push_back(task.states[static_cast<std::size_t>(s)].name);
+  if (names.empty()) return {};
+  const std::size_t more = names.size() - std::min(names.size(), kMost);
+  names.resize(names.size() - more);
+  return fmt::format("it errs by more than a step changes {}{}: a sign, a unit, a delay, or what it lacks",
+                     fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 }  // namespace rehearse::robot_file

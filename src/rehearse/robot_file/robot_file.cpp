@@ -47,6 +47,8 @@ class Builder final : public scenario::ScenarioBuilder {
 
   void fields(FieldVisitor& v) override {
     robot_.options.fields_of_robot(v, plant_);
+    v.require(robot_.plant_function.empty() || robot_.options.measurement_noise == 0,
+              "measurement_noise: the plant is a function, which measures by itself, noise included");
     if (!has_actuators_ || !robot_.has_plant) return;
     for (std::size_t a = 0; a < robot_.actions.size(); ++a) {
       Actuation& own = robot_.plant_actuation[a];

@@ -210,10 +210,8 @@ PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const 
         fmt::format("answers differ in their last digits when they are asked for again ({}), so runs "
                     "repeat about as far; NumPy needs contiguous columns, np.asfortranarray(states)",
                     rounded));
-  const Vector change = root_mean_square(steps.dX);
-  if ((tried.error.array() > change.array()).all())
-    tried.notes.push_back(
-        "it errs by more than a step changes each state: does it give changes of state, not the next one?");
+  const std::string worse = worse_than_nothing(task, tried.error, root_mean_square(steps.dX));
+  if (!worse.empty()) tried.notes.push_back(worse);
   std::vector<Index> unmoved;
   for (Index i = 0; i < prior.parameters.size(); ++i)
     if (prior.parameters[i].tunable() && !moves(prior, i, steps, predicted)) unmoved.push_back(i);

@@ -18,7 +18,7 @@ TEST(ToldFile, OfAStartFarFromTheTasksIsNoted) {
     std::string text = "time [s],x [m],v [m/s]\n";
     for (int t = 0; t <= 12; ++t) text += fmt::format("{},{},0\n", 0.1 * t, x + (t % 2 == 0 ? 0.01 : -0.01));
     const TrialRecord asked{.trial = 1, .policy = "line", .theta = Vector::Zero(2)};
-    std::vector<std::string> notes = episode_of({"a.csv", text, ""}, scenario, asked, {}).notes;
+    std::vector<std::string> notes = episode_of({"a.csv", text, ""}, scenario, asked, {}, {}).notes;
     std::erase_if(notes, [](const std::string& note) { return !note.starts_with("starts at"); });
     return notes;
   };

@@ -56,6 +56,16 @@ TEST(Jumps, MotionsOfRobotsHaveNone) {
   EXPECT_FALSE(jumps(channel_of("v", 0.1, 40, [&](double) { return rng.normal(); })));
 }
 
+TEST(Jumps, AStateAtRestMayFlickerByTheResolutionOfItsSensor) {
+  Channel speed = channel_of("dq", 0.02, 100, [](double) { return 0; });
+  speed.samples[7].value = -0.15;
+  EXPECT_FALSE(jumps(speed)) << "one step of an encoder, and back";
+  speed.samples[60].value = 0.15;
+  EXPECT_FALSE(jumps(speed));
+  speed.samples[80].value = 9;
+  EXPECT_TRUE(jumps(speed));
+}
+
 TEST(Jumps, SamplesThatAreWrongAreFound) {
   const auto swing = [](double t) { return std::sin(5 * t); };
   const Channel rate = channel_of("dq", 0.05, 60, [](double t) { return 5 * std::cos(5 * t); });

@@ -87,6 +87,20 @@ TEST(Recording, ALoopThatIsALittleLateIsSaidToBeSo) {
   EXPECT_EQ(notes[0], "rows are up to 0.0002 s off the control steps of 0.05 s: numbers are interpolated");
 }
 
+TEST(Recording, ALoopThatIsSlowerThanTheTaskIsSaidToBeSo) {
+  const auto notes = read_recording(swing_csv(41, 0.055), "log.csv", swing_task()).notes;
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("A loop that runs so makes control steps of 0.055 s, where the task has 0.05 s"),
+            std::string::npos)
+      << notes[0];
+}
+
+TEST(Recording, CellsThatAreEmptyAreSaidToBeSo) {
+  const auto notes = read_recording(with_cell(swing_csv(), 9, 3, ""), "log.csv", swing_task()).notes;
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0], "cells are empty at 1 of 40 control steps: numbers are interpolated there");
+}
+
 TEST(Recording, WhatEditorsAndRobotsLeaveDoesNoHarm) {
   const Episode plain = read_recording(swing_csv(), "log.csv", swing_task()).episode;
   std::string windows = "\xEF\xBB\xBF" + swing_csv();
@@ -150,13 +164,17 @@ TEST(Recording, WrongFilesAreRefusedWithWhatIsWrong) {
       {good + std::string(1, '\0') + "\n", "log.csv: it is no text: there are control characters in it"},
       {"time;dq;q;torque\n0;0;0;0\n", "log.csv: columns are separated by ';', must be by ','"},
       {"time\tdq\tq\ttorque\n0\t0\t0\t0\n", "log.csv: columns are separated by tabs, must be by ','"},
+      {"time;dq;q;torque\n0,05;0;0;0\n",
+       "log.csv: columns are separated by ';', must be by ',', and decimals have a comma, must have a point: "
+       "sed 's/,/./g; s/;/,/g' makes it so"},
+      {cell(5, 2, "\"1,5\""), "log.csv: row 5: dq = '1,5', must be a finite number, whose decimals have a point"},
       {header + "0,1,2\n", "log.csv: row 2 has 3 cells, the header has 4"},
       {header + "0,1,2,1,5\n", "log.csv: row 2 has 5 cells, the header has 4"},
       {good + "\n" + good, "log.csv: row 43 has 1 cells, the header has 4"},
       {header + "0,\"1,2,3\n", "log.csv: row 2 is cut short"},
-      {titled("time,dq,qq,torque"), "log.csv: row 1: there is no column q; the nearest is 'qq'"},
-      {titled("time,dq,q,force"), "log.csv: row 1: there is no column torque; the nearest is 'force'"},
-      {titled("clock,dq,q,torque"), "log.csv: row 1: there is no column time; the nearest is 'clock'"},
+      {titled("time,dq,qq,torque"), "log.csv: row 1: there is no column q; unused columns: qq"},
+      {titled("time,dq,q,force"), "log.csv: row 1: there is no column torque; unused columns: force"},
+      {titled("clock,dq,q,torque"), "log.csv: row 1: there is no column time; unused columns: clock"},
       {titled("time,q,q,torque"), "log.csv: row 1: there are 2 columns q"},
       {"t,Time,TIME,dq,q,torque\n0,0,0,0,0,0\n",
        "log.csv: row 1: the columns TIME, Time are all the time, must be one"},

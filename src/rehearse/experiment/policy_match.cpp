@@ -1,0 +1,154 @@
+#include "rehearse/experiment/policy_match.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rehearse/experiment/past_run.hpp"
+#include "rehearse/recording/units.hpp"
+
+namespace rehearse::experiment {
+namespace {
+
+constexpr double kSameActions = 0.01;  // of the range of an action: motors are not exact
+constexpr double kOtherActions = 0.2;  // likewise: beyond, the file may be a wrong one
+
+/// The episode as it would be if something was the matter with its file.
+struct Reading {
+  std::string cause;
+  Episode episode;
+};
+
+/// States that are in another unit, each "NAME [UNIT]".
+Reading in_units(const Episode& episode, const Task& task, const std::vector<std::pair<Index, std::string>>& units) {
+  Reading reading{.cause = {}, .episode = episode};
+  std::vector<std::string> titles;
+  for (const auto& [s, unit] : units) {
+    const StateVariable& state = task.states[static_cast<std::size_t>(s)];
+    reading.episode.states.col(s) *= *recording::conversion(unit, state.unit);
+    titles.push_back(fmt::format("'{} [{}]'", state.name, unit));
+  }
+  reading.cause = fmt::format("{} {}", titles.size() > 1 ? "columns are" : "a column is", fmt::join(titles, ", "));
+  return reading;
+}
+
+/// One state in another unit; a state with its rate, and all that can be, in degrees, centimetres or millimetres.
+std::vector<Reading> other_units(const Episode& episode, const Task& task) {
+  std::vector<Reading> readings;
+  std::map<std::string, std::vector<std::pair<Index, std::string>>> together;  // by how the unit begins
+  for (Index s = 0; s < task.actuators().own_states(); ++s) {
+    const std::string& unit = task.states[static_cast<std::size_t>(s)].unit;
+    for (const std::string& other : recording::units_like(unit)) {
+      const auto factor = recording::conversion(other, unit);
+      if (!factor || *factor == 1) continue;
+      readings.push_back(in_units(episode, task, {{s, other}}));
+      together[other.substr(0, other.find('/'))].emplace_back(s, other);
+    }
+  }
+  for (const auto& [unit, states] : together) {
+    if (states.size() > 1) readings.push_back(in_units(episode, task, states));
+    for (const Kinematics::Pair& pair : task.kinematics().pairs) {
+      std::vector<std::pair<Index, std::string>> both;
+      for (const auto& state : states)
+        if (state.first == pair.position || state.first == pair.rate) both.push_back(state);
+      if (both.size() == 2 && states.size() > 2) readings.push_back(in_units(episode, task, both));
+    }
+  }
+  return readings;
+}
+
+std::vector<Reading> other_signs(const Episode& episode, const Task& task) {
+  std::vector<Reading> readings;
+  const auto add = [&](const std::string& name, Matrix Episode::*numbers, Index column) {
+    readings.push_back({fmt::format("{} has the other sign", name), episode});
+    (readings.back().episode.*numbers).col(column) *= -1;
+  };
+  for (Index s = 0; s < task.actuators().own_states(); ++s)
+    add(task.states[static_cast<std::size_t>(s)].name, &Episode::states, s);
+  for (Index a = 0; a < task.action_size(); ++a)
+    add(task.actions[static_cast<std::size_t>(a)].name, &Episode::actions, a);
+  return readings;
+}
+
+/// The action of each row stands one row later.
+Reading a_row_late(const Episode& episode) {
+  const Index steps = episode.steps() - 1;
+  Episode moved = episode.part(0, steps);
+  moved.actions = episode.actions.bottomRows(steps);
+  return {"each row has the action of the row before", std::move(moved)};
+}
+
+/// The largest deviation of an action, as a part of its range.
+double largest(const Vector& deviations, const Task& task) {
+  double most = 0;
+  for (Index i = 0; i < deviations.size(); ++i) {
+    const Interval bounds = task.actions[static_cast<std::size_t>(i)].bounds;
+    most = std::max(most, deviations(i) / (bounds.high - bounds.low));
+  }
+  return most;
+}
+
+/// What would explain the actions best; empty: nothing of what is tried.
+std::string cause_of(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& asked,
+                     const std::vector<TrialRecord>& earlier) {
+  const Task& task = scenario.task;
+  std::string cause;
+  double left = kSameActions;
+  const auto consider = [&](const Episode& read, const TrialRecord& trial, const std::string& said) {
+    const double deviation = largest(deviations(read, scenario, trial), task);
+    if (deviation < left) left = deviation, cause = said;
+  };
+  for (const TrialRecord& trial : earlier)
+    consider(episode, trial, fmt::format("they are those of the policy of trial {}", trial.trial));
+  std::vector<Reading> readings = other_units(episode, task);
+  for (Reading& reading : other_signs(episode, task)) readings.push_back(std::move(reading));
+  if (episode.steps() > 1) readings.push_back(a_row_late(episode));
+  for (const Reading& reading : readings)
+    consider(reading.episode, asked, fmt::format("they are the policy's if {}", reading.cause));
+  return cause;
+}
+
+}  // namespace
+
+Vector deviations(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& trial) {
+  const Task& task = scenario.task;
+  const auto policy = policy_of(trial, scenario);
+  const Actuators actuators = task.actuators();
+  Matrix u(1, task.action_size());
+  Vector squared = Vector::Zero(task.action_size());
+  for (Index t = 0; t < episode.steps(); ++t) {
+    policy->act(trial.theta.transpose(), episode.states.middleRows(t, 1), static_cast<double>(t) * task.dt_s, u);
+    actuators.command(episode.states.middleRows(t, 1), u);
+    squared += (u - episode.actions.row(t)).transpose().cwiseAbs2();
+  }
+  return (squared / static_cast<double>(episode.steps())).cwiseSqrt();
+}
+
+bool is_within(double part, double deviation, const ActionVariable& action) {
+  return deviation <= part * (action.bounds.high - action.bounds.low);
+}
+
+std::vector<std::string> sentences_on_policy(const Episode& episode, const scenario::Scenario& scenario,
+                                             const TrialRecord& asked, const std::vector<TrialRecord>& earlier) {
+  const Task& task = scenario.task;
+  const Vector all = deviations(episode, scenario, asked);
+  if (largest(all, task) <= kSameActions) return {};
+  const std::string cause = cause_of(episode, scenario, asked, earlier);
+  std::vector<std::string> sentences;
+  for (Index i = 0; i < all.size(); ++i) {
+    const ActionVariable& action = task.actions[static_cast<std::size_t>(i)];
+    if (is_within(kSameActions, all(i), action)) continue;
+    const bool wrong_file = !cause.empty() || !is_within(kOtherActions, all(i), action);
+    sentences.push_back(
+        fmt::format("{} differs from what the policy says of the measured states by {:.3g} {} (root mean square): {}{}",
+                    action.name, all(i), action.unit,
+                    cause.empty() ? "another policy, a state of another unit or sign, a delay, or a weak motor" : cause,
+                    wrong_file ? "; `tell --undo` (in Python `take_back()`) takes a wrong file back" : ""));
+  }
+  return sentences;
+}
+
+}  // namespace rehearse::experiment
