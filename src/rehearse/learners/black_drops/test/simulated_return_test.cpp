@@ -109,7 +109,7 @@ TEST_F(SimulatedReturnTest, GoesRoundTheModelsThatAreDoubted) {
   const auto strong = std::make_shared<dynamics::SimulatorModel>(slider::prior(), slider::kTruth);
   task.start_std.setZero();
   limit(0.5);
-  problem.doubted = {still, strong};
+  problem.plausible = {still, strong};
   SimulatedReturn objective(problem, options, key);
   const Matrix pull = pulls.leftCols(1);
   EXPECT_EQ(objective.measure(pull, 0, 9)[0].risks[0].broken, 4);
