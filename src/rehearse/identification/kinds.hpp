@@ -78,7 +78,7 @@ struct GpMi {
                                     // alone stops far from the end
   LeastSquares least_squares;
   PhiPosteriorOptions posterior;
-  bool plausible = true;  // where states were smoothed: the models at other φ that the data leave plausible, too
+  bool plausible = true;  // where states were smoothed: learn the models at other φ that the data leave plausible, too
   GpMi() { gp.fit.starts = 1, gp.fit.part_rows = 0; }  // the alternating search tries other kernels itself
   void fields(FieldVisitor& v) {
     v.group("gp", gp);
@@ -92,11 +92,6 @@ struct GpMi {
               "the search starts from the parameters of least squared error, too", published(false));
     v.group("least_squares", least_squares, kExpert);
     v.group("posterior", posterior);
-    v.boolean(
-        "plausible", plausible,
-        expert("where measurements are noisy, simulated episodes have prior parameters that the data leave plausible; "
-               "false: those found alone"),
-        published(false));
   }
 };
 
