@@ -155,20 +155,8 @@ void OpenRun::predict(Index trial, const learners::Proposal& proposal) const {
                       .trial = static_cast<std::uint64_t>(trial),
                       .stage = Stage::prediction};
   const rollout::SimulateOptions unclipped{.noise_clip = 0};
-  const auto simulated = [&](const dynamics::DynamicsModel& model, const StreamKey& stream, Index particles) {
-    return rollout::simulate_recorded({model, *proposal.policy, parts_.task(), stream, unclipped}, proposal.theta,
-                                      particles, parts_.evaluator());
-  };
-  std::vector<rollout::Recorded> parts;
-  const auto models = static_cast<Index>(proposal.plausible.size());
-  for (Index m = 0; m < models; ++m) {
-    StreamKey stream = key;
-    stream.descent = static_cast<std::uint64_t>(m) + 1;
-    parts.push_back(simulated(*proposal.plausible[static_cast<std::size_t>(m)], stream,
-                              (kPredictionParticles - m + models - 1) / models));
-  }
-  if (models == 0) parts.push_back(simulated(*proposal.model, key, kPredictionParticles));
-  const rollout::Recorded recorded = rollout::joined(parts);
+  const auto recorded = rollout::simulate_recorded({*proposal.model, *proposal.policy, parts_.task(), key, unclipped},
+                                                   proposal.theta, kPredictionParticles, parts_.evaluator());
   std::optional<ExpectedEpisode> moments;
   if (proposal.moments) moments = proposal.moments();
   folder_.write_prediction(trial, prediction_csv(parts_.task(), recorded, moments ? &*moments : nullptr));

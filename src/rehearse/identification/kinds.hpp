@@ -78,7 +78,6 @@ struct GpMi {
                                     // alone stops far from the end
   LeastSquares least_squares;
   PhiPosteriorOptions posterior;
-  bool plausible = true;  // where states were smoothed: learn the models at other φ that the data leave plausible, too
   GpMi() { gp.fit.starts = 1, gp.fit.part_rows = 0; }  // the alternating search tries other kernels itself
   void fields(FieldVisitor& v) {
     v.group("gp", gp);

@@ -14,7 +14,6 @@
 #include "rehearse/identification/fit_problem.hpp"
 #include "rehearse/identification/mirror_image.hpp"
 #include "rehearse/identification/nested.hpp"
-#include "rehearse/identification/sigma_points.hpp"
 #include "rehearse/identification/smoothing/measurement_noise.hpp"
 #include "rehearse/identification/smoothing/smoothing.hpp"
 
@@ -65,30 +64,21 @@ bool is_odd(const FitProblem& problem, const Fit& fit, const GpOptions& options)
   return nats_for_odd(residuals, rows, fit) > kOddNats * static_cast<double>(learned);
 }
 
-/// GPs of these rows around the prior at a φ.
-std::shared_ptr<dynamics::GpModel> gp_model(const FitProblem& problem, const Vector& phi,
-                                            const dynamics::Residuals::Rows& rows,
-                                            const std::vector<gp::Hyperparameters>& kernels, const GpOptions& options,
-                                            bool odd) {
-  const dynamics::Residuals& residuals = problem.residuals;
-  std::optional<dynamics::Mean> mean;
-  if (problem.prior) mean = dynamics::Mean{*problem.prior, phi};
-  return std::make_shared<dynamics::GpModel>(
-      residuals.features(), residuals.kinematics(), mean,
-      gp::Posterior(*rows.inputs, rows.targets, kernels, options.tolerance,
-                    odd ? signs_of_images(residuals.features(), residuals.data().actions.cols()) : Vector()),
-      options.variance, residuals.midpoint());
-}
-
 /// `smoothed`: null if measurement noise is to be estimated from the kernels' noise.
 Learned model_of(const FitProblem& problem, const Fit& fit, const GpOptions& options, bool odd,
                  const Smoothed* smoothed) {
   const dynamics::Residuals& residuals = problem.residuals;
   const dynamics::Residuals::Rows rows = residuals.at(problem.prior, fit.phi);
   if (!rows.inputs) throw NoUsableRow("no row of the data set has a finite prior mean: nothing to learn from");
+  std::optional<dynamics::Mean> mean;
+  if (problem.prior) mean = dynamics::Mean{*problem.prior, fit.phi};
   Learned learned;
   learned.state.kernels = hyperparameters(fit);
-  const auto model = gp_model(problem, fit.phi, rows, learned.state.kernels, options, odd);
+  const auto model = std::make_shared<dynamics::GpModel>(
+      residuals.features(), residuals.kinematics(), mean,
+      gp::Posterior(*rows.inputs, rows.targets, learned.state.kernels, options.tolerance,
+                    odd ? signs_of_images(residuals.features(), residuals.data().actions.cols()) : Vector()),
+      options.variance, residuals.midpoint());
   model->set_measurement_std(smoothed ? smoothed->measurement_std
                                       : measurement_std(*model, residuals.data(), noise_of_changes(*model, residuals)));
   learned.model = model;
@@ -171,18 +161,6 @@ void add_posterior(Learned& learned, const prior::Prior& prior, std::optional<Ph
     learned.notes.emplace_back("how sure the parameters are could not be computed");
 }
 
-/// The models of the same kernels at other φ that the posterior leaves plausible.
-void add_plausible(Learned& learned, const FitProblem& problem, const Fit& fit, const GpOptions& options) {
-  if (!learned.posterior) return;
-  for (const Vector& phi : sigma_points(*learned.posterior, problem.prior->space, fit.phi)) {
-    const dynamics::Residuals::Rows rows = problem.residuals.at(problem.prior, phi);
-    if (!rows.inputs) continue;
-    const auto model = gp_model(problem, phi, rows, hyperparameters(fit), options, learned.state.odd);
-    model->set_measurement_std(learned.model->measurement_std());
-    learned.plausible.push_back(model);
-  }
-}
-
 Learned learn_kind(const GpMi& kind, const Given& given) {
   const prior::Prior& prior = *given.problem.prior;
   const dynamics::Residuals residuals = given.residuals(kind.gp, kind.gp.integrate_rates);
@@ -197,7 +175,6 @@ Learned learn_kind(const GpMi& kind, const Given& given) {
     add_posterior(
         learned, prior,
         smoothed ? phi_posterior(of, fit, smoothed->steps, kind.posterior) : phi_posterior(of, fit, kind.posterior));
-    if (kind.plausible && smoothed) add_plausible(learned, of, fit, kind.gp);
     return learned;
   };
   // Smoothing climbs the product of likelihoods by turns; what another score or search chose stays.
@@ -228,13 +205,6 @@ const ResidualGpOptions* servo_options(const Kind& kind) {
   return std::visit(with_servos, kind);
 }
 
-/// Puts something in front of each model.
-template <class MakeModel>
-void wrap(Learned& learned, MakeModel make) {
-  learned.model = make(learned.model);
-  for (auto& model : learned.plausible) model = make(model);
-}
-
 /// Learns a model of the robot behind its actuators. In front of this model they stand as they are known to be.
 Learned learn_behind_actuators(const LearningProblem& problem, const Kind& kind, const WarmStart& start,
                                const Evaluator& evaluator) {
@@ -246,7 +216,7 @@ Learned learn_behind_actuators(const LearningProblem& problem, const Kind& kind,
   if (prior) robot = prior->behind_actuators();
   Learned learned =
       learn({dynamics::actuated(data, actuators), own, kinematics, robot ? &*robot : nullptr}, kind, start, evaluator);
-  wrap(learned, [&](auto model) { return std::make_shared<dynamics::ActuatedModel>(std::move(model), actuators); });
+  learned.model = std::make_shared<dynamics::ActuatedModel>(learned.model, actuators);
   return learned;
 }
 
@@ -269,7 +239,7 @@ Learned learn(const LearningProblem& problem, const Kind& kind, const WarmStart&
   const auto servos = std::make_shared<dynamics::Servos>(data, features, kinematics.servos, *options, evaluator);
   const prior::Prior driven = prior->behind_servos();
   Learned learned = learn_from({dynamics::reached(data, kinematics.servos), features, kinematics, &driven});
-  wrap(learned, [&](auto model) { return std::make_shared<dynamics::ServoModel>(servos, std::move(model)); });
+  learned.model = std::make_shared<dynamics::ServoModel>(servos, learned.model);
   *learned.log_evidence += servos->log_evidence();
   return learned;
 }

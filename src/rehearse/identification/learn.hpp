@@ -31,11 +31,9 @@ struct Learned {
   std::optional<double> score;            // GP-MI's, nats
   std::optional<PhiPosterior> posterior;  // of GP-MI and MI
   std::optional<SmoothedRows> smoothed;   // where states were smoothed
-  std::vector<std::shared_ptr<const dynamics::DynamicsModel>> plausible;  // GP-MI's at other φ that the data leave
-                                                                          // plausible, each as likely as another
-  Index left_out_rows = 0;                                                // rows whose prior mean was not finite
-  Index evaluations = 0;                                                  // of φ
-  std::vector<std::string> notes;  // numerical failures survived, and what is said of a mirror image
+  Index left_out_rows = 0;                // rows whose prior mean was not finite
+  Index evaluations = 0;                  // of φ
+  std::vector<std::string> notes;         // numerical failures survived, and what is said of a mirror image
 };
 
 /// The data, and the prior if there is one, that a model is learned from. Both must outlive the call.

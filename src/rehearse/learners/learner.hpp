@@ -43,8 +43,6 @@ struct Proposal {
   std::optional<Vector> phi;           // of the prior, in the order of its space
   std::optional<identification::PhiPosterior> posterior;  // of its continuous parameters, where it was learned
   std::shared_ptr<const dynamics::DynamicsModel> model;   // that predicted the return; null before there is one
-  std::vector<std::shared_ptr<const dynamics::DynamicsModel>> plausible;  // others that the data leave plausible,
-                                                                          // whose mean return was predicted, if any
   std::function<ExpectedEpisode()> moments;    // what that model expects of the policy from the task's start,
                                                // by moment matching; empty: it has no analytic moments
   Index left_out_rows = 0;                     // training rows whose prior mean was not finite

@@ -37,7 +37,6 @@ identification::WarmStart ModelOfTrials::learn(Proposal& proposal) const {
                                setting_.prior ? &*setting_.prior : nullptr, setting_.task.actuators()},
                               kind_, start_, *setting_.evaluator);
     proposal.model = learned.model;
-    proposal.plausible = std::move(learned.plausible);
     proposal.phi = learned.state.phi;
     proposal.posterior = std::move(learned.posterior);
     proposal.log_evidence = learned.log_evidence;

@@ -107,24 +107,6 @@ Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, In
   return recorded;
 }
 
-Recorded joined(const std::vector<Recorded>& parts) {
-  Index particles = 0;
-  for (const Recorded& part : parts) particles += part.returns.size();
-  const Recorded& any = parts.front();
-  Recorded all{.states = std::vector<Matrix>(any.states.size(), Matrix(particles, any.states.front().cols())),
-               .rewards = Matrix(particles, any.rewards.cols()),
-               .returns = Vector(particles)};
-  Index first = 0;
-  for (const Recorded& part : parts) {
-    const Index rows = part.returns.size();
-    for (std::size_t t = 0; t < all.states.size(); ++t) all.states[t].middleRows(first, rows) = part.states[t];
-    all.rewards.middleRows(first, rows) = part.rewards;
-    all.returns.segment(first, rows) = part.returns;
-    first += rows;
-  }
-  return all;
-}
-
 void simulate_episodes(const Simulation& simulation, const ConstMatrixView& Theta, std::uint64_t first_candidate,
                        Episodes& episodes, const Evaluator& evaluator) {
   check_simulation(simulation, Theta.cols(), 1);

@@ -35,9 +35,6 @@ struct Recorded {
 Recorded simulate_recorded(const Simulation& simulation, const Vector& theta, Index particles,
                            const Evaluator& evaluator = serial_evaluator());
 
-/// The particles of several such, one after the other. At least one; all of the same task.
-Recorded joined(const std::vector<Recorded>& parts);
-
 /// One episode of each policy (Theta: rows × parameters, one a row) on the calling thread, all rows in lockstep. Row i
 /// is candidate `first_candidate` + i of the stream. No allocation if `episodes` had the same size before. The
 /// evaluator is asked before each step whether to stop.

@@ -29,7 +29,6 @@ struct Options {
   Index particles = 50;
   Beyond beyond = Beyond::chosen;
   identification::GpMi model;
-  Options() { model.plausible = false; }  // forecasts are made with one model
   void fields(FieldVisitor& v) {
     v.text("zeros", zeros, "states whose zero is another in each log, with commas: encoders that count from power-on");
     v.number("zero_range", zero_range, "how far such a zero may be off, in the state's unit", above(0));

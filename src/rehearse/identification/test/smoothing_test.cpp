@@ -60,8 +60,6 @@ TEST(Smoothing, FindsParametersNoiseAndDynamicsThatNoisyStepsHide) {
     const Learned raw = learn_with_smoothing(m.data, false, prior, serial_evaluator());
     const Learned smoothed = learn_with_smoothing(m.data, true, prior, serial_evaluator());
     EXPECT_GT(*smoothed.log_evidence, *raw.log_evidence + 20);
-    EXPECT_EQ(smoothed.plausible.size(), 4u) << "two for each parameter";
-    EXPECT_TRUE(raw.plausible.empty()) << "one φ where states are exact";
     const Vector deviation = smoothed.posterior->covariance.diagonal().cwiseSqrt();
     for (Index i = 0; i < 2; ++i) {
       EXPECT_LT(std::abs((*smoothed.state.phi)(i)-swing::kTruth(i)), 4 * deviation(i)) << seed;

@@ -115,7 +115,7 @@ class BlackDrops final : public TrialLearner {
     const bool at_start = goal && acts_at_start(*goal, task);
     SearchProblem problem = problem_of(proposal, at_start ? *setting_.policy : *handing_over, task);
     if (without_data() && !task.limits.empty())
-      problem.plausible = proposal.plausible = doubted(*setting_.prior, options_.search.safety.doubt, stream());
+      problem.doubted = doubted(*setting_.prior, options_.search.safety.doubt, stream());
     const Task longer_task = continued(task, options_.search.extra_s);
     const SearchProblem longer_problem = with_task(problem, longer_task);
     TrialSearches searches(problem, options_.search, stream()),
@@ -127,7 +127,7 @@ class BlackDrops final : public TrialLearner {
     bool hands_over = goal && !at_start;
     if (at_start) {
       SearchProblem held = problem_of(proposal, *handing_over, task);
-      held.plausible = problem.plausible;
+      held.doubted = problem.doubted;
       TrialSearches feedback(held, options_.search, stream());
       hands_over = prefer_feedback(feedback, searches, choice);
       count_rollouts(feedback, proposal);
@@ -149,9 +149,7 @@ class BlackDrops final : public TrialLearner {
   }
 
   SearchProblem problem_of(const Proposal& proposal, const policy::Policy& policy, const Task& task) const {
-    SearchProblem problem{*proposal.model, policy, task, *setting_.evaluator, setting_.progress};
-    if (!needs_derivatives(options_.search.method)) problem.plausible = proposal.plausible;  // those climb on one model
-    return problem;
+    return {*proposal.model, policy, task, *setting_.evaluator, setting_.progress};
   }
 
   /// The random numbers of this trial.
@@ -187,8 +185,7 @@ class BlackDrops final : public TrialLearner {
 
   void explore(const SearchProblem& problem, Proposal& proposal) const {
     const auto random = policy::make_schedule(setting_.task);
-    const SearchProblem of_actions{problem.model,     *random,          problem.task,
-                                   problem.evaluator, problem.progress, problem.plausible};
+    const SearchProblem of_actions{problem.model, *random, problem.task, problem.evaluator, problem.progress};
     SearchResult found = safe_random_actions(of_actions, options_, stream());
     proposal.rollouts += found.rollouts;
     proposal.failed_rollouts += found.failed_rollouts;

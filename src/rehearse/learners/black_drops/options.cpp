@@ -26,10 +26,6 @@ void Retry::fields(FieldVisitor& v) {
 
 void Options::fields(FieldVisitor& v) {
   std::visit([&](auto& kind) { v.group("model", kind); }, model);
-  if (auto* gp_mi = std::get_if<identification::GpMi>(&model))
-    v.boolean("model.plausible", gp_mi->plausible,
-              expert("with noise, simulated episodes have any prior parameters that fit the data; false: the best"),
-              published(false));
   v.group("reward", reward);
   v.group("search", search);
   v.group("first_trial", first_trial);

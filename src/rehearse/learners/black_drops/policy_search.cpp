@@ -31,7 +31,7 @@ SearchOptions in_box_of(const policy::Policy& policy, SearchOptions options) {
 
 /// True if a search climbs along gradients. Not where limits must be kept, which have no gradient.
 bool climbs(const SearchProblem& problem, const SearchOptions& options) {
-  return needs_derivatives(options.method) && !options.constrained && problem.plausible.empty();
+  return needs_derivatives(options.method) && !options.constrained && problem.doubted.empty();
 }
 
 bool races(const SearchProblem& problem, const SearchOptions& options) {
@@ -157,8 +157,7 @@ SolvingRates solving_rates(const SearchProblem& problem, const std::vector<Vecto
   SolvingRates all{.rates = Vector::Zero(static_cast<Index>(policies.size()))};
   if (!problem.task.solved) return all;
   const Index rollouts = comparisons(problem, options);
-  const auto models = models_in_turn(problem, options.simulate);
-  const auto count_of = static_cast<Index>(models.size());
+  const auto models = static_cast<Index>(problem.doubted.size());
   std::vector<Index> failed(policies.size());
   problem.evaluator.for_each(all.rates.size(), [&](Index j) {
     Index solved = 0;
@@ -177,10 +176,11 @@ SolvingRates solving_rates(const SearchProblem& problem, const std::vector<Vecto
         solved += problem.task.solved(episode);
       }
     };
-    for (Index m = 0; m < std::min(count_of, rollouts); ++m) {
+    if (models == 0) simulate(problem.model, rollouts, key);
+    for (Index m = 0; m < std::min(models, rollouts); ++m) {
       StreamKey stream = key;
-      if (count_of > 1) stream.descent = static_cast<std::uint64_t>(m) + 1;
-      simulate(*models[static_cast<std::size_t>(m)], (rollouts - m + count_of - 1) / count_of, stream);
+      stream.descent = static_cast<std::uint64_t>(m) + 1;
+      simulate(*problem.doubted[static_cast<std::size_t>(m)], (rollouts - m + models - 1) / models, stream);
     }
     all.rates(j) = static_cast<double>(solved) / static_cast<double>(rollouts);
   });

@@ -40,16 +40,7 @@ void SearchOptions::fields(FieldVisitor& v) {
 }
 
 SearchProblem with_task(const SearchProblem& problem, const Task& task) {
-  return {problem.model, problem.policy, task, problem.evaluator, problem.progress, problem.plausible};
-}
-
-std::vector<const dynamics::DynamicsModel*> models_in_turn(const SearchProblem& problem,
-                                                           const rollout::SimulateOptions& options) {
-  const bool means = !options.sample && !problem.model.certain();
-  if (means || problem.plausible.empty()) return {&problem.model};
-  std::vector<const dynamics::DynamicsModel*> models;
-  for (const auto& model : problem.plausible) models.push_back(model.get());
-  return models;
+  return {problem.model, problem.policy, task, problem.evaluator, problem.progress, problem.doubted};
 }
 
 Task continued(Task task, double extra_s) {
@@ -66,7 +57,7 @@ Task continued(Task task, double extra_s) {
 Index comparisons(const SearchProblem& problem, const SearchOptions& options) {
   if (!problem.task.limits.empty())
     return std::max({options.selection, options.safety.rollouts, rollouts_that_show_safety(problem.task, options)});
-  const bool sure = !options.simulate.sample || (problem.model.certain() && problem.plausible.empty());
+  const bool sure = !options.simulate.sample || problem.model.certain();
   const bool exact = options.simulate.measurement_noise == 0 || problem.model.measurement_std().isZero(0);
   return sure && exact && problem.task.start_std.isZero(0) ? 1 : options.selection;
 }

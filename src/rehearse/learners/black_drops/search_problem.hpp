@@ -52,14 +52,9 @@ struct SearchProblem {
   const Task& task;
   const Evaluator& evaluator;
   const ProgressSink& progress;
-  std::vector<std::shared_ptr<const dynamics::DynamicsModel>> plausible = {};  // other models, each as likely as
-                                                                               // another; may be none
+  std::vector<std::shared_ptr<const dynamics::DynamicsModel>> doubted = {};  // if any, episodes use these in turn
+                                                                             // instead
 };
-
-/// The models that simulated episodes have in turn: those that are plausible, else the one. Episodes that follow the
-/// means of learned models alone have the one.
-std::vector<const dynamics::DynamicsModel*> models_in_turn(const SearchProblem& problem,
-                                                           const rollout::SimulateOptions& options);
 
 /// The same problem of another task.
 SearchProblem with_task(const SearchProblem& problem, const Task& task);

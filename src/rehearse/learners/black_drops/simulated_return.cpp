@@ -52,7 +52,7 @@ std::vector<Measurement> SimulatedReturn::measure(const ConstMatrixView& Theta, 
 }
 
 bool SimulatedReturn::doubts_its_certainty() const {
-  const bool uncertain = !models_in_turn(problem_, options_.simulate).front()->certain();
+  const bool uncertain = problem_.doubted.empty() && !problem_.model.certain();
   return uncertain && !problem_.task.limits.empty() && options_.safety.caution != 1;
 }
 
@@ -69,38 +69,20 @@ rollout::Simulated SimulatedReturn::simulate(const ConstMatrixView& Theta, std::
                                              double deviations) {
   rollout::SimulateOptions options = options_.simulate;
   options.deviations = deviations;
-  const auto models = models_in_turn(problem_, options);
-  const auto on = [&](const dynamics::DynamicsModel& model, const StreamKey& key) {
-    return rollout::simulate({model, problem_.policy, problem_.task, key, options}, Theta, {first, episodes},
-                             problem_.evaluator);
-  };
-  rollout::Simulated simulated;
-  if (models.size() == 1)
-    simulated = on(*models.front(), key_);
-  else if (episodes > 1)
-    simulated = simulate_in_turn(models, Theta, episodes, options);
-  else  // policies are compared in the same one, and a call of a simulator has as many rows as with one model
-    simulated = on(*models[generations_ % models.size()], of_model(models.size() + generations_ % models.size()));
-  ++generations_;
+  const rollout::Simulated simulated =
+      problem_.doubted.empty() ? rollout::simulate({problem_.model, problem_.policy, problem_.task, key_, options},
+                                                   Theta, {first, episodes}, problem_.evaluator)
+                               : simulate_in_doubt(Theta, episodes);
   rollouts_ += simulated.returns.size();
   next_ = std::max(next_, first + static_cast<std::uint64_t>(Theta.cols()));
   failed_ += simulated.failed;
   return simulated;
 }
 
-/// Rollouts that go round the models and those of generations are numbered each in its way, so their streams differ.
-StreamKey SimulatedReturn::of_model(std::size_t number) const {
-  StreamKey key = key_;
-  key.descent = number + 1;
-  return key;
-}
-
 /// Rollouts go round the models: the r-th of all, counted from the first call on, has model r mod their number, and a
 /// stream of its own there.
-rollout::Simulated SimulatedReturn::simulate_in_turn(const std::vector<const dynamics::DynamicsModel*>& all_models,
-                                                     const ConstMatrixView& Theta, Index episodes,
-                                                     const rollout::SimulateOptions& options) const {
-  const auto models = static_cast<Index>(all_models.size());
+rollout::Simulated SimulatedReturn::simulate_in_doubt(const ConstMatrixView& Theta, Index episodes) const {
+  const auto models = static_cast<Index>(problem_.doubted.size());
   rollout::Simulated all{.returns = Matrix(episodes, Theta.cols())};
   all.broken.assign(problem_.task.limits.size(), Matrix(episodes, Theta.cols()));
   const Index total = all.returns.size();
@@ -109,10 +91,11 @@ rollout::Simulated SimulatedReturn::simulate_in_turn(const std::vector<const dyn
     if (begin >= total) continue;
     Matrix own(Theta.rows(), count);
     for (Index i = 0; i < count; ++i) own.col(i) = Theta.col((begin + i * models) / episodes);
-    const auto number = static_cast<std::size_t>(m);
-    const rollout::Simulated some =
-        rollout::simulate({*all_models[number], problem_.policy, problem_.task, of_model(number), options}, own,
-                          {static_cast<std::uint64_t>((rollouts_ + begin) / models), 1}, problem_.evaluator);
+    StreamKey key = key_;
+    key.descent = static_cast<std::uint64_t>(m) + 1;
+    const rollout::Simulated some = rollout::simulate(
+        {*problem_.doubted[static_cast<std::size_t>(m)], problem_.policy, problem_.task, key, options_.simulate}, own,
+        {static_cast<std::uint64_t>((rollouts_ + begin) / models), 1}, problem_.evaluator);
     const auto scatter = [&](const Matrix& from, Matrix& to) {
       for (Index i = 0; i < count; ++i) to.data()[begin + i * models] = from(0, i);
     };

@@ -43,16 +43,12 @@ class SimulatedReturn {
  private:
   bool doubts_its_certainty() const;
   rollout::Simulated simulate(const ConstMatrixView& Theta, std::uint64_t first, Index episodes, double deviations);
-  rollout::Simulated simulate_in_turn(const std::vector<const dynamics::DynamicsModel*>& models,
-                                      const ConstMatrixView& Theta, Index episodes,
-                                      const rollout::SimulateOptions& options) const;
-  StreamKey of_model(std::size_t number) const;
+  rollout::Simulated simulate_in_doubt(const ConstMatrixView& Theta, Index episodes) const;
 
   const SearchProblem& problem_;
   const SearchOptions& options_;
   StreamKey key_;
   std::uint64_t next_ = 0;
-  std::size_t generations_ = 0;  // calls of simulate
   Index rollouts_ = 0, failed_ = 0;
   Interval seen_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};  // mean returns
 };

@@ -30,10 +30,7 @@ void PlanSearch::fields(FieldVisitor& v) {
            published(0, kLee));
 }
 
-Options::Options() {
-  model.gp.fit.starts = 3, model.gp.fit.part_rows = 200;  // as of GPs around a fixed prior
-  model.plausible = false;                                // plans are made for one model
-}
+Options::Options() { model.gp.fit.starts = 3, model.gp.fit.part_rows = 200; }  // as of GPs around a fixed prior
 
 void Options::fields(FieldVisitor& v) {
   v.boolean("identify", identify, "the prior's parameters are learned with the GPs, as GP-MI does");

@@ -42,22 +42,6 @@ TEST(SimulateRecorded, AfterAnEarlyEndARowIsNan) {
   EXPECT_TRUE((recorded.rewards.rightCols(1).array() == 0).all()) << "charged when it ended";
 }
 
-TEST(SimulateRecorded, PartsAreJoined) {
-  const Task task = cart::task();
-  const Vector theta = cart::candidates(1).col(0);
-  const auto of = [&](Index particles) {
-    return simulate_recorded({cart::Model(0.01), *cart::policy(), task, kKey, kUnclipped}, theta, particles);
-  };
-  const Recorded two = of(2), three = of(3), all = joined({two, three});
-  ASSERT_EQ(all.states.size(), 21u);
-  for (std::size_t t = 0; t <= 20; ++t) {
-    EXPECT_EQ(Matrix(all.states[t].topRows(2)), two.states[t]);
-    EXPECT_EQ(Matrix(all.states[t].bottomRows(3)), three.states[t]);
-  }
-  EXPECT_EQ(Matrix(all.rewards.bottomRows(3)), three.rewards);
-  EXPECT_EQ(Vector(all.returns.head(2)), two.returns);
-}
-
 /// Rows that fail at v > 0.5, and that fall at p < 0.8.
 TEST(SimulateEpisodes, RecordsWhatTheReturnsAreMadeOf) {
   Task task = cart::task();

@@ -109,44 +109,13 @@ TEST_F(SimulatedReturnTest, GoesRoundTheModelsThatAreDoubted) {
   const auto strong = std::make_shared<dynamics::SimulatorModel>(slider::prior(), slider::kTruth);
   task.start_std.setZero();
   limit(0.5);
-  problem.plausible = {still, strong};
+  problem.doubted = {still, strong};
   SimulatedReturn objective(problem, options, key);
   const Matrix pull = pulls.leftCols(1);
   EXPECT_EQ(objective.measure(pull, 0, 9)[0].risks[0].broken, 4);
   EXPECT_EQ(objective.measure(pull, 1, 9)[0].risks[0].broken, 5) << "it goes on with the second";
   EXPECT_EQ(objective.measure(pulls, 2, 2)[0].risks[0].broken, 1);
   EXPECT_EQ(objective.rollouts(), 26);
-}
-
-TEST_F(SimulatedReturnTest, AGenerationHasOneModelAndTheNextAnother) {
-  const auto still = std::make_shared<dynamics::SimulatorModel>(slider::prior(), Vector{{0, 0}});
-  const auto strong = std::make_shared<dynamics::SimulatorModel>(slider::prior(), slider::kTruth);
-  task.start_std.setZero();
-  problem.plausible = {still, strong};
-  SimulatedReturn objective(problem, options, key);
-  Vector first(4), second(4), third(4);
-  objective(pulls, 0, 1, first);
-  objective(pulls, 4, 1, second);
-  objective(pulls, 8, 1, third);
-  EXPECT_TRUE((first.array() == first(0)).all()) << "no pull moves it";
-  EXPECT_NE(second(0), second(2));
-  EXPECT_EQ(third, first);
-  EXPECT_EQ(objective.rollouts(), 12);
-}
-
-TEST_F(SimulatedReturnTest, InTheMeansOfALearnedModelHasThatModelAlone) {
-  problem.plausible = {std::make_shared<dynamics::SimulatorModel>(slider::prior(), Vector{{0, 0}}, 0.0004)};
-  problem.plausible.push_back(problem.plausible.front());
-  const auto mean = [&] {
-    SimulatedReturn objective(problem, options, key);
-    return objective.measure(pulls.leftCols(1), 0, 4)[0].mean;
-  };
-  const double in_doubt = mean();
-  options.simulate.sample = false;
-  const double in_means = mean();
-  problem.plausible.clear();
-  EXPECT_EQ(mean(), in_means);
-  EXPECT_NE(in_doubt, in_means);
 }
 
 }  // namespace
