@@ -1,6 +1,7 @@
 #include "rehearse/experiment/policy_match.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -81,24 +82,18 @@ Reading a_row_late(const Episode& episode) {
   return {"each row has the action of the row before", std::move(moved)};
 }
 
-/// The largest deviation of an action, as a part of its range.
-double largest(const Vector& deviations, const Task& task) {
-  double most = 0;
-  for (Index i = 0; i < deviations.size(); ++i) {
-    const Interval bounds = task.actions[static_cast<std::size_t>(i)].bounds;
-    most = std::max(most, deviations(i) / (bounds.high - bounds.low));
-  }
-  return most;
+double part_of_range(double deviation, const ActionVariable& action) {
+  return deviation / (action.bounds.high - action.bounds.low);
 }
 
-/// What would explain the actions best; empty: nothing of what is tried.
+/// The cause that explains the actions best; empty: none that is tried does.
 std::string cause_of(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& asked,
                      const std::vector<TrialRecord>& earlier) {
   const Task& task = scenario.task;
   std::string cause;
   double left = kSameActions;
   const auto consider = [&](const Episode& read, const TrialRecord& trial, const std::string& said) {
-    const double deviation = largest(deviations(read, scenario, trial), task);
+    const double deviation = largest_deviation(read, scenario, trial);
     if (deviation < left) left = deviation, cause = said;
   };
   for (const TrialRecord& trial : earlier)
@@ -127,21 +122,26 @@ Vector deviations(const Episode& episode, const scenario::Scenario& scenario, co
   return (squared / static_cast<double>(episode.steps())).cwiseSqrt();
 }
 
-bool is_within(double part, double deviation, const ActionVariable& action) {
-  return deviation <= part * (action.bounds.high - action.bounds.low);
+double largest_deviation(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& trial) {
+  if (episode.steps() == 0) return std::numeric_limits<double>::infinity();
+  const Vector all = deviations(episode, scenario, trial);
+  double most = 0;
+  for (Index i = 0; i < all.size(); ++i)
+    most = std::max(most, part_of_range(all(i), scenario.task.actions[static_cast<std::size_t>(i)]));
+  return most;
 }
 
 std::vector<std::string> sentences_on_policy(const Episode& episode, const scenario::Scenario& scenario,
                                              const TrialRecord& asked, const std::vector<TrialRecord>& earlier) {
-  const Task& task = scenario.task;
+  if (largest_deviation(episode, scenario, asked) <= kSameActions) return {};
   const Vector all = deviations(episode, scenario, asked);
-  if (largest(all, task) <= kSameActions) return {};
   const std::string cause = cause_of(episode, scenario, asked, earlier);
   std::vector<std::string> sentences;
   for (Index i = 0; i < all.size(); ++i) {
-    const ActionVariable& action = task.actions[static_cast<std::size_t>(i)];
-    if (is_within(kSameActions, all(i), action)) continue;
-    const bool wrong_file = !cause.empty() || !is_within(kOtherActions, all(i), action);
+    const ActionVariable& action = scenario.task.actions[static_cast<std::size_t>(i)];
+    const double part = part_of_range(all(i), action);
+    if (part <= kSameActions) continue;
+    const bool wrong_file = !cause.empty() || part > kOtherActions;
     sentences.push_back(
         fmt::format("{} differs from what the policy says of the measured states by {:.3g} {} (root mean square): {}{}",
                     action.name, all(i), action.unit,

@@ -13,8 +13,8 @@ namespace rehearse::experiment {
 /// Root mean square differences (du) of the actions from those of a trial's policy in the measured states.
 Vector deviations(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& trial);
 
-/// True if a deviation of an action is at most a part of its range.
-bool is_within(double part, double deviation, const ActionVariable& action);
+/// The largest of them, as a part of its action's range; infinite where there is no step to compare.
+double largest_deviation(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& trial);
 
 /// A sentence for each action that was not the policy's of the trial that was asked for. They end with what would
 /// explain it: the policy of an earlier trial, another unit or sign of a state or an action, or rows that are a step

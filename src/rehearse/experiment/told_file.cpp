@@ -122,11 +122,8 @@ bool goes_on_after(const Episode& read, const Episode& kept, const Task& task) {
 }
 
 bool follows_policy(const Episode& read, const scenario::Scenario& scenario, const TrialRecord& asked) {
-  const Task& task = scenario.task;
-  const Vector differences = deviations(read.part(0, std::min(read.steps(), task.horizon)), scenario, asked);
-  for (Index i = 0; i < differences.size(); ++i)
-    if (!is_within(kRounding, differences(i), task.actions[static_cast<std::size_t>(i)])) return false;
-  return true;
+  const Index steps = std::min(read.steps(), scenario.task.horizon);
+  return largest_deviation(read.part(0, steps), scenario, asked) <= kRounding;
 }
 
 ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked,

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "rehearse/core/names.hpp"
+#include "rehearse/core/name_list.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/recording/units.hpp"
 
@@ -149,11 +149,7 @@ class Finder {
     std::vector<std::string> names;
     for (const Title& title : titles_)
       if (!wanted_.contains(title.name) && !title.name.empty()) names.push_back(title.name);
-    if (names.empty()) return "";
-    const std::size_t more = names.size() - std::min(names.size(), kMost);
-    names.resize(names.size() - more);
-    return fmt::format("; unused columns: {}{}", fmt::join(names, ", "),
-                       more > 0 ? fmt::format(" and {} more", more) : "");
+    return names.empty() ? "" : "; unused columns: " + list_of(names, kMost);
   }
 
   double scale_of(int column, const std::string& name, const std::string& unit) {

@@ -81,8 +81,14 @@ void check_channels(Channels& channels, const Task& task, Problems& problems, st
     keep_in_bounds(channels.actions[a], task.actions[a].bounds, problems, notes);
 }
 
-/// True if rows seem to be the control steps of a loop that is slower than the task says.
-bool loop_is_slow(double usual_s, double dt_s) { return usual_s > dt_s * 1.02 && usual_s < dt_s * 3; }
+/// A sentence on rows that seem to be the control steps of a loop that is slower than the task says; else empty.
+std::string slow_loop(double usual_s, double dt_s) {
+  if (usual_s <= dt_s * 1.02 || usual_s >= dt_s * 3) return "";
+  return fmt::format(
+      ". A loop that runs so makes control steps of {:.3g} s, where the task has {} s: set dt_s, or make the loop "
+      "faster",
+      usual_s, dt_s);
+}
 
 /// The largest distance of a control step to the nearest row.
 double farthest_row_s(const std::vector<Sample>& samples, const Grid& grid) {
@@ -123,11 +129,7 @@ void note_resampling(const Channels& channels, const Grid& grid, const Resampled
     how.push_back(
         fmt::format("actions are means of what rows hold until the next, in {} of {}", changed.actions, grid.steps));
   notes.push_back(fmt::format("rows are {:.3g} s apart on average: {}{}", usual_s, fmt::join(how, "; "),
-                              loop_is_slow(usual_s, grid.dt_s)
-                                  ? fmt::format(". A loop that runs so makes control steps of {:.3g} s, where the task "
-                                                "has {} s: set dt_s, or make the loop faster",
-                                                usual_s, grid.dt_s)
-                                  : ""));
+                              slow_loop(usual_s, grid.dt_s)));
 }
 
 void check_size(double bytes, const std::string& source, const ReadOptions& options) {

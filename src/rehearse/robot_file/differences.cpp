@@ -1,11 +1,12 @@
 #include "rehearse/robot_file/differences.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "rehearse/core/name_list.hpp"
 
 namespace rehearse::robot_file {
 
@@ -58,10 +59,8 @@ std::string worse_than_nothing(const Task& task, const Vector& errors, const Vec
   for (Index s = 0; s < errors.size(); ++s)
     if (errors(s) > kClearly * changes(s)) names.push_back(task.states[static_cast<std::size_t>(s)].name);
   if (names.empty()) return {};
-  const std::size_t more = names.size() - std::min(names.size(), kMost);
-  names.resize(names.size() - more);
-  return fmt::format("it errs by more than a step changes {}{}: a sign, a unit, a delay, or what it lacks",
-                     fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+  return fmt::format("it errs by more than a step changes {}: a sign, a unit, a delay, or what it lacks",
+                     list_of(names, kMost));
 }
 
 }  // namespace rehearse::robot_file

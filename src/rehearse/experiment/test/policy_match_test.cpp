@@ -39,6 +39,11 @@ TEST_F(PolicyMatch, OfThePolicyItselfSaysNothing) {
   EXPECT_NEAR(deviations(episode, scenario, asked)(0), 0.015, 1e-12);
 }
 
+TEST_F(PolicyMatch, AnEpisodeWithoutAStepFollowsNoPolicy) {
+  EXPECT_LT(largest_deviation(episode, scenario, asked), 1e-12);
+  EXPECT_GT(largest_deviation(episode.part(0, 0), scenario, asked), 1);
+}
+
 TEST_F(PolicyMatch, NamesTheUnitThatExplainsTheActions) {
   episode.states *= 1000;
   EXPECT_NE(said().find("they are the policy's if a column is 'x [mm]'; `tell --undo`"), std::string::npos) << said();
