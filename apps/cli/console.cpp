@@ -105,6 +105,7 @@ void Console::trial_done(const experiment::TrialRecord& record) {
   for (std::size_t i = 0; i < std::min(phi_names_.size(), record.phi.size()); ++i)
     line += fmt::format("  {} {}", phi_names_[i], experiment::phi_text(priors_, i, record.phi[i]));
   line_.print(line);
+  for (const std::string& note : record.notes) line_.print("  " + note);
 }
 
 void Console::interrupted() {

@@ -31,6 +31,15 @@ def test_an_end_that_fails_ends_the_run(tmp_path):
         learn(cart(Broken()), tmp_path / "run", trials=2)
 
 
+def test_a_rate_of_another_sign_is_noted(tmp_path):
+    robot = cart(Environment(), observe=lambda observation: observation * [-1, 1])
+    expected = "position changes -1 times as fast as velocity says"
+    run = learn(robot, tmp_path / "run", trials=1)
+    assert any(note.startswith(expected) for note in run.best.notes)
+    assert any(note.startswith(expected) for note in rehearse.check(robot).notes)
+    assert rehearse.check(cart(Environment())).notes == []
+
+
 def test_angles_begin_in_the_turn_of_the_start(tmp_path):
     class Hanging:
         def reset(self, seed=None):

@@ -8,6 +8,7 @@
 #include "rehearse/experiment/motion.hpp"
 #include "rehearse/experiment/tables.hpp"
 #include "rehearse/experiment/trial_record.hpp"
+#include "rehearse/recording/rates.hpp"
 #include "rehearse/rollout/execute.hpp"
 #include "rehearse/rollout/simulate.hpp"
 
@@ -187,7 +188,9 @@ void OpenRun::record(const Episode& episode, const std::string& file_checksum, c
 }
 
 void OpenRun::conclude(const Episode& episode) {
-  record(episode);
+  const Index T = episode.steps();
+  record(episode, "",
+         recording::notes_on_rates(parts_.task(), episode.states.topRows(T), episode.states.bottomRows(T)));
   publish();
   evaluate_last();
   tell_last();

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/recording/rates.hpp"
 #include "rehearse/statistics/quantiles.hpp"
 
 namespace rehearse::recording {
@@ -130,19 +131,26 @@ void check_jumps(const Channel& state, const Channel* rate, Problems& problems) 
 }
 
 void compare_with_rate(const Channel& state, const Channel& rate, std::vector<std::string>& notes) {
-  double xx = 0, xy = 0, yy = 0;
-  for (std::size_t i = 1; i < state.samples.size(); ++i) {
-    const Sample &a = state.samples[i - 1], &b = state.samples[i];
-    const double x = 0.5 * (b.time_s - a.time_s) * (held(rate, a.time_s) + held(rate, b.time_s));
-    const double y = b.value - a.value;
-    xx += x * x, xy += x * y, yy += y * y;
+  const auto steps = static_cast<Index>(state.samples.size()) - 1;
+  Vector expected(steps), changes(steps);
+  for (Index i = 0; i < steps; ++i) {
+    const Sample &a = state.samples[static_cast<std::size_t>(i)], &b = state.samples[static_cast<std::size_t>(i) + 1];
+    expected(i) = 0.5 * (b.time_s - a.time_s) * (held(rate, a.time_s) + held(rate, b.time_s));
+    changes(i) = b.value - a.value;
   }
-  const double explained = xy * xy / (xx * yy);                                    // NaN where one never changes
-  const Interval usual = explained > 0.9 ? Interval{0.7, 1.4} : Interval{0.5, 2};  // noisy rates look too fast
-  if (!(explained > 0.5) || (xy > usual.low * xx && xy < usual.high * xx)) return;
+  if (std::string note = note_on_rate(state.name, rate.name, expected, changes); !note.empty())
+    notes.push_back(std::move(note));
+}
+
+void look_for_turns(const Channel& angle, std::vector<std::string>& notes) {
+  double largest = 0;
+  for (std::size_t i = 1; i < angle.samples.size(); ++i)
+    largest = std::max(largest, std::abs(angle.samples[i].value - angle.samples[i - 1].value));
+  if (largest <= kTurn / 2) return;
   notes.push_back(fmt::format(
-      "{} changes {:.3g} times as fast as {} says: is one in another unit, of another scale, or of another sign?",
-      state.name, xy / xx, rate.name));
+      "{} changes by up to {:.3g} rad from row to row, more than half a turn: is it in degrees (then its column is "
+      "\"{} [deg]\"), or do rows lie too far apart?",
+      angle.name, largest, angle.name));
 }
 
 }  // namespace rehearse::recording

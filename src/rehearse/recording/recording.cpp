@@ -76,6 +76,7 @@ void check_channels(Channels& channels, const Task& task, Problems& problems, st
   for (std::size_t s = 0; s < rates.size(); ++s) {
     check_jumps(channels.states[s], rates[s], problems);
     if (rates[s]) compare_with_rate(channels.states[s], *rates[s], notes);
+    if (task.states[s].kind == StateKind::angle) look_for_turns(channels.states[s], notes);
   }
   for (std::size_t a = 0; a < channels.actions.size(); ++a)
     keep_in_bounds(channels.actions[a], task.actions[a].bounds, problems, notes);

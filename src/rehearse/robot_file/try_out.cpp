@@ -12,9 +12,11 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/stopwatch.hpp"
+#include "rehearse/recording/rates.hpp"
 #include "rehearse/robot_file/differences.hpp"
 #include "rehearse/robot_file/row_laws.hpp"
 #include "rehearse/robot_file/whole_turns.hpp"
+#include "rehearse/statistics/root_mean_squares.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 
 namespace rehearse::robot_file {
@@ -115,13 +117,6 @@ Steps drive(const scenario::Scenario& scenario, Index episodes, std::uint64_t se
   return steps;
 }
 
-/// A number for each column, of its finite numbers; NaN where there are none.
-Vector root_mean_square(const Matrix& rows) {
-  const auto finite = rows.array().isFinite();
-  const auto sums = finite.select(rows.array().square(), 0).colwise().sum();
-  return (sums / finite.cast<double>().colwise().sum()).sqrt().transpose();
-}
-
 /// Values of a tunable parameter that are far from where it starts.
 std::vector<double> others(const Parameter& parameter) {
   if (parameter.kind == Parameter::Kind::discrete) return parameter.choices;
@@ -201,7 +196,7 @@ PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const 
   const Stopwatch watch;
   tried.failed = system::change_contained(*prior.simulator, steps.X, steps.U, prior.parameters.values(), predicted);
   tried.rows_per_s = watch.per_s(steps.X.rows());
-  tried.error = root_mean_square(predicted - steps.dX);
+  tried.error = statistics::root_mean_squares(predicted - steps.dX);
   tried.broken = broken_law(task, prior, steps, before, predicted);
   if (tried.failed > 0) tried.notes.push_back(without_prediction(task, steps.X, steps.U, predicted));
   const std::string rounded = difference(task, apart(before, predicted), Vector::Zero(before.cols()));
@@ -210,7 +205,7 @@ PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const 
         fmt::format("answers differ in their last digits when they are asked for again ({}), so runs "
                     "repeat about as far; NumPy needs contiguous columns, np.asfortranarray(states)",
                     rounded));
-  const std::string worse = worse_than_nothing(task, tried.error, root_mean_square(steps.dX));
+  const std::string worse = worse_than_nothing(task, tried.error, statistics::root_mean_squares(steps.dX));
   if (!worse.empty()) tried.notes.push_back(worse);
   std::vector<Index> unmoved;
   for (Index i = 0; i < prior.parameters.size(); ++i)
@@ -265,7 +260,7 @@ Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator, In
               .ended = steps.ended,
               .limits = steps.limits,
               .end = steps.end,
-              .change = root_mean_square(steps.dX)};
+              .change = statistics::root_mean_squares(steps.dX)};
   Vector reward(1);
   const Matrix start = task.start_mean.transpose();
   task.reward(start, Matrix::Zero(1, task.action_size()), start, reward);
@@ -277,6 +272,8 @@ Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator, In
   for (const std::string& line : hopeless_limits(task, steps, episodes)) tried.broken.push_back(line);
   if (const std::string line = why_falls_pay(task, steps); !line.empty()) tried.notes.push_back(line);
   for (const std::string& line : where_turns_count(task, seed)) tried.notes.push_back(line);
+  for (const std::string& line : recording::notes_on_rates(task, steps.X, steps.X + steps.dX))
+    tried.notes.push_back(line);
   if (!steps.dX.allFinite())
     tried.broken.emplace_back("the plant comes to states that are not finite");
   else if (again.X.rows() != steps.X.rows() || again.dX != steps.dX)

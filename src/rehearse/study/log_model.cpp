@@ -8,6 +8,7 @@
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/statistics/root_mean_squares.hpp"
 
 namespace rehearse::study {
 namespace {
@@ -96,22 +97,12 @@ PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task,
   return {moved(log, offset), offset, zeros.deviations.row(0).transpose(), first};
 }
 
-Vector root_mean_squares(const Matrix& columns) {
-  Vector result(columns.cols());
-  for (Index c = 0; c < columns.cols(); ++c) {
-    double n = 0, squares = 0;
-    for (const double value : columns.col(c))
-      if (std::isfinite(value)) n += 1, squares += value * value;
-    result(c) = std::sqrt(squares / n);
-  }
-  return result;
-}
-
 bool moves(const LogModel& model) {
   constexpr double kRounding = 1e-9;  // of the mean of equal numbers, beside them
   const Matrix& states = model.data.states;
-  const Vector spread = root_mean_squares(states.rowwise() - states.colwise().mean());
-  const Vector least = root_mean_squares(model.data.changes).cwiseMax(kRounding * root_mean_squares(states));
+  const Vector spread = statistics::root_mean_squares(states.rowwise() - states.colwise().mean());
+  const Vector least =
+      statistics::root_mean_squares(model.data.changes).cwiseMax(kRounding * statistics::root_mean_squares(states));
   return (least.array() < spread.array()).any();
 }
 

@@ -41,9 +41,6 @@ struct PreparedLog {
 PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task, const prior::Prior& prior,
                     const Options& options);
 
-/// Root mean squares of columns, of what is finite in them.
-Vector root_mean_squares(const Matrix& columns);
-
 /// True if some state changes less in a step than its spread: the robot moves. At rest, independent errors of
 /// measurement change by √2 times their spread, and parameters fitted to them are meaningless (von Neumann 1941).
 bool moves(const LogModel& model);

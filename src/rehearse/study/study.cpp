@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
+#include "rehearse/statistics/root_mean_squares.hpp"
+#include "rehearse/study/odd_logs.hpp"
 
 namespace rehearse::study {
 namespace {
@@ -48,6 +51,7 @@ class Student {
     }
     study_.steps = step_errors();
     if (moves(study_.model)) study_.hints = hints();
+    study_.odd_log = odd_log();
     return std::move(study_);
   }
 
@@ -137,6 +141,20 @@ class Student {
     return find_hints(episodes, problem_.task, problem_.prior, options_, evaluator_);
   }
 
+  std::string odd_log() const {
+    std::vector<double> left;
+    for (std::size_t i = 0; i < study_.without.size(); ++i)
+      left.push_back(unexplained(study_.left_out_logs.model[i], logs_[i].measured));
+    const auto odd = study::odd_log(left);
+    if (!odd) return "";
+    const double of_odd = std::exchange(left[*odd], 0);
+    return fmt::format(
+        "{}: what the other logs teach leaves {:.0f} % of its changes unexplained, and at most {:.0f} % of theirs: is "
+        "it "
+        "of another robot, or has a column another sign or unit?",
+        logs_[*odd].name, 100 * of_odd, 100 * std::ranges::max(left));
+  }
+
   void test(const Log& log, const LogModel& model, std::size_t number, Tested& tested) const {
     const PreparedLog prepared = prepare(log.episode, model, problem_.task, problem_.prior, options_);
     const StreamKey key{.seed = kSeed, .trial = number, .stage = Stage::prediction};
@@ -164,10 +182,10 @@ class Student {
     const auto left = [&](const dynamics::DynamicsModel& model) -> Vector {
       Matrix mean(data.states.rows(), data.states.cols());
       model.predict_mean(data.states, data.actions, mean);
-      return root_mean_squares(data.changes - mean);
+      return statistics::root_mean_squares(data.changes - mean);
     };
     const prior::Prior& prior = problem_.prior;
-    return {root_mean_squares(data.changes), left(dynamics::SimulatorModel(prior, prior.space.values())),
+    return {statistics::root_mean_squares(data.changes), left(dynamics::SimulatorModel(prior, prior.space.values())),
             left(dynamics::SimulatorModel(prior, *study_.model.learned.state.phi)), left(*with_gps().learned.model)};
   }
 

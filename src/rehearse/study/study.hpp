@@ -49,6 +49,7 @@ struct Study {
   std::optional<double> gps_worsen;  // where that was chosen: errors with GPs over those without (geometric mean)
   StepErrors steps;
   std::vector<Hint> hints;  // none of logs in which nothing moves
+  std::string odd_log;      // a sentence on a log that is as if of another robot; empty: none
 
   /// Half of the 95 % band of a state's forecast, whose deviation by the model is this.
   double half_band(std::size_t horizon, Index state, double deviation) const {

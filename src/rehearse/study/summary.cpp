@@ -31,6 +31,7 @@ Section logs(const Study& study, const Problem& problem) {
                                     problem.task.states[s].unit, problem.task.states[s].name));
     }
   for (const Hint& hint : study.hints) lines.push_back(line_of(hint, problem.task));
+  if (!study.odd_log.empty()) lines.push_back(study.odd_log);
   for (const std::string& note : study.model.learned.notes) lines.push_back(note);
   return {"Logs", {}, lines};
 }

@@ -124,6 +124,7 @@ std::string warnings_csv(const Study& study, const Problem& problem) {
     for (const std::string& line : identification::identifiability_warnings(*study.model.learned.posterior))
       csv.row({"parameters", line});
   for (const Hint& hint : study.hints) csv.row({"logs", line_of(hint, problem.task)});
+  if (!study.odd_log.empty()) csv.row({"logs", study.odd_log});
   for (const std::string& line : study.model.learned.notes) csv.row({"model", line});
   return csv.text();
 }

@@ -136,6 +136,7 @@ class BlackDrops final : public TrialLearner {
     proposal.theta = hands_over ? policy::to_theta(choice.theta, *goal) : choice.theta;
     if (hands_over) proposal.policy = policy_named(policy::kHandOver);
     proposal.predicted_return = choice.predicted_return;
+    if (setting_.prior && choice.none_solves && choice.solving == 0) proposal.notes.emplace_back(kNoneSolves);
     for (std::string& line : warnings(choice.risks, task.limits)) proposal.notes.push_back(std::move(line));
     proposal.risks = choice.risks;
     count_rollouts(searches, proposal);

@@ -38,6 +38,7 @@ std::optional<SearchResult> search_for_solving(TrialSearches& searches, SearchRe
     if (is_better(found, choice)) choice.take(found);
   }
   if (solving && solving->excess > choice.excess) solving.reset();  // a later search found a safer one
+  choice.none_solves = !solving;
   return solving;
 }
 

@@ -35,10 +35,11 @@ Choice search_with_data(TrialSearches& searches, const Known& known, const Optio
   return choice;
 }
 
-/// True if a policy does not do worse in a trial than the choice.
-bool does_as_well(TrialSearches& searches, const SearchResult& policy, const Choice& choice, const Retry& retry) {
+/// True if a policy does not do worse in a trial than the choice. It is told how surely it solves the task.
+bool does_as_well(TrialSearches& searches, SearchResult& policy, const Choice& choice, const Retry& retry) {
   if (policy.excess > choice.excess) return false;
   const Vector solving = searches.compare_solving({policy.theta, choice.theta});
+  policy.solving = solving(0);
   if (solving(0) < solving(1)) return false;
   return solving(1) > 0 || within(retry.tolerance, choice.predicted_return, policy.predicted_return);
 }
@@ -57,7 +58,7 @@ void prefer_lasting(TrialSearches& searches, TrialSearches& longer, const Search
     return longer.search(starts, i);
   };
   prefer_solving_where_sure(longer, further, again, options.retry, lasting);
-  const SearchResult judged = searches.judge(lasting.theta);
+  SearchResult judged = searches.judge(lasting.theta);
   if (does_as_well(searches, judged, choice, options.retry)) choice.take(judged);
 }
 

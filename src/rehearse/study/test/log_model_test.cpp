@@ -49,10 +49,6 @@ TEST(LogModel, TimesAreRefusedThatNoLogHas) {
   }
 }
 
-TEST(LogModel, RootMeanSquaresLeaveOutWhatIsNotFinite) {
-  EXPECT_TRUE(root_mean_squares(Matrix{{3, 1}, {-3, NAN}, {3, INFINITY}}).isApprox(Vector{{3, 1}}));
-}
-
 TEST(LogModel, KnowsNoiseFromMotion) {
   const Task task = swinging_task();
   const prior::Prior prior = swinging_prior();

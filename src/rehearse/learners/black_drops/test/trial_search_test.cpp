@@ -1,5 +1,6 @@
 #include "rehearse/learners/black_drops/trial_search.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -57,6 +58,22 @@ TEST(TrialSearch, LooksFurtherForAPolicyThatLasts) {
   EXPECT_GE(value(lasting, 4), 0.94 * value(alone, 4)) << "as good in the trial, but for retry.tolerance";
   EXPECT_GE(value(lasting, 24), value(alone, 24));
   EXPECT_GT(lasting.rollouts, alone.rollouts + 50);
+}
+
+TEST(TrialSearch, SaysWhereNoPolicySolvesTheTask) {
+  const auto is_said = [](const char* name, double goal, bool logs) {
+    Setting with = setting();
+    with.task.solved = [goal](const Episode& episode) { return episode.states(episode.steps(), 0) < goal; };
+    const auto learner = builder(name, "100")->build(with);
+    if (logs) learner->tell(run_trial(learner->ask(), 1));
+    const std::vector<std::string> notes = learner->ask().notes;
+    return std::ranges::find(notes, kNoneSolves) != notes.end();
+  };
+  for (const bool logs : {false, true})
+    for (const char* name : slider::kWithPrior) {
+      EXPECT_FALSE(is_said(name, 0.2, logs)) << name;
+      EXPECT_TRUE(is_said(name, -100, logs)) << name;
+    }
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+#pragma once
+// Whether states change as their rates say.
+
+#include <string>
+#include <vector>
+
+#include "rehearse/core/task.hpp"
+
+namespace rehearse::recording {
+
+/// A sentence if a state does not change as its rate says: a wrong unit, scale or sign; else empty. expected: changes
+/// by the rate. Where these explain the changes well, they may differ by less than those of a noisy rate.
+std::string note_on_rate(const std::string& state, const std::string& rate, const Vector& expected,
+                         const Vector& changes);
+
+/// Use it for what a robot did that Rehearse does not simulate: these sentences on all states with a rate. X, X_next: a
+/// row a step, T × dx.
+std::vector<std::string> notes_on_rates(const Task& task, const ConstMatrixView& X, const ConstMatrixView& X_next);
+
+}  // namespace rehearse::recording

@@ -1,0 +1,48 @@
+#include "rehearse/recording/rates.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "rehearse/core/random.hpp"
+
+namespace rehearse::recording {
+namespace {
+
+constexpr double kDt = 0.05;
+
+Task swinging() {
+  Task task;
+  task.states = {{"q", "rad", StateKind::plain, "dq"}, {"dq", "rad/s"}};
+  task.dt_s = kDt;
+  return task;
+}
+
+/// What is said of states q = sin(5 t) whose rate is wrong by a factor and by noise.
+std::vector<std::string> notes(double factor, double noise = 0, Index steps = 60) {
+  Rng rng({.seed = 5});
+  Matrix states(steps + 1, 2);
+  for (Index k = 0; k <= steps; ++k) {
+    const double t = kDt * static_cast<double>(k);
+    states.row(k) << std::sin(5 * t), factor * 5 * std::cos(5 * t) + noise * rng.normal();
+  }
+  return notes_on_rates(swinging(), states.topRows(steps), states.bottomRows(steps));
+}
+
+TEST(Rates, OtherUnitsAndSignsAreNoted) {
+  for (const double right : {1.0, 0.8, 1.3}) EXPECT_EQ(notes(right).size(), 0U) << right;
+  for (const double wrong : {2.0, 0.5, 1.5, 180 / std::numbers::pi, -1.0}) EXPECT_EQ(notes(wrong).size(), 1U) << wrong;
+  EXPECT_EQ(notes(-1)[0].find("q changes -1.01 times as fast as dq says"), 0U) << notes(-1)[0];
+}
+
+TEST(Rates, ThatAreNoisyAreNotContradicted) { EXPECT_EQ(notes(1, 4, 400).size(), 0U); }
+
+TEST(Rates, NothingIsSaidOfARobotAtRest) {
+  const Matrix still = Matrix::Zero(10, 2);
+  EXPECT_EQ(notes_on_rates(swinging(), still, still).size(), 0U);
+  EXPECT_EQ(notes_on_rates(swinging(), still.topRows(0), still.topRows(0)).size(), 0U) << "nor of no step";
+}
+
+}  // namespace
+}  // namespace rehearse::recording
