@@ -14,7 +14,7 @@ struct Choice {
   std::vector<LimitRisk> risks = {};  // one a limit of the task
   double excess = 0;                  // of these over what is allowed; 0: it is safe
   double solving = 0;                 // the same as in SearchResult, where that decided
-  bool none_solves = false;  // policies were looked for that solve the task, and none was found that ever does
+  bool none_solves = false;           // policies were looked for that solve the task, and none was found that ever does
 
   void take(const SearchResult& found) {
     theta = found.theta, predicted_return = found.predicted_return;
@@ -27,7 +27,8 @@ bool often_solves(const Choice& choice);
 
 /// What to say where no policy solves the task in any simulated episode.
 inline constexpr const char* kNoneSolves =
-    "no policy that was found solves the task in a simulated episode: the goal may be out of the model's reach, or of the "
+    "no policy that was found solves the task in a simulated episode: the goal may be out of the model's reach, or of "
+    "the "
     "robot's (docs/does-not-learn.md, steps 2 to 5)";
 
 /// Runs the i-th further search, i = 1, 2, … best: the policy that solves the task most often so far, if one does, and
