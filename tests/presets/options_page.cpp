@@ -15,18 +15,26 @@ namespace rehearse::presets {
 namespace {
 
 constexpr const char* kIntroduction =
-    "# Options\n\n"
-    "This page has every option of runs, scenarios and learners.\n\n"
-    "`--set OPTION=VALUE` sets one, and so do files of presets ([presets.md](presets.md)) and campaigns\n"
-    "([campaigns.md](campaigns.md)). `rehearse list gp-mi` shows those of a learner, `rehearse list pendubot` those of "
-    "a\n"
-    "scenario, `--expert` more. Units stand in brackets; an option without one is a count, a fraction or a choice. A\n"
-    "published value stands beside a default that is another: it is the paper's, unless brackets name another "
-    "source.\n\n"
-    "`--set` takes one of the options of runs, `told_by`. `--trials`, `--until-solved`, `--seed` and `--policy` set "
-    "the "
-    "others, which are keys\nof `spec.toml`.\n\n"
-    "Made by `scripts/published` from what the options say of themselves (`fields()`).\n";
+    R"(# Options
+
+This page has every option of runs, scenarios and learners.
+
+`--set OPTION=VALUE` sets one, and so do files of presets ([presets.md](presets.md)) and campaigns
+([campaigns.md](campaigns.md)). `rehearse list gp-mi` shows those of a learner, `rehearse list pendubot` those of a
+scenario, `--expert` more. Units stand in brackets; an option without one is a count, a fraction or a choice. A
+published value stands beside a default that is another: it is that of Chatzilygeroudis and Mouret, ICRA 2018, unless
+brackets name another source. "The authors' code" is the program that they published with it.
+
+`--set` takes one of the options of runs, `told_by`. `--trials`, `--until-solved`, `--seed` and `--policy` set the
+others, which are keys of `spec.toml`.
+
+Robots have more options than these tables: `prior.NAME` is where a parameter of the priors starts, and stays if it is not
+tuned; `prior.PRIOR.NAME` is that of one prior alone. The file of a robot of your own also gives `plant.NAME`, and with
+[actuators](actuators.md#the-plant) `plant.delay_s.ACTION`. Options of `rehearse identify` are on
+[its page](identify.md#options).
+
+Made by `scripts/published` from what the options say of themselves (`fields()`).
+)";
 
 /// Options of a learner, a scenario, or of several that have them with the same default.
 struct Table {
