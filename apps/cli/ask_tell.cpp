@@ -116,9 +116,10 @@ void print_told(const experiment::TellResult& told, const std::string& folder) {
   if (told.known_before) put("told before, nothing is changed:\n");
   print_logs(told.logs, told.resolved.scenario.task);
   if (told.dropped) put("the policy that was asked for is dropped: it was made without these logs\n");
-  if (told.trial && told.known_before) put("trial {}: return {:.4g}\n", told.trial->trial, told.trial->total_reward);
-  if (told.trial)
+  if (told.trial && told.known_before) {  // else the console has said it
+    put("trial {}: return {:.4g}\n", told.trial->trial, told.trial->total_reward);
     for (const std::string& note : told.trial->notes) put("  {}\n", note);
+  }
   put("next: {}\n", told.still_asked ? command_line({"tell", folder, "EPISODE.csv"}) : command_line({"ask", folder}));
 }
 
@@ -207,7 +208,7 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
 int status(const experiment::Catalogue& catalogue, const StatusArguments& arguments) {
   const std::string& folder = arguments.folder;
   const auto [found, is_of_another_program] = status_in(catalogue, folder);
-  const auto& [resolved, history, in_use] = found;
+  const auto& [resolved, history] = found.run;
   const experiment::Spec& spec = resolved.spec;
   const Task& task = resolved.scenario.task;
   const std::string prior = spec.prior.empty() ? "" : fmt::format(" from prior {}", spec.prior);
@@ -221,7 +222,7 @@ int status(const experiment::Catalogue& catalogue, const StatusArguments& argume
     put("best: {}, after {:.4g} s on the robot in all\n", which, history.trials.back().interaction_s);
   }
   const std::filesystem::path next = std::filesystem::path(folder) / experiment::kNextFolder;
-  if (in_use)
+  if (found.in_use)
     put("a process is at work on it\n");
   else if (is_of_another_program)
     put("next: {} shows it; the program whose functions the robot has goes on, in Python: rehearse.open_run(\"{}\", "

@@ -12,6 +12,7 @@
 #include "apps/cli/program.hpp"
 #include "apps/cli/study_setup.hpp"
 #include "rehearse/core/errors.hpp"
+#include "rehearse/core/names.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/text_table.hpp"
 #include "rehearse/experiment/preset.hpp"
@@ -150,8 +151,7 @@ void print_parameters(scenario::ScenarioBuilder& builder) {
   for (const scenario::NamedPrior& prior : priors) {
     rows.front().push_back(prior.name);
     for (const Parameter& parameter : prior.parameters.all()) {
-      const std::string label =
-          "prior." + parameter.name + (parameter.unit.empty() ? "" : fmt::format(" [{}]", parameter.unit));
+      const std::string label = with_unit("prior." + parameter.name, parameter.unit);
       auto row = std::ranges::find(rows, label, [](const auto& each) { return each.front(); });
       if (row == rows.end()) row = rows.insert(row, {label});
       row->resize(rows.front().size());

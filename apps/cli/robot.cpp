@@ -29,7 +29,7 @@ namespace rehearse::apps {
 namespace {
 
 std::string description(const StateVariable& state) {
-  std::string text = state.name + (state.unit.empty() ? "" : fmt::format(" [{}]", state.unit));
+  std::string text = with_unit(state.name, state.unit);
   if (state.kind == StateKind::angle) text += ", an angle";
   if (state.kind == StateKind::omitted) text += ", no input of models and policies";
   if (!state.rate.empty()) text += fmt::format(", whose rate is {}", state.rate);
@@ -70,8 +70,8 @@ void print_task(const scenario::Scenario& scenario, const std::string& summary, 
   }
   put("actions\n");
   for (const ActionVariable& action : task.actions)
-    put("  {}{} from {:g} to {:g}{}\n", action.name, action.unit.empty() ? "" : fmt::format(" [{}]", action.unit),
-        action.bounds.low, action.bounds.high, description(action.actuation, action.unit));
+    put("  {} from {:g} to {:g}{}\n", with_unit(action.name, action.unit), action.bounds.low, action.bounds.high,
+        description(action.actuation, action.unit));
   if (task.memory > 0) put("what policies see of the last actions\n");
   for (const StateVariable& memory : std::span(task.states).last(static_cast<std::size_t>(task.memory)))
     put("  {}\n", description(memory));

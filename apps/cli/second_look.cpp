@@ -8,6 +8,7 @@
 #include "rehearse/core/events.hpp"
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/study/hints.hpp"
+#include "rehearse/study/robot_alone.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -26,7 +27,10 @@ std::vector<study::Hint> hints_of(const experiment::PastRun& run, const experime
   const auto end = std::chrono::steady_clock::now() + kLongest;
   const auto in_time = make_stoppable(
       options.evaluator, [&] { return std::chrono::steady_clock::now() > end || (options.stop && options.stop()); });
-  return study::find_hints(run.history.episodes, run.resolved.scenario.task, *run.resolved.prior, {}, *in_time);
+  const Task& task = run.resolved.scenario.task;
+  std::vector<Episode> episodes;
+  for (const Episode& episode : run.history.episodes) episodes.push_back(study::robot_alone(episode, task.actuators()));
+  return study::find_hints(episodes, study::robot_alone(task), run.resolved.prior->behind_actuators(), {}, *in_time);
 } catch (const Interrupted&) {
   return {};
 } catch (const std::exception&) {  // what the prior throws is no fault of the trials, which are done

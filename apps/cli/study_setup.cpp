@@ -8,6 +8,7 @@
 
 #include "rehearse/experiment/priors.hpp"
 #include "rehearse/experiment/told_file.hpp"
+#include "rehearse/study/robot_alone.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -26,26 +27,6 @@ std::vector<std::string> known_keys(const Fields& a, const Fields& b) {
   for (const Fields* fields : {&a, &b})
     for (const auto& [name, value] : list_fields(*fields)) keys.push_back(name);
   return keys;
-}
-
-/// The task without actuators and their memory. Its functions are not called.
-Task robot_alone(Task task) {
-  const Index own = task.actuators().own_states();
-  task.states.resize(static_cast<std::size_t>(own));
-  task.start_mean.conservativeResize(own);
-  task.start_std.conservativeResize(own);
-  for (ActionVariable& action : task.actions) action.actuation = {};
-  task.memory = 0;
-  return task;
-}
-
-/// The episode of the robot's own states, with what moved them for actions.
-Episode moved(Episode episode, const Actuators& actuators) {
-  const Matrix commands = episode.actions;
-  actuators.moving(episode.states.topRows(episode.steps()), commands, episode.actions);
-  episode.states.conservativeResize(Eigen::NoChange, actuators.own_states());
-  episode.true_states.conservativeResize(Eigen::NoChange, actuators.own_states());
-  return episode;
 }
 
 }  // namespace
@@ -76,7 +57,7 @@ StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyReque
   for (const auto& [key, text] : of_prior) priors.set(key, text, violations);
   violations.throw_if_any();
   setup.prior = priors.prior()->behind_actuators();
-  setup.robot = robot_alone(setup.scenario.task);
+  setup.robot = study::robot_alone(setup.scenario.task);
   return setup;
 }
 
@@ -91,7 +72,7 @@ ReadLog read_log(const experiment::ToldFile& file, const StudySetup& setup) {
   const Actuators actuators = task.actuators();
   const Matrix measured = recording::read_recording(file.bytes, path, task, plain).episode.states;
   return {path,
-          {file.path.stem().string(), moved(std::move(recording.episode), actuators),
+          {file.path.stem().string(), study::robot_alone(std::move(recording.episode), actuators),
            measured.leftCols(actuators.own_states())},
           std::move(recording.notes)};
 }

@@ -151,7 +151,8 @@ py::dict take_back(const Robot& robot, const std::string& folder, const Settings
 
 /// The contents of a run folder, without its tables.
 py::dict describe(const Robot& robot, const std::string& folder) {
-  const auto [resolved, history, in_use] = experiment::status_of(robot.to_look(), folder);
+  const experiment::RunStatus status = experiment::status_of(robot.to_look(), folder);
+  const auto& [resolved, history] = status.run;
   const std::vector<std::string> names = experiment::tunable_names(resolved.prior);
   const Spec& spec = resolved.spec;
   py::list trials;
@@ -170,7 +171,7 @@ py::dict describe(const Robot& robot, const std::string& folder) {
                   py::arg("until_solved") = spec.until_solved, py::arg("options") = options, py::arg("trials") = trials,
                   py::arg("states") = states, py::arg("actions") = actions,
                   py::arg("dt_s") = resolved.scenario.task.dt_s, py::arg("horizon") = resolved.scenario.task.horizon,
-                  py::arg("in_use") = in_use, py::arg("asked") = asked);
+                  py::arg("in_use") = status.in_use, py::arg("asked") = asked);
 }
 
 Policy policy(const Robot& robot, const std::string& folder, std::optional<Index> trial) {

@@ -41,7 +41,7 @@ class Robot:
     those that have some, where the plant is a `Model`.
     priors: guesses by name, the first is the default. policy: options of the policy, {"hidden": 20}.
 
-    Raises InvalidInput with a line for everything that is wrong, when it is first used.
+    Raises InvalidInput at once, with a line for everything that is wrong.
     """
 
     def __init__(

@@ -29,6 +29,11 @@ struct Episode {
   /// episodes.
   bool is_cut_short(Index horizon) const { return !ended && steps() < horizon; }
 
+  /// True if the measured states and the actions of another are these.
+  bool has_numbers_of(const Episode& other) const {  // Eigen compares matrices of equal sizes
+    return steps() == other.steps() && states == other.states && actions == other.actions;
+  }
+
   /// Steps first to first + steps, as an episode of its own that did not end early.
   Episode part(Index first, Index steps) const;
 };

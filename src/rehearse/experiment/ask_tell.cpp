@@ -223,8 +223,7 @@ TakeBackResult take_back(const Catalogue& catalogue, const fs::path& path, const
 }
 
 RunStatus status_of(const Catalogue& built_in, const fs::path& path) {
-  auto [spec, history] = RunFolder::read(path);
-  return {resolve_begun(with_robot_of_run(built_in, path), spec), std::move(history), RunFolder::is_in_use(path)};
+  return {read_run(built_in, path), RunFolder::is_in_use(path)};
 }
 
 }  // namespace rehearse::experiment

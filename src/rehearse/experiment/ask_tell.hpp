@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rehearse/experiment/record.hpp"
-#include "rehearse/experiment/resolve.hpp"
+#include "rehearse/experiment/past_run.hpp"
 #include "rehearse/experiment/run_options.hpp"
 #include "rehearse/experiment/told_file.hpp"
 
@@ -59,8 +58,7 @@ TakeBackResult take_back(const Catalogue& catalogue, const std::filesystem::path
 
 /// A run as its folder has it, for reading only: another process may be at work there.
 struct RunStatus {
-  Resolved resolved;
-  History history;
+  PastRun run;
   bool in_use = false;
 };
 RunStatus status_of(const Catalogue& catalogue, const std::filesystem::path& path);

@@ -38,6 +38,7 @@ const learners::Proposal& checked(const learners::Proposal& proposal) {
 void OpenRun::begin(bool something_to_come) {
   parts_.open_store(path());
   if (parts_.options().listener) parts_.options().listener->started(parts_.resolved(), path(), history_.done());
+  publish_logs();
   publish();
   if (history_.done() > 0) evaluate_last();
   if (something_to_come || history_.told < history_.done()) catch_up();
@@ -123,6 +124,7 @@ void OpenRun::add_logs(std::vector<Log> logs) {
   for (Log& log : logs) history_.logs.push_back(std::move(log));
   folder_.write_checkpoint(history_);
   folder_.remove_after(history_);  // what a policy predicted that was asked for before
+  publish_logs();
   publish();
 }
 
@@ -196,11 +198,15 @@ void OpenRun::conclude(const Episode& episode) {
   tell_last();
 }
 
+/// The logs as they were read, which only a `tell` changes.
+void OpenRun::publish_logs() const {
+  for (std::size_t i = 0; i < history_.logs.size(); ++i)
+    folder_.write_log(static_cast<Index>(i) + 1, trajectory_csv(parts_.task(), history_.logs[i].episode));
+}
+
 /// The tables that follow from the history, and the last trial's episode.
 void OpenRun::publish() const {
   folder_.write_tables(history_, parts_.resolved());
-  for (std::size_t i = 0; i < history_.logs.size(); ++i)
-    folder_.write_log(static_cast<Index>(i) + 1, trajectory_csv(parts_.task(), history_.logs[i].episode));
   if (history_.done() == 0) return;
   const Episode& last = history_.episodes.back();
   folder_.write_trajectory(history_.done(), trajectory_csv(parts_.task(), last));

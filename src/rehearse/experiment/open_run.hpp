@@ -55,6 +55,7 @@ class OpenRun {
   void predict(Index trial, const learners::Proposal& proposal) const;
   void draw(const char* kind, Index trial, const Matrix& states) const;
   double interaction_s(const Episode& last) const;
+  void publish_logs() const;
   void publish() const;
   void evaluate_last();
 

@@ -6,9 +6,7 @@
 #include "rehearse/core/options.hpp"
 #include "rehearse/experiment/kept_robot.hpp"
 #include "rehearse/experiment/run_folder.hpp"
-#include "rehearse/policy/hand_over.hpp"
-#include "rehearse/policy/schedule.hpp"
-#include "rehearse/policy/tracking.hpp"
+#include "rehearse/policy/by_name.hpp"
 
 namespace rehearse::experiment {
 
@@ -51,15 +49,11 @@ PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder
 }
 
 std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario) {
-  if (trial.policy == scenario.policy->name()) return scenario.policy;
-  const Task& task = scenario.task;
-  if (trial.policy == policy::kSchedule) return policy::make_schedule(task);
-  if (trial.policy == policy::kHandOver) return policy::make_hand_over(task, scenario.policy);
-  if (trial.policy == policy::kTracking)
-    return policy::make_tracking(task, trial.theta.size() / policy::numbers_of_stage(task));
-  throw InvalidInput(fmt::format(
-      "trial {} has the policy '{}', which is neither the scenario's, '{}', nor '{}', '{}' or '{}'", trial.trial,
-      trial.policy, scenario.policy->name(), policy::kSchedule, policy::kTracking, policy::kHandOver));
+  try {
+    return policy::by_name(trial.policy, trial.theta.size(), scenario.task, scenario.policy);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(fmt::format("trial {}: {}", trial.trial, error.what()));
+  }
 }
 
 }  // namespace rehearse::experiment

@@ -35,7 +35,7 @@ std::string already_exists(const fs::path& path) {
 }  // namespace
 
 RunFolder::RunFolder(fs::path path, Spec spec, files::FolderLock lock)
-    : path_(std::move(path)), spec_(std::move(spec)), lock_(std::move(lock)) {}
+    : path_(std::move(path)), spec_(std::move(spec)), fingerprint_(fingerprint(spec_)), lock_(std::move(lock)) {}
 
 RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comments& comments,
                             const std::optional<RobotFile>& robot) {
@@ -63,9 +63,9 @@ Spec spec_of(const fs::path& folder) {
   return from_toml(files::read_file(spec), spec.string());
 }
 
-History history_of(const fs::path& folder, const Spec& spec) {
+History history_of(const fs::path& folder, std::uint64_t fingerprint) {
   try {
-    return from_checkpoint(files::read_file(folder / kCheckpoint), fingerprint(spec));
+    return from_checkpoint(files::read_file(folder / kCheckpoint), fingerprint);
   } catch (const InvalidInput& error) {
     throw InvalidInput(fmt::format("{}: {}", folder.string(), error.what()));
   }
@@ -100,7 +100,7 @@ RunFolder RunFolder::open(const fs::path& given) {
 RunFolder::Contents RunFolder::read(const fs::path& given) {
   const fs::path path = checked_run_folder(given);
   Contents contents{.spec = spec_of(path), .history = {}};
-  contents.history = history_of(path, contents.spec);
+  contents.history = history_of(path, fingerprint(contents.spec));
   return contents;
 }
 
@@ -118,12 +118,12 @@ void RunFolder::change_end(Until until, const Comments& comments) {
   mark_unfinished();
 }
 
-History RunFolder::load() const { return history_of(path_, spec_); }
+History RunFolder::load() const { return history_of(path_, fingerprint_); }
 
-History RunFolder::load(const fs::path& folder) const { return history_of(folder, spec_); }
+History RunFolder::load(const fs::path& folder) const { return history_of(folder, fingerprint_); }
 
 void RunFolder::write_checkpoint(const History& history) const {
-  files::write_file(path_ / kCheckpoint, to_checkpoint(history, fingerprint(spec_)), files::Durability::power);
+  files::write_file(path_ / kCheckpoint, to_checkpoint(history, fingerprint_), files::Durability::power);
 }
 
 void RunFolder::write_tables(const History& history, const Resolved& resolved) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -84,6 +85,7 @@ class RunFolder {
 
   std::filesystem::path path_;
   Spec spec_;
+  std::uint64_t fingerprint_;  // of the spec, whatever its end
   files::FolderLock lock_;
 };
 

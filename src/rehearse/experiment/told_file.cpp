@@ -88,7 +88,7 @@ std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task) {
     try {
       recording::Recording read = recording::read_recording(file.bytes, file.path.string(), task);
       for (const Log& log : logs)
-        if (log.episode.states == read.episode.states && log.episode.actions == read.episode.actions)
+        if (log.episode.has_numbers_of(read.episode))
           violations.add(fmt::format("{} and {} have the same numbers", log.name, file.path.string()));
       read.episode.rewards.resize(read.episode.steps());
       logs.push_back({file.path.filename().string(), file.checksum, rollout::as_measured(std::move(read.episode), task),

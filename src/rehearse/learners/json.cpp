@@ -56,4 +56,24 @@ Episode to_episode(const json& j) {
   return e;
 }
 
+json to_json(const identification::WarmStart& start) {
+  json kernels = json::array();
+  for (const auto& kernel : start.kernels) kernels.push_back(to_json(kernel.flat()));
+  return {{"kernels", kernels},
+          {"kernel_inputs", start.kernels.empty() ? 0 : start.kernels.front().inputs()},
+          {"phi", start.phi ? to_json(*start.phi) : json()},
+          {"odd", start.odd}};
+}
+
+identification::WarmStart to_warm_start(const json& j) {
+  identification::WarmStart start;
+  for (const Vector& flat : to_vectors(j.at("kernels"))) {
+    const Index inputs = j.value("kernel_inputs", flat.size() - 2);  // PILCO's older states lack it, and have no trend
+    start.kernels.push_back(gp::Hyperparameters::from_flat(flat, inputs));
+  }
+  if (const auto phi = j.find("phi"); phi != j.end() && !phi->is_null()) start.phi = to_vector(*phi);
+  start.odd = j.value("odd", false);  // states of before it was asked lack it
+  return start;
+}
+
 }  // namespace rehearse::learners

@@ -58,24 +58,13 @@ void ModelOfTrials::trust_prior(Proposal& proposal, double variance) const {
   proposal.model = std::make_shared<dynamics::SimulatorModel>(*setting_.prior, *proposal.phi, variance);
 }
 
-void ModelOfTrials::save(json& state) const {
-  json kernels = json::array();
-  for (const auto& kernel : start_.kernels) kernels.push_back(to_json(kernel.flat()));
-  state["kernels"] = kernels;
-  state["kernel_inputs"] = start_.kernels.empty() ? 0 : start_.kernels.front().inputs();
-  state["phi"] = start_.phi ? to_json(*start_.phi) : json();
-  state["odd"] = start_.odd;
-}
+void ModelOfTrials::save(json& state) const { state.update(to_json(start_)); }
 
 void ModelOfTrials::restore(const std::vector<Episode>& episodes, const json& state) {
   data_ = logs_.rows();
   trials_ = 0;
   for (const Episode& episode : episodes) add(episode);
-  start_ = {};
-  for (const Vector& flat : to_vectors(state.at("kernels")))
-    start_.kernels.push_back(gp::Hyperparameters::from_flat(flat, state.at("kernel_inputs").get<Index>()));
-  if (!state.at("phi").is_null()) start_.phi = to_vector(state.at("phi"));
-  start_.odd = state.value("odd", false);  // states of before it was asked lack it
+  start_ = to_warm_start(state);
 }
 
 }  // namespace rehearse::learners

@@ -57,6 +57,12 @@ double held(const Channel& rate, double time_s) {
   return after == rate.samples.begin() ? after->value : std::prev(after)->value;
 }
 
+/// The change until sample i that a rate says.
+double expected_change(const Channel& state, const Channel& rate, std::size_t i) {
+  const double from_s = state.samples[i - 1].time_s, to_s = state.samples[i].time_s;
+  return 0.5 * (to_s - from_s) * (held(rate, from_s) + held(rate, to_s));
+}
+
 /// Changes between neighbouring samples beyond those of the rate, and the most that it ever allows.
 struct Changes {
   std::vector<double> beyond, allowed;
@@ -71,7 +77,7 @@ Changes changes_of(const Channel& state, const Channel* rate) {
   for (std::size_t i = 1; i < state.samples.size(); ++i) {
     const Sample &a = state.samples[i - 1], &b = state.samples[i];
     const double dt = b.time_s - a.time_s;
-    const double expected = rate ? 0.5 * dt * (held(*rate, a.time_s) + held(*rate, b.time_s)) : 0;
+    const double expected = rate ? expected_change(state, *rate, i) : 0;
     changes.beyond.push_back(std::abs(b.value - a.value - expected));
     changes.allowed.push_back(rate ? std::max(2 * fastest * dt, 0.05 * range) : range);
   }
@@ -131,12 +137,11 @@ void check_jumps(const Channel& state, const Channel* rate, Problems& problems) 
 }
 
 void compare_with_rate(const Channel& state, const Channel& rate, std::vector<std::string>& notes) {
-  const auto steps = static_cast<Index>(state.samples.size()) - 1;
-  Vector expected(steps), changes(steps);
-  for (Index i = 0; i < steps; ++i) {
-    const Sample &a = state.samples[static_cast<std::size_t>(i)], &b = state.samples[static_cast<std::size_t>(i) + 1];
-    expected(i) = 0.5 * (b.time_s - a.time_s) * (held(rate, a.time_s) + held(rate, b.time_s));
-    changes(i) = b.value - a.value;
+  Vector expected(std::ssize(state.samples) - 1), changes(expected.size());
+  for (std::size_t i = 1; i < state.samples.size(); ++i) {
+    const auto step = static_cast<Index>(i) - 1;
+    expected(step) = expected_change(state, rate, i);
+    changes(step) = state.samples[i].value - state.samples[i - 1].value;
   }
   if (std::string note = note_on_rate(state.name, rate.name, expected, changes); !note.empty())
     notes.push_back(std::move(note));

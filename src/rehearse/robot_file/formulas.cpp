@@ -55,13 +55,22 @@ bool is_own_name(const Robot& robot, const std::string& name) {
          std::ranges::any_of(robot.definitions, [&](const auto& definition) { return definition.first == name; });
 }
 
-Matrix evaluate(const Program& program, const ConstMatrixView& X, const ConstMatrixView& U) {
-  std::vector<const double*> columns;
+void evaluate(const Program& program, const ConstMatrixView& X, const ConstMatrixView& U, MatrixView results) {
+  thread_local std::vector<const double*> columns;
+  columns.clear();
   for (Index i = 0; i < X.cols(); ++i) columns.push_back(X.col(i).data());
   for (Index i = 0; i < U.cols(); ++i) columns.push_back(U.col(i).data());
-  Matrix results(X.rows(), program.outputs());
   program.run(columns, results);
+}
+
+Matrix evaluate(const Program& program, const ConstMatrixView& X, const ConstMatrixView& U) {
+  Matrix results(X.rows(), program.outputs());
+  evaluate(program, X, U, results);
   return results;
+}
+
+void evaluate_one(const Program& program, const ConstMatrixView& X, const ConstMatrixView& U, VectorView values) {
+  evaluate(program, X, U, Eigen::Map<Matrix>(values.data(), values.size(), 1));
 }
 
 }  // namespace rehearse::robot_file

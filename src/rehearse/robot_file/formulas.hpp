@@ -29,7 +29,14 @@ bool is_own_name(const Robot& robot, const std::string& name);
 
 expression::Program program(expression::Formulas of, const std::vector<Formula>& outputs);
 
-/// The formulas (rows × outputs) of states and actions; columns of X, then of U, are the program's inputs.
+/// The formulas (rows × outputs) of states and actions; columns of X, then of U, are the program's inputs. Nothing is
+/// allocated but what a thread keeps.
+void evaluate(const expression::Program& program, const ConstMatrixView& X, const ConstMatrixView& U,
+              MatrixView results);
 Matrix evaluate(const expression::Program& program, const ConstMatrixView& X, const ConstMatrixView& U = Matrix());
+
+/// The same of one formula.
+void evaluate_one(const expression::Program& program, const ConstMatrixView& X, const ConstMatrixView& U,
+                  VectorView values);
 
 }  // namespace rehearse::robot_file

@@ -117,7 +117,7 @@ Reward of_steps(const Robot& robot, const Formula& formula) {
   if (formula.is_function()) return function_of(robot.functions.of_steps, formula.function());
   return [program = program(formulas_of(robot, Of::steps), {formula})](
              const ConstMatrixView&, const ConstMatrixView& U, const ConstMatrixView& X_next, VectorView values) {
-    values = evaluate(program, X_next, U).col(0);
+    evaluate_one(program, X_next, U, values);
   };
 }
 
@@ -125,14 +125,18 @@ Reward reward_of(const Robot& robot) {
   if (!robot.reward.distance.empty()) {
     const auto squared = [program = program(formulas_of(robot, Of::states), robot.reward.distance)](
                              const ConstMatrixView& X_next, VectorView d2) {
-      d2 = evaluate(program, X_next).rowwise().squaredNorm();
+      thread_local Matrix distances;
+      distances.resize(X_next.rows(), program.outputs());
+      evaluate(program, X_next, Matrix(), distances);
+      d2 = distances.rowwise().squaredNorm();
     };
     return reward::saturating(squared, robot.reward.width, closed_form(robot));
   }
   if (auto form = closed_form(robot)) {
     const auto squared = [program = *exponent_of(robot, robot.reward.formula)](const ConstMatrixView& X_next,
                                                                                VectorView d2) {
-      d2 = -2 * evaluate(program, X_next).col(0);
+      evaluate_one(program, X_next, Matrix(), d2);
+      d2 *= -2;
     };
     return reward::saturating(squared, 1, std::move(form));
   }
@@ -145,7 +149,7 @@ StepCost cost_of(const Robot& robot, const Formula& formula) {
     thread_local Matrix more;
     more.resize(steps.U.rows(), 2 * steps.U.cols() + 1);
     more << steps.U, steps.U_before, Vector::Constant(steps.U.rows(), steps.time_s);
-    values = evaluate(program, steps.X_next, more).col(0);
+    evaluate_one(program, steps.X_next, more, values);
   };
 }
 
@@ -156,7 +160,7 @@ StepCondition limit_of(const Robot& robot, const Formula& keep) {
 StateCondition of_states(const Robot& robot, const Formula& formula) {
   if (formula.is_function()) return function_of(robot.functions.of_states, formula.function());
   return [program = program(formulas_of(robot, Of::states), {formula})](const ConstMatrixView& X, VectorView holds) {
-    holds = evaluate(program, X).col(0);
+    evaluate_one(program, X, Matrix(), holds);
   };
 }
 

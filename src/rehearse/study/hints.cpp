@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "rehearse/study/log_model.hpp"
+#include "rehearse/study/mean_ratio.hpp"
 
 namespace rehearse::study {
 namespace {
@@ -17,14 +18,6 @@ constexpr double kSure = 2;          // deviations of a zero that is off
 constexpr Index kMostDelay = 10;     // control steps
 constexpr std::size_t kMostLogs = 4;
 constexpr Index kStarts = 50;  // of predictions in a log
-
-/// The geometric mean over the states.
-double ratio_of(const Vector& errors, const Vector& as_read) {
-  double sum = 0, n = 0;
-  for (Index s = 0; s < errors.size(); ++s)
-    if (errors(s) > 0 && as_read(s) > 0) sum += std::log(errors(s) / as_read(s)), n += 1;
-  return std::exp(sum / std::max(n, 1.0));
-}
 
 /// The log as if actions acted so many steps later. The actions before its beginning, or behind its end, are unknown.
 Episode late(const Episode& log, Index steps) {
@@ -64,7 +57,7 @@ class HintFinder {
     if (more.empty()) return {};
     problem.states.insert(problem.states.end(), more.begin(), more.end());
     const Zeros found = find_zeros(logs_, problem, evaluator_);
-    Hint hint{.errors = ratio_of(found.left, as_read_)};
+    Hint hint{.errors = mean_ratio(found.left, as_read_)};
     for (const Index s : more)
       if ((found.offsets.col(s).cwiseAbs().array() > kSure * found.deviations.col(s).array()).any())
         hint.states.push_back(s);
@@ -94,7 +87,7 @@ class HintFinder {
   double errors_of(Read read) const {
     std::vector<Episode> all;
     for (const Episode& log : logs_) all.push_back(read(log));
-    return ratio_of(find_zeros(all, problem_, evaluator_).left, as_read_);
+    return mean_ratio(find_zeros(all, problem_, evaluator_).left, as_read_);
   }
 
   std::vector<Episode> logs_;

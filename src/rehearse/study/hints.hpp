@@ -21,7 +21,8 @@ struct Hint {
 /// "actions seem to act 0.06 s later than …", with the option to try.
 std::string line_of(const Hint& hint, const Task& task);
 
-/// The better readings, the best first, found from the first four logs.
+/// The better readings, the best first, found from the first four logs. The robot is without actuators
+/// (study/robot_alone.hpp).
 std::vector<Hint> find_hints(const std::vector<Episode>& logs, const Task& task, const prior::Prior& prior,
                              const Options& options, const Evaluator& evaluator);
 

@@ -82,7 +82,7 @@ LogModel learn_logs(const std::vector<Episode>& logs, const Task& task, const pr
 }
 
 PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task, const prior::Prior& prior,
-                    const Options& options) {
+                    const Options& options, const Evaluator& evaluator) {
   const Vector none = Vector::Zero(log.states.cols());
   const Index first = steps_of(options.zero_s, task);
   if (states_named(options.zeros, task).empty()) return {log, none, none, 0};
@@ -92,7 +92,7 @@ PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task,
         options.zero_s, static_cast<double>(log.steps()) * task.dt_s));
   prior::Prior learned = prior;
   learned.space = prior.space.fixed_at(*model.learned.state.phi);
-  const Zeros zeros = find_zeros({log.part(0, first)}, zero_problem(learned, task, options), serial_evaluator());
+  const Zeros zeros = find_zeros({log.part(0, first)}, zero_problem(learned, task, options), evaluator);
   const Vector offset = zeros.offsets.row(0).transpose();
   return {moved(log, offset), offset, zeros.deviations.row(0).transpose(), first};
 }

@@ -39,7 +39,7 @@ struct PreparedLog {
   Index first = 0;    // step from which on nothing of the log is used
 };
 PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task, const prior::Prior& prior,
-                    const Options& options);
+                    const Options& options, const Evaluator& evaluator);
 
 /// True if some state changes less in a step than its spread: the robot moves. At rest, independent errors of
 /// measurement change by √2 times their spread, and parameters fitted to them are meaningless (von Neumann 1941).

@@ -3,33 +3,34 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rehearse/study/mean_ratio.hpp"
+
 namespace rehearse::study {
 
 double unexplained(const Forecasts& forecasts, const Matrix& measured) {
-  double sum = 0, n = 0;
-  for (std::size_t h = 0; h < forecasts.horizons.size(); ++h) {
-    const Forecasts::At& at = forecasts.at[h];
-    for (Index s = 0; s < measured.cols(); ++s) {
-      double errors = 0, changes = 0;
-      for (std::size_t i = 0; i < forecasts.starts.size(); ++i) {
-        const auto row = static_cast<Index>(i);
-        const double error = at.predicted(row, s) - at.measured(row, s);
-        const double change = at.measured(row, s) - measured(forecasts.starts[i], s);
-        if (std::isfinite(error)) errors += error * error, changes += change * change;
+  const auto horizons = static_cast<Index>(forecasts.horizons.size());
+  Matrix errors = Matrix::Zero(horizons, measured.cols()), changes = errors;
+  for (Index h = 0; h < horizons; ++h) {
+    const Forecasts::At& at = forecasts.at[static_cast<std::size_t>(h)];
+    for (Index s = 0; s < measured.cols(); ++s)
+      for (Index i = 0; i < at.predicted.rows(); ++i) {
+        const double error = at.predicted(i, s) - at.measured(i, s);
+        const double change = at.measured(i, s) - measured(forecasts.starts[static_cast<std::size_t>(i)], s);
+        if (std::isfinite(error)) errors(h, s) += error * error, changes(h, s) += change * change;
       }
-      if (errors > 0 && changes > 0) sum += 0.5 * std::log(errors / changes), n += 1;
-    }
   }
-  return std::exp(sum / n);
+  return mean_ratio(errors.cwiseSqrt(), changes.cwiseSqrt());
 }
 
 std::optional<std::size_t> odd_log(const std::vector<double>& unexplained) {
   constexpr double kMuch = 1.0 / 3, kTimes = 3;
-  if (unexplained.size() < 3) return std::nullopt;
-  const auto odd = std::ranges::max_element(unexplained);
-  for (auto other = unexplained.begin(); other != unexplained.end(); ++other)
-    if (other != odd && !(*odd >= std::max(kMuch, kTimes * *other))) return std::nullopt;
-  return odd - unexplained.begin();
+  std::vector<double> known;
+  for (const double of : unexplained) known.push_back(std::isfinite(of) ? of : -1);
+  if (std::ranges::count_if(known, [](double of) { return of >= 0; }) < 3) return std::nullopt;
+  const auto odd = std::ranges::max_element(known);
+  for (auto other = known.begin(); other != known.end(); ++other)
+    if (other != odd && *odd < std::max(kMuch, kTimes * *other)) return std::nullopt;
+  return odd - known.begin();
 }
 
 }  // namespace rehearse::study

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/names.hpp"
 #include "rehearse/study/summary.hpp"
 
 namespace rehearse::study {
@@ -146,9 +147,10 @@ std::string page(const Study& study, const Problem& problem, const std::string& 
         escaped(tested.logs[log]));
     for (std::size_t h = 0; h < study.horizons_s.size(); ++h)
       for (std::size_t s = 0; s < problem.task.states.size(); ++s)
-        html += figure(curves(study, problem.task, tested, log, h, static_cast<Index>(s)),
-                       fmt::format("{} [{}], {:.3g} s ahead", problem.task.states[s].name, problem.task.states[s].unit,
-                                   study.horizons_s[h]));
+        html += figure(
+            curves(study, problem.task, tested, log, h, static_cast<Index>(s)),
+            fmt::format("{}, {:.3g} s ahead", with_unit(problem.task.states[s].name, problem.task.states[s].unit),
+                        study.horizons_s[h]));
   }
   return html;
 }

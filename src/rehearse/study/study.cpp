@@ -9,6 +9,7 @@
 #include "rehearse/core/errors.hpp"
 #include "rehearse/dynamics/simulator_model.hpp"
 #include "rehearse/statistics/root_mean_squares.hpp"
+#include "rehearse/study/mean_ratio.hpp"
 #include "rehearse/study/odd_logs.hpp"
 
 namespace rehearse::study {
@@ -108,20 +109,13 @@ class Student {
     LeftOut left = leave_out(study_.beyond);
     if (choose) {
       LeftOut with = leave_out(Beyond::gp);
-      study_.gps_worsen = ratio(with.rms, left.rms);
+      const double worse = mean_ratio(with.rms, left.rms);
+      study_.gps_worsen = std::isnan(worse) ? 1 : worse;
       if (*study_.gps_worsen < 1) study_.beyond = Beyond::gp, left = std::move(with);
     }
     study_.without = std::move(left.models);
     study_.left_out_logs = std::move(left.tested);
     for (const std::string& name : study_.left_out_logs.logs) study_.left_out.push_back(name);
-  }
-
-  /// The geometric mean of the ratios of those that are finite.
-  static double ratio(const Matrix& a, const Matrix& b) {
-    double sum = 0, n = 0;
-    for (Index i = 0; i < a.size(); ++i)
-      if (std::isfinite(b(i)) && b(i) > 0) sum += std::isfinite(a(i)) ? std::log(a(i) / b(i)) : 10, n += 1;
-    return std::exp(sum / std::max(n, 1.0));
   }
 
   /// out: −1: none is left out.
@@ -156,7 +150,7 @@ class Student {
   }
 
   void test(const Log& log, const LogModel& model, std::size_t number, Tested& tested) const {
-    const PreparedLog prepared = prepare(log.episode, model, problem_.task, problem_.prior, options_);
+    const PreparedLog prepared = prepare(log.episode, model, problem_.task, problem_.prior, options_, evaluator_);
     const StreamKey key{.seed = kSeed, .trial = number, .stage = Stage::prediction};
     ForecastPlan plan = plan_;
     plan.first = prepared.first;

@@ -18,6 +18,8 @@ struct Log {
   Matrix measured;  // T+1 × dx, what forecasts are compared with: the episode's states, or those before averaging
 };
 
+/// Use robot_alone for a robot with actuators: task, prior and logs are of its own states, and of the actions that move
+/// it. References must outlive it.
 struct Problem {
   const Task& task;
   const prior::Prior& prior;

@@ -68,7 +68,9 @@ class Errors {
     Matrix errors(rows_, offset.cols());
     Index row = 0;
     for (std::size_t i = 0; i < logs_.size(); ++i) {
-      const Episode log = moved(logs_[i], offset.row(static_cast<Index>(i)).transpose());
+      Episode with_offset;
+      if (!problem_.states.empty()) with_offset = moved(logs_[i], offset.row(static_cast<Index>(i)).transpose());
+      const Episode& log = problem_.states.empty() ? logs_[i] : with_offset;
       const Matrix arrived =
           rollout::forecast_particles(model, log, {starts_[i], {problem_.horizon}, 1, {}}, {}, evaluator_).front();
       for (Index s = 0; s < arrived.rows(); ++s)

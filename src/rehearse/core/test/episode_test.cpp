@@ -29,6 +29,14 @@ TEST(Episode, ThatIsShorterIsCutShortUnlessItEnded) {
   EXPECT_FALSE(e.is_cut_short(5));
 }
 
+TEST(Episode, NumbersOfAShorterOneAreOthers) {
+  const Episode e = episode(4, 0);
+  EXPECT_TRUE(e.has_numbers_of(episode(4, 0)));
+  EXPECT_FALSE(e.has_numbers_of(episode(4, 1)));
+  EXPECT_FALSE(e.has_numbers_of(e.part(0, 3)));
+  EXPECT_FALSE(e.part(0, 3).has_numbers_of(e));
+}
+
 TEST(Episode, RowsOfManyAreEvenlySpreadStretches) {
   const std::vector<Episode> logs = {episode(400, 0), episode(400, 7)};
   EXPECT_EQ(spread_rows(logs, 800, 50).size(), 800);

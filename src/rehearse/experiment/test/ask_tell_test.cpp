@@ -76,7 +76,7 @@ TEST_F(AskTell, AnEpisodeIsKeptWhateverFailsThen) {
   broken = true;
   const TellRequest first{{trial_of(driven, 1)}, {}};
   EXPECT_THROW(tell_run(fake::fragile(broken), told, first, {}), RunFailed);
-  EXPECT_EQ(status_of(fake::catalogue(), told).history.done(), 1);
+  EXPECT_EQ(status_of(fake::catalogue(), told).run.history.done(), 1);
   EXPECT_FALSE(fs::exists(told / "next"));
   broken = false;
   EXPECT_TRUE(tell_run(fake::fragile(broken), told, first, {}).known_before);
@@ -247,7 +247,7 @@ TEST_F(AskTell, AnOperatorMayStopAnEpisode) {
   EXPECT_TRUE(stopped.trial->cut_short);
   EXPECT_EQ(stopped.trial->solved, std::nullopt);
   EXPECT_FALSE(failed.trial->cut_short);
-  EXPECT_EQ(best_trial(status_of(fake::catalogue(), told).history.trials).trial, 1);
+  EXPECT_EQ(best_trial(status_of(fake::catalogue(), told).run.history.trials).trial, 1);
 }
 
 TEST_F(AskTell, AnotherPolicyThanTheOneAskedForIsNoted) {
@@ -267,16 +267,16 @@ TEST_F(AskTell, LearnersThatCannotUseLogsSaySoBeforeAnythingIsKept) {
 }
 
 TEST_F(AskTell, StatusReadsWithoutDisturbing) {
-  EXPECT_EQ(status_of(fake::catalogue(), told).history.done(), 0);
+  EXPECT_EQ(status_of(fake::catalogue(), told).run.history.done(), 0);
   ask(told);
   tell(told, {trial_of(driven, 1)});
   const AskResult asked = ask(told);
   const RunFolder at_work = RunFolder::open(told);
   const RunStatus status = status_of(fake::catalogue(), told);
   EXPECT_TRUE(status.in_use);
-  EXPECT_EQ(status.history.done(), 1);
-  ASSERT_TRUE(status.history.asked);
-  EXPECT_EQ(status.history.asked->theta, asked.trial.theta);
+  EXPECT_EQ(status.run.history.done(), 1);
+  ASSERT_TRUE(status.run.history.asked);
+  EXPECT_EQ(status.run.history.asked->theta, asked.trial.theta);
 }
 
 TEST_F(AskTell, ARunThatWasDrivenCanGoOnTold) {

@@ -55,8 +55,8 @@ TEST(GivenPolicy, SaysWhatIsWrong) {
   EXPECT_NE(said(changed("\"theta\": [\n", "\"theta\": [\n 0.5,\n")).find("theta has 13 numbers"), std::string::npos);
   EXPECT_NE(said(changed("\"theta\": [\n  -1.0", "\"theta\": [\n  0.7")).find("another policy"), std::string::npos);
   EXPECT_NE(said(changed("\"schedule\"", "\"mlp\""))
-                .find("it.json is no policy of scenario line: trial 1 has the "
-                      "policy 'mlp'"),
+                .find("it.json is no policy of scenario line: trial 1: the "
+                      "policy 'mlp' is neither"),
             std::string::npos);
 }
 

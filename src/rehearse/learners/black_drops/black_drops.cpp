@@ -19,6 +19,7 @@
 #include "rehearse/learners/model_of_trials.hpp"
 #include "rehearse/learners/start_policy.hpp"
 #include "rehearse/learners/trial_learner.hpp"
+#include "rehearse/policy/by_name.hpp"
 #include "rehearse/policy/differentiable.hpp"
 #include "rehearse/policy/hand_over.hpp"
 #include "rehearse/policy/schedule.hpp"
@@ -93,18 +94,12 @@ class BlackDrops final : public TrialLearner {
       if (options_.reward.learned) learn_reward(proposal, task);
     });
     if (known) {
-      proposal.policy = policy_named(known->policy);
+      proposal.policy = policy::by_name(known->policy, known->theta.size(), setting_.task, setting_.policy);
       proposal.theta = known->theta;
     } else
       proposal.search_s = seconds([&] { search(proposal, task); });
     model_.keep(std::move(state));
     return proposal;
-  }
-
-  std::shared_ptr<const policy::Policy> policy_named(const std::string& name) const {
-    if (name == setting_.policy->name()) return setting_.policy;
-    if (name == policy::kHandOver) return policy::make_hand_over(setting_.task, setting_.policy);
-    return policy::make_schedule(setting_.task);  // it explored
   }
 
   void search(Proposal& proposal, const Task& task) const {
@@ -134,9 +129,11 @@ class BlackDrops final : public TrialLearner {
     }
     if (goal && !hands_over) proposal.notes.emplace_back(kHeldAtStart);
     proposal.theta = hands_over ? policy::to_theta(choice.theta, *goal) : choice.theta;
-    if (hands_over) proposal.policy = policy_named(policy::kHandOver);
+    if (hands_over) proposal.policy = policy::make_hand_over(setting_.task, setting_.policy);
     proposal.predicted_return = choice.predicted_return;
-    if (setting_.prior && choice.none_solves && choice.solving == 0) proposal.notes.emplace_back(kNoneSolves);
+    // Where there are limits, one that is less safe may solve the task.
+    if (setting_.prior && task.limits.empty() && choice.none_solves && choice.solving == 0)
+      proposal.notes.emplace_back(kNoneSolves);
     for (std::string& line : warnings(choice.risks, task.limits)) proposal.notes.push_back(std::move(line));
     proposal.risks = choice.risks;
     count_rollouts(searches, proposal);

@@ -83,11 +83,10 @@ std::vector<moments::MomentTerm> Trials::terms(Index inducing, std::vector<std::
 }
 
 json Trials::save() const {
-  json kernels = json::array();
-  for (const auto& kernel : state_.kernels) kernels.push_back(to_json(kernel.flat()));
-  json state = {{"trials", trials_}, {"kernels", kernels}, {"theta", to_json(theta_)}};
+  json state = to_json(state_);
+  state["trials"] = trials_;
+  state["theta"] = to_json(theta_);
   if (prior_) state["prior"] = to_json(*prior_);
-  if (options_.pi_rem && state_.phi) state["phi"] = to_json(*state_.phi);
   return state;
 }
 
@@ -96,15 +95,12 @@ void Trials::restore(const std::vector<Episode>& episodes, const json& state) {
   solved_ = false;
   earned_.reset();
   repeated_ = false;
-  state_ = {};
+  state_ = to_warm_start(state);
   prior_.reset();
   for (const Episode& episode : episodes) add(episode);
-  for (const Vector& flat : to_vectors(state.at("kernels")))
-    state_.kernels.push_back(gp::Hyperparameters::from_flat(flat, flat.size() - 2));
   theta_ = to_vector(state.at("theta"));
   trials_ = state.at("trials").get<std::uint64_t>();
   if (state.contains("prior")) prior_ = to_knowledge(state.at("prior"));
-  if (state.contains("phi")) state_.phi = to_vector(state.at("phi"));
   const bool fits = trials_ == episodes.size() && (trials_ == 0 || !begins_on_prior() || prior_);
   if (!fits) throw InvalidInput("the learner's state does not fit the episodes");
 }

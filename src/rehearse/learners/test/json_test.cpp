@@ -60,5 +60,29 @@ TEST(Json, WhatIsNoMatrixIsRefused) {
   EXPECT_THROW(to_vector("text"), json::exception);
 }
 
+TEST(Json, TheStartOfAFitComesBackWithItsTrends) {
+  identification::WarmStart start;
+  EXPECT_TRUE(to_warm_start(through_bytes(to_json(start))).kernels.empty());
+  const Vector flat = Vector::LinSpaced(9, 0.1, 0.9);  // of three inputs, with a trend
+  start.kernels = {gp::Hyperparameters::from_flat(flat, 3)};
+  start.phi = Vector{{1, 2}};
+  start.odd = true;
+  const identification::WarmStart back = to_warm_start(through_bytes(to_json(start)));
+  ASSERT_EQ(back.kernels.size(), 1U);
+  EXPECT_EQ(back.kernels[0].flat(), flat);
+  EXPECT_EQ(back.kernels[0].inputs(), 3);
+  EXPECT_EQ(*back.phi, *start.phi);
+  EXPECT_TRUE(back.odd);
+}
+
+TEST(Json, OlderStatesOfPilcoAreRead) {
+  const nlohmann::json before = {{"kernels", nlohmann::json::array({to_json(Vector{{0.1, 0.2, 0.3, 0.4}})})}};
+  const identification::WarmStart back = to_warm_start(before);
+  ASSERT_EQ(back.kernels.size(), 1U);
+  EXPECT_EQ(back.kernels[0].inputs(), 2);
+  EXPECT_FALSE(back.phi);
+  EXPECT_FALSE(back.odd);
+}
+
 }  // namespace
 }  // namespace rehearse::learners

@@ -17,7 +17,9 @@ TEST(OddLogs, OneMustBeFarFromAllOthers) {
   EXPECT_EQ(odd_log({0.02, 0.2, 0.01}), std::nullopt) << "much of it is explained";
   EXPECT_EQ(odd_log({0.8, 0.9, 0.1}), std::nullopt) << "of two nobody knows which";
   EXPECT_EQ(odd_log({0.1, 0.9}), std::nullopt);
-  EXPECT_EQ(odd_log({0.2, NAN, 0.1}), std::nullopt);
+  EXPECT_EQ(odd_log({0.9, NAN, 0.1}), std::nullopt);
+  EXPECT_EQ(odd_log({NAN, 0.9, 0.1}), std::nullopt);
+  EXPECT_EQ(odd_log({NAN, 0.1, 0.9, 0.2}), 2);
 }
 
 TEST(OddLogs, AForecastOfNoChangeExplainsNothing) {
