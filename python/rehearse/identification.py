@@ -14,7 +14,7 @@ from . import _core
 from .arrays import Array
 from .checks import option_texts, text, threads_of, write_page
 from .given_robot import Robots, robot_of
-from .tables import as_files, from_csv, without_path
+from .tables import TEXTS, as_files, from_csv, without_path
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -77,7 +77,8 @@ def identify(robot: Robots, logs: Sequence[Any], *, held_out: Sequence[Any] = ()
         forecast = as_files(held_out, folder, "held-out")
         core, scenario = robot_of(robot)
         result = _core.identify(core, scenario, prior, option_texts(options), learned_from, forecast, threads_of(threads))
-    tables = {Path(name).stem: from_csv(table) for name, table in result["tables"]}
+    tables = {Path(name).stem: from_csv(table, () if name.startswith(("forecasts", "zeros")) else TEXTS)
+              for name, table in result["tables"]}
     summary = "\n\n".join("\n  ".join([title, *lines]) for title, lines in result["summary"])
     return Identification(tables, summary, result["notes"], result["page"])
 

@@ -21,7 +21,7 @@ def plot_parameters(parameters: Array) -> Any:
         axis.plot([row["low"], row["high"]], [0, 0], "|-", markersize=12, label="95 % interval")
         axis.plot(row["value"], 0, "o", color="C0", label="value")
         axis.plot(row["prior"], 0, "x", color="C1", label="the prior's")
-        axis.set(yticks=[], ylabel=row["parameter"], xlabel=str(row["unit"]) if isinstance(row["unit"], str) else "")
+        axis.set(yticks=[], ylabel=row["parameter"], xlabel=row["unit"])
     axes[0, 0].legend(loc="best", fontsize="small")
     figure.tight_layout()
     return figure

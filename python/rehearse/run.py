@@ -22,7 +22,7 @@ from .given_robot import Robots, begun_with, robot_of
 from .policy import Policy
 from .progress import show
 from .robot import Robot
-from .tables import as_files, from_csv, html_table, read_csv, without_path
+from .tables import TEXTS, as_files, from_csv, html_table, read_csv, without_path
 from .trial import Trial, best_of
 
 PathLike = Union[str, os.PathLike[str]]
@@ -67,7 +67,7 @@ class Run:
         if not path.exists():
             known = ", ".join(sorted(file.stem for file in self.folder.glob("*.csv")))
             raise _core.InvalidInput(f"{self.folder} has no {name}.csv (known: {known})")
-        return read_csv(path, texts=("limit",))
+        return read_csv(path, TEXTS)
 
     def trajectory(self, trial: int) -> Array:
         """What the robot did: time, states measured and true, actions, reward; a row a step."""
@@ -161,7 +161,7 @@ class Run:
         """Such episodes with one parameter of the robot changed at a time, by factors of 0.75 to 1.25: the rows of
         robustness.csv (docs/evaluate.md). An environment has no parameters to change."""
         text = _core.robustness(self._core, self._request(trial, policy, episodes, seconds, seed, options), self._threads_of(threads))
-        return from_csv(text, texts=("settings", "parameter"))
+        return from_csv(text, TEXTS)
 
     def report(self, out: Union[PathLike, None] = None) -> Path:
         """Writes the page of the run, by default report.html in its folder."""

@@ -19,6 +19,11 @@ from .arrays import Array
 from .checks import numbers, read_text, write_text
 
 
+#: Columns of texts in the tables of runs and of `identify`, also where all their cells are empty. Tables of states by name
+#: have others.
+TEXTS = frozenset({"limit", "note", "warning", "notes", "file", "settings", "broke", "parameter", "unit", "state", "set", "kind", "text"})
+
+
 def structured(columns: Mapping[str, Array]) -> Array:
     """Columns of one length, by name, as a structured array; pandas.DataFrame takes it as it is."""
     rows = max((len(column) for column in columns.values()), default=0)

@@ -31,6 +31,8 @@ def test_arrays_tell_the_mass(tmp_path):
 def test_parameters_have_a_figure():
     pytest.importorskip("matplotlib").use("Agg")
     found = rehearse.identify(cart(plant=None), [log(1)], options={"beyond": "nothing"})
+    assert list(found.tables["parameters"]["unit"]) == [""], "a text, also where there is none"
+    assert found.tables["accuracy"]["unit"].dtype.kind == found.tables["warnings"]["text"].dtype.kind == "U"
     assert [axis.get_ylabel() for axis in found.plot().axes] == ["mass"]
 
 
