@@ -77,6 +77,11 @@ LogModel learn_logs(const std::vector<Episode>& logs, const Task& task, const pr
     model.all_rows += logs[i].steps();
   }
   model.data = spread_rows(right, options.rows, steps_of(kStretchS, task));
+  return learn_beyond(std::move(model), task, prior, options, evaluator);
+}
+
+LogModel learn_beyond(LogModel model, const Task& task, const prior::Prior& prior, const Options& options,
+                      const Evaluator& evaluator) {
   model.learned = learned_beyond(model, task, prior, options, evaluator);
   return model;
 }

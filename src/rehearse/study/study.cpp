@@ -43,8 +43,11 @@ class Student {
     study_.calibration = calibration(study_.left_out_logs.model);
     say("all logs");
     study_.model = learned_from(problem_.logs, -1, study_.beyond);
-    for (std::size_t i = 0; i < problem_.held_out.size(); ++i)
-      test(problem_.held_out[i], study_.model, kMostLeftOut + i, study_.held_out);
+    for (std::size_t i = 0; i < problem_.held_out.size(); ++i) {
+      const PreparedLog prepared = prepared_for(study_.model, problem_.held_out[i]);
+      test(problem_.held_out[i], study_.model, prepared, kMostLeftOut + i, study_.held_out);
+      test_prior(problem_.held_out[i], prepared.first, kMostLeftOut + i, study_.held_out);
+    }
     widen(study_.held_out.model, unknown);
     for (Tested* tested : {&study_.left_out_logs, &study_.held_out}) {
       tested->of_model = accuracy(tested->model, study_.calibration);
@@ -86,17 +89,24 @@ class Student {
   /// Logs forecast by models that did not learn from them.
   struct LeftOut {
     std::vector<LogModel> models;
+    std::vector<PreparedLog> prepared;
     Tested tested;
     Matrix rms;
   };
 
-  LeftOut leave_out(Beyond beyond) const {
+  /// parameters: of the same logs, where these are known, too.
+  LeftOut leave_out(Beyond beyond, const LeftOut* parameters) const {
     LeftOut left;
+    if (parameters) left.prepared = parameters->prepared;
     for (std::size_t out = 0; out < std::min(logs_.size(), kMostLeftOut); ++out) {
       say(fmt::format("all but {}{}", logs_[out].name, beyond == Beyond::nothing ? "" : ", with GPs"));
-      left.models.push_back(learned_from(logs_, static_cast<Index>(out), beyond));
-      test(logs_[out], left.models.back(), out, left.tested);
+      left.models.push_back(parameters ? with_beyond(parameters->models[out], beyond)
+                                       : learned_from(logs_, static_cast<Index>(out), beyond));
+      if (!parameters) left.prepared.push_back(prepared_for(left.models.back(), logs_[out]));
+      test(logs_[out], left.models.back(), left.prepared[out], out, left.tested);
+      if (!parameters) test_prior(logs_[out], left.prepared[out].first, out, left.tested);
     }
+    if (parameters) left.tested.prior_as_given = parameters->tested.prior_as_given;
     const Matrix ones = Matrix::Ones(std::ssize(plan_.horizons), problem_.task.state_size());
     left.rms = accuracy(left.tested.model, ones).rms;
     return left;
@@ -106,9 +116,9 @@ class Student {
   void leave_out() {
     const bool choose = options_.beyond == Beyond::chosen;
     study_.beyond = choose ? Beyond::nothing : options_.beyond;
-    LeftOut left = leave_out(study_.beyond);
+    LeftOut left = leave_out(study_.beyond, nullptr);
     if (choose) {
-      LeftOut with = leave_out(Beyond::gp);
+      LeftOut with = leave_out(Beyond::gp, &left);  // whose parameters are the same
       const double worse = mean_ratio(with.rms, left.rms);
       study_.gps_worsen = std::isnan(worse) ? 1 : worse;
       if (*study_.gps_worsen < 1) study_.beyond = Beyond::gp, left = std::move(with);
@@ -123,9 +133,21 @@ class Student {
     std::vector<Episode> episodes;
     for (std::size_t i = 0; i < logs.size(); ++i)
       if (static_cast<Index>(i) != out) episodes.push_back(logs[i].episode);
+    return learn_logs(episodes, problem_.task, problem_.prior, options_with(beyond), evaluator_);
+  }
+
+  LogModel with_beyond(const LogModel& model, Beyond beyond) const {
+    return learn_beyond(model, problem_.task, problem_.prior, options_with(beyond), evaluator_);
+  }
+
+  Options options_with(Beyond beyond) const {
     Options options = options_;
     options.beyond = beyond;
-    return learn_logs(episodes, problem_.task, problem_.prior, options, evaluator_);
+    return options;
+  }
+
+  PreparedLog prepared_for(const LogModel& model, const Log& log) const {
+    return prepare(log.episode, model, problem_.task, problem_.prior, options_, evaluator_);
   }
 
   std::vector<Hint> hints() const {
@@ -149,26 +171,32 @@ class Student {
         logs_[*odd].name, 100 * of_odd, 100 * std::ranges::max(left));
   }
 
-  void test(const Log& log, const LogModel& model, std::size_t number, Tested& tested) const {
-    const PreparedLog prepared = prepare(log.episode, model, problem_.task, problem_.prior, options_, evaluator_);
-    const StreamKey key{.seed = kSeed, .trial = number, .stage = Stage::prediction};
+  void test(const Log& log, const LogModel& model, const PreparedLog& prepared, std::size_t number,
+            Tested& tested) const {
     ForecastPlan plan = plan_;
     plan.first = prepared.first;
-    ForecastPlan plan_of_prior = plan;
     plan.start_std = prepared.offset_std;
-    const dynamics::SimulatorModel given(problem_.prior, problem_.prior.space.values());
     tested.logs.push_back(log.name);
     tested.offsets.push_back(prepared.offset);
     tested.model.push_back(make_forecasts(*model.learned.model, prepared.log,
-                                          log.measured.rowwise() + prepared.offset.transpose(), plan,
-                                          {key, evaluator_}));
-    tested.prior_as_given.push_back(make_forecasts(given, log.episode, log.measured, plan_of_prior, {key, evaluator_}));
+                                          log.measured.rowwise() + prepared.offset.transpose(), plan, draws(number)));
+  }
+
+  void test_prior(const Log& log, Index first, std::size_t number, Tested& tested) const {
+    ForecastPlan plan = plan_;
+    plan.first = first;
+    const dynamics::SimulatorModel given(problem_.prior, problem_.prior.space.values());
+    tested.prior_as_given.push_back(make_forecasts(given, log.episode, log.measured, plan, draws(number)));
+  }
+
+  Draws draws(std::size_t number) const {
+    return {{.seed = kSeed, .trial = number, .stage = Stage::prediction}, evaluator_};
   }
 
   /// The model of all logs, with GPs even where forecasts are better without.
   LogModel with_gps() const {
     if (study_.beyond != Beyond::nothing || options_.beyond != Beyond::chosen) return study_.model;
-    return learned_from(problem_.logs, -1, Beyond::gp);
+    return with_beyond(study_.model, Beyond::gp);
   }
 
   StepErrors step_errors() const {
