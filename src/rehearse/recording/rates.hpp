@@ -13,8 +13,7 @@ namespace rehearse::recording {
 std::string note_on_rate(const std::string& state, const std::string& rate, const Vector& expected,
                          const Vector& changes);
 
-/// Use it for an episode: these sentences on all states with a rate. X, X_next: a
-/// row a step, T × dx.
+/// Use it for an episode: these sentences on all states with a rate. X, X_next: a row a step, T × dx.
 std::vector<std::string> notes_on_rates(const Task& task, const ConstMatrixView& X, const ConstMatrixView& X_next);
 
 }  // namespace rehearse::recording

@@ -27,9 +27,8 @@ bool often_solves(const Choice& choice);
 
 /// What to say where no policy solves the task in any simulated episode.
 inline constexpr const char* kNoneSolves =
-    "no policy that was found solves the task in a simulated episode: the goal may be out of the model's reach, or of "
-    "the "
-    "robot's (docs/does-not-learn.md, steps 2 to 5)";
+    "no policy that was found solves the task in a simulated episode: the goal may be out of reach of the model, or of "
+    "the robot (docs/does-not-learn.md, steps 2 to 5)";
 
 /// Runs the i-th further search, i = 1, 2, … best: the policy that solves the task most often so far, if one does, and
 /// that of the highest return.
