@@ -24,8 +24,9 @@ double unexplained(const Forecasts& forecasts, const Matrix& measured) {
 
 std::optional<std::size_t> odd_log(const std::vector<double>& unexplained) {
   constexpr double kMuch = 1.0 / 3, kTimes = 3;
-  std::vector<double> known;
-  for (const double of : unexplained) known.push_back(std::isfinite(of) ? of : -1);
+  std::vector<double> known = unexplained;
+  for (double& of : known)
+    if (!std::isfinite(of)) of = -1;
   if (std::ranges::count_if(known, [](double of) { return of >= 0; }) < 3) return std::nullopt;
   const auto odd = std::ranges::max_element(known);
   for (auto other = known.begin(); other != known.end(); ++other)
