@@ -4,7 +4,7 @@
 #include <chrono>
 #include <exception>
 
-#include "apps/cli/program.hpp"
+#include "apps/cli/complain.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/study/hints.hpp"

@@ -110,6 +110,7 @@ void OpenRun::update_learners_tables(bool keep) {
 
 std::vector<Episode> OpenRun::as_told(const std::vector<Log>& logs) const {
   std::vector<Episode> told;
+  told.reserve(logs.size());
   for (const Log& log : logs) told.push_back(as_told(log.episode));
   return told;
 }

@@ -73,7 +73,7 @@ History history_of(const fs::path& folder, std::uint64_t fingerprint) {
 
 /// Its path, if it has what a run folder has.
 fs::path checked_run_folder(const fs::path& given) {
-  const fs::path path = files::without_slash(given);
+  fs::path path = files::without_slash(given);
   if (!fs::is_directory(path)) throw InvalidInput(fmt::format("{} is not a folder", path.string()));
   for (const char* file : {kSpec, kCheckpoint})
     if (!fs::exists(path / file))

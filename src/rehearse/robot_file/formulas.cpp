@@ -46,6 +46,7 @@ Formulas formulas_of(const Robot& robot, Of of) {
 
 Program program(Formulas of, const std::vector<Formula>& outputs) {
   std::vector<Node> nodes;
+  nodes.reserve(outputs.size());
   for (const Formula& output : outputs) nodes.push_back(of.compile(output.text));
   return {of, nodes};
 }
