@@ -131,7 +131,7 @@ class BlackDrops final : public TrialLearner {
     proposal.theta = hands_over ? policy::to_theta(choice.theta, *goal) : choice.theta;
     if (hands_over) proposal.policy = policy::make_hand_over(setting_.task, setting_.policy);
     proposal.predicted_return = choice.predicted_return;
-    // Where there are limits, one that is less safe may solve the task.
+    // A less safe policy may solve the task where there are limits.
     if (setting_.prior && task.limits.empty() && choice.none_solves && choice.solving == 0)
       proposal.notes.emplace_back(kNoneSolves);
     for (std::string& line : warnings(choice.risks, task.limits)) proposal.notes.push_back(std::move(line));

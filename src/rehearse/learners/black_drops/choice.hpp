@@ -25,7 +25,7 @@ struct Choice {
 /// True if the choice solves the task in simulated episodes often enough for a trial.
 bool often_solves(const Choice& choice);
 
-/// What to say where no policy solves the task in any simulated episode.
+/// The note of a trial whose searches found no policy that solves the task in any simulated episode.
 inline constexpr const char* kNoneSolves =
     "no policy that was found solves the task in a simulated episode: the goal may be out of reach of the model, or of "
     "the robot (docs/does-not-learn.md, steps 2 to 5)";

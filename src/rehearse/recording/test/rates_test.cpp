@@ -19,7 +19,7 @@ Task swinging() {
   return task;
 }
 
-/// What is said of states q = sin(5 t) whose rate is wrong by a factor and by noise.
+/// The notes on states q = sin(5 t) whose rate is wrong by a factor and by noise.
 std::vector<std::string> notes(double factor, double noise = 0, Index steps = 60) {
   Rng rng({.seed = 5});
   Matrix states(steps + 1, 2);
