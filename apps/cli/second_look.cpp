@@ -28,8 +28,9 @@ std::vector<study::Hint> hints_of(const experiment::PastRun& run, const experime
   const auto in_time = make_stoppable(
       options.evaluator, [&] { return std::chrono::steady_clock::now() > end || (options.stop && options.stop()); });
   const Task& task = run.resolved.scenario.task;
+  const Actuators actuators = task.actuators();
   std::vector<Episode> episodes;
-  for (const Episode& episode : run.history.episodes) episodes.push_back(study::robot_alone(episode, task.actuators()));
+  for (const Episode& episode : run.history.episodes) episodes.push_back(study::robot_alone(episode, actuators));
   return study::find_hints(episodes, study::robot_alone(task), run.resolved.prior->behind_actuators(), {}, *in_time);
 } catch (const Interrupted&) {
   return {};

@@ -16,29 +16,6 @@ namespace {
 constexpr double kStretchS = 1;
 constexpr double kMostSteps = 1e12;  // more than a log has, and whole numbers can still be computed with
 
-/// Around the prior at the φ of the zeros, but for GP-MI, which moves it.
-identification::Learned learned_beyond(const LogModel& model, const Task& task, const prior::Prior& prior,
-                                       const Options& options, const Evaluator& evaluator) {
-  const auto learn = [&](const prior::Prior& of, const identification::Kind& kind) {
-    const identification::LearningProblem problem{model.data, task.model_features(), task.kinematics(), &of};
-    return identification::learn(problem, kind, {{}, model.zeros.phi}, evaluator);
-  };
-  if (options.beyond == Beyond::gp_mi) return learn(prior, options.model);
-  prior::Prior at_phi = prior;
-  at_phi.space = prior.space.fixed_at(model.zeros.phi);
-  identification::Learned learned;
-  if (options.beyond == Beyond::nothing || options.beyond == Beyond::chosen)
-    learned.model = std::make_shared<dynamics::SimulatorModel>(at_phi, model.zeros.phi);
-  else
-    learned = learn(at_phi, identification::FixedPrior{options.model.gp});
-  for (const Index i : prior.space.of_kind(Parameter::Kind::discrete))
-    learned.notes.push_back(fmt::format("{} is a choice, and stays {:g}: --set beyond=gp-mi chooses",
-                                        prior.space[i].name, model.zeros.phi(i)));
-  learned.state.phi = model.zeros.phi;
-  learned.posterior = model.zeros.posterior;
-  return learned;
-}
-
 }  // namespace
 
 Index steps_of(double time_s, const Task& task) {
@@ -77,13 +54,30 @@ LogModel learn_logs(const std::vector<Episode>& logs, const Task& task, const pr
     model.all_rows += logs[i].steps();
   }
   model.data = spread_rows(right, options.rows, steps_of(kStretchS, task));
-  return learn_beyond(std::move(model), task, prior, options, evaluator);
-}
-
-LogModel learn_beyond(LogModel model, const Task& task, const prior::Prior& prior, const Options& options,
-                      const Evaluator& evaluator) {
   model.learned = learned_beyond(model, task, prior, options, evaluator);
   return model;
+}
+
+identification::Learned learned_beyond(const LogModel& model, const Task& task, const prior::Prior& prior,
+                                       const Options& options, const Evaluator& evaluator) {
+  const auto learn = [&](const prior::Prior& of, const identification::Kind& kind) {
+    const identification::LearningProblem problem{model.data, task.model_features(), task.kinematics(), &of};
+    return identification::learn(problem, kind, {{}, model.zeros.phi}, evaluator);
+  };
+  if (options.beyond == Beyond::gp_mi) return learn(prior, options.model);
+  prior::Prior at_phi = prior;
+  at_phi.space = prior.space.fixed_at(model.zeros.phi);
+  identification::Learned learned;
+  if (options.beyond == Beyond::nothing || options.beyond == Beyond::chosen)
+    learned.model = std::make_shared<dynamics::SimulatorModel>(at_phi, model.zeros.phi);
+  else
+    learned = learn(at_phi, identification::FixedPrior{options.model.gp});
+  for (const Index i : prior.space.of_kind(Parameter::Kind::discrete))
+    learned.notes.push_back(fmt::format("{} is a choice, and stays {:g}: --set beyond=gp-mi chooses",
+                                        prior.space[i].name, model.zeros.phi(i)));
+  learned.state.phi = model.zeros.phi;
+  learned.posterior = model.zeros.posterior;
+  return learned;
 }
 
 PreparedLog prepare(const Episode& log, const LogModel& model, const Task& task, const prior::Prior& prior,

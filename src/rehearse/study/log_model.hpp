@@ -31,9 +31,10 @@ struct LogModel {
 LogModel learn_logs(const std::vector<Episode>& logs, const Task& task, const prior::Prior& prior,
                     const Options& options, const Evaluator& evaluator);
 
-/// The same zeros and data, with what these options learn beyond the parameters.
-LogModel learn_beyond(LogModel model, const Task& task, const prior::Prior& prior, const Options& options,
-                      const Evaluator& evaluator);
+/// The model of a LogModel's zeros and data with what these options learn beyond the parameters: around the prior at
+/// the φ of the zeros, but for GP-MI, which moves it.
+identification::Learned learned_beyond(const LogModel& model, const Task& task, const prior::Prior& prior,
+                                       const Options& options, const Evaluator& evaluator);
 
 /// A log that a model did not learn from, as the model means its states. Its zeros follow from its first `zero_s`.
 struct PreparedLog {

@@ -136,8 +136,9 @@ class Student {
     return learn_logs(episodes, problem_.task, problem_.prior, options_with(beyond), evaluator_);
   }
 
-  LogModel with_beyond(const LogModel& model, Beyond beyond) const {
-    return learn_beyond(model, problem_.task, problem_.prior, options_with(beyond), evaluator_);
+  LogModel with_beyond(LogModel model, Beyond beyond) const {
+    model.learned = learned_beyond(model, problem_.task, problem_.prior, options_with(beyond), evaluator_);
+    return model;
   }
 
   Options options_with(Beyond beyond) const {

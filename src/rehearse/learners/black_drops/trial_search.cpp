@@ -35,15 +35,6 @@ Choice search_with_data(TrialSearches& searches, const Known& known, const Optio
   return choice;
 }
 
-/// True if a policy does not do worse in a trial than the choice. It is told how surely it solves the task.
-bool does_as_well(TrialSearches& searches, SearchResult& policy, const Choice& choice, const Retry& retry) {
-  if (policy.excess > choice.excess) return false;
-  const Vector solving = searches.compare_solving({policy.theta, choice.theta});
-  policy.solving = solving(0);
-  if (solving(0) < solving(1)) return false;
-  return solving(1) > 0 || within(retry.tolerance, choice.predicted_return, policy.predicted_return);
-}
-
 /// Exchanges the choice for a policy that is as good in the trial and lasts longer. found: by the searches that made
 /// the choice; half of the descents begin there.
 void prefer_lasting(TrialSearches& searches, TrialSearches& longer, const SearchResult& found, const Options& options,
@@ -59,7 +50,13 @@ void prefer_lasting(TrialSearches& searches, TrialSearches& longer, const Search
   };
   prefer_solving_where_sure(longer, further, again, options.retry, lasting);
   SearchResult judged = searches.judge(lasting.theta);
-  if (does_as_well(searches, judged, choice, options.retry)) choice.take(judged);
+  if (judged.excess > choice.excess) return;
+  const Vector solving = searches.compare_solving({judged.theta, choice.theta});
+  judged.solving = solving(0);
+  const bool as_often = solving(0) >= solving(1);
+  const bool as_well =
+      solving(1) > 0 || within(options.retry.tolerance, choice.predicted_return, judged.predicted_return);
+  if (as_often && as_well) choice.take(judged);
 }
 
 }  // namespace
