@@ -16,6 +16,7 @@
 #include "apps/cli/program.hpp"
 #include "apps/cli/signals.hpp"
 #include "apps/cli/status_line.hpp"
+#include "rehearse/check/complaints.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/core/names.hpp"
@@ -23,7 +24,6 @@
 #include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/files/write.hpp"
 #include "rehearse/reward/saturating.hpp"
-#include "rehearse/robot_file/complaints.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -117,7 +117,7 @@ Index usual_search(const experiment::Catalogue& catalogue) {
 }
 
 /// Prints how fast a prior is, and how long a search takes whose time goes to it.
-void print_speed(const robot_file::PriorTried& tried, Index steps, Index rows_of_search) {
+void print_speed(const check::PriorTried& tried, Index steps, Index rows_of_search) {
   const auto rows = static_cast<double>(rows_of_search);
   put("  {}: {:.2g} rows a second on one thread{}{}\n", tried.name, tried.rows_per_s,
       rows > 0 ? fmt::format(", so about {} for a search of {:.2g} rows", duration_text(rows / tried.rows_per_s), rows)
@@ -126,9 +126,8 @@ void print_speed(const robot_file::PriorTried& tried, Index steps, Index rows_of
 }
 
 /// plays: the steps are its own, so it has no errors.
-void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried& tried,
-                 const scenario::Scenario& scenario, const robot_file::Tried& all,
-                 const std::vector<std::string>& details, bool plays) {
+void print_prior(const scenario::NamedPrior& prior, const check::PriorTried& tried, const scenario::Scenario& scenario,
+                 const check::Tried& all, const std::vector<std::string>& details, bool plays) {
   print_lines("    ", details);
   print_lines("    ", prior.lacks);
   print_lines("    ", tried.notes);
@@ -143,7 +142,7 @@ void print_prior(const scenario::NamedPrior& prior, const robot_file::PriorTried
 }
 
 /// The ends before the horizon: ", 1 of 3 episodes ended early, 2 of 3 episodes broke the limit track".
-std::string early_ends(const robot_file::Tried& tried, const Task& task) {
+std::string early_ends(const check::Tried& tried, const Task& task) {
   std::string text;
   if (tried.ended > 0) text += fmt::format(", {} of {} episodes ended early", tried.ended, tried.episodes);
   for (std::size_t l = 0; l < tried.limits.size(); ++l)
@@ -180,9 +179,9 @@ std::string text_of_new(const std::string& name, const std::string& path) {
   return text.replace(text.find(old_name), old_name.size(), fmt::format("name = \"{}\"", name));
 }
 
-robot_file::Tried tried_out(const scenario::Scenario& scenario) {
+check::Tried tried_out(const scenario::Scenario& scenario) {
   const auto stoppable = make_stoppable(make_thread_evaluator(1), [] { return caught_signal() != 0; });
-  return robot_file::try_out(scenario, *stoppable);
+  return check::try_out(scenario, *stoppable);
 }
 
 }  // namespace
@@ -207,7 +206,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
     scenario.require_ready(driven ? scenario::PlantUse::driven : scenario::PlantUse::left_alone);
   // Ctrl-C ends an episode, so that a program is told to take the torque off the motors.
   const SignalWatch watch([] { return std::string("interrupted"); });
-  const robot_file::Tried tried = tried_out(scenario);
+  const check::Tried tried = tried_out(scenario);
   if (arguments.no_plant)
     put("plant\n  left alone\n");
   else if (!driven)
@@ -218,7 +217,7 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   const bool anything = driven || !scenario.priors.empty();
   if (anything)
     put("priors, on {} steps of {} under random actions{}\n", tried.steps,
-        driven ? "the plant" : "the first prior, which plays the robot here", early_ends(tried, scenario.task));
+        tried.played ? "the first prior, which plays the robot here" : "the plant", early_ends(tried, scenario.task));
   else
     put("priors\n");
   print_lines("  ", tried.notes);
@@ -227,16 +226,16 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
     print_speed(tried.priors[i], tried.steps, rows_of_search);
     print_prior(scenario.priors[i], tried.priors[i], scenario, tried,
                 i < details.priors.size() ? std::vector{details.priors[i]} : std::vector<std::string>(),
-                !driven && i == 0);
+                tried.played && i == 0);
   }
   for (const std::string& line : scenario.oracle_lacks) put("  oracle: not all of the plant. {}\n", line);
   if (scenario.priors.empty()) put("  none: learners without a prior can be used\n");
   const std::vector<std::string> faults = scenario.faults ? scenario.faults() : std::vector<std::string>();
   print_lines("  ", faults);
-  const std::vector<std::string> complaints = robot_file::complaints(tried);
+  const std::vector<std::string> complaints = check::complaints(tried);
   if (arguments.out && !tried.end) write_motion(catalogue, scenario.name, share, *arguments.out);
   if (!complaints.empty()) throw InvalidInput(fmt::format("{}", fmt::join(complaints, "\n")));
-  const bool noted = !faults.empty() || robot_file::has_notes(tried);
+  const bool noted = !faults.empty() || check::has_notes(tried);
   put("\n{}; to learn: {}{}\n",
       !anything ? "the task is understood; nothing was tried, as there is neither a plant nor a prior"
       : noted   ? "nothing is broken, but see what is noted above"

@@ -6,14 +6,14 @@
 #include <pybind11/stl.h>
 
 #include "python/bindings/work.hpp"
-#include "rehearse/robot_file/complaints.hpp"
+#include "rehearse/check/complaints.hpp"
 
 namespace rehearse::python {
 namespace {
 
 struct Found {
   std::vector<std::string> states, limits;  // names; the robot's own states
-  robot_file::Tried tried;
+  check::Tried tried;
 };
 
 Found check(const Robot& robot, const std::string& name, bool plant) {
@@ -31,7 +31,7 @@ Found check(const Robot& robot, const std::string& name, bool plant) {
     std::vector<std::string> limits;
     for (const Limit& limit : scenario.task.limits) limits.push_back(limit.name);
     const auto stoppable = make_stoppable(options.evaluator, options.stop);
-    found = {std::move(states), std::move(limits), robot_file::try_out(scenario, *stoppable)};
+    found = {std::move(states), std::move(limits), check::try_out(scenario, *stoppable)};
   });
   return *found;
 }
@@ -51,7 +51,7 @@ void add_check(py::module_& module) {
       [](const Robot& robot, const std::string& name, bool plant) {
         const Found found = check(robot, name, plant);
         py::list priors;
-        for (const robot_file::PriorTried& prior : found.tried.priors)
+        for (const check::PriorTried& prior : found.tried.priors)
           priors.append(py::dict("name"_a = prior.name, "errors"_a = by_state(found.states, prior.error),
                                  "failed"_a = prior.failed, "rows_per_s"_a = prior.rows_per_s,
                                  "notes"_a = prior.notes));
@@ -60,7 +60,7 @@ void add_check(py::module_& module) {
         return py::dict("steps"_a = found.tried.steps, "episodes"_a = found.tried.episodes,
                         "ended"_a = found.tried.ended, "broke"_a = broke,
                         "changes"_a = by_state(found.states, found.tried.change), "priors"_a = priors,
-                        "notes"_a = found.tried.notes, "complaints"_a = robot_file::complaints(found.tried));
+                        "notes"_a = found.tried.notes, "complaints"_a = check::complaints(found.tried));
       },
       "robot"_a, "name"_a, "plant"_a);
 }

@@ -11,7 +11,6 @@
 #include "rehearse/robot_file/read.hpp"
 #include "rehearse/robot_file/robot_file.hpp"
 #include "rehearse/robot_file/test/example.hpp"
-#include "rehearse/robot_file/try_out.hpp"
 
 namespace rehearse::robot_file {
 namespace {
@@ -47,9 +46,6 @@ TEST(Dynamics, APriorMayBeAProgram) {
   Matrix X{{1, 2}, {3, 4}}, U{{0.5}, {1}}, dX(2, 2);
   prior.simulator->change(X, U, prior.parameters.values(), dX);
   EXPECT_EQ(dX, (Matrix{{0.001 * 2.5, 0.01}, {0.001 * 3, 0.01 * 3}}));
-  const Tried tried = try_out(scenario);
-  EXPECT_EQ(tried.priors.front().failed, 0);
-  EXPECT_TRUE(tried.priors.front().idle.empty());
 }
 
 TEST(Dynamics, AProgramThatCannotBeAskedIsSaidBeforeARun) {

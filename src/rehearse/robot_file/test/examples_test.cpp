@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/check/try_out.hpp"
 #include "rehearse/robot_file/robot_file.hpp"
 #include "rehearse/robot_file/test/example.hpp"
-#include "rehearse/robot_file/try_out.hpp"
 #include "rehearse/robots/cartpole/cartpole.hpp"
 #include "rehearse/robots/pendubot/pendubot.hpp"
 #include "rehearse/robots/pendulum/pendulum.hpp"
@@ -29,11 +29,11 @@ class EachRobotFile : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EachRobotFile, IsInOrder) {
   const scenario::Scenario scenario = example(GetParam());
-  const Tried tried = try_out(scenario);
+  const check::Tried tried = check::try_out(scenario);
   EXPECT_EQ(tried.broken, std::vector<std::string>{});
   EXPECT_FALSE(tried.end);
   ASSERT_FALSE(tried.priors.empty());
-  for (const PriorTried& prior : tried.priors) {
+  for (const check::PriorTried& prior : tried.priors) {
     EXPECT_EQ(prior.failed, 0);
     EXPECT_EQ(prior.idle, std::vector<std::string>{}) << prior.name;
   }

@@ -1,10 +1,10 @@
-#include "rehearse/robot_file/differences.hpp"
+#include "rehearse/check/differences.hpp"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 
-namespace rehearse::robot_file {
+namespace rehearse::check {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -57,4 +57,4 @@ TEST(Differences, OfAPriorThatKnowsLessThanThatNothingChangesAreSaid) {
 }
 
 }  // namespace
-}  // namespace rehearse::robot_file
+}  // namespace rehearse::check

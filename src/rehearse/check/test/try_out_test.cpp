@@ -1,4 +1,4 @@
-#include "rehearse/robot_file/try_out.hpp"
+#include "rehearse/check/try_out.hpp"
 
 #include <cmath>
 #include <memory>
@@ -6,16 +6,17 @@
 
 #include <gtest/gtest.h>
 
-#include "example.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/core/random.hpp"
+#include "rehearse/robot_file/test/example.hpp"
 #include "rehearse/system/simulated_plant.hpp"
 
-namespace rehearse::robot_file {
+namespace rehearse::check {
 namespace {
 
-using example::kSwing, example::with;
+namespace example = robot_file::example;
+using example::kSwing, example::with, robot_file::builder;
 
 Tried tried(const std::string& text) { return try_out(builder(text, "swing.toml", example::no_files)->build()); }
 
@@ -33,109 +34,6 @@ TEST(TryOut, SaysHowFarPriorAndPlantAreApart) {
   EXPECT_EQ(found.priors[0].idle, std::vector<std::string>{});
   const Tried right = tried(with("parameters.m = 1.3\ntune.m = [0.5, 2]", ""));
   EXPECT_LT(right.priors[0].error(0), 1e-6);
-}
-
-TEST(TryOut, NamesAParameterThatChangesNothing) {
-  const std::string unused = with("m = 1, l", "m = 1, k = 3, l");
-  const Tried found = tried(unused + "tune.k = [1, 5]\n");
-  EXPECT_EQ(found.priors[0].idle, std::vector<std::string>{"k"});
-}
-
-// 9.81 · 0.3 k / (0.3 k) has other last bits for another k.
-TEST(TryOut, AParameterThatCancelsChangesNothing) {
-  std::string text = with("m = 1, l", "m = 1, k = 3, l");
-  const std::string gravity = "9.81";
-  text.replace(text.find(gravity), gravity.size(), "(9.81 * 0.3 * k / (k * 0.3))");
-  EXPECT_EQ(tried(text + "tune.k = [1, 5]\n").priors[0].idle, std::vector<std::string>{"k"});
-}
-
-TEST(TryOut, AParameterThatActsFarFromTheStartIsFound) {
-  const std::string contact = with("define.torque = \"u +", "define.torque = \"u - where(abs(rate) > 40, k, 0) +");
-  std::string text = contact;
-  const std::string values = "m = 1, l";
-  text.replace(text.find(values), values.size(), "m = 1, k = 3, l");
-  const Tried found = tried(text + "tune.k = [1, 5]\n");
-  EXPECT_EQ(found.priors[0].idle, std::vector<std::string>{});
-  EXPECT_EQ(found.priors[0].states, 2 * found.steps);
-}
-
-/// The swing with a prior of its own.
-Tried tried_with(system::Change change) {
-  scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
-  scenario.priors[0].simulator = system::make_simulator(scenario.priors[0].parameters, std::move(change));
-  return try_out(scenario);
-}
-
-TEST(TryOut, APriorMustRepeatItself) {
-  Rng noise({.seed = 1});
-  const Tried found = tried_with([&](const auto& X, const auto&, const auto&, MatrixView dX) {
-    dX = X;
-    dX(0, 1) += noise.uniform();
-  });
-  const std::string start =
-      "predicts something else from the same states and actions a second time (1 of 60 rows, angle by ";
-  EXPECT_EQ(found.priors[0].broken.find(start), 0u) << found.priors[0].broken;
-  EXPECT_EQ(tried(kSwing).priors[0].broken, "");
-}
-
-TEST(TryOut, RoundingThatDiffersIsSaidButNoFault) {
-  Rng noise({.seed = 1});
-  const Tried found = tried_with([&](const auto& X, const auto&, const auto&, MatrixView dX) {
-    dX = X;
-    dX(0, 1) += 1e-13 * noise.uniform();
-  });
-  EXPECT_EQ(found.priors[0].broken, "");
-  ASSERT_FALSE(found.priors[0].notes.empty());
-  EXPECT_NE(found.priors[0].notes[0].find("asked for again (1 of 60 rows, angle by "), std::string::npos);
-  EXPECT_EQ(tried(kSwing).priors[0].notes, std::vector<std::string>{});
-}
-
-TEST(TryOut, APriorThatGivesTheNextStateIsAskedAboutIt) {
-  scenario::Scenario scenario = builder(kSwing, "swing.toml", example::no_files)->build();
-  const auto right = scenario.priors[0].simulator;
-  const auto next = [right](const auto& X, const auto& U, const auto& phi, MatrixView dX) {
-    right->change(X, U, phi, dX);
-    dX += X;
-  };
-  scenario.priors[0].simulator = system::make_simulator(scenario.priors[0].parameters, next);
-  const Tried found = try_out(scenario);
-  ASSERT_EQ(found.priors[0].notes.size(), 1u);
-  EXPECT_NE(found.priors[0].notes[0].find("changes of state, not the next one?"), std::string::npos);
-}
-
-TEST(TryOut, APriorsRowsMustNotKnowTheirPlace) {
-  const auto with_place = [](double weight) {
-    return tried_with([=](const auto& X, const auto&, const auto&, MatrixView dX) {
-             dX = X;
-             for (Index i = 0; i < X.rows(); ++i) dX(i, 0) += weight * static_cast<double>(i);
-           })
-        .priors[0]
-        .broken;
-  };
-  const std::string start = "predicts something else of the same rows in another batch (30 of 30 rows, rate by ";
-  EXPECT_EQ(with_place(0.1).find(start), 0u) << with_place(0.1);
-  EXPECT_EQ(with_place(1e-16), "") << "NumPy's last bits depend on the place, too";
-}
-
-TEST(TryOut, APriorsRowsMustNotKnowTheOthers) {
-  const Tried found = tried_with([](const auto& X, const auto&, const auto&, MatrixView dX) {
-    dX = X.rowwise() - X.colwise().mean();  // the same in any order
-  });
-  EXPECT_NE(found.priors[0].broken.find("in another batch"), std::string::npos) << found.priors[0].broken;
-}
-
-TEST(TryOut, ErrorsAreOfTheRowsThatSucceed) {
-  const auto error_where = [](Index every) {
-    const Tried found = tried_with([=](const auto& X, const auto&, const auto&, MatrixView dX) {
-      dX.setConstant(1e6);
-      for (Index i = 0; i < X.rows(); ++i)
-        if (i % 4 < every) dX.row(i).setConstant(kNaN);
-    });
-    EXPECT_EQ(found.priors[0].failed, 15 * every);
-    return found.priors[0].error;
-  };
-  EXPECT_NEAR(error_where(3)(0), 1e6, 100) << "a quarter of the rows";
-  EXPECT_TRUE(error_where(4).array().isNaN().all());
 }
 
 TEST(TryOut, NamesARewardThatIsNoNumber) {
@@ -255,7 +153,9 @@ TEST(TryOut, ARobotThatFailsIsNotMovedAgain) {
     return system::make_simulated_plant(motion, {Vector::Zero(2), Vector::Zero(2), {}});
   };
   const Tried found = try_out(scenario);
-  EXPECT_EQ(found.end, "the motor is hot");
+  EXPECT_EQ(found.end, "the plant failed in step 4 of episode 1: the motor is hot");
+  EXPECT_TRUE(found.played) << "the prior is tried all the same";
+  EXPECT_EQ(found.steps, 60);
   EXPECT_EQ(steps, 4);
   EXPECT_EQ(found.broken, std::vector<std::string>{});
 }
@@ -273,15 +173,22 @@ TEST(TryOut, APlantThatFailsWithoutAWordFails) {
     return system::make_simulated_plant(motion, {Vector::Zero(2), Vector::Zero(2), {}});
   };
   const Tried found = try_out(scenario);
-  EXPECT_EQ(found.steps, 0);
-  EXPECT_TRUE(found.end);
+  EXPECT_EQ(found.end, "the plant failed in step 1 of episode 1: it does not say why");
 }
 
 TEST(TryOut, NamesAPlantThatLosesItsWay) {
   const Tried found = tried(with("define.torque = \"u +", "define.torque = \"sqrt(-abs(rate)) +"));
-  EXPECT_EQ(found.broken, std::vector<std::string>{"the plant comes to states that are not finite"});
-  EXPECT_GT(found.priors[0].failed, 0);
+  ASSERT_TRUE(found.end);
+  EXPECT_NE(found.end->find("rate = nan, must be finite"), std::string::npos) << *found.end;
+}
+
+TEST(TryOut, NotesARewardThatIsNotFinite) {
+  const Tried found =
+      tried(with("distance = [\"1 - height\", \"sin(angle)\"]\nwidth = 0.5", "formula = \"sqrt(3 - angle)\""));
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_EQ(found.notes[0].find("an episode of random actions ended: the reward at step "), 0u) << found.notes[0];
+  EXPECT_EQ(found.ended, 0) << "it did not fall";
 }
 
 }  // namespace
-}  // namespace rehearse::robot_file
+}  // namespace rehearse::check

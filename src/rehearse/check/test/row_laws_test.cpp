@@ -1,10 +1,10 @@
-#include "rehearse/robot_file/row_laws.hpp"
+#include "rehearse/check/row_laws.hpp"
 
 #include <gtest/gtest.h>
 
 #include "rehearse/core/random.hpp"
 
-namespace rehearse::robot_file {
+namespace rehearse::check {
 namespace {
 
 const Matrix kStates{{1, 2}, {3, 4}, {5, 6}, {7, 8}};
@@ -61,4 +61,4 @@ TEST(RowLaws, AnEndMustNotKnowTheOtherRows) {
 }
 
 }  // namespace
-}  // namespace rehearse::robot_file
+}  // namespace rehearse::check

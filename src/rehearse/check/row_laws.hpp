@@ -6,7 +6,7 @@
 
 #include "rehearse/core/task.hpp"
 
-namespace rehearse::robot_file {
+namespace rehearse::check {
 
 /// Rows in another batch: the second half of them, in reverse.
 Matrix elsewhere(const Matrix& rows);
@@ -15,4 +15,4 @@ Matrix elsewhere(const Matrix& rows);
 /// in another batch. X, U, dX: states, actions and changes of steps. Rounding is allowed.
 std::vector<std::string> broken_row_laws(const Task& task, const Matrix& X, const Matrix& U, const Matrix& dX);
 
-}  // namespace rehearse::robot_file
+}  // namespace rehearse::check

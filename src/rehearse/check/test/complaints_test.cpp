@@ -1,8 +1,8 @@
-#include "rehearse/robot_file/complaints.hpp"
+#include "rehearse/check/complaints.hpp"
 
 #include <gtest/gtest.h>
 
-namespace rehearse::robot_file {
+namespace rehearse::check {
 namespace {
 
 TEST(Complaints, AreALineForEachThingThatIsWrong) {
@@ -11,7 +11,7 @@ TEST(Complaints, AreALineForEachThingThatIsWrong) {
             std::vector<std::string>{});
   const Tried tried{
       .steps = 7,
-      .end = "",
+      .end = "the plant failed in step 8 of episode 1: it is hot",
       .priors = {{.name = "light", .states = 14, .failed = 3, .idle = {"mass"}, .broken = "does not repeat"},
                  {.name = "heavy", .failed = 7, .idle = {"mass"}}},
       .broken = {"an episode ends where it starts"},
@@ -19,7 +19,7 @@ TEST(Complaints, AreALineForEachThingThatIsWrong) {
   const std::vector<std::string> lines = complaints(tried);
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_EQ(lines[0], "an episode ends where it starts");
-  EXPECT_EQ(lines[1], "the plant failed after 7 steps: it does not say why");
+  EXPECT_EQ(lines[1], *tried.end);
   EXPECT_EQ(lines[2].find("prior light: mass changes no prediction on the 14 states tried"), 0u) << lines[2];
   EXPECT_EQ(lines[3], "prior light: does not repeat");
   EXPECT_EQ(lines[4], "prior heavy: none of 7 rows has a prediction; is dt_s in seconds?");
@@ -35,4 +35,4 @@ TEST(Complaints, AreNotWhatALearnerTakes) {
 }
 
 }  // namespace
-}  // namespace rehearse::robot_file
+}  // namespace rehearse::check

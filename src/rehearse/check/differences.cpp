@@ -1,4 +1,4 @@
-#include "rehearse/robot_file/differences.hpp"
+#include "rehearse/check/differences.hpp"
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,7 @@
 
 #include "rehearse/core/name_list.hpp"
 
-namespace rehearse::robot_file {
+namespace rehearse::check {
 
 Matrix apart(const Matrix& one, const Matrix& other) {
   return one.binaryExpr(other, [](double a, double b) {
@@ -63,4 +63,4 @@ std::string worse_than_nothing(const Task& task, const Vector& errors, const Vec
                      list_of(names, kMost));
 }
 
-}  // namespace rehearse::robot_file
+}  // namespace rehearse::check

@@ -1,16 +1,14 @@
-#include "rehearse/robot_file/complaints.hpp"
+#include "rehearse/check/complaints.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-namespace rehearse::robot_file {
+namespace rehearse::check {
 
 std::vector<std::string> complaints(const Tried& tried) {
   std::vector<std::string> lines = tried.broken;
-  if (tried.end)
-    lines.push_back(fmt::format("the plant failed after {} steps: {}", tried.steps,
-                                tried.end->empty() ? "it does not say why" : *tried.end));
+  if (tried.end) lines.push_back(*tried.end);
   for (const PriorTried& prior : tried.priors) {
     const bool fails = tried.steps > 0 && prior.failed == tried.steps;
     for (const std::string& name : fails ? std::vector<std::string>() : prior.idle)
@@ -33,4 +31,4 @@ bool has_notes(const Tried& tried) {
   });
 }
 
-}  // namespace rehearse::robot_file
+}  // namespace rehearse::check

@@ -1,11 +1,11 @@
-#include "rehearse/robot_file/whole_turns.hpp"
+#include "rehearse/check/whole_turns.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-namespace rehearse::robot_file {
+namespace rehearse::check {
 namespace {
 
 /// A pendulum on a cart that earns what is given.
@@ -51,4 +51,4 @@ TEST(WholeTurns, OfStatesThatAreNoAnglesAreNotTried) {
 }
 
 }  // namespace
-}  // namespace rehearse::robot_file
+}  // namespace rehearse::check

@@ -5,7 +5,7 @@
 
 #include "rehearse/core/task.hpp"
 
-namespace rehearse::robot_file {
+namespace rehearse::check {
 
 /// Distances of predictions (rows × states); infinite where one of both is none.
 Matrix apart(const Matrix& one, const Matrix& other);
@@ -26,4 +26,4 @@ std::string without_prediction(const Task& task, const Matrix& X, const Matrix& 
 /// are larger than what the step changes. Empty: there are none.
 std::string worse_than_nothing(const Task& task, const Vector& errors, const Vector& changes);
 
-}  // namespace rehearse::robot_file
+}  // namespace rehearse::check
