@@ -64,13 +64,13 @@ class HintFinder {
     return hint.states.empty() ? Hint{} : hint;
   }
 
+  /// All delays are tried: errors may rise between the first step and the right one.
   Hint delay() const {
     Hint best;
     for (const Index direction : {1, -1})
       for (Index k = 1; k <= kMostDelay; ++k) {
         const double errors = errors_of([&](const Episode& log) { return late(log, k * direction); });
-        if (!(errors < best.errors)) break;
-        best = {.delay_s = static_cast<double>(k * direction) * task_.dt_s, .errors = errors};
+        if (errors < best.errors) best = {.delay_s = static_cast<double>(k * direction) * task_.dt_s, .errors = errors};
       }
     return best;
   }
