@@ -62,11 +62,7 @@ Wanted wanted(const EvaluateArguments& arguments) {
   wanted.threads = threads_of(arguments.threads, violations);
   request.settings = settings_of(arguments.set, violations);
   violations.require(!arguments.policy || !arguments.trial, "--trial and --policy name two policies");
-  try {
-    if (arguments.out) check_output(wanted.table);
-  } catch (const InvalidInput& error) {
-    violations.add(error);
-  }
+  if (arguments.out) violations.attempt([&] { check_output(wanted.table); });
   violations.throw_if_any();
   return wanted;
 }

@@ -29,16 +29,6 @@ void set_numbers(Spec& spec, const std::optional<std::string>& trials, const std
   set_text(fields, "seed", seed, violations);
 }
 
-/// The spec with a preset's options. Where the preset cannot be had it is unchanged, and there are violations.
-Spec with_preset(const Catalogue& catalogue, const Spec& spec, const std::string& name, Violations& violations) {
-  try {
-    return experiment::with_preset(catalogue, spec, name);
-  } catch (const InvalidInput& error) {
-    violations.add(error);
-    return spec;
-  }
-}
-
 /// A TOML file that is named instead of a scenario: a robot, or the spec of a run.
 struct GivenFile {
   std::string text;
@@ -70,6 +60,17 @@ Catalogue with_given(const Catalogue& catalogue, const LearnArguments& arguments
   const std::filesystem::path folder = std::filesystem::path(arguments.scenario).parent_path();
   if (file->describes_run) return experiment::with_robot_of_run(catalogue, folder);
   return catalogue.with_robot(file->text, arguments.scenario, folder);
+}
+
+/// Throws the violations of a robot's file, and those that the other arguments have whatever the robot.
+void check_without_robot(const Catalogue& built_in, const LearnArguments& arguments, Violations& violations) {
+  Spec numbers;
+  set_numbers(numbers, arguments.trials, arguments.seed, violations);
+  threads_of(arguments.threads, violations);
+  settings_of(arguments.set, violations);
+  if (arguments.learner && !built_in.learner(*arguments.learner))
+    violations.add(built_in.why_missing("learner", *arguments.learner));
+  violations.throw_if_any();
 }
 
 Spec named_spec(const Catalogue& catalogue, const LearnArguments& arguments, Violations& violations) {
@@ -108,16 +109,23 @@ int run_on_console(const Catalogue& catalogue, const std::filesystem::path& fold
 
 int learn(const Catalogue& built_in, const LearnArguments& arguments) {
   Violations violations;
-  const std::optional<GivenFile> given = read_given(arguments.scenario);
-  const Catalogue catalogue = with_given(built_in, arguments, given);
+  std::optional<GivenFile> given;
+  Catalogue catalogue;
+  const bool known = violations.attempt([&] {
+    given = read_given(arguments.scenario);
+    catalogue = with_given(built_in, arguments, given);
+  });
+  if (!known) check_without_robot(built_in, arguments, violations);
   const std::optional<SpecFile> file = spec_file(arguments, given, violations);
   Spec spec = file ? file->spec() : named_spec(catalogue, arguments, violations);
   set_numbers(spec, arguments.trials, arguments.seed, violations);
   const Index threads = threads_of(arguments.threads, violations);
   spec.until_solved |= arguments.until_solved;
-  if (arguments.preset) spec = with_preset(catalogue, spec, *arguments.preset, violations);
+  if (arguments.preset) violations.attempt([&] { spec = experiment::with_preset(catalogue, spec, *arguments.preset); });
   for (auto& setting : settings_of(arguments.set, violations)) spec.options.push_back(std::move(setting));
   violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
+  if (arguments.out && !arguments.out->empty())
+    violations.attempt([&] { experiment::RunFolder::require_absent(*arguments.out); });
   spec = resolved_spec(catalogue, spec, file, violations);
   violations.throw_if_any();
   if (arguments.policy)

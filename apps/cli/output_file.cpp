@@ -18,8 +18,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string naming_another(const OutputFile& file, const std::string& why) {
+  return fmt::format("{}; {} names another file", why, file.option);
+}
+
 [[noreturn]] void refuse_output(const OutputFile& file, const std::string& why) {
-  throw InvalidInput(fmt::format("{}; {} names another file", why, file.option));
+  throw InvalidInput(naming_another(file, why));
 }
 
 /// Renames a file to the first free of NAME-001, NAME-002, …
@@ -69,7 +73,7 @@ bool write_output(const OutputFile& file, const std::string& text) {
   try {
     files::write_file(file.path, text);
   } catch (const std::runtime_error& error) {
-    refuse_output(file, error.what());
+    throw std::runtime_error(naming_another(file, error.what()));  // a full disk is no wrong input
   }
   return there;
 }

@@ -44,12 +44,7 @@ StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyReque
     else if (!set_one(own, key, text, violations) && !set_one(of_robot, key, text, violations))
       violations.add(experiment::unknown_option(key, known_keys(own, of_robot), "identify or the robot"));
   }
-  try {
-    setup.scenario = builder->build();
-  } catch (const InvalidInput& error) {
-    violations.add(error);
-    violations.throw_if_any();
-  }
+  if (!violations.attempt([&] { setup.scenario = builder->build(); })) violations.throw_if_any();
   std::vector<std::string> names = experiment::split_names(request.prior.value_or(""));
   if (names.empty() && !setup.scenario.priors.empty()) names = {setup.scenario.priors.front().name};
   violations.require(!names.empty(), fmt::format("{} has no prior, whose parameters could be identified", name));
@@ -91,13 +86,8 @@ ReadLogs read_logs(const std::vector<std::string>& logs, const std::vector<std::
   std::vector<std::filesystem::path> paths(logs.begin(), logs.end());
   paths.insert(paths.end(), held_out.begin(), held_out.end());
   std::vector<ReadLog> all;
-  for (const experiment::ToldFile& file : experiment::read_told_files(paths, violations, setup.options.read)) {
-    try {
-      all.push_back(read_log(file, setup));
-    } catch (const InvalidInput& error) {
-      violations.add(error);
-    }
-  }
+  for (const experiment::ToldFile& file : experiment::read_told_files(paths, violations, setup.options.read))
+    violations.attempt([&] { all.push_back(read_log(file, setup)); });
   name_by_paths(all);
   if (!violations.empty()) return {std::move(all), {}};
   const auto middle = std::make_move_iterator(all.begin() + static_cast<std::ptrdiff_t>(logs.size()));

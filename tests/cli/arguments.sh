@@ -208,6 +208,15 @@ mkdir -p begun/.run.$killed/trajectories
 expect 0 "best return" - learn pendubot --learner gp-mi "${quick[@]}" --out begun/run
 [ "$(ls -A begun)" = run ] || fail "of a beginning that was killed remains $(ls -A begun)"
 
+# What is wrong is said at once, wherever it is.
+printf 'format = 1\nname = "broken"\ndt = 1\n' >broken.toml
+expect 2 "unknown learner 'mii'" - learn broken.toml --learner mii --trials -1
+grep -q "trials = -1" stderr && grep -q "unknown key 'dt'" stderr || fail "a broken file hides other errors: $(cat stderr)"
+expect 2 "unknown option 'q'" - learn pendubot --set q=1 --out "$run"
+grep -q "already exists" stderr || fail "an option hides that the folder is there: $(cat stderr)"
+expect 2 "unknown option 'plant.q'" - evaluate "$run" --trial 99 --set plant.q=1
+grep -q "trial = 99, must be between" stderr || fail "an option hides that there is no such trial: $(cat stderr)"
+
 # Failures with a cause outside the run (memory, disk) end by resuming it; failures of its computation do not.
 (
   ulimit -v 3000000

@@ -1,7 +1,6 @@
 #include "rehearse/core/errors.hpp"
 
 #include <string_view>
-#include <utility>
 
 namespace rehearse {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rehearse {
@@ -24,6 +25,17 @@ class Violations {
   void add(const InvalidInput& error) { add(error.violations()); }
   void require(bool holds, const std::string& violation) {
     if (!holds) add(violation);
+  }
+  /// Does the work, and adds the violations that it throws. False: it threw some.
+  template <class Work>
+  bool attempt(Work&& work) {
+    try {
+      std::forward<Work>(work)();
+      return true;
+    } catch (const InvalidInput& error) {
+      add(error);
+      return false;
+    }
   }
   const std::vector<std::string>& list() const { return list_; }
   bool empty() const { return list_.empty(); }

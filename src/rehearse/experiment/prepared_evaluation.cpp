@@ -27,12 +27,17 @@ EvaluationAbout PreparedEvaluation::about() const {
 }
 
 PreparedEvaluation prepare_evaluation(const Catalogue& catalogue, const PastRun& run, EvaluationRequest request) {
-  GivenPolicy policy = policy_wanted(request, run);
+  Violations violations;
+  std::optional<GivenPolicy> policy;
+  std::optional<PastRun> changed;
+  violations.attempt([&] { policy = policy_wanted(request, run); });
   request.settings = run.as_identified(request.settings);
-  Resolved resolved = read_run(catalogue, request.folder, request.settings).resolved;
-  if (resolved.scenario.require_ready) resolved.scenario.require_ready(scenario::PlantUse::driven);
-  if (request.seed_of_run) request.plan.seed = resolved.spec.seed;
-  return {std::move(request), std::move(policy), std::move(resolved), was_told(run.history)};
+  violations.attempt([&] { changed = read_run(catalogue, request.folder, request.settings); });
+  violations.throw_if_any();
+  const scenario::Scenario& scenario = changed->resolved.scenario;
+  if (scenario.require_ready) scenario.require_ready(scenario::PlantUse::driven);
+  if (request.seed_of_run) request.plan.seed = changed->resolved.spec.seed;
+  return {std::move(request), std::move(*policy), std::move(changed->resolved), was_told(run.history)};
 }
 
 std::vector<Outcome> evaluate(const PreparedEvaluation& prepared, const Evaluator& evaluator) {

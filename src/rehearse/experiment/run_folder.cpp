@@ -37,12 +37,16 @@ std::string already_exists(const fs::path& path) {
 RunFolder::RunFolder(fs::path path, Spec spec, files::FolderLock lock)
     : path_(std::move(path)), spec_(std::move(spec)), fingerprint_(fingerprint(spec_)), lock_(std::move(lock)) {}
 
+void RunFolder::require_absent(const fs::path& path) {
+  if (fs::exists(fs::symlink_status(files::without_slash(path)))) throw InvalidInput(already_exists(path));
+}
+
 RunFolder RunFolder::create(const fs::path& given, const Spec& spec, const Comments& comments,
                             const std::optional<RobotFile>& robot) {
   const fs::path path = files::without_slash(given);
   static std::mutex making;  // a process makes one folder of a name at a time
   const std::lock_guard one_at_a_time(making);
-  if (fs::exists(fs::symlink_status(path))) throw InvalidInput(already_exists(path));
+  require_absent(path);
   const std::string text = spec.trials == 0 ? of_told_run(to_toml(spec, comments)) : to_toml(spec, comments);
   require_readable(spec, text);  // not after hours of trials
   remove_abandoned(path);

@@ -20,6 +20,9 @@ inline constexpr const char* kNextFolder = "next";  // of the policy that was as
 /// after a kill at any instant, `load` and `write_tables` bring the rest up to date.
 class RunFolder {
  public:
+  /// Throws InvalidInput if there is anything of that name.
+  static void require_absent(const std::filesystem::path& path);
+
   /// A new folder with a complete spec and no trial. It appears in one step, or not at all.
   /// Throws InvalidInput if there is anything of that name, or if the spec would not be read back as it is.
   /// robot: the file that describes the robot, if there is one; it is kept, with the files that it names.

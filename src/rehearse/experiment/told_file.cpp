@@ -65,8 +65,8 @@ std::string cut_short(const ToldFile& file, Index steps, Index horizon, const st
 std::vector<ToldFile> read_told_files(const std::vector<fs::path>& paths, Violations& violations,
                                       const recording::ReadOptions& options) {
   std::vector<ToldFile> files;
-  for (const fs::path& path : paths) {
-    try {
+  for (const fs::path& path : paths)
+    violations.attempt([&] {
       std::string bytes = recording::read_bytes(path, options);
       std::string checksum = fmt::format("{:016x}", files::checksum(bytes));
       const auto same = std::ranges::find(files, checksum, &ToldFile::checksum);
@@ -74,18 +74,15 @@ std::vector<ToldFile> read_told_files(const std::vector<fs::path>& paths, Violat
         files.push_back({path, std::move(bytes), std::move(checksum)});
       else
         violations.add(fmt::format("{} and {} are the same", same->path.string(), path.string()));
-    } catch (const InvalidInput& error) {
-      violations.add(error);
-    }
-  }
+    });
   return files;
 }
 
 std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task) {
   std::vector<Log> logs;
   Violations violations;
-  for (const ToldFile& file : files) {
-    try {
+  for (const ToldFile& file : files)
+    violations.attempt([&] {
       recording::Recording read = recording::read_recording(file.bytes, file.path.string(), task);
       for (const Log& log : logs)
         if (log.episode.has_numbers_of(read.episode))
@@ -93,10 +90,7 @@ std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task) {
       read.episode.rewards.resize(read.episode.steps());
       logs.push_back({file.path.filename().string(), file.checksum, rollout::as_measured(std::move(read.episode), task),
                       std::move(read.notes)});
-    } catch (const InvalidInput& error) {
-      violations.add(error);
-    }
-  }
+    });
   violations.throw_if_any();
   return logs;
 }

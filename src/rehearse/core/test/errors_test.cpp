@@ -21,5 +21,15 @@ TEST(Violations, AreThrownTogetherALineEach) {
   }
 }
 
+TEST(Violations, OfWorkThatThrowsAreAmongThem) {
+  Violations violations;
+  EXPECT_TRUE(violations.attempt([] {}));
+  EXPECT_FALSE(violations.attempt([] {
+    throw InvalidInput(std::vector<std::string>{"a is missing", "b is missing"});
+  }));
+  EXPECT_EQ(violations.list(), (std::vector<std::string>{"a is missing", "b is missing"}));
+  EXPECT_THROW(violations.attempt([] { throw std::logic_error("a fault of ours"); }), std::logic_error);
+}
+
 }  // namespace
 }  // namespace rehearse
