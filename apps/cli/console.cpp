@@ -1,6 +1,7 @@
 #include "apps/cli/console.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -73,13 +74,13 @@ void Console::say_first_faults() {
 
 void Console::progress(Index trial, const Progress& progress) {
   look_for_faults();
-  if (progress.phase != phase_) phase_begin_ = Clock::now();
-  phase_ = progress.phase;
+  if (progress.phase != phase_ || progress.done < done_in_phase_) phase_begin_ = Clock::now();  // or a further search
+  phase_ = progress.phase, done_in_phase_ = progress.done;
   if (!line_.is_due()) return;
   std::string line = fmt::format("trial {}  {} {:.0f} %", number(trial), progress.phase, 100 * progress.done);
   line += time_left(progress);
-  if (progress.rollouts > 0)
-    line += fmt::format("  predicted {:.3f}  {:.0f} rollouts/s", progress.best, progress.rollouts_per_s);
+  if (progress.rollouts > 0 && std::isfinite(progress.best)) line += fmt::format("  predicted {:.3f}", progress.best);
+  if (progress.rollouts > 0) line += fmt::format("  {:.0f} rollouts/s", progress.rollouts_per_s);
   line_.show(line);
 }
 

@@ -56,6 +56,7 @@ class Console final : public experiment::RunListener {
   std::function<std::vector<std::string>()> faults_;  // of the robot's programs; null: said, or it has none
   std::vector<std::string> phi_names_;
   std::string phase_;
+  double done_in_phase_ = 0;
   Clock::time_point begin_, trial_begin_, phase_begin_, next_look_;
 };
 

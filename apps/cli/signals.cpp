@@ -11,6 +11,7 @@
 
 #include "apps/cli/complain.hpp"
 #include "apps/cli/program.hpp"
+#include "rehearse/files/temporary_folder.hpp"
 #include "rehearse/system/process.hpp"
 
 namespace rehearse::apps {
@@ -74,6 +75,7 @@ void SignalWatch::watch() {
   if (over_changed_.wait_for(lock, kGrace, [this] { return over_; })) return;
   say(last_words_());
   system::kill_programs();
+  files::remove_temporary_folders();  // of copies for these programs
   ::_exit(exit_code_of_signal());
 }
 

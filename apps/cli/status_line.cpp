@@ -47,8 +47,8 @@ bool StatusLine::is_due() const { return alone_ && Clock::now() - last_ >= silen
 
 void StatusLine::show(const std::string& line) {
   if (!is_due()) return;
-  if (!terminal_) return print(line);
   last_ = Clock::now();
+  if (!terminal_) return fmt::print(stderr, "{}\n", printable(line));
   fmt::print("\r\033[K{}", first_characters(printable(line), line_width()));
   std::fflush(stdout);
   shown_ = true;

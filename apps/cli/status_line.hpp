@@ -7,7 +7,7 @@
 namespace rehearse::apps {
 
 /// Standard output with a last line that is rewritten as work goes on. Where it is no terminal but a file or a pipe,
-/// that line is printed as another one when nothing was said for as long as `silence`.
+/// that line goes to standard error, when nothing was said for as long as `silence`.
 class StatusLine {
  public:
   explicit StatusLine(std::chrono::milliseconds silence = std::chrono::minutes(1));

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import time
 from typing import Any
@@ -30,7 +31,8 @@ def show(event: dict[str, Any]) -> None:
         return
     _said_s = time.monotonic()
     if kind == "progress":
-        best = f", best predicted return {event['best']:.3f}" if event["rollouts"] else ""
+        known = event["rollouts"] and math.isfinite(event["best"])
+        best = f", best predicted return {event['best']:.3f}" if known else ""
         run = f"{event['run']}: " if "run" in event else ""
         text = f"{run}trial {event['trial']}: {event['phase']} {100 * event['done']:.0f} %{best}"
         print(f"\r{text[:100]:100}" if live else text, end="" if live else "\n", flush=True)

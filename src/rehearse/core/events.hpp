@@ -11,7 +11,7 @@ namespace rehearse {
 struct Progress {
   std::string phase;   // "model", "search"
   double done = 0;     // fraction of the phase, 0..1
-  double best = 0;     // best predicted return so far
+  double best = 0;     // best predicted return so far; NaN: not known
   Index rollouts = 0;  // simulated so far in this phase
   double rollouts_per_s = 0;
 };

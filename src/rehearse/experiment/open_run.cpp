@@ -40,6 +40,7 @@ void OpenRun::begin(bool something_to_come) {
   if (parts_.options().listener) parts_.options().listener->started(parts_.resolved(), path(), history_.done());
   publish_logs();
   publish();
+  if (history_.told < history_.done() && !history_.trials.back().file_checksum.empty()) announce();
   if (history_.done() > 0) evaluate_last();
   if (something_to_come || history_.told < history_.done()) catch_up();
 }
@@ -97,7 +98,11 @@ void OpenRun::tell_last() {
   for (const learners::Table& table : parts_.learner().tables()) folder_.write_learners_table(table);
   folder_.write_tables(history_, parts_.resolved());
   folder_.write_checkpoint(history_);  // which says that the tables are there
-  if (parts_.options().listener) parts_.options().listener->trial_done(last);
+}
+
+/// Tells who listens that a trial is kept, before what may take long.
+void OpenRun::announce() const {
+  if (parts_.options().listener) parts_.options().listener->trial_done(history_.trials.back());
 }
 
 void OpenRun::update_learners_tables(bool keep) {
@@ -195,6 +200,7 @@ void OpenRun::conclude(const Episode& episode) {
   record(episode, "",
          recording::notes_on_rates(parts_.task(), episode.states.topRows(T), episode.states.bottomRows(T)));
   publish();
+  announce();
   evaluate_last();
   tell_last();
 }

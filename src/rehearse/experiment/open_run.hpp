@@ -51,6 +51,7 @@ class OpenRun {
   Episode as_told(const Episode& episode) const;
   std::vector<Episode> as_told(const std::vector<Log>& logs) const;
   void tell_last();
+  void announce() const;
   void note_lost_rows(TrialRecord& record);
   void predict(Index trial, const learners::Proposal& proposal) const;
   void draw(const char* kind, Index trial, const Matrix& states) const;

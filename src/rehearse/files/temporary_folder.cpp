@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <mutex>
+#include <set>
 #include <string>
 #include <system_error>
 
@@ -15,16 +17,45 @@ namespace rehearse::files {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// The folders that there are.
+struct Folders {
+  std::mutex mutex;
+  std::set<fs::path> paths;
+};
+
+Folders& folders() {
+  static Folders all;
+  return all;
+}
+
+void remove_folder(const fs::path& path) noexcept {
+  std::error_code ignored;
+  fs::remove_all(path, ignored);
+}
+
+}  // namespace
+
 TemporaryFolder::TemporaryFolder() {
   std::string name = (fs::temp_directory_path() / "rehearse-XXXXXX").string();
   if (!::mkdtemp(name.data()))
     throw std::system_error(errno, std::generic_category(), "no folder can be made: " + name);
   path_ = name;
+  const std::lock_guard lock(folders().mutex);
+  folders().paths.insert(path_);
 }
 
 TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  remove_folder(path_);
+  const std::lock_guard lock(folders().mutex);
+  folders().paths.erase(path_);
+}
+
+void remove_temporary_folders() noexcept {
+  const std::lock_guard lock(folders().mutex);
+  for (const fs::path& path : folders().paths) remove_folder(path);
+  folders().paths.clear();
 }
 
 void TemporaryFolder::add(const fs::path& file, std::string_view bytes) const {

@@ -23,6 +23,9 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+/// Removes all that there are, for a process that ends without destructors. Not for handlers of signals.
+void remove_temporary_folders() noexcept;
+
 /// True if a path stays within its folder: relative, and without "..".
 bool stays_within(const std::filesystem::path& path);
 

@@ -162,6 +162,16 @@ class Counter final : public RunListener {
   void trial_done(const TrialRecord& record) override { last = record.trial; }
 };
 
+// Before what takes long after a trial, so that a stop there says how many there are.
+TEST(Run, TellsItsListenerOfATrialThatIsKept) {
+  const fs::path folder = fake::test_folder() / "run";
+  Counter listener;
+  const RunOptions options{.listener = &listener, .stop = [&] { return listener.last == 1; }};
+  EXPECT_THROW(start_run(fake::catalogue(), line_spec(2), folder, options), Interrupted);
+  EXPECT_EQ(listener.last, 1);
+  EXPECT_EQ(RunFolder::read(folder).history.done(), 1);
+}
+
 TEST(Run, TellsItsListener) {
   const fs::path folder = fake::test_folder() / "run";
   Counter first, second;

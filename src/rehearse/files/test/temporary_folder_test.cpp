@@ -22,6 +22,14 @@ TEST(TemporaryFolder, HasFilesAndIsGoneWithItsObject) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
+TEST(TemporaryFolder, AllMayBeRemovedAtOnce) {
+  const TemporaryFolder folder, other;
+  folder.add("a.txt", "text");
+  remove_temporary_folders();
+  EXPECT_FALSE(std::filesystem::exists(folder.path()));
+  EXPECT_FALSE(std::filesystem::exists(other.path()));
+}
+
 TEST(TemporaryFolder, NothingIsWrittenOutsideOfIt) {
   const TemporaryFolder folder;
   for (const char* out : {"", "/tmp/x", "../x", "a/../../x"}) EXPECT_THROW(folder.add(out, ""), InvalidInput) << out;

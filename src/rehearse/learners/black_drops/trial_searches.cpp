@@ -55,8 +55,14 @@ SearchResult TrialSearches::search_solving(const std::vector<Vector>& starts, do
   const Task task = with_bonus(problem_.task, bonus);
   SearchOptions options = options_;
   if (needs_derivatives(options.method)) options.method = Method::race;  // a bonus has none
-  SearchResult found =
-      counted(search_policy(with_task(problem_, task), starts, options, key(Stage::solving_search, i)));
+  const ProgressSink without_best = [this](Progress progress) {
+    progress.best = kNaN;  // with the bonus it is no return
+    problem_.progress(progress);
+  };
+  const SearchProblem problem{
+      problem_.model,  problem_.policy, task, problem_.evaluator, problem_.progress ? without_best : problem_.progress,
+      problem_.doubted};
+  SearchResult found = counted(search_policy(problem, starts, options, key(Stage::solving_search, i)));
   SearchResult judged = judge(found.theta);
   judged.runners_up = std::move(found.runners_up);
   judged.rollouts += found.rollouts;
