@@ -90,6 +90,12 @@ std::vector<std::string> hopeless_limits(const Task& task, const std::vector<Epi
   return lines;
 }
 
+/// The number with two digits, or less.
+double rounded_down(double number) {
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(number))) - 1);
+  return unit * std::floor(number / unit);
+}
+
 /// A line where most steps earn less than those that a fall leaves; empty: they do not.
 std::string why_falls_pay(const Task& task, const Vector& rewards) {
   if ((!task.ended && task.limits.empty()) || rewards.size() == 0) return {};
@@ -101,7 +107,21 @@ std::string why_falls_pay(const Task& task, const Vector& rewards) {
   return fmt::format(
       "steps under random actions earn about {:.3g}, and each step that is left after a fall earns reward.floor = "
       "{:g}: falling pays, unless the goal earns more; floor = {} would be safe",
-      sum / static_cast<double>(below), task.reward_floor, to_text(least));
+      sum / static_cast<double>(below), task.reward_floor, to_text(rounded_down(least)));
+}
+
+/// A line where the reward shows nothing of the goal, wherever random actions lead.
+std::string why_nothing_is_earned(const Task& task, const Dataset& steps) {
+  constexpr double kFlat = 1e-3;  // where a saturating distance has 1 at the goal
+  if (steps.size() == 0) return {};
+  Vector rewards(steps.size());
+  task.reward(steps.states, steps.actions, steps.states + steps.changes, rewards);
+  if (!(rewards.maxCoeff() < kFlat && rewards.minCoeff() >= 0)) return {};
+  return fmt::format(
+      "no step under random actions earns more than {:.1g}: searches see no difference between policies until one "
+      "comes "
+      "nearer to the goal. Of distances, a larger reward.width shows it from farther away",
+      rewards.maxCoeff());
 }
 
 /// Counts the ends of episodes, and notes those that are no falls.
@@ -162,6 +182,7 @@ Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator, In
   count_ends(task, driven.episodes, tried);
   append(tried.broken, hopeless_limits(task, driven.episodes));
   if (const std::string line = why_falls_pay(task, steps.rewards); !line.empty()) tried.notes.push_back(line);
+  if (const std::string line = why_nothing_is_earned(task, steps); !line.empty()) tried.notes.push_back(line);
   append(tried.notes, where_turns_count(task, seed));
   if (steps.size() == 0) return tried;
   tried.change = statistics::root_mean_squares(steps.changes);

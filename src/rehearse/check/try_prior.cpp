@@ -1,5 +1,6 @@
 #include "rehearse/check/try_prior.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
@@ -14,6 +15,9 @@
 
 namespace rehearse::check {
 namespace {
+
+constexpr int kMostTimings = 20;
+constexpr double kTimingS = 0.1;
 
 /// A random action, as it may be commanded in state x.
 Vector random_action(const Task& task, const Vector& x, Rng& rng) {
@@ -106,9 +110,13 @@ PriorTried try_prior(const Task& task, const scenario::NamedPrior& prior, const 
   const Vector phi = prior.parameters.values();
   const Matrix before = predictions(prior, steps, phi);  // it may start
   Matrix predicted(before.rows(), before.cols());
-  const Stopwatch watch;
-  tried.failed = system::change_contained(*prior.simulator, steps.states, steps.actions, phi, predicted);
-  tried.rows_per_s = watch.per_s(steps.size());
+  const Stopwatch in_all;
+  for (int i = 0; i < kMostTimings && (i == 0 || in_all.seconds() < kTimingS);
+       ++i) {  // the fastest: others use the machine
+    const Stopwatch watch;
+    tried.failed = system::change_contained(*prior.simulator, steps.states, steps.actions, phi, predicted);
+    tried.rows_per_s = std::max(tried.rows_per_s, watch.per_s(steps.size()));
+  }
   tried.error = statistics::root_mean_squares(predicted - steps.changes);
   tried.broken = broken_law(task, prior, steps, before, predicted);
   if (tried.failed > 0) tried.notes.push_back(without_prediction(task, steps.states, steps.actions, predicted));

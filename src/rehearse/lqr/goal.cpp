@@ -14,16 +14,18 @@
 namespace rehearse::lqr {
 namespace {
 
-constexpr Index kStates = 256;        // that are drawn
-constexpr std::size_t kBegun = 6;     // of these from which staying is looked for
-constexpr double kApart = 0.5;        // between two of them, in one angle at least [rad]
-constexpr double kActionCost = 1e-3;  // of an action at its bound, beside the reward
+constexpr Index kStates = 256;                            // that are drawn
+constexpr std::size_t kBegun = 6;                         // of these from which staying is looked for
+constexpr double kApart = 0.5;                            // between two of them, in one angle at least [rad]
+constexpr double kNearestTurn = -1, kFarthestTurn = 0.5;  // from the start: powers of ten, in rad
+constexpr double kActionCost = 1e-3;                      // of an action at its bound, beside the reward
 
 class Search {
  public:
   Search(const Problem& problem, const StreamKey& key)
       : problem_(problem), key_(key), end_s_(problem.task.episode_s()) {
     draw();
+    draw_turns();
     const Vector rewards = -costs(CostScale::linear, 0).of_staying(states_, actions_, end_s_);
     scale_ = rewards.minCoeff() > 0 ? CostScale::logarithmic : CostScale::linear;
   }
@@ -55,6 +57,20 @@ class Search {
     for (Index a = 0; a < task.action_size(); ++a) {
       const Interval bounds = task.actions[static_cast<std::size_t>(a)].bounds;
       actions_.col(a).setConstant(0.5 * (bounds.low + bounds.high));
+    }
+  }
+
+  /// Joints in rad whose turns count. Their ranges are not known, so they are drawn at all distances from the start.
+  void draw_turns() {
+    const Task& task = problem_.task;
+    StreamKey key = key_;
+    key.candidate = 2;
+    Rng rng(key);
+    for (Index s = 0; s < task.state_size(); ++s) {
+      const StateVariable& state = task.states[static_cast<std::size_t>(s)];
+      if (state.kind == StateKind::angle || state.rate.empty() || state.unit != "rad") continue;
+      for (Index i = 1; i < kStates; ++i)
+        states_(i, s) += std::pow(10, rng.uniform(kNearestTurn, kFarthestTurn)) * rng.uniform(-1, 1);
     }
   }
 

@@ -9,7 +9,8 @@
 namespace rehearse::lqr {
 
 /// The state in which the robot can stay for the highest reward, in the model's mean, and feedback that holds it there,
-/// with the states in which to hand over to it (region.hpp). It is looked for from the start and from random angles.
+/// with the states in which to hand over to it (region.hpp). It is looked for from the start and from random angles,
+/// and turns of joints in rad.
 /// Random numbers come from `key`. nullopt: none was found. Any thread.
 std::optional<policy::HandOver> find_goal(const Problem& problem, const StreamKey& key);
 

@@ -133,7 +133,18 @@ class Builder final : public scenario::ScenarioBuilder {
     std::vector<std::string> lines = lines_of_unseen(dynamics);
     const bool said = robot_.has_plant && robot_.plant.dynamics == dynamics.name;  // of the plant
     if (!said) lines.insert(lines.end(), dynamics.warnings.misfits.begin(), dynamics.warnings.misfits.end());
+    if (said) add_out_of_reach(prior, lines);
     return lines;
+  }
+
+  /// Parameters of the plant that are outside of the bounds in which the prior learns them.
+  void add_out_of_reach(const Variant& prior, std::vector<std::string>& lines) const {
+    for (const Parameter& learned : prior.parameters.all())
+      for (const Parameter& of_plant : plant_)
+        if (learned.kind == Parameter::Kind::continuous && learned.name == of_plant.name &&
+            (of_plant.value < learned.box.low || of_plant.value > learned.box.high))
+          lines.push_back(fmt::format("{} is {:g} in the plant, outside of [{:g}, {:g}], in which it is learned",
+                                      learned.name, of_plant.value, learned.box.low, learned.box.high));
   }
 
   /// Parts of the plant's model that no state gives, and delays and lags: a simulator sees earlier commands by the

@@ -172,9 +172,10 @@ class BlackDrops final : public TrialLearner {
     proposal.theta = smaller_actions(task, random_actions(task, options_.first_trial, episode_stream), fraction);
   }
 
-  /// A policy that teaches nothing new would be proposed for ever.
+  /// Without a prior a policy that teaches nothing new would be proposed for ever. A model around a prior knows enough
+  /// that a new policy teaches more than small random actions.
   bool worth_exploring(const Choice& choice) const {
-    if (setting_.task.limits.empty() || !options_.search.safety.explore || history_.returns.empty() ||
+    if (setting_.prior || setting_.task.limits.empty() || !options_.search.safety.explore || history_.returns.empty() ||
         !setting_.task.solved)
       return false;
     const double earned = *std::ranges::max_element(history_.returns);

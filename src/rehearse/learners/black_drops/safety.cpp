@@ -37,7 +37,7 @@ void SafetyOptions::fields(FieldVisitor& v) {
            "tasks with limits, before data: range of the prior's parameters, as a fraction of their bounds",
            between(0, 1));
   v.boolean("explore", explore,
-            "tasks with limits: safe random actions are tried if no safe policy is predicted to improve");
+            "limits, no prior: safe random actions are tried if no safe policy is predicted to improve");
 }
 
 double excess(const std::vector<LimitRisk>& risks, const std::vector<Limit>& limits) {

@@ -46,6 +46,15 @@ TEST(Goal, IsFoundFromTheStartWhereThereAreNoAngles) {
   EXPECT_NEAR(found->feedback.state.norm(), 0, 1e-5);
 }
 
+TEST(Goal, IsFoundWhereTurnsOfAJointCount) {
+  Task task = hanging(2, 0);
+  task.states[0].kind = StateKind::plain;
+  task.states[0].unit = "rad";
+  const auto found = goal(task);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->feedback.state(0), 0, 1e-4) << "where it begins it could stay, too";
+}
+
 TEST(Goal, IsNotThereWhereTheRobotCannotStay) {
   EXPECT_FALSE(goal(hanging(0.1, 1.2)));
   /// It falls for ever, whatever the action.
