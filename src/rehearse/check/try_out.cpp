@@ -110,20 +110,6 @@ std::string why_falls_pay(const Task& task, const Vector& rewards) {
       sum / static_cast<double>(below), task.reward_floor, to_text(rounded_down(least)));
 }
 
-/// A line where the reward shows nothing of the goal, wherever random actions lead.
-std::string why_nothing_is_earned(const Task& task, const Dataset& steps) {
-  constexpr double kFlat = 1e-3;  // where a saturating distance has 1 at the goal
-  if (steps.size() == 0) return {};
-  Vector rewards(steps.size());
-  task.reward(steps.states, steps.actions, steps.states + steps.changes, rewards);
-  if (!(rewards.maxCoeff() < kFlat && rewards.minCoeff() >= 0)) return {};
-  return fmt::format(
-      "no step under random actions earns more than {:.1g}: searches see no difference between policies until one "
-      "comes "
-      "nearer to the goal. Of distances, a larger reward.width shows it from farther away",
-      rewards.maxCoeff());
-}
-
 /// Counts the ends of episodes, and notes those that are no falls.
 void count_ends(const Task& task, const std::vector<Episode>& episodes, Tried& tried) {
   for (const Limit& limit : task.limits)
@@ -182,7 +168,6 @@ Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator, In
   count_ends(task, driven.episodes, tried);
   append(tried.broken, hopeless_limits(task, driven.episodes));
   if (const std::string line = why_falls_pay(task, steps.rewards); !line.empty()) tried.notes.push_back(line);
-  if (const std::string line = why_nothing_is_earned(task, steps); !line.empty()) tried.notes.push_back(line);
   append(tried.notes, where_turns_count(task, seed));
   if (steps.size() == 0) return tried;
   tried.change = statistics::root_mean_squares(steps.changes);

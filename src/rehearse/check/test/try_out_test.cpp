@@ -134,14 +134,6 @@ TEST(TryOut, SaysWhereFallingPays) {
   EXPECT_FALSE(tried(negative + "[[limit]]\nkeep = \"abs(rate) < 100\"\n").notes.empty());
 }
 
-TEST(TryOut, SaysWhereTheRewardIsFlat) {
-  const std::string width = "width = 0.5";
-  const Tried found = tried(with(width, "width = 0.1"));
-  ASSERT_EQ(found.notes.size(), 1u);
-  EXPECT_EQ(found.notes[0].find("no step under random actions earns more than "), 0u) << found.notes[0];
-  EXPECT_TRUE(tried(with(width, "width = 1")).notes.empty());
-}
-
 TEST(TryOut, SaysWhereWholeTurnsCount) {
   const std::string reward = "distance = [\"1 - height\", \"sin(angle)\"]\nwidth = 0.5";
   const Tried found = tried(with(reward, "formula = \"-abs(angle)\""));
