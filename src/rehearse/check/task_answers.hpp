@@ -1,5 +1,5 @@
 #pragma once
-// What a task says of steps, for the sources of this room.
+// The answers of a task to steps, for the sources of this room.
 
 #include <functional>
 #include <string>

@@ -11,7 +11,6 @@
 #include "rehearse/check/task_answers.hpp"
 #include "rehearse/check/whole_turns.hpp"
 #include "rehearse/core/errors.hpp"
-#include "rehearse/core/options.hpp"
 #include "rehearse/policy/schedule.hpp"
 #include "rehearse/recording/rates.hpp"
 #include "rehearse/rollout/execute.hpp"
@@ -106,8 +105,8 @@ std::string why_falls_pay(const Task& task, const Vector& rewards) {
   if (2 * below <= rewards.size()) return {};
   return fmt::format(
       "steps under random actions earn about {:.3g}, and each step that is left after a fall earns reward.floor = "
-      "{:g}: falling pays, unless the goal earns more; floor = {} would be safe",
-      sum / static_cast<double>(below), task.reward_floor, to_text(rounded_down(least)));
+      "{:g}: falling pays, unless the goal earns more; floor = {:.2g} would be safe",
+      sum / static_cast<double>(below), task.reward_floor, rounded_down(least));
 }
 
 /// Counts the ends of episodes, and notes those that are no falls.
@@ -120,7 +119,7 @@ void count_ends(const Task& task, const std::vector<Episode>& episodes, Tried& t
   }
 }
 
-/// What is wrong with the task itself, where it starts.
+/// The faults of the task itself, where it starts.
 std::vector<std::string> faults_of_start(const Task& task, double reward) {
   std::vector<std::string> lines;
   if (!std::isfinite(reward))
@@ -157,8 +156,7 @@ Tried try_out(const scenario::Scenario& scenario, const Evaluator& evaluator, In
   if (tried.played) {
     driven = drive(*played_by_prior(scenario), task, sample, evaluator);
     if (driven.failed) tried.broken.push_back("the first prior, which plays the robot, " + *driven.failed);
-  } else if (scenario.make_plant &&
-             !driven.failed) {  // a robot that failed, or that somebody stopped, is not to move again
+  } else if (scenario.make_plant && !driven.failed) {  // one that failed, or was stopped, is not to move again
     const std::string line =
         other_things(task, driven.steps, drive(*scenario.make_plant(), task, sample, evaluator).steps);
     if (!line.empty()) tried.broken.push_back(line);

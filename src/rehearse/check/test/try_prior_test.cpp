@@ -16,7 +16,7 @@ scenario::Scenario robot(const std::string& text) {
   return robot_file::builder(text, "swing.toml", robot_file::example::no_files)->build();
 }
 
-/// What is found of a robot's prior, on three episodes of it.
+/// The findings on a robot's prior, on three episodes of it.
 PriorTried found_of(const std::string& text) { return try_out(robot(text)).priors.at(0); }
 
 TEST(TryPrior, NamesAParameterThatChangesNothing) {
