@@ -62,12 +62,10 @@ Catalogue with_given(const Catalogue& catalogue, const LearnArguments& arguments
   return catalogue.with_robot(file->text, arguments.scenario, folder);
 }
 
-/// Throws the violations of a robot's file, and those that the other arguments have whatever the robot.
+/// Throws the violations that there are, and those of a run's numbers and its learner, whatever the robot.
 void check_without_robot(const Catalogue& built_in, const LearnArguments& arguments, Violations& violations) {
   Spec numbers;
   set_numbers(numbers, arguments.trials, arguments.seed, violations);
-  threads_of(arguments.threads, violations);
-  settings_of(arguments.set, violations);
   if (arguments.learner && !built_in.learner(*arguments.learner))
     violations.add(built_in.why_missing("learner", *arguments.learner));
   violations.throw_if_any();
@@ -109,6 +107,11 @@ int run_on_console(const Catalogue& catalogue, const std::filesystem::path& fold
 
 int learn(const Catalogue& built_in, const LearnArguments& arguments) {
   Violations violations;
+  const Index threads = threads_of(arguments.threads, violations);
+  auto settings = settings_of(arguments.set, violations);
+  violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
+  if (arguments.out && !arguments.out->empty())
+    violations.attempt([&] { experiment::RunFolder::require_absent(*arguments.out); });
   std::optional<GivenFile> given;
   Catalogue catalogue;
   const bool known = violations.attempt([&] {
@@ -119,13 +122,9 @@ int learn(const Catalogue& built_in, const LearnArguments& arguments) {
   const std::optional<SpecFile> file = spec_file(arguments, given, violations);
   Spec spec = file ? file->spec() : named_spec(catalogue, arguments, violations);
   set_numbers(spec, arguments.trials, arguments.seed, violations);
-  const Index threads = threads_of(arguments.threads, violations);
   spec.until_solved |= arguments.until_solved;
   if (arguments.preset) violations.attempt([&] { spec = experiment::with_preset(catalogue, spec, *arguments.preset); });
-  for (auto& setting : settings_of(arguments.set, violations)) spec.options.push_back(std::move(setting));
-  violations.require(!arguments.out || !arguments.out->empty(), "--out names no folder");
-  if (arguments.out && !arguments.out->empty())
-    violations.attempt([&] { experiment::RunFolder::require_absent(*arguments.out); });
+  for (auto& setting : settings) spec.options.push_back(std::move(setting));
   spec = resolved_spec(catalogue, spec, file, violations);
   violations.throw_if_any();
   if (arguments.policy)
