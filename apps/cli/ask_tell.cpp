@@ -16,7 +16,6 @@
 #include "apps/cli/limit_text.hpp"
 #include "apps/cli/on_console.hpp"
 #include "apps/cli/program.hpp"
-#include "apps/cli/second_look.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
 #include "rehearse/experiment/priors.hpp"
@@ -201,7 +200,7 @@ int tell(const experiment::Catalogue& catalogue, const TellArguments& arguments)
                           experiment::tell_run(catalogue, arguments.folder, request, options);
                       console.clear_line();
                       print_told(told, arguments.folder);
-                      if (told.trial) put_second_look(second_look(catalogue, arguments.folder, options));
+                      if (told.trial) put_second_look(experiment::second_look(catalogue, arguments.folder, options));
                     });
 }
 

@@ -58,11 +58,12 @@ std::string Console::number(Index trial) const {
   return trials_ >= trial ? fmt::format("{:>2}/{}", trial, trials_) : fmt::format("{}", trial);
 }
 
-void Console::look_for_faults() {
+void Console::look() {
   constexpr auto kPeriod = std::chrono::seconds(1);
   if (std::this_thread::get_id() != owner_ || Clock::now() < next_look_) return;
   next_look_ = Clock::now() + kPeriod;
   say_first_faults();
+  show_progress();
 }
 
 void Console::say_first_faults() {
@@ -73,33 +74,43 @@ void Console::say_first_faults() {
 }
 
 void Console::progress(Index trial, const Progress& progress) {
-  look_for_faults();
-  if (progress.phase != phase_ || progress.done < done_in_phase_) phase_begin_ = Clock::now();  // or a further search
-  phase_ = progress.phase, done_in_phase_ = progress.done;
-  if (!line_.is_due()) return;
-  std::string line = fmt::format("trial {}  {} {:.0f} %", number(trial), progress.phase, 100 * progress.done);
-  line += time_left(progress);
-  if (progress.rollouts > 0 && std::isfinite(progress.best)) line += fmt::format("  predicted {:.3f}", progress.best);
-  if (progress.rollouts > 0) line += fmt::format("  {:.0f} rollouts/s", progress.rollouts_per_s);
+  look();
+  const bool begins = progress.phase != progress_.phase || progress.done < progress_.done;  // or a further search
+  if (begins) phase_begin_ = Clock::now();
+  trial_ = trial, progress_ = progress;
+  show_progress();
+}
+
+void Console::show_progress() {
+  if (progress_.phase.empty() || !line_.is_due()) return;
+  std::string line = fmt::format("trial {}  {}", number(trial_), progress_.phase);
+  if (progress_.done > 0)
+    line += fmt::format(" {:.0f} %{}", 100 * progress_.done, time_left());
+  else
+    line += fmt::format(", {}", duration_text(Seconds(Clock::now() - phase_begin_).count()));
+  if (progress_.rollouts > 0 && std::isfinite(progress_.best))
+    line += fmt::format("  predicted {:.3f}", progress_.best);
+  if (progress_.rollouts > 0) line += fmt::format("  {:.0f} rollouts/s", progress_.rollouts_per_s);
   line_.show(line);
 }
 
-/// Trials are taken to last as long as those before; before there are any, only the phase is known.
-std::string Console::time_left(const Progress& progress) const {
+/// Trials are taken to last as long as those before, unless this phase alone takes longer; before there are any, only
+/// the phase is known.
+std::string Console::time_left() const {
   const auto now = Clock::now();
   const double in_phase = Seconds(now - phase_begin_).count(), in_trial = Seconds(now - trial_begin_).count();
+  double left = progress_.done < 0.02 ? 0 : in_phase * (1 / progress_.done - 1);
   if (done_ > done_before_ && trials_ > done_) {
     const double per_trial = Seconds(trial_begin_ - begin_).count() / static_cast<double>(done_ - done_before_);
-    const double rest = static_cast<double>(trials_ - done_ - 1) * per_trial + std::max(0.0, per_trial - in_trial);
-    return fmt::format(", {} left", duration_text(rest));
+    left = std::max(left, per_trial - in_trial) + static_cast<double>(trials_ - done_ - 1) * per_trial;
   }
-  if (progress.done < 0.02) return "";
-  return fmt::format(", {} left", duration_text(in_phase * (1 / progress.done - 1)));
+  return left > 0 ? fmt::format(", {} left", duration_text(left)) : "";
 }
 
 void Console::trial_done(const experiment::TrialRecord& record) {
   done_ = record.trial;
   trial_begin_ = phase_begin_ = Clock::now();
+  progress_ = {};
   std::string line = fmt::format("trial {}  return {:8.3f}", number(record.trial), record.total_reward);
   if (record.predicted_return) line += fmt::format("  predicted {:8.3f}", *record.predicted_return);
   line += verdict(record.solved) + safety(record.limits);

@@ -27,9 +27,10 @@ class Console final : public experiment::RunListener {
   /// Wipes the line that is being rewritten.
   void clear_line() { line_.clear(); }
 
-  /// Says the first faults of the robot's programs at once, since programs that fail often make work slow; how often it
-  /// was in all is said at the end. Any thread; the one that made this looks, once a second.
-  void look_for_faults();
+  /// Says how far work is where it reports nothing, and the first faults of the robot's programs, since programs that
+  /// fail often make it slow; how often it was in all is said at the end. Any thread calls it between steps of work;
+  /// the one that made this says something, once a second.
+  void look();
 
   /// The same, if the work ends here.
   void interrupted();
@@ -40,7 +41,8 @@ class Console final : public experiment::RunListener {
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::string time_left(const Progress& progress) const;
+  void show_progress();
+  std::string time_left() const;
 
   std::string number(Index trial) const;
   void say_first_faults();
@@ -55,8 +57,8 @@ class Console final : public experiment::RunListener {
   std::string priors_;
   std::function<std::vector<std::string>()> faults_;  // of the robot's programs; null: said, or it has none
   std::vector<std::string> phi_names_;
-  std::string phase_;
-  double done_in_phase_ = 0;
+  Index trial_ = 0;
+  Progress progress_;  // the last of this trial; of no phase before the first
   Clock::time_point begin_, trial_begin_, phase_begin_, next_look_;
 };
 

@@ -123,10 +123,9 @@ void require_robot(const experiment::PastRun& run) {
   if (experiment::has_robot(run.resolved)) return;
   const std::string way =
       command_line({"learn", "COPY.toml", "--learner", run.resolved.spec.learner, "--trials", "0", "--out", "OTHER"});
-  throw InvalidInput(fmt::format(
-      "{} has no plant that episodes could run on, and the run has no prior that could play it, or several. "
-      "A copy of its file with [plant], a simulator, has one: {}; then: {}",
-      run.resolved.scenario.name, way, command_line({"evaluate", "OTHER", "--policy", "FILE.json"})));
+  throw InvalidInput(fmt::format("{}. A copy of its file with [plant], a simulator, has one: {}; then: {}",
+                                 experiment::why_no_robot(run.resolved), way,
+                                 command_line({"evaluate", "OTHER", "--policy", "FILE.json"})));
 }
 
 Work prepared(const experiment::Catalogue& catalogue, const EvaluateArguments& arguments) {

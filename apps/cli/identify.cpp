@@ -11,9 +11,9 @@
 #include "apps/cli/complain.hpp"
 #include "apps/cli/signals.hpp"
 #include "apps/cli/status_line.hpp"
-#include "apps/cli/study_setup.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/events.hpp"
+#include "rehearse/experiment/study_setup.hpp"
 #include "rehearse/files/new_folder.hpp"
 #include "rehearse/files/write.hpp"
 #include "rehearse/study/page.hpp"
@@ -53,10 +53,10 @@ int identify(const experiment::Catalogue& built_in, const IdentifyArguments& arg
   const experiment::Catalogue catalogue = with_robot(built_in, arguments.robot);
   const Index threads = threads_of(arguments.threads, violations);
   check_out(arguments.out, violations);
-  const StudySetup setup =
-      set_up_study(catalogue, {arguments.robot, arguments.prior, settings_of(arguments.set, violations)}, violations);
-  ReadLogs read = read_logs(arguments.logs, arguments.held_out, setup, violations);
-  const auto said = [](std::vector<ReadLog>& all) {
+  const experiment::StudySetup setup = experiment::set_up_study(
+      catalogue, {arguments.robot, arguments.prior, settings_of(arguments.set, violations)}, violations);
+  experiment::ReadLogs read = experiment::read_logs(arguments.logs, arguments.held_out, setup, violations);
+  const auto said = [](std::vector<experiment::ReadLog>& all) {
     std::vector<study::Log> logs;
     for (auto& [path, log, notes] : all) {
       for (const std::string& note : notes) put("{}: {}\n", path, note);

@@ -6,7 +6,6 @@
 #include "apps/cli/commands.hpp"
 #include "apps/cli/on_console.hpp"
 #include "apps/cli/program.hpp"
-#include "apps/cli/second_look.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/experiment/given_policy.hpp"
 #include "rehearse/experiment/preset_check.hpp"
@@ -99,7 +98,7 @@ int run_on_console(const Catalogue& catalogue, const std::filesystem::path& fold
   return on_console(folder, threads, console, command_line({"resume", folder.string()}),
                     [&](const RunOptions& options) {
                       console.finished(run(options));
-                      put_second_look(second_look(catalogue, folder, options));
+                      put_second_look(experiment::second_look(catalogue, folder, options));
                     });
 }
 

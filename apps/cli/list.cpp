@@ -10,13 +10,13 @@
 #include "apps/cli/complain.hpp"
 #include "apps/cli/options_table.hpp"
 #include "apps/cli/program.hpp"
-#include "apps/cli/study_setup.hpp"
 #include "rehearse/core/errors.hpp"
 #include "rehearse/core/names.hpp"
 #include "rehearse/core/options.hpp"
 #include "rehearse/core/text_table.hpp"
 #include "rehearse/experiment/preset.hpp"
 #include "rehearse/experiment/spec.hpp"
+#include "rehearse/experiment/study_setup.hpp"
 
 namespace rehearse::apps {
 namespace {
@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 
 /// The command `identify`, whose options are listed as those of a learner.
 struct IdentifyEntry {
-  IdentifyOptions options;
+  experiment::IdentifyOptions options;
   static std::string name() { return "identify"; }
   static std::string summary() { return "a robot's parameters, and what no parameter explains, from logs"; }
   void fields(FieldVisitor& v) { options.fields(v); }

@@ -42,7 +42,7 @@ int on_console(const std::filesystem::path& folder, Index threads, Console& cons
                                        .listener = &console,
                                        .stop =
                                            [&] {
-                                             console.look_for_faults();
+                                             console.look();
                                              return caught_signal() != 0;
                                            },
                                        .cache = cache_folder};
@@ -58,6 +58,11 @@ int on_console(const std::filesystem::path& folder, Index threads, Console& cons
     console.clear_line();
     throw std::runtime_error(fmt::format("{}\n{}", error.what(), advice_after(error, folder, again)));
   }
+}
+
+void put_second_look(const experiment::SecondLook& look) {
+  for (const std::string& line : look.readings) put("{}\n", line);
+  if (!look.read_on.empty()) put("{}\n", look.read_on);
 }
 
 }  // namespace rehearse::apps

@@ -5,6 +5,7 @@
 
 #include "apps/cli/console.hpp"
 #include "rehearse/experiment/run_options.hpp"
+#include "rehearse/experiment/second_look.hpp"
 
 namespace rehearse::apps {
 
@@ -13,5 +14,8 @@ namespace rehearse::apps {
 /// failed.
 int on_console(const std::filesystem::path& folder, Index threads, Console& console, const std::string& again,
                const std::function<void(const experiment::RunOptions&)>& work);
+
+/// Prints it.
+void put_second_look(const experiment::SecondLook& look);
 
 }  // namespace rehearse::apps

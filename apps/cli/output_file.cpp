@@ -52,6 +52,12 @@ OutputFile policy_file(fs::path path, std::string option) {
           .is_ours = policy::is_exported};
 }
 
+std::string why_not_writable(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return "";
+  return fmt::format("cannot write {}: {}", file.string(), std::strerror(errno));
+}
+
 bool check_output(const OutputFile& file) {
   if (file.path.empty()) throw InvalidInput("--out needs the name of a file");
   std::error_code ignored;
@@ -62,16 +68,14 @@ bool check_output(const OutputFile& file) {
   };
   if (fs::exists(status) && !is_ours())
     refuse_output(file, fmt::format("{} is no {} and is left as it is", file.path.string(), file.kind));
-  const fs::path folder = file.path.has_parent_path() ? file.path.parent_path() : ".";
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    refuse_output(file, fmt::format("cannot write {}: {}", file.path.string(), std::strerror(errno)));
+  if (const std::string why = why_not_writable(file.path); !why.empty()) refuse_output(file, why);
   return fs::exists(status);
 }
 
 bool write_output(const OutputFile& file, const std::string& text) {
   const bool there = check_output(file);
   try {
-    files::write_file(file.path, text);
+    files::write_shared_file(file.path, text);  // whose temporary name is nobody else's
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(naming_another(file, error.what()));  // a full disk is no wrong input
   }

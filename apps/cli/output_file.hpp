@@ -20,6 +20,9 @@ struct OutputFile {
 OutputFile page_file(std::filesystem::path path, std::string option);
 OutputFile policy_file(std::filesystem::path path, std::string option);
 
+/// "cannot write FILE: …" if its folder is not there or cannot be written; else empty.
+std::string why_not_writable(const std::filesystem::path& file);
+
 /// Returns true if there is such a file already. Throws InvalidInput if something of this name exists that this program
 /// did not write, or its folder cannot be written.
 bool check_output(const OutputFile& file);

@@ -77,6 +77,10 @@ void Failure::raise_if_any() {
   if (const auto first = take()) throw py::error_already_set(*first);
 }
 
+void Failure::forget_errors() {
+  if (const auto first = take(); first && first->matches(PyExc_KeyboardInterrupt)) keep(*first, "rehearse");
+}
+
 py::array_t<double> to_array(const ConstMatrixView& X) {
   py::array_t<double, py::array::f_style> array({X.rows(), X.cols()});
   Matrix::Map(array.mutable_data(), X.rows(), X.cols()) = X;

@@ -30,6 +30,9 @@ class Failure {
   /// locked.
   void raise_if_any();
 
+  /// Forgets it unless it is KeyboardInterrupt. The interpreter is locked.
+  void forget_errors();
+
  private:
   std::optional<py::error_already_set> take();
 

@@ -2,8 +2,8 @@
 
 #include <pybind11/stl.h>
 
-#include "apps/cli/study_setup.hpp"
 #include "python/bindings/work.hpp"
+#include "rehearse/experiment/study_setup.hpp"
 #include "rehearse/study/page.hpp"
 #include "rehearse/study/summary.hpp"
 #include "rehearse/study/tables.hpp"
@@ -25,7 +25,7 @@ struct Texts {
   std::string page;
 };
 
-std::vector<study::Log> with_notes(std::vector<apps::ReadLog>& read, Strings& notes) {
+std::vector<study::Log> with_notes(std::vector<experiment::ReadLog>& read, Strings& notes) {
   std::vector<study::Log> logs;
   for (auto& [path, log, its_notes] : read) {
     for (const std::string& note : its_notes) notes.push_back(log.name + ": " + note);
@@ -34,12 +34,13 @@ std::vector<study::Log> with_notes(std::vector<apps::ReadLog>& read, Strings& no
   return logs;
 }
 
-Texts identify(const Robot& robot, const apps::StudyRequest& request, const Files& files, const Settings& settings) {
+Texts identify(const Robot& robot, const experiment::StudyRequest& request, const Files& files,
+               const Settings& settings) {
   Texts texts;
   work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
     Violations violations;
-    const apps::StudySetup setup = apps::set_up_study(own.catalogue(), request, violations);
-    apps::ReadLogs read = apps::read_logs(files.logs, files.held_out, setup, violations);
+    const experiment::StudySetup setup = experiment::set_up_study(own.catalogue(), request, violations);
+    experiment::ReadLogs read = experiment::read_logs(files.logs, files.held_out, setup, violations);
     violations.throw_if_any();
     const auto logs = with_notes(read.logs, texts.notes), held_out = with_notes(read.held_out, texts.notes);
     const study::Problem problem = setup.problem(logs, held_out);

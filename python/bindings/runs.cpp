@@ -7,7 +7,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "apps/cli/second_look.hpp"
 #include "python/bindings/policy.hpp"
 #include "python/bindings/work.hpp"
 #include "rehearse/experiment/ask_tell.hpp"
@@ -17,6 +16,7 @@
 #include "rehearse/experiment/preset_check.hpp"
 #include "rehearse/experiment/resolve.hpp"
 #include "rehearse/experiment/run.hpp"
+#include "rehearse/experiment/second_look.hpp"
 #include "rehearse/experiment/tables.hpp"
 
 namespace rehearse::python {
@@ -72,10 +72,12 @@ void warn(const std::vector<std::string>& lines) {
     if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 2) != 0) throw py::error_already_set();
 }
 
-/// Other readings of the trials, such as a delay, where trials do not get better; none where nothing is found.
-Strings other_readings(const experiment::Catalogue& catalogue, const std::filesystem::path& folder,
-                       const experiment::RunOptions& options) {
-  auto [readings, read_on] = apps::second_look(catalogue, folder, options);
+/// Other readings of the trials, such as a delay, where trials do not get better; none where nothing is found. What a
+/// prior raises there is no fault of the trials, which are done.
+Strings other_readings(const Robot& robot, const std::filesystem::path& folder, const experiment::RunOptions& options) {
+  auto [readings, read_on] = experiment::second_look(robot.catalogue(), folder, options);
+  const py::gil_scoped_acquire locked;
+  robot.failure()->forget_errors();
   if (!readings.empty()) readings.push_back(read_on);
   return readings;
 }
@@ -90,7 +92,7 @@ std::string learn(const Robot& robot, const Request& request, const std::string&
     warn(run.warnings);
     if (folder.empty()) folder = "runs/" + run_name(run.spec);
     experiment::start_run(catalogue, run.spec, folder, options);
-    warn(other_readings(catalogue, folder, options));
+    warn(other_readings(own, folder, options));
   };
   resumable(robot, folder, [&] { work_with(robot, settings, run_all); });
   return folder.string();
@@ -100,7 +102,7 @@ void resume(const Robot& robot, const std::string& folder, std::optional<Index> 
   const auto go_on = [&](const Robot& own, const experiment::RunOptions& options) {
     const auto until = trials ? std::optional<experiment::Until>(*trials) : std::nullopt;
     experiment::resume_run(own.catalogue(), folder, until, options);
-    warn(other_readings(own.catalogue(), folder, options));
+    warn(other_readings(own, folder, options));
   };
   resumable(robot, folder, [&] { work_with(robot, settings, go_on); });
 }
@@ -124,7 +126,7 @@ py::dict tell(const Robot& robot, const std::string& folder, const Strings& file
   work_with(robot, settings, [&](const Robot& own, const experiment::RunOptions& options) {
     experiment::TellRequest request{.files = {files.begin(), files.end()}, .stopped = stopped};
     told = experiment::tell_run(own.catalogue(), folder, request, options);
-    if (told->trial) readings = other_readings(own.catalogue(), folder, options);
+    if (told->trial) readings = other_readings(own, folder, options);
   });
   Strings logs, notes;
   for (const experiment::Log& log : told->logs) {

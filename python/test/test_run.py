@@ -326,6 +326,21 @@ def test_trials_that_do_not_get_better_are_looked_at_again(tmp_path):
         told.tell(run.trajectory(3))
 
 
+def test_a_prior_that_fails_when_trials_are_looked_at_again_hides_none(tmp_path):
+    raised = []
+
+    def worn(states, actions, mass, friction):
+        if (tmp_path / "run" / "done").exists():
+            raised.append(len(states))
+            raise RuntimeError("worn out")
+        return change(states, actions, mass=mass, friction=friction)
+
+    prior = rehearse.Model(worn, parameters={"mass": 1.3, "friction": 0.3}, tune={"mass": (0.2, 5)})
+    robot = cart(priors={"light": prior}, success=rehearse.Success("position > 1e6"))
+    assert len(learn(robot, tmp_path / "run", trials=3).trials) == 3
+    assert raised
+
+
 def test_what_was_told_can_be_taken_back(tmp_path):
     anew = {**QUICK, "start_from_best": False}  # the policies of both trials differ
     whole = learn(cart(), tmp_path / "whole", options=anew)

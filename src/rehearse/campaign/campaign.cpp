@@ -204,8 +204,10 @@ class Leader {
     folder_.emplace(CampaignFolder::open(catalogue_, path, text, campaign_.plan,
                                          whole ? files::FolderLock::Kind::exclusive : files::FolderLock::Kind::shared));
     keep(options_.share, campaign_.plan);
-    folder_->remove_abandoned(campaign_.plan);
-    if (whole) campaign_.skipped = folder_->strangers(campaign_.plan);
+    if (whole) {  // else others may be making theirs
+      folder_->remove_abandoned(campaign_.plan);
+      campaign_.skipped = folder_->strangers(campaign_.plan);
+    }
     for (const PlannedRun& run : campaign_.plan.runs) campaign_.runs.push_back(folder_->read(run));
     write_tables();
   }

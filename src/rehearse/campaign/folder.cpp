@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <set>
 #include <thread>
 
 #include <fmt/format.h>
@@ -80,11 +81,10 @@ void check_only_adds(const CampaignPlan& begun, const CampaignPlan& plan, const 
   violations.throw_if_any();
 }
 
-/// A folder left behind by a run of the plan that was killed while it was made.
-bool is_abandoned(const std::string& entry, const CampaignPlan& plan) {
-  const auto name = files::name_of_hidden(entry);
-  return name &&
-         std::any_of(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) { return run.name == *name; });
+std::set<std::string> names_of_runs(const CampaignPlan& plan) {
+  std::set<std::string> names;
+  for (const PlannedRun& run : plan.runs) names.insert(run.name);
+  return names;
 }
 
 /// The options in the plan's order; those that an older version did not have are as planned, which are its defaults:
@@ -160,9 +160,12 @@ RunOutcome rows_of(const fs::path& file, Index trials) {
 }  // namespace
 
 void CampaignFolder::remove_abandoned(const CampaignPlan& plan) const {
+  const std::set<std::string> names = names_of_runs(plan);
   std::vector<fs::path> abandoned;
-  for (const auto& entry : fs::directory_iterator(path_ / kRuns))
-    if (is_abandoned(entry.path().filename().string(), plan)) abandoned.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(path_ / kRuns)) {
+    const auto name = files::name_of_hidden(entry.path().filename().string());
+    if (name && names.contains(*name)) abandoned.push_back(entry.path());
+  }
   for (const fs::path& path : abandoned) fs::remove_all(path);
 }
 
@@ -222,12 +225,11 @@ RunOutcome CampaignFolder::read(const PlannedRun& run) const {
 }
 
 std::vector<Skipped> CampaignFolder::strangers(const CampaignPlan& plan) const {
+  const std::set<std::string> names = names_of_runs(plan);
   std::vector<Skipped> found;
   for (const auto& entry : fs::directory_iterator(path_ / kRuns)) {
     const std::string name = entry.path().filename().string();
-    const bool planned =
-        std::any_of(plan.runs.begin(), plan.runs.end(), [&](const PlannedRun& run) { return run.name == name; });
-    if (!planned) found.push_back({fmt::format("{}/{}", kRuns, name), "not a run of this campaign"});
+    if (!names.contains(name)) found.push_back({fmt::format("{}/{}", kRuns, name), "not a run of this campaign"});
   }
   std::sort(found.begin(), found.end(), [](const Skipped& a, const Skipped& b) { return a.path < b.path; });
   return found;

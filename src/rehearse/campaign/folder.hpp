@@ -32,7 +32,8 @@ class CampaignFolder {
   /// The state of a run's folder: done, unfinished (or not there), or failed when it is another's or unreadable.
   RunOutcome read(const PlannedRun& run) const;
 
-  /// Removes what runs of the plan left behind that were killed while their folders were made.
+  /// Removes what runs of the plan left behind that were killed while their folders were made. Only where no other
+  /// process is at work in the folder: it would lose what it is making.
   void remove_abandoned(const CampaignPlan& plan) const;
 
   /// Folders under runs/ that are none of the plan's, in order of name.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "rehearse/core/errors.hpp"
+#include "rehearse/experiment/spec.hpp"
 #include "rehearse/files/toml_reader.hpp"
 
 namespace rehearse::campaign {
@@ -18,7 +19,8 @@ void add_seeds(const std::string& text, std::vector<Index>& seeds) {
   const auto number = [&](std::string_view digits) {
     Index value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc{} || end != digits.data() + digits.size() || value < 0 || value > Index{1} << 53)
+    if (error != std::errc{} || end != digits.data() + digits.size() || value < 0 ||
+        static_cast<double>(value) > experiment::kMostSeed)
       throw InvalidInput(fmt::format("seeds = {}, must be whole numbers from 0 to 2^53, or \"FIRST-LAST\"", text));
     return value;
   };

@@ -1,5 +1,6 @@
 #include "rehearse/core/evaluator.hpp"
 
+#include <atomic>
 #include <exception>
 #include <vector>
 
@@ -42,6 +43,12 @@ class SerialEvaluator final : public Evaluator {
   int concurrency() const override { return 1; }
 };
 
+void lower(std::atomic<Index>& value, Index to) {
+  Index known = value;
+  while (to < known && !value.compare_exchange_weak(known, to)) {
+  }
+}
+
 constexpr std::size_t kMostThreads = 4096;
 
 class ThreadEvaluator final : public Evaluator {
@@ -53,11 +60,14 @@ class ThreadEvaluator final : public Evaluator {
 
   void for_each(Index n, const std::function<void(Index)>& task) const override {
     std::vector<std::exception_ptr> failures(static_cast<std::size_t>(n));
+    std::atomic<Index> first_failure = n;
     const auto guarded = [&](Index i) {
+      if (i > first_failure) return;  // nobody would see its result: a simulator that hangs takes long each time
       try {
         task(i);
       } catch (...) {
         failures[static_cast<std::size_t>(i)] = std::current_exception();
+        lower(first_failure, i);
       }
     };
     Mark begun, ended;

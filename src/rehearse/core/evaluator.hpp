@@ -14,7 +14,7 @@ class Evaluator {
   virtual ~Evaluator() = default;
 
   /// Calls task(i) once for each i in 0..n−1 and returns when all have ended. The first exception of a task (in order
-  /// of i) is thrown again here. May be called from within a task.
+  /// of i) is thrown again here; tasks after it may be left out. May be called from within a task.
   virtual void for_each(Index n, const std::function<void(Index)>& task) const = 0;
 
   /// The number of tasks that run at once; must not affect results.

@@ -10,7 +10,7 @@ namespace rehearse {
 /// Every evaluator calls it; a program that uses none calls it first. Cheap, any thread.
 void require_processor();
 
-/// The instruction set of vectorised kernels, "AVX3" or "AVX2", for the log. It decides speed alone. The environment
+/// The instruction set of vectorised kernels, "AVX3" or "AVX2", for benchmarks. It decides speed alone. The environment
 /// variable REHEARSE_KERNELS=avx2 keeps them to AVX2, to compare; it is read once.
 std::string kernel_target();
 

@@ -48,6 +48,7 @@ class GpModel final : public DynamicsModel {
 
   Index rows_at_once() const override { return prior_ ? prior_->rows_at_once() : 0; }
   const Vector& measurement_std() const override { return measurement_std_; }
+  /// Before the model is shared.
   void set_measurement_std(Vector std) { measurement_std_ = std::move(std); }
 
   const gp::Posterior& posterior() const { return posterior_; }

@@ -102,7 +102,9 @@ void keep_tell(const RunFolder& run, const std::vector<ToldFile>& files) {
   try {
     keep_in(unfinished, run, files);
   } catch (...) {
-    remove_tell(run, unfinished);
+    std::error_code ignored;  // that of the disk is the one to report
+    fs::remove_all(unfinished, ignored);
+    fs::remove(tells_of(run), ignored);  // unless others are in it
     throw;
   }
   const Index last = all.empty() ? 0 : tell_number(all.back());

@@ -13,7 +13,7 @@ namespace rehearse::experiment {
 /// The options' evaluator, or a serial one; stoppable if the options can stop.
 std::shared_ptr<const Evaluator> evaluator_of(const RunOptions& options);
 
-/// Everything of a run but its folder: makes the learner and the plant, so that wrong input is found first.
+/// Everything of a run but its folder: makes the learner and the plant, so that wrong input is found first. One thread.
 class Participants {
  public:
   Participants(Resolved resolved, const RunOptions& options);

@@ -41,10 +41,8 @@ std::vector<std::pair<std::string, std::string>> PastRun::as_identified(
   return settings;
 }
 
-PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder,
-                 const std::vector<std::pair<std::string, std::string>>& settings) {
+PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder) {
   auto [spec, history] = RunFolder::read(folder);
-  spec.options.insert(spec.options.end(), settings.begin(), settings.end());
   return {resolve_begun(with_robot_of_run(catalogue, folder), spec), std::move(history)};
 }
 

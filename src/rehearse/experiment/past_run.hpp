@@ -28,10 +28,9 @@ struct PastRun {
       const std::vector<std::pair<std::string, std::string>>& others = {}) const;
 };
 
-/// Reads a folder. It changes nothing and locks nothing, so the run may be going on. settings: options that differ from
-/// the run's, key and value, as in a Spec. Throws InvalidInput if it is no run folder, or an option is wrong.
-PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder,
-                 const std::vector<std::pair<std::string, std::string>>& settings = {});
+/// Reads a folder. It changes nothing and locks nothing, so the run may be going on. Throws InvalidInput if it is no
+/// run folder.
+PastRun read_run(const Catalogue& catalogue, const std::filesystem::path& folder);
 
 /// The policy of which a trial's θ are the parameters. Throws InvalidInput if the scenario has none of that name.
 std::shared_ptr<const policy::Policy> policy_of(const TrialRecord& trial, const scenario::Scenario& scenario);

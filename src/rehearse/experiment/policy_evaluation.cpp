@@ -86,13 +86,16 @@ Index EvaluationPlan::steps(const Task& task) const {
   return static_cast<Index>(wanted);
 }
 
+std::string why_no_robot(const Resolved& resolved) {
+  return fmt::format(
+      "{} has no plant that episodes could run on, and the run has no prior that could play it, or several",
+      resolved.scenario.name);
+}
+
 std::vector<Outcome> evaluate(const Resolved& resolved, const Learned& learned, const EvaluationPlan& plan,
                               const Evaluator& evaluator) {
   const scenario::Scenario& scenario = resolved.scenario;
-  if (!has_robot(resolved))
-    throw InvalidInput(fmt::format(
-        "{} has no plant that episodes could run on, and the run has no prior that could play it, or several",
-        scenario.name));
+  if (!has_robot(resolved)) throw InvalidInput(why_no_robot(resolved));
   Task longer = scenario.task;
   longer.horizon = plan.steps(scenario.task);
   if (learned.theta.size() != learned.policy->parameters())

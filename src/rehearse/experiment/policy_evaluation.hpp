@@ -17,6 +17,9 @@ namespace rehearse::experiment {
 /// True if there is a robot to evaluate policies on: the scenario's plant, or a prior that plays it.
 bool has_robot(const Resolved& resolved);
 
+/// Why there is none.
+std::string why_no_robot(const Resolved& resolved);
+
 /// The settings of an evaluation: episodes on the plant that do not count as interaction.
 struct EvaluationPlan {
   Index episodes = 100;
@@ -26,7 +29,7 @@ struct EvaluationPlan {
   /// Those whose bounds no task decides.
   void fields(FieldVisitor& v) {
     v.integer("episodes", episodes, "episodes on the plant", between(1, 1e6));
-    v.integer("seed", seed, "of starts and noise", between(0, 9007199254740992.0));  // 2^53, as a run's
+    v.integer("seed", seed, "of starts and noise", between(0, kMostSeed));
   }
 
   /// Steps of an episode. Throws InvalidInput for whatever is wrong with the plan.

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/experiment/kept_robot.hpp"
+
 namespace rehearse::experiment {
 namespace {
 
@@ -14,6 +16,12 @@ GivenPolicy policy_wanted(const EvaluationRequest& request, const PastRun& run) 
   const bool done = trial.trial <= run.history.done();
   return {{policy_of(trial, run.resolved.scenario), trial.theta, trial.trial},
           done ? std::optional(trial.total_reward) : std::nullopt};
+}
+
+/// A run with options that differ from its own. catalogue: with the run's robot.
+Resolved changed(const Catalogue& catalogue, Spec spec, const learners::OptionTexts& settings) {
+  spec.options.insert(spec.options.end(), settings.begin(), settings.end());
+  return resolve_begun(catalogue, spec);
 }
 
 }  // namespace
@@ -29,15 +37,16 @@ EvaluationAbout PreparedEvaluation::about() const {
 PreparedEvaluation prepare_evaluation(const Catalogue& catalogue, const PastRun& run, EvaluationRequest request) {
   Violations violations;
   std::optional<GivenPolicy> policy;
-  std::optional<PastRun> changed;
+  std::optional<Resolved> resolved;
   violations.attempt([&] { policy = policy_wanted(request, run); });
   request.settings = run.as_identified(request.settings);
-  violations.attempt([&] { changed = read_run(catalogue, request.folder, request.settings); });
+  violations.attempt(
+      [&] { resolved = changed(with_robot_of_run(catalogue, request.folder), run.resolved.spec, request.settings); });
   violations.throw_if_any();
-  const scenario::Scenario& scenario = changed->resolved.scenario;
+  const scenario::Scenario& scenario = resolved->scenario;
   if (scenario.require_ready) scenario.require_ready(scenario::PlantUse::driven);
-  if (request.seed_of_run) request.plan.seed = changed->resolved.spec.seed;
-  return {std::move(request), std::move(*policy), std::move(changed->resolved), was_told(run.history)};
+  if (request.seed_of_run) request.plan.seed = resolved->spec.seed;
+  return {std::move(request), std::move(*policy), std::move(*resolved), was_told(run.history)};
 }
 
 std::vector<Outcome> evaluate(const PreparedEvaluation& prepared, const Evaluator& evaluator) {
@@ -46,12 +55,11 @@ std::vector<Outcome> evaluate(const PreparedEvaluation& prepared, const Evaluato
 
 std::vector<Changed> robustness(const Catalogue& catalogue, const PreparedEvaluation& prepared,
                                 const Evaluator& evaluator) {
-  const auto changed = [&](const std::string& key, const std::string& value) {
-    learners::OptionTexts settings = prepared.request.settings;
-    settings.emplace_back(key, value);
-    return read_run(catalogue, prepared.request.folder, settings).resolved;
+  const Catalogue of_run = with_robot_of_run(catalogue, prepared.request.folder);
+  const auto make = [&](const std::string& key, const std::string& value) {
+    return changed(of_run, prepared.resolved.spec, {{key, value}});
   };
-  return robustness(changed, prepared.resolved, prepared.policy.learned, prepared.request.plan, evaluator);
+  return robustness(make, prepared.resolved, prepared.policy.learned, prepared.request.plan, evaluator);
 }
 
 }  // namespace rehearse::experiment

@@ -63,10 +63,10 @@ class Resolver {
     violations_.add(scenario->task.violations());
     violations_.require(!spec_.until_solved || scenario->task.solved,
                         fmt::format("until_solved: {} cannot say what is solved", spec_.scenario));
-    if (check_.learner && scenario->policy)  // without a policy the learner complains when it is built
+    violations_.require(scenario->policy != nullptr, fmt::format("scenario {} has no policy", spec_.scenario));
+    if (check_.learner && scenario->policy)
       for (const std::string& line : learner_builder_->violations(scenario->task, *scenario->policy))
         violations_.add(line);
-
     if (!spec_.start.empty() && scenario->policy) check_start(*scenario->policy);
     ChosenPriors priors(*scenario, names, violations_);
     set_prior_values(priors);

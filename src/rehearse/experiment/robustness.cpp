@@ -56,18 +56,22 @@ void add_rate(std::vector<std::string>& row, const std::optional<statistics::Rat
 std::vector<Changed> robustness(const std::function<Resolved(const std::string& key, const std::string& value)>& make,
                                 const Resolved& run, const Learned& learned, const EvaluationPlan& plan,
                                 const Evaluator& evaluator) {
-  const std::vector<Value> parameters = parameters_of(run);
-  const Summary unchanged = summary_of(evaluate(run, learned, plan, evaluator));
   std::vector<Changed> all;
-  for (const auto& [parameter, value] : parameters)
+  std::vector<Resolved> robots;  // all before the first episode: a value that is refused costs no time
+  for (const auto& [parameter, value] : parameters_of(run))
     for (const double factor : kFactors) {
       const double changed = factor * value;
-      all.push_back({parameter, factor, changed, unchanged});
-      if (factor == 1) continue;
-      const Resolved other = run.stand_in() ? with_prior_at(run, parameter, changed)
-                                            : make(kPlant + parameter, fmt::format("{}", changed));
-      all.back().summary = summary_of(evaluate(other, learned, plan, evaluator));
+      all.push_back({parameter, factor, changed, {}});
+      if (factor == 1)
+        robots.push_back(run);
+      else if (run.stand_in())
+        robots.push_back(with_prior_at(run, parameter, changed));
+      else
+        robots.push_back(make(kPlant + parameter, fmt::format("{}", changed)));
     }
+  const Summary unchanged = summary_of(evaluate(run, learned, plan, evaluator));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i].summary = all[i].factor == 1 ? unchanged : summary_of(evaluate(robots[i], learned, plan, evaluator));
   return all;
 }
 

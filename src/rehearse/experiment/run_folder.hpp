@@ -17,7 +17,8 @@ inline constexpr const char* kToldFolder = "told";  // what each `tell` was told
 inline constexpr const char* kNextFolder = "next";  // of the policy that was asked for
 
 /// The folder of one run, locked while this lives. The checkpoint is the truth and each file is replaced in one step:
-/// after a kill at any instant, `load` and `write_tables` bring the rest up to date.
+/// after a kill at any instant, `load` and `write_tables` bring the rest up to date. One thread, but for the static
+/// functions, which any thread may call.
 class RunFolder {
  public:
   /// Throws InvalidInput if there is anything of that name.

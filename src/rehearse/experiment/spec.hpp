@@ -10,6 +10,8 @@
 
 namespace rehearse::experiment {
 
+inline constexpr double kMostSeed = 9007199254740992.0;  // 2^53: survives every file format
+
 /// The end of a run; it may be changed during the run.
 struct Until {
   Until(Index all, bool or_solved = false) : trials(all), solved(or_solved) {}  // NOLINT(google-explicit-constructor)
@@ -53,8 +55,7 @@ struct Spec {
   void fields(FieldVisitor& v) {
     v.integer("trials", trials, "trials on the plant; 0: none, trials come by `ask` and `tell`", between(0, 1e6));
     v.boolean("until_solved", until_solved, "end before, with a trial that solves the task");
-    v.integer("seed", seed, "seed of all random numbers: the same one gives the same run",
-              between(0, 9007199254740992.0));  // 2^53: survives every file format
+    v.integer("seed", seed, "seed of all random numbers: the same one gives the same run", between(0, kMostSeed));
     v.text("start", start,
            "parameters of an initial policy: searches start from it, too; without a prior it is the first trial");
     settable_fields(v);

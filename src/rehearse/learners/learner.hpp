@@ -83,7 +83,8 @@ struct Setting {
 /// Laws (checked by testing::check_learner): `ask` is idempotent: until the next `tell` it returns the same proposal.
 /// A learner whose proposal is restored by `ask_again` goes on as one that found it. The same setting, options and
 /// episodes give the same bytes, whatever the evaluator. A learner that loaded what another saved, after being told the
-/// same episodes, goes on as that one would, its tables too.
+/// same episodes, goes on as that one would, its tables too. One thread at a time calls it; it spreads its own work by
+/// the setting's evaluator.
 class Learner {
  public:
   virtual ~Learner() = default;

@@ -7,7 +7,7 @@ namespace rehearse::learners {
 
 /// Keeps the results of long computations before a learner's first trial, so that a run that was killed goes on from
 /// there, and another run that would compute the same begins with them. It belongs to one setting and its options. What
-/// is lost is computed again: a store changes no result.
+/// is lost is computed again: a store changes no result. One thread at a time.
 class Store {
  public:
   virtual ~Store() = default;

@@ -23,6 +23,7 @@ struct Episodes {
   void begin(const Task& task, const Matrix& start);
   /// After the last step. of_steps (rows): what the steps earned, and what was charged.
   void finish(const Task& task, const Vector& of_steps);
+  /// Writes all of an episode but its failure and the names of broken limits, which simulated ones do not have.
   /// Allocates only where the episode has another size.
   void copy(Index row, Episode& episode) const;
 };

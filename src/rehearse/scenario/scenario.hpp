@@ -40,8 +40,8 @@ struct Scenario {
   std::vector<NamedPrior> priors;                              // the first is the default
   std::shared_ptr<const system::Simulator> oracle;  // the plant's own dynamics, for `--prior oracle`; may be null
   std::vector<std::string> oracle_lacks;            // properties of the plant that its oracle lacks, a line each
-  std::shared_ptr<const policy::Policy> policy;
-  std::optional<Drawing> drawing;  // empty: it cannot be shown
+  std::shared_ptr<const policy::Policy> policy;     // to learn; not null
+  std::optional<Drawing> drawing;                   // empty: it cannot be shown
   // Throws InvalidInput with why a prior cannot be used, or the plant where it is driven; a plant that is left alone is
   // not even asked. Null: they can.
   std::function<void(PlantUse)> require_ready;

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "rehearse/core/parameters.hpp"
-#include "rehearse/identification/phi_posterior.hpp"
+#include "rehearse/core/types.hpp"
 
 namespace rehearse::study {
 
-/// A least-squares fit at its minimum; coordinates are fractions of boxes, the first ones of `parameters`.
+/// A least-squares fit at its minimum; coordinates are fractions of boxes.
 struct FittedSquares {
   Vector errors;              // N, of a usual size of 1
   Matrix derivatives;         // N × coordinates

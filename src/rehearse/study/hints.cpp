@@ -38,7 +38,7 @@ class HintFinder {
 
   std::vector<Hint> find() {
     if (logs_.empty()) return {};
-    as_read_ = find_zeros(logs_, problem_, evaluator_).left;
+    as_read_ = errors_left(logs_, problem_, evaluator_);
     std::vector<Hint> all = {zeros(), delay()};
     for (Index a = 0; a < task_.action_size(); ++a) all.push_back(negated(a));
     std::erase_if(all, [](const Hint& hint) { return !(hint.errors < kMuchBetter); });
@@ -75,7 +75,12 @@ class HintFinder {
     return best;
   }
 
+  /// None where an action would be out of its bounds, for which no simulator is made.
   Hint negated(Index action) const {
+    const Interval& bounds = task_.actions[static_cast<std::size_t>(action)].bounds;
+    for (const Episode& log : logs_)
+      if (-log.actions.col(action).maxCoeff() < bounds.low || -log.actions.col(action).minCoeff() > bounds.high)
+        return {};
     return {.negated = action, .errors = errors_of([&](Episode log) {
                                  log.actions.col(action) *= -1;
                                  return log;
@@ -87,7 +92,7 @@ class HintFinder {
   double errors_of(Read read) const {
     std::vector<Episode> all;
     for (const Episode& log : logs_) all.push_back(read(log));
-    return mean_ratio(find_zeros(all, problem_, evaluator_).left, as_read_);
+    return mean_ratio(errors_left(all, problem_, evaluator_), as_read_);
   }
 
   std::vector<Episode> logs_;

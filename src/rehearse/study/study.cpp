@@ -165,6 +165,8 @@ class Student {
     const auto odd = study::odd_log(left);
     if (!odd) return "";
     const double of_odd = std::exchange(left[*odd], 0);
+    for (double& of : left)
+      if (!std::isfinite(of)) of = 0;  // of a log that never changes nothing is known
     return fmt::format(
         "{}: what the other logs teach leaves {:.0f} % of its changes unexplained, and at most {:.0f} % of theirs: is "
         "it "

@@ -142,20 +142,36 @@ class Errors {
   Vector scale_;
 };
 
-}  // namespace
+/// Where errors are least, and where they and the start are trusted as much as they say.
+struct Fitted {
+  Vector closest, z;
+};
 
-Zeros find_zeros(const std::vector<Episode>& logs, const ZeroProblem& problem, const Evaluator& evaluator) {
-  Errors errors(logs, problem, evaluator);
+Fitted fit(Errors& errors) {
   const Index n = errors.size();
+  if (n == 0) return {errors.start(), errors.start()};
   const optim::SquaresProblem squares{[&](const Vector& z) { return errors.at(z); },
                                       [&](const Vector& z, const Vector& r) { return errors.derivatives(z, r); },
                                       Vector::Zero(n), Vector::Ones(n)};
-  Vector z = errors.start(), closest = z;
-  for (int pass = 0; pass < 2 && n > 0; ++pass) {  // how much errors count is known after the first
-    z = optim::minimise_squares(squares, z, {.max_steps = 30, .tolerance = 1e-4}).x;
-    errors.trust_start(inflation(errors.fitted(z)));
-    if (pass == 0) closest = z;
-  }
+  const auto least_from = [&](const Vector& start) {
+    return optim::minimise_squares(squares, start, {.max_steps = 30, .tolerance = 1e-4}).x;
+  };
+  const Vector closest = least_from(errors.start());
+  errors.trust_start(inflation(errors.fitted(closest)));  // how much errors count is known now
+  return {closest, least_from(closest)};
+}
+
+}  // namespace
+
+Vector errors_left(const std::vector<Episode>& logs, const ZeroProblem& problem, const Evaluator& evaluator) {
+  Errors errors(logs, problem, evaluator);
+  return Errors::usual(errors.raw(fit(errors).z));
+}
+
+Zeros find_zeros(const std::vector<Episode>& logs, const ZeroProblem& problem, const Evaluator& evaluator) {
+  Errors errors(logs, problem, evaluator);
+  const auto [closest, z] = fit(errors);
+  const Index n = errors.size();
   const Vector phi = errors.phi(z);
   const Matrix left = n > 0 ? covariance(errors.fitted(z)) : Matrix();
   const Vector upwards = Vector::Constant(n, 0.5) + left.diagonal().cwiseSqrt();

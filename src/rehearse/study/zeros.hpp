@@ -26,7 +26,7 @@ struct Zeros {
   Matrix deviations;  // logs × dx, how sure the offsets are
   std::optional<identification::PhiPosterior> posterior = {};  // of φ
   Vector closest_phi = {};                                     // of the least errors, wherever the logs leave it
-  Vector left = {};                                            // dx, the median magnitudes of errors that are left
+  Vector left = {};                                            // dx, as errors_left has them
 };
 
 /// The offsets, and the prior's continuous parameters, of the least errors over the horizon, from some states of
@@ -34,6 +34,9 @@ struct Zeros {
 /// the prior's values, and zeros where they are. Gauss and Newton's method from the prior's values. Throws InvalidInput
 /// if no log is longer than the horizon.
 Zeros find_zeros(const std::vector<Episode>& logs, const ZeroProblem& problem, const Evaluator& evaluator);
+
+/// The median magnitudes (dx) of the errors over the horizon that find_zeros leaves. The rest is not computed.
+Vector errors_left(const std::vector<Episode>& logs, const ZeroProblem& problem, const Evaluator& evaluator);
 
 /// The log with its states moved by an offset (dx).
 Episode moved(Episode log, const Vector& offset);

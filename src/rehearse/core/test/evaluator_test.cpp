@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -40,6 +41,20 @@ TEST_P(EachEvaluator, TheFirstExceptionInOrderComesBack) {
   int calls = 0;
   evaluator_->for_each(1, [&](Index) { ++calls; });
   EXPECT_EQ(calls, 1) << "it can be used again";
+}
+
+TEST_P(EachEvaluator, LeavesOutWhatComesAfterAFailure) {
+  constexpr int kTasks = 10000;
+  std::atomic<int> begun = 0;
+  std::atomic<bool> failed = false;
+  const auto task = [&](Index i) {
+    ++begun;
+    if (i == 0) failed = true;
+    if (i == 0) throw std::runtime_error("0");
+    while (!failed) std::this_thread::yield();
+  };
+  EXPECT_THROW(evaluator_->for_each(kTasks, task), std::runtime_error);
+  EXPECT_LT(begun, kTasks);
 }
 
 TEST_P(EachEvaluator, MayBeCalledFromWithinATask) {

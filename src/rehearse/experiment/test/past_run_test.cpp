@@ -57,16 +57,6 @@ TEST(PastRun, TheNewestModelIsWhatPlaysARobotWithoutAPlant) {
   EXPECT_TRUE(run.as_identified().empty()) << "nothing is identified";
 }
 
-TEST(PastRun, TakesOtherSettings) {
-  const fs::path folder = fake::test_folder() / "run";
-  start_run(fake::catalogue(), line_spec(2), folder, {});
-  const PastRun run = read_run(fake::catalogue(), folder, {{"noise", "0.5"}});
-  EXPECT_NE(std::find(run.resolved.spec.options.begin(), run.resolved.spec.options.end(),
-                      std::pair<std::string, std::string>("scenario.noise", "0.5")),
-            run.resolved.spec.options.end());
-  EXPECT_THROW(read_run(fake::catalogue(), folder, {{"nois", "0.5"}}), InvalidInput);
-}
-
 TEST(PastRun, PoliciesAreThoseOfTheirTrials) {
   const fs::path folder = fake::test_folder() / "run";
   start_run(fake::catalogue(), line_spec(2, "echo-alone"), folder, {});

@@ -1,5 +1,7 @@
 #include "rehearse/experiment/prepared_evaluation.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "line_run.hpp"
@@ -44,6 +46,8 @@ TEST(PreparedEvaluation, MayHaveAnotherPolicyAndOtherSettings) {
       prepared_of({.folder = folder, .policy = file, .settings = {{"noise", "0.5"}, {"plant.gain", "2"}}});
   EXPECT_EQ(prepared.policy.learned.trial, 1);
   EXPECT_EQ(prepared.about().settings, "noise=0.5 plant.gain=2");
+  const auto& options = prepared.resolved.spec.options;
+  EXPECT_TRUE(std::ranges::count(options, std::pair<std::string, std::string>("scenario.noise", "0.5")));
   EXPECT_DOUBLE_EQ(prepared.about().seconds, prepared.resolved.scenario.task.episode_s());
   const auto all = robustness(fake::catalogue(), prepared, serial_evaluator());
   ASSERT_EQ(all.size(), kFactors.size());

@@ -29,6 +29,18 @@ TEST(Robustness, ChangesOneParameterAtATime) {
   EXPECT_EQ(all[2].summary.returns, summary_of(same).returns);
 }
 
+TEST(Robustness, RefusesAValueBeforeAnyEpisode) {
+  int made = 0;
+  const auto refused = [&](const std::string& key, const std::string& value) {
+    if (++made == 4) throw InvalidInput("too large");
+    return line_with(key, value);
+  };
+  const Learned none{std::make_shared<fake::LinePolicy>(), Vector()};  // which no episode takes
+  const auto said = fake::message_of<InvalidInput>(
+      [&] { robustness(refused, line_with("noise", "0.01"), none, {.episodes = 10}, serial_evaluator()); });
+  EXPECT_EQ(said, "too large");
+}
+
 TEST(Robustness, IsATable) {
   Summary summary{.ended = {1, 4, {0, 1}}, .returns = {1, 2, 3, 4, 5}};
   EXPECT_EQ(robustness_csv({{"m", 0.75, 1.5, summary}}, {3, "noise=0.1", 9, 2.4}),

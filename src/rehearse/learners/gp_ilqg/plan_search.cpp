@@ -1,8 +1,10 @@
 #include "rehearse/learners/gp_ilqg/plan_search.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
+#include <thread>
 
 #include "rehearse/learners/gp_ilqg/forward_pass.hpp"
 #include "rehearse/lqr/hold.hpp"
@@ -24,13 +26,45 @@ struct Judged {
   double solving = 0;  // fraction of the episodes that it solves
 };
 
+/// How far plans are, as a fraction of the iterations that they may take. Reports on the thread that made it alone.
+class PlanProgress {
+ public:
+  explicit PlanProgress(const ProgressSink& sink) : sink_(sink) {}
+
+  void begin(const char* phase, Index iterations) {
+    phase_ = phase;
+    total_ = std::max<Index>(1, iterations);
+    done_ = 0;
+    report();
+  }
+
+  void improved(Index iterations) {
+    done_ += iterations;
+    if (std::this_thread::get_id() == thread_) report();
+  }
+
+ private:
+  void report() const {
+    if (sink_) sink_({.phase = phase_, .done = static_cast<double>(done_) / static_cast<double>(total_), .best = kNaN});
+  }
+
+  const ProgressSink& sink_;
+  const std::thread::id thread_ = std::this_thread::get_id();
+  const char* phase_ = "";
+  Index total_ = 1;
+  std::atomic<Index> done_ = 0;
+};
+
 class Search {
  public:
-  Search(const lqr::Problem& problem, const PlanSearch& search, StreamKey stream)
-      : problem_(problem), search_(search), stream_(stream) {}
+  Search(const lqr::Problem& problem, const PlanSearch& search, StreamKey stream, const ProgressSink& sink)
+      : problem_(problem), search_(search), stream_(stream), progress_(sink) {}
 
   std::optional<FoundPlan> run(const std::optional<Vector>& last) {
     std::vector<Stages> from = starts(last);
+    const Index to_end = (search_.hold ? 2 : 1) * search_.iterations;  // of each plan
+    const Index finalists = search_.finalists + (last ? 1 : 0);
+    progress_.begin("plans", static_cast<Index>(from.size()) * search_.first_iterations + finalists * to_end);
     const bool by_logarithm = search_.cost != PlanSearch::Cost::linear && has_logarithm(from);
     std::vector<Plan> plans =
         improved(std::move(from), options(by_logarithm, search_.first_costs, search_.first_iterations));
@@ -44,6 +78,7 @@ class Search {
     PlanOptions further = options(by_logarithm && !to_linear, 1, search_.iterations);
     std::vector<Plan> finals = finished(plans, further), softer = finals;
     for (double factor = kSofter; factor <= kSoftest && are_shaken(softer); factor *= kSofter) {
+      progress_.begin("softer plans", static_cast<Index>(softer.size()) * to_end);
       further.cost.action_cost = factor * search_.action_cost;
       softer = finished(plans, further);
       finals.insert(finals.end(), softer.begin(), softer.end());
@@ -93,19 +128,19 @@ class Search {
     return least > 0 && least < kInf;
   }
 
-  std::vector<Plan> improved(std::vector<Stages> from, const PlanOptions& options,
-                             const lqr::Hold* hold = nullptr) const {
+  std::vector<Plan> improved(std::vector<Stages> from, const PlanOptions& options, const lqr::Hold* hold = nullptr) {
     std::vector<Plan> plans(from.size());
     problem_.evaluator.for_each(static_cast<Index>(from.size()), [&](Index i) {
       const auto k = static_cast<std::size_t>(i);
       plans[k] = improve(problem_, options, std::move(from[k]), hold);
+      progress_.improved(options.iterations);
     });
     std::erase_if(plans, [](const Plan& plan) { return !std::isfinite(plan.cost); });
     return plans;
   }
 
   /// Improved to the end, and again towards a hold.
-  std::vector<Plan> finished(const std::vector<Plan>& plans, const PlanOptions& further) const {
+  std::vector<Plan> finished(const std::vector<Plan>& plans, const PlanOptions& further) {
     std::vector<Plan> finals = improved(stages_of(plans), further);
     if (const auto hold = search_.hold ? best_hold(finals, further) : std::nullopt)
       for (Plan& plan : improved(stages_of(finals), further, &*hold)) finals.push_back(std::move(plan));
@@ -215,6 +250,7 @@ class Search {
   const lqr::Problem& problem_;
   const PlanSearch& search_;
   StreamKey stream_;
+  PlanProgress progress_;
   Index rollouts_ = 0, failed_ = 0;
 };
 
@@ -223,9 +259,8 @@ class Search {
 std::optional<FoundPlan> search_plan(const lqr::Problem& problem, const PlanSearch& search,
                                      const std::optional<Vector>& last, StreamKey stream,
                                      const ProgressSink& progress) {
-  if (progress) progress({.phase = "plan"});
   stream.stage = Stage::search;
-  return Search(problem, search, stream).run(last);
+  return Search(problem, search, stream, progress).run(last);
 }
 
 Index steps_to_plan(const Task& task, const PlanSearch& search) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "rehearse/core/parameters.hpp"
 #include "rehearse/core/random.hpp"
+#include "rehearse/identification/phi_posterior.hpp"
 
 namespace rehearse::study {
 namespace {

@@ -1,5 +1,8 @@
 #include "rehearse/learners/gp_ilqg/plan_search.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "rehearse/lqr/test/line.hpp"
@@ -39,6 +42,19 @@ TEST(PlanSearch, BeginsWithTheLastPlan) {
   const auto good = search(task, kSmall, serial_evaluator());
   const auto again = search(task, none, serial_evaluator(), good->theta);
   EXPECT_NEAR(again->predicted_return, good->predicted_return, 0.2);
+}
+
+TEST(PlanSearch, TellsHowFarItIs) {
+  const Task task = lqr::line::task(2);
+  const lqr::line::Model model(1e-4);
+  std::vector<double> done;
+  const ProgressSink sink = [&](const Progress& progress) { done.push_back(progress.done); };
+  search_plan({model, task, serial_evaluator()}, kSmall, {}, {.trial = 1}, sink);
+  ASSERT_GT(done.size(), 4u) << "once at the start, and after each of the four first plans";
+  EXPECT_EQ(done.front(), 0);
+  EXPECT_TRUE(std::ranges::is_sorted(done));
+  EXPECT_LE(done.back(), 1);
+  EXPECT_GT(done.back(), 0.5);
 }
 
 TEST(PlanSearch, PlansForAsLongAsItIsTold) {

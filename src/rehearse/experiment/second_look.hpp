@@ -7,7 +7,7 @@
 #include "rehearse/experiment/catalogue.hpp"
 #include "rehearse/experiment/run_options.hpp"
 
-namespace rehearse::apps {
+namespace rehearse::experiment {
 
 /// A second look at a run of which three trials or more did not solve the task, in lines for people; else empty.
 struct SecondLook {
@@ -17,10 +17,6 @@ struct SecondLook {
 
 /// Looks for other readings of the trials, such as a delay of the actions, as `identify` does in logs. None are found
 /// where that takes longer than some seconds, or the prior fails. Throws InvalidInput if it is no run folder.
-SecondLook second_look(const experiment::Catalogue& catalogue, const std::filesystem::path& folder,
-                       const experiment::RunOptions& options);
+SecondLook second_look(const Catalogue& catalogue, const std::filesystem::path& folder, const RunOptions& options);
 
-/// Prints it.
-void put_second_look(const SecondLook& look);
-
-}  // namespace rehearse::apps
+}  // namespace rehearse::experiment

@@ -1,4 +1,4 @@
-#include "apps/cli/study_setup.hpp"
+#include "rehearse/experiment/study_setup.hpp"
 
 #include <filesystem>
 #include <iterator>
@@ -10,7 +10,7 @@
 #include "rehearse/experiment/told_file.hpp"
 #include "rehearse/study/robot_alone.hpp"
 
-namespace rehearse::apps {
+namespace rehearse::experiment {
 namespace {
 
 bool set_one(const Fields& fields, const std::string& key, const std::string& text, Violations& violations) {
@@ -31,24 +31,26 @@ std::vector<std::string> known_keys(const Fields& a, const Fields& b) {
 
 }  // namespace
 
-StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyRequest& request, Violations& violations) {
+StudySetup set_up_study(const Catalogue& catalogue, const StudyRequest& request, Violations& violations) {
   const std::string name = catalogue.scenario_name(request.robot);
   const auto builder = catalogue.scenario_or_throw(name);
   StudySetup setup;
   const Fields own = [&](FieldVisitor& v) { setup.options.fields(v); };
   const Fields of_robot = [&](FieldVisitor& v) { builder->fields(v); };
   std::vector<std::pair<std::string, std::string>> of_prior;
-  for (const auto& [key, text] : request.settings) {
+  for (const auto& [given, text] : request.settings) {
+    constexpr std::string_view kScenario = "scenario.";  // as a run's spec writes the robot's options
+    const std::string key = given.starts_with(kScenario) ? given.substr(kScenario.size()) : given;
     if (key.starts_with("prior."))
       of_prior.emplace_back(key.substr(6), text);
     else if (!set_one(own, key, text, violations) && !set_one(of_robot, key, text, violations))
-      violations.add(experiment::unknown_option(key, known_keys(own, of_robot), "identify or the robot"));
+      violations.add(unknown_option(key, known_keys(own, of_robot), "identify or the robot"));
   }
   if (!violations.attempt([&] { setup.scenario = builder->build(); })) violations.throw_if_any();
-  std::vector<std::string> names = experiment::split_names(request.prior.value_or(""));
+  std::vector<std::string> names = split_names(request.prior.value_or(""));
   if (names.empty() && !setup.scenario.priors.empty()) names = {setup.scenario.priors.front().name};
   violations.require(!names.empty(), fmt::format("{} has no prior, whose parameters could be identified", name));
-  experiment::ChosenPriors priors(setup.scenario, names, violations);
+  ChosenPriors priors(setup.scenario, names, violations);
   for (const auto& [key, text] : of_prior) priors.set(key, text, violations);
   violations.throw_if_any();
   setup.prior = priors.prior()->behind_actuators();
@@ -58,14 +60,16 @@ StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyReque
 
 namespace {
 
-ReadLog read_log(const experiment::ToldFile& file, const StudySetup& setup) {
+ReadLog read_log(const ToldFile& file, const StudySetup& setup) {
   const std::string path = file.path.string();
   const Task& task = setup.scenario.task;
-  recording::ReadOptions plain = setup.options.read;
-  plain.average = false;
   recording::Recording recording = recording::read_recording(file.bytes, path, task, setup.options.read);
   const Actuators actuators = task.actuators();
-  const Matrix measured = recording::read_recording(file.bytes, path, task, plain).episode.states;
+  Matrix measured = recording.episode.states;
+  if (recording::ReadOptions plain = setup.options.read; plain.average) {
+    plain.average = false;
+    measured = recording::read_recording(file.bytes, path, task, plain).episode.states;
+  }
   return {path,
           {file.path.stem().string(), study::robot_alone(std::move(recording.episode), actuators),
            measured.leftCols(actuators.own_states())},
@@ -86,7 +90,7 @@ ReadLogs read_logs(const std::vector<std::string>& logs, const std::vector<std::
   std::vector<std::filesystem::path> paths(logs.begin(), logs.end());
   paths.insert(paths.end(), held_out.begin(), held_out.end());
   std::vector<ReadLog> all;
-  for (const experiment::ToldFile& file : experiment::read_told_files(paths, violations, setup.options.read))
+  for (const ToldFile& file : read_told_files(paths, violations, setup.options.read))
     violations.attempt([&] { all.push_back(read_log(file, setup)); });
   name_by_paths(all);
   if (!violations.empty()) return {std::move(all), {}};
@@ -94,4 +98,4 @@ ReadLogs read_logs(const std::vector<std::string>& logs, const std::vector<std::
   return {{std::make_move_iterator(all.begin()), middle}, {middle, std::make_move_iterator(all.end())}};
 }
 
-}  // namespace rehearse::apps
+}  // namespace rehearse::experiment

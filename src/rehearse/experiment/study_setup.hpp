@@ -11,7 +11,7 @@
 #include "rehearse/recording/recording.hpp"
 #include "rehearse/study/study.hpp"
 
-namespace rehearse::apps {
+namespace rehearse::experiment {
 
 struct IdentifyOptions {
   study::Options study;
@@ -42,7 +42,7 @@ struct StudyRequest {
 };
 
 /// Throws InvalidInput with everything that is wrong, violations that were found before included.
-StudySetup set_up_study(const experiment::Catalogue& catalogue, const StudyRequest& request, Violations& violations);
+StudySetup set_up_study(const Catalogue& catalogue, const StudyRequest& request, Violations& violations);
 
 struct ReadLog {
   std::string path;
@@ -59,4 +59,4 @@ struct ReadLogs {
 ReadLogs read_logs(const std::vector<std::string>& logs, const std::vector<std::string>& held_out,
                    const StudySetup& setup, Violations& violations);
 
-}  // namespace rehearse::apps
+}  // namespace rehearse::experiment

@@ -1,30 +1,29 @@
-#include "apps/cli/second_look.hpp"
+#include "rehearse/experiment/second_look.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
 
-#include "apps/cli/complain.hpp"
 #include "rehearse/core/events.hpp"
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/study/hints.hpp"
 #include "rehearse/study/robot_alone.hpp"
 
-namespace rehearse::apps {
+namespace rehearse::experiment {
 namespace {
 
 constexpr Index kMany = 3;  // trials after which something may be wrong with file, model or search
-constexpr auto kLongest = std::chrono::seconds(10);
+constexpr auto kLongestLook = std::chrono::seconds(10);
 
-bool is_unsolved(const experiment::PastRun& run) {
-  const auto solved = [](const experiment::TrialRecord& trial) { return trial.solved.value_or(false); };
+bool is_unsolved(const PastRun& run) {
+  const auto solved = [](const TrialRecord& trial) { return trial.solved.value_or(false); };
   return run.resolved.scenario.task.solved && run.history.done() >= kMany &&
          std::ranges::none_of(run.history.trials, solved);
 }
 
-std::vector<study::Hint> hints_of(const experiment::PastRun& run, const experiment::RunOptions& options) try {
+std::vector<study::Hint> hints_of(const PastRun& run, const RunOptions& options) try {
   if (!run.resolved.prior || !run.resolved.prior->space.has_tunable()) return {};
-  const auto end = std::chrono::steady_clock::now() + kLongest;
+  const auto end = std::chrono::steady_clock::now() + kLongestLook;
   const auto in_time = make_stoppable(
       options.evaluator, [&] { return std::chrono::steady_clock::now() > end || (options.stop && options.stop()); });
   const Task& task = run.resolved.scenario.task;
@@ -40,9 +39,8 @@ std::vector<study::Hint> hints_of(const experiment::PastRun& run, const experime
 
 }  // namespace
 
-SecondLook second_look(const experiment::Catalogue& catalogue, const std::filesystem::path& folder,
-                       const experiment::RunOptions& options) {
-  const experiment::PastRun run = experiment::read_run(catalogue, folder);
+SecondLook second_look(const Catalogue& catalogue, const std::filesystem::path& folder, const RunOptions& options) {
+  const PastRun run = read_run(catalogue, folder);
   if (!is_unsolved(run)) return {};
   SecondLook look{.readings = {}, .read_on = "what to look at where trials do not get better: docs/does-not-learn.md"};
   for (const study::Hint& hint : hints_of(run, options))
@@ -50,9 +48,4 @@ SecondLook second_look(const experiment::Catalogue& catalogue, const std::filesy
   return look;
 }
 
-void put_second_look(const SecondLook& look) {
-  for (const std::string& line : look.readings) put("{}\n", line);
-  if (!look.read_on.empty()) put("{}\n", look.read_on);
-}
-
-}  // namespace rehearse::apps
+}  // namespace rehearse::experiment
