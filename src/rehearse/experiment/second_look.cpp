@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "rehearse/core/events.hpp"
+#include "rehearse/experiment/participants.hpp"
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/study/hints.hpp"
 #include "rehearse/study/robot_alone.hpp"
@@ -24,8 +25,7 @@ bool is_unsolved(const PastRun& run) {
 std::vector<study::Hint> hints_of(const PastRun& run, const RunOptions& options) try {
   if (!run.resolved.prior || !run.resolved.prior->space.has_tunable()) return {};
   const auto end = std::chrono::steady_clock::now() + kLongestLook;
-  const auto in_time = make_stoppable(
-      options.evaluator, [&] { return std::chrono::steady_clock::now() > end || (options.stop && options.stop()); });
+  const auto in_time = make_stoppable(evaluator_of(options), [&] { return std::chrono::steady_clock::now() > end; });
   const Task& task = run.resolved.scenario.task;
   const Actuators actuators = task.actuators();
   std::vector<Episode> episodes;
