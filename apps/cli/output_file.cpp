@@ -55,6 +55,7 @@ OutputFile policy_file(fs::path path, std::string option) {
 std::string why_not_writable(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (::access(folder.c_str(), W_OK | X_OK) == 0) return "";
+  if (errno == ENOENT) return fmt::format("cannot write {}: there is no folder {}", file.string(), folder.string());
   return fmt::format("cannot write {}: {}", file.string(), std::strerror(errno));
 }
 

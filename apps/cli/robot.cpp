@@ -77,7 +77,7 @@ void print_task(const scenario::Scenario& scenario, const std::string& summary, 
     put("  {}\n", description(memory));
   put("reward\n  {}{}\n",
       reward::closed_form(task.reward)
-          ? "saturating distance of features, as moment matching (PILCO) needs it"
+          ? "exp(-d²/2) of a distance d of features, which PILCO can learn with"
           : "a formula; PILCO needs distances that are sums of multiples of features, or exp(-d²/2) of such",
       task.cost ? "; PILCO takes no cost" : "");
   print_lines("  ", details.reward);
@@ -120,7 +120,8 @@ Index usual_search(const experiment::Catalogue& catalogue) {
 void print_speed(const check::PriorTried& tried, Index steps, Index rows_of_search) {
   const auto rows = static_cast<double>(rows_of_search);
   put("  {}: {:.2g} rows a second on one thread{}{}\n", tried.name, tried.rows_per_s,
-      rows > 0 ? fmt::format(", so about {} for a search of {:.2g} rows", duration_text(rows / tried.rows_per_s), rows)
+      rows > 0 ? fmt::format("; a search of {:.2g} rows takes some {} on it alone, and many times as long with GPs",
+                             rows, duration_text(rows / tried.rows_per_s))
                : "",
       tried.failed > 0 ? fmt::format("; {} of {} rows failed", tried.failed, steps) : "");
 }
@@ -216,8 +217,8 @@ int check(const experiment::Catalogue& built_in, const CheckArguments& arguments
   print_lines("  ", details.plant);
   const bool anything = driven || !scenario.priors.empty();
   if (anything)
-    put("priors, on {} steps of {} under random actions{}\n", tried.steps,
-        tried.played ? "the first prior, which plays the robot here" : "the plant", early_ends(tried, scenario.task));
+    put("priors, tried in {} steps of random actions{}{}\n", tried.steps,
+        tried.played ? " (the first prior plays the robot)" : " on the plant", early_ends(tried, scenario.task));
   else
     put("priors\n");
   print_lines("  ", tried.notes);

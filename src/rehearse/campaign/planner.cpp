@@ -131,7 +131,10 @@ class Planner {
   /// The complete spec, or nothing and violations, at the line of the option that causes each.
   std::optional<experiment::Spec> resolved(const experiment::Spec& bare, const FileOptions& options) {
     try {
-      return experiment::resolve(catalogue_, experiment::with_options(bare, options)).spec;
+      experiment::Resolved run = experiment::resolve(catalogue_, experiment::with_options(bare, options));
+      if (run.scenario.make_plant) return std::move(run.spec);
+      violations_.add(line("scenario"), fmt::format("{} has no [plant]: runs need a simulator there", bare.scenario));
+      return std::nullopt;
     } catch (const InvalidInput& error) {
       for (const std::string& message : error.violations())
         violations_.add(line_of_cause(bare, options, message), message);

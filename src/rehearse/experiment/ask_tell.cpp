@@ -73,15 +73,16 @@ KnownAs known_as(const History& history, const ToldFile& file, const Task& task)
   const auto same_bytes = [&](const auto& one) { return one.file_checksum == file.checksum; };
   const KnownAs by_bytes{place(history.trials, same_bytes), place(history.logs, same_bytes)};
   if (by_bytes.known()) return by_bytes;
-  const std::optional<Episode> read = readable(file, task);
-  if (!read) return {};
-  return {place(history.episodes, [&](const Episode& kept) { return repeats(*read, kept, task.horizon); }),
-          place(history.logs, [&](const Log& log) { return repeats(*read, log.episode, read->steps()); })};
+  const auto recording = readable(file, task);
+  if (!recording) return {};
+  const Episode& read = recording->episode;
+  return {place(history.episodes, [&](const Episode& kept) { return repeats(read, kept, task.horizon); }),
+          place(history.logs, [&](const Log& log) { return repeats(read, log.episode, read.steps()); })};
 }
 
 /// True if the file follows the policy that was asked for: a robot without noise may do exactly the same again.
 bool is_of_policy_asked_for(const ToldFile& file, const scenario::Scenario& scenario, const History& history) {
-  const std::optional<Episode> read = history.asked ? readable(file, scenario.task) : std::nullopt;
+  const auto read = history.asked ? readable(file, scenario.task) : std::nullopt;
   return read && follows_policy(*read, scenario, *history.asked);
 }
 
@@ -117,12 +118,12 @@ void check(const History& history, const std::vector<ToldFile>& files, const Tel
 
 /// Throws InvalidInput where a file that is known as a trial goes on after the trial was stopped.
 void refuse_what_goes_on(const TrialRecord& trial, const Episode& kept, const ToldFile& file, const Task& task) {
-  const std::optional<Episode> read = readable(file, task);
-  if (!read || !goes_on_after(*read, kept, task)) return;
+  const auto read = readable(file, task);
+  if (!read || !goes_on_after(read->episode, kept, task)) return;
   throw InvalidInput(fmt::format(
       "{} has {} steps, of which {} were told as trial {}, stopped there; to tell the whole instead, take that "
       "back: `tell --undo` (in Python `take_back()`)",
-      file.path.string(), read->steps(), kept.steps(), trial.trial));
+      file.path.string(), read->episode.steps(), kept.steps(), trial.trial));
 }
 
 TellResult already_told(const Resolved& resolved, const History& history, const std::vector<ToldFile>& files) {

@@ -87,13 +87,14 @@ double part_of_range(double deviation, const ActionVariable& action) {
 }
 
 /// The cause that explains the actions best; empty: none that is tried does.
-std::string cause_of(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& asked,
+std::string cause_of(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& asked,
                      const std::vector<TrialRecord>& earlier) {
+  const auto& [episode, off] = read;
   const Task& task = scenario.task;
   std::string cause;
   double left = kSameActions;
-  const auto consider = [&](const Episode& read, const TrialRecord& trial, const std::string& said) {
-    const double deviation = largest_deviation(read, scenario, trial);
+  const auto consider = [&, off = off](const Episode& other, const TrialRecord& trial, const std::string& said) {
+    const double deviation = largest_deviation({other, off}, scenario, trial);
     if (deviation < left) left = deviation, cause = said;
   };
   for (const TrialRecord& trial : earlier)
@@ -106,36 +107,54 @@ std::string cause_of(const Episode& episode, const scenario::Scenario& scenario,
   return cause;
 }
 
-}  // namespace
-
-Vector deviations(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& trial) {
+/// The policy's actions in the measured states (steps × du).
+Matrix actions_in(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& trial) {
   const Task& task = scenario.task;
   const auto policy = policy_of(trial, scenario);
   const Actuators actuators = task.actuators();
-  Matrix u(1, task.action_size());
-  Vector squared = Vector::Zero(task.action_size());
+  Matrix all(episode.steps(), task.action_size()), u(1, task.action_size());
   for (Index t = 0; t < episode.steps(); ++t) {
     policy->act(trial.theta.transpose(), episode.states.middleRows(t, 1), static_cast<double>(t) * task.dt_s, u);
     actuators.command(episode.states.middleRows(t, 1), u);
-    squared += (u - episode.actions.row(t)).transpose().cwiseAbs2();
+    all.row(t) = u;
   }
-  return (squared / static_cast<double>(episode.steps())).cwiseSqrt();
+  return all;
 }
 
-double largest_deviation(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& trial) {
-  if (episode.steps() == 0) return std::numeric_limits<double>::infinity();
-  const Vector all = deviations(episode, scenario, trial);
+}  // namespace
+
+Vector deviations(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& trial) {
+  const Index steps = read.episode.steps();
+  const Matrix of_policy = actions_in(read.episode, scenario, trial);
+  Matrix low = of_policy, high = of_policy;
+  for (Index t = 0; t < steps; ++t)
+    for (const Index beside : {std::max<Index>(t - 1, 0), std::min(t + 1, steps - 1)}) {
+      const auto between = (1 - read.off) * of_policy.row(t) + read.off * of_policy.row(beside);
+      low.row(t) = low.row(t).cwiseMin(between);
+      high.row(t) = high.row(t).cwiseMax(between);
+    }
+  const Matrix beyond = (low - read.episode.actions).cwiseMax(read.episode.actions - high).cwiseMax(0.0);
+  return (beyond.cwiseAbs2().colwise().sum().transpose() / static_cast<double>(steps)).cwiseSqrt();
+}
+
+double largest_deviation(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& trial) {
+  if (read.episode.steps() == 0) return std::numeric_limits<double>::infinity();
+  const Vector all = deviations(read, scenario, trial);
   double most = 0;
   for (Index i = 0; i < all.size(); ++i)
     most = std::max(most, part_of_range(all(i), scenario.task.actions[static_cast<std::size_t>(i)]));
   return most;
 }
 
-std::vector<std::string> sentences_on_policy(const Episode& episode, const scenario::Scenario& scenario,
+bool has_actions_of(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& trial) {
+  return largest_deviation(read, scenario, trial) <= kSameActions;
+}
+
+std::vector<std::string> sentences_on_policy(const ReadEpisode& read, const scenario::Scenario& scenario,
                                              const TrialRecord& asked, const std::vector<TrialRecord>& earlier) {
-  if (largest_deviation(episode, scenario, asked) <= kSameActions) return {};
-  const Vector all = deviations(episode, scenario, asked);
-  const std::string cause = cause_of(episode, scenario, asked, earlier);
+  if (has_actions_of(read, scenario, asked)) return {};
+  const Vector all = deviations(read, scenario, asked);
+  const std::string cause = cause_of(read, scenario, asked, earlier);
   std::vector<std::string> sentences;
   for (Index i = 0; i < all.size(); ++i) {
     const ActionVariable& action = scenario.task.actions[static_cast<std::size_t>(i)];
@@ -143,8 +162,8 @@ std::vector<std::string> sentences_on_policy(const Episode& episode, const scena
     if (part <= kSameActions) continue;
     const bool wrong_file = !cause.empty() || part > kOtherActions;
     sentences.push_back(
-        fmt::format("{} differs from what the policy says of the measured states by {:.3g} {} (root mean square): {}{}",
-                    action.name, all(i), action.unit,
+        fmt::format("{} differs from what the policy says of the measured states by {:.3g}{} (root mean square): {}{}",
+                    action.name, all(i), action.unit.empty() ? "" : " " + action.unit,
                     cause.empty() ? "another policy, a state of another unit or sign, a delay, or a weak motor" : cause,
                     wrong_file ? "; `tell --undo` (in Python `take_back()`) takes a wrong file back" : ""));
   }

@@ -10,16 +10,27 @@
 
 namespace rehearse::experiment {
 
-/// Root mean square differences (du) of the actions from those of a trial's policy in the measured states.
-Vector deviations(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& trial);
+/// An episode that was read from a file. off: how far control steps may be from the file's rows, as a part of a step,
+/// at most 1; a loop with a clock of its own computes its actions so much earlier or later than the states here.
+struct ReadEpisode {
+  const Episode& episode;
+  double off = 0;
+};
+
+/// Root mean square differences (du) of the actions from those of a trial's policy in the measured states, or in states
+/// that are `off` between them and those of the next steps.
+Vector deviations(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& trial);
 
 /// The largest of them, as a part of its action's range; infinite where there is no step to compare.
-double largest_deviation(const Episode& episode, const scenario::Scenario& scenario, const TrialRecord& trial);
+double largest_deviation(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& trial);
+
+/// True if the actions are those of a trial's policy, as exactly as motors are.
+bool has_actions_of(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& trial);
 
 /// A sentence for each action that was not the policy's of the trial that was asked for. They end with what would
 /// explain it: the policy of an earlier trial, another unit or sign of a state or an action, or rows that are a step
 /// apart; else with what it may be.
-std::vector<std::string> sentences_on_policy(const Episode& episode, const scenario::Scenario& scenario,
+std::vector<std::string> sentences_on_policy(const ReadEpisode& read, const scenario::Scenario& scenario,
                                              const TrialRecord& asked, const std::vector<TrialRecord>& earlier);
 
 }  // namespace rehearse::experiment

@@ -64,6 +64,7 @@ ReadLog read_log(const ToldFile& file, const StudySetup& setup) {
   const std::string path = file.path.string();
   const Task& task = setup.scenario.task;
   recording::Recording recording = recording::read_recording(file.bytes, path, task, setup.options.read);
+  for (std::string& note : notes_on_ends(recording.episode, task)) recording.notes.push_back(std::move(note));
   const Actuators actuators = task.actuators();
   Matrix measured = recording.episode.states;
   if (recording::ReadOptions plain = setup.options.read; plain.average) {

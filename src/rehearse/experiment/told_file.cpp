@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -60,6 +61,11 @@ std::string cut_short(const ToldFile& file, Index steps, Index horizon, const st
       notes.empty() ? "" : ". How the file was read: ", fmt::join(notes, "; "));
 }
 
+/// How far a file's rows are from the control steps, at most.
+double part_of_step(const recording::Recording& read, const Task& task) {
+  return std::min(1.0, read.off_s / task.dt_s);
+}
+
 }  // namespace
 
 std::vector<ToldFile> read_told_files(const std::vector<fs::path>& paths, Violations& violations,
@@ -88,16 +94,17 @@ std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task) {
         if (log.episode.has_numbers_of(read.episode))
           violations.add(fmt::format("{} and {} have the same numbers", log.name, file.path.string()));
       read.episode.rewards.resize(read.episode.steps());
-      logs.push_back({file.path.filename().string(), file.checksum, rollout::as_measured(std::move(read.episode), task),
-                      std::move(read.notes)});
+      Episode episode = rollout::as_measured(std::move(read.episode), task);
+      for (std::string& note : notes_on_ends(episode, task)) read.notes.push_back(std::move(note));
+      logs.push_back({file.path.filename().string(), file.checksum, std::move(episode), std::move(read.notes)});
     });
   violations.throw_if_any();
   return logs;
 }
 
-std::optional<Episode> readable(const ToldFile& file, const Task& task) {
+std::optional<recording::Recording> readable(const ToldFile& file, const Task& task) {
   try {
-    return recording::read_recording(file.bytes, file.path.string(), task).episode;
+    return recording::read_recording(file.bytes, file.path.string(), task);
   } catch (const InvalidInput&) {
     return std::nullopt;
   }
@@ -115,9 +122,25 @@ bool goes_on_after(const Episode& read, const Episode& kept, const Task& task) {
          rollout::judged(read.part(0, steps), task).steps() > kept.steps();
 }
 
-bool follows_policy(const Episode& read, const scenario::Scenario& scenario, const TrialRecord& asked) {
-  const Index steps = std::min(read.steps(), scenario.task.horizon);
-  return largest_deviation(read.part(0, steps), scenario, asked) <= kRounding;
+std::vector<std::string> notes_on_ends(const Episode& log, const Task& task) {
+  constexpr double kMuch = 0.25;  // of the steps
+  std::map<std::string, Index> times;
+  for (Index t = 0; t < log.steps(); ++t) {
+    if (task.ended && holds(task.ended, log.true_states.row(t + 1).transpose())) ++times["`ended` holds"];
+    for (const std::string& limit : rollout::limits_broken_by(task, log, t))
+      ++times[fmt::format("the limit {} is broken", limit)];
+  }
+  std::vector<std::string> notes;
+  for (const auto& [what, count] : times)
+    if (static_cast<double>(count) > kMuch * static_cast<double>(log.steps()))
+      notes.push_back(
+          fmt::format("{} in {} of {} steps: is a column in another unit than it says?", what, count, log.steps()));
+  return notes;
+}
+
+bool follows_policy(const recording::Recording& read, const scenario::Scenario& scenario, const TrialRecord& asked) {
+  const Index steps = std::min(read.episode.steps(), scenario.task.horizon);
+  return has_actions_of({read.episode.part(0, steps), part_of_step(read, scenario.task)}, scenario, asked);
 }
 
 ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked,
@@ -126,6 +149,7 @@ ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario,
   recording::Recording read =
       recording::read_recording(file.bytes, file.path.string(), task, {.max_steps = task.horizon});
   const Index recorded = read.episode.steps();
+  const double off = part_of_step(read, task);
   ToldEpisode told{rollout::judged(std::move(read.episode), task), std::move(read.notes)};
   Episode& episode = told.episode;
   if (episode.steps() < recorded)
@@ -143,7 +167,7 @@ ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario,
     told.notes.push_back(fmt::format("stopped by the operator after {} of {} steps, by no fault of the policy: {}",
                                      episode.steps(), task.horizon, stopped->reason));
   for (std::string& sentence : sentences_on_start(episode, task)) told.notes.push_back(std::move(sentence));
-  for (std::string& sentence : sentences_on_policy(episode, scenario, asked, earlier))
+  for (std::string& sentence : sentences_on_policy({episode, off}, scenario, asked, earlier))
     told.notes.push_back(std::move(sentence));
   return told;
 }

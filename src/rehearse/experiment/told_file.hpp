@@ -33,7 +33,10 @@ std::vector<ToldFile> read_told_files(const std::vector<std::filesystem::path>& 
 std::vector<Log> logs_of(const std::vector<ToldFile>& files, const Task& task);
 
 /// A whole file; empty if it cannot be read.
-std::optional<Episode> readable(const ToldFile& file, const Task& task);
+std::optional<recording::Recording> readable(const ToldFile& file, const Task& task);
+
+/// A note where much of a log is beyond the end of a trial: a column may be in another unit than it says.
+std::vector<std::string> notes_on_ends(const Episode& log, const Task& task);
 
 /// True if a file that was read so has just the numbers of an episode that is kept, of which so many steps at most were
 /// taken, and none after its end.
@@ -42,8 +45,8 @@ bool repeats(const Episode& read, const Episode& kept, Index most_steps);
 /// True if a file that was read so goes on where an operator, and no fall, ended the episode that is kept.
 bool goes_on_after(const Episode& read, const Episode& kept, const Task& task);
 
-/// True if the actions that were read are those of a trial's policy in the states, but for rounding.
-bool follows_policy(const Episode& read, const scenario::Scenario& scenario, const TrialRecord& asked);
+/// True if the actions that were read are those of a trial's policy in the states, as exactly as motors are.
+bool follows_policy(const recording::Recording& read, const scenario::Scenario& scenario, const TrialRecord& asked);
 
 struct ToldEpisode {
   Episode episode;

@@ -12,6 +12,7 @@
 namespace rehearse::identification {
 namespace {
 
+constexpr double kAnything = 0.5;     // an interval that says next to nothing, likewise
 constexpr double kUnsure = 0.1;       // half an interval that is worth a sentence, as a fraction of the box
 constexpr double kOthersKnown = 0.3;  // parameters cannot be separated if less than this fraction of a deviation is
                                       // left once the others are known; for two of them: a correlation of 0.95
@@ -71,8 +72,7 @@ class Warnings {
     for (const std::vector<Index>& group : groups_of(unsure, posterior_.covariance)) all.push_back(sentence(group));
     for (Index i = 0; i < posterior_.mean.size(); ++i)
       if (const auto end = end_at(of(i), posterior_.mean(i)))
-        all.push_back(
-            fmt::format("{} is at the end of its box, {:.3g}: a better value may lie beyond", of(i).name, *end));
+        all.push_back(fmt::format("{} is at its bound, {:.3g}: a better value may lie beyond", of(i).name, *end));
     return all;
   }
 
@@ -92,7 +92,9 @@ class Warnings {
     for (const Index i : group) names.push_back(of(i).name);
     if (names.size() == 1) {
       const Interval range = intervals_[static_cast<std::size_t>(group.front())];
-      return fmt::format("{} is not determined by these data: {:.3g} to {:.3g}", names.front(), range.low, range.high);
+      const bool anything = width(range) > kAnything * width(of(group.front()).box);
+      return fmt::format("{} is {} these data: {:.3g} to {:.3g}", names.front(),
+                         anything ? "not determined by" : "known only roughly from", range.low, range.high);
     }
     const std::string apart = fmt::format("{} cannot be told apart by these data", list(names));
     if (posterior_.alternatives.size() == 0) return apart;

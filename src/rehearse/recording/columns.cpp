@@ -100,6 +100,7 @@ class Finder {
   bool has(const std::string& name) const { return std::ranges::find(titles_, name, &Title::name) != titles_.end(); }
 
   void note_others() {
+    if (!converted_.empty()) notes_.push_back(fmt::format("converted: {}", fmt::join(converted_, ", ")));
     const auto before = std::ranges::count_if(times_, [](double t) { return t < 0; });
     if (before > 0) notes_.push_back(fmt::format("{} rows before time 0 are left out", before));
     std::vector<std::string> others;
@@ -164,7 +165,7 @@ class Finder {
     if (!scale)
       problems_.add(1, "unit of " + name,
                     fmt::format("{} is in '{}', must be in {}", name, given, fmt::join(units_like(unit), ", ")));
-    if (scale && *scale != 1) notes_.push_back(fmt::format("{} is converted from {} to {}", name, given, unit));
+    if (scale && *scale != 1) converted_.push_back(fmt::format("{} from {} to {}", name, given, unit));
     return scale.value_or(1);
   }
 
@@ -203,6 +204,7 @@ class Finder {
   std::vector<Title> titles_;
   std::set<std::string> wanted_;  // names of columns
   std::vector<double> times_;
+  std::vector<std::string> converted_;
 };
 
 }  // namespace

@@ -108,8 +108,8 @@ void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::v
     if (inside == sample.value) continue;
     if (std::abs(sample.value - inside) > rounding)
       problems.add(sample.row, "bounds of " + action.name,
-                   fmt::format("{} = {} {}, must be in {} to {}", action.name, sample.value, action.unit, bounds.low,
-                               bounds.high));
+                   fmt::format("{} = {}{}, must be in {} to {}", action.name, sample.value,
+                               action.unit.empty() ? "" : " " + action.unit, bounds.low, bounds.high));
     sample.value = inside;
     ++clipped;
   }

@@ -10,8 +10,7 @@
 namespace rehearse::recording {
 
 void Problems::add(Index row, const std::string& kind, const std::string& message) {
-  const auto [known, is_new] = found_.try_emplace(kind, First{row, message});
-  if (!is_new) ++known->second.more;
+  found_.try_emplace(kind, First{row, message, {}}).first->second.rows.insert(row);
 }
 
 void Problems::throw_if_any() const {
@@ -22,7 +21,8 @@ void Problems::throw_if_any() const {
   std::vector<std::string> lines;
   for (const First& first : in_order) {
     const std::string where = first.row > 0 ? fmt::format("{}: row {}", source_, first.row) : source_;
-    const std::string others = first.more > 0 ? fmt::format(" (and so in {} more rows)", first.more) : "";
+    const std::size_t more = first.rows.size() - 1;
+    const std::string others = more > 0 ? fmt::format(" (and so in {} more row{})", more, more == 1 ? "" : "s") : "";
     lines.push_back(fmt::format("{}: {}{}", where, first.message, others));
   }
   throw InvalidInput(lines);

@@ -2,6 +2,7 @@
 // Violations found in a recording, row by row. For the sources of this room.
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -9,7 +10,7 @@
 
 namespace rehearse::recording {
 
-/// Keeps the first row of each kind of violation and counts the others: a column in a wrong unit has thousands.
+/// Keeps the first row of each kind of violation and counts the other rows: a column in a wrong unit has thousands.
 class Problems {
  public:
   explicit Problems(std::string source) : source_(std::move(source)) {}
@@ -25,7 +26,7 @@ class Problems {
   struct First {
     Index row;
     std::string message;
-    Index more = 0;
+    std::set<Index> rows;
   };
   std::string source_;
   std::map<std::string, First> found_;  // by kind

@@ -103,7 +103,8 @@ double farthest_row_s(const std::vector<Sample>& samples, const Grid& grid) {
   return farthest_s;
 }
 
-void note_resampling(const Channels& channels, const Grid& grid, const Resampled& changed, bool average,
+/// off_s: the largest distance of a control step to the nearest row.
+void note_resampling(const Channels& channels, const Grid& grid, const Resampled& changed, double off_s,
                      std::vector<std::string>& notes) {
   const double little_s = kLittle * grid.dt_s;
   if (grid.start_s > little_s)
@@ -112,8 +113,8 @@ void note_resampling(const Channels& channels, const Grid& grid, const Resampled
   if (changed.states == 0 && changed.actions == 0) return;
   const auto& samples = channels.states.front().samples;
   const double usual_s = (samples.back().time_s - samples.front().time_s) / static_cast<double>(samples.size() - 1);
-  const bool one_row_a_step = usual_s >= grid.dt_s - little_s && !average;
-  if (const double off_s = one_row_a_step ? farthest_row_s(samples, grid) : grid.dt_s; off_s <= little_s) {
+  const bool one_row_a_step = usual_s >= grid.dt_s - little_s && changed.on_lines == 0;
+  if (one_row_a_step && off_s <= little_s) {
     notes.push_back(off_s > 0
                         ? fmt::format("rows are up to {:.2g} s off the control steps of {} s: numbers are interpolated",
                                       off_s, grid.dt_s)
@@ -124,7 +125,7 @@ void note_resampling(const Channels& channels, const Grid& grid, const Resampled
   std::vector<std::string> how;
   if (changed.states > 0)
     how.push_back(fmt::format("states are {} in {} of {} control steps of {} s",
-                              average ? "on lines through the rows around them" : "interpolated linearly",
+                              changed.on_lines > 0 ? "on lines through the rows around them" : "interpolated linearly",
                               changed.states, grid.steps, grid.dt_s));
   if (changed.actions > 0)
     how.push_back(
@@ -172,8 +173,9 @@ Recording read_recording(const std::string& csv_text, const std::string& source,
   check_channels(channels, task, problems, recording.notes);
   check_gaps(channels, grid, max_gap_s, problems);
   problems.throw_if_any();
-  note_resampling(channels, grid, resample(channels, grid, options.average, recording.episode), options.average,
-                  recording.notes);
+  recording.off_s = farthest_row_s(channels.states.front().samples, grid);
+  const Resampled changed = resample(channels, grid, options.average, recording.episode);
+  note_resampling(channels, grid, changed, recording.off_s, recording.notes);
   add_memory(recording.episode, task);
   return recording;
 }

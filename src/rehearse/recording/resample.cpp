@@ -29,9 +29,10 @@ void check_gaps(const Channel& channel, const Grid& grid, double max_gap_s, Prob
     const Sample &before = channel.samples[i - 1], &after = channel.samples[i];
     const double gap_s = after.time_s - before.time_s;
     if (gap_s <= max_gap_s || after.time_s <= grid.start_s || before.time_s >= end_s) continue;
-    problems.add(after.row, "gap",
-                 fmt::format("{} was not measured for {:.6g} s, must be for {:.6g} s at most ({:.3g} control steps)",
-                             channel.name, gap_s, max_gap_s, max_gap_s / grid.dt_s));
+    problems.add(
+        after.row, "gap",
+        fmt::format("{} has no number for {:.6g} s, must have one every {:.6g} s at least ({:.3g} control steps)",
+                    channel.name, gap_s, max_gap_s, max_gap_s / grid.dt_s));
   }
 }
 
@@ -101,7 +102,9 @@ double mean_action(const Samples& samples, double begin_s, double end_s, double 
   return (sum + held * (end_s - since_s)) / (end_s - begin_s);
 }
 
-Matrix states_on(const std::vector<Channel>& channels, const Grid& grid, bool average, std::vector<char>& exact) {
+/// on_lines: becomes true where a state is on a line through rows.
+Matrix states_on(const std::vector<Channel>& channels, const Grid& grid, bool average, std::vector<char>& exact,
+                 std::vector<char>& on_lines) {
   Matrix states(grid.steps + 1, static_cast<Index>(channels.size()));
   for (Index s = 0; s < states.cols(); ++s)
     for (Index k = 0; k <= grid.steps; ++k) {
@@ -110,6 +113,7 @@ Matrix states_on(const std::vector<Channel>& channels, const Grid& grid, bool av
       bool as_it_is = !mean;
       states(k, s) = mean ? *mean : state_at(samples, grid.time(k), kNear * grid.dt_s, as_it_is);
       exact[static_cast<std::size_t>(k)] &= static_cast<char>(as_it_is);
+      on_lines[static_cast<std::size_t>(k)] |= static_cast<char>(mean.has_value());
     }
   return states;
 }
@@ -179,15 +183,16 @@ void check_gaps(const Channels& channels, const Grid& grid, double max_gap_s, Pr
 }
 
 Resampled resample(const Channels& channels, const Grid& grid, bool average, Episode& episode) {
-  std::vector<char> states(static_cast<std::size_t>(grid.steps) + 1, 1), actions = states;
-  episode.states = states_on(channels.states, grid, average, states);
-  episode.true_states = channels.truths.empty() ? episode.states : states_on(channels.truths, grid, average, states);
+  std::vector<char> states(static_cast<std::size_t>(grid.steps) + 1, 1), actions = states, on_lines(states.size(), 0);
+  episode.states = states_on(channels.states, grid, average, states, on_lines);
+  episode.true_states =
+      channels.truths.empty() ? episode.states : states_on(channels.truths, grid, average, states, on_lines);
   episode.actions = actions_on(channels.actions, grid, actions);
   episode.rewards = Vector::Zero(grid.steps);
-  const auto count = [&](const std::vector<char>& exact) {
-    return std::min(grid.steps, static_cast<Index>(std::ranges::count(exact, char{0})));
+  const auto count = [&](const std::vector<char>& marks, char mark) {
+    return std::min(grid.steps, static_cast<Index>(std::ranges::count(marks, mark)));
   };
-  return {count(states), count(actions)};
+  return {count(states, 0), count(actions, 0), count(on_lines, 1)};
 }
 
 }  // namespace rehearse::recording

@@ -118,8 +118,7 @@ Section steps(const Study& study, const Problem& problem) {
   }
   if (study.gps_worsen)
     section.notes.push_back(
-        fmt::format("forecasts of logs left out have {:.2f} times the errors with GPs, which are {}used for "
-                    "forecasts",
+        fmt::format("with GPs, forecasts of logs left out have {:.2f} times the errors, so GPs are {}used",
                     *study.gps_worsen, study.beyond == Beyond::gp ? "" : "not "));
   return section;
 }

@@ -34,6 +34,14 @@ TEST(CampaignPlan, KeepsTheOrderOfTheFile) {
   EXPECT_EQ(plan.runs[3].group, 1u);
 }
 
+TEST(CampaignPlan, NeedsAPlant) {
+  const auto none = experiment::fake::catalogue_with([](const auto&) { return experiment::fake::MakePlant(); });
+  const std::string said = experiment::fake::message_of<InvalidInput>([&] {
+    plan_campaign(none, "format = 1\nscenario = \"line\"\nlearners = \"echo\"\nseeds = \"1-3\"\n", "few.toml");
+  });
+  EXPECT_EQ(said, "few.toml: line 2: line has no [plant]: runs need a simulator there");
+}
+
 TEST(CampaignPlan, DefaultsAreTheFirstPriorTenTrialsAndTheFilesName) {
   const CampaignPlan plan =
       plan_campaign(experiment::fake::catalogue(),

@@ -23,25 +23,36 @@ struct PolicyMatch : ::testing::Test {
     return {.trial = number, .policy = "line", .theta = theta};
   }
   std::string said(const std::vector<TrialRecord>& earlier = {}) const {
-    const auto sentences = sentences_on_policy(episode, scenario, asked, earlier);
+    const auto sentences = sentences_on_policy({episode, off}, scenario, asked, earlier);
     return sentences.empty() ? "" : sentences.front();
   }
   const scenario::Scenario scenario = resolve(fake::catalogue(), fake::line_spec(1)).scenario;
   const TrialRecord asked = trial(2, Vector{{-0.5, 0.1}});
   Episode episode;
+  double off = 0;
 };
 
 TEST_F(PolicyMatch, OfThePolicyItselfSaysNothing) {
   EXPECT_EQ(said(), "");
-  EXPECT_LT(deviations(episode, scenario, asked)(0), 1e-12);
+  EXPECT_LT(deviations({episode}, scenario, asked)(0), 1e-12);
   episode.actions.array() += 0.015;  // of a range of 2
   EXPECT_EQ(said(), "") << "motors are not exact";
-  EXPECT_NEAR(deviations(episode, scenario, asked)(0), 0.015, 1e-12);
+  EXPECT_NEAR(deviations({episode}, scenario, asked)(0), 0.015, 1e-12);
+}
+
+TEST_F(PolicyMatch, ALoopWithAClockOfItsOwnComputesActionsBetweenTheSteps) {
+  const Vector x = episode.states.col(0);
+  episode.actions.col(0) = -0.5 * (0.7 * x.head(12) + 0.3 * x.tail(12)).array() + 0.1;
+  EXPECT_NE(said(), "") << "as if each row was computed in its own states";
+  off = 0.3;
+  EXPECT_EQ(said(), "");
+  episode.actions *= -1;
+  EXPECT_NE(said().find("if v has the other sign"), std::string::npos) << said();
 }
 
 TEST_F(PolicyMatch, AnEpisodeWithoutAStepFollowsNoPolicy) {
-  EXPECT_LT(largest_deviation(episode, scenario, asked), 1e-12);
-  EXPECT_GT(largest_deviation(episode.part(0, 0), scenario, asked), 1);
+  EXPECT_LT(largest_deviation({episode}, scenario, asked), 1e-12);
+  EXPECT_GT(largest_deviation({episode.part(0, 0)}, scenario, asked), 1);
 }
 
 TEST_F(PolicyMatch, NamesTheUnitThatExplainsTheActions) {

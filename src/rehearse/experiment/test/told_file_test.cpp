@@ -1,5 +1,7 @@
 #include "rehearse/experiment/told_file.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,6 +26,39 @@ TEST(ToldFile, OfAStartFarFromTheTasksIsNoted) {
   };
   EXPECT_EQ(notes_on_start(4), std::vector<std::string>{"starts at x = 4.01 m, the task at 1 m"});
   EXPECT_EQ(notes_on_start(0.5), std::vector<std::string>{});
+}
+
+TEST(ToldFile, ALogThatIsMostlyBeyondTheEndIsNoted) {
+  Task task = fake::line_task();
+  task.ended = each_state([](const ConstVectorView& x) { return std::abs(x(0)) > 2; });
+  task.limits = {{.name = "end", .text = "x < 3 m", .holds = [](const Steps& steps, VectorView holds) {
+                    holds = (steps.X_next.col(0).array() < 3).cast<double>().matrix();
+                  }}};
+  Episode log{.states = Matrix::Zero(13, 1), .actions = Matrix::Zero(12, 1), .rewards = Vector::Zero(12)};
+  log.states.col(0).tail(3).setConstant(2.5);
+  log.true_states = log.states;
+  EXPECT_EQ(notes_on_ends(log, task), std::vector<std::string>{}) << "a quarter of the steps";
+  log.true_states.col(0).tail(4).setConstant(4);
+  EXPECT_EQ(notes_on_ends(log, task),
+            (std::vector<std::string>{"`ended` holds in 4 of 12 steps: is a column in another unit than it says?",
+                                      "the limit end is broken in 4 of 12 steps: is a column in another unit than it "
+                                      "says?"}));
+}
+
+// Numbers of eight digits, as loops write them.
+TEST(ToldFile, FollowsThePolicyWhoseActionsItHas) {
+  const scenario::Scenario scenario = resolve(fake::catalogue(), line_spec(1)).scenario;
+  const TrialRecord asked{.trial = 1, .policy = "line", .theta = Vector{{-0.5, 0.1}}};
+  const auto follows = [&](double sign) {
+    std::string text = "time [s],x [m],v [m/s]\n";
+    for (int t = 0; t <= 12; ++t) {
+      const double x = std::cos(0.3 * t);
+      text += fmt::format("{:.8g},{:.8g},{:.8g}\n", 0.1 * t, x, sign * (-0.5 * x + 0.1));
+    }
+    return follows_policy(*readable({"a.csv", text, ""}, scenario.task), scenario, asked);
+  };
+  EXPECT_TRUE(follows(1));
+  EXPECT_FALSE(follows(-1));
 }
 
 TEST(ToldFile, RepeatsAnEpisodeUpToItsEnd) {

@@ -23,15 +23,17 @@ PhiPosterior three(const Vector& deviations, const Matrix& correlations) {
 TEST(IdentifiabilityWarnings, NameWhatIsUnsureAlone) {
   EXPECT_EQ(identifiability_warnings(three(Vector{{0.01, 0.01, 0.01}}, Matrix::Identity(3, 3))), Sentences{});
   EXPECT_EQ(identifiability_warnings(three(Vector{{0.01, 0.1, 0.01}}, Matrix::Identity(3, 3))),
-            Sentences{"b is not determined by these data: 0.304 to 0.696"});
+            Sentences{"b is known only roughly from these data: 0.304 to 0.696"});
+  EXPECT_EQ(identifiability_warnings(three(Vector{{0.01, 0.2, 0.01}}, Matrix::Identity(3, 3))),
+            Sentences{"b is not determined by these data: 0.108 to 0.892"});
 }
 
 TEST(IdentifiabilityWarnings, NamePairsAndLargerGroups) {
   Matrix pair = Matrix::Identity(3, 3);
   pair(0, 2) = pair(2, 0) = -0.98;
-  EXPECT_EQ(
-      identifiability_warnings(three(Vector{{0.1, 0.1, 0.2}}, pair)),
-      (Sentences{"a and c cannot be told apart by these data", "b is not determined by these data: 0.304 to 0.696"}));
+  EXPECT_EQ(identifiability_warnings(three(Vector{{0.1, 0.1, 0.2}}, pair)),
+            (Sentences{"a and c cannot be told apart by these data",
+                       "b is known only roughly from these data: 0.304 to 0.696"}));
   EXPECT_EQ(identifiability_warnings(three(Vector{{0.01, 0.01, 0.02}}, pair)), Sentences{})
       << "sure of both all the same";
   Matrix sum = Matrix::Constant(3, 3, -0.499);  // only a + b + c is known
@@ -48,8 +50,7 @@ TEST(IdentifiabilityWarnings, IntervalsEndWithTheBoxAndWarningsSayWhereThatIs) {
   EXPECT_NEAR(intervals[0].high, 0.5196, 1e-4);
   EXPECT_EQ(intervals[1].high, 1);
   EXPECT_EQ(intervals[2].low, 0);
-  EXPECT_EQ(identifiability_warnings(posterior),
-            Sentences{"b is at the end of its box, 1: a better value may lie beyond"});
+  EXPECT_EQ(identifiability_warnings(posterior), Sentences{"b is at its bound, 1: a better value may lie beyond"});
 }
 
 TEST(IdentifiabilityWarnings, AParameterThatMovesNothingCouldBeAnything) {
@@ -77,8 +78,7 @@ TEST(IdentifiabilityWarnings, AtTheEndOfTheBoxWhatLiesBeyondWidensNothing) {
   EXPECT_NEAR(posterior->mean(0), 0.7, 1e-6);
   EXPECT_EQ(posterior->intervals()[0].high, 0.7);
   EXPECT_GT(posterior->intervals()[0].low, 0.65);
-  EXPECT_EQ(identifiability_warnings(*posterior).back(),
-            "length is at the end of its box, 0.7: a better value may lie beyond");
+  EXPECT_EQ(identifiability_warnings(*posterior).back(), "length is at its bound, 0.7: a better value may lie beyond");
 }
 
 TEST(IdentifiabilityWarnings, ParametersThatOnlyActTogetherCannotBeToldApart) {

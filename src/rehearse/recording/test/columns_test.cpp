@@ -21,9 +21,8 @@ TEST(Columns, AreFoundInAnyOrderAndConverted) {
   ASSERT_EQ(found.actions[0].samples.size(), 2U);
   EXPECT_DOUBLE_EQ(found.actions[0].samples[1].time_s, 0.05);
   EXPECT_TRUE(found.truths.empty());
-  EXPECT_EQ(notes, (std::vector<std::string>{"time is converted from ms to s", "dq is converted from rpm to rad/s",
-                                             "q is converted from deg to rad", "1 rows before time 0 are left out",
-                                             "columns that are not used: note"}));
+  EXPECT_EQ(notes, (std::vector<std::string>{"converted: time from ms to s, dq from rpm to rad/s, q from deg to rad",
+                                             "1 rows before time 0 are left out", "columns that are not used: note"}));
 }
 
 TEST(Columns, WithoutANameAreNoneToSpeakOf) {  // an index of pandas, a comma at the end

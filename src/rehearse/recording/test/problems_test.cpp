@@ -18,7 +18,7 @@ TEST(Problems, AreInTheOrderOfRowsAndOfAKindOneALine) {
     problems.throw_if_any();
     FAIL();
   } catch (const InvalidInput& error) {
-    EXPECT_STREQ(error.what(), "log.csv: of all\nlog.csv: row 3: early (and so in 1 more rows)\nlog.csv: row 7: late");
+    EXPECT_STREQ(error.what(), "log.csv: of all\nlog.csv: row 3: early (and so in 1 more row)\nlog.csv: row 7: late");
   }
 }
 

@@ -29,7 +29,7 @@ TEST(Recording, ATrialOfARunIsReadToTheSameBytes) {
       "0.05,0.202,3.15,0.11,3.1500000000000004,-0.7,0.001\n"
       "0.1,0.203,3.16,0.21,3.25,2,0.002\n"
       "0.15000000000000002,0.204,3.17,0.31,3.35,,0.003\n";
-  const auto [episode, notes] = read_recording(text, "trial-003.csv", swing_task());
+  const auto [episode, notes, off_s] = read_recording(text, "trial-003.csv", swing_task());
   EXPECT_EQ(episode.states, (Matrix{{0.201, 3.14}, {0.202, 3.15}, {0.203, 3.16}, {0.204, 3.17}}));
   EXPECT_EQ(episode.true_states,
             (Matrix{{0.01, 3.141592653589793}, {0.11, 3.1500000000000004}, {0.21, 3.25}, {0.31, 3.35}}));
@@ -42,7 +42,7 @@ TEST(Recording, ATrialOfARunIsReadToTheSameBytes) {
 TEST(Recording, SaysWhenAClockOfTheDayBegins) {
   const std::string text =
       "time,dq,q,torque\n1700000000.5,0.2,3.14,0.3\n1700000000.55,0.2,3.15,-0.7\n1700000000.6,0.2,3.16,\n";
-  const auto [episode, notes] = read_recording(text, "log.csv", swing_task());
+  const auto [episode, notes, off_s] = read_recording(text, "log.csv", swing_task());
   ASSERT_FALSE(notes.empty());
   EXPECT_EQ(notes.front(), "step 0 is at 1700000000.5 s, the first time at which all columns have numbers");
 }
@@ -54,7 +54,7 @@ TEST(Recording, HasTheMemoryOfActuators) {
   task = with_memory(task);
   const std::string text =
       "time,dq,q,torque_last,torque\n0,0.2,3.14,9,0.3\n0.05,0.2,3.15,9,-0.7\n0.1,0.2,3.16,9,2\n0.15,0.2,3.17,9,\n";
-  const auto [episode, notes] = read_recording(text, "log.csv", task);
+  const auto [episode, notes, off_s] = read_recording(text, "log.csv", task);
   EXPECT_TRUE(notes.empty());
   ASSERT_EQ(episode.states.cols(), 5);
   EXPECT_EQ(episode.states.leftCols(2), (Matrix{{0.2, 3.14}, {0.2, 3.15}, {0.2, 3.16}, {0.2, 3.17}}));
@@ -64,7 +64,7 @@ TEST(Recording, HasTheMemoryOfActuators) {
 }
 
 TEST(Recording, AnotherRateIsResampled) {
-  const auto [episode, notes] = read_recording(swing_csv(500, 0.0033), "log.csv", swing_task());
+  const auto [episode, notes, off_s] = read_recording(swing_csv(500, 0.0033), "log.csv", swing_task());
   ASSERT_EQ(episode.steps(), 32);
   for (Index k = 0; k <= episode.steps(); ++k) {
     const double t = static_cast<double>(k) * 0.05;
@@ -81,10 +81,11 @@ TEST(Recording, AnotherRateIsResampled) {
 TEST(Recording, ALoopThatIsALittleLateIsSaidToBeSo) {
   std::string late = "time,dq,q,torque\n";
   for (int k = 0; k <= 40; ++k) late += fmt::format("{},0.2,{},0\n", 0.05 * k + (k % 2 == 0 ? 1e-4 : 3e-4), 0.01 * k);
-  const auto [episode, notes] = read_recording(late, "log.csv", swing_task());
+  const auto [episode, notes, off_s] = read_recording(late, "log.csv", swing_task());
   EXPECT_EQ(episode.steps(), 40);
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_EQ(notes[0], "rows are up to 0.0002 s off the control steps of 0.05 s: numbers are interpolated");
+  EXPECT_NEAR(off_s, 2e-4, 1e-12);
 }
 
 TEST(Recording, ALoopThatIsSlowerThanTheTaskIsSaidToBeSo) {
@@ -93,6 +94,14 @@ TEST(Recording, ALoopThatIsSlowerThanTheTaskIsSaidToBeSo) {
   EXPECT_NE(notes[0].find("A loop that runs so makes control steps of 0.055 s, where the task has 0.05 s"),
             std::string::npos)
       << notes[0];
+}
+
+TEST(Recording, LinesThroughRowsAreSaidOnlyWhereThereAreSuch) {
+  const auto said = [](const std::string& text) {
+    return read_recording(text, "log.csv", swing_task(), {.average = true}).notes.at(0);
+  };
+  EXPECT_NE(said(swing_csv(500, 0.0033)).find("states are on lines through the rows around them"), std::string::npos);
+  EXPECT_NE(said(swing_csv(41, 0.055)).find("states are interpolated linearly"), std::string::npos);
 }
 
 TEST(Recording, CellsThatAreEmptyAreSaidToBeSo) {
@@ -108,7 +117,7 @@ TEST(Recording, WhatEditorsAndRobotsLeaveDoesNoHarm) {
   EXPECT_EQ(read_recording(windows + "\r\n", "log.csv", swing_task()).episode.states, plain.states);
   EXPECT_EQ(read_recording(with_cell(swing_csv(), 9, 3, " "), "log.csv", swing_task()).episode.steps(), plain.steps());
   const std::string cut = swing_csv() + "2.05,1.2,0.";
-  const auto [episode, notes] = read_recording(cut, "log.csv", swing_task());
+  const auto [episode, notes, off_s] = read_recording(cut, "log.csv", swing_task());
   EXPECT_EQ(episode.states, plain.states);
   EXPECT_EQ(notes[0], "the last row is left out: it has no end, so that it may be cut short");
   EXPECT_EQ(read_recording(swing_csv(), "log.csv", swing_task(), {.max_steps = 7}).episode.steps(), 7);
@@ -132,7 +141,7 @@ std::string swing_counting(double per_s, const std::string& title) {
 }
 
 TEST(Recording, TimesThatLookLikeMillisecondsAreToldHowToSayIt) {
-  const std::string gap = "log.csv: row 3: dq was not measured for 50 s, must be for 0.15 s at most";
+  const std::string gap = "log.csv: row 3: dq has no number for 50 s, must have one every 0.15 s at least";
   const std::string said = refusal(swing_counting(1e3, "t"));
   EXPECT_EQ(
       said.find("log.csv: row 1: t has no unit, so it is in s, but looks like milliseconds (rows are 50 apart): if "
@@ -192,7 +201,7 @@ TEST(Recording, WrongFilesAreRefusedWithWhatIsWrong) {
       {cell(6, 1, "0.15000000000000002"), "log.csv: row 6: time = 0.15000000000000002 s is that of the row before"},
       {cell(6, 1, "0.12"), "log.csv: row 6: time = 0.12 s, must be after the 0.15000000000000002 s of the row before"},
       {cell(42, 1, "9"),
-       "log.csv: row 42: dq was not measured for 7.05 s, must be for 0.15 s at most (3 control steps)"},
+       "log.csv: row 42: dq has no number for 7.05 s, must have one every 0.15 s at least (3 control steps)"},
       {cell(7, 4, "2.1"), "log.csv: row 7: torque = 2.1 N m, must be in -2 to 2"},
       {cell(20, 3, "100"), "log.csv: row 20: q jumps from"},
       {cell(20, 2, "-400"), "log.csv: row 20: dq jumps from"},
@@ -202,7 +211,7 @@ TEST(Recording, WrongFilesAreRefusedWithWhatIsWrong) {
       {header + "-2,0,0,0\n-1,0,0,0\n", "log.csv: dq has no number at a time ≥ 0"},
       {header + "0,,0,0\n0.05,,0,0\n", "log.csv: dq has no number at a time ≥ 0"},
       {swing_csv(20, 0.5),
-       "log.csv: row 3: dq was not measured for 0.5 s, must be for 0.15 s at most (3 control steps)"},
+       "log.csv: row 3: dq has no number for 0.5 s, must have one every 0.15 s at least (3 control steps)"},
   };
   for (const Wrong& wrong : all) {
     const std::string said = refusal(wrong.text);
