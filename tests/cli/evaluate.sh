@@ -56,7 +56,7 @@ for there in run run/checkpoint mine.txt; do
     evaluate run --episodes 5 --out $there
 done
 expect 2 "--out needs the name of a file" evaluate run --out ""
-expect 2 "cannot write nodir/x.csv: No such file or directory" evaluate run --out nodir/x.csv
+expect 2 "cannot write nodir/x.csv: there is no folder nodir" evaluate run --out nodir/x.csv
 grep -q "episodes of" said && fail "episodes are run before --out is looked at"
 expect 0 "long.csv is kept as long-001.csv" evaluate run --episodes 5 --out long.csv
 (

@@ -25,7 +25,8 @@ struct Channel {
 struct Channels {
   std::vector<Channel> states, actions;
   std::vector<Channel> truths;  // none, or one a state
-  std::string bare_time = {};   // the time's column, if it has no unit; empty: it has
+  std::string time = {};        // its column,
+  std::string time_unit = {};   // and the unit there; empty: none, so it is in s
 };
 
 }  // namespace rehearse::recording

@@ -68,8 +68,8 @@ class Finder {
     if (has_no_header()) problems_.add(1, "header", "it has numbers, must have the names of columns");
   }
 
-  /// Returns the name of the column if it has no unit, else an empty one.
-  std::string find_times() {
+  /// The column of the time.
+  Title find_times() {
     const std::string name = name_of_time();
     const int column = require(name);
     const double scale = column < 0 ? 1 : scale_of(column, "time", "s");
@@ -80,7 +80,7 @@ class Finder {
       if (value && row > 0) check_order(row, *value * scale);
       times_.push_back(value ? *value * scale : before);  // one that cannot be read is no further problem
     }
-    return column < 0 || !titles_[static_cast<std::size_t>(column)].unit.empty() ? "" : name;
+    return column < 0 ? Title{name, ""} : titles_[static_cast<std::size_t>(column)];
   }
 
   Channel channel(const std::string& name, const std::string& unit) {
@@ -212,7 +212,9 @@ class Finder {
 Channels find_channels(const statistics::Table& table, const Task& task, Problems& problems,
                        std::vector<std::string>& notes) {
   Finder finder(table, task, problems, notes);
-  Channels channels{.bare_time = finder.find_times()};
+  auto [time, time_unit] = finder.find_times();
+  Channels channels{
+      .states = {}, .actions = {}, .truths = {}, .time = std::move(time), .time_unit = std::move(time_unit)};
   const std::span own(task.states.data(), static_cast<std::size_t>(task.actuators().own_states()));
   for (const StateVariable& state : own) channels.states.push_back(finder.channel(state.name, state.unit));
   for (const ActionVariable& action : task.actions)

@@ -84,6 +84,17 @@ Changes changes_of(const Channel& state, const Channel* rate) {
   return changes;
 }
 
+/// 0 where the two do not have the same rows.
+double lateness_of(const Channel& state, const Channel& rate) {
+  if (!std::ranges::equal(state.samples, rate.samples, {}, &Sample::time_s, &Sample::time_s)) return 0;
+  const auto numbers = [](const Channel& channel, double Sample::*member) {
+    Vector all(std::ssize(channel.samples));
+    std::ranges::transform(channel.samples, all.begin(), member);
+    return all;
+  };
+  return lateness_s(numbers(state, &Sample::time_s), numbers(state, &Sample::value), numbers(rate, &Sample::value));
+}
+
 }  // namespace
 
 Index unwrap(Channel& angle) {
@@ -145,6 +156,11 @@ void compare_with_rate(const Channel& state, const Channel& rate, std::vector<st
   }
   if (std::string note = note_on_rate(state.name, rate.name, expected, changes); !note.empty())
     notes.push_back(std::move(note));
+  else if (const double late_s = lateness_of(state, rate); late_s > 0)
+    notes.push_back(
+        fmt::format("{} is about {:.2g} s late: {} changes as it says so much later. Speeds from encoders often are "
+                    "(docs/recordings.md)",
+                    rate.name, late_s, state.name));
 }
 
 void look_for_turns(const Channel& angle, std::vector<std::string>& notes) {

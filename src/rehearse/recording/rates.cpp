@@ -15,6 +15,26 @@ std::string note_on_rate(const std::string& state, const std::string& rate, cons
       state, xy / xx, rate);
 }
 
+double lateness_s(const Vector& times_s, const Vector& state, const Vector& rate) {
+  constexpr Index kMostHalves = 4, kFewest = 20;
+  constexpr double kTwice = 0.25, kSeen = 1e-4;  // of squares
+  const Index n = state.size() - 1 - kMostHalves / 2;
+  if (n < kFewest) return 0;
+  const Vector dt = times_s.segment(1, n) - times_s.head(n), changes = state.segment(1, n) - state.head(n);
+  Index late = 0;
+  double least = 0, in_time = 0;
+  for (Index halves = 0; halves <= kMostHalves; ++halves) {
+    const Index before = (halves + 1) / 2,
+                after = halves / 2 + 1;  // rows between which a row's middle is so much later
+    const Vector expected = 0.5 * dt.cwiseProduct(rate.segment(before, n) + rate.segment(after, n));
+    const double left = (changes - expected).squaredNorm();
+    if (halves == 0) least = in_time = left;
+    if (left < least) least = left, late = halves;
+  }
+  const bool seen = in_time > kSeen * changes.squaredNorm() && least < kTwice * in_time;
+  return seen ? 0.5 * static_cast<double>(late) * dt.mean() : 0;
+}
+
 std::vector<std::string> notes_on_rates(const Task& task, const ConstMatrixView& X, const ConstMatrixView& X_next) {
   std::vector<std::string> notes;
   for (const Kinematics::Pair& pair : task.kinematics().pairs) {

@@ -13,6 +13,10 @@ namespace rehearse::recording {
 std::string note_on_rate(const std::string& state, const std::string& rate, const Vector& expected,
                          const Vector& changes);
 
+/// How late a rate is [s]: by half a row or more, two at most, if the state's changes are so explained at least twice
+/// as well as by the rate in time, as differences of encoder readings are; else 0. All of the same rows (n).
+double lateness_s(const Vector& times_s, const Vector& state, const Vector& rate);
+
 /// Use it for an episode: these sentences on all states with a rate. X, X_next: a row a step, T × dx.
 std::vector<std::string> notes_on_rates(const Task& task, const ConstMatrixView& X, const ConstMatrixView& X_next);
 

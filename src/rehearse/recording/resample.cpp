@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/recording/units.hpp"
 #include "rehearse/statistics/quantiles.hpp"
 
 namespace rehearse::recording {
@@ -42,18 +43,20 @@ double median_gap_s(const Samples& samples) {
   return gaps_s.empty() ? 0 : statistics::quantile(gaps_s, 0.5);
 }
 
-/// Times without a unit whose gaps are too long may be in a smaller one than seconds: says which, and how to name it.
+/// Times whose gaps are too long may be in a smaller unit than they say, or seconds: says which, and how to name it.
 void check_unit_of_time(const Channels& channels, double max_gap_s, Problems& problems) {
-  const double gap = median_gap_s(channels.states.front().samples);
-  if (channels.bare_time.empty() || gap < 1 || gap <= max_gap_s) return;
+  const double gap_s = median_gap_s(channels.states.front().samples);
+  const bool bare = channels.time_unit.empty();
+  const double given_s = conversion(bare ? "s" : channels.time_unit, "s").value_or(1), gap = gap_s / given_s;
+  if (gap < 1 || gap_s <= max_gap_s) return;
   for (const auto& [name, unit, in_s] :
        {std::tuple{"milliseconds", "ms", 1e-3}, {"microseconds", "us", 1e-6}, {"nanoseconds", "ns", 1e-9}}) {
-    if (gap * in_s > max_gap_s) continue;
+    if (in_s >= given_s || gap * in_s > max_gap_s) continue;
     problems.add(
         1, "unit of time",
-        fmt::format("{0} has no unit, so it is in s, but looks like {1} (rows are {2:.4g} apart): if it is, call "
-                    "the column '{0} [{3}]'",
-                    channels.bare_time, name, gap, unit));
+        fmt::format("{0} {1}, but looks like {2} (rows are {3:.4g} apart): if it is, call the column '{0} [{4}]'",
+                    channels.time, bare ? "has no unit, so it is in s" : "is in " + channels.time_unit, name, gap,
+                    unit));
     return;
   }
 }

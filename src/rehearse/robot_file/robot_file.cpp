@@ -134,6 +134,7 @@ class Builder final : public scenario::ScenarioBuilder {
     const bool said = robot_.has_plant && robot_.plant.dynamics == dynamics.name;  // of the plant
     if (!said) lines.insert(lines.end(), dynamics.warnings.misfits.begin(), dynamics.warnings.misfits.end());
     if (said) add_out_of_reach(prior, lines);
+    add_negative_masses(prior, lines);
     return lines;
   }
 
@@ -145,6 +146,17 @@ class Builder final : public scenario::ScenarioBuilder {
             (of_plant.value < learned.box.low || of_plant.value > learned.box.high))
           lines.push_back(fmt::format("{} is {:g} in the plant, outside of [{:g}, {:g}], in which it is learned",
                                       learned.name, of_plant.value, learned.box.low, learned.box.high));
+  }
+
+  static void add_negative_masses(const Variant& prior, std::vector<std::string>& lines) {
+    for (const Parameter& p : prior.parameters.all()) {
+      if (p.unit != "kg" && p.unit != "kg m²" && p.unit != "kg m^2") continue;
+      if (p.value < 0)
+        lines.push_back(fmt::format("{} is {:g} {}: no mass is negative", p.name, p.value, p.unit));
+      else if (p.kind == Parameter::Kind::continuous && p.box.low < 0)
+        lines.push_back(fmt::format("{} is learned in [{:g}, {:g}] {}: no mass is negative", p.name, p.box.low,
+                                    p.box.high, p.unit));
+    }
   }
 
   /// Parts of the plant's model that no state gives, and delays and lags: a simulator sees earlier commands by the

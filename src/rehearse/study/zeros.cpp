@@ -142,7 +142,7 @@ class Errors {
   Vector scale_;
 };
 
-/// Where errors are least, and where they and the start are trusted as much as they say.
+/// The point of the least errors, and the one at which errors and the start count as much as they say.
 struct Fitted {
   Vector closest, z;
 };

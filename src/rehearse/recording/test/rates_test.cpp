@@ -36,6 +36,33 @@ TEST(Rates, OtherUnitsAndSignsAreNoted) {
   EXPECT_EQ(notes(-1)[0].find("q changes -1.01 times as fast as dq says"), 0U) << notes(-1)[0];
 }
 
+/// How late the rate of q = sin(5 t) seems to be, that is the mean of the last `differences` of readings (0: it is
+/// exact), where q is read in steps of `counts` and with noise.
+double lateness(Index differences, double counts = 0, double noise = 0) {
+  constexpr Index kRows = 200;
+  Rng rng({.seed = 6});
+  Vector times(kRows), q(kRows), rate(kRows);
+  for (Index k = 0; k < kRows; ++k) {
+    times(k) = kDt * static_cast<double>(k);
+    q(k) = std::sin(5 * times(k)) + noise * rng.normal();
+    if (counts > 0) q(k) = counts * std::round(q(k) / counts);
+    rate(k) = differences == 0  ? 5 * std::cos(5 * times(k)) + 5 * noise * rng.normal()
+              : k < differences ? 5
+                                : (q(k) - q(k - differences)) / (static_cast<double>(differences) * kDt);
+  }
+  return lateness_s(times, q, rate);
+}
+
+TEST(Rates, ThatAreDifferencesOfReadingsAreLate) {
+  EXPECT_NEAR(lateness(1), 0.5 * kDt, 1e-12);
+  EXPECT_NEAR(lateness(2), kDt, 1e-12);
+  EXPECT_NEAR(lateness(3), 1.5 * kDt, 1e-12);
+  EXPECT_NEAR(lateness(2, 0.01), kDt, 1e-12);
+  EXPECT_EQ(lateness(0), 0) << "it is exact";
+  EXPECT_EQ(lateness(0, 0.01), 0);
+  EXPECT_EQ(lateness(0, 0, 0.05), 0) << "noise says nothing";
+}
+
 TEST(Rates, ThatAreNoisyAreNotContradicted) { EXPECT_EQ(notes(1, 4, 400).size(), 0U); }
 
 TEST(Rates, NothingIsSaidOfARobotAtRest) {

@@ -149,7 +149,8 @@ TEST(Recording, TimesThatLookLikeMillisecondsAreToldHowToSayIt) {
                 gap),
       0u)
       << said;
-  EXPECT_EQ(refusal(swing_counting(1e3, "t [s]")).find(gap), 0u) << "it says that it is in seconds";
+  EXPECT_EQ(refusal(swing_counting(1e3, "t [s]")).find("log.csv: row 1: t is in s, but looks like milliseconds"), 0u);
+  EXPECT_EQ(refusal(swing_counting(1e6, "t [ms]")).find("log.csv: row 1: t is in ms, but looks like microseconds"), 0u);
   EXPECT_EQ(read_recording(swing_counting(1e3, "t [ms]"), "log.csv", swing_task()).episode.steps(), 40);
   EXPECT_NE(refusal(swing_counting(1e6, "time")).find("looks like microseconds"), std::string::npos);
   EXPECT_EQ(refusal(swing_csv(20, 0.5, "time,dq,q,torque")).find("looks like"), std::string::npos) << "rows of 0.5 s";

@@ -113,6 +113,19 @@ TEST(RobotFile, SaysWhatAPlantHasAndItsOracleHasNot) {
                                      "as all models: 0.2 and 0.05"});
 }
 
+TEST(RobotFile, SaysWhichParametersOfAPriorCannotBe) {
+  const auto lacks = [](const std::string& bounds) {
+    std::string text = example::with("m = 1,", "m = { value = 1, unit = \"kg\" },");
+    const std::string given = "tune.m = [0.5, 2]";
+    text.replace(text.find(given), given.size(), "tune.m = " + bounds);
+    return builder(text, "swing.toml", example::no_files)->build().priors.front().lacks;
+  };
+  EXPECT_EQ(lacks("[0, 2]"), std::vector<std::string>{}) << "a load may be 0";
+  EXPECT_EQ(lacks("[-1, 2]"), std::vector<std::string>{"m is learned in [-1, 2] kg: no mass is negative"});
+  EXPECT_EQ(lacks("[1.1, 2]"),
+            std::vector<std::string>{"m is 1 in the plant, outside of [1.1, 2], in which it is learned"});
+}
+
 /// The change of the rate in the first step of the plant under the largest action.
 double first_push(const std::string& text, const std::string& delay_s = "") {
   const auto made = builder(text, "swing.toml", example::no_files);
