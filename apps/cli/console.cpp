@@ -73,11 +73,16 @@ void Console::say_first_faults() {
   faults_ = nullptr;
 }
 
+void Console::clear_line() {
+  progress_ = {};
+  line_.clear();
+}
+
 void Console::progress(Index trial, const Progress& progress) {
-  look();
   const bool begins = progress.phase != progress_.phase || progress.done < progress_.done;  // or a further search
   if (begins) phase_begin_ = Clock::now();
   trial_ = trial, progress_ = progress;
+  look();
   show_progress();
 }
 

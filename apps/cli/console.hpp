@@ -24,8 +24,8 @@ class Console final : public experiment::RunListener {
   void trial_done(const experiment::TrialRecord& record) override;
   void finished(const experiment::RunResult& result);
 
-  /// Wipes the line that is being rewritten.
-  void clear_line() { line_.clear(); }
+  /// Wipes the line that is being rewritten: that work is over.
+  void clear_line();
 
   /// Says how far work is where it reports nothing, and the first faults of the robot's programs, since programs that
   /// fail often make it slow; how often it was in all is said at the end. Any thread calls it between steps of work;

@@ -262,7 +262,7 @@ int make_new(const experiment::Catalogue& catalogue, const NewArguments& argumen
   if (std::filesystem::exists(path))
     throw InvalidInput(fmt::format("{} exists, and is not overwritten", path.string()));
   if (const std::string why = why_not_writable(path); !why.empty()) throw InvalidInput(why);
-  files::write_file(path, text);
+  files::write_shared_file(path, text);
   put("{} is a pendulum, to be made your robot. Say what it is, then: {}\n", path.string(),
       command_line({"check", path.string()}));
   return kSuccess;

@@ -133,7 +133,8 @@ class Planner {
     try {
       experiment::Resolved run = experiment::resolve(catalogue_, experiment::with_options(bare, options));
       if (run.scenario.make_plant) return std::move(run.spec);
-      violations_.add(line("scenario"), fmt::format("{} has no [plant]: runs need a simulator there", bare.scenario));
+      violations_.add(line("scenario"),
+                      fmt::format("{} has no plant, which runs need (in a file [plant])", bare.scenario));
       return std::nullopt;
     } catch (const InvalidInput& error) {
       for (const std::string& message : error.violations())

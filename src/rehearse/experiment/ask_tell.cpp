@@ -95,7 +95,8 @@ bool are_logs(const History& history, const TellRequest& request) {
 void refuse_trial_among_logs(const scenario::Scenario& scenario, const History& history,
                              const std::vector<ToldFile>& files) {
   for (const ToldFile& file : files)
-    if (is_of_policy_asked_for(file, scenario, history))
+    if (const auto read = history.asked ? readable(file, scenario.task) : std::nullopt;
+        read && may_follow_policy(*read, scenario, *history.asked))
       throw InvalidInput(fmt::format(
           "{} has the actions of the policy that was asked for: tell it alone, as trial {}; several files are logs",
           file.path.string(), history.asked->trial));

@@ -10,15 +10,15 @@
 
 namespace rehearse::experiment {
 
-/// An episode that was read from a file. off: how far control steps may be from the file's rows, as a part of a step,
-/// at most 1; a loop with a clock of its own computes its actions so much earlier or later than the states here.
+/// An episode that was read from a file. off: how far its control steps are from the file's rows, as a part of a step:
+/// a loop with a clock of its own computes its actions so much before or after the states here.
 struct ReadEpisode {
   const Episode& episode;
   double off = 0;
 };
 
-/// Root mean square differences (du) of the actions from those of a trial's policy in the measured states, or in states
-/// that are `off` between them and those of the next steps.
+/// Root mean square differences (du) of the actions from those of a trial's policy in the measured states, or from what
+/// is between them and, at `off`, those of the steps before and after.
 Vector deviations(const ReadEpisode& read, const scenario::Scenario& scenario, const TrialRecord& trial);
 
 /// The largest of them, as a part of its action's range; infinite where there is no step to compare.

@@ -57,21 +57,21 @@ std::vector<Changed> robustness(const std::function<Resolved(const std::string& 
                                 const Resolved& run, const Learned& learned, const EvaluationPlan& plan,
                                 const Evaluator& evaluator) {
   std::vector<Changed> all;
-  std::vector<Resolved> robots;  // all before the first episode: a value that is refused costs no time
+  std::vector<std::optional<Resolved>> robots;  // before the first episode: a value that is refused costs no time
   for (const auto& [parameter, value] : parameters_of(run))
     for (const double factor : kFactors) {
       const double changed = factor * value;
       all.push_back({parameter, factor, changed, {}});
       if (factor == 1)
-        robots.push_back(run);
+        robots.emplace_back();  // as it is
       else if (run.stand_in())
-        robots.push_back(with_prior_at(run, parameter, changed));
+        robots.emplace_back(with_prior_at(run, parameter, changed));
       else
-        robots.push_back(make(kPlant + parameter, fmt::format("{}", changed)));
+        robots.emplace_back(make(kPlant + parameter, fmt::format("{}", changed)));
     }
   const Summary unchanged = summary_of(evaluate(run, learned, plan, evaluator));
   for (std::size_t i = 0; i < all.size(); ++i)
-    all[i].summary = all[i].factor == 1 ? unchanged : summary_of(evaluate(robots[i], learned, plan, evaluator));
+    all[i].summary = robots[i] ? summary_of(evaluate(*robots[i], learned, plan, evaluator)) : unchanged;
   return all;
 }
 

@@ -39,11 +39,12 @@ StudySetup set_up_study(const Catalogue& catalogue, const StudyRequest& request,
   const Fields of_robot = [&](FieldVisitor& v) { builder->fields(v); };
   std::vector<std::pair<std::string, std::string>> of_prior;
   for (const auto& [given, text] : request.settings) {
-    constexpr std::string_view kScenario = "scenario.";  // as a run's spec writes the robot's options
-    const std::string key = given.starts_with(kScenario) ? given.substr(kScenario.size()) : given;
-    if (key.starts_with("prior."))
-      of_prior.emplace_back(key.substr(6), text);
-    else if (!set_one(own, key, text, violations) && !set_one(of_robot, key, text, violations))
+    constexpr std::string_view kScenario = "scenario.", kPrior = "prior.";
+    const bool robots = given.starts_with(kScenario);  // as a run's spec writes the robot's options
+    const std::string key = robots ? given.substr(kScenario.size()) : given;
+    if (given.starts_with(kPrior))
+      of_prior.emplace_back(given.substr(kPrior.size()), text);
+    else if ((robots || !set_one(own, key, text, violations)) && !set_one(of_robot, key, text, violations))
       violations.add(unknown_option(key, known_keys(own, of_robot), "identify or the robot"));
   }
   if (!violations.attempt([&] { setup.scenario = builder->build(); })) violations.throw_if_any();

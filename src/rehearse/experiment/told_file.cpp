@@ -61,9 +61,14 @@ std::string cut_short(const ToldFile& file, Index steps, Index horizon, const st
       notes.empty() ? "" : ". How the file was read: ", fmt::join(notes, "; "));
 }
 
-/// How far a file's rows are from the control steps, at most.
+/// No more steps than a trial has.
+Episode first_steps(const recording::Recording& read, const Task& task) {
+  return read.episode.part(0, std::min(read.episode.steps(), task.horizon));
+}
+
+/// How far a file's rows are from the control steps.
 double part_of_step(const recording::Recording& read, const Task& task) {
-  return std::min(1.0, read.off_s / task.dt_s);
+  return std::min(0.5, read.off_s / task.dt_s);
 }
 
 }  // namespace
@@ -124,23 +129,31 @@ bool goes_on_after(const Episode& read, const Episode& kept, const Task& task) {
 
 std::vector<std::string> notes_on_ends(const Episode& log, const Task& task) {
   constexpr double kMuch = 0.25;  // of the steps
-  std::map<std::string, Index> times;
-  for (Index t = 0; t < log.steps(); ++t) {
-    if (task.ended && holds(task.ended, log.true_states.row(t + 1).transpose())) ++times["`ended` holds"];
-    for (const std::string& limit : rollout::limits_broken_by(task, log, t))
-      ++times[fmt::format("the limit {} is broken", limit)];
-  }
   std::vector<std::string> notes;
-  for (const auto& [what, count] : times)
+  const auto note = [&](const std::string& what, Index count) {
     if (static_cast<double>(count) > kMuch * static_cast<double>(log.steps()))
       notes.push_back(
           fmt::format("{} in {} of {} steps: is a column in another unit than it says?", what, count, log.steps()));
+  };
+  if (task.ended) {
+    Vector ended(log.steps());
+    task.ended(log.true_states.bottomRows(log.steps()), ended);
+    note("`ended` holds", std::ranges::count_if(ended, is_true));
+  }
+  std::map<std::string, Index> broken;
+  if (!task.limits.empty())
+    for (Index t = 0; t < log.steps(); ++t)
+      for (const std::string& limit : rollout::limits_broken_by(task, log, t)) ++broken[limit];
+  for (const auto& [limit, count] : broken) note(fmt::format("the limit {} is broken", limit), count);
   return notes;
 }
 
 bool follows_policy(const recording::Recording& read, const scenario::Scenario& scenario, const TrialRecord& asked) {
-  const Index steps = std::min(read.episode.steps(), scenario.task.horizon);
-  return has_actions_of({read.episode.part(0, steps), part_of_step(read, scenario.task)}, scenario, asked);
+  return largest_deviation({first_steps(read, scenario.task)}, scenario, asked) <= kRounding;
+}
+
+bool may_follow_policy(const recording::Recording& read, const scenario::Scenario& scenario, const TrialRecord& asked) {
+  return has_actions_of({first_steps(read, scenario.task), part_of_step(read, scenario.task)}, scenario, asked);
 }
 
 ToldEpisode episode_of(const ToldFile& file, const scenario::Scenario& scenario, const TrialRecord& asked,

@@ -45,8 +45,11 @@ bool repeats(const Episode& read, const Episode& kept, Index most_steps);
 /// True if a file that was read so goes on where an operator, and no fall, ended the episode that is kept.
 bool goes_on_after(const Episode& read, const Episode& kept, const Task& task);
 
-/// True if the actions that were read are those of a trial's policy in the states, as exactly as motors are.
+/// True if the actions that were read are those of a trial's policy in the states, but for rounding.
 bool follows_policy(const recording::Recording& read, const scenario::Scenario& scenario, const TrialRecord& asked);
+
+/// The same as exactly as motors are, in a loop with a clock of its own.
+bool may_follow_policy(const recording::Recording& read, const scenario::Scenario& scenario, const TrialRecord& asked);
 
 struct ToldEpisode {
   Episode episode;

@@ -12,8 +12,8 @@
 namespace rehearse::identification {
 namespace {
 
-constexpr double kAnything = 0.5;     // an interval that says next to nothing, likewise
 constexpr double kUnsure = 0.1;       // half an interval that is worth a sentence, as a fraction of the box
+constexpr double kAnything = 0.5;     // a whole interval that says next to nothing, likewise
 constexpr double kOthersKnown = 0.3;  // parameters cannot be separated if less than this fraction of a deviation is
                                       // left once the others are known; for two of them: a correlation of 0.95
 constexpr double kLinked = 0.5;       // correlation of those that are named together

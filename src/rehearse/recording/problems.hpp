@@ -2,9 +2,9 @@
 // Violations found in a recording, row by row. For the sources of this room.
 
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "rehearse/core/types.hpp"
 
@@ -26,7 +26,7 @@ class Problems {
   struct First {
     Index row;
     std::string message;
-    std::set<Index> rows;
+    std::vector<Index> rows;  // not in order, some twice
   };
   std::string source_;
   std::map<std::string, First> found_;  // by kind

@@ -14,6 +14,7 @@
 #include "rehearse/recording/columns.hpp"
 #include "rehearse/recording/plausible.hpp"
 #include "rehearse/recording/resample.hpp"
+#include "rehearse/statistics/quantiles.hpp"
 #include "rehearse/statistics/table.hpp"
 
 namespace rehearse::recording {
@@ -91,16 +92,16 @@ std::string slow_loop(double usual_s, double dt_s) {
       usual_s, dt_s);
 }
 
-/// The largest distance of a control step to the nearest row.
-double farthest_row_s(const std::vector<Sample>& samples, const Grid& grid) {
-  double farthest_s = 0;
+/// The distance of each control step to the nearest row.
+std::vector<double> away_from_rows_s(const std::vector<Sample>& samples, const Grid& grid) {
+  std::vector<double> all;
   auto row = samples.begin();
   for (Index k = 0; k <= grid.steps; ++k) {
     const auto away_s = [&](auto sample) { return std::abs(sample->time_s - grid.time(k)); };
     while (std::next(row) != samples.end() && away_s(std::next(row)) <= away_s(row)) ++row;
-    farthest_s = std::max(farthest_s, away_s(row));
+    all.push_back(away_s(row));
   }
-  return farthest_s;
+  return all;
 }
 
 /// off_s: the largest distance of a control step to the nearest row.
@@ -124,9 +125,10 @@ void note_resampling(const Channels& channels, const Grid& grid, const Resampled
   }
   std::vector<std::string> how;
   if (changed.states > 0)
-    how.push_back(fmt::format("states are {} in {} of {} control steps of {} s",
-                              changed.on_lines > 0 ? "on lines through the rows around them" : "interpolated linearly",
-                              changed.states, grid.steps, grid.dt_s));
+    how.push_back(fmt::format(
+        "states are {} in {} of {} control steps of {} s",
+        2 * changed.on_lines > changed.states ? "on lines through the rows around them" : "interpolated linearly",
+        changed.states, grid.steps, grid.dt_s));
   if (changed.actions > 0)
     how.push_back(
         fmt::format("actions are means of what rows hold until the next, in {} of {}", changed.actions, grid.steps));
@@ -173,9 +175,10 @@ Recording read_recording(const std::string& csv_text, const std::string& source,
   check_channels(channels, task, problems, recording.notes);
   check_gaps(channels, grid, max_gap_s, problems);
   problems.throw_if_any();
-  recording.off_s = farthest_row_s(channels.states.front().samples, grid);
+  const std::vector<double> away_s = away_from_rows_s(channels.states.front().samples, grid);
+  recording.off_s = statistics::quantile(away_s, 0.9);
   const Resampled changed = resample(channels, grid, options.average, recording.episode);
-  note_resampling(channels, grid, changed, recording.off_s, recording.notes);
+  note_resampling(channels, grid, changed, std::ranges::max(away_s), recording.notes);
   add_memory(recording.episode, task);
   return recording;
 }

@@ -35,7 +35,7 @@ struct ReadOptions {
 struct Recording {
   Episode episode;
   std::vector<std::string> notes;  // what was done to the numbers, a sentence each
-  double off_s = 0;                // largest distance of a control step to the nearest row
+  double off_s = 0;                // of nine in ten control steps at most, to the nearest row
 };
 
 /// Use it for logs and for episodes that Rehearse did not drive. Columns are found by name: time, every state, every

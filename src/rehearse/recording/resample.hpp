@@ -29,7 +29,7 @@ void cut(Channels& channels, const Grid& grid);
 /// A problem if neighbouring samples that the grid needs are more than `max_gap_s` apart.
 void check_gaps(const Channels& channels, const Grid& grid, double max_gap_s, Problems& problems);
 
-/// Steps that are not rows of the file as they are, and how many states are on lines through rows.
+/// Steps that are not rows of the file as they are, and steps whose states are on lines through rows.
 struct Resampled {
   Index states = 0, actions = 0;
   Index on_lines = 0;

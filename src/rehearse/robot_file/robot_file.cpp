@@ -1,5 +1,9 @@
 #include "rehearse/robot_file/robot_file.hpp"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "rehearse/robot_file/details.hpp"
@@ -150,7 +154,8 @@ class Builder final : public scenario::ScenarioBuilder {
 
   static void add_negative_masses(const Variant& prior, std::vector<std::string>& lines) {
     for (const Parameter& p : prior.parameters.all()) {
-      if (p.unit != "kg" && p.unit != "kg m²" && p.unit != "kg m^2") continue;
+      constexpr std::array<std::string_view, 6> kUnits = {"g", "kg", "kg m²", "kg m^2", "kg·m²", "kg*m^2"};
+      if (std::ranges::find(kUnits, p.unit) == kUnits.end()) continue;
       if (p.value < 0)
         lines.push_back(fmt::format("{} is {:g} {}: no mass is negative", p.name, p.value, p.unit));
       else if (p.kind == Parameter::Kind::continuous && p.box.low < 0)

@@ -39,7 +39,7 @@ TEST(CampaignPlan, NeedsAPlant) {
   const std::string said = experiment::fake::message_of<InvalidInput>([&] {
     plan_campaign(none, "format = 1\nscenario = \"line\"\nlearners = \"echo\"\nseeds = \"1-3\"\n", "few.toml");
   });
-  EXPECT_EQ(said, "few.toml: line 2: line has no [plant]: runs need a simulator there");
+  EXPECT_EQ(said, "few.toml: line 2: line has no plant, which runs need (in a file [plant])");
 }
 
 TEST(CampaignPlan, DefaultsAreTheFirstPriorTenTrialsAndTheFilesName) {

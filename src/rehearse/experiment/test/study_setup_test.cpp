@@ -21,11 +21,12 @@ TEST(StudySetup, HasTheRobotAndItsFirstPrior) {
 }
 
 TEST(StudySetup, TakesOptionsOfTheRobotAsASpecWritesThem) {
-  const auto start = [](const char* key) {
-    return set_up({.robot = "line", .prior = {}, .settings = {{key, "0.5"}}}).scenario.make_plant;
+  const auto evaluations = [](const char* key) {
+    return set_up({.robot = "line", .prior = {}, .settings = {{key, "7"}}}).scenario.evaluations;
   };
-  EXPECT_TRUE(start("noise"));
-  EXPECT_TRUE(start("scenario.noise"));
+  EXPECT_EQ(evaluations("evaluations"), 7);
+  EXPECT_EQ(evaluations("scenario.evaluations"), 7);
+  EXPECT_THROW(evaluations("scenario.rows"), InvalidInput) << "an option of identify alone";
 }
 
 TEST(StudySetup, SaysAllThatIsWrong) {

@@ -55,7 +55,9 @@ TEST(ToldFile, FollowsThePolicyWhoseActionsItHas) {
       const double x = std::cos(0.3 * t);
       text += fmt::format("{:.8g},{:.8g},{:.8g}\n", 0.1 * t, x, sign * (-0.5 * x + 0.1));
     }
-    return follows_policy(*readable({"a.csv", text, ""}, scenario.task), scenario, asked);
+    const auto read = readable({"a.csv", text, ""}, scenario.task);
+    EXPECT_FALSE(follows_policy(*read, scenario, asked)) << "which tells a file that was told before from a new trial";
+    return may_follow_policy(*read, scenario, asked);
   };
   EXPECT_TRUE(follows(1));
   EXPECT_FALSE(follows(-1));

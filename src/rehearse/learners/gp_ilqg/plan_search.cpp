@@ -78,7 +78,7 @@ class Search {
     PlanOptions further = options(by_logarithm && !to_linear, 1, search_.iterations);
     std::vector<Plan> finals = finished(plans, further), softer = finals;
     for (double factor = kSofter; factor <= kSoftest && are_shaken(softer); factor *= kSofter) {
-      progress_.begin("softer plans", static_cast<Index>(softer.size()) * to_end);
+      progress_.begin("softer plans", static_cast<Index>(plans.size()) * to_end);
       further.cost.action_cost = factor * search_.action_cost;
       softer = finished(plans, further);
       finals.insert(finals.end(), softer.begin(), softer.end());
