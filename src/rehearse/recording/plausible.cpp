@@ -16,6 +16,7 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kRounding = 1e-3;  // of an action's range
 constexpr double kOutlier = 10;     // times what is usual
+constexpr double kMuchLate = 0.1;   // of a control step
 constexpr std::ptrdiff_t kAround = 4;
 
 std::vector<double> values_of(const Channel& channel) {
@@ -147,7 +148,7 @@ void check_jumps(const Channel& state, const Channel* rate, Problems& problems) 
   }
 }
 
-void compare_with_rate(const Channel& state, const Channel& rate, std::vector<std::string>& notes) {
+void compare_with_rate(const Channel& state, const Channel& rate, double dt_s, std::vector<std::string>& notes) {
   Vector expected(std::ssize(state.samples) - 1), changes(expected.size());
   for (std::size_t i = 1; i < state.samples.size(); ++i) {
     const auto step = static_cast<Index>(i) - 1;
@@ -156,7 +157,7 @@ void compare_with_rate(const Channel& state, const Channel& rate, std::vector<st
   }
   if (std::string note = note_on_rate(state.name, rate.name, expected, changes); !note.empty())
     notes.push_back(std::move(note));
-  else if (const double late_s = lateness_of(state, rate); late_s > 0)
+  else if (const double late_s = lateness_of(state, rate); late_s >= kMuchLate * dt_s)
     notes.push_back(
         fmt::format("{} is about {:.2g} s late: {} changes as it says so much later. Speeds from encoders often are "
                     "(docs/recordings.md)",

@@ -22,8 +22,9 @@ void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::v
 /// state, or, of a state with a rate, twice as large as the rate ever allows. rate: null, or the channel of the rate.
 void check_jumps(const Channel& state, const Channel* rate, Problems& problems);
 
-/// The note on a state that does not change as its rate says (note_on_rate), if there is one.
-void compare_with_rate(const Channel& state, const Channel& rate, std::vector<std::string>& notes);
+/// The note on a state that does not change as its rate says (note_on_rate), if there is one; else one if the rate is
+/// late by a tenth of a control step or more.
+void compare_with_rate(const Channel& state, const Channel& rate, double dt_s, std::vector<std::string>& notes);
 
 /// A note if an angle turns by more than half a turn between neighbouring samples: degrees that are read as rad do.
 void look_for_turns(const Channel& angle, std::vector<std::string>& notes);

@@ -76,7 +76,7 @@ void check_channels(Channels& channels, const Task& task, Problems& problems, st
     rates[static_cast<std::size_t>(pair.position)] = &channels.states[static_cast<std::size_t>(pair.rate)];
   for (std::size_t s = 0; s < rates.size(); ++s) {
     check_jumps(channels.states[s], rates[s], problems);
-    if (rates[s]) compare_with_rate(channels.states[s], *rates[s], notes);
+    if (rates[s]) compare_with_rate(channels.states[s], *rates[s], task.dt_s, notes);
     if (task.states[s].kind == StateKind::angle) look_for_turns(channels.states[s], notes);
   }
   for (std::size_t a = 0; a < channels.actions.size(); ++a)

@@ -89,7 +89,8 @@ TEST(Rates, AreComparedWhereSamplesAre) {
   for (const auto& [rate, expected] : {std::pair{5.0, 0U}, {-5.0, 1U}}) {
     const double times = rate;
     std::vector<std::string> notes;
-    compare_with_rate(state, channel_of("dq", 0.07, 50, [=](double t) { return times * std::cos(5 * t); }), notes);
+    compare_with_rate(state, channel_of("dq", 0.07, 50, [=](double t) { return times * std::cos(5 * t); }), 0.05,
+                      notes);
     EXPECT_EQ(notes.size(), expected) << rate;
   }
 }
