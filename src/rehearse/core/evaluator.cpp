@@ -2,7 +2,7 @@
 
 #include <atomic>
 #include <exception>
-#include <vector>
+#include <mutex>
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -43,12 +43,6 @@ class SerialEvaluator final : public Evaluator {
   int concurrency() const override { return 1; }
 };
 
-void lower(std::atomic<Index>& value, Index to) {
-  Index known = value;
-  while (to < known && !value.compare_exchange_weak(known, to)) {
-  }
-}
-
 constexpr std::size_t kMostThreads = 4096;
 
 class ThreadEvaluator final : public Evaluator {
@@ -59,15 +53,16 @@ class ThreadEvaluator final : public Evaluator {
   }
 
   void for_each(Index n, const std::function<void(Index)>& task) const override {
-    std::vector<std::exception_ptr> failures(static_cast<std::size_t>(n));
     std::atomic<Index> first_failure = n;
+    std::exception_ptr failure;  // of that task
+    std::mutex failing;
     const auto guarded = [&](Index i) {
       if (i > first_failure) return;  // nobody would see its result: a simulator that hangs takes long each time
       try {
         task(i);
       } catch (...) {
-        failures[static_cast<std::size_t>(i)] = std::current_exception();
-        lower(first_failure, i);
+        const std::lock_guard one_at_a_time(failing);
+        if (i < first_failure) first_failure = i, failure = std::current_exception();
       }
     };
     Mark begun, ended;
@@ -79,8 +74,7 @@ class ThreadEvaluator final : public Evaluator {
     begun.publish();
     arena_.execute([&] { tbb::parallel_for(tbb::blocked_range<Index>(0, n, 1), run, tbb::simple_partitioner()); });
     ended.observe();
-    for (const std::exception_ptr& failure : failures)
-      if (failure) std::rethrow_exception(failure);
+    if (failure) std::rethrow_exception(failure);
   }
 
   int concurrency() const override { return arena_.max_concurrency(); }

@@ -80,10 +80,11 @@ KnownAs known_as(const History& history, const ToldFile& file, const Task& task)
           place(history.logs, [&](const Log& log) { return repeats(read, log.episode, read.steps()); })};
 }
 
-/// True if the file follows the policy that was asked for: a robot without noise may do exactly the same again.
-bool is_of_policy_asked_for(const ToldFile& file, const scenario::Scenario& scenario, const History& history) {
+/// True if the file follows the policy that was asked for. follows: as exactly as this says.
+bool is_of_policy_asked_for(const ToldFile& file, const scenario::Scenario& scenario, const History& history,
+                            decltype(follows_policy) follows) {
   const auto read = history.asked ? readable(file, scenario.task) : std::nullopt;
-  return read && follows_policy(*read, scenario, *history.asked);
+  return read && follows(*read, scenario, *history.asked);
 }
 
 /// True if files are logs of other controllers: several are it also where the first trial was asked for already.
@@ -95,8 +96,7 @@ bool are_logs(const History& history, const TellRequest& request) {
 void refuse_trial_among_logs(const scenario::Scenario& scenario, const History& history,
                              const std::vector<ToldFile>& files) {
   for (const ToldFile& file : files)
-    if (const auto read = history.asked ? readable(file, scenario.task) : std::nullopt;
-        read && may_follow_policy(*read, scenario, *history.asked))
+    if (is_of_policy_asked_for(file, scenario, history, may_follow_policy))
       throw InvalidInput(fmt::format(
           "{} has the actions of the policy that was asked for: tell it alone, as trial {}; several files are logs",
           file.path.string(), history.asked->trial));
@@ -187,7 +187,9 @@ TellResult tell_run(const Catalogue& catalogue, const fs::path& path, const Tell
   std::vector<ToldFile> news;
   for (const ToldFile& file : files) {
     const KnownAs as = known_as(history, file, resolved.scenario.task);
-    if (!as.known() || (!are_logs(history, request) && is_of_policy_asked_for(file, resolved.scenario, history))) {
+    // A robot without noise may do exactly the same again.
+    if (!as.known() ||
+        (!are_logs(history, request) && is_of_policy_asked_for(file, resolved.scenario, history, follows_policy))) {
       news.push_back(file);
     } else if (as.trial > 0) {
       const auto known = static_cast<std::size_t>(as.trial) - 1;

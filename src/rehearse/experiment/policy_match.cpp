@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/core/names.hpp"
 #include "rehearse/experiment/past_run.hpp"
 #include "rehearse/recording/units.hpp"
 
@@ -163,7 +164,7 @@ std::vector<std::string> sentences_on_policy(const ReadEpisode& read, const scen
     const bool wrong_file = !cause.empty() || part > kOtherActions;
     sentences.push_back(
         fmt::format("{} differs from what the policy says of the measured states by {:.3g}{} (root mean square): {}{}",
-                    action.name, all(i), action.unit.empty() ? "" : " " + action.unit,
+                    action.name, all(i), unit_text(action.unit),
                     cause.empty() ? "another policy, a state of another unit or sign, a delay, or a weak motor" : cause,
                     wrong_file ? "; `tell --undo` (in Python `take_back()`) takes a wrong file back" : ""));
   }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "rehearse/core/names.hpp"
 #include "rehearse/recording/rates.hpp"
 #include "rehearse/statistics/quantiles.hpp"
 
@@ -120,8 +121,8 @@ void keep_in_bounds(Channel& action, Interval bounds, Problems& problems, std::v
     if (inside == sample.value) continue;
     if (std::abs(sample.value - inside) > rounding)
       problems.add(sample.row, "bounds of " + action.name,
-                   fmt::format("{} = {}{}, must be in {} to {}", action.name, sample.value,
-                               action.unit.empty() ? "" : " " + action.unit, bounds.low, bounds.high));
+                   fmt::format("{} = {}{}, must be in {} to {}", action.name, sample.value, unit_text(action.unit),
+                               bounds.low, bounds.high));
     sample.value = inside;
     ++clipped;
   }

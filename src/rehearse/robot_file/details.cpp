@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/core/names.hpp"
+
 namespace rehearse::robot_file {
 namespace {
 
@@ -31,7 +33,7 @@ std::string source_of(const Dynamics& dynamics) {
 std::string values_of(const std::vector<Parameter>& parameters) {
   std::vector<std::string> values;
   for (const Parameter& each : parameters)
-    values.push_back(fmt::format("{} = {:g}{}{}", each.name, each.value, each.unit.empty() ? "" : " ", each.unit));
+    values.push_back(fmt::format("{} = {:g}{}", each.name, each.value, unit_text(each.unit)));
   return fmt::format("{}", fmt::join(values, ", "));
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "rehearse/core/names.hpp"
 #include "rehearse/expression/program.hpp"
 #include "rehearse/robot_file/formulas.hpp"
 
@@ -60,7 +61,7 @@ class StartValues {
     for (const auto& [name, unit] : units_) {
       if (!words.contains(name)) continue;
       const double found = value_of(name), value = std::isnan(found) ? std::abs(found) : found;  // no "-nan"
-      values.push_back(fmt::format("{} = {:g}{}{}", name, value, unit.empty() ? "" : " ", unit));
+      values.push_back(fmt::format("{} = {:g}{}", name, value, unit_text(unit)));
     }
     return fmt::format("{}", fmt::join(values, ", "));
   }
